@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Runs PROGRAM and fails unless it succeeds and prints what the file EXPECTED holds.
+cmake_minimum_required(VERSION 3.25)
+
+execute_process(COMMAND ${PROGRAM} OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY)
+file(READ ${EXPECTED} expected)
+if(NOT printed STREQUAL expected)
+  message("printed:\n${printed}\nexpected:\n${expected}")
+  message(FATAL_ERROR "The output differs from ${EXPECTED}")
+endif()

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_INDEXED_TRIANGLE_MESH_3_H
+#define EQUIAFFINE_INDEXED_TRIANGLE_MESH_3_H
+
+#include <equiaffine/Point_status.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace equiaffine {
+
+/// A triangle mesh as plain arrays: `triangles[t]` holds three indices into `points`, counterclockwise seen from the
+/// side to which the surface's normals point.
+template <class Kernel>
+struct Indexed_triangle_mesh_3 {
+  std::vector<typename Kernel::Point_3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Numbers attached to points, one column per scalar in the order of the file, and the status (empty: not asked for).
+/// A number that does not exist is NaN.
+struct Vertex_attributes {
+  struct Column {
+    std::string name;
+    std::vector<double> values;
+  };
+  std::vector<Column> columns;
+  std::vector<Point_status> status;
+};
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SAMPLED_FUNCTION_TRAITS_3_H
+#define EQUIAFFINE_SAMPLED_FUNCTION_TRAITS_3_H
+
+#include <equiaffine/Spline_function_3.h>
+#include <equiaffine/concepts.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace equiaffine {
+
+/// A volume as a function: its tensor product spline for values and expansions, its samples for the signs at nodes.
+/// With the convolution scheme, which smooths, the spline's value at a node differs from the sample there.
+///
+/// Models ImplicitFunctionTraits_3 with bounds, first-order expansions and a lattice. Copies share the immutable data.
+template <class Kernel>
+class Sampled_function_traits_3 {
+public:
+  using FT = typename Kernel::FT;
+  using Point_3 = typename Kernel::Point_3;
+  using Vector_3 = typename Kernel::Vector_3;
+
+  /// Degree and scheme as for Spline_function_3.
+  template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+  explicit Sampled_function_traits_3(Volume_3<Kernel> volume, int degree = 7,
+                                     Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION, ConcurrencyTag tag = {})
+      : volume_(std::make_shared<const Volume_3<Kernel>>(std::move(volume))),
+        spline_(std::make_shared<const Spline_function_3<Kernel>>(*volume_, degree, scheme, tag)) {}
+
+  /// NaN, as every coefficient of an expansion, outside the support of the spline.
+  FT value(const Point_3& p) const { return spline_->value(p); }
+  Jet_3<FT, 1> first_order(const Point_3& p) const { return spline_->template taylor<1>(p); }
+  Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); }
+  Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); }
+  CGAL::Bbox_3 bbox() const { return volume_->lattice.bbox(); }
+
+  const Lattice_3<Kernel>& lattice() const { return volume_->lattice; }
+
+  /// The sample at node (i, j, k).
+  FT sample(std::size_t i, std::size_t j, std::size_t k) const { return (*volume_)(i, j, k); }
+
+  const Spline_function_3<Kernel>& spline() const { return *spline_; }
+
+private:
+  std::shared_ptr<const Volume_3<Kernel>> volume_;
+  std::shared_ptr<const Spline_function_3<Kernel>> spline_;
+};
+
+static_assert(BoundedImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+static_assert(FirstOrderImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+static_assert(LatticeImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_TRANSFORMED_FUNCTION_TRAITS_3_H
+#define EQUIAFFINE_TRANSFORMED_FUNCTION_TRAITS_3_H
+
+#include <equiaffine/concepts.h>
+#include <equiaffine/internal/Linear_substitution_3.h>
+
+#include <CGAL/Aff_transformation_3.h>
+#include <CGAL/number_utils.h>
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace equiaffine {
+
+/// The function f o A^-1, whose level sets are the images under A of those of f. A is any invertible affine map; models
+/// every refinement that the base models, batches apart.
+///
+/// With a = |det A| the affine curvatures change by K' = K / a, H' = H / sqrt(a), J' = J / sqrt(a), the co-normal by
+/// nu' = sqrt(a) A^-T nu and the affine normal by xi' = A xi / sqrt(a).
+template <ImplicitFunctionTraits_3 Base>
+class Transformed_function_traits_3 {
+public:
+  using FT = typename Base::FT;
+  using Point_3 = typename Base::Point_3;
+  using Vector_3 = typename Base::Vector_3;
+  using Aff_transformation_3 = CGAL::Aff_transformation_3<Kernel_of<Base>>;
+
+  /// \pre the linear part of `map` has a nonzero determinant.
+  Transformed_function_traits_3(Base base, const Aff_transformation_3& map)
+      : base_(std::move(base)), map_(map), inverse_(map.inverse()), substitution_(linear_part(inverse_)) {}
+
+  FT value(const Point_3& p) const { return base_.value(inverse_(p)); }
+  Jet_3<FT, 1> first_order(const Point_3& p) const { return substitution_(equiaffine::first_order(base_, inverse_(p))); }
+  Jet_3<FT> taylor(const Point_3& p) const { return substitution_(base_.taylor(inverse_(p))); }
+
+  /// Bounds over the box of the preimage of `box`.
+  Interval bounds(const CGAL::Bbox_3& box) const requires BoundedImplicitFunctionTraits_3<Base> {
+    const std::array<Interval, 3> side = {Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()),
+                                          Interval(box.zmin(), box.zmax())};
+    std::array<Interval, 3> image;
+    for (int row = 0; row < 3; ++row) {
+      image[std::size_t(row)] = Interval(CGAL::to_double(inverse_.m(row, 3)));
+      for (int column = 0; column < 3; ++column)
+        image[std::size_t(row)] += Interval(CGAL::to_double(inverse_.m(row, column))) * side[std::size_t(column)];
+    }
+    return base_.bounds(CGAL::Bbox_3(image[0].lower(), image[1].lower(), image[2].lower(), image[0].upper(),
+                                     image[1].upper(), image[2].upper()));
+  }
+
+  /// The box of the image of the base's box.
+  CGAL::Bbox_3 bbox() const { return Lattice_3<Kernel_of<Base>>({2, 2, 2}, base_.bbox()).transform(map_).bbox(); }
+
+  /// The image of the lattice with which the base would be sampled: the image of the base's box, nothing around it.
+  Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
+    return sampling_lattice(base_, size).transform(map_);
+  }
+
+  /// The image of the base's lattice.
+  auto lattice() const requires LatticeImplicitFunctionTraits_3<Base> { return base_.lattice().transform(map_); }
+  FT sample(std::size_t i, std::size_t j, std::size_t k) const requires LatticeImplicitFunctionTraits_3<Base> {
+    return base_.sample(i, j, k);
+  }
+
+  const Base& base() const { return base_; }
+  const Aff_transformation_3& transformation() const { return map_; }
+
+private:
+  static typename internal::Linear_substitution_3<FT>::Matrix linear_part(const Aff_transformation_3& map) {
+    return {{{map.m(0, 0), map.m(0, 1), map.m(0, 2)},
+             {map.m(1, 0), map.m(1, 1), map.m(1, 2)},
+             {map.m(2, 0), map.m(2, 1), map.m(2, 2)}}};
+  }
+
+  Base base_;
+  Aff_transformation_3 map_, inverse_;
+  internal::Linear_substitution_3<FT> substitution_;
+};
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_INTERNAL_EXPRESSION_EVALUATION_H
+#define EQUIAFFINE_INTERNAL_EXPRESSION_EVALUATION_H
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+/// The instruction list behind `Expression_3` and its evaluation for any number type.
+namespace equiaffine::internal::expression {
+
+enum class Opcode : std::uint8_t {
+  VARIABLE, // only while parsing
+  CONSTANT, ADD_CONSTANT, SUBTRACT_FROM_CONSTANT, MULTIPLY_CONSTANT, DIVIDE_BY_CONSTANT, DIVIDE_CONSTANT,
+  ADD, SUBTRACT, MULTIPLY, DIVIDE, NEGATE, SQUARE, INTEGER_POWER, POWER_CONSTANT, POWER,
+  SQRT, CBRT, EXP, LOG, SIN, COS, TAN, ASIN, ACOS, ATAN, ATAN2, SINH, COSH, TANH, ABS, MIN, MAX, HYPOT
+};
+
+/// result = opcode(a, b, constant). Operands 0, 1, 2 are x, y, z; operand 3 + s is slot s. A unary instruction has
+/// a == b; `constant` also holds an integer exponent. The result is never the slot of an operand, so that loops over
+/// blocks of points may assume that reads and writes do not overlap.
+struct Instruction {
+  Opcode opcode;
+  std::uint32_t result, a, b;
+  double constant;
+};
+
+inline constexpr std::uint32_t number_of_variables = 3;
+
+struct Tape {
+  std::vector<Instruction> instructions;
+  std::uint32_t result = 0;
+  std::uint32_t number_of_slots = 0;
+};
+
+// Arithmetic with a double. The mixed operators of T are used where they exist and return T: for a Taylor polynomial,
+// scaling is many times cheaper than a product. Built-in types would be promoted, and are converted instead.
+template <class T>
+T plus_constant(const T& a, double c) {
+  if constexpr (!std::is_arithmetic_v<T> && requires { { a + c } -> std::same_as<T>; }) return a + c;
+  else return a + T(c);
+}
+
+template <class T>
+T constant_minus(double c, const T& a) {
+  if constexpr (!std::is_arithmetic_v<T> && requires { { c - a } -> std::same_as<T>; }) return c - a;
+  else return T(c) - a;
+}
+
+template <class T>
+T times_constant(const T& a, double c) {
+  if constexpr (!std::is_arithmetic_v<T> && requires { { a * c } -> std::same_as<T>; }) return a * c;
+  else return a * T(c);
+}
+
+template <class T>
+T over_constant(const T& a, double c) {
+  if constexpr (!std::is_arithmetic_v<T> && requires { { a / c } -> std::same_as<T>; }) return a / c;
+  else return a / T(c);
+}
+
+template <class T>
+T constant_over(double c, const T& a) {
+  if constexpr (!std::is_arithmetic_v<T> && requires { { c / a } -> std::same_as<T>; }) return c / a;
+  else return T(c) / a;
+}
+
+// Functions with a fallback for types that do not have them.
+template <class T>
+T squared(const T& a) {
+  if constexpr (requires { { square(a) } -> std::convertible_to<T>; }) return square(a);
+  else return a * a;
+}
+
+/// Tells whether T has its own pow(T, Exponent). The catch-all loses against it, but wins against a function that would
+/// need the exponent converted, such as pow(T, int) called with 1.5.
+namespace own_power {
+
+struct Absent {};
+
+template <class Base, class Exponent>
+Absent pow(const Base&, const Exponent&);
+
+template <class T, class Exponent>
+concept HasOwnPower = !std::is_arithmetic_v<T> && requires(const T& a, const Exponent& b) {
+  { pow(a, b) } -> std::convertible_to<T>;
+};
+
+} // namespace own_power
+
+template <class T>
+T real_power(const T& a, const T& b) {
+  if constexpr (std::is_arithmetic_v<T>) return std::pow(a, b);
+  else if constexpr (own_power::HasOwnPower<T, T>) return pow(a, b);
+  else return exp(T(b * log(a)));
+}
+
+template <class T>
+T constant_power(const T& a, double c) {
+  if constexpr (own_power::HasOwnPower<T, double>) return pow(a, c);
+  else return real_power(a, T(c));
+}
+
+/// A NaN in either argument gives NaN, unlike std::min, std::fmin and their like, which can hide it. This is the result
+/// for types that are ordered by `<` and have no `min` of their own.
+template <class T>
+T minimum(const T& a, const T& b) {
+  if constexpr (!std::is_arithmetic_v<T> && requires { { min(a, b) } -> std::convertible_to<T>; }) return min(a, b);
+  else return a < b || a != a ? a : b;
+}
+
+/// As minimum().
+template <class T>
+T maximum(const T& a, const T& b) {
+  if constexpr (!std::is_arithmetic_v<T> && requires { { max(a, b) } -> std::convertible_to<T>; }) return max(a, b);
+  else return a > b || a != a ? a : b;
+}
+
+template <class T>
+T hypotenuse(const T& a, const T& b) {
+  if constexpr (std::is_arithmetic_v<T>) return std::hypot(a, b);
+  else if constexpr (requires { { hypot(a, b) } -> std::convertible_to<T>; }) return hypot(a, b);
+  else return sqrt(T(squared(a) + squared(b)));
+}
+
+/// f of the first `count` elements. A full block has a trip count known at compile time, which is what compilers need
+/// to vectorise at moderate optimisation levels; unrolled, GCC's loops take half the time.
+template <std::size_t Block, class T, class Function>
+void for_each_point(const T* __restrict a, const T* __restrict b, T* __restrict result, std::size_t count, Function f) {
+  if (Block == 1 || count == Block) {
+#pragma GCC unroll 4
+    for (std::size_t i = 0; i < Block; ++i) result[i] = f(a[i], b[i]);
+  } else {
+    for (std::size_t i = 0; i < count; ++i) result[i] = f(a[i], b[i]);
+  }
+}
+
+/// a^n for n >= 3, by repeated squaring from the leading bit of n downwards unless T has its own pow(T, int).
+template <std::size_t Block, class T>
+void integer_power(const T* a, T* result, std::size_t count, unsigned n) {
+  const auto apply = [&](const T* u, auto f) { for_each_point<Block>(u, u, result, count, f); };
+  if constexpr (own_power::HasOwnPower<T, int>) {
+    apply(a, [n](const T& u, const T&) -> T { return pow(u, static_cast<int>(n)); });
+  } else if (n == 3) {
+    apply(a, [](const T& u, const T&) -> T { return squared(u) * u; });
+  } else if (n == 4) {
+    apply(a, [](const T& u, const T&) -> T { return squared(squared(u)); });
+  } else {
+    std::copy_n(a, count, result);
+    for (unsigned bit = std::bit_floor(n) / 2; bit != 0; bit /= 2) {
+      for (std::size_t i = 0; i < count; ++i) result[i] = squared(result[i]);
+      if (n & bit)
+        for (std::size_t i = 0; i < count; ++i) result[i] = result[i] * a[i];
+    }
+  }
+}
+
+template <std::size_t Block, class T>
+void execute_function(const Instruction& instruction, const T* a, const T* b, T* result, std::size_t count) {
+  const auto apply = [&](auto f) { for_each_point<Block>(a, b, result, count, f); };
+  switch (instruction.opcode) {
+    case Opcode::SQRT: return apply([](const T& u, const T&) -> T { using std::sqrt; return sqrt(u); });
+    case Opcode::CBRT: return apply([](const T& u, const T&) -> T { using std::cbrt; return cbrt(u); });
+    case Opcode::EXP: return apply([](const T& u, const T&) -> T { using std::exp; return exp(u); });
+    case Opcode::LOG: return apply([](const T& u, const T&) -> T { using std::log; return log(u); });
+    case Opcode::SIN: return apply([](const T& u, const T&) -> T { using std::sin; return sin(u); });
+    case Opcode::COS: return apply([](const T& u, const T&) -> T { using std::cos; return cos(u); });
+    case Opcode::TAN: return apply([](const T& u, const T&) -> T { using std::tan; return tan(u); });
+    case Opcode::ASIN: return apply([](const T& u, const T&) -> T { using std::asin; return asin(u); });
+    case Opcode::ACOS: return apply([](const T& u, const T&) -> T { using std::acos; return acos(u); });
+    case Opcode::ATAN: return apply([](const T& u, const T&) -> T { using std::atan; return atan(u); });
+    case Opcode::ATAN2: return apply([](const T& u, const T& v) -> T { using std::atan2; return atan2(u, v); });
+    case Opcode::SINH: return apply([](const T& u, const T&) -> T { using std::sinh; return sinh(u); });
+    case Opcode::COSH: return apply([](const T& u, const T&) -> T { using std::cosh; return cosh(u); });
+    case Opcode::TANH: return apply([](const T& u, const T&) -> T { using std::tanh; return tanh(u); });
+    case Opcode::ABS: return apply([](const T& u, const T&) -> T { using std::abs; return abs(u); });
+    case Opcode::MIN: return apply([](const T& u, const T& v) -> T { return minimum(u, v); });
+    case Opcode::MAX: return apply([](const T& u, const T& v) -> T { return maximum(u, v); });
+    case Opcode::HYPOT: return apply([](const T& u, const T& v) -> T { return hypotenuse(u, v); });
+    default: return;
+  }
+}
+
+/// Executes one instruction for `count` <= Block points.
+template <std::size_t Block, class T>
+void execute(const Instruction& instruction, const T* a, const T* b, T* result, std::size_t count) {
+  const double c = instruction.constant;
+  const auto apply = [&](auto f) { for_each_point<Block>(a, b, result, count, f); };
+  switch (instruction.opcode) {
+    case Opcode::CONSTANT: return apply([c](const T&, const T&) -> T { return T(c); });
+    case Opcode::ADD_CONSTANT: return apply([c](const T& u, const T&) -> T { return plus_constant(u, c); });
+    case Opcode::SUBTRACT_FROM_CONSTANT: return apply([c](const T& u, const T&) -> T { return constant_minus(c, u); });
+    case Opcode::MULTIPLY_CONSTANT: return apply([c](const T& u, const T&) -> T { return times_constant(u, c); });
+    case Opcode::DIVIDE_BY_CONSTANT: return apply([c](const T& u, const T&) -> T { return over_constant(u, c); });
+    case Opcode::DIVIDE_CONSTANT: return apply([c](const T& u, const T&) -> T { return constant_over(c, u); });
+    case Opcode::ADD: return apply([](const T& u, const T& v) -> T { return u + v; });
+    case Opcode::SUBTRACT: return apply([](const T& u, const T& v) -> T { return u - v; });
+    case Opcode::MULTIPLY: return apply([](const T& u, const T& v) -> T { return u * v; });
+    case Opcode::DIVIDE: return apply([](const T& u, const T& v) -> T { return u / v; });
+    case Opcode::NEGATE: return apply([](const T& u, const T&) -> T { return -u; });
+    case Opcode::SQUARE: return apply([](const T& u, const T&) -> T { return squared(u); });
+    case Opcode::INTEGER_POWER: return integer_power<Block>(a, result, count, static_cast<unsigned>(c));
+    case Opcode::POWER_CONSTANT: return apply([c](const T& u, const T&) -> T { return constant_power(u, c); });
+    case Opcode::POWER: return apply([](const T& u, const T& v) -> T { return real_power(u, v); });
+    default: return execute_function<Block>(instruction, a, b, result, count);
+  }
+}
+
+/// Points per block: half a kilobyte per slot keeps a typical tape in the first-level cache; a type as large as a
+/// Taylor polynomial is taken one at a time.
+template <class T>
+inline constexpr std::size_t block_size = std::max<std::size_t>(1, 512 / sizeof(T));
+
+/// Working memory of an evaluation: on the stack, uninitialised, for up to 16 slots of a trivial T, else on the heap.
+template <std::size_t Block, class T>
+class Slots {
+public:
+  explicit Slots(const Tape& tape) {
+    if (const std::size_t size = tape.number_of_slots * Block; size > capacity) large_ = std::vector<T>(size);
+  }
+
+  /// Runs the tape for `count` <= Block points. The result lies in the slots or in `variables`.
+  const T* run(const Tape& tape, const std::array<const T*, number_of_variables>& variables, std::size_t count) {
+    T* const slots = large_.empty() ? small_.data() : large_.data();
+    const auto slot = [&](std::uint32_t index) { return slots + (index - number_of_variables) * Block; };
+    const auto operand = [&](std::uint32_t index) -> const T* {
+      return index < number_of_variables ? variables[index] : slot(index);
+    };
+    for (const Instruction& i : tape.instructions)
+      execute<Block>(i, operand(i.a), operand(i.b), slot(i.result), count);
+    return operand(tape.result);
+  }
+
+private:
+  static constexpr std::size_t capacity = std::is_trivially_default_constructible_v<T> ? 16 * Block : 0;
+
+  std::array<T, capacity> small_;
+  std::vector<T> large_;
+};
+
+} // namespace equiaffine::internal::expression
+
+#endif

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_COLOR_MAP_H
+#define EQUIAFFINE_IO_COLOR_MAP_H
+
+#include <equiaffine/Point_status.h>
+
+#include <CGAL/IO/Color.h>
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+/// \file
+/// The one mapping from a number to a colour: every picture of this library uses it.
+/// number -> `Color_range` of the whole column -> position on the map -> colour, sRGB.
+/// The maps are straight paths in Oklab (B. Ottosson, "A perceptual color space for image processing", 2020): lightness
+/// alone, which no form of colour blindness takes away, tells the order.
+
+namespace equiaffine {
+
+enum class Color_scale {
+  LINEAR,
+  ASINH  ///< linear below `Color_range::knee`, logarithmic above, with the sign kept
+};
+
+/// The numbers that get the two end colours; beyond them colours stay the same.
+struct Color_range {
+  double lower;
+  double upper;
+  double knee;        ///< the median of |value|, at least the least difference worth a colour: > 0
+  bool is_diverging;  ///< lower == -upper: zero is the middle of the diverging map; else the sequential map is used
+
+  friend bool operator==(const Color_range&, const Color_range&) = default;
+};
+
+/// The share of numbers, in percent, that gets an end colour at each end unless said otherwise.
+inline constexpr double default_clip_percent = 2;
+
+/// The `percent`-quantile of the numbers, linear between order statistics; reorders `values`, which must not be empty.
+inline double quantile(std::vector<double>& values, double percent) {
+  CGAL_precondition(!values.empty() && percent >= 0 && percent <= 100);
+  const double rank = percent / 100 * double(values.size() - 1);
+  const auto below = static_cast<std::size_t>(rank);
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(below);
+  std::nth_element(values.begin(), nth, values.end());
+  if (below + 1 == values.size()) return *nth;
+  const double next = *std::min_element(nth + 1, values.end());
+  return *nth + (rank - double(below)) * (next - *nth);
+}
+
+/// The range of a column of numbers; infinities and NaNs do not count.
+/// Numbers of both signs: +-(the (100 - clip_percent)-quantile of |value|). Numbers of one sign: the quantiles at
+/// clip_percent and 100 - clip_percent. A sign counts when it reaches a millionth of that largest |value|.
+/// `resolution` >= 0, in the unit of the numbers, is the least half-width worth a colour: numbers below it all look
+/// like zero instead of like noise. Neither is a relative half-width below a millionth: pages store single precision.
+inline Color_range color_range(std::vector<double> values, double clip_percent = default_clip_percent,
+                               double resolution = 0) {
+  CGAL_precondition(clip_percent >= 0 && clip_percent < 50 && resolution >= 0);
+  constexpr double relative_resolution = 1e-6;
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  const double fallback = resolution > 0 ? resolution : 1;
+  if (values.empty()) return {-fallback, fallback, fallback, true};
+
+  std::vector<double> magnitudes(values.size());
+  std::transform(values.begin(), values.end(), magnitudes.begin(), [](double value) { return std::abs(value); });
+  double largest = quantile(magnitudes, 100 - clip_percent);
+  if (largest == 0) largest = *std::max_element(magnitudes.begin(), magnitudes.end());
+  if (largest <= resolution) return {-fallback, fallback, fallback, true};
+  const double knee = std::max({quantile(magnitudes, 50), resolution, relative_resolution * largest});
+
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  if (*least < -relative_resolution * largest && *greatest > relative_resolution * largest)
+    return {-largest, largest, knee, true};
+  const double lower = quantile(values, clip_percent);
+  const double upper = quantile(values, 100 - clip_percent);
+  const double middle = lower + (upper - lower) / 2;
+  const double half_width = std::max({(upper - lower) / 2, resolution, relative_resolution * std::abs(middle)});
+  return {middle - half_width, middle + half_width, knee, false};
+}
+
+/// The place of a number on its map: in [-1, 1] with zero at 0 for a diverging range, otherwise in [0, 1]. Monotone;
+/// odd for a diverging range; NaN stays NaN.
+inline double map_position(double value, const Color_range& range, Color_scale scale = Color_scale::LINEAR) {
+  if (std::isnan(value)) return value;
+  const auto scaled = [&](double x) { return scale == Color_scale::LINEAR ? x : std::asinh(x / range.knee); };
+  const double clipped = std::clamp(value, range.lower, range.upper);
+  if (range.is_diverging) return scaled(clipped) / scaled(range.upper);
+  return (scaled(clipped) - scaled(range.lower)) / (scaled(range.upper) - scaled(range.lower));
+}
+
+namespace internal {
+
+/// Linear sRGB components of an Oklab colour given by lightness, chroma and hue in degrees; outside [0, 1] when no
+/// screen shows the colour. Ottosson's matrices.
+inline std::array<double, 3> linear_rgb_from_oklch(double lightness, double chroma, double hue) {
+  constexpr double degree = 0.017453292519943295;
+  const double a = chroma * std::cos(hue * degree), b = chroma * std::sin(hue * degree);
+  const auto cube = [](double x) { return x * x * x; };
+  const double l = cube(lightness + 0.3963377774 * a + 0.2158037573 * b);
+  const double m = cube(lightness - 0.1055613458 * a - 0.0638541728 * b);
+  const double s = cube(lightness - 0.0894841775 * a - 1.2914855480 * b);
+  return {4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
+          -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
+          -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
+}
+
+inline CGAL::IO::Color color_from_linear_rgb(const std::array<double, 3>& linear) {
+  const auto byte = [](double x) {  // IEC 61966-2-1
+    x = std::clamp(x, 0., 1.);
+    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+    return static_cast<unsigned char>(std::lround(255 * encoded));
+  };
+  return CGAL::IO::Color(byte(linear[0]), byte(linear[1]), byte(linear[2]));
+}
+
+/// Near-white at 0, equally dark blue at -1 and red at +1, lightness linear in |t|.
+inline std::array<double, 3> diverging_linear_rgb(double t) {
+  const double u = std::abs(t);
+  return linear_rgb_from_oklch(0.94 - 0.50 * u, 0.175 * u * (2 - u), t < 0 ? 262 : 27);
+}
+
+/// Pale yellow at 0 through orange and magenta to dark violet at 1, lightness linear in t.
+inline std::array<double, 3> sequential_linear_rgb(double t) {
+  constexpr double pi = 3.141592653589793;
+  return linear_rgb_from_oklch(0.95 - 0.65 * t, 0.06 + 0.08 * std::sin(pi * t) + 0.06 * t, 95 - 155 * t);
+}
+
+} // namespace internal
+
+/// For a number that does not exist.
+inline CGAL::IO::Color undefined_color() { return CGAL::IO::Color(157, 157, 163); }
+
+/// For a surface without a quantity, and for regular points where the status is shown.
+inline CGAL::IO::Color plain_color() { return CGAL::IO::Color(201, 209, 220); }
+
+/// For t in [-1, 1]: blue, near-white at 0, red. Grey for NaN.
+inline CGAL::IO::Color diverging_color(double t) {
+  CGAL_precondition(!(std::abs(t) > 1));
+  return std::isnan(t) ? undefined_color() : internal::color_from_linear_rgb(internal::diverging_linear_rgb(t));
+}
+
+/// For t in [0, 1]: pale yellow to dark violet. Grey for NaN.
+inline CGAL::IO::Color sequential_color(double t) {
+  CGAL_precondition(!(t < 0 || t > 1));
+  return std::isnan(t) ? undefined_color() : internal::color_from_linear_rgb(internal::sequential_linear_rgb(t));
+}
+
+/// The colour of a number of a column with that range.
+inline CGAL::IO::Color map_color(double value, const Color_range& range, Color_scale scale = Color_scale::LINEAR) {
+  const double t = map_position(value, range, scale);
+  return range.is_diverging ? diverging_color(t) : sequential_color(t);
+}
+
+/// The colour of a point by its status: hues and darkness that neither map has.
+inline CGAL::IO::Color status_color(Point_status status) {
+  switch (status) {
+    case Point_status::PARABOLIC: return CGAL::IO::Color(18, 161, 80);
+    case Point_status::SINGULAR: return CGAL::IO::Color(17, 17, 17);
+    case Point_status::OUTSIDE: return CGAL::IO::Color(160, 124, 60);
+    case Point_status::UNCONVERGED: return CGAL::IO::Color(0, 194, 214);
+    case Point_status::REGULAR: break;
+  }
+  return plain_color();
+}
+
+} // namespace equiaffine
+
+#endif

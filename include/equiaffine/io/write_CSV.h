@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_WRITE_CSV_H
+#define EQUIAFFINE_IO_WRITE_CSV_H
+
+#include <equiaffine/Indexed_triangle_mesh_3.h>
+#include <equiaffine/internal/buffered_output.h>
+
+#include <CGAL/assertions.h>
+#include <CGAL/number_utils.h>
+
+#include <cstddef>
+#include <ostream>
+#include <vector>
+
+namespace equiaffine {
+
+namespace internal {
+
+/// Calls `write(row)`, then the numbers of `attributes` and the word for the status follow on the same line.
+template <class WriteRow>
+void write_CSV_rows(Buffered_output& out, std::size_t number_of_rows, const Vertex_attributes& attributes,
+                    const WriteRow& write) {
+  for (const auto& column : attributes.columns) CGAL_precondition(column.values.size() == number_of_rows);
+  CGAL_precondition(attributes.status.empty() || attributes.status.size() == number_of_rows);
+  for (const auto& column : attributes.columns) out << ',' << column.name;
+  out << (attributes.status.empty() ? "\n" : ",status\n");
+  for (std::size_t row = 0; row < number_of_rows; ++row) {
+    write(row);
+    for (const auto& column : attributes.columns) out << ',' << column.values[row];
+    if (!attributes.status.empty()) out << ',' << to_string(attributes.status[row]);
+    out << '\n';
+  }
+  out.flush();
+}
+
+} // namespace internal
+
+/// Writes a line per point after the header `x,y,z,<columns>,status`: numbers with 17 significant digits, `nan` for
+/// those that do not exist, the status as a word. Errors are in the state of the stream.
+template <class Point_3>
+void write_CSV(std::ostream& stream, const std::vector<Point_3>& points, const Vertex_attributes& attributes = {}) {
+  internal::Buffered_output out(stream);
+  out << "x,y,z";
+  internal::write_CSV_rows(out, points.size(), attributes, [&](std::size_t row) {
+    const Point_3& p = points[row];
+    out << CGAL::to_double(p.x()) << ',' << CGAL::to_double(p.y()) << ',' << CGAL::to_double(p.z());
+  });
+}
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_WRITE_MESH_H
+#define EQUIAFFINE_IO_WRITE_MESH_H
+
+// Files from an indexed triangle mesh and the numbers at its vertices. Text has 17 significant digits and `nan` for
+// numbers that do not exist. All functions write to a stream (opened as binary for PLY and STL); errors are in its
+// state.
+
+#include <equiaffine/Indexed_triangle_mesh_3.h>
+#include <equiaffine/internal/buffered_output.h>
+#include <equiaffine/io/write_CSV.h>
+
+#include <CGAL/assertions.h>
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+namespace equiaffine {
+
+enum class Mesh_format { PLY, OFF, OBJ, STL, CSV };
+
+/// The format that the extension of a path stands for, in lower or upper case, if there is one.
+inline std::optional<Mesh_format> mesh_format(const std::string& path) {
+  constexpr std::array<std::string_view, 5> extensions = {".ply", ".off", ".obj", ".stl", ".csv"};
+  std::string lower = path;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  for (std::size_t i = 0; i < extensions.size(); ++i)
+    if (lower.ends_with(extensions[i])) return static_cast<Mesh_format>(i);
+  return std::nullopt;
+}
+
+namespace internal {
+
+template <class Point_3>
+std::array<double, 3> coordinates(const Point_3& p) {
+  return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+}
+
+inline void write_line(Buffered_output& out, std::string_view keyword, const std::array<double, 3>& numbers) {
+  out << keyword << numbers[0] << ' ' << numbers[1] << ' ' << numbers[2] << '\n';
+}
+
+/// The unit normal of a triangle, or zero if it has none.
+inline std::array<double, 3> unit_normal(const std::array<std::array<double, 3>, 3>& corners) {
+  std::array<double, 3> u{}, v{}, normal{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    u[i] = corners[1][i] - corners[0][i];
+    v[i] = corners[2][i] - corners[0][i];
+  }
+  for (std::size_t i = 0; i < 3; ++i) normal[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+  const double length = std::hypot(normal[0], normal[1], normal[2]);
+  for (double& component : normal) component = length > 0 ? component / length : 0;
+  return normal;
+}
+
+inline const Vertex_attributes::Column* find_column(const Vertex_attributes& attributes, std::string_view name) {
+  for (const auto& column : attributes.columns)
+    if (column.name == name) return &column;
+  return nullptr;
+}
+
+} // namespace internal
+
+/// PLY, binary little-endian: `double x y z`, a `double` property per column, `uchar status`, `vertex_indices`.
+template <class Kernel>
+void write_PLY(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh,
+               const Vertex_attributes& attributes = {}) {
+  for (const auto& column : attributes.columns) CGAL_precondition(column.values.size() == mesh.points.size());
+  CGAL_precondition(attributes.status.empty() || attributes.status.size() == mesh.points.size());
+  internal::Buffered_output out(stream);
+  out << "ply\nformat binary_little_endian 1.0\ncomment made by equiaffine";
+  if (!attributes.status.empty()) {
+    out << "; status:";
+    for (std::size_t i = 0; i < number_of_point_statuses; ++i) out << ' ' << i << ' ' << to_string(Point_status(i));
+  }
+  out << "\nelement vertex " << mesh.points.size() << "\nproperty double x\nproperty double y\nproperty double z\n";
+  for (const auto& column : attributes.columns) out << "property double " << column.name << '\n';
+  if (!attributes.status.empty()) out << "property uchar status\n";
+  out << "element face " << mesh.triangles.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
+
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    for (const double x : internal::coordinates(mesh.points[v])) out.write_binary(x);
+    for (const auto& column : attributes.columns) out.write_binary(column.values[v]);
+    if (!attributes.status.empty()) out.write_binary(static_cast<std::uint8_t>(attributes.status[v]));
+  }
+  for (const auto& triangle : mesh.triangles) {
+    out.write_binary(std::uint8_t(3));
+    for (const std::uint32_t v : triangle) out.write_binary(v);
+  }
+  out.flush();
+}
+
+/// OFF: points and triangles; it holds no attributes.
+template <class Kernel>
+void write_OFF(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh) {
+  internal::Buffered_output out(stream);
+  out << "OFF\n" << mesh.points.size() << ' ' << mesh.triangles.size() << " 0\n";
+  for (const auto& p : mesh.points) internal::write_line(out, "", internal::coordinates(p));
+  for (const auto& [a, b, c] : mesh.triangles)
+    out << "3 " << std::size_t(a) << ' ' << std::size_t(b) << ' ' << std::size_t(c) << '\n';
+  out.flush();
+}
+
+/// OBJ: points and triangles, and vertex normals if there are columns `nx ny nz`.
+template <class Kernel>
+void write_OBJ(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh,
+               const Vertex_attributes& attributes = {}) {
+  const std::array<const Vertex_attributes::Column*, 3> normal = {internal::find_column(attributes, "nx"),
+                                                                  internal::find_column(attributes, "ny"),
+                                                                  internal::find_column(attributes, "nz")};
+  const bool has_normals = normal[0] && normal[1] && normal[2];
+  internal::Buffered_output out(stream);
+  for (const auto& p : mesh.points) internal::write_line(out, "v ", internal::coordinates(p));
+  if (has_normals)
+    for (std::size_t v = 0; v < mesh.points.size(); ++v)
+      internal::write_line(out, "vn ", {normal[0]->values[v], normal[1]->values[v], normal[2]->values[v]});
+  for (const auto& triangle : mesh.triangles) {
+    out << 'f';
+    for (const std::uint32_t v : triangle) {
+      out << ' ' << std::size_t(v) + 1;
+      if (has_normals) out << "//" << std::size_t(v) + 1;
+    }
+    out << '\n';
+  }
+  out.flush();
+}
+
+/// STL, binary: triangles in single precision with their own unit normals; it holds no attributes.
+template <class Kernel>
+void write_STL(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh) {
+  constexpr std::size_t header_size = 80;
+  std::string header = "binary STL made by equiaffine";
+  header.resize(header_size, ' ');
+  internal::Buffered_output out(stream);
+  out << header;
+  out.write_binary(std::uint32_t(mesh.triangles.size()));
+  for (const auto& triangle : mesh.triangles) {
+    std::array<std::array<double, 3>, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = internal::coordinates(mesh.points[triangle[i]]);
+    for (const double x : internal::unit_normal(corners)) out.write_binary(float(x));
+    for (const auto& corner : corners)
+      for (const double x : corner) out.write_binary(float(x));
+    out.write_binary(std::uint16_t(0));
+  }
+  out.flush();
+}
+
+/// The mesh in the format asked for, with those attributes that the format holds.
+template <class Kernel>
+void write_mesh(std::ostream& stream, Mesh_format format, const Indexed_triangle_mesh_3<Kernel>& mesh,
+                const Vertex_attributes& attributes = {}) {
+  switch (format) {
+  case Mesh_format::PLY: return write_PLY(stream, mesh, attributes);
+  case Mesh_format::OFF: return write_OFF(stream, mesh);
+  case Mesh_format::OBJ: return write_OBJ(stream, mesh, attributes);
+  case Mesh_format::STL: return write_STL(stream, mesh);
+  case Mesh_format::CSV: return write_CSV(stream, mesh.points, attributes);
+  }
+}
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Named parameters in the style of CGAL: `number_of_nodes(128).vertex_position(LINEAR)`. They are types of our own since
+// CGAL's list of names is closed and differs between its versions 5 and 6.
+#ifndef EQUIAFFINE_NAMED_PARAMETERS_H
+#define EQUIAFFINE_NAMED_PARAMETERS_H
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+
+namespace equiaffine {
+
+/// Where a sampler puts its vertices.
+enum class Vertex_position {
+  PROJECTED, ///< on the surface, to the last digits
+  LINEAR     ///< where linear interpolation of the values at the ends of the grid edge vanishes, as the paper does
+};
+
+namespace internal {
+
+struct Number_of_nodes_tag {};
+struct Vertex_position_tag {};
+struct No_parameters {};
+
+/// One parameter and those given before it.
+template <class Value, class Tag, class Base = No_parameters>
+struct Named_parameters {
+  Value value;
+  Base base;
+
+  /// Nodes per axis, at least 2 each.
+  auto number_of_nodes(const std::array<std::size_t, 3>& n) const {
+    return Named_parameters<std::array<std::size_t, 3>, Number_of_nodes_tag, Named_parameters>{n, *this};
+  }
+  auto number_of_nodes(std::size_t n) const { return number_of_nodes(std::array<std::size_t, 3>{n, n, n}); }
+
+  auto vertex_position(Vertex_position position) const {
+    return Named_parameters<Vertex_position, Vertex_position_tag, Named_parameters>{position, *this};
+  }
+};
+
+template <class Tag, class Default>
+Default get_parameter(const No_parameters&, const Default& otherwise) {
+  return otherwise;
+}
+
+/// The parameter with the given tag, the last one given if there are several.
+template <class Tag, class Default, class Value, class OtherTag, class Base>
+Default get_parameter(const Named_parameters<Value, OtherTag, Base>& parameters, const Default& otherwise) {
+  if constexpr (std::is_same_v<Tag, OtherTag>) return parameters.value;
+  else return get_parameter<Tag>(parameters.base, otherwise);
+}
+
+} // namespace internal
+
+namespace parameters {
+
+/// No parameter: every default.
+inline internal::No_parameters default_values() { return {}; }
+
+/// Nodes per axis, at least 2 each; default 64.
+inline auto number_of_nodes(const std::array<std::size_t, 3>& n) {
+  return internal::Named_parameters<std::array<std::size_t, 3>, internal::Number_of_nodes_tag>{n, {}};
+}
+inline auto number_of_nodes(std::size_t n) { return number_of_nodes(std::array<std::size_t, 3>{n, n, n}); }
+
+/// Default Vertex_position::PROJECTED.
+inline auto vertex_position(Vertex_position position) {
+  return internal::Named_parameters<Vertex_position, internal::Vertex_position_tag>{position, {}};
+}
+
+} // namespace parameters
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "atomic_file.h"
+
+#include <equiaffine/Input_error.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <iostream>
+#include <system_error>
+#include <unistd.h>
+
+namespace equiaffine {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const std::string& path, const std::string& reason, const std::string& advice) {
+  throw Input_error("cannot write " + (path == "-" ? "standard output" : "'" + path + "'") + ": " + reason + "; " +
+                    advice);
+}
+
+std::string message(int error_number) { return std::generic_category().message(error_number); }
+
+} // namespace
+
+Output_file::Temporary_folder::Temporary_folder(const fs::path& parent) {
+  std::string name = (parent / ".equiaffine-XXXXXX").string();
+  if (!::mkdtemp(name.data())) throw std::system_error(errno, std::generic_category());
+  path = name;
+}
+
+Output_file::Temporary_folder::~Temporary_folder() {
+  std::error_code ignored;
+  fs::remove_all(path, ignored);
+}
+
+Output_file::Output_file(const std::string& path) : path_(path), target_(path), has_to_be_copied_(path == "-") {
+  if (path.empty()) throw Input_error("cannot write the output: its name is empty; name a file");
+  std::error_code error;
+  if (!is_standard_output()) {
+    const fs::file_status status = fs::status(path, error);
+    if (fs::is_directory(status)) fail(path, "it is a folder", "name a file");
+    if (fs::exists(status)) {
+      if (::access(path.c_str(), W_OK) != 0) fail(path, message(errno), "choose another file");
+      has_to_be_copied_ = !fs::is_regular_file(status);
+      target_ = fs::canonical(path);
+    } else if (!target_.has_filename()) fail(path, "it names a folder", "name a file");
+  }
+  const fs::path parent = has_to_be_copied_           ? fs::temp_directory_path()
+                          : target_.has_parent_path() ? target_.parent_path()
+                                                      : fs::path(".");
+  if (!fs::is_directory(parent, error))
+    fail(path, "the folder '" + parent.string() + "' does not exist", "create it or choose another one");
+  try {
+    folder_ = std::make_unique<Temporary_folder>(parent);
+  } catch (const std::system_error& e) {
+    fail(path, "no file can be made in '" + parent.string() + "' (" + message(e.code().value()) + ")",
+         "choose another folder");
+  }
+}
+
+fs::path Output_file::temporary_path() const {
+  return folder_->path / (is_standard_output() ? fs::path("standard_output") : target_.filename());
+}
+
+std::ostream& Output_file::stream() {
+  if (!stream_.is_open()) {
+    stream_.open(temporary_path(), std::ios::binary);
+    if (!stream_) fail(path_, message(errno), "choose another file");
+  }
+  return stream_;
+}
+
+void Output_file::close() {
+  if (!stream_.is_open()) return;
+  stream_.close();
+  if (!stream_) fail(path_, "not everything could be stored", "make room on the disk or choose another one");
+}
+
+void Output_file::commit() {
+  close();
+  if (has_to_be_copied_) copy_to_target();
+  else rename_to_target();
+  folder_.reset();
+}
+
+void Output_file::copy_to_target() {
+  std::ifstream source(temporary_path(), std::ios::binary);
+  std::ofstream device;
+  if (!is_standard_output()) device.open(target_, std::ios::binary);
+  std::ostream& sink = is_standard_output() ? std::cout : device;
+  if (source.peek() != std::ifstream::traits_type::eof()) sink << source.rdbuf();
+  sink.flush();
+  if (!sink) fail(path_, "not everything was accepted", "make sure that the receiver is ready");
+}
+
+void Output_file::rename_to_target() {
+  const fs::path folder = target_.parent_path();
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_->path))
+    if (!error && entry.path() != temporary_path()) fs::rename(entry.path(), folder / entry.path().filename(), error);
+  if (!error) fs::rename(temporary_path(), target_, error);
+  if (error) fail(path_, error.message(), "choose another file");
+}
+
+void commit_all(std::span<Output_file> files) {
+  for (Output_file& file : files) file.close();
+  for (Output_file& file : files) file.commit();
+}
+
+} // namespace equiaffine

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "atomic_file.h"
+#include "commands.h"
+#include "source.h"
+#include "statistics.h"
+#include <equiaffine/Input_error.h>
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/attributes.h>
+#include <equiaffine/io/read_points.h>
+#include <equiaffine/io/write_mesh.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace equiaffine {
+
+namespace {
+
+Mesh_format output_format(const std::string& path) {
+  if (path == "-") return Mesh_format::CSV;
+  const std::optional<Mesh_format> format = mesh_format(path);
+  if (format != Mesh_format::CSV && format != Mesh_format::PLY)
+    throw Input_error("cannot write '" + path + "': its extension is not that of a table of points; use .csv or .ply");
+  return *format;
+}
+
+/// A point that is nowhere is outside, whatever the function makes of its coordinates.
+void mark_points_at_infinity(const std::vector<Kernel::Point_3>& points, Vertex_attributes& attributes) {
+  for (std::size_t i = 0; i < attributes.status.size(); ++i) {
+    const Kernel::Point_3& p = points[i];
+    if (std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z())) continue;
+    attributes.status[i] = Point_status::OUTSIDE;
+    for (auto& column : attributes.columns) column.values[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+} // namespace
+
+void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& progress) {
+  const Mesh_format format = output_format(options.output);
+  Output_file output(options.output);
+  progress.begin("reading the points");
+  const Point_table_3<Kernel> table = read_points<Kernel>(options.points);
+  const std::vector<Kernel::Point_3>& points = table.mesh.points;
+  const Source source = make_source(options.source, progress);
+  progress.begin("computing attributes");
+  Vertex_attributes attributes = std::visit(
+      [&](const auto& function) {
+        // The level set of a point goes through it whatever the value there, so any isovalue will do.
+        const Level_set_traits_3 level_set(function, 0., options.orientation);
+        return compute_attributes<CGAL::Parallel_if_available_tag>(level_set, points, options.attributes);
+      },
+      source.function);
+  mark_points_at_infinity(points, attributes);
+  progress.begin("writing");
+  if (format == Mesh_format::CSV) write_CSV(output.stream(), table, attributes);
+  else write_PLY(output.stream(), table.mesh, merge_attributes(table.attributes, attributes));
+  progress.end();
+  output.commit();
+  if (options.output == "-") return;
+  out << points.size() << " points";
+  const auto counts = count(attributes.status);
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    if (counts[i] > 0) out << ", " << counts[i] << ' ' << to_string(Point_status(i));
+  out << "\nwrote " << options.output << '\n';
+}
+
+} // namespace equiaffine

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "atomic_file.h"
+#include "commands.h"
+#include "resources.h"
+#include "source.h"
+#include "statistics.h"
+#include "surface_output.h"
+#include <equiaffine/Input_error.h>
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/attributes.h>
+#include <equiaffine/distance_to_surface.h>
+#include <equiaffine/marching_cubes.h>
+#include <equiaffine/sample_on_lattice.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace equiaffine {
+
+namespace {
+
+struct Annotated_surface {
+  Isosurface_3<Kernel> mesh;
+  Vertex_attributes attributes;
+  double max_distance = 0, annotation_seconds = 0;
+};
+
+template <class Traits>
+[[noreturn]] void fail_without_surface(const Traits& function, double isovalue) {
+  const auto samples = [&] {
+    if constexpr (LatticeImplicitFunctionTraits_3<Traits>) {
+      Volume_3<Kernel> volume{function.lattice(), {}};
+      const auto [nx, ny, nz] = volume.lattice.size();
+      for (std::size_t k = 0; k < nz; ++k)
+        for (std::size_t j = 0; j < ny; ++j)
+          for (std::size_t i = 0; i < nx; ++i) volume.values.push_back(function.sample(i, j, k));
+      return volume;
+    } else
+      return sample_on_lattice<CGAL::Parallel_if_available_tag>(function, sampling_lattice(function, {33, 33, 33}));
+  }();
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (const double value : samples.values) {
+    if (value < least) least = value; // not std::min: values may be NaN
+    if (value > greatest) greatest = value;
+  }
+  std::ostringstream text;
+  text << "no surface f = " << isovalue << " in the box: at its nodes f ";
+  if (least <= greatest) text << "lies between " << least << " and " << greatest;
+  else text << "is undefined";
+  text << "; choose another --isovalue or box, or a finer --resolution";
+  throw Input_error(text.str());
+}
+
+template <class Traits>
+Annotated_surface make_surface(const Traits& function, const Mesh_options& options, Progress& progress) {
+  const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
+  Annotated_surface surface;
+  progress.begin("extracting the surface");
+  surface.mesh = marching_cubes<CGAL::Parallel_if_available_tag>(
+      level_set, parameters::vertex_position(options.vertices)
+                     .number_of_nodes(options.source.resolution.value_or(default_resolution(options.source.kind))));
+  if (surface.mesh.triangles.empty()) fail_without_surface(function, options.isovalue);
+  const Stopwatch stopwatch;
+  progress.begin("computing attributes");
+  surface.max_distance = max_distance_to_surface<CGAL::Parallel_if_available_tag>(level_set, surface.mesh.points);
+  surface.mesh.function_evaluations += surface.mesh.points.size();
+  surface.attributes = compute_attributes<CGAL::Parallel_if_available_tag>(
+      level_set, surface.mesh.points, options.attributes, surface.mesh.vertex_status);
+  if (options.attributes.has_status) surface.mesh.function_evaluations += surface.mesh.points.size();
+  surface.annotation_seconds = stopwatch.seconds();
+  return surface;
+}
+
+Statistics make_statistics(const Mesh_options& options, const Annotated_surface& surface, const Source& source) {
+  Statistics statistics;
+  statistics.source = describe(options.source);
+  statistics.isovalue = options.isovalue;
+  statistics.vertices = surface.mesh.points.size();
+  statistics.faces = surface.mesh.triangles.size();
+  statistics.topology = mesh_topology(surface.mesh.triangles, surface.mesh.points.size());
+  statistics.status = count(surface.attributes.status.empty() ? surface.mesh.vertex_status : surface.attributes.status);
+  statistics.max_distance_to_surface = surface.max_distance;
+  statistics.sample_seconds = surface.mesh.sampling_seconds;
+  statistics.project_seconds = surface.mesh.projection_seconds;
+  statistics.annotate_seconds = surface.annotation_seconds;
+  statistics.function_evaluations = source.function_evaluations + surface.mesh.function_evaluations;
+  return statistics;
+}
+
+std::string text_of(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+Description make_description(const Mesh_options& options, const Statistics& statistics) {
+  Description description = {{"Level set f =", text_of(options.isovalue)}, {"of", statistics.source}};
+  for (const auto& [name, value] : options.source.constants)
+    description.emplace_back("with " + name + " =", text_of(value));
+  if (const auto& map = options.source.transformation) {
+    std::string rows;
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column)
+        rows += text_of(map->m(row, column)) + (column < 2 ? " " : row < 2 ? "; " : "");
+    description.emplace_back("transformed by", rows);
+  }
+  if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
+    description.emplace_back("Normals", "against the gradient");
+  description.emplace_back("Vertices", std::to_string(statistics.vertices));
+  description.emplace_back("Triangles", std::to_string(statistics.faces));
+  description.emplace_back("Components", std::to_string(statistics.topology.components));
+  description.emplace_back("Euler characteristic", std::to_string(statistics.topology.euler_characteristic));
+  return description;
+}
+
+/// The outputs of the command. Making them finds out whether they can be written.
+struct Outputs {
+  explicit Outputs(const Mesh_options& options) {
+    check_surface_output(options.output);
+    files.emplace_back(options.output);
+    if (options.html) files.emplace_back(*options.html);
+    if (options.stats) files.emplace_back(*options.stats);
+  }
+
+  bool use_standard_output() const {
+    return std::any_of(files.begin(), files.end(), [](const Output_file& file) { return file.path() == "-"; });
+  }
+
+  std::vector<Output_file> files; // mesh, page, statistics: the latter two if asked for
+};
+
+} // namespace
+
+void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress) {
+  Outputs outputs(options);
+  if (options.source.derivatives == Derivatives::JETS)
+    check_memory_of_surface(options.source.resolution.value_or(default_resolution(options.source.kind)));
+  const Stopwatch source_stopwatch;
+  const Source source = make_source(options.source, progress);
+  const double source_seconds = source_stopwatch.seconds();
+  const Annotated_surface surface =
+      std::visit([&](const auto& function) { return make_surface(function, options, progress); }, source.function);
+
+  const Stopwatch write_stopwatch;
+  progress.begin("writing");
+  Statistics statistics = make_statistics(options, surface, source);
+  statistics.sample_seconds += source_seconds;
+  write_surface(outputs.files[0], surface.mesh, surface.attributes);
+  if (options.html)
+    write_page(outputs.files[1], surface.mesh, surface.attributes, options.color,
+               make_description(options, statistics));
+  for (Output_file& file : outputs.files) file.close();
+  statistics.write_seconds = write_stopwatch.seconds();
+  if (options.stats) outputs.files.back().stream() << to_JSON(statistics);
+  progress.end();
+  commit_all(outputs.files);
+  if (!outputs.use_standard_output()) {
+    out << summary(statistics);
+    for (const Output_file& file : outputs.files) out << "wrote " << file.path() << '\n';
+  }
+}
+
+} // namespace equiaffine

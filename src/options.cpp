@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options.h"
+
+#include "command_line.h"
+#include <equiaffine/Input_error.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace equiaffine {
+
+namespace {
+
+const std::array<std::pair<const char*, Source_kind>, 3> sources = {{{"--function", Source_kind::FUNCTION},
+                                                                     {"--volume", Source_kind::VOLUME},
+                                                                     {"--distance-to", Source_kind::DISTANCE}}};
+
+std::string needed_word(const Command_line& line, const std::string& option, const std::string& advice) {
+  if (!line.has(option)) throw Input_error("the option " + option + " is missing; " + advice);
+  return line.word(option, {});
+}
+
+std::optional<std::string> optional_word(const Command_line& line, const std::string& option) {
+  if (!line.has(option)) return std::nullopt;
+  return line.word(option, {});
+}
+
+Source_options read_kind(const Command_line& line) {
+  Source_options source;
+  const char* given = nullptr;
+  for (const auto& [option, kind] : sources) {
+    if (!line.has(option)) continue;
+    if (given) throw Input_error(std::string(given) + " and " + option + " are both given; give one source");
+    given = option;
+    source.kind = kind;
+    source.text = line.word(option, {});
+  }
+  if (!given)
+    throw Input_error(std::string("no source is given; use ") + (line.command == "sample"
+                                                                     ? "--function or --distance-to"
+                                                                     : "--function, --volume or --distance-to"));
+  return source;
+}
+
+void check_source(const Command_line& line, const Source_options& source) {
+  if (line.has("--set") && source.kind != Source_kind::FUNCTION)
+    fail_option("--set", "only a --function has constants", "leave it out");
+  if (source.kind == Source_kind::VOLUME)
+    for (const char* option : {"--box", "--resolution"})
+      if (line.has(option)) fail_option(option, "a --volume has its own", "leave it out");
+  if (source.kind != Source_kind::FUNCTION && source.derivatives == Derivatives::JETS)
+    fail_option("--derivatives", "jets need a formula, and this source is known by samples only",
+                "leave it out or use spline");
+  const bool is_sampled = line.command != "evaluate" || source.derivatives == Derivatives::SPLINE;
+  if (source.kind == Source_kind::FUNCTION && is_sampled && !source.box)
+    throw Input_error(
+        "the option --box is missing; say where the --function is to be sampled, such as --box -2 2 -2 2 -2 2");
+}
+
+Source_options read_source(const Command_line& line) {
+  Source_options source = read_kind(line);
+  if (line.has("--set"))
+    for (const std::string& word : line.options.at("--set"))
+      if (!source.constants.insert(parse_constant("--set", word)).second)
+        fail_option("--set " + word, "the name has a value already", "give each name once");
+  if (line.has("--box")) source.box = parse_box("--box", line.options.at("--box"));
+  if (line.has("--resolution")) source.resolution = parse_resolution("--resolution", line.options.at("--resolution"));
+  if (line.has("--transform"))
+    source.transformation = parse_transformation("--transform", line.options.at("--transform"));
+  const std::string usual = source.kind == Source_kind::FUNCTION ? "jets" : "spline";
+  source.derivatives =
+      static_cast<Derivatives>(parse_choice("--derivatives", line.word("--derivatives", usual), {"jets", "spline"}));
+  check_source(line, source);
+  return source;
+}
+
+Orientation_of_level_set read_orientation(const Command_line& line) {
+  return static_cast<Orientation_of_level_set>(
+      parse_choice("--orientation", line.word("--orientation", "gradient"), {"gradient", "against"}));
+}
+
+Attribute_selection read_attributes(const Command_line& line) {
+  try {
+    return select_attributes(line.word("--attributes", "basic"));
+  } catch (const Input_error& error) {
+    throw Input_error(std::string("--attributes: ") + error.what());
+  }
+}
+
+std::string read_output(const Command_line& line) {
+  return needed_word(line, "--output", "name the file to write, -o FILE");
+}
+
+/// Reads --color and checks that the page will have it.
+std::string read_color(const Command_line& line, const Attribute_selection& attributes) {
+  const std::string color = line.word("--color", "");
+  if (color.empty()) return color;
+  if (!line.has("--html")) fail_option("--color", "it is for the page of --html", "add --html or leave it out");
+  const bool is_computed = std::any_of(attributes.columns.begin(), attributes.columns.end(),
+                                       [&](const Attribute& attribute) { return attribute.name == color; });
+  if (!is_computed && color != "plain" && !(color == "status" && attributes.has_status))
+    fail_option("--color", "'" + color + "' is not among the attributes that are computed",
+                "name one of them, such as affine_mean_curvature, or add it to --attributes");
+  return color;
+}
+
+void check_outputs(std::vector<std::string> paths) {
+  std::sort(paths.begin(), paths.end());
+  const auto same = std::adjacent_find(paths.begin(), paths.end());
+  if (same != paths.end())
+    throw Input_error("two outputs go to " + (*same == "-" ? "standard output" : "'" + *same + "'") +
+                      "; give each its own name");
+}
+
+Mesh_options read_mesh_options(const Command_line& line) {
+  Mesh_options options;
+  options.source = read_source(line);
+  options.isovalue = parse_finite_number("--isovalue", line.word("--isovalue", "0"));
+  options.orientation = read_orientation(line);
+  parse_choice("--method", line.word("--method", "marching-cubes"), {"marching-cubes"});
+  options.vertices = static_cast<Vertex_position>(
+      parse_choice("--vertices", line.word("--vertices", "projected"), {"projected", "linear"}));
+  options.attributes = read_attributes(line);
+  options.output = read_output(line);
+  options.html = optional_word(line, "--html");
+  options.stats = optional_word(line, "--stats");
+  options.color = read_color(line, options.attributes);
+  std::vector<std::string> outputs = {options.output};
+  if (options.html) outputs.push_back(*options.html);
+  if (options.stats) outputs.push_back(*options.stats);
+  check_outputs(outputs);
+  return options;
+}
+
+Evaluate_options read_evaluate_options(const Command_line& line) {
+  return {read_source(line), read_orientation(line), read_attributes(line),
+          needed_word(line, "--points", "name the file with the points"), read_output(line)};
+}
+
+Sample_options read_sample_options(const Command_line& line) {
+  return {read_source(line), parse_choice("--type", line.word("--type", "double"), {"float", "double"}) == 0,
+          read_output(line)};
+}
+
+View_options read_view_options(const Command_line& line) {
+  if (!line.has("MESH.ply")) throw Input_error("no mesh is given; write 'equiaffine view MESH.ply -o PAGE.html'");
+  return {line.word("MESH.ply", {}), read_output(line), line.word("--color", "")};
+}
+
+} // namespace
+
+std::array<std::size_t, 3> default_resolution(Source_kind kind) {
+  const std::size_t n = kind == Source_kind::DISTANCE ? 129 : 64;
+  return {n, n, n};
+}
+
+Options parse_options(const std::vector<std::string>& arguments) {
+  const Command_line line = split_command_line(arguments);
+  if (line.information) return {Information{*line.information}, {}};
+  Options options;
+  if (line.has("--threads")) options.threads = parse_count("--threads", line.word("--threads", {}), 1);
+  if (line.command == "mesh") options.command = read_mesh_options(line);
+  else if (line.command == "evaluate") options.command = read_evaluate_options(line);
+  else if (line.command == "sample") options.command = read_sample_options(line);
+  else options.command = read_view_options(line);
+  return options;
+}
+
+} // namespace equiaffine

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_OPTIONS_H
+#define EQUIAFFINE_SRC_OPTIONS_H
+
+#include "kernel.h"
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/attributes.h>
+#include <equiaffine/named_parameters.h>
+
+#include <CGAL/Aff_transformation_3.h>
+#include <CGAL/Bbox_3.h>
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace equiaffine {
+
+enum class Source_kind { FUNCTION, VOLUME, DISTANCE };
+
+/// Where derivatives come from: the formula, or a spline through samples.
+enum class Derivatives { JETS, SPLINE };
+
+/// SOURCE of the command line, with what changes the function itself.
+struct Source_options {
+  Source_kind kind = Source_kind::FUNCTION;
+  std::string text; ///< the expression, or the path of the volume or mesh
+  std::map<std::string, double> constants;
+  std::optional<CGAL::Bbox_3> box;
+  std::optional<std::array<std::size_t, 3>> resolution;
+  Derivatives derivatives = Derivatives::JETS;
+  std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
+};
+
+struct Mesh_options {
+  Source_options source;
+  double isovalue = 0;
+  Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
+  Vertex_position vertices = Vertex_position::PROJECTED;
+  Attribute_selection attributes;
+  std::string output;
+  std::optional<std::string> html, stats;
+  std::string color;
+};
+
+struct Evaluate_options {
+  Source_options source;
+  Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
+  Attribute_selection attributes;
+  std::string points, output;
+};
+
+struct Sample_options {
+  Source_options source;
+  bool as_float = false;
+  std::string output;
+};
+
+struct View_options {
+  std::string mesh, output, color;
+};
+
+/// A text that was asked for: help or version.
+struct Information {
+  std::string text;
+};
+
+struct Options {
+  std::variant<Information, Mesh_options, Evaluate_options, Sample_options, View_options> command;
+  std::optional<std::size_t> threads;
+};
+
+/// Reads the command line, without the program's name. Throws `Input_error` for everything that cannot be meant.
+Options parse_options(const std::vector<std::string>& arguments);
+
+/// The nodes per axis that hold for a source if none are given.
+std::array<std::size_t, 3> default_resolution(Source_kind kind);
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "resources.h"
+
+#include <equiaffine/Input_error.h>
+
+#include <cstdio>
+#include <string>
+#include <unistd.h>
+
+namespace equiaffine {
+
+namespace {
+
+std::string gigabytes(double bytes) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g GB", bytes / 1e9);
+  return text.data();
+}
+
+void check_memory(double needed, const std::array<std::size_t, 3>& n, const std::string& purpose) {
+  const double pages = double(::sysconf(_SC_PHYS_PAGES)), page_size = double(::sysconf(_SC_PAGE_SIZE));
+  if (pages > 0 && page_size > 0 && needed > pages * page_size)
+    throw Input_error("--resolution: " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
+                      std::to_string(n[2]) + " nodes need about " + gigabytes(needed) + " of memory for " + purpose +
+                      ", and this computer has " + gigabytes(pages * page_size) + "; use a smaller one");
+}
+
+} // namespace
+
+void check_memory_of_volume(const std::array<std::size_t, 3>& resolution) {
+  constexpr double bytes_per_node = 16; // sample and coefficient
+  double nodes = 1;
+  for (const std::size_t n : resolution) nodes *= double(n);
+  check_memory(bytes_per_node * nodes, resolution, "the samples");
+}
+
+void check_memory_of_surface(const std::array<std::size_t, 3>& resolution) {
+  // The sphere in a cube of n^3 nodes has 3 pi / 2 n^2 vertices: each axis sees two discs of diameter n. A vertex has
+  // coordinates (24 bytes), its grid edge (40), two triangles (24) and the basic attributes (129).
+  constexpr double vertices_per_node = 3.14159265 / 2, bytes_per_vertex = 217, bytes_per_node = 42;
+  const auto [nx, ny, nz] = resolution;
+  const double sides = double(nx) * double(ny) + double(ny) * double(nz) + double(nz) * double(nx);
+  check_memory(vertices_per_node * bytes_per_vertex * sides + bytes_per_node * double(nx) * double(ny), resolution,
+               "the surface");
+}
+
+} // namespace equiaffine

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "statistics.h"
+
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+namespace equiaffine {
+
+std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_status> status) {
+  std::array<std::size_t, number_of_point_statuses> counts{};
+  for (const Point_status s : status) ++counts[static_cast<std::size_t>(s)];
+  return counts;
+}
+
+std::string to_JSON(const Statistics& s) {
+  nlohmann::ordered_json json = {{"equiaffine", EQUIAFFINE_VERSION},
+                                 {"source", s.source},
+                                 {"isovalue", s.isovalue},
+                                 {"vertices", s.vertices},
+                                 {"faces", s.faces},
+                                 {"components", s.topology.components},
+                                 {"euler_characteristic", s.topology.euler_characteristic},
+                                 {"boundary_edges", s.topology.boundary_edges},
+                                 {"manifold", s.topology.is_manifold}};
+  for (std::size_t i = 0; i < number_of_point_statuses; ++i)
+    json["status"][std::string(to_string(Point_status(i)))] = s.status[i];
+  json["max_distance_to_surface"] = s.max_distance_to_surface;
+  json["seconds"] = {{"sample", s.sample_seconds},
+                     {"project", s.project_seconds},
+                     {"annotate", s.annotate_seconds},
+                     {"write", s.write_seconds}};
+  json["function_evaluations"] = s.function_evaluations;
+  // Texts come from the command line and need not be UTF-8.
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+}
+
+std::string summary(const Statistics& s) {
+  std::ostringstream text;
+  text << s.vertices << " vertices, " << s.faces << " triangles, " << s.topology.components
+       << (s.topology.components == 1 ? " component" : " components") << ", Euler characteristic "
+       << s.topology.euler_characteristic << ", ";
+  if (!s.topology.is_manifold) text << "not a manifold, ";
+  if (s.topology.boundary_edges == 0) text << "closed\n";
+  else text << s.topology.boundary_edges << " boundary edges\n";
+  const char* separator = "status: ";
+  for (std::size_t i = 0; i < number_of_point_statuses; ++i) {
+    if (s.status[i] == 0) continue;
+    text << separator << s.status[i] << ' ' << to_string(Point_status(i));
+    separator = ", ";
+  }
+  text.precision(2);
+  text << "\ndistance from the surface: ";
+  if (s.max_distance_to_surface == s.max_distance_to_surface) text << "at most " << s.max_distance_to_surface;
+  else text << "unknown";
+  text << '\n';
+  return text.str();
+}
+
+} // namespace equiaffine

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_STATISTICS_H
+#define EQUIAFFINE_SRC_STATISTICS_H
+
+#include <equiaffine/Point_status.h>
+#include <equiaffine/mesh_topology.h>
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace equiaffine {
+
+/// What is known about a mesh that was made.
+struct Statistics {
+  std::string source;
+  double isovalue = 0;
+  std::size_t vertices = 0, faces = 0;
+  Mesh_topology topology;
+  std::array<std::size_t, number_of_point_statuses> status{};
+  double max_distance_to_surface = 0; ///< in the unit of the coordinates; NaN if f is defined at no vertex
+  double sample_seconds = 0, project_seconds = 0, annotate_seconds = 0, write_seconds = 0;
+  std::size_t function_evaluations = 0;
+};
+
+std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_status> status);
+
+/// One object, see `equiaffine mesh --help`. A distance that is not a finite number is null.
+std::string to_JSON(const Statistics& statistics);
+
+/// A few lines for people.
+std::string summary(const Statistics& statistics);
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_SURFACE_OUTPUT_H
+#define EQUIAFFINE_SRC_SURFACE_OUTPUT_H
+
+#include "atomic_file.h"
+#include "kernel.h"
+#include <equiaffine/Indexed_triangle_mesh_3.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+/// Throws `Input_error` unless `write_surface` knows the extension of the path, or it is "-".
+void check_surface_output(const std::string& path);
+
+/// Writes the mesh in the format of the path's extension, OFF for "-", without committing.
+void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes);
+
+/// What a page says about its surface, in rows of two cells.
+using Description = std::vector<std::pair<std::string, std::string>>;
+
+/// Writes the page, without committing. `color` is a column, `status`, `plain`, or empty.
+void write_page(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
+                const std::string& color, const Description& description);
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/Local_structure_3.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using namespace equiaffine;
+using Jet = Jet_3<double>;
+
+template <class Function>
+Jet expand(const Function& f, double x, double y, double z) {
+  return internal::expand<4, double>(f, x, y, z);
+}
+
+template <class Function>
+Point_status status(const Function& f, double x, double y, double z) {
+  return local_structure(expand(f, x, y, z), std::max({std::abs(x), std::abs(y), std::abs(z)})).status;
+}
+
+const auto cone = [](const auto& x, const auto& y, const auto& z) { return x * x + y * y - z * z; };
+const auto plane = [](const auto& x, const auto& y, const auto& z) { return 0.3 * x - 0.7 * y + 0.1 * z - 1; };
+
+// The graph over the tangent plane, evaluated in space, lies on the level set up to order 5.
+template <class Function>
+void expect_graph_of_fifth_order(const Function& f, int pivot) {
+  const std::array<std::array<double, 3>, 3> points = {{{.1, .2, .3}, {.5, -.4, .2}, {-.3, .2, -.4}}};
+  for (const auto& p : points) {
+    const Monge_chart_3<double> chart(expand(f, p[0], p[1], p[2]));
+    ASSERT_EQ(chart.status, Point_status::REGULAR);
+    EXPECT_EQ(chart.pivot, pivot);
+    EXPECT_LE(std::max(std::abs(chart.a), std::abs(chart.b)), 1);
+    const auto residual = [&](double h) {
+      double worst = 0;
+      for (int n = 0; n < 8; ++n) {
+        const double u = h * std::cos(n * 0.785), v = h * std::sin(n * 0.785);
+        const auto& [h0, h1, h2] = chart.h;
+        const auto& [c0, c1, c2, c3] = chart.cubic;
+        const auto& [q0, q1, q2, q3, q4] = chart.quartic;
+        const double w = (h0 * u * u + 2 * h1 * u * v + h2 * v * v) / 2 +
+                         (c0 * u * u * u + 3 * c1 * u * u * v + 3 * c2 * u * v * v + c3 * v * v * v) / 6 +
+                         (q0 * u * u * u * u + 4 * q1 * u * u * u * v + 6 * q2 * u * u * v * v +
+                          4 * q3 * u * v * v * v + q4 * v * v * v * v) / 24;
+        const auto t = chart.tangent(u + w * chart.alpha, v + w * chart.beta), e = chart.unpermuted(0, 0, w);
+        worst = std::max(worst, std::abs(f(p[0] + t[0] + e[0], p[1] + t[1] + e[1], p[2] + t[2] + e[2]) -
+                                         f(p[0], p[1], p[2])));
+      }
+      return worst;
+    };
+    EXPECT_GT(std::log2(residual(0.02) / residual(0.01)), 4.7);
+  }
+}
+
+TEST(Monge_chart_3, the_graph_lies_on_the_level_set_to_fifth_order) {
+  const auto f = [](const auto& x, const auto& y, const auto& z) {
+    using std::exp;
+    using std::sin;
+    return exp(x) * sin(2.0 * y + 0.3) + x * z * z / (2.0 + x * y) + y * y * z + 5.0 * z;
+  };
+  const auto cyclic = [&](const auto& x, const auto& y, const auto& z) { return f(y, z, x); };
+  const auto anticyclic = [&](const auto& x, const auto& y, const auto& z) { return f(z, x, y); };
+  expect_graph_of_fifth_order(f, 2);
+  expect_graph_of_fifth_order(cyclic, 0);
+  expect_graph_of_fifth_order(anticyclic, 1);
+}
+
+TEST(Monge_chart_3, a_vanishing_gradient_is_singular) {
+  EXPECT_EQ(status(cone, 0, 0, 0), Point_status::SINGULAR);
+  EXPECT_EQ(status([](const auto& x, const auto& y, const auto& z) { return x * y * z + 4.0; }, 0, 0, 1),
+            Point_status::SINGULAR);
+  // A node at (1, 1, 1) that rounding hides: the gradient there is that of one rounding of the coordinates.
+  const auto shifted = [](const auto& x, const auto& y, const auto& z) {
+    const auto u = x - 1.0, v = y - 1.0, w = z - 1.0;
+    return u * u + v * v - w * w;
+  };
+  EXPECT_EQ(status(shifted, 1 + 2e-16, 1, 1), Point_status::SINGULAR);
+}
+
+TEST(Monge_chart_3, near_a_singular_point_the_cone_is_an_ordinary_parabolic_surface) {
+  EXPECT_EQ(status(cone, 1e-9, 0, 1e-9), Point_status::PARABOLIC);
+}
+
+TEST(Monge_chart_3, planes_cylinders_cones_and_flat_points_are_parabolic) {
+  const auto cylinder = [](const auto& x, const auto& y, const auto&) { return x * x + y * y - 1.0; };
+  const auto rotated_cylinder = [](const auto& x, const auto& y, const auto& z) {
+    const auto u = 0.6 * x + 0.8 * y, v = 0.28 * z + 0.96 * (0.6 * y - 0.8 * x);
+    return u * u + v * v - 1.0;
+  };
+  const auto exponential_of_a_plane = [](const auto& x, const auto& y, const auto& z) {
+    using std::exp;
+    return exp(0.3 * x - 0.7 * y + 0.1 * z) - 1.0;
+  };
+  const auto monkey_saddle = [](const auto& x, const auto& y, const auto& z) { return z - x * x * x + 3.0 * x * y * y; };
+  EXPECT_EQ(status(plane, 1, 2, 3), Point_status::PARABOLIC);
+  EXPECT_EQ(status(cylinder, 0.6, 0.8, 5), Point_status::PARABOLIC);
+  EXPECT_EQ(status(rotated_cylinder, 0.9, 0.4, 0.3), Point_status::PARABOLIC);
+  EXPECT_EQ(status(exponential_of_a_plane, 0.2, 0.1, 0.1), Point_status::PARABOLIC);
+  EXPECT_EQ(status(cone, 3, 4, 5), Point_status::PARABOLIC);
+  EXPECT_EQ(status(monkey_saddle, 0, 0, 0), Point_status::PARABOLIC);
+}
+
+TEST(Monge_chart_3, a_point_where_d_is_merely_small_is_regular) {
+  const auto nearly_flat = [](const auto& x, const auto& y, const auto& z) { return z - 1e-9 * (x * x + y * y); };
+  const auto nearly_parabolic = [](const auto& x, const auto& y, const auto& z) { return z - x * x - 1e-11 * y * y; };
+  EXPECT_EQ(status(nearly_flat, 0.5, 0.2, 0), Point_status::REGULAR);
+  EXPECT_EQ(status(nearly_parabolic, 0.5, 0.2, 0), Point_status::REGULAR);
+}
+
+TEST(Monge_chart_3, kinks_are_singular_and_undefined_values_outside) {
+  const auto kink = [](const auto& x, const auto& y, const auto& z) {
+    using std::abs;
+    return abs(x) + y * y + z;
+  };
+  const auto root = [](const auto& x, const auto& y, const auto& z) {
+    using std::sqrt;
+    return sqrt(x) + y + z * z;
+  };
+  EXPECT_EQ(status(kink, 0, 1, 1), Point_status::SINGULAR);
+  EXPECT_NE(status(kink, 0.1, 1, 1), Point_status::SINGULAR);
+  EXPECT_EQ(status(root, 0, 1, 1), Point_status::SINGULAR);
+  EXPECT_EQ(status(root, -1, 1, 1), Point_status::OUTSIDE);
+  EXPECT_EQ(status([](const auto& x, const auto& y, const auto& z) { return 1.0 / (x - y) + z; }, 1, 1, 0),
+            Point_status::OUTSIDE);
+}
+
+TEST(Local_structure_3, no_number_is_missing_without_a_status_and_none_is_there_with_one) {
+  const auto s = local_structure(expand(cone, 0, 0, 0));
+  EXPECT_TRUE(std::isnan(s.euclidean.normal[0]) && std::isnan(s.euclidean.k1) && std::isnan(s.affine.gaussian_curvature));
+  const auto p = local_structure(expand(cone, 3, 4, 5));
+  EXPECT_EQ(p.status, Point_status::PARABOLIC);
+  EXPECT_NEAR(p.euclidean.gaussian_curvature, 0, 1e-15);
+  EXPECT_LT(p.euclidean.k2, -0.05);
+  EXPECT_TRUE(std::isnan(p.affine.gaussian_curvature) && std::isnan(p.affine.normal[2]) && std::isnan(p.affine.metric[0]));
+}
+
+TEST(Local_structure_3, powers_of_d_that_overflow_are_parabolic) {
+  const double tiny = 1e-180;
+  const auto f = [&](const auto& x, const auto& y, const auto& z) { return z - tiny * (x * x + y * y) - x * x * x; };
+  EXPECT_EQ(status(f, 0, 0, 0), Point_status::PARABOLIC);
+}
+
+TEST(Euclidean_structure, principal_curvatures_and_directions_of_a_torus) {
+  const double R = 2, r = 0.5;
+  const auto torus = [&](const auto& x, const auto& y, const auto& z) {
+    using std::sqrt;
+    const auto q = sqrt(x * x + y * y) - R;
+    return q * q + z * z - r * r;
+  };
+  for (double phi : {0.3, 1.9, 4.0})
+    for (double theta : {0.0, 0.7, 2.0, 3.1415, 5.5}) {
+      const double rho = R + r * std::cos(theta);
+      const auto s = local_structure(
+          expand(torus, rho * std::cos(phi), rho * std::sin(phi), r * std::sin(theta)));
+      const double around = -std::cos(theta) / rho, across = -1 / r; // the outward normal: convex is negative
+      EXPECT_NEAR(s.euclidean.k1, around, 1e-13);
+      EXPECT_NEAR(s.euclidean.k2, across, 1e-13);
+      EXPECT_NEAR(s.euclidean.gaussian_curvature, around * across, 1e-13);
+      EXPECT_NEAR(s.euclidean.mean_curvature, (around + across) / 2, 1e-13);
+      const auto &n = s.euclidean.normal, &d1 = s.euclidean.direction1, &d2 = s.euclidean.direction2;
+      EXPECT_NEAR(n[0], std::cos(theta) * std::cos(phi), 1e-13);
+      EXPECT_NEAR(n[2], std::sin(theta), 1e-13);
+      EXPECT_NEAR(std::abs(-std::sin(phi) * d1[0] + std::cos(phi) * d1[1]), 1, 1e-13) << "direction 1 runs around the axis";
+      EXPECT_NEAR(d1[1] * d2[2] - d1[2] * d2[1], n[0], 1e-13) << "direction1, direction2, normal are right-handed";
+      EXPECT_NEAR(d1[0] * d2[1] - d1[1] * d2[0], n[2], 1e-13);
+      EXPECT_NEAR(d2[0] * d2[0] + d2[1] * d2[1] + d2[2] * d2[2], 1, 1e-13);
+    }
+}
+
+TEST(Euclidean_structure, umbilics_have_some_orthonormal_directions) {
+  const auto sphere = [](const auto& x, const auto& y, const auto& z) { return x * x + y * y + z * z; };
+  for (double z : {1.0, -1.0}) {
+    const auto s = local_structure(expand(sphere, 0, 0, z)).euclidean;
+    EXPECT_EQ(s.k1, s.k2);
+    EXPECT_NEAR(std::hypot(s.direction1[0], s.direction1[1], s.direction1[2]), 1, 1e-15);
+    EXPECT_NEAR(s.direction1[0] * s.direction2[0] + s.direction1[1] * s.direction2[1], 0, 1e-15);
+  }
+}
+
+TEST(Euclidean_structure, the_smaller_principal_curvature_keeps_its_digits) {
+  // Gauss map of x^2 + 1e-10 y^2 = 2 z at a point off the origin: k1 is near 1, k2 near 1e-10.
+  const auto f = [](const auto& x, const auto& y, const auto& z) { return (x * x + 1e-10 * (y * y)) / 2.0 - z; };
+  const auto s = local_structure(expand(f, 0.5, 0.3, 0)).euclidean;
+  const double w2 = 1 + 0.25 + 0.09e-20, K = 1e-10 / (w2 * w2);
+  EXPECT_NEAR(s.gaussian_curvature / K, 1, 1e-14);
+  EXPECT_NEAR(s.k1 * s.k2 / K, 1, 1e-14);
+}
+
+} // namespace

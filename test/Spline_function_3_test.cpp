@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/Jet_functions_3.h>
+#include <equiaffine/Spline_function_3.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point_3 = Kernel::Point_3;
+using Vector_3 = Kernel::Vector_3;
+using Lattice_3 = equiaffine::Lattice_3<Kernel>;
+using Volume_3 = equiaffine::Volume_3<Kernel>;
+using Spline_function_3 = equiaffine::Spline_function_3<Kernel>;
+using Jet_3 = equiaffine::Jet_3<double>;
+using equiaffine::Spline_scheme;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+template <class Function>
+Volume_3 sample(const Lattice_3& lattice, const Function& f) {
+  Volume_3 volume{lattice, std::vector<double>(lattice.number_of_nodes())};
+  const auto [nx, ny, nz] = lattice.size();
+  for (std::size_t k = 0; k < nz; ++k)
+    for (std::size_t j = 0; j < ny; ++j)
+      for (std::size_t i = 0; i < nx; ++i) {
+        const Point_3 p = lattice.point(double(i), double(j), double(k));
+        volume.values[lattice.index(i, j, k)] = f(p.x(), p.y(), p.z());
+      }
+  return volume;
+}
+
+template <class Function>
+Jet_3 jet_of(const Function& f, const Point_3& p) {
+  return f(Jet_3::variable(0, p.x()), Jet_3::variable(1, p.y()), Jet_3::variable(2, p.z()));
+}
+
+Volume_3 random_volume(const Lattice_3& lattice) {
+  std::mt19937 random(1);
+  return sample(lattice, [&](double, double, double) { return double(random()) / double(random.max()) - 0.5; });
+}
+
+Lattice_3 unit_lattice(std::size_t nx, std::size_t ny, std::size_t nz) {
+  return Lattice_3({nx, ny, nz}, Point_3(0, 0, 0), {Vector_3(1, 0, 0), Vector_3(0, 1, 0), Vector_3(0, 0, 1)});
+}
+
+// Anisotropic, rotated, a little sheared, left-handed, and away from the origin.
+Lattice_3 skew_lattice(std::size_t nx, std::size_t ny, std::size_t nz) {
+  return Lattice_3({nx, ny, nz}, Point_3(-2, 1, 3),
+                   {Vector_3(0.3, 0.4, 0), Vector_3(0.8, -0.6, 0.1), Vector_3(0, 0.2, 1.2)});
+}
+
+// Points of the whole lattice: corners, points of faces and edges, and of outer and inner cells.
+std::vector<Point_3> points_of(const Lattice_3& lattice) {
+  const auto coordinates = [](std::size_t n) {
+    const double last = double(n - 1);
+    return std::array{0.0, 0.07, 1.6, 0.43 * last, last - 0.8, last};
+  };
+  std::vector<Point_3> points;
+  for (const double u : coordinates(lattice.size()[0]))
+    for (const double v : coordinates(lattice.size()[1]))
+      for (const double w : coordinates(lattice.size()[2])) points.push_back(lattice.point(u, v, w));
+  return points;
+}
+
+// An upper bound of the sum of |d c / d f_j| over the samples f_j of a line, weighted by |d-th Taylor coefficients| of
+// the B-splines: how much a relative error of the samples and of the weights can grow in one direction.
+template <int Degree>
+double amplification(int d) {
+  constexpr auto line = equiaffine::internal::Line_filter<double, Degree>::quasi_interpolation();
+  std::array<double, Degree + 1> of_coefficient{};
+  double inside = line.weights[0];
+  for (int s = 1; s <= line.radius; ++s) inside += 2 * std::abs(line.weights[std::size_t(s)]);
+  of_coefficient.fill(inside);
+  for (std::size_t i = 0; i < Degree - 1; ++i) { // the Degree - 1 rules of a border reach the first cells
+    double sum = 0;
+    for (const double w : line.border[i]) sum += std::abs(w);
+    of_coefficient[i] = sum;
+  }
+  double greatest = 0;
+  for (double t = 0; t <= 1; t += 0.125) {
+    const equiaffine::internal::Bspline_taylor<Degree, 4, double> b(t);
+    double sum = 0;
+    for (int r = 0; r <= Degree; ++r) sum += std::abs(b.rows[d][r]) * of_coefficient[std::size_t(r)];
+    greatest = std::max(greatest, sum);
+  }
+  return greatest;
+}
+
+// A bound of the rounding of each coefficient: `operations` roundings, each amplified as above along x, y and z, and
+// mapped to space by a matrix whose rows have absolute sums <= `row_sum`.
+template <int Degree>
+std::array<double, 5> rounding_bounds(double greatest_sample, double row_sum) {
+  constexpr int operations = 3 * (2 * (Degree + 1) + 3 * Degree);
+  std::array<double, 5> bounds{};
+  for (int n = 0; n < 35; ++n) {
+    const auto m = equiaffine::internal::monomials[std::size_t(n)];
+    bounds[std::size_t(m.degree())] += operations * epsilon * greatest_sample * amplification<Degree>(m.i) *
+                                       amplification<Degree>(m.j) * amplification<Degree>(m.k) *
+                                       std::pow(row_sum, m.degree());
+  }
+  return bounds;
+}
+
+// Of degree n in every direction, with all its derivatives of comparable size on the lattices above.
+template <int Degree>
+struct Polynomial {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    const T form = 0.1 * x - 0.07 * y + 0.12 * z;
+    T power = form + 0.3;
+    for (int n = 1; n < Degree; ++n) power = power * (form + 0.3);
+    return power + 0.1 * x * y * z * z - 0.2 * x * x * y + 0.5 * z - 1.0;
+  }
+};
+
+template <int Degree>
+void expect_reproduction(const Lattice_3& lattice, double row_sum) {
+  const Polynomial<Degree> f;
+  const Volume_3 volume = sample(lattice, f);
+  double greatest = 0;
+  for (const double value : volume.values) greatest = std::max(greatest, std::abs(value));
+  const auto bounds = rounding_bounds<Degree>(greatest, row_sum);
+  const Spline_function_3 spline(volume, Degree);
+  for (const Point_3& p : points_of(lattice)) {
+    const Jet_3 expected = jet_of(f, p), computed = spline.taylor(p);
+    for (std::size_t n = 0; n < 35; ++n)
+      ASSERT_NEAR(computed.coefficients()[n], expected.coefficients()[n],
+                  bounds[std::size_t(equiaffine::internal::monomials[n].degree())])
+          << "degree " << Degree << ", coefficient " << n << ", point " << p;
+  }
+}
+
+// Not a polynomial, and different along every direction.
+constexpr auto wave = [](const auto& x, const auto& y, const auto& z) {
+  return sin(1.1 * x + 0.4) * exp(0.5 * y - 0.3 * z) + cos(0.8 * z - 0.6 * y + 0.2 * x);
+};
+
+struct Greatest_errors {
+  double value, fourth_derivative;
+};
+
+Greatest_errors errors_of_wave(std::size_t cells, int degree, Spline_scheme scheme) {
+  const Lattice_3 lattice({cells + 1, cells + 1, cells + 1}, CGAL::Bbox_3(-1, -1.5, -2, 2, 2, 1.5));
+  const Spline_function_3 spline(sample(lattice, wave), degree, scheme);
+  Greatest_errors errors{};
+  // the same points on every lattice: in a corner, on faces and edges, in the middle
+  for (const Point_3& p : points_of(Lattice_3({5, 5, 5}, lattice.bbox()))) {
+    const Jet_3 expected = jet_of(wave, p), computed = spline.taylor(p);
+    errors.value = std::max(errors.value, std::abs(computed.value() - expected.value()));
+    for (const auto& [i, j, k] : {std::array{4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {2, 1, 1}})
+      errors.fourth_derivative =
+          std::max(errors.fourth_derivative, std::abs(computed.derivative(i, j, k) - expected.derivative(i, j, k)));
+  }
+  return errors;
+}
+
+// The slope of the error at all points, borders included, when the spacing is halved. The order is an asymptotic
+// statement: a third of an order is left to the terms of higher order.
+void expect_orders(int degree, Spline_scheme scheme, std::size_t cells, double value, double fourth_derivative) {
+  const Greatest_errors coarse = errors_of_wave(cells, degree, scheme);
+  const Greatest_errors fine = errors_of_wave(2 * cells, degree, scheme);
+  EXPECT_GT(std::log2(coarse.value / fine.value), value - 1.0 / 3) << coarse.value << ' ' << fine.value;
+  EXPECT_GT(std::log2(coarse.fourth_derivative / fine.fourth_derivative), fourth_derivative - 1.0 / 3)
+      << coarse.fourth_derivative << ' ' << fine.fourth_derivative;
+}
+
+bool all_nan(const Jet_3& jet) {
+  return std::all_of(jet.coefficients().begin(), jet.coefficients().end(), [](double c) { return std::isnan(c); });
+}
+
+bool all_finite(const Jet_3& jet) {
+  return std::all_of(jet.coefficients().begin(), jet.coefficients().end(), [](double c) { return std::isfinite(c); });
+}
+
+} // namespace
+
+TEST(Spline_function_3, quasi_interpolation_reproduces_polynomials_up_to_its_degree_and_to_the_border) {
+  expect_reproduction<5>(unit_lattice(6, 7, 11), 1);
+  expect_reproduction<7>(unit_lattice(8, 9, 13), 1);
+  expect_reproduction<9>(unit_lattice(10, 11, 15), 1);
+}
+
+TEST(Spline_function_3, derivatives_are_those_in_space_for_a_rotated_anisotropic_left_handed_lattice) {
+  ASSERT_LT(skew_lattice(8, 8, 8).determinant(), 0);
+  const auto inverse = skew_lattice(8, 8, 8).transformation().inverse();
+  double row_sum = 0;
+  for (int row = 0; row < 3; ++row)
+    row_sum =
+        std::max(row_sum, std::abs(inverse.m(row, 0)) + std::abs(inverse.m(row, 1)) + std::abs(inverse.m(row, 2)));
+  expect_reproduction<5>(skew_lattice(11, 6, 7), row_sum);
+  expect_reproduction<7>(skew_lattice(13, 8, 9), row_sum);
+  expect_reproduction<9>(skew_lattice(15, 10, 11), row_sum);
+}
+
+TEST(Spline_function_3, quasi_interpolation_has_order_degree_plus_one_and_minus_three_for_fourth_derivatives) {
+  expect_orders(5, Spline_scheme::QUASI_INTERPOLATION, 32, 6, 2);
+  expect_orders(7, Spline_scheme::QUASI_INTERPOLATION, 24, 8, 4);
+  expect_orders(9, Spline_scheme::QUASI_INTERPOLATION, 12, 10, 6);
+}
+
+TEST(Spline_function_3, convolution_has_order_two) {
+  expect_orders(5, Spline_scheme::CONVOLUTION, 32, 2, 2);
+  expect_orders(7, Spline_scheme::CONVOLUTION, 32, 2, 2);
+  const double error = errors_of_wave(64, 7, Spline_scheme::CONVOLUTION).value;
+  EXPECT_GT(error, 100 * errors_of_wave(64, 7, Spline_scheme::QUASI_INTERPOLATION).value);
+}
+
+TEST(Spline_function_3, convolution_takes_the_samples_as_coefficients) {
+  // One sample 1 in the middle of zeros: the B-spline itself, of degree 5 with values 66, 26, 1 over 120 at integers.
+  Volume_3 volume{unit_lattice(15, 15, 15), std::vector<double>(15 * 15 * 15)};
+  volume.values[volume.lattice.index(7, 7, 7)] = 1;
+  const Spline_function_3 spline(volume, 5, Spline_scheme::CONVOLUTION);
+  EXPECT_NEAR(spline.value(Point_3(7, 7, 7)), std::pow(66.0 / 120, 3), 8 * epsilon);
+  EXPECT_NEAR(spline.value(Point_3(8, 5, 7)), 26.0 * 1 * 66 / (120 * 120 * 120), 8 * epsilon);
+  EXPECT_EQ(spline.value(Point_3(10, 7, 7)), 0);
+}
+
+TEST(Spline_function_3, the_expansion_is_that_of_the_value) {
+  // Rough data have large fifth derivatives; the remainder of order 5 is seen as the slope of |value - expansion|.
+  for (const int degree : {7, 9}) {
+    const Lattice_3 lattice = skew_lattice(12, 13, 14);
+    const Spline_function_3 spline(random_volume(lattice), degree);
+    for (const Point_3& p : {lattice.point(5.5, 6.25, 7), lattice.point(1.2, 11.1, 6.4), lattice.point(9.9, 3, 0.7)}) {
+      const Jet_3 jet = spline.taylor(p);
+      const auto remainder = [&](double h) {
+        const Vector_3 d(0.6 * h, -0.5 * h, 0.7 * h);
+        double sum = 0;
+        for (std::size_t n = 0; n < 35; ++n) {
+          const auto [i, j, k] = equiaffine::internal::monomials[n];
+          sum += jet.coefficients()[n] * std::pow(d.x(), i) * std::pow(d.y(), j) * std::pow(d.z(), k);
+        }
+        return std::abs(spline.value(p + d) - sum);
+      };
+      EXPECT_NEAR(std::log2(remainder(1.0 / 128) / remainder(1.0 / 256)), 5, 0.5) << degree << ' ' << p;
+    }
+  }
+}
+
+TEST(Spline_function_3, lower_orders_are_the_first_coefficients_of_the_expansion) {
+  const Lattice_3 lattice = skew_lattice(10, 11, 12);
+  const Spline_function_3 spline(random_volume(lattice));
+  const auto bounds = rounding_bounds<7>(0.5, 4);
+  for (const Point_3& p : points_of(lattice)) {
+    const Jet_3 jet = spline.taylor(p);
+    const auto gradient = spline.taylor<1>(p);
+    EXPECT_NEAR(spline.value(p), jet.value(), bounds[0]);
+    EXPECT_NEAR(gradient.value(), jet.value(), bounds[0]);
+    for (std::size_t n = 1; n < 4; ++n) EXPECT_NEAR(gradient.coefficients()[n], jet.coefficients()[n], bounds[1]);
+  }
+}
+
+TEST(Spline_function_3, the_whole_lattice_and_nothing_else_is_inside) {
+  // Far from the origin, so that rounding puts border points on either side.
+  const Lattice_3 lattice({8, 9, 10}, Point_3(1000.1, -2000.2, 3000.3),
+                          {Vector_3(0.3, 0.4, 0), Vector_3(-0.4, 0.3, 0.1), Vector_3(0, 0.1, 0.3)});
+  const Spline_function_3 spline(random_volume(lattice));
+  for (const Point_3& p : points_of(lattice)) EXPECT_TRUE(all_finite(spline.taylor(p))) << p;
+  for (const double out : {-1e-6, 1e-6})
+    for (int axis = 0; axis < 3; ++axis) {
+      std::array<double, 3> u = {3, 4, 5};
+      u[std::size_t(axis)] = out < 0 ? out : double(lattice.size()[std::size_t(axis)] - 1) + out;
+      EXPECT_TRUE(all_nan(spline.taylor(lattice.point(u[0], u[1], u[2]))));
+      EXPECT_TRUE(std::isnan(spline.value(lattice.point(u[0], u[1], u[2]))));
+    }
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(all_nan(spline.taylor(Point_3(nan, 0, 0))));
+  EXPECT_TRUE(all_nan(spline.taylor(Point_3(infinity, 0, 0))));
+}
+
+TEST(Spline_function_3, an_axis_with_no_more_nodes_than_the_degree_leaves_everything_outside) {
+  for (const auto& [degree, nodes] : {std::array<std::size_t, 2>{5, 5}, {7, 7}, {7, 2}}) {
+    const Lattice_3 lattice = unit_lattice(12, nodes, 12);
+    const Spline_function_3 spline(random_volume(lattice), int(degree));
+    EXPECT_TRUE(all_nan(spline.taylor(Point_3(5, 0.5, 5))));
+    EXPECT_EQ(spline.bounds(CGAL::Bbox_3(5, 0.5, 5, 6, 0.6, 6)), equiaffine::Interval::whole());
+  }
+  EXPECT_TRUE(all_nan(Spline_function_3(random_volume(unit_lattice(2, 2, 2))).taylor(Point_3(0.5, 0.5, 0.5))));
+}
+
+TEST(Spline_function_3, points_whose_samples_include_one_without_a_value_are_outside) {
+  // Degree 7: a sample reaches 3 coefficients to each side by the filter, a coefficient 4 cells.
+  for (const double missing : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Volume_3 volume = random_volume(unit_lattice(30, 30, 30));
+    volume.values[volume.lattice.index(15, 15, 15)] = missing;
+    const Spline_function_3 spline(volume, 7);
+    for (const Point_3& p : {Point_3(15, 15, 15), Point_3(8.01, 15, 15), Point_3(21.99, 21.99, 21.99)}) {
+      EXPECT_TRUE(all_nan(spline.taylor(p))) << p;
+      EXPECT_TRUE(std::isnan(spline.value(p))) << p;
+    }
+    for (const Point_3& p : {Point_3(7.99, 15, 15), Point_3(15, 22.01, 15), Point_3(15, 15, 7.99)}) {
+      EXPECT_TRUE(all_finite(spline.taylor(p))) << p;
+      EXPECT_TRUE(std::isfinite(spline.value(p))) << p;
+    }
+  }
+}
+
+TEST(Spline_function_3, bounds_enclose_the_values_in_a_box) {
+  for (const Lattice_3& lattice : {unit_lattice(10, 11, 12), skew_lattice(20, 20, 20)}) {
+    const Spline_function_3 spline(random_volume(lattice));
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> coordinate(0.3, 0.7), unit(0, 1);
+    for (int n = 0; n < 200; ++n) {
+      CGAL::Bbox_3 box;
+      for (int corner = 0; corner < 2; ++corner) {
+        std::array<double, 3> u;
+        for (std::size_t a = 0; a < 3; ++a) u[a] = coordinate(random) * double(lattice.size()[a] - 1);
+        box += lattice.point(u[0], u[1], u[2]).bbox();
+      }
+      const auto bounds = spline.bounds(box);
+      for (int m = 0; m < 20; ++m) {
+        const Point_3 p(box.xmin() + unit(random) * box.x_span(), box.ymin() + unit(random) * box.y_span(),
+                        box.zmin() + unit(random) * box.z_span());
+        const double value = spline.value(p);
+        if (std::isnan(value)) EXPECT_EQ(bounds, equiaffine::Interval::whole());
+        else EXPECT_TRUE(bounds.contains(value)) << p;
+      }
+    }
+  }
+}
+
+TEST(Spline_function_3, bounds_are_tight_where_the_coefficients_are_and_the_whole_line_outside) {
+  Volume_3 volume = sample(unit_lattice(20, 20, 20), [](double x, double, double) { return x < 10 ? 3.0 : -5.0; });
+  const Spline_function_3 spline(volume, 7, Spline_scheme::CONVOLUTION);
+  const auto constant = spline.bounds(CGAL::Bbox_3(1, 1, 1, 2, 2, 2));
+  EXPECT_TRUE(constant.contains(3));
+  EXPECT_LT(constant.upper() - constant.lower(), 1e-12);
+  const auto jump = spline.bounds(CGAL::Bbox_3(1, 1, 1, 12, 2, 2));
+  EXPECT_NEAR(jump.lower(), -5, 1e-12);
+  EXPECT_NEAR(jump.upper(), 3, 1e-12);
+  EXPECT_EQ(spline.bounds(CGAL::Bbox_3(1, 1, 1, 2, 2, 19.5)), equiaffine::Interval::whole());
+  EXPECT_NE(spline.bounds(volume.lattice.bbox()), equiaffine::Interval::whole());
+  volume.values[volume.lattice.index(10, 10, 10)] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(Spline_function_3(volume).bounds(CGAL::Bbox_3(8, 8, 8, 9, 9, 9)), equiaffine::Interval::whole());
+}
+
+#ifdef CGAL_LINKED_WITH_TBB
+TEST(Spline_function_3, the_coefficients_do_not_depend_on_threads) {
+  const Lattice_3 lattice = skew_lattice(21, 33, 18);
+  const Volume_3 volume = random_volume(lattice);
+  const Spline_function_3 one(volume, 7, Spline_scheme::QUASI_INTERPOLATION, CGAL::Sequential_tag());
+  const Spline_function_3 many(volume, 7, Spline_scheme::QUASI_INTERPOLATION, CGAL::Parallel_tag());
+  for (const Point_3& p : points_of(lattice)) EXPECT_EQ(one.taylor(p).coefficients(), many.taylor(p).coefficients());
+}
+#endif

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/io/color_map.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+#include <tuple>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::tuple<int, int, int> rgb(const CGAL::IO::Color& color) { return {color.red(), color.green(), color.blue()}; }
+
+std::vector<double> integers(int first, int last) {
+  std::vector<double> values;
+  for (int i = first; i <= last; ++i) values.push_back(i);
+  std::shuffle(values.begin(), values.end(), std::mt19937(7));
+  return values;
+}
+
+/// CIE 1976 lightness, a measure other than the one the maps are made of.
+double lightness(const CGAL::IO::Color& color) {
+  const auto linear = [](unsigned char byte) {
+    const double x = byte / 255.;
+    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+  };
+  const double y = 0.2126 * linear(color.red()) + 0.7152 * linear(color.green()) + 0.0722 * linear(color.blue());
+  return 116 * std::cbrt(y) - 16;
+}
+
+TEST(Color_map, quantiles_interpolate_between_order_statistics) {
+  std::vector<double> values = {40, 10, 30, 20};
+  EXPECT_EQ(quantile(values, 0), 10);
+  EXPECT_EQ(quantile(values, 50), 25);
+  EXPECT_EQ(quantile(values, 100), 40);
+  EXPECT_DOUBLE_EQ(quantile(values, 10), 13);
+  std::vector<double> one = {5};
+  EXPECT_EQ(quantile(one, 37), 5);
+}
+
+TEST(Color_map, numbers_of_both_signs_get_a_range_centred_at_zero) {
+  const Color_range range = color_range(integers(-20, 100), 0);
+  EXPECT_EQ(range.lower, -100);
+  EXPECT_EQ(range.upper, 100);
+  EXPECT_TRUE(range.is_diverging);
+}
+
+TEST(Color_map, numbers_of_one_sign_get_the_range_between_their_quantiles) {
+  const Color_range positive = color_range(integers(0, 100), 2);
+  EXPECT_FALSE(positive.is_diverging);
+  EXPECT_DOUBLE_EQ(positive.lower, 2);
+  EXPECT_DOUBLE_EQ(positive.upper, 98);
+  const Color_range negative = color_range(integers(-100, 0), 5);
+  EXPECT_FALSE(negative.is_diverging);
+  EXPECT_DOUBLE_EQ(negative.lower, -95);
+  EXPECT_DOUBLE_EQ(negative.upper, -5);
+}
+
+TEST(Color_map, a_few_outliers_do_not_change_the_range_much) {
+  std::vector<double> values = integers(-1000, 1000);
+  const double before = color_range(values).upper;
+  values.insert(values.end(), {1e12, -1e15, 1e300});
+  EXPECT_NEAR(color_range(values).upper, before, 2);
+}
+
+TEST(Color_map, numbers_that_do_not_exist_do_not_count) {
+  std::vector<double> values = integers(-50, 80);
+  const Color_range range = color_range(values, 3);
+  values.insert(values.end(), {nan, infinity, -infinity});
+  EXPECT_EQ(color_range(values, 3), range);
+}
+
+TEST(Color_map, no_numbers_at_all_still_give_a_range) {
+  for (const std::vector<double>& values : {std::vector<double>{}, {nan, infinity}, {0, 0, 0}}) {
+    const Color_range range = color_range(values);
+    EXPECT_LT(range.lower, range.upper);
+    EXPECT_GT(range.knee, 0);
+  }
+}
+
+TEST(Color_map, rounding_noise_around_zero_looks_like_zero) {
+  const Color_range range = color_range({1e-15, -2e-15, 3e-16, 5e-15}, 0, 1e-9);
+  EXPECT_TRUE(range.is_diverging);
+  EXPECT_EQ(rgb(map_color(5e-15, range)), rgb(diverging_color(0)));
+}
+
+TEST(Color_map, a_constant_up_to_rounding_has_one_colour) {
+  const std::vector<double> values = {-0.55, -0.55 + 1e-13, -0.55 - 1e-13};
+  const Color_range range = color_range(values, 0, 1e-9);
+  for (const double value : values) EXPECT_EQ(rgb(map_color(value, range)), rgb(sequential_color(0.5)));
+}
+
+TEST(Color_map, noise_of_the_other_sign_does_not_make_a_quantity_signed) {
+  std::vector<double> values = integers(0, 100);
+  values.push_back(-1e-9);
+  EXPECT_FALSE(color_range(values).is_diverging);
+  values.push_back(-1);
+  EXPECT_TRUE(color_range(values).is_diverging);
+}
+
+TEST(Color_map, mostly_zeros_keep_the_few_numbers_visible) {
+  std::vector<double> values(1000, 0.);
+  values[3] = 4;
+  values[5] = -1;
+  EXPECT_EQ(color_range(values).upper, 4);
+}
+
+TEST(Color_map, diverging_positions_are_odd_monotone_and_end_at_one) {
+  const Color_range range{-4, 4, 0.1, true};
+  for (const Color_scale scale : {Color_scale::LINEAR, Color_scale::ASINH}) {
+    double previous = -1;
+    for (double value = -4; value <= 4; value += 0.125) {
+      const double t = map_position(value, range, scale);
+      EXPECT_EQ(t, -map_position(-value, range, scale));
+      if (value > -4) {
+        EXPECT_GT(t, previous);
+      }
+      previous = t;
+    }
+    EXPECT_EQ(map_position(0, range, scale), 0);
+    EXPECT_EQ(map_position(4, range, scale), 1);
+    EXPECT_EQ(map_position(infinity, range, scale), 1);
+    EXPECT_EQ(map_position(-1e300, range, scale), -1);
+  }
+}
+
+TEST(Color_map, sequential_positions_run_from_zero_to_one) {
+  const Color_range range{2, 10, 3, false};
+  for (const Color_scale scale : {Color_scale::LINEAR, Color_scale::ASINH}) {
+    EXPECT_EQ(map_position(1, range, scale), 0);
+    EXPECT_EQ(map_position(2, range, scale), 0);
+    EXPECT_EQ(map_position(10, range, scale), 1);
+    double previous = 0;
+    for (double value = 2.25; value <= 10; value += 0.25) {
+      EXPECT_GT(map_position(value, range, scale), previous);
+      previous = map_position(value, range, scale);
+    }
+  }
+}
+
+TEST(Color_map, asinh_gives_equal_steps_to_equal_ratios_far_above_the_knee) {
+  const Color_range range{-1e6, 1e6, 1, true};
+  const auto t = [&](double value) { return map_position(value, range, Color_scale::ASINH); };
+  // asinh(x) = log(2 x) + O(x^-2): from x = 1e3 on the steps of a decade differ by less than 1e-6.
+  EXPECT_NEAR(t(1e4) - t(1e3), t(1e6) - t(1e5), 1e-6);
+  // asinh(x) = x + O(x^3)
+  EXPECT_NEAR(t(2e-3) / t(1e-3), 2, 1e-5);
+}
+
+TEST(Color_map, both_maps_stay_within_what_a_screen_can_show) {
+  for (int i = -1000; i <= 1000; ++i) {
+    const double t = i / 1000.;
+    for (const auto& linear : {internal::diverging_linear_rgb(t), internal::sequential_linear_rgb(std::abs(t))})
+      for (const double component : linear) {
+        EXPECT_GE(component, 0) << "t = " << t;
+        EXPECT_LE(component, 1) << "t = " << t;
+      }
+  }
+}
+
+TEST(Color_map, the_diverging_map_is_neutral_at_zero_and_as_dark_on_both_sides) {
+  const auto center = diverging_color(0);
+  const auto [least, greatest] = std::minmax({center.red(), center.green(), center.blue()});
+  EXPECT_LE(greatest - least, 1);
+  EXPECT_GT(diverging_color(1).red(), diverging_color(1).blue());
+  EXPECT_LT(diverging_color(-1).red(), diverging_color(-1).blue());
+  for (int i = 1; i <= 20; ++i) {
+    const double t = i / 20.;
+    EXPECT_LT(lightness(diverging_color(t)), lightness(diverging_color(t - 0.05)));
+    EXPECT_LT(lightness(diverging_color(-t)), lightness(diverging_color(0.05 - t)));
+    // Oklab's lightness and CIE's differ by a few units for saturated colours.
+    EXPECT_NEAR(lightness(diverging_color(t)), lightness(diverging_color(-t)), 8);
+  }
+}
+
+TEST(Color_map, the_sequential_map_darkens_steadily) {
+  for (int i = 1; i <= 50; ++i)
+    EXPECT_LT(lightness(sequential_color(i / 50.)), lightness(sequential_color((i - 1) / 50.)));
+}
+
+TEST(Color_map, known_colours_of_oklab) {
+  // Ottosson's reference values: Oklab of sRGB white is (1, 0, 0), of red (0.627955, 0.224863, 0.125846).
+  EXPECT_EQ(rgb(internal::color_from_linear_rgb(internal::linear_rgb_from_oklch(1, 0, 0))), std::tuple(255, 255, 255));
+  const double hue = std::atan2(0.125846, 0.224863) * 180 / 3.141592653589793;
+  const auto red = internal::linear_rgb_from_oklch(0.627955, std::hypot(0.224863, 0.125846), hue);
+  EXPECT_NEAR(red[0], 1, 1e-5);
+  EXPECT_NEAR(red[1], 0, 1e-5);
+  EXPECT_NEAR(red[2], 0, 1e-5);
+}
+
+TEST(Color_map, a_missing_number_is_grey_in_both_maps) {
+  EXPECT_EQ(rgb(map_color(nan, {-1, 1, 1, true})), rgb(undefined_color()));
+  EXPECT_EQ(rgb(map_color(nan, {0, 1, 1, false}, Color_scale::ASINH)), rgb(undefined_color()));
+}
+
+TEST(Color_map, every_status_has_its_own_colour_away_from_both_maps) {
+  std::set<std::tuple<int, int, int>> colors = {rgb(undefined_color())};
+  for (std::size_t i = 0; i < number_of_point_statuses; ++i)
+    colors.insert(rgb(status_color(static_cast<Point_status>(i))));
+  EXPECT_EQ(colors.size(), number_of_point_statuses + 1);
+
+  const auto difference = [](const CGAL::IO::Color& a, const CGAL::IO::Color& b) {
+    return std::hypot(a.red() - b.red(), a.green() - b.green(), a.blue() - b.blue());
+  };
+  for (std::size_t i = 1; i < number_of_point_statuses; ++i)
+    for (int k = -100; k <= 100; ++k) {
+      const auto color = status_color(static_cast<Point_status>(i));
+      EXPECT_GT(difference(color, diverging_color(k / 100.)), 40);
+      EXPECT_GT(difference(color, sequential_color(std::abs(k) / 100.)), 40);
+    }
+}
+
+} // namespace

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/Expression_3.h>
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/Sampled_function_traits_3.h>
+#include <equiaffine/Transformed_function_traits_3.h>
+#include <equiaffine/annotate.h>
+#include <equiaffine/marching_cubes.h>
+#include <equiaffine/mesh_topology.h>
+
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace {
+
+using namespace equiaffine;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point_3 = Kernel::Point_3;
+
+struct Surface {
+  const char *name, *expression;
+  double half_side;
+  long components, euler_characteristic;
+};
+
+const std::array<Surface, 4> surfaces = {
+    {{"sphere", "x^2+y^2+z^2-1", 1.3, 1, 2},
+     {"torus", "z^2+(sqrt(x^2+y^2)-0.5)^2-0.04", 0.8, 1, 0},
+     {"blobby", "(3*x)^4+(3*y)^4+(3*z)^4-45*x^2-45*y^2-45*z^2+6", 1.2, 2, 4},
+     {"tanglecube", "x^4-5*x^2+y^4-5*y^2+z^4-5*z^2+11.8", 3, 1, -8}}};
+
+auto traits_of(const Surface& s) {
+  const double b = s.half_side;
+  return make_analytic_traits<Kernel>(Expression_3(s.expression), CGAL::Bbox_3(-b, -b, -b, b, b, b));
+}
+
+Mesh_topology topology(const Isosurface_3<Kernel>& surface) {
+  return mesh_topology(surface.triangles, surface.points.size());
+}
+
+TEST(Marching_cubes, closed_surfaces_are_closed_manifolds_with_the_right_topology) {
+  for (const Surface& s : surfaces) {
+    const auto t = topology(marching_cubes(traits_of(s)));
+    EXPECT_TRUE(t.is_manifold) << s.name;
+    EXPECT_EQ(t.boundary_edges, 0) << s.name;
+    EXPECT_EQ(t.components, s.components) << s.name;
+    EXPECT_EQ(t.euler_characteristic, s.euler_characteristic) << s.name;
+  }
+}
+
+TEST(Marching_cubes, projected_vertices_lie_on_the_surface_to_rounding) {
+  for (const Surface& s : surfaces) {
+    const auto traits = traits_of(s);
+    const auto surface = marching_cubes(traits);
+    const double diagonal = 2 * std::sqrt(3.0) * s.half_side;
+    for (const Point_3& p : surface.points)
+      ASSERT_LE(distance_estimate(first_order(traits, p)), 1e-13 * diagonal) << s.name << " at " << p;
+    for (Point_status status : surface.vertex_status) ASSERT_EQ(status, Point_status::REGULAR);
+  }
+}
+
+TEST(Marching_cubes, curvatures_at_the_vertices_are_those_of_50_digits) {
+  using Number = boost::multiprecision::cpp_bin_float_50;
+  for (const Surface& s : surfaces) {
+    const auto traits = traits_of(s);
+    const auto surface = marching_cubes(traits, parameters::number_of_nodes(24));
+    const double diagonal_squared = 12 * s.half_side * s.half_side;
+    int compared = 0;
+    for (const Point_3& p : surface.points) {
+      const auto structure = local_structure_at(traits, p);
+      const auto exact = local_structure(
+          internal::expand<4, Number>(traits.function(), Number(p.x()), Number(p.y()), Number(p.z())));
+      const double K = double(exact.affine.gaussian_curvature), H = double(exact.affine.mean_curvature);
+      const double K_e = double(exact.euclidean.gaussian_curvature);
+      if (!(std::abs(K_e) * diagonal_squared > 1e-2)) continue;
+      ++compared;
+      const double S = std::abs(K) + H * H + std::pow(std::abs(K_e), 1.5);
+      ASSERT_EQ(structure.status, Point_status::REGULAR);
+      ASSERT_NEAR(structure.affine.gaussian_curvature, K, 1e-9 * S) << s.name << " at " << p;
+      ASSERT_NEAR(structure.affine.mean_curvature, H, 1e-9 * std::sqrt(S)) << s.name << " at " << p;
+    }
+    EXPECT_GT(compared, 900) << s.name;
+  }
+}
+
+TEST(Marching_cubes, triangles_are_counterclockwise_seen_from_the_side_of_the_gradient) {
+  const auto traits = traits_of(surfaces[0]);
+  const Kernel::Aff_transformation_3 reflection(1, 0, 0, 0, 1, 0, 0, 0, -1);
+  const auto volume = [](const Isosurface_3<Kernel>& surface) { return CGAL::Polygon_mesh_processing::volume(to_surface_mesh(surface)); };
+  const double ball = 4 * CGAL_PI / 3;
+  EXPECT_NEAR(volume(marching_cubes(traits)), ball, 0.01 * ball);
+  EXPECT_NEAR(volume(marching_cubes(Transformed_function_traits_3(traits, reflection))), ball, 0.01 * ball);
+  EXPECT_NEAR(volume(marching_cubes(Level_set_traits_3(traits, 0.0, Orientation_of_level_set::AGAINST_GRADIENT))), -ball,
+              0.01 * ball);
+}
+
+TEST(Marching_cubes, the_image_of_a_surface_has_the_images_of_its_vertices) {
+  const auto traits = traits_of(surfaces[2]);
+  const Kernel::Aff_transformation_3 map(0.9, 0, 0.9, 0, 2, 0, 1.1, 0, 0.6);
+  const auto surface = marching_cubes(traits, parameters::number_of_nodes(20));
+  const auto image = marching_cubes(Transformed_function_traits_3(traits, map), parameters::number_of_nodes(20));
+  ASSERT_EQ(surface.points.size(), image.points.size());
+  for (std::size_t i = 0; i < surface.points.size(); ++i)
+    EXPECT_LE(CGAL::squared_distance(map(surface.points[i]), image.points[i]), 1e-24);
+}
+
+TEST(Marching_cubes, linear_vertices_converge_with_order_two_and_projected_ones_are_exact) {
+  const auto traits = traits_of(surfaces[0]);
+  const auto worst = [&](std::size_t n) {
+    double distance = 0;
+    const auto surface = marching_cubes(traits, parameters::number_of_nodes(n).vertex_position(Vertex_position::LINEAR));
+    for (const Point_3& p : surface.points) distance = std::max(distance, std::abs(std::sqrt((p - CGAL::ORIGIN).squared_length()) - 1));
+    return distance;
+  };
+  EXPECT_NEAR(std::log2(worst(33) / worst(65)), 2, 0.2);
+}
+
+TEST(Marching_cubes, threads_change_nothing) {
+  const auto traits = traits_of(surfaces[3]);
+  const auto one = marching_cubes<CGAL::Sequential_tag>(traits), many = marching_cubes<CGAL::Parallel_tag>(traits);
+  EXPECT_EQ(one.points, many.points);
+  EXPECT_EQ(one.triangles, many.triangles);
+  EXPECT_EQ(one.function_evaluations, many.function_evaluations);
+}
+
+Volume_3<Kernel> random_volume(std::size_t n, std::mt19937& random, const std::vector<double>& values) {
+  Volume_3<Kernel> volume{Lattice_3<Kernel>({n, n, n}, CGAL::Bbox_3(0, 0, 0, 1, 1, 1)), {}};
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t i = 0; i < n; ++i) {
+        const bool is_border = i == 0 || j == 0 || k == 0 || i == n - 1 || j == n - 1 || k == n - 1;
+        volume.values.push_back(is_border ? 1.0 : values[random() % values.size()]);
+      }
+  return volume;
+}
+
+// Random signs make every case of a cell and every pair of cases across a face; values at the isovalue are the hardest.
+TEST(Marching_cubes, random_volumes_give_closed_manifolds) {
+  std::mt19937 random(11);
+  for (int n = 0; n < 300; ++n)
+    for (const auto& values : {std::vector{-0.7, -0.1, 0.2, 0.9}, std::vector{-1.0, -0.5, 0.0, 0.5, 1.0}}) {
+      const Sampled_function_traits_3<Kernel> traits(random_volume(7, random, values));
+      const auto t = topology(marching_cubes(traits));
+      ASSERT_TRUE(t.is_manifold) << "volume " << n;
+      ASSERT_EQ(t.boundary_edges, 0) << "volume " << n;
+    }
+}
+
+TEST(Marching_cubes, all_256_cases_occur_and_fit_together) {
+  const auto& cases = internal::Marching_cubes_cases::instance();
+  for (unsigned signs = 1; signs < 255; ++signs) {
+    Volume_3<Kernel> volume{Lattice_3<Kernel>({4, 4, 4}, CGAL::Bbox_3(0, 0, 0, 1, 1, 1)), std::vector<double>(64, 1.0)};
+    for (unsigned c = 0; c < 8; ++c)
+      volume.values[volume.lattice.index(1 + (c & 1), 1 + (c >> 1 & 1), 1 + (c >> 2))] = signs >> c & 1 ? 1 : -1;
+    const auto t = topology(marching_cubes(Sampled_function_traits_3<Kernel>(volume)));
+    EXPECT_TRUE(t.is_manifold && t.boundary_edges == 0) << signs;
+    EXPECT_FALSE(cases[signs].empty()) << signs;
+  }
+  EXPECT_TRUE(cases[0].empty() && cases[255].empty());
+}
+
+TEST(Marching_cubes, nodes_without_a_value_leave_a_clean_border) {
+  std::mt19937 random(5);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  int with_border = 0;
+  for (int n = 0; n < 100; ++n) {
+    const Sampled_function_traits_3<Kernel> traits(random_volume(7, random, {-1.0, -0.3, 0.4, 0.8, nan}));
+    const auto surface = marching_cubes(traits);
+    with_border += topology(surface).boundary_edges > 0;
+    std::vector<bool> is_used(surface.points.size());
+    for (const auto& triangle : surface.triangles)
+      for (auto v : triangle) is_used[v] = true;
+    EXPECT_EQ(std::count(is_used.begin(), is_used.end(), false), 0) << "a vertex without a triangle";
+    for (const Point_3& p : surface.points) EXPECT_TRUE(std::isfinite(p.x() + p.y() + p.z()));
+  }
+  EXPECT_GT(with_border, 50);
+}
+
+TEST(Marching_cubes, a_surface_that_leaves_the_box_has_a_boundary_there) {
+  const auto traits = make_analytic_traits<Kernel>(Expression_3("x^2+y^2-0.3"), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  const auto surface = marching_cubes(traits, parameters::number_of_nodes({20, 22, 24}));
+  const auto t = topology(surface);
+  EXPECT_TRUE(t.is_manifold);
+  EXPECT_EQ(t.euler_characteristic, 0);
+  EXPECT_GT(t.boundary_edges, 0);
+}
+
+TEST(Marching_cubes, poles_and_jumps_are_not_taken_for_surfaces) {
+  for (const char* text : {"1/(x-0.01)", "(x-0.01)/abs(x-0.01)"}) {
+    const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+    const auto surface = marching_cubes(traits, parameters::number_of_nodes(8));
+    EXPECT_FALSE(surface.points.empty());
+    for (Point_status status : surface.vertex_status) EXPECT_EQ(status, Point_status::UNCONVERGED) << text;
+  }
+}
+
+TEST(Marching_cubes, a_sample_that_disagrees_with_its_spline_still_gets_a_vertex_on_the_splines_surface) {
+  // Convolution smooths a single negative sample away: the mesh is that of the samples, its vertices are unconverged.
+  Volume_3<Kernel> volume{Lattice_3<Kernel>({12, 12, 12}, CGAL::Bbox_3(0, 0, 0, 11, 11, 11)), std::vector<double>(1728, 1.0)};
+  volume.values[volume.lattice.index(6, 6, 6)] = -0.5;
+  const auto surface = marching_cubes(Sampled_function_traits_3<Kernel>(volume, 5, Spline_scheme::CONVOLUTION));
+  EXPECT_EQ(surface.points.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(surface.vertex_status[i], Point_status::UNCONVERGED);
+}
+
+TEST(Project_to_surface, it_finds_the_nearby_zero_and_says_when_there_is_none) {
+  const auto sphere = traits_of(surfaces[0]);
+  const auto p = project_to_surface(sphere, Point_3(0.8, 0.9, 0.1), 1.0);
+  EXPECT_TRUE(p.has_converged);
+  EXPECT_NEAR((p.point - CGAL::ORIGIN).squared_length(), 1, 1e-15);
+  EXPECT_FALSE(project_to_surface(sphere, Point_3(3, 0, 0), 1.0).has_converged);
+  EXPECT_FALSE(project_to_surface(sphere, Point_3(0, 0, 0), 2.0).has_converged) << "no direction at a critical point";
+}
+
+} // namespace

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "progress.h"
+#include "run_program.h"
+#include "volume_io.h"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine::test;
+using Arguments = std::vector<std::string>;
+using Json = nlohmann::json;
+
+/// 1000 roundings: enough for every number compared here, at points where the invariants are well conditioned.
+constexpr double rounding = 1000 * std::numeric_limits<double>::epsilon();
+
+const Arguments sphere = {"--function", "x^2 + y^2 + z^2 = 1", "--box", "-1.5", "1.5", "-1.5", "1.5", "-1.5", "1.5"};
+const Arguments ellipsoid = {"--function", "x^2/4 + y^2 + 2*z^2 + x*y/3 = 1"};
+const std::string basic_names = "nx,ny,nz,k1,k2,gaussian_curvature,mean_curvature,conormal_x,conormal_y,conormal_z,"
+                                "affine_normal_x,affine_normal_y,affine_normal_z,affine_gaussian_curvature,"
+                                "affine_mean_curvature,pick_invariant";
+const std::string further_names =
+    "affine_k1,affine_k2,direction1_x,direction1_y,direction1_z,direction2_x,direction2_y,"
+    "direction2_z,metric_xx,metric_xy,metric_xz,metric_yy,metric_yz,metric_zz";
+
+Arguments operator+(Arguments first, const Arguments& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+Arguments split(const std::string& text, char separator) {
+  Arguments parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+  return parts;
+}
+
+/// The rows of a CSV text by the names of its header.
+std::vector<std::map<std::string, std::string>> rows(const std::string& text) {
+  std::vector<std::map<std::string, std::string>> table;
+  const Arguments lines = split(text, '\n'), header = split(lines.at(0), ',');
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const Arguments cells = split(lines[i], ',');
+    EXPECT_EQ(cells.size(), header.size()) << lines[i];
+    table.emplace_back();
+    for (std::size_t c = 0; c < cells.size(); ++c) table.back()[header[c]] = cells[c];
+  }
+  return table;
+}
+
+class Program_command_line : public Program_test {
+protected:
+  Json stats_of(const Arguments& arguments) {
+    run_well(Arguments{"mesh", "-o", "stats.off", "--stats", "stats.json"} + arguments);
+    return Json::parse(file("stats.json"));
+  }
+
+  void expect_surface(const std::string& expression, double half_side, int components, int euler_characteristic) {
+    const std::string low = std::to_string(-half_side), high = std::to_string(half_side);
+    for (const char* attributes : {"basic", "none"}) {
+      const Json stats =
+          stats_of({"--function", expression, "--box", low, high, low, high, low, high, "--attributes", attributes});
+      EXPECT_EQ(stats["components"], components) << expression;
+      EXPECT_EQ(stats["euler_characteristic"], euler_characteristic) << expression;
+      EXPECT_EQ(stats["boundary_edges"], 0) << expression;
+      EXPECT_EQ(stats["manifold"], true) << expression;
+      EXPECT_LE(stats["max_distance_to_surface"], 1e-13 * 2 * half_side * std::sqrt(3))
+          << expression; // the contract's limit
+      EXPECT_EQ(stats["status"]["unconverged"], 0) << expression;
+    }
+  }
+
+  std::map<std::string, std::string> evaluate(const Arguments& arguments, const std::string& point) {
+    const auto table =
+        rows(run_well(Arguments{"evaluate", "--attributes", "all", "--points", "-", "-o", "-"} + arguments,
+                      "x,y,z\n" + point + "\n"));
+    EXPECT_EQ(table.size(), 1U);
+    return table.at(0);
+  }
+};
+
+} // namespace
+
+TEST_F(Program_command_line, help_and_version_go_to_standard_output) {
+  EXPECT_NE(run_well({"--help"}).find("Usage: equiaffine COMMAND"), std::string::npos);
+  for (const char* command : {"mesh", "evaluate", "sample", "view"})
+    EXPECT_NE(run_well({command, "--help"}).find("Usage: equiaffine " + std::string(command)), std::string::npos);
+  EXPECT_TRUE(run_well({"--version"}).starts_with("equiaffine "));
+}
+
+TEST_F(Program_command_line, numbers_and_formulas_may_begin_with_a_minus_sign) {
+  const Json plain = stats_of(
+      {"--function", "x^2 + y^2 + z^2 - 0.5", "--box", "-1", "1", "-1", "1", "-1", "1", "--isovalue", "-0.25"});
+  for (const char* isovalue : {"-.25", "-2.5e-1"}) {
+    const Json stats = stats_of({"--function",
+                                 "x^2 + y^2 + z^2 + c",
+                                 "--set",
+                                 "c=-.5",
+                                 "--isovalue",
+                                 isovalue,
+                                 "--transform",
+                                 "-1",
+                                 "0",
+                                 "0",
+                                 "0",
+                                 "-1.0",
+                                 "-.0",
+                                 "-0",
+                                 "0",
+                                 "-1e0",
+                                 "--box",
+                                 "-1",
+                                 "1",
+                                 "-1.0",
+                                 "1",
+                                 "-.1e1",
+                                 "1"});
+    EXPECT_EQ(stats["vertices"], plain["vertices"]);
+    EXPECT_EQ(stats["components"], 1);
+  }
+  EXPECT_EQ(
+      stats_of({"--function", "-x^2 - y^2 - z^2 + 1", "--box=-1.5", "1.5", "-1.5", "1.5", "-1.5", "1.5"})["components"],
+      1);
+}
+
+TEST_F(Program_command_line, known_surfaces_have_their_topology_and_lie_on_the_surface) {
+  expect_surface("x^2 + y^2 + z^2 = 1", 1.5, 1, 2);
+  expect_surface("(x^2 + y^2 + z^2 + 0.75)^2 = 4*(x^2 + y^2)", 2, 1, 0);
+  expect_surface("(3*x)^4 + (3*y)^4 + (3*z)^4 - 45*x^2 - 45*y^2 - 45*z^2 + 6", 1.2, 2, 4);
+  expect_surface("x^4 - 5*x^2 + y^4 - 5*y^2 + z^4 - 5*z^2 + 11.8", 3, 1, -8);
+}
+
+TEST_F(Program_command_line, statistics_have_the_fields_of_the_contract) {
+  const Json stats = stats_of(sphere + Arguments{"--resolution", "16"});
+  for (const char* field :
+       {"vertices", "faces", "components", "euler_characteristic", "boundary_edges", "function_evaluations"})
+    EXPECT_TRUE(stats.at(field).is_number_integer()) << field;
+  EXPECT_TRUE(stats.at("manifold").is_boolean());
+  EXPECT_TRUE(stats.at("max_distance_to_surface").is_number());
+  ASSERT_EQ(stats.at("status").size(), 5U);
+  for (const char* word : {"regular", "parabolic", "singular", "outside", "unconverged"})
+    EXPECT_EQ(stats["status"].at(word), word == std::string("regular") ? stats["vertices"].get<int>() : 0);
+  for (const char* stage : {"sample", "project", "annotate", "write"}) EXPECT_GE(stats.at("seconds").at(stage), 0.);
+  EXPECT_EQ(split(file("stats.off"), '\n').at(1),
+            std::to_string(stats["vertices"].get<int>()) + " " + std::to_string(stats["faces"].get<int>()) + " 0");
+}
+
+TEST_F(Program_command_line, vertices_left_linear_are_off_the_surface_and_regular) {
+  const Json stats = stats_of(sphere + Arguments{"--vertices", "linear"});
+  EXPECT_EQ(stats["status"]["regular"], stats["vertices"]);
+  EXPECT_GT(stats["max_distance_to_surface"], 1e-5); // h^2 / 8 is 3e-4 for spacing h = 3 / 63
+  EXPECT_LT(stats["max_distance_to_surface"], 3e-4);
+}
+
+TEST_F(Program_command_line, a_PLY_has_the_names_of_the_contract_in_order) {
+  run_well(Arguments{"mesh", "-o", "s.ply", "--attributes", "all", "--resolution", "8"} + sphere);
+  const std::string text = file("s.ply"), header = text.substr(0, text.find("end_header\n"));
+  std::string names;
+  for (const std::string& line : split(header, '\n'))
+    if (line.starts_with("property double ")) names += line.substr(16) + ",";
+  EXPECT_EQ(names, "x,y,z," + basic_names + "," + further_names + ",");
+  EXPECT_TRUE(header.starts_with("ply\nformat binary_little_endian 1.0\n"));
+  EXPECT_NE(header.find("metric_zz\nproperty uchar status\nelement face "), std::string::npos);
+  EXPECT_TRUE(header.ends_with("\nproperty list uchar int vertex_indices\n"));
+}
+
+TEST_F(Program_command_line, attributes_can_be_chosen) {
+  const auto header = [&](const Arguments& choice) {
+    run_well(Arguments{"mesh", "-o", "s.csv", "--resolution", "4"} + sphere + choice);
+    return split(file("s.csv"), '\n').at(0);
+  };
+  EXPECT_EQ(header({}), "x,y,z," + basic_names + ",status");
+  EXPECT_EQ(header({"--attributes", "all"}), "x,y,z," + basic_names + "," + further_names + ",status");
+  EXPECT_EQ(header({"--attributes", "none"}), "x,y,z");
+  EXPECT_EQ(header({"--attributes", "k2,normal"}), "x,y,z,nx,ny,nz,k2,status");
+}
+
+TEST_F(Program_command_line, evaluate_keeps_rows_columns_and_order) {
+  const std::string out =
+      run_well({"evaluate", "--function", "x^2 + y^2 + z^2", "--attributes", "k1", "--points", "-", "-o", "-"},
+               "name,z,y,x,k1\nfar,0,0,-4,old\n\"a, b\",1,0,0,old\norigin,0,0,0,old\nfar,0,0,-4,old\n");
+  EXPECT_EQ(out, "name,z,y,x,k1,status\nfar,0,0,-4,-0.25,regular\n\"a, b\",1,0,0,-1,regular\n"
+                 "origin,0,0,0,nan,singular\nfar,0,0,-4,-0.25,regular\n");
+}
+
+TEST_F(Program_command_line, evaluate_writes_PLY_from_CSV_and_back) {
+  write_file(folder_ / "p.csv", "x,y,z,weight\n1,2,3,7\n-1,.5,2,8\n");
+  const Arguments choice = {"--attributes", "mean_curvature"};
+  run_well(Arguments{"evaluate", "--points", "p.csv", "-o", "p.ply"} + ellipsoid + choice);
+  EXPECT_NE(file("p.ply").find("property double weight\nproperty double mean_curvature\nproperty uchar status\n"),
+            std::string::npos);
+  run_well(Arguments{"evaluate", "--points", "p.ply", "-o", "again.csv"} + ellipsoid + choice);
+  run_well(Arguments{"evaluate", "--points", "p.csv", "-o", "direct.csv"} + ellipsoid + choice);
+  const auto again = rows(file("again.csv")), direct = rows(file("direct.csv"));
+  ASSERT_EQ(again.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(again[i].at("mean_curvature"), direct[i].at("mean_curvature"));
+    EXPECT_EQ(std::stod(again[i].at("weight")), std::stod(direct[i].at("weight")));
+  }
+}
+
+TEST_F(Program_command_line, a_transform_changes_affine_curvatures_by_their_weights) {
+  // |det A| = 6; the image of (0.5, 0.6, 0.4) is (1.6, 1.2, 1.2).
+  const auto before = evaluate(ellipsoid, "0.5,0.6,0.4");
+  const auto after =
+      evaluate(ellipsoid + Arguments{"--transform", "2", "1", "0", "0", "-2", "6", "0", "0", "-1.5"}, "1.6,1.2,-.6");
+  const auto ratio = [&](const std::string& name) { return std::stod(after.at(name)) / std::stod(before.at(name)); };
+  EXPECT_NEAR(ratio("affine_gaussian_curvature") * 6, 1, rounding);
+  EXPECT_NEAR(ratio("affine_mean_curvature") * std::sqrt(6), 1, rounding);
+  EXPECT_EQ(after.at("status"), "regular");
+}
+
+TEST_F(Program_command_line, orientation_against_the_gradient_changes_signs) {
+  const auto along = evaluate(ellipsoid, "0.5,0.6,0.4"),
+             against = evaluate(ellipsoid + Arguments{"--orientation", "against"}, "0.5,0.6,0.4");
+  for (const std::string name :
+       {"nx", "mean_curvature", "affine_mean_curvature", "conormal_x", "affine_normal_y", "metric_xx"})
+    EXPECT_DOUBLE_EQ(std::stod(against.at(name)), -std::stod(along.at(name))) << name;
+  for (const std::string name : {"gaussian_curvature", "affine_gaussian_curvature"})
+    EXPECT_DOUBLE_EQ(std::stod(against.at(name)), std::stod(along.at(name))) << name;
+}
+
+TEST_F(Program_command_line, the_number_of_threads_changes_no_bit) {
+  for (const std::string threads : {"1", "2"}) {
+    run_well(Arguments{"mesh", "-o", threads + ".ply", "--html", threads + ".html", "--threads", threads} + sphere);
+    run_well(Arguments{"mesh", "--derivatives", "spline", "--resolution", "24", "-o", threads + ".csv", "--threads",
+                       threads} +
+             sphere);
+  }
+  EXPECT_EQ(file("1.ply"), file("2.ply"));
+  EXPECT_EQ(file("1.html"), file("2.html"));
+  EXPECT_EQ(file("1.csv"), file("2.csv"));
+}
+
+TEST_F(Program_command_line, standard_output_carries_one_file_and_nothing_else) {
+  run_well(Arguments{"mesh", "-o", "s.off", "--resolution", "8"} + sphere);
+  EXPECT_EQ(run_well(Arguments{"mesh", "-o", "-", "--resolution", "8"} + sphere), file("s.off"));
+  run_well(Arguments{"mesh", "-o", "s.off", "--resolution", "8", "--stats", "-"} + sphere);
+  EXPECT_EQ(Json::parse(
+                run_well(Arguments{"mesh", "-o", "s.off", "--resolution", "8", "--stats", "-"} + sphere))["components"],
+            1);
+}
+
+TEST_F(Program_command_line, a_page_is_made_with_the_mesh_or_from_it_later) {
+  run_well(Arguments{"mesh", "-o", "s.ply", "--html", "s.html", "--resolution", "8", "--color", "k1"} + sphere);
+  run_well({"view", "s.ply", "-o", "later.html", "--color", "k1"});
+  const std::string page = file("s.html"), later = file("later.html");
+  const auto data = [](const std::string& text) {
+    const std::size_t begin = text.find("<script type=\"application/json\"");
+    return text.substr(begin);
+  };
+  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
+  EXPECT_NE(page.find("x^2 + y^2 + z^2 = 1"), std::string::npos);
+  EXPECT_EQ(data(page), data(later));
+}
+
+#ifdef EQUIAFFINE_WITH_ITK
+TEST_F(Program_command_line, a_volume_sampled_and_read_again_gives_the_same_surface) {
+  const Arguments surface = {"--resolution", "20",   "18",  "22",   "--function", "x^2 + y^2 + 2*z^2 + x*y = 1",
+                             "--box",        "-1.5", "1.4", "-1.3", "1.6",        "-1",
+                             "1.1"};
+  run_well(Arguments{"mesh", "--derivatives", "spline", "-o", "direct.csv"} + surface);
+  run_well(Arguments{"sample", "-o", "v.nrrd"} + surface);
+  run_well({"mesh", "--volume", "v.nrrd", "-o", "read.csv"});
+  const auto direct = rows(file("direct.csv")), read = rows(file("read.csv"));
+  ASSERT_EQ(direct.size(), read.size());
+  ASSERT_GT(direct.size(), 100U);
+  for (std::size_t i = 0; i < direct.size(); ++i)
+    for (const std::string name : {"x", "y", "z", "mean_curvature"})
+      EXPECT_NEAR(std::stod(read[i].at(name)), std::stod(direct[i].at(name)), 1e6 * rounding)
+          << name; // spacings go through text
+}
+
+TEST_F(Program_command_line, a_volume_of_two_nodes_per_axis_is_extracted_without_attributes) {
+  run_well({"sample", "--function", "x + y + z", "--box", "0", "1", "0", "1", "0", "1", "--resolution", "2", "-o",
+            "v.nrrd"});
+  const Json stats = stats_of({"--volume", "v.nrrd", "--isovalue", "1.5"});
+  EXPECT_EQ(stats["vertices"], 6);
+  EXPECT_EQ(stats["status"]["outside"], 6);
+  EXPECT_EQ(stats["euler_characteristic"], 1);
+  EXPECT_TRUE(stats["max_distance_to_surface"].is_null());
+}
+
+TEST_F(Program_command_line, distances_are_sampled_in_the_box_of_the_mesh_and_a_tenth_around_it) {
+  write_file(folder_ / "slab.off", "OFF\n8 6 0\n0 0 0\n4 0 0\n4 2 0\n0 2 0\n0 0 1\n4 0 1\n4 2 1\n0 2 1\n"
+                                   "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
+  run_well({"sample", "--distance-to", "slab.off", "--resolution", "9", "-o", "d.nrrd"});
+  const auto volume = equiaffine::read_volume(folder_ / "d.nrrd");
+  const CGAL::Bbox_3 expected(-.4, -.4, -.4, 4.4, 2.4, 1.4), box = volume.lattice.bbox();
+  for (int a = 0; a < 3; ++a) {
+    EXPECT_NEAR(box.min(a), expected.min(a), rounding);
+    EXPECT_NEAR(box.max(a), expected.max(a), rounding);
+  }
+  EXPECT_NEAR(volume(4, 4, 4), -0.5, rounding);               // the middle
+  EXPECT_NEAR(volume(0, 0, 0), 0.4 * std::sqrt(3), rounding); // a corner, positive outside
+  EXPECT_EQ(stats_of({"--distance-to", "slab.off", "--resolution", "33"})["euler_characteristic"], 2);
+}
+#endif
+
+TEST(Program_progress, is_shown_on_a_terminal_and_wiped_away) {
+  std::ostringstream terminal;
+  {
+    equiaffine::Progress progress(terminal, true, std::chrono::milliseconds(0));
+    progress.begin("counting", 4);
+    progress.advance(3);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  }
+  EXPECT_NE(terminal.str().find("[##################......]  75 %  counting, 0 s"), std::string::npos)
+      << terminal.str();
+  EXPECT_TRUE(terminal.str().ends_with("\r\x1b[K"));
+}
+
+TEST(Program_progress, is_not_shown_in_a_pipe_or_for_short_work) {
+  std::ostringstream pipe, terminal;
+  equiaffine::Progress(pipe, false, std::chrono::milliseconds(0)).begin("working");
+  equiaffine::Progress(terminal, true).begin("working");
+  EXPECT_EQ(pipe.str() + terminal.str(), "");
+}

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/io/read_points.h>
+#include <equiaffine/io/write_mesh.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point_3 = Kernel::Point_3;
+using Mesh = equiaffine::Indexed_triangle_mesh_3<Kernel>;
+using Table = equiaffine::Point_table_3<Kernel>;
+using equiaffine::Input_error;
+using equiaffine::Point_status;
+using equiaffine::Vertex_attributes;
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Table csv(const std::string& text) {
+  std::istringstream stream(text);
+  return equiaffine::read_CSV<Kernel>(stream, "in.csv");
+}
+
+equiaffine::Annotated_mesh_3<Kernel> ply(const std::string& text) {
+  std::istringstream stream(text);
+  return equiaffine::read_PLY<Kernel>(stream, "in.ply");
+}
+
+Mesh off(const std::string& text) {
+  std::istringstream stream(text);
+  return equiaffine::read_OFF<Kernel>(stream, "in.off");
+}
+
+template <class Read>
+std::string error_of(const Read& read, const std::string& text) {
+  try {
+    read(text);
+  } catch (const Input_error& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string rewritten(const Table& table, const Vertex_attributes& attributes) {
+  std::ostringstream stream;
+  equiaffine::write_CSV(stream, table, attributes);
+  return stream.str();
+}
+
+TEST(Read_points, csv_columns_may_have_any_order) {
+  const Table table = csv("name,z,x,weight,y\na,3,1,0.5,2\nb,+6,4e0,-1, 5 \n");
+  EXPECT_EQ(table.mesh.points, (std::vector<Point_3>{Point_3(1, 2, 3), Point_3(4, 5, 6)}));
+  ASSERT_EQ(table.attributes.columns.size(), 1u);
+  EXPECT_EQ(table.attributes.columns[0].name, "weight");
+  EXPECT_EQ(table.attributes.columns[0].values, (std::vector<double>{0.5, -1}));
+}
+
+TEST(Read_points, csv_rows_come_back_as_they_were_written) {
+  const std::string text =
+      "\xef\xbb\xbf\"name\",x,y,z\r\n\r\n\"a, \"\"b\"\"\",1.50,2,3\r\n\"two\nlines\",+4, 5,6e0\r\n  \r\nc,7,8,9";
+  const Table table = csv(text);
+  EXPECT_EQ(table.mesh.points, (std::vector<Point_3>{Point_3(1.5, 2, 3), Point_3(4, 5, 6), Point_3(7, 8, 9)}));
+  EXPECT_EQ(rewritten(table,
+                      {{{"k1", {1, nan, 0.1}}}, {Point_status::REGULAR, Point_status::OUTSIDE, Point_status::REGULAR}}),
+            "\"name\",x,y,z,k1,status\n\"a, \"\"b\"\"\",1.50,2,3,1,regular\n\"two\nlines\",+4, 5,6e0,nan,outside\n"
+            "c,7,8,9,0.10000000000000001,regular\n");
+}
+
+TEST(Read_points, columns_that_are_computed_again_are_replaced) {
+  const Table table = csv("k1,x,\"status\",y,z\n9,1,outside,2,3\n");
+  EXPECT_EQ(rewritten(table, {{{"k1", {0.5}}}, {Point_status::REGULAR}}), "x,y,z,k1,status\n1,2,3,0.5,regular\n");
+  EXPECT_EQ(rewritten(table, {}), "k1,x,\"status\",y,z\n9,1,outside,2,3\n");
+}
+
+TEST(Read_points, a_csv_file_may_have_no_rows) {
+  const Table table = csv("x,y,z\n");
+  EXPECT_TRUE(table.mesh.points.empty());
+  EXPECT_EQ(rewritten(table, {{{"k1", {}}}, {}}), "x,y,z,k1\n");
+}
+
+TEST(Read_points, mistakes_in_csv_are_told_with_line_and_column) {
+  EXPECT_EQ(error_of(csv, "x,y,z\n1,2,3\n\n1,two,3\n"),
+            "cannot read 'in.csv': line 4, column 'y': 'two' is not a finite number; correct the cell");
+  EXPECT_EQ(error_of(csv, "x,y,z,name\n\"1\",2,,a\n"),
+            "cannot read 'in.csv': line 2, column 'z': '' is not a finite number; correct the cell");
+  EXPECT_EQ(error_of(csv, "x,y,z\n\n1,2\n"),
+            "cannot read 'in.csv': line 3, column 'z': the cell is missing; write as many cells as the header has");
+  EXPECT_NE(error_of(csv, "x,y,z\n1,2,3,4\n").find("line 2 has more cells"), std::string::npos);
+  EXPECT_NE(error_of(csv, "x,y,z\n1,2,inf\n").find("'inf' is not a finite number"), std::string::npos);
+  EXPECT_NE(error_of(csv, "x,y,z\n1,2,3x\n").find("'3x'"), std::string::npos);
+  EXPECT_NE(error_of(csv, "n,x,y,z\n\"a\nb\",1,2,3\nc,1,2,?\n").find("line 4"), std::string::npos);
+  EXPECT_NE(error_of(csv, "x,y,z,n\n1,2,3,\"a\n4,5,6,b\n").find("line 2 opens a quote"), std::string::npos);
+  EXPECT_NE(error_of(csv, "1,2,3\n").find("no single column 'x'"), std::string::npos);
+  EXPECT_NE(error_of(csv, "x;y;z\n1;2;3\n").find("separated by commas"), std::string::npos);
+  EXPECT_NE(error_of(csv, "x,y,z,x\n1,2,3,4\n").find("no single column 'x'"), std::string::npos);
+  EXPECT_NE(error_of(csv, "").find("no single column 'x'"), std::string::npos);
+}
+
+Mesh square() {
+  return {{Point_3(0, 0, 0.1), Point_3(1, 0, 0), Point_3(1, 1, 0), Point_3(0, 1, -1. / 3)}, {{0, 1, 2}, {0, 2, 3}}};
+}
+
+TEST(Read_points, ply_comes_back_as_it_was_written) {
+  const Vertex_attributes attributes = {
+      {{"k1", {1, 2, nan, 4}}, {"k2", {0.1, 0, 0, -1. / 3}}},
+      {Point_status::REGULAR, Point_status::PARABOLIC, Point_status::UNCONVERGED, Point_status::OUTSIDE}};
+  std::ostringstream stream;
+  equiaffine::write_PLY(stream, square(), attributes);
+  const auto copy = ply(stream.str());
+  EXPECT_EQ(copy.mesh.points, square().points);
+  EXPECT_EQ(copy.mesh.triangles, square().triangles);
+  EXPECT_EQ(copy.attributes.status, attributes.status);
+  ASSERT_EQ(copy.attributes.columns.size(), 2u);
+  EXPECT_EQ(copy.attributes.columns[0].name, "k1");
+  EXPECT_TRUE(std::isnan(copy.attributes.columns[0].values[2]));
+  EXPECT_EQ(copy.attributes.columns[1].values, attributes.columns[1].values);
+}
+
+TEST(Read_points, no_beginning_of_a_ply_file_is_taken_for_the_whole) {
+  std::ostringstream stream;
+  equiaffine::write_PLY(stream, square(), {{{"k1", {1, 2, 3, 4}}}, {}});
+  const std::string text = stream.str();
+  for (std::size_t size = 0; size < text.size(); ++size)
+    EXPECT_THROW(ply(text.substr(0, size)), Input_error) << size << " of " << text.size();
+  EXPECT_NO_THROW(ply(text));
+}
+
+constexpr const char* ascii_ply = "ply\r\nformat ascii 1.0\r\ncomment c\r\nobj_info o\r\nelement camera 1\r\n"
+                                  "property float u\r\nproperty list uchar int l\r\nelement vertex 4\r\n"
+                                  "property float32 z\r\nproperty float x\r\nproperty list uint8 float w\r\n"
+                                  "property double y\r\nproperty uchar status\r\nproperty int8 q\r\nelement face 1\r\n"
+                                  "property uchar red\r\nproperty list uchar uint vertex_index\r\nend_header\r\n"
+                                  "7 2 1 2\r\n0 0 1 9 0 7 -1\r\n0 1 0 0 1 -2\r\n0 1 2 9 9 1 2 -3\r\n"
+                                  "0 0 0 1 3 -4\r\n255 4 0 1 2 3\r\n";
+
+TEST(Read_points, ply_text_may_have_lists_other_elements_and_polygons) {
+  const auto data = ply(ascii_ply);
+  EXPECT_EQ(data.mesh.points,
+            (std::vector<Point_3>{Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(1, 1, 0), Point_3(0, 1, 0)}));
+  EXPECT_EQ(data.mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  // 7 is not the number of a status, so the column is one of numbers.
+  EXPECT_TRUE(data.attributes.status.empty());
+  ASSERT_EQ(data.attributes.columns.size(), 2u);
+  EXPECT_EQ(data.attributes.columns[0].values, (std::vector<double>{7, 1, 2, 3}));
+  EXPECT_EQ(data.attributes.columns[1].values, (std::vector<double>{-1, -2, -3, -4}));
+}
+
+TEST(Read_points, ply_may_be_big_endian) {
+  std::string text = "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\nproperty double y\n"
+                     "property short z\nproperty uint n\nend_header\n";
+  text += std::string("\x3f\x80\0\0", 4) + std::string("\x40\0\0\0\0\0\0\0", 8) + std::string("\xff\xfe", 2) +
+          std::string("\xff\xff\xff\xff", 4);
+  const auto data = ply(text);
+  EXPECT_EQ(data.mesh.points, std::vector<Point_3>{Point_3(1, 2, -2)});
+  EXPECT_EQ(data.attributes.columns.at(0).values, std::vector<double>{4294967295.});
+}
+
+TEST(Read_points, mistakes_in_ply_are_told) {
+  const std::string header = "ply\nformat ascii 1.0\n";
+  EXPECT_NE(error_of(ply, "OFF\n").find("not a PLY file"), std::string::npos);
+  EXPECT_NE(error_of(ply, "ply\nformat text 1.0\nend_header\n").find("the format 'text' in line 2"), std::string::npos);
+  EXPECT_NE(
+      error_of(ply, header + "element vertex 1\nproperty real x\nend_header\n1\n").find("the type 'real' in line 4"),
+      std::string::npos);
+  EXPECT_NE(error_of(ply, header + "element vertex -1\nend_header\n").find("line 3"), std::string::npos);
+  EXPECT_NE(error_of(ply, header + "element vertex 1\nproperty float x\nend_header\n1\n").find("no x, y and z"),
+            std::string::npos);
+  EXPECT_NE(error_of(ply, header + "element face 0\nend_header\n").find("no vertices"), std::string::npos);
+  const std::string point = header + "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+                                     "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  EXPECT_NE(error_of(ply, point + "0 0 0\n3 0 0 1\n").find("face 0 has a vertex that does not exist"),
+            std::string::npos);
+  EXPECT_NE(error_of(ply, point + "0 0 zero\n3 0 0 0\n").find("'zero' is not a number"), std::string::npos);
+  EXPECT_NE(error_of(ply, header + "element vertex 99999999999\nproperty float x\nproperty float y\nproperty float z\n"
+                                   "end_header\n0 0 0\n")
+                .find("ends before"),
+            std::string::npos);
+}
+
+TEST(Read_points, off_comes_back_as_it_was_written) {
+  std::ostringstream stream;
+  equiaffine::write_OFF(stream, square());
+  const Mesh copy = off(stream.str());
+  EXPECT_EQ(copy.points, square().points);
+  EXPECT_EQ(copy.triangles, square().triangles);
+}
+
+TEST(Read_points, off_may_have_comments_colours_and_polygons) {
+  const Mesh mesh = off(
+      "# c\r\nCOFF 4 1 0 # on the same line\r\n\r\n0 0 0 255 0 0\r\n1 0 0 1 1 1\n1 1 0 # c\n0 1 0\n4 0 1 2 3 0.5\n");
+  EXPECT_EQ(mesh.points.size(), 4u);
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(Read_points, mistakes_in_off_are_told_with_the_line) {
+  EXPECT_NE(error_of(off, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n").find("line 6 has a vertex that does not exist"),
+            std::string::npos);
+  EXPECT_NE(error_of(off, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n").find("line 5 is the last one"), std::string::npos);
+  EXPECT_NE(error_of(off, "OFF\n2 0 0\n0 0 0\n1 0\n").find("line 4 has a missing"), std::string::npos);
+  EXPECT_NE(error_of(off, "4OFF\n1 0 0\n1 2 3 4\n").find("not in 3D"), std::string::npos);
+  EXPECT_NE(error_of(off, "OFF BINARY\n").find("as text"), std::string::npos);
+  EXPECT_NE(error_of(off, "OFF\n99999999 0 0\n0 0 0\n").find("more vertices"), std::string::npos);
+  EXPECT_NE(error_of(off, "").find("is the last one"), std::string::npos);
+}
+
+TEST(Read_points, attributes_with_the_same_name_are_replaced) {
+  const Vertex_attributes merged =
+      equiaffine::merge_attributes({{{"a", {1}}, {"b", {2}}}, {Point_status::OUTSIDE}}, {{{"b", {3}}, {"c", {4}}}, {}});
+  ASSERT_EQ(merged.columns.size(), 3u);
+  EXPECT_EQ(merged.columns[0].name + merged.columns[1].name + merged.columns[2].name, "abc");
+  EXPECT_EQ(merged.columns[1].values[0], 3);
+  EXPECT_EQ(merged.status, std::vector<Point_status>{Point_status::OUTSIDE});
+}
+
+TEST(Read_points, points_of_a_ply_file_become_csv) {
+  const Table table = {ply(ascii_ply), {}, {}};
+  EXPECT_EQ(rewritten(table, {{{"k1", {1, 2, 3, 4}}}, {}}).substr(0, 34), "x,y,z,status,q,k1\n0,0,0,7,-1,1\n1,0");
+}
+
+TEST(Read_points, unknown_and_missing_files_are_told) {
+  const auto read = [](const std::string& path) { equiaffine::read_points<Kernel>(path); };
+  EXPECT_NE(error_of(read, "/absent/points.csv").find("'/absent/points.csv': there is no such file"),
+            std::string::npos);
+  EXPECT_NE(error_of(read, "/dev/null").find("nothing in it"), std::string::npos);
+  EXPECT_NE(error_of(read, __FILE__).find("use one of .csv .ply .off"), std::string::npos);
+}
+
+} // namespace
