@@ -15,8 +15,8 @@ namespace equiaffine {
 
 namespace {
 
-/// Help as CLI11 makes it, but with our own usage lines (they are part of the descriptions), and in the list of commands
-/// only what each one does.
+/// Help as CLI11 makes it, but with our own usage lines (they are part of the descriptions), and in the list of
+/// commands only what each one does.
 class Help_formatter : public CLI::Formatter {
 public:
   Help_formatter() { column_width(30); }

@@ -25,8 +25,8 @@ struct Command_line {
   }
 };
 
-/// Splits the command line with CLI11. Words that an option needs are its own whatever they look like, so that `-.5` and
-/// `-x^2` need no quoting tricks. Throws `Input_error` for a line that does not follow the grammar.
+/// Splits the command line with CLI11. Words that an option needs are its own whatever they look like, so that `-.5`
+/// and `-x^2` need no quoting tricks. Throws `Input_error` for a line that does not follow the grammar.
 Command_line split_command_line(const std::vector<std::string>& arguments);
 
 } // namespace equiaffine

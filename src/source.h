@@ -28,7 +28,8 @@ struct Source {
   std::size_t function_evaluations = 0; ///< that it took so far
 };
 
-/// Makes the function, which may mean to read a volume, to measure distances, and to fit a spline. Throws `Input_error`.
+/// Makes the function, which may mean to read a volume, to measure distances, and to fit a spline. Throws
+/// `Input_error`.
 Source make_source(const Source_options& options, Progress& progress);
 
 /// The samples of a source that is not a volume.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "write_VTP.h"
-
 #include "write_vtk_xml.h"
 
 #include <vtkCellArray.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <equiaffine/Expression_3.h>
-
 #include <equiaffine/Interval.h>
 #include <equiaffine/Jet_3.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -243,9 +243,7 @@ TEST(Expression_3, precedence_and_associativity_are_those_of_mathematics) {
   EXPECT_EQ(value("x+1 = 2*x-4", 3), 2);
 }
 
-TEST(Expression_3, white_space_is_free) {
-  EXPECT_EQ(value(" \t x\n+\r\n min ( y ,z )  "), px + py);
-}
+TEST(Expression_3, white_space_is_free) { EXPECT_EQ(value(" \t x\n+\r\n min ( y ,z )  "), px + py); }
 
 TEST(Expression_3, numbers_are_read_to_the_last_bit) {
   EXPECT_EQ(value("1e-3"), 1e-3);
@@ -279,9 +277,9 @@ TEST(Expression_3, outside_a_domain_a_double_is_nan) {
 TEST(Expression_3, equal_subexpressions_are_evaluated_once) {
   EXPECT_EQ(instructions("x"), 0u);
   EXPECT_EQ(instructions("x*x"), 1u);
-  EXPECT_EQ(instructions("x^2 + x*x"), 2u);              // square, add
-  EXPECT_EQ(instructions("x*y + y*x"), 2u);              // multiply, add
-  EXPECT_EQ(instructions("sin(x+y)*sin(y+x)"), 3u);      // add, sin, square
+  EXPECT_EQ(instructions("x^2 + x*x"), 2u);               // square, add
+  EXPECT_EQ(instructions("x*y + y*x"), 2u);               // multiply, add
+  EXPECT_EQ(instructions("sin(x+y)*sin(y+x)"), 3u);       // add, sin, square
   EXPECT_EQ(instructions("atan2(x,y) - atan2(y,x)"), 3u); // not the same
   EXPECT_EQ(instructions(torus), 9u);
 }
@@ -374,8 +372,9 @@ TEST(Expression_3, jets_have_the_value_and_the_derivatives) {
   for (const Case& c : exact_cases) {
     const Jet jet = Expression_3(c.text)(x, y, z);
     EXPECT_NEAR(jet.value(), c.expected(px, py, pz), 4 * epsilon * std::abs(jet.value())) << c.text;
-    const Big slope = (Expression_3(c.text)(Big(px + h), Big(py), Big(pz)) -
-                       Expression_3(c.text)(Big(px - h), Big(py), Big(pz))) / (Big(px + h) - Big(px - h));
+    const Big slope =
+        (Expression_3(c.text)(Big(px + h), Big(py), Big(pz)) - Expression_3(c.text)(Big(px - h), Big(py), Big(pz))) /
+        (Big(px + h) - Big(px - h));
     const double third_derivative_bound = 100;
     EXPECT_NEAR(jet.derivative(1, 0, 0), static_cast<double>(slope), third_derivative_bound * h * h) << c.text;
   }
@@ -560,10 +559,10 @@ TEST(Expression_3, nesting_is_limited_long_before_the_stack_ends) {
   EXPECT_EQ(value(nested(999)), px);
   EXPECT_EQ(value("2 + " + std::string(100001, '-') + "x"), 2 - px); // signs do not nest
   for (const std::string& text : {nested(1000000), [] {
-         std::string tower = "x";
-         for (int i = 0; i < 100000; ++i) tower += "^x";
-         return tower;
-       }()}) {
+                                    std::string tower = "x";
+                                    for (int i = 0; i < 100000; ++i) tower += "^x";
+                                    return tower;
+                                  }()}) {
     const auto error = error_of(text);
     ASSERT_TRUE(error);
     EXPECT_EQ(std::string(error->what()).substr(0, 26), "too deep nesting at column");

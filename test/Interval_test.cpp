@@ -4,12 +4,12 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
+#include <climits>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cfenv>
-#include <climits>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -32,13 +32,13 @@ struct Function {
   std::string name;
   Interval (*bounds)(const Interval&, const Interval&);
   Exact (*value)(const Exact&, const Exact&);
-  double limit;             // magnitude of the arguments
+  double limit;                  // magnitude of the arguments
   double smooth_from, smooth_to; // where it is smooth in a, for b in [1, 2]
 };
 
 #define EQUIAFFINE_FUNCTION(expression, limit, from, to)                                                               \
   Function {                                                                                                           \
-    #expression,                                                                                                       \
+#expression,                                                                                                       \
         [](const Interval& a, [[maybe_unused]] const Interval& b) {                                                    \
           using std::max, std::min;                                                                                    \
           return Interval(expression);                                                                                 \
@@ -47,30 +47,30 @@ struct Function {
           using std::max, std::min;                                                                                    \
           return Exact(expression);                                                                                    \
         },                                                                                                             \
-        limit, from, to                                                                                                \
+        limit, from, to   \
   }
 
 Exact square(const Exact& a) { return a * a; }
 
 const std::vector<Function>& functions() {
   static const std::vector<Function> list = {
-      EQUIAFFINE_FUNCTION(a + b, 1e300, -9, 9),         EQUIAFFINE_FUNCTION(a - b, 1e300, -9, 9),
-      EQUIAFFINE_FUNCTION(a * b, 1e150, -9, 9),         EQUIAFFINE_FUNCTION(a / b, 1e150, -9, 9),
-      EQUIAFFINE_FUNCTION(-a, 1e300, -9, 9),            EQUIAFFINE_FUNCTION(square(a), 1e150, -9, 9),
-      EQUIAFFINE_FUNCTION(a * a, 1e150, -9, 9),         EQUIAFFINE_FUNCTION(abs(a), 1e300, -9, 9),
-      EQUIAFFINE_FUNCTION(max(a, b), 1e300, -9, 9),     EQUIAFFINE_FUNCTION(min(a, b), 1e300, -9, 9),
-      EQUIAFFINE_FUNCTION(pow(a, 0), 10, -9, 9),        EQUIAFFINE_FUNCTION(pow(a, 1), 10, -9, 9),
-      EQUIAFFINE_FUNCTION(pow(a, 2), 10, -9, 9),        EQUIAFFINE_FUNCTION(pow(a, 3), 10, -9, 9),
-      EQUIAFFINE_FUNCTION(pow(a, 4), 10, -9, 9),        EQUIAFFINE_FUNCTION(pow(a, 7), 10, -9, 9),
-      EQUIAFFINE_FUNCTION(pow(a, -1), 10, -9, 9),       EQUIAFFINE_FUNCTION(pow(a, -4), 10, -9, 9),
-      EQUIAFFINE_FUNCTION(sqrt(a), 1e300, 0, 9),        EQUIAFFINE_FUNCTION(cbrt(a), 1e300, -9, 9),
-      EQUIAFFINE_FUNCTION(exp(a), 700, -9, 9),          EQUIAFFINE_FUNCTION(log(a), 1e300, 2, 9),
-      EQUIAFFINE_FUNCTION(sin(a), 1e4, -1e4, 1e4),      EQUIAFFINE_FUNCTION(cos(a), 1e4, -1e4, 1e4),
-      EQUIAFFINE_FUNCTION(tan(a), 1e4, -1.5, 1.5),      EQUIAFFINE_FUNCTION(asin(a), 2, -0.99, 0.99),
-      EQUIAFFINE_FUNCTION(acos(a), 2, -0.99, 0.99),     EQUIAFFINE_FUNCTION(atan(a), 1e10, -9, 9),
-      EQUIAFFINE_FUNCTION(atan2(a, b), 1e10, -9, 9),    EQUIAFFINE_FUNCTION(atan2(b, a), 1e10, -9, 9),
-      EQUIAFFINE_FUNCTION(sinh(a), 700, -9, 9),         EQUIAFFINE_FUNCTION(cosh(a), 700, -9, 9),
-      EQUIAFFINE_FUNCTION(tanh(a), 700, -9, 9),         EQUIAFFINE_FUNCTION(hypot(a, b), 1e300, -9, 9),
+      EQUIAFFINE_FUNCTION(a + b, 1e300, -9, 9),      EQUIAFFINE_FUNCTION(a - b, 1e300, -9, 9),
+      EQUIAFFINE_FUNCTION(a * b, 1e150, -9, 9),      EQUIAFFINE_FUNCTION(a / b, 1e150, -9, 9),
+      EQUIAFFINE_FUNCTION(-a, 1e300, -9, 9),         EQUIAFFINE_FUNCTION(square(a), 1e150, -9, 9),
+      EQUIAFFINE_FUNCTION(a * a, 1e150, -9, 9),      EQUIAFFINE_FUNCTION(abs(a), 1e300, -9, 9),
+      EQUIAFFINE_FUNCTION(max(a, b), 1e300, -9, 9),  EQUIAFFINE_FUNCTION(min(a, b), 1e300, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, 0), 10, -9, 9),     EQUIAFFINE_FUNCTION(pow(a, 1), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, 2), 10, -9, 9),     EQUIAFFINE_FUNCTION(pow(a, 3), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, 4), 10, -9, 9),     EQUIAFFINE_FUNCTION(pow(a, 7), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, -1), 10, -9, 9),    EQUIAFFINE_FUNCTION(pow(a, -4), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(sqrt(a), 1e300, 0, 9),     EQUIAFFINE_FUNCTION(cbrt(a), 1e300, -9, 9),
+      EQUIAFFINE_FUNCTION(exp(a), 700, -9, 9),       EQUIAFFINE_FUNCTION(log(a), 1e300, 2, 9),
+      EQUIAFFINE_FUNCTION(sin(a), 1e4, -1e4, 1e4),   EQUIAFFINE_FUNCTION(cos(a), 1e4, -1e4, 1e4),
+      EQUIAFFINE_FUNCTION(tan(a), 1e4, -1.5, 1.5),   EQUIAFFINE_FUNCTION(asin(a), 2, -0.99, 0.99),
+      EQUIAFFINE_FUNCTION(acos(a), 2, -0.99, 0.99),  EQUIAFFINE_FUNCTION(atan(a), 1e10, -9, 9),
+      EQUIAFFINE_FUNCTION(atan2(a, b), 1e10, -9, 9), EQUIAFFINE_FUNCTION(atan2(b, a), 1e10, -9, 9),
+      EQUIAFFINE_FUNCTION(sinh(a), 700, -9, 9),      EQUIAFFINE_FUNCTION(cosh(a), 700, -9, 9),
+      EQUIAFFINE_FUNCTION(tanh(a), 700, -9, 9),      EQUIAFFINE_FUNCTION(hypot(a, b), 1e300, -9, 9),
       EQUIAFFINE_FUNCTION(pow(a, b), 20, 0.5, 2),
   };
   return list;
@@ -98,15 +98,15 @@ public:
   Interval box(double limit) {
     const double p = number(limit);
     switch (bits_() % 8) {
-      case 0: return Interval(p);
-      case 1: return Interval(std::min(p, 0.0), std::max(p, 0.0));
-      case 2: return p > 0 ? Interval(p, infinity) : Interval(-infinity, p);
-      case 3:
-      case 4: return Interval(p - std::abs(p) * 1e-3, p + std::abs(p) * 1e-3);
-      default: {
-        const double q = number(limit);
-        return Interval(std::min(p, q), std::max(p, q));
-      }
+    case 0: return Interval(p);
+    case 1: return Interval(std::min(p, 0.0), std::max(p, 0.0));
+    case 2: return p > 0 ? Interval(p, infinity) : Interval(-infinity, p);
+    case 3:
+    case 4: return Interval(p - std::abs(p) * 1e-3, p + std::abs(p) * 1e-3);
+    default: {
+      const double q = number(limit);
+      return Interval(std::min(p, q), std::max(p, q));
+    }
     }
   }
 
@@ -120,9 +120,9 @@ public:
 
   double point(const Interval& box, double limit) {
     switch (bits_() % 6) {
-      case 0: return std::isinf(box.lower()) ? std::min(-limit, box.upper()) : box.lower();
-      case 1: return std::isinf(box.upper()) ? std::max(limit, box.lower()) : box.upper();
-      default: return part(box, limit, 0).lower();
+    case 0: return std::isinf(box.lower()) ? std::min(-limit, box.upper()) : box.lower();
+    case 1: return std::isinf(box.upper()) ? std::max(limit, box.lower()) : box.upper();
+    default: return part(box, limit, 0).lower();
     }
   }
 
@@ -145,9 +145,8 @@ void expect_enclosures(const Function& f, int boxes) {
     ASSERT_TRUE(r.lower() <= r.upper()) << f.name;
     for (int m = 0; m < 4; ++m) {
       const Exact x = random.point(a, f.limit), y = random.point(b, f.limit);
-      ASSERT_TRUE(encloses(r, f.value(x, y)))
-          << f.name << " of " << text(a) << ", " << text(b) << " is " << text(r) << " but at " << x << ", " << y << ": "
-          << f.value(x, y);
+      ASSERT_TRUE(encloses(r, f.value(x, y))) << f.name << " of " << text(a) << ", " << text(b) << " is " << text(r)
+                                              << " but at " << x << ", " << y << ": " << f.value(x, y);
     }
   }
 }

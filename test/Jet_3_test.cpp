@@ -39,7 +39,7 @@ Function function(std::string name, F f, double bound = 5) {
 }
 
 #define EQUIAFFINE_FUNCTION(...)                                                                                       \
-  function(#__VA_ARGS__, [](const auto& x, [[maybe_unused]] const auto& y, [[maybe_unused]] const auto& z) {          \
+  function(#__VA_ARGS__, [](const auto& x, [[maybe_unused]] const auto& y, [[maybe_unused]] const auto& z) {           \
     using std::max, std::min;                                                                                          \
     return std::decay_t<decltype(x)>(__VA_ARGS__);                                                                     \
   })
@@ -92,9 +92,8 @@ const std::vector<Function>& functions_of_a_direction() {
   static const std::vector<Function> list = {
       EQUIAFFINE_FUNCTION(atan2(y, x)),
       EQUIAFFINE_FUNCTION(hypot(x, y)),
-      function("hypot(x, y, z)", [](const auto& x, const auto& y, const auto& z) {
-        return std::decay_t<decltype(x)>(hypot(hypot(x, y), z));
-      }),
+      function("hypot(x, y, z)", [](const auto& x, const auto& y,
+                                    const auto& z) { return std::decay_t<decltype(x)>(hypot(hypot(x, y), z)); }),
   };
   return list;
 }
@@ -104,7 +103,7 @@ const std::vector<Point> points = {{19 / 64., 45 / 64., 13 / 64.},
                                    {58 / 64., 51 / 64., 29 / 64.},
                                    {33 / 64., 109 / 64., 21 / 64.},
                                    {7 / 64., 20 / 64., 65 / 64.}};
-const std::vector<Point> directions = {{1, 2, 3},  {-1, 2, 3}, {-1, -2, 3}, {1, -2, -3},
+const std::vector<Point> directions = {{1, 2, 3}, {-1, 2, 3}, {-1, -2, 3}, {1, -2, -3},
                                        {3, 0, 1}, {0, 3, 1},  {0, -3, 1}};
 
 Full<Exact> exact_jet(const Function& f, const Point& p) {
@@ -140,8 +139,8 @@ Full<Exact> by_differences(const Function& f, const Point& p, const Exact& h) {
       for (int b = 0; b <= m.j; ++b)
         for (int c = 0; c <= m.k; ++c) {
           const int weight = binomial[at(m.i)][at(a)] * binomial[at(m.j)][at(b)] * binomial[at(m.k)][at(c)];
-          const Exact value = f.exact(p[0] + (m.i - 2 * a) * h / 2, p[1] + (m.j - 2 * b) * h / 2,
-                                      p[2] + (m.k - 2 * c) * h / 2);
+          const Exact value =
+              f.exact(p[0] + (m.i - 2 * a) * h / 2, p[1] + (m.j - 2 * b) * h / 2, p[2] + (m.k - 2 * c) * h / 2);
           sum += ((a + b + c) % 2 == 0 ? weight : -weight) * value;
         }
     const int factorials = factorial[at(m.i)] * factorial[at(m.j)] * factorial[at(m.k)];

@@ -27,8 +27,7 @@ Jet<Order> substituted(const Jet<Order>& g, const Matrix& l) {
   std::array<Jet<Order>, 3> u;
   for (std::size_t row = 0; row < 3; ++row) {
     u[row] = Jet<Order>(0);
-    for (int axis = 0; axis < 3; ++axis)
-      u[row] += l[row][std::size_t(axis)] * Jet<Order>::variable(axis, 0.0);
+    for (int axis = 0; axis < 3; ++axis) u[row] += l[row][std::size_t(axis)] * Jet<Order>::variable(axis, 0.0);
   }
   Jet<Order> in_x(0);
   for (int i = Order; i >= 0; --i) {

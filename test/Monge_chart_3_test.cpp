@@ -45,10 +45,11 @@ void expect_graph_of_fifth_order(const Function& f, int pivot) {
         const double w = (h0 * u * u + 2 * h1 * u * v + h2 * v * v) / 2 +
                          (c0 * u * u * u + 3 * c1 * u * u * v + 3 * c2 * u * v * v + c3 * v * v * v) / 6 +
                          (q0 * u * u * u * u + 4 * q1 * u * u * u * v + 6 * q2 * u * u * v * v +
-                          4 * q3 * u * v * v * v + q4 * v * v * v * v) / 24;
+                          4 * q3 * u * v * v * v + q4 * v * v * v * v) /
+                             24;
         const auto t = chart.tangent(u + w * chart.alpha, v + w * chart.beta), e = chart.unpermuted(0, 0, w);
-        worst = std::max(worst, std::abs(f(p[0] + t[0] + e[0], p[1] + t[1] + e[1], p[2] + t[2] + e[2]) -
-                                         f(p[0], p[1], p[2])));
+        worst = std::max(worst,
+                         std::abs(f(p[0] + t[0] + e[0], p[1] + t[1] + e[1], p[2] + t[2] + e[2]) - f(p[0], p[1], p[2])));
       }
       return worst;
     };
@@ -95,7 +96,9 @@ TEST(Monge_chart_3, planes_cylinders_cones_and_flat_points_are_parabolic) {
     using std::exp;
     return exp(0.3 * x - 0.7 * y + 0.1 * z) - 1.0;
   };
-  const auto monkey_saddle = [](const auto& x, const auto& y, const auto& z) { return z - x * x * x + 3.0 * x * y * y; };
+  const auto monkey_saddle = [](const auto& x, const auto& y, const auto& z) {
+    return z - x * x * x + 3.0 * x * y * y;
+  };
   EXPECT_EQ(status(plane, 1, 2, 3), Point_status::PARABOLIC);
   EXPECT_EQ(status(cylinder, 0.6, 0.8, 5), Point_status::PARABOLIC);
   EXPECT_EQ(status(rotated_cylinder, 0.9, 0.4, 0.3), Point_status::PARABOLIC);
@@ -130,12 +133,14 @@ TEST(Monge_chart_3, kinks_are_singular_and_undefined_values_outside) {
 
 TEST(Local_structure_3, no_number_is_missing_without_a_status_and_none_is_there_with_one) {
   const auto s = local_structure(expand(cone, 0, 0, 0));
-  EXPECT_TRUE(std::isnan(s.euclidean.normal[0]) && std::isnan(s.euclidean.k1) && std::isnan(s.affine.gaussian_curvature));
+  EXPECT_TRUE(std::isnan(s.euclidean.normal[0]) && std::isnan(s.euclidean.k1) &&
+              std::isnan(s.affine.gaussian_curvature));
   const auto p = local_structure(expand(cone, 3, 4, 5));
   EXPECT_EQ(p.status, Point_status::PARABOLIC);
   EXPECT_NEAR(p.euclidean.gaussian_curvature, 0, 1e-15);
   EXPECT_LT(p.euclidean.k2, -0.05);
-  EXPECT_TRUE(std::isnan(p.affine.gaussian_curvature) && std::isnan(p.affine.normal[2]) && std::isnan(p.affine.metric[0]));
+  EXPECT_TRUE(std::isnan(p.affine.gaussian_curvature) && std::isnan(p.affine.normal[2]) &&
+              std::isnan(p.affine.metric[0]));
 }
 
 TEST(Local_structure_3, powers_of_d_that_overflow_are_parabolic) {
@@ -154,8 +159,7 @@ TEST(Euclidean_structure, principal_curvatures_and_directions_of_a_torus) {
   for (double phi : {0.3, 1.9, 4.0})
     for (double theta : {0.0, 0.7, 2.0, 3.1415, 5.5}) {
       const double rho = R + r * std::cos(theta);
-      const auto s = local_structure(
-          expand(torus, rho * std::cos(phi), rho * std::sin(phi), r * std::sin(theta)));
+      const auto s = local_structure(expand(torus, rho * std::cos(phi), rho * std::sin(phi), r * std::sin(theta)));
       const double around = -std::cos(theta) / rho, across = -1 / r; // the outward normal: convex is negative
       EXPECT_NEAR(s.euclidean.k1, around, 1e-13);
       EXPECT_NEAR(s.euclidean.k2, across, 1e-13);
@@ -164,7 +168,8 @@ TEST(Euclidean_structure, principal_curvatures_and_directions_of_a_torus) {
       const auto &n = s.euclidean.normal, &d1 = s.euclidean.direction1, &d2 = s.euclidean.direction2;
       EXPECT_NEAR(n[0], std::cos(theta) * std::cos(phi), 1e-13);
       EXPECT_NEAR(n[2], std::sin(theta), 1e-13);
-      EXPECT_NEAR(std::abs(-std::sin(phi) * d1[0] + std::cos(phi) * d1[1]), 1, 1e-13) << "direction 1 runs around the axis";
+      EXPECT_NEAR(std::abs(-std::sin(phi) * d1[0] + std::cos(phi) * d1[1]), 1, 1e-13)
+          << "direction 1 runs around the axis";
       EXPECT_NEAR(d1[1] * d2[2] - d1[2] * d2[1], n[0], 1e-13) << "direction1, direction2, normal are right-handed";
       EXPECT_NEAR(d1[0] * d2[1] - d1[1] * d2[0], n[2], 1e-13);
       EXPECT_NEAR(d2[0] * d2[0] + d2[1] * d2[1] + d2[2] * d2[2], 1, 1e-13);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reference.h"
-
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/Local_structure_3.h>
@@ -8,8 +7,8 @@
 #include <equiaffine/project_to_surface.h>
 
 #include <CGAL/Simple_cartesian.h>
-
 #include <boost/multiprecision/cpp_bin_float.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -116,8 +115,7 @@ TEST(Affine_structure, unimodular_maps_leave_curvatures_and_carry_normals_along)
     const double factor = 1 / std::cbrt(determinant); // determinant 1: orientation-reversing maps become preserving
     for (double& x : m) x *= factor;
     const Kernel::Aff_transformation_3 map(m[0], m[1], m[2], 0.3, m[3], m[4], m[5], -1, m[6], m[7], m[8], 2);
-    const Transformed_function_traits_3 image(
-        make_analytic_traits<Kernel>(f, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1)), map);
+    const Transformed_function_traits_3 image(make_analytic_traits<Kernel>(f, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1)), map);
     const auto t = local_structure(image.taylor(map(Kernel::Point_3(p[0], p[1], p[2]))));
     ASSERT_EQ(t.status, Point_status::REGULAR);
     const double S = std::max(scale(s), scale(t)), tolerance = 1e-9;
@@ -138,7 +136,9 @@ TEST(Affine_structure, unimodular_maps_leave_curvatures_and_carry_normals_along)
 }
 
 TEST(Affine_structure, other_maps_scale_by_powers_of_the_determinant) {
-  const auto f = [](const auto& x, const auto& y, const auto& z) { return x * x + 2.0 * y * y + z * z * z + x * y * z; };
+  const auto f = [](const auto& x, const auto& y, const auto& z) {
+    return x * x + 2.0 * y * y + z * z * z + x * y * z;
+  };
   const Kernel::Aff_transformation_3 map(0.9, 0, 0.9, 0, 2, 0, 1.1, 0, 0.6); // the paper's figure 8, det = -0.9
   const double a = 0.9;
   const Kernel::Point_3 p(0.4, -0.3, 0.8);

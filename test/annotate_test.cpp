@@ -19,7 +19,8 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Vertex_index = Mesh::Vertex_index;
 
 auto torus() {
-  return make_analytic_traits<Kernel>(Expression_3("z^2+(sqrt(x^2+y^2)-0.5)^2-0.04"), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  return make_analytic_traits<Kernel>(Expression_3("z^2+(sqrt(x^2+y^2)-0.5)^2-0.04"),
+                                      CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
 }
 
 TEST(Annotate, property_maps_hold_the_local_structure_of_their_vertices) {
@@ -56,7 +57,8 @@ TEST(Annotate, columns_and_maps_hold_the_same_numbers_for_any_number_of_threads)
   const auto surface = marching_cubes(traits, parameters::number_of_nodes(20));
   Mesh mesh = to_surface_mesh(surface);
   annotate<CGAL::Parallel_tag>(mesh, traits);
-  const auto columns = compute_attributes(traits, std::span(surface.points), select_attributes("all"), surface.vertex_status);
+  const auto columns =
+      compute_attributes(traits, std::span(surface.points), select_attributes("all"), surface.vertex_status);
   std::size_t scalars = 0;
   for (const auto& column : columns.columns) {
     const auto [map, exists] = mesh.property_map<Vertex_index, double>("v:" + column.name);
@@ -87,8 +89,9 @@ TEST(Attributes, the_names_are_the_contract_in_its_order) {
                             "affine_normal_x affine_normal_y affine_normal_z affine_gaussian_curvature "
                             "affine_mean_curvature pick_invariant ";
   EXPECT_EQ(names("basic"), basic);
-  EXPECT_EQ(names("all"), basic + "affine_k1 affine_k2 direction1_x direction1_y direction1_z direction2_x direction2_y "
-                                  "direction2_z metric_xx metric_xy metric_xz metric_yy metric_yz metric_zz ");
+  EXPECT_EQ(names("all"), basic +
+                              "affine_k1 affine_k2 direction1_x direction1_y direction1_z direction2_x direction2_y "
+                              "direction2_z metric_xx metric_xy metric_xz metric_yy metric_yz metric_zz ");
   EXPECT_EQ(names("none"), "");
   EXPECT_EQ(names("metric_xx,normal,k2"), "nx ny nz k2 metric_xx ");
   EXPECT_EQ(names("status"), "");

@@ -219,4 +219,12 @@ TEST(Color_map, every_status_has_its_own_colour_away_from_both_maps) {
     }
 }
 
+TEST(Color_map, a_range_far_wider_than_its_numbers_prefers_the_logarithmic_scale) {
+  std::vector<double> values(1000, 1.0);
+  for (std::size_t i = 0; i < values.size(); i += 2) values[i] = -1;
+  EXPECT_EQ(preferred_scale(color_range(values)), Color_scale::LINEAR);
+  for (std::size_t i = 0; i < 100; ++i) values[i] *= 1e4;
+  EXPECT_EQ(preferred_scale(color_range(values)), Color_scale::ASINH);
+}
+
 } // namespace

@@ -79,7 +79,9 @@ TYPED_TEST_P(Conformance, taylor_is_the_expansion_of_value) {
     for (double after; before > rounding && halvings < 12; before = after, ++halvings) {
       h /= 2;
       after = remainder(traits, p, h);
-      if (after > 20 * rounding && halvings > 3) { EXPECT_GT(std::log2(before / after), 4.5) << "h = " << h; }
+      if (after > 20 * rounding && halvings > 3) {
+        EXPECT_GT(std::log2(before / after), 4.5) << "h = " << h;
+      }
     }
     EXPECT_LE(before, rounding) << "the expansion at " << p << " does not converge to the function";
   }
@@ -115,7 +117,9 @@ TYPED_TEST_P(Conformance, bounds_enclose_the_values_and_shrink_with_the_box) {
         for (int n = 0; n < 50; ++n) {
           const Point_3 q(p.x() + r * unit(random), p.y() + r * unit(random), p.z() + r * unit(random));
           const double value = traits.value(q);
-          if (std::isfinite(value)) { EXPECT_TRUE(bounds.contains(value)) << q; }
+          if (std::isfinite(value)) {
+            EXPECT_TRUE(bounds.contains(value)) << q;
+          }
         }
         EXPECT_LE(bounds.upper() - bounds.lower(), last_width);
         last_width = bounds.upper() - bounds.lower();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The conformance suite for every model of the library, and the archetype; models and non-models of every concept.
 #include "conformance.h"
-
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/Level_set_traits_3.h>
@@ -124,10 +123,10 @@ struct Archetype_model {
 };
 
 using Sparse = Analytic_model<Auto_function>;
-using Models =
-    ::testing::Types<Archetype_model, Sparse, Analytic_model<Fixed_type_function>, Expression_model, Sampled_model<5>,
-                     Sampled_model<7>, Transformed_model<Sparse>, Transformed_model<Sampled_model<7>>,
-                     Level_set_model<Sparse>, Level_set_model<Transformed_model<Sampled_model<5>>>, Batch_model<Sparse>>;
+using Models = ::testing::Types<Archetype_model, Sparse, Analytic_model<Fixed_type_function>, Expression_model,
+                                Sampled_model<5>, Sampled_model<7>, Transformed_model<Sparse>,
+                                Transformed_model<Sampled_model<7>>, Level_set_model<Sparse>,
+                                Level_set_model<Transformed_model<Sampled_model<5>>>, Batch_model<Sparse>>;
 
 } // namespace
 
@@ -140,7 +139,8 @@ namespace {
 using Analytic = Sparse::Traits;
 using Sampled = Sampled_model<7>::Traits;
 
-static_assert(ImplicitFunctionTraits_3<Archetype> && ImplicitFunctionTraits_3<Analytic> && ImplicitFunctionTraits_3<Sampled>);
+static_assert(ImplicitFunctionTraits_3<Archetype> && ImplicitFunctionTraits_3<Analytic> &&
+              ImplicitFunctionTraits_3<Sampled>);
 static_assert(BoundedImplicitFunctionTraits_3<Analytic> && BoundedImplicitFunctionTraits_3<Sampled>);
 static_assert(!BoundedImplicitFunctionTraits_3<Archetype>);
 static_assert(BatchImplicitFunctionTraits_3<Batch_function_traits_3<Archetype>>);

@@ -11,8 +11,8 @@
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Simple_cartesian.h>
-
 #include <boost/multiprecision/cpp_bin_float.hpp>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,11 +31,10 @@ struct Surface {
   long components, euler_characteristic;
 };
 
-const std::array<Surface, 4> surfaces = {
-    {{"sphere", "x^2+y^2+z^2-1", 1.3, 1, 2},
-     {"torus", "z^2+(sqrt(x^2+y^2)-0.5)^2-0.04", 0.8, 1, 0},
-     {"blobby", "(3*x)^4+(3*y)^4+(3*z)^4-45*x^2-45*y^2-45*z^2+6", 1.2, 2, 4},
-     {"tanglecube", "x^4-5*x^2+y^4-5*y^2+z^4-5*z^2+11.8", 3, 1, -8}}};
+const std::array<Surface, 4> surfaces = {{{"sphere", "x^2+y^2+z^2-1", 1.3, 1, 2},
+                                          {"torus", "z^2+(sqrt(x^2+y^2)-0.5)^2-0.04", 0.8, 1, 0},
+                                          {"blobby", "(3*x)^4+(3*y)^4+(3*z)^4-45*x^2-45*y^2-45*z^2+6", 1.2, 2, 4},
+                                          {"tanglecube", "x^4-5*x^2+y^4-5*y^2+z^4-5*z^2+11.8", 3, 1, -8}}};
 
 auto traits_of(const Surface& s) {
   const double b = s.half_side;
@@ -76,8 +75,8 @@ TEST(Marching_cubes, curvatures_at_the_vertices_are_those_of_50_digits) {
     int compared = 0;
     for (const Point_3& p : surface.points) {
       const auto structure = local_structure_at(traits, p);
-      const auto exact = local_structure(
-          internal::expand<4, Number>(traits.function(), Number(p.x()), Number(p.y()), Number(p.z())));
+      const auto exact =
+          local_structure(internal::expand<4, Number>(traits.function(), Number(p.x()), Number(p.y()), Number(p.z())));
       const double K = double(exact.affine.gaussian_curvature), H = double(exact.affine.mean_curvature);
       const double K_e = double(exact.euclidean.gaussian_curvature);
       if (!(std::abs(K_e) * diagonal_squared > 1e-2)) continue;
@@ -94,12 +93,14 @@ TEST(Marching_cubes, curvatures_at_the_vertices_are_those_of_50_digits) {
 TEST(Marching_cubes, triangles_are_counterclockwise_seen_from_the_side_of_the_gradient) {
   const auto traits = traits_of(surfaces[0]);
   const Kernel::Aff_transformation_3 reflection(1, 0, 0, 0, 1, 0, 0, 0, -1);
-  const auto volume = [](const Isosurface_3<Kernel>& surface) { return CGAL::Polygon_mesh_processing::volume(to_surface_mesh(surface)); };
+  const auto volume = [](const Isosurface_3<Kernel>& surface) {
+    return CGAL::Polygon_mesh_processing::volume(to_surface_mesh(surface));
+  };
   const double ball = 4 * CGAL_PI / 3;
   EXPECT_NEAR(volume(marching_cubes(traits)), ball, 0.01 * ball);
   EXPECT_NEAR(volume(marching_cubes(Transformed_function_traits_3(traits, reflection))), ball, 0.01 * ball);
-  EXPECT_NEAR(volume(marching_cubes(Level_set_traits_3(traits, 0.0, Orientation_of_level_set::AGAINST_GRADIENT))), -ball,
-              0.01 * ball);
+  EXPECT_NEAR(volume(marching_cubes(Level_set_traits_3(traits, 0.0, Orientation_of_level_set::AGAINST_GRADIENT))),
+              -ball, 0.01 * ball);
 }
 
 TEST(Marching_cubes, the_image_of_a_surface_has_the_images_of_its_vertices) {
@@ -116,8 +117,10 @@ TEST(Marching_cubes, linear_vertices_converge_with_order_two_and_projected_ones_
   const auto traits = traits_of(surfaces[0]);
   const auto worst = [&](std::size_t n) {
     double distance = 0;
-    const auto surface = marching_cubes(traits, parameters::number_of_nodes(n).vertex_position(Vertex_position::LINEAR));
-    for (const Point_3& p : surface.points) distance = std::max(distance, std::abs(std::sqrt((p - CGAL::ORIGIN).squared_length()) - 1));
+    const auto surface =
+        marching_cubes(traits, parameters::number_of_nodes(n).vertex_position(Vertex_position::LINEAR));
+    for (const Point_3& p : surface.points)
+      distance = std::max(distance, std::abs(std::sqrt((p - CGAL::ORIGIN).squared_length()) - 1));
     return distance;
   };
   EXPECT_NEAR(std::log2(worst(33) / worst(65)), 2, 0.2);
@@ -204,7 +207,8 @@ TEST(Marching_cubes, poles_and_jumps_are_not_taken_for_surfaces) {
 
 TEST(Marching_cubes, a_sample_that_disagrees_with_its_spline_still_gets_a_vertex_on_the_splines_surface) {
   // Convolution smooths a single negative sample away: the mesh is that of the samples, its vertices are unconverged.
-  Volume_3<Kernel> volume{Lattice_3<Kernel>({12, 12, 12}, CGAL::Bbox_3(0, 0, 0, 11, 11, 11)), std::vector<double>(1728, 1.0)};
+  Volume_3<Kernel> volume{Lattice_3<Kernel>({12, 12, 12}, CGAL::Bbox_3(0, 0, 0, 11, 11, 11)),
+                          std::vector<double>(1728, 1.0)};
   volume.values[volume.lattice.index(6, 6, 6)] = -0.5;
   const auto surface = marching_cubes(Sampled_function_traits_3<Kernel>(volume, 5, Spline_scheme::CONVOLUTION));
   EXPECT_EQ(surface.points.size(), 6u);

@@ -193,7 +193,7 @@ TEST(Write_HTML, text_of_the_user_cannot_become_markup_or_script) {
   const std::string text = page(tetrahedron(), attributes, options);
   EXPECT_EQ(count(text, "<b>"), 0u);
   EXPECT_EQ(count(text, "<i>"), 0u);
-  EXPECT_EQ(count(text, "alert(1)"), 3u);  // name, label and colour
+  EXPECT_EQ(count(text, "alert(1)"), 3u); // name, label and colour
   EXPECT_EQ(count(text, "<script"), count(page(tetrahedron(), some_attributes()), "<script") - 2);
   EXPECT_EQ(count(text, "<script"), count(text, "</script>"));
   EXPECT_NE(text.find("<title>&lt;b&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/b&gt;&lt;/title&gt;&lt;script&gt;</title>"),
@@ -214,7 +214,8 @@ TEST(Write_HTML, the_page_is_one_whole_document) {
   EXPECT_TRUE(text.ends_with("</html>\n"));
   for (const char* const name : {"html", "head", "body", "main", "aside", "section", "figure", "table", "dl", "select"})
     EXPECT_EQ(count(text, std::string("<") + name + ' ') + count(text, std::string("<") + name + '>'),
-              count(text, std::string("</") + name + '>')) << name;
+              count(text, std::string("</") + name + '>'))
+        << name;
 }
 
 TEST(Write_HTML, every_element_the_script_looks_up_is_there_once) {

@@ -21,7 +21,9 @@ auto sparse_variable(const FT& value) {
 }
 
 template <class Function, class X, class Y, class Z>
-concept CallableWith = requires(const Function& f, const X& x, const Y& y, const Z& z) { f(x, y, z); };
+concept CallableWith = requires(const Function& f, const X& x, const Y& y, const Z& z) {
+  f(x, y, z);
+};
 
 /// The expansion of f at (x, y, z): on sparse jets when f takes three arguments of different types, else on full ones.
 template <int Order, class FT, class Function>

@@ -53,8 +53,7 @@ public:
   /// Parses n characters in O(n log n). Throws Input_error, with the column in what() and a caret under it in
   /// excerpt(), for a text outside the grammar and for a constant subexpression that is not finite; also for an entry
   /// of `constants` that is not finite or whose name is not an identifier or has a meaning already.
-  explicit Expression_3(std::string_view text, const std::map<std::string, double>& constants = {})
-      : text_(text) {
+  explicit Expression_3(std::string_view text, const std::map<std::string, double>& constants = {}) : text_(text) {
     internal::expression::check_constants(constants);
     tape_ = internal::expression::Parser(text_, constants).parse();
   }

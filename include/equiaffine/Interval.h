@@ -259,8 +259,8 @@ inline Interval tanh(const Interval& a) {
 
 inline Interval hypot(const Interval& x, const Interval& y) {
   const Interval p = abs(x), q = abs(y);
-  const Interval r = Interval::widened(std::hypot(p.lower(), q.lower()), std::hypot(p.upper(), q.upper()),
-                                       library_error_ulps);
+  const Interval r =
+      Interval::widened(std::hypot(p.lower(), q.lower()), std::hypot(p.upper(), q.upper()), library_error_ulps);
   return Interval(std::max(r.lower(), 0.0), r.upper());
 }
 

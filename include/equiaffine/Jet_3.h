@@ -47,8 +47,8 @@ public:
   }
 
   template <class Number>
-  Jet_3(const Number& value)
-    requires(internal::contains(Support, 0) && std::is_arithmetic_v<Number> && !std::same_as<Number, T>)
+  Jet_3(const Number& value) requires(internal::contains(Support, 0) && std::is_arithmetic_v<Number> &&
+                                      !std::same_as<Number, T>)
       : Jet_3(T(value)) {}
 
   /// The same polynomial with a larger support.
@@ -87,9 +87,13 @@ public:
 
   /// Coefficient of monomial number N, a member of the support.
   template <int N>
-  const T& at() const { return c_[std::size_t(internal::rank(Support, N))]; }
+  const T& at() const {
+    return c_[std::size_t(internal::rank(Support, N))];
+  }
   template <int N>
-  T& at() { return c_[std::size_t(internal::rank(Support, N))]; }
+  T& at() {
+    return c_[std::size_t(internal::rank(Support, N))];
+  }
 
   template <int N>
   T coefficient_or_zero() const {
@@ -106,7 +110,8 @@ public:
             if constexpr (internal::contains(Support, int(N))) f(std::integral_constant<int, int(N)>());
           }(),
           ...);
-    }(std::make_index_sequence<std::size_t(internal::number_of_monomials(Order))>());
+    }
+    (std::make_index_sequence<std::size_t(internal::number_of_monomials(Order))>());
   }
 
   Jet_3 operator-() const {
@@ -116,10 +121,22 @@ public:
   }
   Jet_3 operator+() const { return *this; }
 
-  template <class Other> Jet_3& operator+=(const Other& other) { return *this = *this + other; }
-  template <class Other> Jet_3& operator-=(const Other& other) { return *this = *this - other; }
-  template <class Other> Jet_3& operator*=(const Other& other) { return *this = *this * other; }
-  template <class Other> Jet_3& operator/=(const Other& other) { return *this = *this / other; }
+  template <class Other>
+  Jet_3& operator+=(const Other& other) {
+    return *this = *this + other;
+  }
+  template <class Other>
+  Jet_3& operator-=(const Other& other) {
+    return *this = *this - other;
+  }
+  template <class Other>
+  Jet_3& operator*=(const Other& other) {
+    return *this = *this * other;
+  }
+  template <class Other>
+  Jet_3& operator/=(const Other& other) {
+    return *this = *this / other;
+  }
 
 private:
   std::array<T, size> c_;
@@ -144,7 +161,8 @@ T product_coefficient(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) 
   using Pairs = Factor_pairs<A, B, Target>;
   return [&]<std::size_t... P>(std::index_sequence<P...>) {
     return ((a.coefficients()[Pairs::pairs[P].first] * b.coefficients()[Pairs::pairs[P].second]) + ...);
-  }(std::make_index_sequence<Pairs::size>());
+  }
+  (std::make_index_sequence<Pairs::size>());
 }
 
 template <int Target, class T, int Order, Monomial_set A>
@@ -165,7 +183,8 @@ T square_coefficient(const Jet_3<T, Order, A>& a) {
           }
         }(),
         ...);
-  }(std::make_index_sequence<Pairs::size>());
+  }
+  (std::make_index_sequence<Pairs::size>());
   if constexpr (Pairs::size == 1) return pure;
   else if constexpr (Pairs::size % 2 == 0) return mixed + mixed;
   else return mixed + mixed + pure;

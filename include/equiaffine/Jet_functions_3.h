@@ -6,8 +6,9 @@
 #include <equiaffine/Jet_3.h>
 #include <equiaffine/internal/kinks.h>
 
-#include <array>
 #include <climits>
+
+#include <array>
 #include <cmath>
 #include <type_traits>
 
@@ -122,9 +123,7 @@ auto pow(const Jet_3<T, Order, A>& a, int n) -> decltype(compose(a, std::array<T
 
 /// Real power; with a whole number as exponent the integer power.
 template <class T, int Order, Monomial_set A, JetScalar<T> S>
-auto pow(const Jet_3<T, Order, A>& a, const S& exponent)
-  requires(!std::is_integral_v<S>)
-{
+auto pow(const Jet_3<T, Order, A>& a, const S& exponent) requires(!std::is_integral_v<S>) {
   using std::pow;
   if constexpr (std::is_floating_point_v<S>)
     if (std::abs(exponent) <= S(SHRT_MAX) && exponent == std::trunc(exponent)) return pow(a, int(exponent));
@@ -278,7 +277,7 @@ auto max(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   r.for_each_monomial([&](auto n) {
     constexpr int degree = internal::monomials[std::size_t(n())].degree();
     r.template at<n>() = branch_or_kink(a.value(), b.value(), a.template coefficient_or_zero<n>(),
-                                          b.template coefficient_or_zero<n>(), degree);
+                                        b.template coefficient_or_zero<n>(), degree);
   });
   return r;
 }

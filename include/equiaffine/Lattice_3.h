@@ -72,7 +72,8 @@ public:
     CGAL::Bbox_3 box = origin_.bbox();
     for (int corner = 1; corner < 8; ++corner)
       box += point(corner & 1 ? FT(size_[0] - 1) : FT(0), corner & 2 ? FT(size_[1] - 1) : FT(0),
-                   corner & 4 ? FT(size_[2] - 1) : FT(0)).bbox();
+                   corner & 4 ? FT(size_[2] - 1) : FT(0))
+                 .bbox();
     return box;
   }
 

@@ -29,7 +29,8 @@ Euclidean_structure_3<FT> no_euclidean_structure() {
 template <class FT>
 Affine_structure_3<FT> no_affine_structure() {
   const FT nan = std::numeric_limits<FT>::quiet_NaN();
-  return {{nan, nan, nan}, {nan, nan, nan}, nan, nan, nan, false, nan, nan, {nan, nan, nan, nan, nan, nan}, {nan, nan, nan, nan}};
+  return {{nan, nan, nan},     {nan, nan, nan}, nan, nan, nan, false, nan, nan, {nan, nan, nan, nan, nan, nan},
+          {nan, nan, nan, nan}};
 }
 
 template <class FT>
@@ -47,7 +48,8 @@ template <class FT>
 Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const FT& point_magnitude = FT(0)) {
   const Monge_chart_3<FT> chart(jet, point_magnitude);
   Local_structure_3<FT> s = {chart.status, internal::no_euclidean_structure<FT>(), internal::no_affine_structure<FT>()};
-  if (s.status == Point_status::REGULAR || s.status == Point_status::PARABOLIC) s.euclidean = euclidean_structure(chart);
+  if (s.status == Point_status::REGULAR || s.status == Point_status::PARABOLIC)
+    s.euclidean = euclidean_structure(chart);
   if (s.status == Point_status::REGULAR) {
     s.affine = affine_structure(chart);
     if (!internal::is_finite(s.affine)) { // so near d = 0 that the powers of d leave the range of FT

@@ -107,15 +107,13 @@ private:
     const auto r1 = times(p4, std::array{f(1, 0, 3), f(0, 1, 3)});
     const auto r2 = times(r1, std::array{f(2, 0, 2), f(1, 1, 2), f(0, 2, 2)});
     const auto r3 = times(r2, std::array{f(3, 0, 1), f(2, 1, 1), f(1, 2, 1), f(0, 3, 1)});
-    const auto r4 =
-        times(r3, std::array{f(4, 0, 0), f(3, 1, 0), f(2, 2, 0), f(1, 3, 0), f(0, 4, 0)});
+    const auto r4 = times(r3, std::array{f(4, 0, 0), f(3, 1, 0), f(2, 2, 0), f(1, 3, 0), f(0, 4, 0)});
 
     h = {FT(-2) * r * q[0], -r * q[1], FT(-2) * r * q[2]};
     d = h[0] * h[2] - h[1] * h[1];
     if (is_parabolic(f(2, 0, 0), f(1, 1, 0), f(0, 2, 0), f(1, 0, 1), f(0, 1, 1), f(0, 0, 2), r))
       status = Point_status::PARABOLIC;
-    else
-      set_higher_derivatives(scaled(q, r), scaled(l, r), p2[0] * r, scaled(c3, r), scaled(d2, r), scaled(r4, r));
+    else set_higher_derivatives(scaled(q, r), scaled(l, r), p2[0] * r, scaled(c3, r), scaled(d2, r), scaled(r4, r));
   }
 
   /// From the forms Q, L, e, C, D, R of f / f_z in the frame (e_u, e_v, (0, 0, 1)), in which there is also a term w L.
@@ -134,9 +132,11 @@ private:
   }
 
   /// Compares d with the terms of which its entries are sums (Andrade, Lewiner 2012, equation (2)).
-  bool is_parabolic(const FT& xx, const FT& xy, const FT& yy, const FT& xz, const FT& yz, const FT& zz, const FT& r) const {
+  bool is_parabolic(const FT& xx, const FT& xy, const FT& yy, const FT& xz, const FT& yz, const FT& zz,
+                    const FT& r) const {
     using std::abs;
-    const FT uu = FT(2) * (abs(xx) + abs(a * xz) + abs(a * a * zz)), vv = FT(2) * (abs(yy) + abs(b * yz) + abs(b * b * zz));
+    const FT uu = FT(2) * (abs(xx) + abs(a * xz) + abs(a * a * zz)),
+             vv = FT(2) * (abs(yy) + abs(b * yz) + abs(b * b * zz));
     const FT uv = abs(xy) + abs(a * yz) + abs(b * xz) + FT(2) * abs(a * b * zz);
     return !(abs(d) > roundings(rounding_factor) * ((r * uu) * (r * vv) + (r * uv) * (r * uv)));
   }

@@ -32,7 +32,9 @@ public:
       : base_(std::move(base)), map_(map), inverse_(map.inverse()), substitution_(linear_part(inverse_)) {}
 
   FT value(const Point_3& p) const { return base_.value(inverse_(p)); }
-  Jet_3<FT, 1> first_order(const Point_3& p) const { return substitution_(equiaffine::first_order(base_, inverse_(p))); }
+  Jet_3<FT, 1> first_order(const Point_3& p) const {
+    return substitution_(equiaffine::first_order(base_, inverse_(p)));
+  }
   Jet_3<FT> taylor(const Point_3& p) const { return substitution_(base_.taylor(inverse_(p))); }
 
   /// Bounds over the box of the preimage of `box`.

@@ -47,9 +47,10 @@ struct Structure_maps {
         affine_normal(add<Vector_3>(mesh, "affine_normal")),
         affine_gaussian_curvature(add<FT>(mesh, "affine_gaussian_curvature")),
         affine_mean_curvature(add<FT>(mesh, "affine_mean_curvature")), pick_invariant(add<FT>(mesh, "pick_invariant")),
-        affine_k1(add<FT>(mesh, "affine_k1")), affine_k2(add<FT>(mesh, "affine_k2")),
-        metric{add<FT>(mesh, "metric_xx"), add<FT>(mesh, "metric_xy"), add<FT>(mesh, "metric_xz"),
-               add<FT>(mesh, "metric_yy"), add<FT>(mesh, "metric_yz"), add<FT>(mesh, "metric_zz")} {}
+        affine_k1(add<FT>(mesh, "affine_k1")),
+        affine_k2(add<FT>(mesh, "affine_k2")), metric{add<FT>(mesh, "metric_xx"), add<FT>(mesh, "metric_xy"),
+                                                      add<FT>(mesh, "metric_xz"), add<FT>(mesh, "metric_yy"),
+                                                      add<FT>(mesh, "metric_yz"), add<FT>(mesh, "metric_zz")} {}
 
   void set(Vertex_index v, const Local_structure_3<FT>& s) {
     const auto vector = [](const std::array<FT, 3>& c) { return Vector_3(c[0], c[1], c[2]); };
@@ -97,10 +98,13 @@ void annotate(CGAL::Surface_mesh<typename Traits::Point_3>& mesh, const Traits& 
   using Mesh = CGAL::Surface_mesh<typename Traits::Point_3>;
   using Vertex_index = typename Mesh::Vertex_index;
   internal::Structure_maps<Mesh> maps(mesh);
-  internal::parallel_for<ConcurrencyTag>(0, mesh.num_vertices() + mesh.number_of_removed_vertices(), [&](std::size_t i) {
-    const Vertex_index v{static_cast<typename Vertex_index::size_type>(i)};
-    if (!mesh.is_removed(v)) maps.set(v, local_structure_at(traits, mesh.point(v), maps.status[v]));
-  }, 256);
+  internal::parallel_for<ConcurrencyTag>(
+      0, mesh.num_vertices() + mesh.number_of_removed_vertices(),
+      [&](std::size_t i) {
+        const Vertex_index v{static_cast<typename Vertex_index::size_type>(i)};
+        if (!mesh.is_removed(v)) maps.set(v, local_structure_at(traits, mesh.point(v), maps.status[v]));
+      },
+      256);
 }
 
 } // namespace equiaffine

@@ -85,8 +85,8 @@ inline Attribute_selection select_attributes(std::string_view list) {
     bool is_known = name == "status";
     for (std::size_t n = 0; n < all_attributes.size(); ++n) {
       const Attribute& attribute = all_attributes[n];
-      const bool matches = name == attribute.name || name == attribute.group || name == "all" ||
-                           (name == "basic" && attribute.is_basic);
+      const bool matches =
+          name == attribute.name || name == attribute.group || name == "all" || (name == "basic" && attribute.is_basic);
       is_selected[n] = is_selected[n] || matches;
       is_known = is_known || matches;
     }
@@ -125,13 +125,16 @@ Vertex_attributes compute_attributes(const Traits& traits, std::span<const typen
     result.columns.push_back({std::string(attribute.name), std::vector<double>(points.size())});
   if (!selection.has_status) return result;
   result.status.resize(points.size());
-  internal::parallel_for<ConcurrencyTag>(0, points.size(), [&](std::size_t i) {
-    const auto structure =
-        local_structure_at(traits, points[i], sampled_status.empty() ? Point_status::REGULAR : sampled_status[i]);
-    for (std::size_t n = 0; n < selection.columns.size(); ++n)
-      result.columns[n].values[i] = selection.columns[n].get(structure);
-    result.status[i] = structure.status;
-  }, 256);
+  internal::parallel_for<ConcurrencyTag>(
+      0, points.size(),
+      [&](std::size_t i) {
+        const auto structure =
+            local_structure_at(traits, points[i], sampled_status.empty() ? Point_status::REGULAR : sampled_status[i]);
+        for (std::size_t n = 0; n < selection.columns.size(); ++n)
+          result.columns[n].values[i] = selection.columns[n].get(structure);
+        result.status[i] = structure.status;
+      },
+      256);
   return result;
 }
 

@@ -107,8 +107,8 @@ private:
   /// The triangles of the cells between rows j, j + 1 and planes k, k + 1.
   void emit_row(std::size_t j, std::size_t k) {
     const std::size_t nx = lattice_.size()[0];
-    const std::uint8_t* rows[4] = {&planes_[0].signs[j * nx], &planes_[0].signs[(j + 1) * nx], &planes_[1].signs[j * nx],
-                                   &planes_[1].signs[(j + 1) * nx]};
+    const std::uint8_t* rows[4] = {&planes_[0].signs[j * nx], &planes_[0].signs[(j + 1) * nx],
+                                   &planes_[1].signs[j * nx], &planes_[1].signs[(j + 1) * nx]};
     const auto& cases = Marching_cubes_cases::instance();
     for (std::size_t i = 0; i + 1 < nx; ++i) {
       unsigned positive = 0, undefined = 0;
@@ -140,7 +140,9 @@ private:
       vertex = Index(crossings_.size());
       const FT& end = axis == 2 ? planes_[1].values[here] : plane.values[here + (axis == 0 ? 1 : nx)];
       crossings_.push_back({{std::uint32_t(first[0]), std::uint32_t(first[1]), std::uint32_t(first[2])},
-                            std::uint32_t(axis), plane.values[here], end});
+                            std::uint32_t(axis),
+                            plane.values[here],
+                            end});
     }
     return vertex;
   }
@@ -150,16 +152,19 @@ private:
     result_.points.resize(n);
     result_.vertex_status.assign(n, Point_status::REGULAR);
     std::vector<std::uint32_t> evaluations(n, 0);
-    parallel_for<ConcurrencyTag>(0, n, [&](std::size_t v) {
-      if (position == Vertex_position::LINEAR) {
-        result_.points[v] = linear_intersection(crossings_[v]);
-        return;
-      }
-      const auto surface_point = intersect_edge(crossings_[v]);
-      result_.points[v] = surface_point.has_converged ? surface_point.point : linear_intersection(crossings_[v]);
-      if (!surface_point.has_converged) result_.vertex_status[v] = Point_status::UNCONVERGED;
-      evaluations[v] = std::uint32_t(surface_point.evaluations);
-    }, 256);
+    parallel_for<ConcurrencyTag>(
+        0, n,
+        [&](std::size_t v) {
+          if (position == Vertex_position::LINEAR) {
+            result_.points[v] = linear_intersection(crossings_[v]);
+            return;
+          }
+          const auto surface_point = intersect_edge(crossings_[v]);
+          result_.points[v] = surface_point.has_converged ? surface_point.point : linear_intersection(crossings_[v]);
+          if (!surface_point.has_converged) result_.vertex_status[v] = Point_status::UNCONVERGED;
+          evaluations[v] = std::uint32_t(surface_point.evaluations);
+        },
+        256);
     if constexpr (!LatticeImplicitFunctionTraits_3<Traits>) result_.function_evaluations = lattice_.number_of_nodes();
     for (std::uint32_t e : evaluations) result_.function_evaluations += e;
   }
@@ -224,10 +229,11 @@ Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const Named
   using Size = std::array<std::size_t, 3>;
   const auto lattice = [&] {
     if constexpr (LatticeImplicitFunctionTraits_3<Traits>) return traits.lattice();
-    else return sampling_lattice(traits, internal::get_parameter<internal::Number_of_nodes_tag>(parameters, Size{64, 64, 64}));
+    else
+      return sampling_lattice(traits,
+                              internal::get_parameter<internal::Number_of_nodes_tag>(parameters, Size{64, 64, 64}));
   }();
-  const auto position =
-      internal::get_parameter<internal::Vertex_position_tag>(parameters, Vertex_position::PROJECTED);
+  const auto position = internal::get_parameter<internal::Vertex_position_tag>(parameters, Vertex_position::PROJECTED);
   return internal::Marching_cubes_3<ConcurrencyTag, Traits>(traits, lattice)(position);
 }
 

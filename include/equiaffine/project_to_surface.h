@@ -71,7 +71,8 @@ Surface_point_3<Kernel_of<Traits>> intersect_segment(const Traits& traits, const
       return result(is_plausible, n);
     }
     ((c[0] < FT(0)) == starts_negative ? lower : upper) = t;
-    if (!(t + step > lower && t + step < upper) || abs(step) > abs(last_step) / FT(2)) step = (lower + upper) / FT(2) - t;
+    if (!(t + step > lower && t + step < upper) || abs(step) > abs(last_step) / FT(2))
+      step = (lower + upper) / FT(2) - t;
     last_step = step;
     t += step;
     if (abs(step) <= tolerance) return result(is_plausible, n);

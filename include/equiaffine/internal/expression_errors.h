@@ -31,14 +31,25 @@ struct Function {
 
 inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
 
-inline constexpr std::array functions = {
-    Function{"sqrt", Opcode::SQRT}, Function{"cbrt", Opcode::CBRT}, Function{"exp", Opcode::EXP},
-    Function{"log", Opcode::LOG}, Function{"sin", Opcode::SIN}, Function{"cos", Opcode::COS},
-    Function{"tan", Opcode::TAN}, Function{"asin", Opcode::ASIN}, Function{"acos", Opcode::ACOS},
-    Function{"atan", Opcode::ATAN}, Function{"atan2", Opcode::ATAN2, 2, 2}, Function{"sinh", Opcode::SINH},
-    Function{"cosh", Opcode::COSH}, Function{"tanh", Opcode::TANH}, Function{"abs", Opcode::ABS},
-    Function{"min", Opcode::MIN, 2, any_number}, Function{"max", Opcode::MAX, 2, any_number},
-    Function{"hypot", Opcode::HYPOT, 2, 2}, Function{"pow", Opcode::POWER, 2, 2}};
+inline constexpr std::array functions = {Function{"sqrt", Opcode::SQRT},
+                                         Function{"cbrt", Opcode::CBRT},
+                                         Function{"exp", Opcode::EXP},
+                                         Function{"log", Opcode::LOG},
+                                         Function{"sin", Opcode::SIN},
+                                         Function{"cos", Opcode::COS},
+                                         Function{"tan", Opcode::TAN},
+                                         Function{"asin", Opcode::ASIN},
+                                         Function{"acos", Opcode::ACOS},
+                                         Function{"atan", Opcode::ATAN},
+                                         Function{"atan2", Opcode::ATAN2, 2, 2},
+                                         Function{"sinh", Opcode::SINH},
+                                         Function{"cosh", Opcode::COSH},
+                                         Function{"tanh", Opcode::TANH},
+                                         Function{"abs", Opcode::ABS},
+                                         Function{"min", Opcode::MIN, 2, any_number},
+                                         Function{"max", Opcode::MAX, 2, any_number},
+                                         Function{"hypot", Opcode::HYPOT, 2, 2},
+                                         Function{"pow", Opcode::POWER, 2, 2}};
 
 inline constexpr std::array<std::string_view, number_of_variables> variables = {"x", "y", "z"};
 
@@ -160,7 +171,8 @@ inline void check_constants(const std::map<std::string, double>& constants) {
                          std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c); });
     if (!is_name) {
       std::string shown = name;
-      std::replace_if(shown.begin(), shown.end(), [](char c) { return !is_printable(c); }, '?');
+      std::replace_if(
+          shown.begin(), shown.end(), [](char c) { return !is_printable(c); }, '?');
       throw Input_error(
           concatenated({in_quotes(shown), " cannot name a constant: use letters, digits and _, and no digit first"}));
     }

@@ -17,9 +17,39 @@ namespace equiaffine::internal::expression {
 
 enum class Opcode : std::uint8_t {
   VARIABLE, // only while parsing
-  CONSTANT, ADD_CONSTANT, SUBTRACT_FROM_CONSTANT, MULTIPLY_CONSTANT, DIVIDE_BY_CONSTANT, DIVIDE_CONSTANT,
-  ADD, SUBTRACT, MULTIPLY, DIVIDE, NEGATE, SQUARE, INTEGER_POWER, POWER_CONSTANT, POWER,
-  SQRT, CBRT, EXP, LOG, SIN, COS, TAN, ASIN, ACOS, ATAN, ATAN2, SINH, COSH, TANH, ABS, MIN, MAX, HYPOT
+  CONSTANT,
+  ADD_CONSTANT,
+  SUBTRACT_FROM_CONSTANT,
+  MULTIPLY_CONSTANT,
+  DIVIDE_BY_CONSTANT,
+  DIVIDE_CONSTANT,
+  ADD,
+  SUBTRACT,
+  MULTIPLY,
+  DIVIDE,
+  NEGATE,
+  SQUARE,
+  INTEGER_POWER,
+  POWER_CONSTANT,
+  POWER,
+  SQRT,
+  CBRT,
+  EXP,
+  LOG,
+  SIN,
+  COS,
+  TAN,
+  ASIN,
+  ACOS,
+  ATAN,
+  ATAN2,
+  SINH,
+  COSH,
+  TANH,
+  ABS,
+  MIN,
+  MAX,
+  HYPOT
 };
 
 /// result = opcode(a, b, constant). Operands 0, 1, 2 are x, y, z; operand 3 + s is slot s. A unary instruction has
@@ -43,38 +73,56 @@ struct Tape {
 // scaling is many times cheaper than a product. Built-in types would be promoted, and are converted instead.
 template <class T>
 T plus_constant(const T& a, double c) {
-  if constexpr (!std::is_arithmetic_v<T> && requires { { a + c } -> std::same_as<T>; }) return a + c;
+  if constexpr (!std::is_arithmetic_v<T> && requires {
+                  { a + c } -> std::same_as<T>;
+                })
+    return a + c;
   else return a + T(c);
 }
 
 template <class T>
 T constant_minus(double c, const T& a) {
-  if constexpr (!std::is_arithmetic_v<T> && requires { { c - a } -> std::same_as<T>; }) return c - a;
+  if constexpr (!std::is_arithmetic_v<T> && requires {
+                  { c - a } -> std::same_as<T>;
+                })
+    return c - a;
   else return T(c) - a;
 }
 
 template <class T>
 T times_constant(const T& a, double c) {
-  if constexpr (!std::is_arithmetic_v<T> && requires { { a * c } -> std::same_as<T>; }) return a * c;
+  if constexpr (!std::is_arithmetic_v<T> && requires {
+                  { a* c } -> std::same_as<T>;
+                })
+    return a * c;
   else return a * T(c);
 }
 
 template <class T>
 T over_constant(const T& a, double c) {
-  if constexpr (!std::is_arithmetic_v<T> && requires { { a / c } -> std::same_as<T>; }) return a / c;
+  if constexpr (!std::is_arithmetic_v<T> && requires {
+                  { a / c } -> std::same_as<T>;
+                })
+    return a / c;
   else return a / T(c);
 }
 
 template <class T>
 T constant_over(double c, const T& a) {
-  if constexpr (!std::is_arithmetic_v<T> && requires { { c / a } -> std::same_as<T>; }) return c / a;
+  if constexpr (!std::is_arithmetic_v<T> && requires {
+                  { c / a } -> std::same_as<T>;
+                })
+    return c / a;
   else return T(c) / a;
 }
 
 // Functions with a fallback for types that do not have them.
 template <class T>
 T squared(const T& a) {
-  if constexpr (requires { { square(a) } -> std::convertible_to<T>; }) return square(a);
+  if constexpr (requires {
+                  { square(a) } -> std::convertible_to<T>;
+                })
+    return square(a);
   else return a * a;
 }
 
@@ -111,21 +159,30 @@ T constant_power(const T& a, double c) {
 /// for types that are ordered by `<` and have no `min` of their own.
 template <class T>
 T minimum(const T& a, const T& b) {
-  if constexpr (!std::is_arithmetic_v<T> && requires { { min(a, b) } -> std::convertible_to<T>; }) return min(a, b);
+  if constexpr (!std::is_arithmetic_v<T> && requires {
+                  { min(a, b) } -> std::convertible_to<T>;
+                })
+    return min(a, b);
   else return a < b || a != a ? a : b;
 }
 
 /// As minimum().
 template <class T>
 T maximum(const T& a, const T& b) {
-  if constexpr (!std::is_arithmetic_v<T> && requires { { max(a, b) } -> std::convertible_to<T>; }) return max(a, b);
+  if constexpr (!std::is_arithmetic_v<T> && requires {
+                  { max(a, b) } -> std::convertible_to<T>;
+                })
+    return max(a, b);
   else return a > b || a != a ? a : b;
 }
 
 template <class T>
 T hypotenuse(const T& a, const T& b) {
   if constexpr (std::is_arithmetic_v<T>) return std::hypot(a, b);
-  else if constexpr (requires { { hypot(a, b) } -> std::convertible_to<T>; }) return hypot(a, b);
+  else if constexpr (requires {
+                       { hypot(a, b) } -> std::convertible_to<T>;
+                     })
+    return hypot(a, b);
   else return sqrt(T(squared(a) + squared(b)));
 }
 
@@ -165,25 +222,85 @@ template <std::size_t Block, class T>
 void execute_function(const Instruction& instruction, const T* a, const T* b, T* result, std::size_t count) {
   const auto apply = [&](auto f) { for_each_point<Block>(a, b, result, count, f); };
   switch (instruction.opcode) {
-    case Opcode::SQRT: return apply([](const T& u, const T&) -> T { using std::sqrt; return sqrt(u); });
-    case Opcode::CBRT: return apply([](const T& u, const T&) -> T { using std::cbrt; return cbrt(u); });
-    case Opcode::EXP: return apply([](const T& u, const T&) -> T { using std::exp; return exp(u); });
-    case Opcode::LOG: return apply([](const T& u, const T&) -> T { using std::log; return log(u); });
-    case Opcode::SIN: return apply([](const T& u, const T&) -> T { using std::sin; return sin(u); });
-    case Opcode::COS: return apply([](const T& u, const T&) -> T { using std::cos; return cos(u); });
-    case Opcode::TAN: return apply([](const T& u, const T&) -> T { using std::tan; return tan(u); });
-    case Opcode::ASIN: return apply([](const T& u, const T&) -> T { using std::asin; return asin(u); });
-    case Opcode::ACOS: return apply([](const T& u, const T&) -> T { using std::acos; return acos(u); });
-    case Opcode::ATAN: return apply([](const T& u, const T&) -> T { using std::atan; return atan(u); });
-    case Opcode::ATAN2: return apply([](const T& u, const T& v) -> T { using std::atan2; return atan2(u, v); });
-    case Opcode::SINH: return apply([](const T& u, const T&) -> T { using std::sinh; return sinh(u); });
-    case Opcode::COSH: return apply([](const T& u, const T&) -> T { using std::cosh; return cosh(u); });
-    case Opcode::TANH: return apply([](const T& u, const T&) -> T { using std::tanh; return tanh(u); });
-    case Opcode::ABS: return apply([](const T& u, const T&) -> T { using std::abs; return abs(u); });
-    case Opcode::MIN: return apply([](const T& u, const T& v) -> T { return minimum(u, v); });
-    case Opcode::MAX: return apply([](const T& u, const T& v) -> T { return maximum(u, v); });
-    case Opcode::HYPOT: return apply([](const T& u, const T& v) -> T { return hypotenuse(u, v); });
-    default: return;
+  case Opcode::SQRT:
+    return apply([](const T& u, const T&) -> T {
+      using std::sqrt;
+      return sqrt(u);
+    });
+  case Opcode::CBRT:
+    return apply([](const T& u, const T&) -> T {
+      using std::cbrt;
+      return cbrt(u);
+    });
+  case Opcode::EXP:
+    return apply([](const T& u, const T&) -> T {
+      using std::exp;
+      return exp(u);
+    });
+  case Opcode::LOG:
+    return apply([](const T& u, const T&) -> T {
+      using std::log;
+      return log(u);
+    });
+  case Opcode::SIN:
+    return apply([](const T& u, const T&) -> T {
+      using std::sin;
+      return sin(u);
+    });
+  case Opcode::COS:
+    return apply([](const T& u, const T&) -> T {
+      using std::cos;
+      return cos(u);
+    });
+  case Opcode::TAN:
+    return apply([](const T& u, const T&) -> T {
+      using std::tan;
+      return tan(u);
+    });
+  case Opcode::ASIN:
+    return apply([](const T& u, const T&) -> T {
+      using std::asin;
+      return asin(u);
+    });
+  case Opcode::ACOS:
+    return apply([](const T& u, const T&) -> T {
+      using std::acos;
+      return acos(u);
+    });
+  case Opcode::ATAN:
+    return apply([](const T& u, const T&) -> T {
+      using std::atan;
+      return atan(u);
+    });
+  case Opcode::ATAN2:
+    return apply([](const T& u, const T& v) -> T {
+      using std::atan2;
+      return atan2(u, v);
+    });
+  case Opcode::SINH:
+    return apply([](const T& u, const T&) -> T {
+      using std::sinh;
+      return sinh(u);
+    });
+  case Opcode::COSH:
+    return apply([](const T& u, const T&) -> T {
+      using std::cosh;
+      return cosh(u);
+    });
+  case Opcode::TANH:
+    return apply([](const T& u, const T&) -> T {
+      using std::tanh;
+      return tanh(u);
+    });
+  case Opcode::ABS:
+    return apply([](const T& u, const T&) -> T {
+      using std::abs;
+      return abs(u);
+    });
+  case Opcode::MIN: return apply([](const T& u, const T& v) -> T { return minimum(u, v); });
+  case Opcode::MAX: return apply([](const T& u, const T& v) -> T { return maximum(u, v); });
+  case Opcode::HYPOT: return apply([](const T& u, const T& v) -> T { return hypotenuse(u, v); });
+  default: return;
   }
 }
 
@@ -193,22 +310,22 @@ void execute(const Instruction& instruction, const T* a, const T* b, T* result, 
   const double c = instruction.constant;
   const auto apply = [&](auto f) { for_each_point<Block>(a, b, result, count, f); };
   switch (instruction.opcode) {
-    case Opcode::CONSTANT: return apply([c](const T&, const T&) -> T { return T(c); });
-    case Opcode::ADD_CONSTANT: return apply([c](const T& u, const T&) -> T { return plus_constant(u, c); });
-    case Opcode::SUBTRACT_FROM_CONSTANT: return apply([c](const T& u, const T&) -> T { return constant_minus(c, u); });
-    case Opcode::MULTIPLY_CONSTANT: return apply([c](const T& u, const T&) -> T { return times_constant(u, c); });
-    case Opcode::DIVIDE_BY_CONSTANT: return apply([c](const T& u, const T&) -> T { return over_constant(u, c); });
-    case Opcode::DIVIDE_CONSTANT: return apply([c](const T& u, const T&) -> T { return constant_over(c, u); });
-    case Opcode::ADD: return apply([](const T& u, const T& v) -> T { return u + v; });
-    case Opcode::SUBTRACT: return apply([](const T& u, const T& v) -> T { return u - v; });
-    case Opcode::MULTIPLY: return apply([](const T& u, const T& v) -> T { return u * v; });
-    case Opcode::DIVIDE: return apply([](const T& u, const T& v) -> T { return u / v; });
-    case Opcode::NEGATE: return apply([](const T& u, const T&) -> T { return -u; });
-    case Opcode::SQUARE: return apply([](const T& u, const T&) -> T { return squared(u); });
-    case Opcode::INTEGER_POWER: return integer_power<Block>(a, result, count, static_cast<unsigned>(c));
-    case Opcode::POWER_CONSTANT: return apply([c](const T& u, const T&) -> T { return constant_power(u, c); });
-    case Opcode::POWER: return apply([](const T& u, const T& v) -> T { return real_power(u, v); });
-    default: return execute_function<Block>(instruction, a, b, result, count);
+  case Opcode::CONSTANT: return apply([c](const T&, const T&) -> T { return T(c); });
+  case Opcode::ADD_CONSTANT: return apply([c](const T& u, const T&) -> T { return plus_constant(u, c); });
+  case Opcode::SUBTRACT_FROM_CONSTANT: return apply([c](const T& u, const T&) -> T { return constant_minus(c, u); });
+  case Opcode::MULTIPLY_CONSTANT: return apply([c](const T& u, const T&) -> T { return times_constant(u, c); });
+  case Opcode::DIVIDE_BY_CONSTANT: return apply([c](const T& u, const T&) -> T { return over_constant(u, c); });
+  case Opcode::DIVIDE_CONSTANT: return apply([c](const T& u, const T&) -> T { return constant_over(c, u); });
+  case Opcode::ADD: return apply([](const T& u, const T& v) -> T { return u + v; });
+  case Opcode::SUBTRACT: return apply([](const T& u, const T& v) -> T { return u - v; });
+  case Opcode::MULTIPLY: return apply([](const T& u, const T& v) -> T { return u * v; });
+  case Opcode::DIVIDE: return apply([](const T& u, const T& v) -> T { return u / v; });
+  case Opcode::NEGATE: return apply([](const T& u, const T&) -> T { return -u; });
+  case Opcode::SQUARE: return apply([](const T& u, const T&) -> T { return squared(u); });
+  case Opcode::INTEGER_POWER: return integer_power<Block>(a, result, count, static_cast<unsigned>(c));
+  case Opcode::POWER_CONSTANT: return apply([c](const T& u, const T&) -> T { return constant_power(u, c); });
+  case Opcode::POWER: return apply([](const T& u, const T& v) -> T { return real_power(u, v); });
+  default: return execute_function<Block>(instruction, a, b, result, count);
   }
 }
 
@@ -232,8 +349,7 @@ public:
     const auto operand = [&](std::uint32_t index) -> const T* {
       return index < number_of_variables ? variables[index] : slot(index);
     };
-    for (const Instruction& i : tape.instructions)
-      execute<Block>(i, operand(i.a), operand(i.b), slot(i.result), count);
+    for (const Instruction& i : tape.instructions) execute<Block>(i, operand(i.a), operand(i.b), slot(i.result), count);
     return operand(tape.result);
   }
 

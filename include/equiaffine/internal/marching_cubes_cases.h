@@ -53,7 +53,8 @@ private:
   /// The corners of face `side` of `axis`, counterclockwise seen from outside.
   static std::array<int, 4> face(int axis, int side) {
     const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3, base = side << axis;
-    return side ? std::array{base, base + u, base + u + v, base + v} : std::array{base, base + v, base + u + v, base + u};
+    return side ? std::array{base, base + u, base + u + v, base + v}
+                : std::array{base, base + v, base + u + v, base + u};
   }
 
   /// On each face every run of positive corners is cut off by a segment from the edge after the run to the one before

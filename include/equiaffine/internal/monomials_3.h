@@ -27,8 +27,7 @@ inline constexpr auto monomials = [] {
   std::size_t n = 0;
   for (int degree = 0; degree <= maximal_order; ++degree)
     for (int i = degree; i >= 0; --i)
-      for (int j = degree - i; j >= 0; --j)
-        table[n++] = {std::int8_t(i), std::int8_t(j), std::int8_t(degree - i - j)};
+      for (int j = degree - i; j >= 0; --j) table[n++] = {std::int8_t(i), std::int8_t(j), std::int8_t(degree - i - j)};
   return table;
 }();
 
@@ -71,16 +70,14 @@ constexpr Monomial_set product_of_sets(Monomial_set a, Monomial_set b, int order
   Monomial_set product = 0;
   for (int p = 0; p < maximal_number_of_monomials; ++p)
     for (int q = 0; contains(a, p) && q < maximal_number_of_monomials; ++q)
-      if (contains(b, q) && product_of_monomials(p, q) >= 0)
-        product |= Monomial_set(1) << product_of_monomials(p, q);
+      if (contains(b, q) && product_of_monomials(p, q) >= 0) product |= Monomial_set(1) << product_of_monomials(p, q);
   return product & all_monomials(order);
 }
 
 /// The monomials that a smooth function of a jet with the given support can have.
 constexpr Monomial_set closure(Monomial_set set, int order) {
   Monomial_set powers = 1;
-  for (int n = 0; n < order; ++n)
-    powers |= product_of_sets(powers, set, order);
+  for (int n = 0; n < order; ++n) powers |= product_of_sets(powers, set, order);
   return powers;
 }
 

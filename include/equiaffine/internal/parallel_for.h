@@ -20,9 +20,10 @@ template <class ConcurrencyTag, class F>
 void parallel_for(std::size_t begin, std::size_t end, F f, [[maybe_unused]] std::size_t grain = 1) {
 #ifdef CGAL_LINKED_WITH_TBB
   if constexpr (std::is_convertible_v<ConcurrencyTag, CGAL::Parallel_tag>) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain), [&](const tbb::blocked_range<std::size_t>& r) {
-      for (std::size_t i = r.begin(); i != r.end(); ++i) f(i);
-    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain),
+                      [&](const tbb::blocked_range<std::size_t>& r) {
+                        for (std::size_t i = r.begin(); i != r.end(); ++i) f(i);
+                      });
     return;
   }
 #endif

@@ -10,11 +10,11 @@ namespace equiaffine::internal {
 
 /// How a scalar attribute is called where people read it.
 struct Quantity {
-  std::string_view name;    ///< of the attribute
+  std::string_view name; ///< of the attribute
   std::string_view label;
-  std::string_view symbol;  ///< UTF-8
+  std::string_view symbol; ///< UTF-8
   std::string_view group;
-  int weight;               ///< under p -> s p the number is multiplied by s^(weight / 2)
+  int weight; ///< under p -> s p the number is multiplied by s^(weight / 2)
 };
 
 /// The quantities this library computes, in the order in which they are offered.

@@ -133,6 +133,12 @@ function toggle(name) {
   if (name === 'hasMarks') update();
   else updateColors();
 }
+// Until then the scale is the one that suits the quantity.
+function chooseScale(isLog) {
+  choice.isLog = isLog;
+  choice.isScaleChosen = true;
+  updateColors();
+}
 function toggleHelp() {
   const isHidden = byId('help').hidden = !byId('help').hidden;
   byId('help-toggle').setAttribute('aria-expanded', !isHidden);
@@ -155,7 +161,7 @@ const keys = {
   ArrowUp: () => orbit(0, -0.1), ArrowDown: () => orbit(0, 0.1),
   '+': () => zoom(0.85, 0, 0, aspect()), '=': () => zoom(0.85, 0, 0, aspect()),
   '-': () => zoom(1 / 0.85, 0, 0, aspect()),
-  r: resetView, e: () => toggle('edges'), i: () => toggle('isolines'), l: () => toggle('isLog'), v: nextVectors,
+  r: resetView, e: () => toggle('edges'), i: () => toggle('isolines'), l: () => chooseScale(!choice.isLog), v: nextVectors,
   n: () => stepQuantity(1), p: () => stepQuantity(-1), s: savePicture, h: togglePanel, '?': toggleHelp,
   x: () => lookAlong(0, 1), y: () => lookAlong(1, 1), z: () => lookAlong(2, 1),
   X: () => lookAlong(0, -1), Y: () => lookAlong(1, -1), Z: () => lookAlong(2, -1), Escape: () => pick(null),
@@ -171,8 +177,8 @@ document.addEventListener('keydown', event => {
 const on = (id, type, act) => byId(id).addEventListener(type, act);
 on('quantity', 'change', event => setQuantity(quantities.find(quantity => quantity.name === event.target.value)));
 on('clip', 'input', event => { choice.clip = clipSteps[event.target.value]; updateColors(); });
-on('scale-linear', 'click', () => { choice.isLog = false; updateColors(); });
-on('scale-log', 'click', () => { choice.isLog = true; updateColors(); });
+on('scale-linear', 'click', () => chooseScale(false));
+on('scale-log', 'click', () => chooseScale(true));
 on('edges', 'change', () => toggle('edges'));
 on('isolines', 'change', () => toggle('isolines'));
 on('marks', 'change', () => toggle('hasMarks'));
@@ -192,7 +198,7 @@ for (const button of byId('up').children)
 function fragment() {
   const list = (values, digits) => values.map(value => Number(value.toPrecision(digits))).join(',');
   const parts = {
-    color: encodeURIComponent(choice.quantity.name), scale: choice.isLog ? 'log' : 'linear', clip: choice.clip,
+    color: encodeURIComponent(choice.quantity.name), scale: choice.isScaleChosen ? (choice.isLog ? 'log' : 'linear') : 'auto', clip: choice.clip,
     view: list([...camera.back, ...camera.up], 5), target: list(add(facts.center, camera.target), 9),
     zoom: list([4 * radius / camera.distance], 5), edges: Number(choice.edges),
     isolines: Number(choice.isolines), marks: Number(choice.hasMarks),
@@ -218,6 +224,7 @@ function followAddress() {
   fitDistance(aspect());
   if (isFine(target, 3)) camera.target = add(target, facts.center, -1);
   if (zoomed > 0) camera.distance = 4 * radius / zoomed;
+  choice.isScaleChosen = /^(linear|log)$/.test(asked.get('scale') ?? '');
   choice.isLog = asked.get('scale') === 'log';
   if (Number(asked.get('clip') ?? NaN) >= 0) setClip(Number(asked.get('clip')));
   choice.edges = isOn('edges', false);

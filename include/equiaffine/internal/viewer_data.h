@@ -135,6 +135,9 @@ function colorRange(sorted, magnitudes, clip, resolution) {
   return {lower: middle - halfWidth, upper: middle + halfWidth, knee, isDiverging: false};
 }
 
+// Whether preferred_scale of io/color_map.h is ASINH.
+const prefersLog = range => Math.max(Math.abs(range.lower), Math.abs(range.upper)) > 100 * range.knee;
+
 // The share of the way from the lower to the upper end of the range, not clipped. Clipped, this is map_position of
 // io/color_map.h, with [-1, 1] of the diverging map brought to [0, 1].
 function barPosition(value, range, isLog) {

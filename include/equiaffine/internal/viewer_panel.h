@@ -12,7 +12,7 @@ namespace equiaffine::internal {
 inline constexpr std::string_view viewer_panel = R"js(
 const clipSteps = [0, 0.1, 0.2, 0.5, 1, 2, 3, 5, 10, 15, 20, 25];
 const canvas = byId('view'), stage = byId('stage');
-const choice = {quantity: plain, isLog: false, clip: facts.clip, hasMarks: true, edges: false, isolines: false,
+const choice = {quantity: plain, isLog: false, isScaleChosen: false, clip: facts.clip, hasMarks: true, edges: false, isolines: false,
                 vectors: null, picked: null};
 // shown: {values, codes, sorted, magnitudes} of the quantity.
 let scene = null, range = null, shown = null, areas = null;
@@ -70,6 +70,7 @@ function update() {
 function updateColors() {
   const {values, codes} = shown, levels = new Float32Array(mesh.size);
   range = values && colorRange(shown.sorted, shown.magnitudes, choice.clip, choice.quantity.resolution);
+  if (values && !choice.isScaleChosen) choice.isLog = prefersLog(range);
   if (values)
     for (let i = 0; i < levels.length; ++i) if (codes[i] === 0) levels[i] = mapPosition(values[i], range, choice.isLog);
   scene.setColors(levels, codes, values && (range.isDiverging ? facts.diverging : facts.sequential));

@@ -23,15 +23,15 @@ namespace equiaffine {
 
 enum class Color_scale {
   LINEAR,
-  ASINH  ///< linear below `Color_range::knee`, logarithmic above, with the sign kept
+  ASINH ///< linear below `Color_range::knee`, logarithmic above, with the sign kept
 };
 
 /// The numbers that get the two end colours; beyond them colours stay the same.
 struct Color_range {
   double lower;
   double upper;
-  double knee;        ///< the median of |value|, at least the least difference worth a colour: > 0
-  bool is_diverging;  ///< lower == -upper: zero is the middle of the diverging map; else the sequential map is used
+  double knee;       ///< the median of |value|, at least the least difference worth a colour: > 0
+  bool is_diverging; ///< lower == -upper: zero is the middle of the diverging map; else the sequential map is used
 
   friend bool operator==(const Color_range&, const Color_range&) = default;
 };
@@ -72,7 +72,7 @@ inline Color_range color_range(std::vector<double> values, double clip_percent =
   const double knee = std::max({quantile(magnitudes, 50), resolution, relative_resolution * largest});
 
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-  if (*least < -relative_resolution * largest && *greatest > relative_resolution * largest)
+  if (*least<-relative_resolution * largest&& * greatest> relative_resolution * largest)
     return {-largest, largest, knee, true};
   const double lower = quantile(values, clip_percent);
   const double upper = quantile(values, 100 - clip_percent);
@@ -89,6 +89,14 @@ inline double map_position(double value, const Color_range& range, Color_scale s
   const double clipped = std::clamp(value, range.lower, range.upper);
   if (range.is_diverging) return scaled(clipped) / scaled(range.upper);
   return (scaled(clipped) - scaled(range.lower)) / (scaled(range.upper) - scaled(range.lower));
+}
+
+/// The scale that shows most of a quantity: logarithmic where the range is wider than a hundred times the typical number,
+/// as for curvatures near a parabolic curve, which would leave all else in the middle colour.
+inline Color_scale preferred_scale(const Color_range& range) {
+  constexpr double widest_linear = 100;
+  const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
+  return largest > widest_linear * range.knee ? Color_scale::ASINH : Color_scale::LINEAR;
 }
 
 namespace internal {
@@ -108,7 +116,7 @@ inline std::array<double, 3> linear_rgb_from_oklch(double lightness, double chro
 }
 
 inline CGAL::IO::Color color_from_linear_rgb(const std::array<double, 3>& linear) {
-  const auto byte = [](double x) {  // IEC 61966-2-1
+  const auto byte = [](double x) { // IEC 61966-2-1
     x = std::clamp(x, 0., 1.);
     const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
     return static_cast<unsigned char>(std::lround(255 * encoded));
@@ -157,11 +165,11 @@ inline CGAL::IO::Color map_color(double value, const Color_range& range, Color_s
 /// The colour of a point by its status: hues and darkness that neither map has.
 inline CGAL::IO::Color status_color(Point_status status) {
   switch (status) {
-    case Point_status::PARABOLIC: return CGAL::IO::Color(18, 161, 80);
-    case Point_status::SINGULAR: return CGAL::IO::Color(17, 17, 17);
-    case Point_status::OUTSIDE: return CGAL::IO::Color(160, 124, 60);
-    case Point_status::UNCONVERGED: return CGAL::IO::Color(0, 194, 214);
-    case Point_status::REGULAR: break;
+  case Point_status::PARABOLIC: return CGAL::IO::Color(18, 161, 80);
+  case Point_status::SINGULAR: return CGAL::IO::Color(17, 17, 17);
+  case Point_status::OUTSIDE: return CGAL::IO::Color(160, 124, 60);
+  case Point_status::UNCONVERGED: return CGAL::IO::Color(0, 194, 214);
+  case Point_status::REGULAR: break;
   }
   return plain_color();
 }

@@ -50,12 +50,12 @@ inline std::string html_escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      case '\'': result += "&#39;"; break;
-      default: result += c;
+    case '&': result += "&amp;"; break;
+    case '<': result += "&lt;"; break;
+    case '>': result += "&gt;"; break;
+    case '"': result += "&quot;"; break;
+    case '\'': result += "&#39;"; break;
+    default: result += c;
     }
   }
   return result;
@@ -69,8 +69,7 @@ inline std::string json_string(std::string_view text) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || c == '"' || c == '\\' || c == '<')
       result += {'\\', 'u', '0', '0', digits[byte >> 4], digits[byte & 15]};
-    else
-      result += c;
+    else result += c;
   }
   return result + '"';
 }
@@ -103,7 +102,7 @@ void write_data_block(std::ostream& out, const std::string& id, PutAll put_all) 
 /// A function's colours at `size` equally spaced places of [first, 1].
 template <class Function>
 std::string color_table(Function function, double first) {
-  constexpr int size = 257;  // odd: zero is one of the places
+  constexpr int size = 257; // odd: zero is one of the places
   std::string result = "[";
   for (int i = 0; i < size; ++i)
     result += (i == 0 ? "\"" : ",\"") + hexadecimal(function(first + (1 - first) * i / (size - 1))) + '"';
@@ -206,9 +205,10 @@ void write_HTML(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, 
   const std::string title = internal::html_escaped(options.title);
   out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       << "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" << title << "</title>\n"
-      << "<style>" << internal::viewer_style << "</style>\n</head>\n<body>\n" << internal::viewer_stage
-      << "<aside id=\"panel\">\n<h1>" << title << "</h1>\n" << internal::viewer_controls
-      << (options.description.empty() ? "" : "<h2>Surface</h2>\n") << "<dl id=\"description\">\n";
+      << "<style>" << internal::viewer_style << "</style>\n</head>\n<body>\n"
+      << internal::viewer_stage << "<aside id=\"panel\">\n<h1>" << title << "</h1>\n"
+      << internal::viewer_controls << (options.description.empty() ? "" : "<h2>Surface</h2>\n")
+      << "<dl id=\"description\">\n";
   for (const auto& [name, text] : options.description)
     out << "<dt>" << internal::html_escaped(name) << "</dt><dd>" << internal::html_escaped(text) << "</dd>\n";
   out << "</dl>\n</aside>\n<script type=\"application/json\" id=\"facts\">"
