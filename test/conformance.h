@@ -31,7 +31,8 @@ inline double evaluate(const Jet_3<double>& jet, double x, double y, double z) {
   return sum;
 }
 
-/// Largest difference between f and its expansion on a set of directions at distance h, relative to the size of the terms.
+/// Largest difference between f and its expansion on a set of directions at distance h, relative to the size of the
+/// terms.
 template <class Traits>
 double remainder(const Traits& traits, const typename Traits::Point_3& p, double h) {
   static const std::array<std::array<double, 3>, 7> directions = {

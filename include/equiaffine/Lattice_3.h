@@ -13,7 +13,7 @@
 namespace equiaffine {
 
 /// A grid of nx x ny x nz nodes in space: node (i, j, k) lies at origin + i e0 + j e1 + k e2. The steps e0, e1, e2 may
-/// have any lengths and directions, left-handed ones included; only a vanishing determinant is a precondition violation.
+/// have any lengths and directions, left-handed ones included; the precondition is a determinant that is not zero.
 /// Nodes are stored with i fastest. Lengths are those of the user's coordinates.
 template <class Kernel>
 class Lattice_3 {

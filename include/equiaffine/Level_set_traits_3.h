@@ -17,9 +17,9 @@ enum class Orientation_of_level_set {
   AGAINST_GRADIENT ///< towards smaller values, for volumes that are bright inside
 };
 
-/// The function f - v, or v - f against the gradient, whose zero set is the level set f = v with the chosen orientation.
-/// Models every refinement that the base models, batches apart. Reversing the orientation changes the sign of nu, xi, H,
-/// J, H_e and of the metric; K and K_e stay.
+/// The function f - v, or v - f against the gradient, whose zero set is the level set f = v with the chosen
+/// orientation. Models every refinement that the base models, batches apart. Reversing the orientation changes the sign
+/// of nu, xi, H, J, H_e and of the metric; K and K_e stay.
 template <ImplicitFunctionTraits_3 Base>
 class Level_set_traits_3 {
 public:

@@ -42,8 +42,8 @@ bool is_finite(const Affine_structure_3<FT>& s) {
 
 } // namespace internal
 
-/// Local structure, Euclidean and affine, of the level set of f through a point, from the jet of f there. The point need
-/// not satisfy f = 0. For `point_magnitude` see Monge_chart_3. About 500 floating-point operations.
+/// Local structure, Euclidean and affine, of the level set of f through a point, from the jet of f there. The point
+/// need not satisfy f = 0. For `point_magnitude` see Monge_chart_3. About 500 floating-point operations.
 template <class FT>
 Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const FT& point_magnitude = FT(0)) {
   const Monge_chart_3<FT> chart(jet, point_magnitude);

@@ -17,13 +17,13 @@ namespace equiaffine {
 /// The coordinates are permuted cyclically to (x, y, z) so that |f_z| is the largest component of the gradient (the
 /// pivot). With a = f_x / f_z, b = f_y / f_z the vectors e_u = (1, 0, -a), e_v = (0, 1, -b) are tangent, and
 /// e_w = (0, 0, 1) + alpha e_u + beta e_v is the transversal direction conjugate to the tangent plane with respect to
-/// the second derivatives of f. The frame has determinant 1, the gradient of f / f_z in it is (0, 0, 1), and for a quadric
-/// e_w is already the affine normal: nothing is left to cancel. A rotation instead of this shear would mix the scales
-/// of an anisotropic surface; without the pivot digits are lost wherever f_z is small; with alpha = beta = 0 they are
-/// lost where e_w and the affine normal differ much.
+/// the second derivatives of f. The frame has determinant 1, the gradient of f / f_z in it is (0, 0, 1), and for a
+/// quadric e_w is already the direction of the affine normal: nothing is left to cancel. A rotation instead of this
+/// shear would mix the scales of an anisotropic surface; without the pivot digits are lost wherever f_z is small; with
+/// alpha = beta = 0 they are lost where e_w and the affine normal differ much.
 ///
-/// In this frame f / f_z = w + Q + e w^2 + C + w D + R + ..., with forms in (u, v) of degree Q:2, e:0, C:3, D:2, R:4, and
-/// g = -(Q + C + R + Q (e Q - D)). Where d vanishes there is no conjugate direction: alpha and beta are 0 and only h is
+/// In this frame f / f_z = w + Q + e w^2 + C + w D + R + ..., with forms in (u, v) of degree Q:2, e:0, C:3, D:2, R:4,
+/// and g = -(Q + C + R + Q (e Q - D)). Where d vanishes there is no conjugate direction: alpha and beta are 0 and only h is
 /// of use.
 ///
 /// Signs: `sign` is that of f_z, so that normals along the gradient are sign (a, b, 1) up to length.
@@ -38,8 +38,8 @@ struct Monge_chart_3 {
   std::array<FT, 5> quartic; ///< g_uuuu ... g_vvvv
   FT d;                      ///< g_uu g_vv - g_uv^2
 
-  /// `point_magnitude` is the largest absolute coordinate of the point, 0 if unknown: a gradient that one rounding of the
-  /// coordinates could produce at a singular point is taken for zero. A jet with value NaN is OUTSIDE, one with another
+  /// `point_magnitude` is the largest absolute coordinate of the point, 0 if unknown: a gradient that one rounding of
+  /// the coordinates could produce at a singular point is taken for zero. A jet with value NaN is OUTSIDE, one with another
   /// coefficient that is not finite SINGULAR. PARABOLIC is |d| below 1000 roundings of its own terms.
   explicit Monge_chart_3(const Jet_3<FT>& jet, const FT& point_magnitude = FT(0)) {
     status = status_of(jet, point_magnitude);

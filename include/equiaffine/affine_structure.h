@@ -16,12 +16,11 @@ namespace equiaffine {
 /// Affine-invariant curvature estimators for implicit surfaces, 2012, section 2; Nomizu, Sasaki: Affine Differential
 /// Geometry, 1994, chapter II.
 ///
-/// Conventions: nu(xi) = 1, dxi(X) = -B X. A sphere of radius r with outward gradient has K = r^-3, H = -r^(-3/2), J = 0.
-/// -f instead of f changes the sign of nu, xi, H, J and of the metric, c f with c > 0 nothing.
-/// Units: K length^-3, H and J length^(-3/2), xi length^(-1/2), nu length^(1/2); the metric maps two vectors to
-/// length^(3/2). Under p -> A p with a = |det A|: K / a, H / sqrt(a), J / sqrt(a), sqrt(a) A^-T nu, A xi / sqrt(a),
-/// sqrt(a) A^-T metric A^-1.
-/// The Gauss equation holds: the Gaussian curvature of the metric is H + J.
+/// Conventions: nu(xi) = 1, dxi(X) = -B X. A sphere of radius r with outward gradient has K = r^-3, H = -r^(-3/2), J =
+/// 0. -f instead of f changes the sign of nu, xi, H, J and of the metric; c f with c > 0 nothing. Units: K length^-3, H
+/// and J length^(-3/2), xi length^(-1/2), nu length^(1/2); the metric maps two vectors to length^(3/2). Under p -> A p
+/// with a = |det A|: K / a, H / sqrt(a), J / sqrt(a), sqrt(a) A^-T nu, A xi / sqrt(a), sqrt(a) A^-T metric A^-1. The
+/// Gauss equation holds: the Gaussian curvature of the metric is H + J.
 template <class FT>
 struct Affine_structure_3 {
   std::array<FT, 3> conormal; ///< nu: |K_e|^(-1/4) times the unit normal along the gradient
@@ -38,9 +37,8 @@ struct Affine_structure_3 {
   std::array<FT, 4> shape_operator;
 };
 
-/// Affine structure from a chart. The formulas are those of a graph with vanishing gradient, with the products of second
-/// and third derivatives gathered into the Hessian covariant of the cubic form.
-/// \pre chart.status is REGULAR.
+/// Affine structure from a chart. The formulas are those of a graph with vanishing gradient, with the products of
+/// second and third derivatives gathered into the Hessian covariant of the cubic form. \pre chart.status is REGULAR.
 template <class FT>
 Affine_structure_3<FT> affine_structure(const Monge_chart_3<FT>& chart) {
   using std::abs;

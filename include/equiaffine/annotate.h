@@ -89,10 +89,10 @@ private:
 
 } // namespace internal
 
-/// Fills property maps of the vertices of `mesh` with the local structure of the level sets of f through them: `v:status`
-/// (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`, `v:direction1`, `v:direction2` (Vector_3), and one of FT
-/// for every other attribute (see attributes.h), `v:k1` to `v:metric_zz`. A vertex whose `v:status` is UNCONVERGED
-/// before the call keeps it. The same for CGAL::Sequential_tag and CGAL::Parallel_tag.
+/// Fills property maps of the vertices of `mesh` with the local structure of the level sets of f through them:
+/// `v:status` (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`, `v:direction1`, `v:direction2` (Vector_3),
+/// and one of FT for every other attribute (see attributes.h), `v:k1` to `v:metric_zz`. A vertex whose `v:status` is
+/// UNCONVERGED before the call keeps it. The same for CGAL::Sequential_tag and CGAL::Parallel_tag.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits>
 void annotate(CGAL::Surface_mesh<typename Traits::Point_3>& mesh, const Traits& traits) {
   using Mesh = CGAL::Surface_mesh<typename Traits::Point_3>;

@@ -68,7 +68,8 @@ inline constexpr auto all_attributes = [] {
   };
 }();
 
-/// Which attributes to compute, in the order of the table; with at least one of them, or `status` alone, comes the status.
+/// Which attributes to compute, in the order of the table; with at least one of them, or `status` alone, comes the
+/// status.
 struct Attribute_selection {
   std::vector<Attribute> columns;
   bool has_status = true;

@@ -64,7 +64,8 @@ template <class Traits>
 concept LatticeImplicitFunctionTraits_3 =
   ImplicitFunctionTraits_3<Traits> &&
   requires(const Traits& traits, std::size_t i) {
-    { traits.lattice() } -> std::convertible_to<Lattice_3<typename CGAL::Kernel_traits<typename Traits::Point_3>::Kernel>>;
+    { traits.lattice() }
+      -> std::convertible_to<Lattice_3<typename CGAL::Kernel_traits<typename Traits::Point_3>::Kernel>>;
     { traits.sample(i, i, i) } -> std::convertible_to<typename Traits::FT>;
   };
 

@@ -10,8 +10,8 @@
 namespace equiaffine {
 
 /// Euclidean structure of an oriented surface at a point. The shape operator is S with dn(X) = -S X for the unit normal
-/// n along the gradient: a sphere of radius r with outward gradient has k1 = k2 = -1/r, Gaussian curvature 1/r^2 and mean
-/// curvature -1/r. Units: curvatures 1/length, Gaussian curvature 1/length^2.
+/// n along the gradient: a sphere of radius r with outward gradient has k1 = k2 = -1/r, Gaussian curvature 1/r^2 and
+/// mean curvature -1/r. Units: curvatures 1/length, Gaussian curvature 1/length^2.
 template <class FT>
 struct Euclidean_structure_3 {
   std::array<FT, 3> normal;

@@ -34,10 +34,10 @@ FT distance_estimate(const Jet_3<FT, 1>& jet) {
 }
 
 /// A zero of f on the segment ab, at whose ends f has the values fa and fb of different signs (0 counts as positive).
-/// Newton's method on the restriction of f, started at the linear interpolation and kept within the bracket by bisection
-/// whenever a step would leave it or not halve the last one (Press et al., Numerical Recipes, 2007, section 9.4). The
-/// result is accurate to a few roundings of the coordinates. A sign change without a zero, at a pole or a jump, is told
-/// by |f| getting neither smaller than at both ends nor negligible: not converged.
+/// Newton's method on the restriction of f, started at the linear interpolation and kept within the bracket by
+/// bisection whenever a step would leave it or not halve the last one (Press et al., Numerical Recipes, 2007, section
+/// 9.4). The result is accurate to a few roundings of the coordinates. A sign change without a zero, at a pole or a
+/// jump, is told by |f| getting neither smaller than at both ends nor negligible: not converged.
 template <ImplicitFunctionTraits_3 Traits>
 Surface_point_3<Kernel_of<Traits>> intersect_segment(const Traits& traits, const typename Traits::Point_3& a,
                                                      const typename Traits::Point_3& b, const typename Traits::FT& fa,
@@ -80,7 +80,8 @@ Surface_point_3<Kernel_of<Traits>> intersect_segment(const Traits& traits, const
   return result(false, maximal_iterations);
 }
 
-/// The zero of f nearest to p along the line through p in the direction of the gradient, at most `maximal_distance` away.
+/// The zero of f nearest to p along the line through p in the direction of the gradient, at most `maximal_distance`
+/// away.
 template <ImplicitFunctionTraits_3 Traits>
 Surface_point_3<Kernel_of<Traits>> project_to_surface(const Traits& traits, const typename Traits::Point_3& p,
                                                       const typename Traits::FT& maximal_distance) {
