@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Volume_3.h>
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/annotate.h>
+#include <equiaffine/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
 
+#include <cmath>
 #include <cstdlib>
 
+struct Ellipsoid {
+  auto operator()(const auto& x, const auto& y, const auto& z) const { return x * x / 4.0 + y * y + z * z - 1.0; }
+};
+
+// A unit sphere has the affine Gaussian curvature 1; a map of determinant 2 makes it an ellipsoid with 1 / 2 everywhere.
 int main() {
   using Kernel = CGAL::Simple_cartesian<double>;
-  const equiaffine::Lattice_3<Kernel> lattice({2, 3, 4}, CGAL::Bbox_3(0, 0, 0, 1, 2, 3));
-  const equiaffine::Volume_3<Kernel> volume{lattice, std::vector<double>(lattice.number_of_nodes(), 1.0)};
-  return volume(1, 2, 3) == 1.0 && lattice.determinant() == 1.0 ? EXIT_SUCCESS : EXIT_FAILURE;
+  const auto traits = equiaffine::make_analytic_traits<Kernel>(Ellipsoid(), CGAL::Bbox_3(-3, -2, -2, 3, 2, 2));
+  auto mesh = equiaffine::to_surface_mesh(equiaffine::marching_cubes<CGAL::Parallel_if_available_tag>(traits));
+  equiaffine::annotate(mesh, traits);
+  using Vertex_index = decltype(mesh)::Vertex_index;
+  const auto curvature = mesh.add_property_map<Vertex_index, double>("v:affine_gaussian_curvature").first;
+  for (const Vertex_index v : mesh.vertices())
+    if (!(std::abs(curvature[v] - 0.5) < 1e-12)) return EXIT_FAILURE;
+  return mesh.number_of_vertices() > 1000 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
