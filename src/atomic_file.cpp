@@ -4,9 +4,13 @@
 #include <equiaffine/Input_error.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <iostream>
+#include <mutex>
+#include <set>
 #include <system_error>
+#include <thread>
 #include <unistd.h>
 
 namespace equiaffine {
@@ -20,19 +24,49 @@ namespace {
                     advice);
 }
 
+/// The temporary folders that exist. It is never destroyed, because a signal may come at any time.
+struct Existing_folders {
+  std::mutex mutex;
+  std::set<fs::path> paths;
+};
+
+Existing_folders& existing_folders() {
+  static auto& folders = *new Existing_folders;
+  return folders;
+}
+
+/// Waits for one of the signals and ends the process. The mutex stays locked: whoever wants to make, or thinks that it
+/// has to remove, a folder waits for the end.
+void end_at(const sigset_t& signals) {
+  int signal = 0;
+  ::sigwait(&signals, &signal);
+  Existing_folders& existing = existing_folders();
+  existing.mutex.lock();
+  std::error_code ignored;
+  for (const fs::path& path : existing.paths) fs::remove_all(path, ignored);
+  if (::isatty(STDERR_FILENO)) std::cerr << std::endl; // the line that shows the progress ends here
+  ::_exit(128 + signal);
+}
+
 std::string message(int error_number) { return std::generic_category().message(error_number); }
 
 } // namespace
 
 Output_file::Temporary_folder::Temporary_folder(const fs::path& parent) {
+  Existing_folders& existing = existing_folders();
+  const std::lock_guard lock(existing.mutex);
   std::string name = (parent / ".equiaffine-XXXXXX").string();
   if (!::mkdtemp(name.data())) throw std::system_error(errno, std::generic_category());
   path = name;
+  existing.paths.insert(path);
 }
 
 Output_file::Temporary_folder::~Temporary_folder() {
+  Existing_folders& existing = existing_folders();
+  const std::lock_guard lock(existing.mutex);
   std::error_code ignored;
   fs::remove_all(path, ignored);
+  existing.paths.erase(path);
 }
 
 Output_file::Output_file(const std::string& path) : path_(path), target_(path), has_to_be_copied_(path == "-") {
@@ -107,6 +141,17 @@ void Output_file::rename_to_target() {
 void commit_all(std::span<Output_file> files) {
   for (Output_file& file : files) file.close();
   for (Output_file& file : files) file.commit();
+}
+
+void remove_temporary_folders_when_interrupted() {
+  sigset_t signals;
+  ::sigemptyset(&signals);
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
+    struct sigaction action;
+    if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) ::sigaddset(&signals, signal);
+  }
+  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr); // in all threads to come, so that one of them can wait for these
+  std::thread(end_at, signals).detach();
 }
 
 } // namespace equiaffine

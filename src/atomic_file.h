@@ -56,6 +56,10 @@ private:
 /// Commits several outputs after all of them were closed without error.
 void commit_all(std::span<Output_file> files);
 
+/// From now on, a signal that asks the process to end (SIGHUP, SIGINT, SIGTERM; unless it was ignored before) also
+/// removes the temporary folders; the exit status is 128 + the number of the signal. Call it before there are threads.
+void remove_temporary_folders_when_interrupted();
+
 } // namespace equiaffine
 
 #endif

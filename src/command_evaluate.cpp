@@ -27,10 +27,11 @@ Mesh_format output_format(const std::string& path) {
 
 /// A point that is nowhere is outside, whatever the function makes of its coordinates.
 void mark_points_at_infinity(const std::vector<Kernel::Point_3>& points, Vertex_attributes& attributes) {
-  for (std::size_t i = 0; i < attributes.status.size(); ++i) {
+  if (!attributes.status) return;
+  for (std::size_t i = 0; i < points.size(); ++i) {
     const Kernel::Point_3& p = points[i];
     if (std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z())) continue;
-    attributes.status[i] = Point_status::OUTSIDE;
+    (*attributes.status)[i] = Point_status::OUTSIDE;
     for (auto& column : attributes.columns) column.values[i] = std::numeric_limits<double>::quiet_NaN();
   }
 }
@@ -60,9 +61,11 @@ void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& 
   output.commit();
   if (options.output == "-") return;
   out << points.size() << " points";
-  const auto counts = count(attributes.status);
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    if (counts[i] > 0) out << ", " << counts[i] << ' ' << to_string(Point_status(i));
+  if (attributes.status) {
+    const auto counts = count(*attributes.status);
+    for (std::size_t i = 0; i < counts.size(); ++i)
+      if (counts[i] > 0) out << ", " << counts[i] << ' ' << to_string(Point_status(i));
+  }
   out << "\nwrote " << options.output << '\n';
 }
 

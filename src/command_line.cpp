@@ -150,6 +150,11 @@ private:
     add(command, "-o,--output", 1, type, description);
   }
 
+  void add_page_options(CLI::App& command) {
+    add(command, "--color", 1, "NAME", "the attribute that the page shows first, or status or plain");
+    add(command, "--up", 1, "x|y|z", "the axis that points up on the page, by default z");
+  }
+
   void add_threads(CLI::App& command) {
     add(command, "--threads", 1, "N", "threads to use, all by default; the result is always the same");
   }
@@ -180,7 +185,7 @@ private:
                ", normals in .obj");
     add_attributes(command);
     add(command, "--html", 1, "PAGE.html", "also a web page to look at the surface, without network");
-    add(command, "--color", 1, "NAME", "the attribute that the page shows first, or status or plain");
+    add_page_options(command);
     add(command, "--stats", 1, "FILE.json", "also statistics: sizes, topology, status, accuracy, times");
   }
 
@@ -214,7 +219,7 @@ private:
     group_ = "Input";
     add(command, "MESH.ply", 1, "", "a mesh as this program writes it, or any other .ply; - reads standard input");
     add_output(command, "PAGE.html", "the page; - writes to standard output");
-    add(command, "--color", 1, "NAME", "the attribute that the page shows first, or status or plain");
+    add_page_options(command);
   }
 
   std::string see_help() const {

@@ -13,6 +13,7 @@
 #include <equiaffine/sample_on_lattice.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <sstream>
 #include <utility>
@@ -24,6 +25,7 @@ namespace {
 struct Annotated_surface {
   Isosurface_3<Kernel> mesh;
   Vertex_attributes attributes;
+  std::array<std::size_t, number_of_point_statuses> status{};
   double max_distance = 0, annotation_seconds = 0;
 };
 
@@ -55,20 +57,28 @@ template <class Traits>
 
 template <class Traits>
 Annotated_surface make_surface(const Traits& function, const Mesh_options& options, Progress& progress) {
+  // The mesh is that of f, so that the orientation changes nothing but the side to which it is turned.
+  const Level_set_traits_3<Traits> extracted(function, options.isovalue);
   const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
   Annotated_surface surface;
   progress.begin("extracting the surface");
   surface.mesh = marching_cubes<CGAL::Parallel_if_available_tag>(
-      level_set, parameters::vertex_position(options.vertices)
+      extracted, parameters::vertex_position(options.vertices)
                      .number_of_nodes(options.source.resolution.value_or(default_resolution(options.source.kind))));
   if (surface.mesh.triangles.empty()) fail_without_surface(function, options.isovalue);
+  if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
+    for (auto& triangle : surface.mesh.triangles) std::swap(triangle[1], triangle[2]);
   const Stopwatch stopwatch;
   progress.begin("computing attributes");
   surface.max_distance = max_distance_to_surface<CGAL::Parallel_if_available_tag>(level_set, surface.mesh.points);
   surface.mesh.function_evaluations += surface.mesh.points.size();
-  surface.attributes = compute_attributes<CGAL::Parallel_if_available_tag>(
-      level_set, surface.mesh.points, options.attributes, surface.mesh.vertex_status);
-  if (options.attributes.has_status) surface.mesh.function_evaluations += surface.mesh.points.size();
+  Attribute_selection selection = options.attributes;
+  selection.has_status = true; // also if it is not written: the statistics count it
+  surface.attributes = compute_attributes<CGAL::Parallel_if_available_tag>(level_set, surface.mesh.points, selection,
+                                                                           surface.mesh.vertex_status);
+  surface.mesh.function_evaluations += surface.mesh.points.size();
+  surface.status = count(*surface.attributes.status);
+  if (!options.attributes.has_status) surface.attributes.status.reset();
   surface.annotation_seconds = stopwatch.seconds();
   return surface;
 }
@@ -80,7 +90,7 @@ Statistics make_statistics(const Mesh_options& options, const Annotated_surface&
   statistics.vertices = surface.mesh.points.size();
   statistics.faces = surface.mesh.triangles.size();
   statistics.topology = mesh_topology(surface.mesh.triangles, surface.mesh.points.size());
-  statistics.status = count(surface.attributes.status.empty() ? surface.mesh.vertex_status : surface.attributes.status);
+  statistics.status = surface.status;
   statistics.max_distance_to_surface = surface.max_distance;
   statistics.sample_seconds = surface.mesh.sampling_seconds;
   statistics.project_seconds = surface.mesh.projection_seconds;
@@ -149,8 +159,7 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   statistics.sample_seconds += source_seconds;
   write_surface(outputs.files[0], surface.mesh, surface.attributes);
   if (options.html)
-    write_page(outputs.files[1], surface.mesh, surface.attributes, options.color,
-               make_description(options, statistics));
+    write_page(outputs.files[1], surface.mesh, surface.attributes, options.page, make_description(options, statistics));
   for (Output_file& file : outputs.files) file.close();
   statistics.write_seconds = write_stopwatch.seconds();
   if (options.stats) outputs.files.back().stream() << to_JSON(statistics);

@@ -24,7 +24,7 @@ Annotated_mesh_3<Kernel> read_mesh(const std::string& path) {
 void check_color(const std::string& color, const Vertex_attributes& attributes) {
   const bool is_column = std::any_of(attributes.columns.begin(), attributes.columns.end(),
                                      [&](const auto& column) { return column.name == color; });
-  if (color.empty() || color == "plain" || (color == "status" && !attributes.status.empty()) || is_column) return;
+  if (color.empty() || color == "plain" || (color == "status" && attributes.status) || is_column) return;
   std::string names;
   for (const auto& column : attributes.columns) names += column.name + ' ';
   throw Input_error("--color: the mesh has no attribute '" + color + "'; use one of " + names + "or plain");
@@ -37,8 +37,8 @@ void run_view(const View_options& options, std::ostream& out) {
   const Annotated_mesh_3<Kernel> surface = read_mesh(options.mesh);
   if (surface.mesh.triangles.empty())
     throw Input_error("cannot show '" + options.mesh + "': it has no faces; give a mesh");
-  check_color(options.color, surface.attributes);
-  write_page(output, surface.mesh, surface.attributes, options.color,
+  check_color(options.page.color, surface.attributes);
+  write_page(output, surface.mesh, surface.attributes, options.page,
              {{"File", options.mesh},
               {"Vertices", std::to_string(surface.mesh.points.size())},
               {"Triangles", std::to_string(surface.mesh.triangles.size())}});

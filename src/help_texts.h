@@ -33,7 +33,8 @@ inline constexpr const char* mesh_footer =
   equiaffine mesh --function "(x^2+y^2+z^2+R^2-r^2)^2 = 4*R^2*(x^2+y^2)" --set R=2 r=.5 \
       --box -3 3 -3 3 -1 1 --resolution 128 -o torus.ply --html torus.html
   equiaffine mesh --volume skull.nrrd --isovalue 2.9 --orientation against -o skull.ply
-  equiaffine mesh --distance-to bunny.off --attributes all --color pick_invariant -o bunny.ply --html bunny.html
+  equiaffine mesh --distance-to bunny.off --attributes all -o bunny.ply \
+      --html bunny.html --color pick_invariant --up y
 
 All lengths are in the unit of the source; under p -> s p curvatures scale as: k1, k2, mean_curvature by s^-1,
 gaussian_curvature by s^-2, affine_gaussian_curvature by s^-3, affine_mean_curvature and pick_invariant by s^-1.5.
@@ -66,7 +67,7 @@ inline constexpr const char* sample_footer =
 inline constexpr const char* view_description =
     R"(make a web page from a mesh with attributes
 
-Usage: equiaffine view MESH.ply -o PAGE.html [--color NAME]
+Usage: equiaffine view MESH.ply -o PAGE.html [--color NAME] [--up x|y|z]
 )";
 
 inline constexpr const char* view_footer = R"(Example: equiaffine view bunny.ply -o bunny.html --color mean_curvature)";

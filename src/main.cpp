@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "atomic_file.h"
 #include "program.h"
 
 #include <CGAL/assertions.h>
@@ -10,6 +11,7 @@
 
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN); // a reader that goes away is an error of writing, and temporary files get removed
+  equiaffine::remove_temporary_folders_when_interrupted();
   CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {}); // they also throw
   return equiaffine::run({argv + 1, argv + argc}, {std::cout, std::cerr, ::isatty(STDERR_FILENO) == 1});
 }

@@ -91,17 +91,26 @@ std::string read_output(const Command_line& line) {
   return needed_word(line, "--output", "name the file to write, -o FILE");
 }
 
-/// Reads --color and checks that the page will have it.
-std::string read_color(const Command_line& line, const Attribute_selection& attributes) {
+Page_options read_page(const Command_line& line) {
+  Page_options page;
+  page.color = line.word("--color", "");
+  page.up = {};
+  page.up[parse_choice("--up", line.word("--up", "z"), {"x", "y", "z"})] = 1;
+  return page;
+}
+
+/// Checks that there is a page, and that it will have the attribute --color.
+void check_page(const Command_line& line, const Attribute_selection& attributes) {
+  for (const char* option : {"--color", "--up"})
+    if (line.has(option) && !line.has("--html"))
+      fail_option(option, "it is for the page of --html", "add --html or leave it out");
   const std::string color = line.word("--color", "");
-  if (color.empty()) return color;
-  if (!line.has("--html")) fail_option("--color", "it is for the page of --html", "add --html or leave it out");
+  if (color.empty()) return;
   const bool is_computed = std::any_of(attributes.columns.begin(), attributes.columns.end(),
                                        [&](const Attribute& attribute) { return attribute.name == color; });
   if (!is_computed && color != "plain" && !(color == "status" && attributes.has_status))
     fail_option("--color", "'" + color + "' is not among the attributes that are computed",
                 "name one of them, such as affine_mean_curvature, or add it to --attributes");
-  return color;
 }
 
 void check_outputs(std::vector<std::string> paths) {
@@ -124,7 +133,8 @@ Mesh_options read_mesh_options(const Command_line& line) {
   options.output = read_output(line);
   options.html = optional_word(line, "--html");
   options.stats = optional_word(line, "--stats");
-  options.color = read_color(line, options.attributes);
+  options.page = read_page(line);
+  check_page(line, options.attributes);
   std::vector<std::string> outputs = {options.output};
   if (options.html) outputs.push_back(*options.html);
   if (options.stats) outputs.push_back(*options.stats);
@@ -144,7 +154,7 @@ Sample_options read_sample_options(const Command_line& line) {
 
 View_options read_view_options(const Command_line& line) {
   if (!line.has("MESH.ply")) throw Input_error("no mesh is given; write 'equiaffine view MESH.ply -o PAGE.html'");
-  return {line.word("MESH.ply", {}), read_output(line), line.word("--color", "")};
+  return {line.word("MESH.ply", {}), read_output(line), read_page(line)};
 }
 
 } // namespace

@@ -36,6 +36,12 @@ struct Source_options {
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
 };
 
+/// What a page shows first.
+struct Page_options {
+  std::string color; ///< an attribute, `status`, `plain`, or empty
+  std::array<double, 3> up = {0, 0, 1};
+};
+
 struct Mesh_options {
   Source_options source;
   double isovalue = 0;
@@ -44,7 +50,7 @@ struct Mesh_options {
   Attribute_selection attributes;
   std::string output;
   std::optional<std::string> html, stats;
-  std::string color;
+  Page_options page;
 };
 
 struct Evaluate_options {
@@ -61,7 +67,8 @@ struct Sample_options {
 };
 
 struct View_options {
-  std::string mesh, output, color;
+  std::string mesh, output;
+  Page_options page;
 };
 
 /// A text that was asked for: help or version.

@@ -36,10 +36,11 @@ CGAL::Bbox_3 widened_box(const CGAL::Surface_mesh<Kernel::Point_3>& mesh) {
 Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size, Progress& progress) {
   progress.begin("reading the mesh");
   const CGAL::Surface_mesh<Kernel::Point_3> mesh = read_triangle_mesh(options.text);
-  progress.begin("measuring distances");
   const Lattice_3<Kernel> lattice(size, options.box ? *options.box : widened_box(mesh));
+  progress.begin("measuring distances", lattice.number_of_nodes());
   try {
-    return signed_distance_volume<CGAL::Parallel_if_available_tag>(mesh, lattice);
+    return signed_distance_volume<CGAL::Parallel_if_available_tag>(mesh, lattice,
+                                                                   [&](std::size_t nodes) { progress.advance(nodes); });
   } catch (const Input_error& error) {
     throw Input_error("cannot use the mesh '" + options.text + "': " + error.what());
   }

@@ -51,11 +51,12 @@ void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mes
 }
 
 void write_page(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                const std::string& color, const Description& description) {
-  Html_options options;
-  options.color = attributes.columns.empty() && attributes.status.empty() ? "plain" : color;
-  options.description = description;
-  write_HTML(file.stream(), mesh, attributes, options);
+                const Page_options& options, const Description& description) {
+  Html_options page;
+  page.color = attributes.columns.empty() && !attributes.status ? "plain" : options.color;
+  page.up = options.up;
+  page.description = description;
+  write_HTML(file.stream(), mesh, attributes, page);
 }
 
 } // namespace equiaffine

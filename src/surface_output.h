@@ -4,6 +4,7 @@
 
 #include "atomic_file.h"
 #include "kernel.h"
+#include "options.h"
 #include <equiaffine/Indexed_triangle_mesh_3.h>
 
 #include <string>
@@ -21,9 +22,9 @@ void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mes
 /// What a page says about its surface, in rows of two cells.
 using Description = std::vector<std::pair<std::string, std::string>>;
 
-/// Writes the page, without committing. `color` is a column, `status`, `plain`, or empty.
+/// Writes the page, without committing. `options.color` is a column, `status`, `plain`, or empty.
 void write_page(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                const std::string& color, const Description& description);
+                const Page_options& options, const Description& description);
 
 } // namespace equiaffine
 

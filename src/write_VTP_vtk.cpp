@@ -39,7 +39,7 @@ void write_VTP(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh
   for (const auto& [a, b, c] : mesh.triangles) triangles->InsertNextCell({vtkIdType(a), vtkIdType(b), vtkIdType(c)});
   data->SetPolys(triangles);
   for (const auto& column : attributes.columns) add_array<vtkDoubleArray>(*data, column.name, column.values);
-  if (!attributes.status.empty()) add_array<vtkUnsignedCharArray>(*data, "status", attributes.status);
+  if (attributes.status) add_array<vtkUnsignedCharArray>(*data, "status", *attributes.status);
 
   write_vtk_xml<vtkXMLPolyDataWriter>(stream, *data);
 }

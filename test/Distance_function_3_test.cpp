@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 
@@ -133,12 +135,13 @@ TEST(Distance_function_3, a_thin_plate_between_two_nodes_does_not_change_the_sig
   for (const double value : volume.values) EXPECT_GT(value, 0);
 }
 
-#ifdef CGAL_LINKED_WITH_TBB
-TEST(Distance_function_3, the_distances_do_not_depend_on_threads) {
-  EXPECT_EQ(signed_distance_volume<CGAL::Sequential_tag>(cube(0, 2), skew_lattice()).values,
-            signed_distance_volume<CGAL::Parallel_tag>(cube(0, 2), skew_lattice()).values);
+TEST(Distance_function_3, the_distances_do_not_depend_on_threads_and_every_node_is_reported_once) {
+  std::atomic<std::size_t> reported = 0;
+  const auto parallel = signed_distance_volume<CGAL::Parallel_if_available_tag>(
+      cube(0, 2), skew_lattice(), [&](std::size_t nodes) { reported += nodes; });
+  EXPECT_EQ(reported, skew_lattice().number_of_nodes());
+  EXPECT_EQ(parallel.values, signed_distance_volume<CGAL::Sequential_tag>(cube(0, 2), skew_lattice()).values);
 }
-#endif
 
 TEST(Distance_function_3, a_mesh_without_faces_is_refused) {
   expect_refusal(Mesh(), "the mesh has no faces", "", ": give a closed mesh of triangles");

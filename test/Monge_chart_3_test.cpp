@@ -176,6 +176,29 @@ TEST(Euclidean_structure, principal_curvatures_and_directions_of_a_torus) {
     }
 }
 
+TEST(Local_structure_3, lengths_that_overflow_are_singular_and_not_infinite) {
+  const auto sphere = [](const auto& x, const auto& y, const auto& z) { return x * x + y * y + z * z; };
+  for (double r : {1e-200, 1e-160}) {
+    const auto s = local_structure(expand(sphere, r, 0, 0));
+    EXPECT_EQ(s.status, Point_status::SINGULAR) << r;
+    EXPECT_TRUE(std::isnan(s.euclidean.k1) && std::isnan(s.euclidean.gaussian_curvature)) << r;
+  }
+  EXPECT_EQ(local_structure(expand(sphere, 1e-60, 0, 0)).status, Point_status::REGULAR);
+}
+
+TEST(Euclidean_structure, k1_is_never_less_than_k2) {
+  for (int n = 0; n < 1000; ++n) {
+    const double u = 0.1 + n * 0.0061, v = 0.3 + n * 0.37;
+    const double x = std::sin(u) * std::cos(v), y = std::sin(u) * std::sin(v), z = std::cos(u);
+    for (double sign : {1.0, -1.0}) {
+      const auto f = [&](const auto& a, const auto& b, const auto& c) { return sign * (a * a + b * b + c * c); };
+      const auto s = local_structure(expand(f, x, y, z)).euclidean;
+      EXPECT_GE(s.k1, s.k2);
+      EXPECT_NEAR(s.k2, -sign, 1e-14);
+    }
+  }
+}
+
 TEST(Euclidean_structure, umbilics_have_some_orthonormal_directions) {
   const auto sphere = [](const auto& x, const auto& y, const auto& z) { return x * x + y * y + z * z; };
   for (double z : {1.0, -1.0}) {

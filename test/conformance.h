@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every model of ImplicitFunctionTraits_3 promises beyond its syntax, as one suite of tests. A model is a type with
+// What models of ImplicitFunctionTraits_3 promise beyond its syntax, as one suite of tests. A model is a type with
 //   using Traits; static Traits make(); static std::vector<Point_3> points();   // in the box, where f is smooth
 //   static constexpr double length;                                             // over which f varies by its own size
 #ifndef EQUIAFFINE_TEST_CONFORMANCE_H

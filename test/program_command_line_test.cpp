@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -192,6 +193,34 @@ TEST_F(Program_command_line, evaluate_keeps_rows_columns_and_order) {
                  "origin,0,0,0,nan,singular\nfar,0,0,-4,-0.25,regular\n");
 }
 
+TEST_F(Program_command_line, evaluate_writes_the_whole_header_for_no_points) {
+  const Arguments arguments = {"evaluate", "--function", "x", "--attributes", "k1", "--points", "-", "-o"};
+  EXPECT_EQ(run_well(arguments + Arguments{"-"}, "name,x,y,z\n"), "name,x,y,z,k1,status\n");
+  run_well(arguments + Arguments{"p.ply"}, "x,y,z\n");
+  EXPECT_NE(file("p.ply").find("element vertex 0\nproperty double x\nproperty double y\nproperty double z\n"
+                               "property double k1\nproperty uchar status\nelement face 0\n"),
+            std::string::npos);
+  EXPECT_EQ(run_well({"evaluate", "--function", "x", "--points", "p.ply", "--attributes", "none", "-o", "-"}),
+            "x,y,z,k1,status\n");
+}
+
+TEST_F(Program_command_line, points_without_finite_coordinates_are_outside) {
+  write_file(folder_ / "p.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
+                                "property double z\nend_header\nnan 0 0\n0 inf 0\n0 0 -inf\n0.5 0.5 0.5\n");
+  const Arguments choice = {"evaluate", "--points", "p.ply", "--attributes", "nx,k1", "-o", "-"};
+  const Arguments transformation = {"--transform", "1", "1", "0", "0", "1", "0", "0", "0", "2"};
+  const Arguments spline = {"--derivatives", "spline", "--resolution", "24"};
+  for (const Arguments& way : {Arguments{}, transformation, spline, spline + transformation}) {
+    const auto table = rows(run_well(choice + sphere + way));
+    ASSERT_EQ(table.size(), 4U);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(table[i].at("status"), "outside") << i;
+      EXPECT_EQ(table[i].at("nx") + table[i].at("k1"), "nannan") << i;
+    }
+    EXPECT_EQ(table[3].at("status"), "regular");
+  }
+}
+
 TEST_F(Program_command_line, evaluate_writes_PLY_from_CSV_and_back) {
   write_file(folder_ / "p.csv", "x,y,z,weight\n1,2,3,7\n-1,.5,2,8\n");
   const Arguments choice = {"--attributes", "mean_curvature"};
@@ -261,6 +290,29 @@ TEST_F(Program_command_line, a_page_is_made_with_the_mesh_or_from_it_later) {
   EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
   EXPECT_NE(page.find("x^2 + y^2 + z^2 = 1"), std::string::npos);
   EXPECT_EQ(data(page), data(later));
+}
+
+TEST_F(Program_command_line, any_axis_may_point_up_on_a_page) {
+  run_well(Arguments{"mesh", "-o", "s.ply", "--html", "usual.html", "--resolution", "8"} + sphere);
+  EXPECT_NE(file("usual.html").find("\"up\":[0,0,1]"), std::string::npos);
+  run_well(Arguments{"mesh", "-o", "s.ply", "--html", "s.html", "--resolution", "8", "--up", "y"} + sphere);
+  EXPECT_NE(file("s.html").find("\"up\":[0,1,0]"), std::string::npos);
+  run_well({"view", "s.ply", "-o", "later.html", "--up", "x"});
+  EXPECT_NE(file("later.html").find("\"up\":[1,0,0]"), std::string::npos);
+}
+
+TEST_F(Program_command_line, a_run_that_is_interrupted_leaves_nothing_behind) {
+  using namespace std::chrono_literals;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t child =
+        start(Arguments{"mesh", "-o", "s.ply", "--html", "s.html", "--resolution", "400", "--threads", "1"} + sphere);
+    const auto deadline = std::chrono::steady_clock::now() + 60s;
+    while (names().size() < 2 && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(5ms);
+    EXPECT_EQ(names().size(), 2U) << "a temporary folder for each output";
+    ::kill(child, signal);
+    EXPECT_EQ(wait_for(child).status, 128 + signal);
+    EXPECT_EQ(names(), Arguments());
+  }
 }
 
 #ifdef EQUIAFFINE_WITH_ITK

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "program.h"
 #include "run_program.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+#include <streambuf>
 #include <string>
 #include <vector>
 
@@ -221,4 +226,18 @@ TEST_F(Program_errors, a_page_shows_what_the_mesh_has) {
   before_ = names();
   expect_error({"view", "in.ply", "-o", "o.html", "--color", "affine_k1"},
                {"--color", "'affine_k1'", "mean_curvature"});
+  expect_error({"view", "in.ply", "-o", "o.html", "--up", "w"}, {"--up", "'w'", "x or y or z"});
+  for (const char* option : {"--color", "--up"})
+    expect_error(mesh_of("x") + box + Arguments{option, "x"}, {option, "page", "--html"});
+}
+
+TEST(Program_defects, give_status_one_and_one_line) {
+  struct Defect : std::streambuf {
+    int_type overflow(int_type) override { throw std::logic_error("first\nsecond"); }
+  } defect;
+  std::ostream out(&defect);
+  out.exceptions(std::ios::badbit); // what the buffer throws passes through
+  std::ostringstream error;
+  EXPECT_EQ(equiaffine::run({"--version"}, {out, error}), 1);
+  EXPECT_EQ(error.str(), "equiaffine: internal error: first second\n");
 }

@@ -26,7 +26,7 @@ TEST(Program_write_VTP, vtk_reads_the_same_mesh_and_attributes) {
       {Point_3(0.1, -1. / 3, 0), Point_3(1e-300, 2. / 3, 1e22), Point_3(1, 0, 0.7)}, {{0, 1, 2}, {2, 1, 0}}};
   const equiaffine::Vertex_attributes attributes = {
       {{"k1", {0.1, std::numeric_limits<double>::quiet_NaN(), -1. / 3}}},
-      {Point_status::REGULAR, Point_status::SINGULAR, Point_status::UNCONVERGED}};
+      {{Point_status::REGULAR, Point_status::SINGULAR, Point_status::UNCONVERGED}}};
   std::ostringstream stream;
   equiaffine::write_VTP(stream, mesh, attributes);
 
@@ -45,7 +45,7 @@ TEST(Program_write_VTP, vtk_reads_the_same_mesh_and_attributes) {
   for (vtkIdType v = 0; v < 3; ++v) {
     const double* const p = data.GetPoint(v);
     EXPECT_EQ(Point_3(p[0], p[1], p[2]), mesh.points[std::size_t(v)]);
-    EXPECT_EQ(status->GetTuple1(v), double(attributes.status[std::size_t(v)]));
+    EXPECT_EQ(status->GetTuple1(v), double(attributes.status->at(std::size_t(v))));
   }
   EXPECT_EQ(k1->GetTuple1(0), 0.1);
   EXPECT_TRUE(std::isnan(k1->GetTuple1(1)));

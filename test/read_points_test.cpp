@@ -74,15 +74,15 @@ TEST(Read_points, csv_rows_come_back_as_they_were_written) {
       "\xef\xbb\xbf\"name\",x,y,z\r\n\r\n\"a, \"\"b\"\"\",1.50,2,3\r\n\"two\nlines\",+4, 5,6e0\r\n  \r\nc,7,8,9";
   const Table table = csv(text);
   EXPECT_EQ(table.mesh.points, (std::vector<Point_3>{Point_3(1.5, 2, 3), Point_3(4, 5, 6), Point_3(7, 8, 9)}));
-  EXPECT_EQ(rewritten(table,
-                      {{{"k1", {1, nan, 0.1}}}, {Point_status::REGULAR, Point_status::OUTSIDE, Point_status::REGULAR}}),
+  EXPECT_EQ(rewritten(table, {{{"k1", {1, nan, 0.1}}},
+                              {{Point_status::REGULAR, Point_status::OUTSIDE, Point_status::REGULAR}}}),
             "\"name\",x,y,z,k1,status\n\"a, \"\"b\"\"\",1.50,2,3,1,regular\n\"two\nlines\",+4, 5,6e0,nan,outside\n"
             "c,7,8,9,0.10000000000000001,regular\n");
 }
 
 TEST(Read_points, columns_that_are_computed_again_are_replaced) {
   const Table table = csv("k1,x,\"status\",y,z\n9,1,outside,2,3\n");
-  EXPECT_EQ(rewritten(table, {{{"k1", {0.5}}}, {Point_status::REGULAR}}), "x,y,z,k1,status\n1,2,3,0.5,regular\n");
+  EXPECT_EQ(rewritten(table, {{{"k1", {0.5}}}, {{Point_status::REGULAR}}}), "x,y,z,k1,status\n1,2,3,0.5,regular\n");
   EXPECT_EQ(rewritten(table, {}), "k1,x,\"status\",y,z\n9,1,outside,2,3\n");
 }
 
@@ -90,6 +90,7 @@ TEST(Read_points, a_csv_file_may_have_no_rows) {
   const Table table = csv("x,y,z\n");
   EXPECT_TRUE(table.mesh.points.empty());
   EXPECT_EQ(rewritten(table, {{{"k1", {}}}, {}}), "x,y,z,k1\n");
+  EXPECT_EQ(rewritten(table, {{{"k1", {}}}, std::vector<Point_status>()}), "x,y,z,k1,status\n");
 }
 
 TEST(Read_points, mistakes_in_csv_are_told_with_line_and_column) {
@@ -117,7 +118,7 @@ Mesh square() {
 TEST(Read_points, ply_comes_back_as_it_was_written) {
   const Vertex_attributes attributes = {
       {{"k1", {1, 2, nan, 4}}, {"k2", {0.1, 0, 0, -1. / 3}}},
-      {Point_status::REGULAR, Point_status::PARABOLIC, Point_status::UNCONVERGED, Point_status::OUTSIDE}};
+      {{Point_status::REGULAR, Point_status::PARABOLIC, Point_status::UNCONVERGED, Point_status::OUTSIDE}}};
   std::ostringstream stream;
   equiaffine::write_PLY(stream, square(), attributes);
   const auto copy = ply(stream.str());
@@ -153,7 +154,7 @@ TEST(Read_points, ply_text_may_have_lists_other_elements_and_polygons) {
             (std::vector<Point_3>{Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(1, 1, 0), Point_3(0, 1, 0)}));
   EXPECT_EQ(data.mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
   // 7 is not the number of a status, so the column is one of numbers.
-  EXPECT_TRUE(data.attributes.status.empty());
+  EXPECT_FALSE(data.attributes.status);
   ASSERT_EQ(data.attributes.columns.size(), 2u);
   EXPECT_EQ(data.attributes.columns[0].values, (std::vector<double>{7, 1, 2, 3}));
   EXPECT_EQ(data.attributes.columns[1].values, (std::vector<double>{-1, -2, -3, -4}));
@@ -218,8 +219,8 @@ TEST(Read_points, mistakes_in_off_are_told_with_the_line) {
 }
 
 TEST(Read_points, attributes_with_the_same_name_are_replaced) {
-  const Vertex_attributes merged =
-      equiaffine::merge_attributes({{{"a", {1}}, {"b", {2}}}, {Point_status::OUTSIDE}}, {{{"b", {3}}, {"c", {4}}}, {}});
+  const Vertex_attributes merged = equiaffine::merge_attributes({{{"a", {1}}, {"b", {2}}}, {{Point_status::OUTSIDE}}},
+                                                                {{{"b", {3}}, {"c", {4}}}, {}});
   ASSERT_EQ(merged.columns.size(), 3u);
   EXPECT_EQ(merged.columns[0].name + merged.columns[1].name + merged.columns[2].name, "abc");
   EXPECT_EQ(merged.columns[1].values[0], 3);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace equiaffine::test {
@@ -46,6 +48,14 @@ protected:
   /// `standard_output` is a file instead of the usual one, such as a device.
   Result run(std::vector<std::string> arguments, const std::string& input = {},
              const std::string& standard_output = {}) const {
+    Result result = wait_for(start(std::move(arguments), input, standard_output));
+    if (!standard_output.empty()) result.out.clear();
+    return result;
+  }
+
+  /// Begins to run the program; gives its process.
+  pid_t start(std::vector<std::string> arguments, const std::string& input = {},
+              const std::string& standard_output = {}) const {
     const std::string in = root_ / "in", out = standard_output.empty() ? (root_ / "out").string() : standard_output,
                       error = root_ / "error";
     write_file(in, input);
@@ -55,16 +65,20 @@ protected:
     argv.push_back(nullptr);
     const pid_t child = ::fork();
     if (child == 0) {
+      for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL); // who runs the tests may ignore them
       redirect(in, O_RDONLY, STDIN_FILENO);
       redirect(out, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
       redirect(error, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
       if (::chdir(folder_.c_str()) == 0) ::execv(argv[0], argv.data());
       ::_exit(127);
     }
+    return child;
+  }
+
+  Result wait_for(pid_t child) const {
     int status = 0;
     ::waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, standard_output.empty() ? read_file(out) : "",
-            read_file(error)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(root_ / "out"), read_file(root_ / "error")};
   }
 
   /// Runs the program and expects that nothing goes wrong; gives standard output.

@@ -168,7 +168,7 @@ TEST(Write_HTML, colours_are_those_of_the_colour_map) {
     const auto color = diverging_color((i - 128) / 128.);
     std::array<char, 16> hex{};
     std::snprintf(hex.data(), hex.size(), "\"#%02x%02x%02x\"", color.red(), color.green(), color.blue());
-    diverging += (i == 0 ? "" : ",") + std::string(hex.data());
+    diverging.append(i == 0 ? "" : ",").append(hex.data());
   }
   EXPECT_NE(text.find(diverging + ']'), std::string::npos);
   EXPECT_NE(text.find("{\"word\":\"parabolic\",\"color\":\"#12a150\"}"), std::string::npos);

@@ -43,7 +43,7 @@ Mesh tetrahedron() {
 
 Vertex_attributes attributes() {
   return {{{"nx", {1, 0, 0, 0.6}}, {"ny", {0, 1, 0, 0.8}}, {"nz", {0, 0, 1, nan}}, {"k1", {0.1, -nan, 3, -1. / 3}}},
-          {Point_status::REGULAR, Point_status::SINGULAR, Point_status::UNCONVERGED, Point_status::PARABOLIC}};
+          {{Point_status::REGULAR, Point_status::SINGULAR, Point_status::UNCONVERGED, Point_status::PARABOLIC}}};
 }
 
 const std::vector<Face> faces = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};

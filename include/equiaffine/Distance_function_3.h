@@ -144,12 +144,14 @@ private:
 /// a shell is a cavity.
 ///
 /// Signs are exact for the given coordinates, distances correct to a few units in the last place of the coordinates.
-/// The result does not depend on the number of threads.
+/// The result does not depend on the number of threads. `on_progress(n)` is called after every n nodes, from any
+/// thread.
 ///
 /// \throws Input_error if the mesh has no faces, faces other than triangles, coordinates that are not finite, holes,
 /// degenerate triangles or self-intersections.
-template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class Kernel>
-Volume_3<Kernel> signed_distance_volume(const TriangleMesh& mesh, const Lattice_3<Kernel>& lattice) {
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class Kernel, class Progress>
+Volume_3<Kernel> signed_distance_volume(const TriangleMesh& mesh, const Lattice_3<Kernel>& lattice,
+                                        const Progress& on_progress) {
   internal::Distance_mesh copy;
   CGAL::copy_face_graph(mesh, copy);
   internal::check_bounds_solid(copy);
@@ -166,8 +168,14 @@ Volume_3<Kernel> signed_distance_volume(const TriangleMesh& mesh, const Lattice_
       return std::array<double, 3>{CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
     };
     sampler.sample_row(nx, step, node, [&](std::size_t i, double d) { volume.values[row * nx + i] = FT(d); });
+    on_progress(nx);
   });
   return volume;
+}
+
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class Kernel>
+Volume_3<Kernel> signed_distance_volume(const TriangleMesh& mesh, const Lattice_3<Kernel>& lattice) {
+  return signed_distance_volume<ConcurrencyTag>(mesh, lattice, [](std::size_t) {});
 }
 
 } // namespace equiaffine

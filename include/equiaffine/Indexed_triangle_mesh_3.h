@@ -4,8 +4,11 @@
 
 #include <equiaffine/Point_status.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,15 +22,21 @@ struct Indexed_triangle_mesh_3 {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Numbers attached to points, one column per scalar in the order of the file, and the status (empty: not asked for).
-/// A number that does not exist is NaN.
+/// Numbers attached to points, one column per scalar in the order of the file, and the status, if it was asked for. A
+/// number that does not exist is NaN.
 struct Vertex_attributes {
   struct Column {
     std::string name;
     std::vector<double> values;
   };
   std::vector<Column> columns;
-  std::vector<Point_status> status;
+  std::optional<std::vector<Point_status>> status;
+
+  /// Whether every column and the status, if there is one, have `size` entries.
+  bool has_length(std::size_t size) const {
+    return (!status || status->size() == size) &&
+           std::all_of(columns.begin(), columns.end(), [&](const Column& c) { return c.values.size() == size; });
+  }
 };
 
 } // namespace equiaffine

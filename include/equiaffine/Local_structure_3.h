@@ -34,10 +34,24 @@ Affine_structure_3<FT> no_affine_structure() {
 }
 
 template <class FT>
+bool is_finite(const FT& x) {
+  return x - x == FT(0);
+}
+
+template <class FT>
 bool is_finite(const Affine_structure_3<FT>& s) {
   FT sum = s.gaussian_curvature + s.mean_curvature + s.pick_invariant;
   for (int i = 0; i < 3; ++i) sum += s.conormal[std::size_t(i)] + s.normal[std::size_t(i)];
-  return sum - sum == FT(0);
+  return is_finite(sum);
+}
+
+/// Powers of d that leave the range of FT: near d = 0 the point is as good as parabolic, else as good as singular.
+template <class FT>
+void withdraw_overflow(Local_structure_3<FT>& s, const FT& d) {
+  const bool is_nearly_parabolic = is_finite(d) && d * d < FT(1);
+  s.status = is_nearly_parabolic ? Point_status::PARABOLIC : Point_status::SINGULAR;
+  s.affine = no_affine_structure<FT>();
+  if (!is_nearly_parabolic) s.euclidean = no_euclidean_structure<FT>();
 }
 
 } // namespace internal
@@ -50,13 +64,11 @@ Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const FT& point_magn
   Local_structure_3<FT> s = {chart.status, internal::no_euclidean_structure<FT>(), internal::no_affine_structure<FT>()};
   if (s.status == Point_status::REGULAR || s.status == Point_status::PARABOLIC)
     s.euclidean = euclidean_structure(chart);
-  if (s.status == Point_status::REGULAR) {
-    s.affine = affine_structure(chart);
-    if (!internal::is_finite(s.affine)) { // so near d = 0 that the powers of d leave the range of FT
-      s.status = Point_status::PARABOLIC;
-      s.affine = internal::no_affine_structure<FT>();
-    }
-  }
+  if (s.status == Point_status::REGULAR) s.affine = affine_structure(chart);
+  const bool is_overflow = !internal::is_finite(s.euclidean.k1 + s.euclidean.gaussian_curvature) ||
+                           (s.status == Point_status::REGULAR && !internal::is_finite(s.affine));
+  if (is_overflow && (s.status == Point_status::REGULAR || s.status == Point_status::PARABOLIC))
+    internal::withdraw_overflow(s, chart.d);
   return s;
 }
 

@@ -23,8 +23,8 @@ namespace equiaffine {
 /// alpha = beta = 0 they are lost where e_w and the affine normal differ much.
 ///
 /// In this frame f / f_z = w + Q + e w^2 + C + w D + R + ..., with forms in (u, v) of degree Q:2, e:0, C:3, D:2, R:4,
-/// and g = -(Q + C + R + Q (e Q - D)). Where d vanishes there is no conjugate direction: alpha and beta are 0 and only h is
-/// of use.
+/// and g = -(Q + C + R + Q (e Q - D)). Where d vanishes there is no conjugate direction: alpha and beta are 0 and only
+/// h is of use.
 ///
 /// Signs: `sign` is that of f_z, so that normals along the gradient are sign (a, b, 1) up to length.
 template <class FT>
@@ -39,8 +39,8 @@ struct Monge_chart_3 {
   FT d;                      ///< g_uu g_vv - g_uv^2
 
   /// `point_magnitude` is the largest absolute coordinate of the point, 0 if unknown: a gradient that one rounding of
-  /// the coordinates could produce at a singular point is taken for zero. A jet with value NaN is OUTSIDE, one with another
-  /// coefficient that is not finite SINGULAR. PARABOLIC is |d| below 1000 roundings of its own terms.
+  /// the coordinates could produce at a singular point is taken for zero. A jet with value NaN is OUTSIDE, one with
+  /// another coefficient that is not finite SINGULAR. PARABOLIC is |d| below 1000 roundings of its own terms.
   explicit Monge_chart_3(const Jet_3<FT>& jet, const FT& point_magnitude = FT(0)) {
     status = status_of(jet, point_magnitude);
     if (status != Point_status::REGULAR) return;

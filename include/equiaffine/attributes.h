@@ -103,13 +103,13 @@ inline Attribute_selection select_attributes(std::string_view list) {
 }
 
 /// The local structure of the level set of f through p. `sampled_status` is what the sampler says of p: a point that is
-/// UNCONVERGED stays so unless its structure does not exist.
+/// UNCONVERGED stays so, with the numbers that exist, unless it is OUTSIDE.
 template <ImplicitFunctionTraits_3 Traits>
 Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, const typename Traits::Point_3& p,
                                                           Point_status sampled_status = Point_status::REGULAR) {
   using std::abs;
   auto structure = local_structure(traits.taylor(p), std::max({abs(p.x()), abs(p.y()), abs(p.z())}));
-  if (sampled_status == Point_status::UNCONVERGED && structure.status == Point_status::REGULAR)
+  if (sampled_status == Point_status::UNCONVERGED && structure.status != Point_status::OUTSIDE)
     structure.status = Point_status::UNCONVERGED;
   return structure;
 }
@@ -125,7 +125,7 @@ Vertex_attributes compute_attributes(const Traits& traits, std::span<const typen
   for (const Attribute& attribute : selection.columns)
     result.columns.push_back({std::string(attribute.name), std::vector<double>(points.size())});
   if (!selection.has_status) return result;
-  result.status.resize(points.size());
+  std::vector<Point_status>& status = result.status.emplace(points.size());
   internal::parallel_for<ConcurrencyTag>(
       0, points.size(),
       [&](std::size_t i) {
@@ -133,7 +133,7 @@ Vertex_attributes compute_attributes(const Traits& traits, std::span<const typen
             local_structure_at(traits, points[i], sampled_status.empty() ? Point_status::REGULAR : sampled_status[i]);
         for (std::size_t n = 0; n < selection.columns.size(); ++n)
           result.columns[n].values[i] = selection.columns[n].get(structure);
-        result.status[i] = structure.status;
+        status[i] = structure.status;
       },
       256);
   return result;

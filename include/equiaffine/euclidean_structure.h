@@ -4,6 +4,7 @@
 
 #include <equiaffine/Monge_chart_3.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -47,8 +48,8 @@ Euclidean_structure_3<FT> euclidean_structure(const Monge_chart_3<FT>& chart) {
   const bool first_is_larger = s.mean_curvature >= FT(0);
   const FT larger = first_is_larger ? s.mean_curvature + radius : s.mean_curvature - radius;
   const FT smaller = larger == FT(0) ? FT(0) : s.gaussian_curvature / larger;
-  s.k1 = first_is_larger ? larger : smaller;
-  s.k2 = first_is_larger ? smaller : larger;
+  s.k1 = first_is_larger ? larger : std::max(smaller, larger); // equal at an umbilic, whatever the rounding
+  s.k2 = first_is_larger ? std::min(smaller, larger) : larger;
 
   // The eigenvector of k1 in (t1, t2); at an umbilic any direction will do.
   FT c = half_difference >= FT(0) ? radius + half_difference : abs(m);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Named parameters in the style of CGAL: `number_of_nodes(128).vertex_position(LINEAR)`. They are types of our own since
+// Named parameters in the style of CGAL: `number_of_nodes(128).vertex_position(LINEAR)`. The types are our own, since
 // CGAL's list of names is closed and differs between its versions 5 and 6.
 #ifndef EQUIAFFINE_NAMED_PARAMETERS_H
 #define EQUIAFFINE_NAMED_PARAMETERS_H

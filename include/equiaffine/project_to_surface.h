@@ -86,16 +86,20 @@ template <ImplicitFunctionTraits_3 Traits>
 Surface_point_3<Kernel_of<Traits>> project_to_surface(const Traits& traits, const typename Traits::Point_3& p,
                                                       const typename Traits::FT& maximal_distance) {
   using FT = typename Traits::FT;
+  using std::abs;
   using std::sqrt;
   const auto jet = first_order(traits, p);
   const auto& c = jet.coefficients();
-  if (c[0] == FT(0)) return {p, true, 1};
+  const FT magnitude = std::max({abs(p.x()), abs(p.y()), abs(p.z()), maximal_distance});
+  const FT rounding = FT(4) * std::numeric_limits<FT>::epsilon() * magnitude;
+  const FT distance = distance_estimate(jet);
+  if (distance <= rounding) return {p, true, 1}; // no point of the line is nearer, and signs there are noise
   const typename Traits::Vector_3 gradient(c[1], c[2], c[3]);
   const FT norm = sqrt(gradient.squared_length());
   std::size_t evaluations = 1;
   if (norm > FT(0) && c[0] - c[0] == FT(0)) {
     const auto unit = gradient * ((c[0] > FT(0) ? FT(-1) : FT(1)) / norm); // towards the surface
-    FT reach = FT(2) * distance_estimate(jet);
+    FT reach = FT(2) * distance;
     for (bool is_last = false; !is_last; reach = FT(2) * reach) {
       is_last = !(reach < maximal_distance);
       const auto end = p + std::min(reach, maximal_distance) * unit;

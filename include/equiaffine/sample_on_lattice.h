@@ -14,8 +14,8 @@
 
 namespace equiaffine {
 
-/// The values of a function at the nodes of a lattice, NaN where it is undefined. `on_progress(n)` is called after every
-/// n nodes, from any thread. The same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit.
+/// The values of a function at the nodes of a lattice, NaN where it is undefined. `on_progress(n)` is called after
+/// every n nodes, from any thread. The same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Progress>
 Volume_3<Kernel_of<Traits>> sample_on_lattice(const Traits& traits, const Lattice_3<Kernel_of<Traits>>& lattice,
                                               const Progress& on_progress) {

@@ -161,8 +161,8 @@ const keys = {
   ArrowUp: () => orbit(0, -0.1), ArrowDown: () => orbit(0, 0.1),
   '+': () => zoom(0.85, 0, 0, aspect()), '=': () => zoom(0.85, 0, 0, aspect()),
   '-': () => zoom(1 / 0.85, 0, 0, aspect()),
-  r: resetView, e: () => toggle('edges'), i: () => toggle('isolines'), l: () => chooseScale(!choice.isLog), v: nextVectors,
-  n: () => stepQuantity(1), p: () => stepQuantity(-1), s: savePicture, h: togglePanel, '?': toggleHelp,
+  r: resetView, e: () => toggle('edges'), i: () => toggle('isolines'), l: () => chooseScale(!choice.isLog),
+  v: nextVectors, n: () => stepQuantity(1), p: () => stepQuantity(-1), s: savePicture, h: togglePanel, '?': toggleHelp,
   x: () => lookAlong(0, 1), y: () => lookAlong(1, 1), z: () => lookAlong(2, 1),
   X: () => lookAlong(0, -1), Y: () => lookAlong(1, -1), Z: () => lookAlong(2, -1), Escape: () => pick(null),
 };
@@ -198,7 +198,8 @@ for (const button of byId('up').children)
 function fragment() {
   const list = (values, digits) => values.map(value => Number(value.toPrecision(digits))).join(',');
   const parts = {
-    color: encodeURIComponent(choice.quantity.name), scale: choice.isScaleChosen ? (choice.isLog ? 'log' : 'linear') : 'auto', clip: choice.clip,
+    color: encodeURIComponent(choice.quantity.name), clip: choice.clip,
+    scale: choice.isScaleChosen ? (choice.isLog ? 'log' : 'linear') : 'auto',
     view: list([...camera.back, ...camera.up], 5), target: list(add(facts.center, camera.target), 9),
     zoom: list([4 * radius / camera.distance], 5), edges: Number(choice.edges),
     isolines: Number(choice.isolines), marks: Number(choice.hasMarks),

@@ -12,8 +12,8 @@ namespace equiaffine::internal {
 inline constexpr std::string_view viewer_panel = R"js(
 const clipSteps = [0, 0.1, 0.2, 0.5, 1, 2, 3, 5, 10, 15, 20, 25];
 const canvas = byId('view'), stage = byId('stage');
-const choice = {quantity: plain, isLog: false, isScaleChosen: false, clip: facts.clip, hasMarks: true, edges: false, isolines: false,
-                vectors: null, picked: null};
+const choice = {quantity: plain, isLog: false, isScaleChosen: false, clip: facts.clip, hasMarks: true, edges: false,
+                isolines: false, vectors: null, picked: null};
 // shown: {values, codes, sorted, magnitudes} of the quantity.
 let scene = null, range = null, shown = null, areas = null;
 const aspect = () => canvas.width / canvas.height;

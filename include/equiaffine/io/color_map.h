@@ -91,8 +91,8 @@ inline double map_position(double value, const Color_range& range, Color_scale s
   return (scaled(clipped) - scaled(range.lower)) / (scaled(range.upper) - scaled(range.lower));
 }
 
-/// The scale that shows most of a quantity: logarithmic where the range is wider than a hundred times the typical number,
-/// as for curvatures near a parabolic curve, which would leave all else in the middle colour.
+/// The scale that shows most of a quantity: logarithmic where the range is wider than a hundred times the typical
+/// number, as for curvatures near a parabolic curve, which would leave all else in the middle colour.
 inline Color_scale preferred_scale(const Color_range& range) {
   constexpr double widest_linear = 100;
   const double largest = std::max(std::abs(range.lower), std::abs(range.upper));

@@ -89,7 +89,7 @@ public:
       const std::string_view word = take_word(rest_);
       if (word.empty()) fail_at_end();
       const std::optional<double> value = parse_number<double>(word);
-      if (!value) fail("'" + std::string(word) + "' is not a number", "correct the file");
+      if (!value) fail(std::string("'").append(word).append("' is not a number"), "correct the file");
       return *value;
     }
     switch (type) {

@@ -199,7 +199,7 @@ inline Vertex_attributes merge_attributes(Vertex_attributes first, const Vertex_
     return std::any_of(second.columns.begin(), second.columns.end(), [&](const auto& c) { return c.name == old.name; });
   });
   first.columns.insert(first.columns.end(), second.columns.begin(), second.columns.end());
-  if (!second.status.empty()) first.status = second.status;
+  if (second.status) first.status = second.status;
   return first;
 }
 
@@ -211,9 +211,9 @@ void write_CSV(std::ostream& stream, const Point_table_3<Kernel>& table, const V
   std::vector<std::size_t> kept;
   for (std::size_t column = 0; column < table.header.size(); ++column) {
     const std::string name = internal::unquote(table.header[column]);
-    const bool is_replaced = (name == "status" && !attributes.status.empty()) ||
-                             std::any_of(attributes.columns.begin(), attributes.columns.end(),
-                                         [&](const auto& c) { return c.name == name; });
+    const bool is_replaced =
+        (name == "status" && attributes.status) || std::any_of(attributes.columns.begin(), attributes.columns.end(),
+                                                               [&](const auto& c) { return c.name == name; });
     if (!is_replaced) kept.push_back(column);
   }
   internal::Buffered_output out(stream);

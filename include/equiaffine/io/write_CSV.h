@@ -20,14 +20,13 @@ namespace internal {
 template <class WriteRow>
 void write_CSV_rows(Buffered_output& out, std::size_t number_of_rows, const Vertex_attributes& attributes,
                     const WriteRow& write) {
-  for (const auto& column : attributes.columns) CGAL_precondition(column.values.size() == number_of_rows);
-  CGAL_precondition(attributes.status.empty() || attributes.status.size() == number_of_rows);
+  CGAL_precondition(attributes.has_length(number_of_rows));
   for (const auto& column : attributes.columns) out << ',' << column.name;
-  out << (attributes.status.empty() ? "\n" : ",status\n");
+  out << (attributes.status ? ",status\n" : "\n");
   for (std::size_t row = 0; row < number_of_rows; ++row) {
     write(row);
     for (const auto& column : attributes.columns) out << ',' << column.values[row];
-    if (!attributes.status.empty()) out << ',' << to_string(attributes.status[row]);
+    if (attributes.status) out << ',' << to_string((*attributes.status)[row]);
     out << '\n';
   }
   out.flush();

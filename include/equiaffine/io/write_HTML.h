@@ -154,7 +154,8 @@ void write_data(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, 
       for (const std::uint32_t index : triangle) writer.put_little_endian(index);
   });
   write_data_block(out, "status", [&](Base64_writer& writer) {
-    for (const Point_status status : attributes.status) writer.put(static_cast<std::uint8_t>(status));
+    if (!attributes.status) return;
+    for (const Point_status status : *attributes.status) writer.put(static_cast<std::uint8_t>(status));
   });
   for (std::size_t i = 0; i < attributes.columns.size(); ++i)
     write_data_block(out, "column-" + std::to_string(i), [&](Base64_writer& writer) {
@@ -165,16 +166,14 @@ void write_data(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, 
 template <class Kernel>
 bool is_consistent(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes) {
   const std::size_t size = mesh.points.size();
-  return (attributes.status.empty() || attributes.status.size() == size) &&
-         std::all_of(attributes.columns.begin(), attributes.columns.end(),
-                     [&](const auto& column) { return column.values.size() == size; }) &&
+  return attributes.has_length(size) &&
          std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& triangle) {
            return std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t index) { return index < size; });
          });
 }
 
 inline bool is_offered(const std::string& color, const Vertex_attributes& attributes) {
-  return color.empty() || color == "plain" || (color == "status" && !attributes.status.empty()) ||
+  return color.empty() || color == "plain" || (color == "status" && attributes.status) ||
          std::any_of(attributes.columns.begin(), attributes.columns.end(),
                      [&](const auto& column) { return column.name == color; });
 }
@@ -185,7 +184,7 @@ inline bool is_offered(const std::string& color, const Vertex_attributes& attrib
 /// Numbers are stored in single precision, positions relative to the centre of the bounding box; a million vertices
 /// with twenty attributes make 156 MB. A fragment such as `#color=pick_invariant&view=1,0,0` chooses what is shown
 /// first; the page's help lists its keys.
-/// \pre status and every column are as long as `points` (status may be empty), triangles index `points`,
+/// \pre every column and the status, if there is one, are as long as `points`, triangles index `points`,
 /// `options.color` names an attribute or is `status` (when there is one), `plain` or empty, `options.up` is not zero
 template <class Kernel>
 void write_HTML(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,

@@ -74,23 +74,22 @@ inline const Vertex_attributes::Column* find_column(const Vertex_attributes& att
 template <class Kernel>
 void write_PLY(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh,
                const Vertex_attributes& attributes = {}) {
-  for (const auto& column : attributes.columns) CGAL_precondition(column.values.size() == mesh.points.size());
-  CGAL_precondition(attributes.status.empty() || attributes.status.size() == mesh.points.size());
+  CGAL_precondition(attributes.has_length(mesh.points.size()));
   internal::Buffered_output out(stream);
   out << "ply\nformat binary_little_endian 1.0\ncomment made by equiaffine";
-  if (!attributes.status.empty()) {
+  if (attributes.status) {
     out << "; status:";
     for (std::size_t i = 0; i < number_of_point_statuses; ++i) out << ' ' << i << ' ' << to_string(Point_status(i));
   }
   out << "\nelement vertex " << mesh.points.size() << "\nproperty double x\nproperty double y\nproperty double z\n";
   for (const auto& column : attributes.columns) out << "property double " << column.name << '\n';
-  if (!attributes.status.empty()) out << "property uchar status\n";
+  if (attributes.status) out << "property uchar status\n";
   out << "element face " << mesh.triangles.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
 
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     for (const double x : internal::coordinates(mesh.points[v])) out.write_binary(x);
     for (const auto& column : attributes.columns) out.write_binary(column.values[v]);
-    if (!attributes.status.empty()) out.write_binary(static_cast<std::uint8_t>(attributes.status[v]));
+    if (attributes.status) out.write_binary(static_cast<std::uint8_t>((*attributes.status)[v]));
   }
   for (const auto& triangle : mesh.triangles) {
     out.write_binary(std::uint8_t(3));

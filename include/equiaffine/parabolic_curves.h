@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_PARABOLIC_CURVES_H
+#define EQUIAFFINE_PARABOLIC_CURVES_H
+
+#include <equiaffine/Indexed_triangle_mesh_3.h>
+#include <equiaffine/concepts.h>
+#include <equiaffine/internal/parallel_for.h>
+
+#include <CGAL/tags.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+/// The curves on which the Gaussian curvature changes its sign, where the affine metric is degenerate and the affine
+/// curvatures are infinite. A closed curve does not repeat its first point.
+template <class Kernel>
+struct Parabolic_curves_3 {
+  struct Polyline {
+    std::vector<typename Kernel::Point_3> points;
+    bool is_closed;
+  };
+  std::vector<Polyline> polylines;
+  std::size_t unconverged_points = 0; ///< left at the linear intersection with an edge of the mesh
+};
+
+/// K_e |grad f|^4, a polynomial in the derivatives of f of order 1 and 2 (Goldman: Curvature formulas for implicit
+/// curves and surfaces, 2005), with its gradient. \pre the jet is finite.
+template <class FT>
+Jet_3<FT, 1> parabolic_function(const Jet_3<FT>& f) {
+  const auto derivative = [&](int i, int j, int k) {
+    Jet_3<FT, 1> jet;
+    jet.coefficients() = {f.derivative(i, j, k), f.derivative(i + 1, j, k), f.derivative(i, j + 1, k),
+                          f.derivative(i, j, k + 1)};
+    return jet;
+  };
+  const auto x = derivative(1, 0, 0), y = derivative(0, 1, 0), z = derivative(0, 0, 1);
+  const auto xx = derivative(2, 0, 0), yy = derivative(0, 2, 0), zz = derivative(0, 0, 2);
+  const auto xy = derivative(1, 1, 0), xz = derivative(1, 0, 1), yz = derivative(0, 1, 1);
+  return (yy * zz - yz * yz) * x * x + (xx * zz - xz * xz) * y * y + (xx * yy - xy * xy) * z * z +
+         FT(2) * ((xz * xy - xx * yz) * y * z + (xy * yz - yy * xz) * x * z + (yz * xz - zz * xy) * x * y);
+}
+
+namespace internal {
+
+template <class ConcurrencyTag, class Traits>
+class Parabolic_curve_finder_3 {
+  using FT = typename Traits::FT;
+  using Kernel = Kernel_of<Traits>;
+  using Point_3 = typename Traits::Point_3;
+  using Vector_3 = typename Traits::Vector_3;
+  using Index = std::uint32_t;
+  using Edge = std::pair<Index, Index>; // smaller index first
+  static constexpr Index none = std::numeric_limits<Index>::max();
+
+public:
+  Parabolic_curve_finder_3(const Indexed_triangle_mesh_3<Kernel>& mesh, const Traits& traits)
+      : mesh_(mesh), traits_(traits) {}
+
+  Parabolic_curves_3<Kernel> operator()() {
+    values_.resize(mesh_.points.size());
+    parallel_for<ConcurrencyTag>(
+        0, values_.size(),
+        [&](std::size_t v) { values_[v] = parabolic_function(traits_.taylor(mesh_.points[v])).value(); }, 256);
+    find_segments();
+    points_.resize(edges_.size());
+    std::vector<std::uint8_t> has_converged(edges_.size());
+    parallel_for<ConcurrencyTag>(
+        0, edges_.size(), [&](std::size_t e) { has_converged[e] = place_point(e); }, 64);
+    Parabolic_curves_3<Kernel> curves;
+    curves.unconverged_points = std::size_t(std::count(has_converged.begin(), has_converged.end(), 0));
+    link(curves.polylines);
+    return curves;
+  }
+
+private:
+  /// A segment of a curve in every triangle with different signs at its vertices, between two of its edges.
+  void find_segments() {
+    std::vector<std::array<Edge, 2>> segments;
+    for (const auto& t : mesh_.triangles) {
+      std::array<Edge, 2> ends;
+      std::size_t n = 0;
+      bool is_defined = true;
+      for (std::size_t m = 0; m < 3; ++m) {
+        const Index a = t[m], b = t[(m + 1) % 3];
+        is_defined = is_defined && values_[a] - values_[a] == FT(0);
+        if ((values_[a] < FT(0)) != (values_[b] < FT(0))) ends[n++] = std::minmax(a, b);
+      }
+      if (is_defined && n == 2) segments.push_back(ends);
+    }
+    for (const auto& [first, second] : segments) {
+      edges_.push_back(first);
+      edges_.push_back(second);
+    }
+    std::sort(edges_.begin(), edges_.end());
+    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    neighbours_.assign(edges_.size(), {none, none});
+    const auto position = [&](const Edge& e) {
+      return Index(std::lower_bound(edges_.begin(), edges_.end(), e) - edges_.begin());
+    };
+    for (const auto& [first, second] : segments) {
+      const Index a = position(first), b = position(second);
+      neighbours_[a][neighbours_[a][0] == none ? 0 : 1] = b;
+      neighbours_[b][neighbours_[b][0] == none ? 0 : 1] = a;
+    }
+  }
+
+  /// From the linear intersection with the edge to f = 0, d = 0 by Newton's method with steps of least length, which
+  /// may not lead further away than the edge is long.
+  bool place_point(std::size_t e) {
+    constexpr int maximal_iterations = 30;
+    const auto [a, b] = edges_[e];
+    const Vector_3 edge = mesh_.points[b] - mesh_.points[a];
+    const Point_3 start = mesh_.points[a] + values_[a] / (values_[a] - values_[b]) * edge;
+    const FT reach = edge.squared_length();
+    Point_3 p = start;
+    points_[e] = start;
+    for (int n = 0; n < maximal_iterations; ++n) {
+      const auto jet = traits_.taylor(p);
+      const auto d = parabolic_function(jet);
+      const auto gradient = [](const auto& c) { return Vector_3(c[1], c[2], c[3]); };
+      const Vector_3 u = gradient(jet.coefficients()), v = gradient(d.coefficients());
+      const FT uu = u * u, uv = u * v, vv = v * v, determinant = uu * vv - uv * uv;
+      const FT s = (uv * d.value() - vv * jet.value()) / determinant;
+      const FT t = (uv * jet.value() - uu * d.value()) / determinant;
+      const Vector_3 step = s * u + t * v;
+      if (!((p + step - start).squared_length() <= reach)) return false; // also NaN
+      p = p + step;
+      const FT rounding = FT(8) * std::numeric_limits<FT>::epsilon();
+      if (step.squared_length() <= rounding * rounding * (p - CGAL::ORIGIN).squared_length()) {
+        points_[e] = p;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void link(std::vector<typename Parabolic_curves_3<Kernel>::Polyline>& polylines) {
+    std::vector<bool> is_used(edges_.size(), false);
+    const auto follow = [&](Index first) {
+      typename Parabolic_curves_3<Kernel>::Polyline line{{}, false};
+      Index last = none;
+      for (Index here = first; here != none;) {
+        is_used[here] = true;
+        line.points.push_back(points_[here]);
+        const auto& [p, q] = neighbours_[here];
+        const Index next = p != last ? p : q;
+        last = here;
+        line.is_closed = next == first;
+        here = next == none || is_used[next] ? none : next;
+      }
+      if (line.points.size() > 1) polylines.push_back(std::move(line));
+    };
+    for (Index e = 0; e < edges_.size(); ++e)
+      if (!is_used[e] && neighbours_[e][1] == none) follow(e); // an end, at the border of the mesh
+    for (Index e = 0; e < edges_.size(); ++e)
+      if (!is_used[e]) follow(e);
+  }
+
+  const Indexed_triangle_mesh_3<Kernel>& mesh_;
+  const Traits& traits_;
+  std::vector<FT> values_; // of the parabolic function at the vertices
+  std::vector<Edge> edges_;
+  std::vector<std::array<Index, 2>> neighbours_; // along the curve, per edge
+  std::vector<Point_3> points_;
+};
+
+} // namespace internal
+
+/// The parabolic curves of the zero set of f, as polylines with a point for every edge of `mesh` at whose ends K_e has
+/// different signs. `mesh` is what a sampler made of the zero set; its resolution decides which curves are found, and
+/// their points lie on f = 0 and K_e = 0 to rounding whatever it is. Curves where K_e touches zero without a change of
+/// sign are not found. The same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit.
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits>
+Parabolic_curves_3<Kernel_of<Traits>> parabolic_curves(const Indexed_triangle_mesh_3<Kernel_of<Traits>>& mesh,
+                                                       const Traits& traits) {
+  return internal::Parabolic_curve_finder_3<ConcurrencyTag, Traits>(mesh, traits)();
+}
+
+} // namespace equiaffine
+
+#endif

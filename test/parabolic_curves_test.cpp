@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/Local_structure_3.h>
+#include <equiaffine/io/write_curves.h>
+#include <equiaffine/marching_cubes.h>
+#include <equiaffine/parabolic_curves.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace {
+
+using namespace equiaffine;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point_3 = Kernel::Point_3;
+
+struct Torus {
+  auto operator()(const auto& x, const auto& y, const auto& z) const {
+    using std::sqrt;
+    const auto q = sqrt(x * x + y * y) - 0.5;
+    return q * q + z * z - 0.04;
+  }
+};
+
+TEST(Parabolic_curves, those_of_a_torus_are_its_two_highest_circles) {
+  const auto traits = make_analytic_traits<Kernel>(Torus(), CGAL::Bbox_3(-.8, -.8, -.3, .8, .8, .3));
+  const auto curves = parabolic_curves(marching_cubes(traits, parameters::number_of_nodes(40)), traits);
+  ASSERT_EQ(curves.polylines.size(), 2u);
+  EXPECT_EQ(curves.unconverged_points, 0u);
+  for (const auto& line : curves.polylines) {
+    EXPECT_TRUE(line.is_closed);
+    double length = 0;
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      const Point_3& p = line.points[i];
+      EXPECT_NEAR(std::hypot(p.x(), p.y()), 0.5, 1e-13);
+      EXPECT_NEAR(std::abs(p.z()), 0.2, 1e-14);
+      length += std::sqrt(CGAL::squared_distance(p, line.points[(i + 1) % line.points.size()]));
+    }
+    EXPECT_NEAR(length, CGAL_PI, 0.01) << "neighbours in the list are neighbours on the circle";
+  }
+}
+
+TEST(Parabolic_curves, the_function_is_the_gaussian_curvature_times_a_power_of_the_gradient) {
+  const auto f = [](const auto& x, const auto& y, const auto& z) {
+    using std::sin;
+    return x * x * y + sin(z * x) + 2.0 * z - y * y * y;
+  };
+  const auto at = [&](double x, double y, double z) {
+    return parabolic_function(internal::expand<4, double>(f, x, y, z));
+  };
+  const double x = 0.4, y = -0.7, z = 0.3, h = 1e-5;
+  const auto jet = internal::expand<4, double>(f, x, y, z);
+  const double g2 = std::pow(jet.coefficient(1, 0, 0), 2) + std::pow(jet.coefficient(0, 1, 0), 2) +
+                    std::pow(jet.coefficient(0, 0, 1), 2);
+  EXPECT_NEAR(at(x, y, z).value(), local_structure(jet).euclidean.gaussian_curvature * g2 * g2, 1e-12);
+  EXPECT_NEAR(at(x, y, z).coefficient(0, 0, 1), (at(x, y, z + h).value() - at(x, y, z - h).value()) / (2 * h), 1e-8);
+  EXPECT_NEAR(at(x, y, z).coefficient(1, 0, 0), (at(x + h, y, z).value() - at(x - h, y, z).value()) / (2 * h), 1e-8);
+}
+
+TEST(Parabolic_curves, curves_end_where_the_surface_leaves_the_box) {
+  const auto wave = [](const auto& x, const auto& y, const auto& z) {
+    using std::sin;
+    return z - 0.3 * sin(3.0 * x) * (1.0 + 0.1 * y * y) - 0.3 * y * y;
+  };
+  const auto traits = make_analytic_traits<Kernel>(wave, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  const auto surface = marching_cubes(traits, parameters::number_of_nodes(30));
+  const auto curves = parabolic_curves(surface, traits),
+             parallel = parabolic_curves<CGAL::Parallel_tag>(surface, traits);
+  ASSERT_FALSE(curves.polylines.empty());
+  for (std::size_t n = 0; n < curves.polylines.size(); ++n) {
+    EXPECT_FALSE(curves.polylines[n].is_closed);
+    EXPECT_EQ(curves.polylines[n].points, parallel.polylines[n].points);
+    for (const Point_3& p : curves.polylines[n].points)
+      EXPECT_NEAR(local_structure(traits.taylor(p)).euclidean.gaussian_curvature, 0, 1e-12);
+  }
+}
+
+TEST(Parabolic_curves, convex_surfaces_have_none) {
+  const auto sphere = [](const auto& x, const auto& y, const auto& z) { return x * x + y * y + z * z - 1.0; };
+  const auto traits = make_analytic_traits<Kernel>(sphere, CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
+  EXPECT_TRUE(parabolic_curves(marching_cubes(traits, parameters::number_of_nodes(20)), traits).polylines.empty());
+}
+
+TEST(Write_curves, closed_curves_end_with_their_first_point_and_open_ones_do_not) {
+  const Parabolic_curves_3<Kernel> curves{
+      {{{{0, 0, 0}, {1, 0, 0}, {0.1, 1, 0}}, true}, {{{0, 0, 1}, {1, 0, 1}}, false}}};
+  std::ostringstream text;
+  write_OBJ(text, curves);
+  EXPECT_EQ(text.str(), "v 0 0 0\nv 1 0 0\nv 0.10000000000000001 1 0\nv 0 0 1\nv 1 0 1\nl 1 2 3 1\nl 4 5\n");
+}
+
+} // namespace
