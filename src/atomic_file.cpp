@@ -130,17 +130,25 @@ void Output_file::copy_to_target() {
 }
 
 void Output_file::rename_to_target() {
-  const fs::path folder = target_.parent_path();
   std::error_code error;
+  const auto replace = [&error](const fs::path& from, const fs::path& to) {
+    if (const fs::file_status old = fs::status(to, error); fs::exists(old))
+      fs::permissions(from, old.permissions(), error);
+    fs::rename(from, to, error);
+    return !error;
+  };
+  bool is_replaced = true;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_->path))
-    if (!error && entry.path() != temporary_path()) fs::rename(entry.path(), folder / entry.path().filename(), error);
-  if (!error) fs::rename(temporary_path(), target_, error);
-  if (error) fail(path_, error.message(), "choose another file");
+    if (entry.path() != temporary_path())
+      is_replaced = is_replaced && replace(entry.path(), target_.parent_path() / entry.path().filename());
+  if (!is_replaced || !replace(temporary_path(), target_)) fail(path_, error.message(), "choose another file");
 }
 
 void commit_all(std::span<Output_file> files) {
   for (Output_file& file : files) file.close();
-  for (Output_file& file : files) file.commit();
+  for (const bool copied : {true, false})
+    for (Output_file& file : files)
+      if (file.has_to_be_copied() == copied) file.commit();
 }
 
 void remove_temporary_folders_when_interrupted() {

@@ -12,6 +12,7 @@ namespace equiaffine {
 
 /// An output that appears whole or not at all. What is written goes to a temporary folder beside the target, so that
 /// `commit()` is a rename; without `commit()` nothing remains. "-" is standard output; it and devices receive a copy.
+/// A file that is replaced hands on its permissions.
 /// The constructor already finds out whether the target can be written: make it before a long computation.
 /// Every member that can fail throws `Input_error`.
 class Output_file {
@@ -19,6 +20,9 @@ public:
   explicit Output_file(const std::string& path);
 
   const std::string& path() const { return path_; }
+
+  /// Whether the target receives a copy: standard output and devices, which may refuse it.
+  bool has_to_be_copied() const { return has_to_be_copied_; }
 
   /// The temporary file as a binary stream.
   std::ostream& stream();
@@ -53,7 +57,8 @@ private:
   std::ofstream stream_;
 };
 
-/// Commits several outputs after all of them were closed without error.
+/// Commits several outputs after all of them were closed without error. Those that are renamed, which hardly fails,
+/// come last: a device that refuses its copy leaves every file as it was.
 void commit_all(std::span<Output_file> files);
 
 /// From now on, a signal that asks the process to end (SIGHUP, SIGINT, SIGTERM; unless it was ignored before) also

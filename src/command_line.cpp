@@ -104,7 +104,8 @@ private:
         .expected(1, CLI::detail::expected_max_vector_size)
         ->allow_extra_args();
     add(command, "--distance-to", 1, "MESH",
-        "the signed distance, negative inside, to a closed mesh (.off .ply .obj .stl)");
+        "the signed distance, negative inside, to a closed mesh: .off .ply .obj .stl; - reads\n"
+        "OFF from standard input");
   }
 
   void add_box(CLI::App& command) {
@@ -186,6 +187,13 @@ private:
     add_attributes(command);
     add(command, "--html", 1, "PAGE.html", "also a web page to look at the surface, without network");
     add_page_options(command);
+    add(command, "--parabolic-curves", 1, "CURVES",
+        "also the curves on the surface where gaussian_curvature is 0 and changes its sign:\n"
+        ".obj"
+#ifdef EQUIAFFINE_WITH_VTK
+        " .vtp"
+#endif
+        "; - writes OBJ to standard output");
     add(command, "--stats", 1, "FILE.json", "also statistics: sizes, topology, status, accuracy, times");
   }
 
@@ -193,8 +201,8 @@ private:
     CLI::App& command = add_command("evaluate", evaluate_description, evaluate_footer);
     add_source(command);
     add(command, "--points", 1, "IN",
-        "the points: .csv with a header that names x, y, z; .ply; .off; - reads CSV from\n"
-        "standard input");
+        "the points: .csv with a header that names x, y, z; .ply; .off; - reads one of these\n"
+        "from standard input");
     group_ = "Surface";
     add_surface(command);
     add_resolution(command);
@@ -245,7 +253,7 @@ private:
                         see_help());
     }
     if (app_.get_subcommands().empty())
-      throw Input_error("no command is given; use mesh, evaluate, sample or view", app_.help());
+      throw Input_error("no command is given; use mesh, evaluate, sample or view, " + see_help());
     const CLI::App& command = *app_.get_subcommands().front();
     result_.command = command.get_name();
     for (const auto& [key, words] : result_.options) check_words_of(command, key, words);

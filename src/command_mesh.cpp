@@ -10,6 +10,7 @@
 #include <equiaffine/attributes.h>
 #include <equiaffine/distance_to_surface.h>
 #include <equiaffine/marching_cubes.h>
+#include <equiaffine/parabolic_curves.h>
 #include <equiaffine/sample_on_lattice.h>
 
 #include <algorithm>
@@ -27,6 +28,7 @@ struct Annotated_surface {
   Vertex_attributes attributes;
   std::array<std::size_t, number_of_point_statuses> status{};
   double max_distance = 0, annotation_seconds = 0;
+  Parabolic_curves_3<Kernel> curves; ///< if they were asked for
 };
 
 template <class Traits>
@@ -80,6 +82,10 @@ Annotated_surface make_surface(const Traits& function, const Mesh_options& optio
   surface.status = count(*surface.attributes.status);
   if (!options.attributes.has_status) surface.attributes.status.reset();
   surface.annotation_seconds = stopwatch.seconds();
+  if (options.curves) {
+    progress.begin("finding parabolic curves");
+    surface.curves = parabolic_curves<CGAL::Parallel_if_available_tag>(surface.mesh, level_set);
+  }
   return surface;
 }
 
@@ -125,20 +131,28 @@ Description make_description(const Mesh_options& options, const Statistics& stat
   return description;
 }
 
+std::string summary(const Parabolic_curves_3<Kernel>& curves) {
+  const std::size_t n = curves.polylines.size();
+  std::string text = std::to_string(n) + (n == 1 ? " parabolic curve" : " parabolic curves");
+  if (curves.unconverged_points > 0) text += ", " + std::to_string(curves.unconverged_points) + " points unconverged";
+  return text + '\n';
+}
+
 /// The outputs of the command. Making them finds out whether they can be written.
 struct Outputs {
   explicit Outputs(const Mesh_options& options) {
     check_surface_output(options.output);
+    if (options.curves) check_curves_output(*options.curves);
     files.emplace_back(options.output);
-    if (options.html) files.emplace_back(*options.html);
-    if (options.stats) files.emplace_back(*options.stats);
+    for (const auto& output : {options.html, options.curves, options.stats})
+      if (output) files.emplace_back(*output);
   }
 
   bool use_standard_output() const {
-    return std::any_of(files.begin(), files.end(), [](const Output_file& file) { return file.path() == "-"; });
+    return std::any_of(files.begin(), files.end(), [](const Output_file& output) { return output.path() == "-"; });
   }
 
-  std::vector<Output_file> files; // mesh, page, statistics: the latter two if asked for
+  std::vector<Output_file> files; // mesh, and if asked for page, curves, statistics
 };
 
 } // namespace
@@ -157,17 +171,20 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   progress.begin("writing");
   Statistics statistics = make_statistics(options, surface, source);
   statistics.sample_seconds += source_seconds;
-  write_surface(outputs.files[0], surface.mesh, surface.attributes);
+  auto file = outputs.files.begin();
+  write_surface(*file++, surface.mesh, surface.attributes);
   if (options.html)
-    write_page(outputs.files[1], surface.mesh, surface.attributes, options.page, make_description(options, statistics));
-  for (Output_file& file : outputs.files) file.close();
+    write_page(*file++, surface.mesh, surface.attributes, options.page, make_description(options, statistics));
+  if (options.curves) write_curves(*file++, surface.curves);
+  for (Output_file& output : outputs.files) output.close();
   statistics.write_seconds = write_stopwatch.seconds();
-  if (options.stats) outputs.files.back().stream() << to_JSON(statistics);
+  if (options.stats) file->stream() << to_JSON(statistics);
   progress.end();
   commit_all(outputs.files);
   if (!outputs.use_standard_output()) {
     out << summary(statistics);
-    for (const Output_file& file : outputs.files) out << "wrote " << file.path() << '\n';
+    if (options.curves) out << summary(surface.curves);
+    for (const Output_file& output : outputs.files) out << "wrote " << output.path() << '\n';
   }
 }
 

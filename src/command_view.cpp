@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "surface_output.h"
 #include <equiaffine/Input_error.h>
+#include <equiaffine/internal/text_input.h>
 #include <equiaffine/io/read_PLY.h>
 
 #include <algorithm>
@@ -15,9 +16,7 @@ namespace {
 
 Annotated_mesh_3<Kernel> read_mesh(const std::string& path) {
   if (path == "-") return read_PLY<Kernel>(std::cin, "standard input");
-  std::ifstream file(path, std::ios::binary);
-  if (!file || file.peek() == std::ifstream::traits_type::eof())
-    throw Input_error("cannot read '" + path + "': there is no such file, or nothing in it; check the path");
+  std::ifstream file = internal::open_input(path);
   return read_PLY<Kernel>(file, path);
 }
 

@@ -5,6 +5,9 @@
 #include <equiaffine/Input_error.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
+#include <system_error>
 #include <utility>
 
 namespace equiaffine {
@@ -87,6 +90,16 @@ Attribute_selection read_attributes(const Command_line& line) {
   }
 }
 
+std::size_t read_threads(const Command_line& line) {
+  constexpr std::size_t most = 1024; // what a thread pool of any computer today takes without harm
+  const std::string word = line.word("--threads", {});
+  const std::size_t threads = parse_count("--threads", word, 1);
+  if (threads > most)
+    fail_option("--threads", "'" + word + "' is more than " + std::to_string(most),
+                "give the number of processor cores, or leave it out to use all of them");
+  return threads;
+}
+
 std::string read_output(const Command_line& line) {
   return needed_word(line, "--output", "name the file to write, -o FILE");
 }
@@ -113,12 +126,21 @@ void check_page(const Command_line& line, const Attribute_selection& attributes)
                 "name one of them, such as affine_mean_curvature, or add it to --attributes");
 }
 
-void check_outputs(std::vector<std::string> paths) {
-  std::sort(paths.begin(), paths.end());
-  const auto same = std::adjacent_find(paths.begin(), paths.end());
-  if (same != paths.end())
-    throw Input_error("two outputs go to " + (*same == "-" ? "standard output" : "'" + *same + "'") +
-                      "; give each its own name");
+/// Names of the same file are equal after this, whatever links and dots lead there.
+std::filesystem::path canonical_output(const std::string& path) {
+  if (path == "-") return path;
+  std::error_code error;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, error),
+                              canonical = std::filesystem::weakly_canonical(absolute, error);
+  return error ? absolute.lexically_normal() : canonical;
+}
+
+void check_outputs(const std::vector<std::string>& paths) {
+  std::set<std::filesystem::path> outputs;
+  for (const std::string& path : paths)
+    if (!outputs.insert(canonical_output(path)).second)
+      throw Input_error("two outputs go to " + (path == "-" ? "standard output" : "'" + path + "'") +
+                        "; give each its own name");
 }
 
 Mesh_options read_mesh_options(const Command_line& line) {
@@ -132,19 +154,23 @@ Mesh_options read_mesh_options(const Command_line& line) {
   options.attributes = read_attributes(line);
   options.output = read_output(line);
   options.html = optional_word(line, "--html");
+  options.curves = optional_word(line, "--parabolic-curves");
   options.stats = optional_word(line, "--stats");
   options.page = read_page(line);
   check_page(line, options.attributes);
   std::vector<std::string> outputs = {options.output};
-  if (options.html) outputs.push_back(*options.html);
-  if (options.stats) outputs.push_back(*options.stats);
+  for (const auto& output : {options.html, options.curves, options.stats})
+    if (output) outputs.push_back(*output);
   check_outputs(outputs);
   return options;
 }
 
 Evaluate_options read_evaluate_options(const Command_line& line) {
-  return {read_source(line), read_orientation(line), read_attributes(line),
-          needed_word(line, "--points", "name the file with the points"), read_output(line)};
+  Evaluate_options options{read_source(line), read_orientation(line), read_attributes(line),
+                           needed_word(line, "--points", "name the file with the points"), read_output(line)};
+  if (options.source.kind == Source_kind::DISTANCE && options.source.text == "-" && options.points == "-")
+    throw Input_error("--distance-to and --points both read standard input; name a file for one of them");
+  return options;
 }
 
 Sample_options read_sample_options(const Command_line& line) {
@@ -168,7 +194,7 @@ Options parse_options(const std::vector<std::string>& arguments) {
   const Command_line line = split_command_line(arguments);
   if (line.information) return {Information{*line.information}, {}};
   Options options;
-  if (line.has("--threads")) options.threads = parse_count("--threads", line.word("--threads", {}), 1);
+  if (line.has("--threads")) options.threads = read_threads(line);
   if (line.command == "mesh") options.command = read_mesh_options(line);
   else if (line.command == "evaluate") options.command = read_evaluate_options(line);
   else if (line.command == "sample") options.command = read_sample_options(line);

@@ -49,7 +49,7 @@ struct Mesh_options {
   Vertex_position vertices = Vertex_position::PROJECTED;
   Attribute_selection attributes;
   std::string output;
-  std::optional<std::string> html, stats;
+  std::optional<std::string> html, curves, stats;
   Page_options page;
 };
 

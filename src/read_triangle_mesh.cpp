@@ -2,6 +2,7 @@
 #include "read_triangle_mesh.h"
 
 #include <equiaffine/Input_error.h>
+#include <equiaffine/internal/text_input.h>
 #include <equiaffine/io/read_OFF.h>
 #include <equiaffine/io/read_PLY.h>
 
@@ -11,11 +12,9 @@
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <vector>
 
 namespace equiaffine {
@@ -30,7 +29,8 @@ struct Polygon_soup {
 };
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason, const std::string& advice) {
-  throw Input_error("cannot read the mesh '" + path + "': " + reason + "; " + advice);
+  throw Input_error("cannot read the mesh " + (path == "-" ? "on standard input" : "'" + path + "'") + ": " + reason +
+                    "; " + advice);
 }
 
 Polygon_soup to_soup(const Indexed_triangle_mesh_3<Kernel>& mesh) {
@@ -40,17 +40,11 @@ Polygon_soup to_soup(const Indexed_triangle_mesh_3<Kernel>& mesh) {
 }
 
 Polygon_soup read_soup(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) fail(path, "there is no such file", "check the path");
-  if (std::filesystem::is_directory(path, error)) fail(path, "it is a folder", "name a file");
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail(path, "permission denied", "make it readable");
-  if (extension == ".off") return to_soup(read_OFF<Kernel>(file, path));
-  if (extension == ".ply") return to_soup(read_PLY<Kernel>(file, path).mesh);
-  if (extension != ".obj" && extension != ".stl")
+  if (path == "-") return to_soup(read_OFF<Kernel>(std::cin, "standard input"));
+  std::ifstream file = internal::open_input(path);
+  if (internal::has_extension(path, ".off")) return to_soup(read_OFF<Kernel>(file, path));
+  if (internal::has_extension(path, ".ply")) return to_soup(read_PLY<Kernel>(file, path).mesh);
+  if (!internal::has_extension(path, ".obj") && !internal::has_extension(path, ".stl"))
     fail(path, "its extension is not known", "use one of .off .ply .obj .stl");
   Polygon_soup soup;
   if (!CGAL::IO::read_polygon_soup(path, soup.points, soup.polygons))

@@ -10,7 +10,8 @@
 
 namespace equiaffine {
 
-/// Reads `.off .ply .obj .stl`. Equal points become one, faces get triangulated and a common orientation. Throws
+/// Reads `.off .ply .obj .stl`, or OFF from standard input for "-".
+/// Equal points become one, faces get triangulated and a common orientation. Throws
 /// `Input_error` for what is not a mesh of finite numbers.
 CGAL::Surface_mesh<Kernel::Point_3> read_triangle_mesh(const std::string& path);
 

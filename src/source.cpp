@@ -42,7 +42,7 @@ Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size
     return signed_distance_volume<CGAL::Parallel_if_available_tag>(mesh, lattice,
                                                                    [&](std::size_t nodes) { progress.advance(nodes); });
   } catch (const Input_error& error) {
-    throw Input_error("cannot use the mesh '" + options.text + "': " + error.what());
+    throw Input_error("cannot measure " + describe(options) + ": " + error.what());
   }
 }
 
@@ -86,7 +86,7 @@ std::string describe(const Source_options& options) {
   switch (options.kind) {
   case Source_kind::FUNCTION: return "the formula " + options.text;
   case Source_kind::VOLUME: return "the volume '" + options.text + "'";
-  default: return "the distance to '" + options.text + "'";
+  default: return "the distance to " + (options.text == "-" ? "standard input" : "'" + options.text + "'");
   }
 }
 

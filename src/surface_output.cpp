@@ -3,12 +3,11 @@
 
 #include "write_VTP.h"
 #include <equiaffine/Input_error.h>
+#include <equiaffine/internal/text_input.h>
 #include <equiaffine/io/write_HTML.h>
+#include <equiaffine/io/write_curves.h>
 #include <equiaffine/io/write_mesh.h>
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <optional>
 
 namespace equiaffine {
@@ -16,30 +15,30 @@ namespace equiaffine {
 namespace {
 
 #ifdef EQUIAFFINE_WITH_VTK
-constexpr const char* known_extensions = ".ply .off .obj .stl .vtp .csv";
+constexpr bool has_vtk = true;
+constexpr const char *surface_extensions = ".ply .off .obj .stl .vtp .csv", *curves_extensions = ".obj .vtp";
 #else
-constexpr const char* known_extensions = ".ply .off .obj .stl .csv";
+constexpr bool has_vtk = false;
+constexpr const char *surface_extensions = ".ply .off .obj .stl .csv", *curves_extensions = ".obj";
 #endif
 
-bool is_VTP(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return extension == ".vtp";
+bool is_VTP(const std::string& path) { return internal::has_extension(path, ".vtp"); }
+
+void check_output(const std::string& path, bool is_known, const std::string& known_extensions) {
+  if (path == "-" || is_known || (has_vtk && is_VTP(path))) return;
+  throw Input_error("cannot write '" + path +
+                    "': " + (is_VTP(path) ? "this equiaffine was built without VTK" : "its extension is not known") +
+                    "; use one of " + known_extensions);
 }
 
 } // namespace
 
 void check_surface_output(const std::string& path) {
-  if (path == "-" || mesh_format(path)) return;
-#ifdef EQUIAFFINE_WITH_VTK
-  if (is_VTP(path)) return;
-#else
-  if (is_VTP(path))
-    throw Input_error("cannot write '" + path + "': this equiaffine was built without VTK; use one of " +
-                      known_extensions);
-#endif
-  throw Input_error("cannot write '" + path + "': its extension is not known; use one of " + known_extensions);
+  check_output(path, mesh_format(path).has_value(), surface_extensions);
+}
+
+void check_curves_output(const std::string& path) {
+  check_output(path, internal::has_extension(path, ".obj"), curves_extensions);
 }
 
 void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh,
@@ -48,6 +47,13 @@ void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mes
   if (is_VTP(file.path())) return write_VTP(file.stream(), mesh, attributes);
 #endif
   write_mesh(file.stream(), mesh_format(file.path()).value_or(Mesh_format::OFF), mesh, attributes);
+}
+
+void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves) {
+#ifdef EQUIAFFINE_WITH_VTK
+  if (is_VTP(file.path())) return write_VTP(file.stream(), curves);
+#endif
+  write_OBJ(file.stream(), curves);
 }
 
 void write_page(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,

@@ -6,6 +6,7 @@
 #include "kernel.h"
 #include "options.h"
 #include <equiaffine/Indexed_triangle_mesh_3.h>
+#include <equiaffine/parabolic_curves.h>
 
 #include <string>
 #include <utility>
@@ -18,6 +19,12 @@ void check_surface_output(const std::string& path);
 
 /// Writes the mesh in the format of the path's extension, OFF for "-", without committing.
 void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes);
+
+/// Throws `Input_error` unless `write_curves` knows the extension of the path, or it is "-".
+void check_curves_output(const std::string& path);
+
+/// Writes the curves in the format of the path's extension, OBJ for "-", without committing.
+void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves);
 
 /// What a page says about its surface, in rows of two cells.
 using Description = std::vector<std::pair<std::string, std::string>>;

@@ -2,7 +2,8 @@
 #ifndef EQUIAFFINE_SRC_VOLUME_FORMATS_H
 #define EQUIAFFINE_SRC_VOLUME_FORMATS_H
 
-// The pieces of volume_io.h: one reader and one writer per library.
+// The pieces of volume_io.h: one reader and one writer per library. They are defined where the program is built with
+// that library.
 
 #include "kernel.h"
 #include <equiaffine/Volume_3.h>

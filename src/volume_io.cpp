@@ -3,10 +3,10 @@
 
 #include "volume_formats.h"
 #include <equiaffine/Input_error.h>
+#include <equiaffine/internal/text_input.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -35,18 +35,49 @@ constexpr std::array extensions = {
     Extension{".vti", Volume_format::VTI, true}};
 
 std::optional<Extension> find_extension(const std::string& path) {
-  std::string lower = path;
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
   for (const Extension& extension : extensions)
-    if (lower.ends_with(extension.text)) return extension;
+    if (internal::has_extension(path, extension.text)) return extension;
   return std::nullopt;
 }
 
+#ifdef EQUIAFFINE_WITH_ITK
+constexpr bool has_itk = true;
+#else
+constexpr bool has_itk = false;
+#endif
+#ifdef EQUIAFFINE_WITH_VTK
+constexpr bool has_vtk = true;
+#else
+constexpr bool has_vtk = false;
+#endif
+
+/// The library that reads and writes a format, if this program was built without it; otherwise nothing.
+std::string_view missing_library(Volume_format format) {
+  if (format == Volume_format::INR) return {};
+  if (format == Volume_format::VTI) return has_vtk ? "" : "VTK";
+  return has_itk ? "" : "ITK";
+}
+
+/// Those that this program reads, or writes.
 std::string known_extensions(bool written_only) {
   std::string list;
   for (const Extension& extension : extensions)
-    if (extension.is_written || !written_only) list.append(list.empty() ? "" : " ").append(extension.text);
+    if (missing_library(extension.format).empty() && (extension.is_written || !written_only))
+      list.append(list.empty() ? "" : " ").append(extension.text);
   return list;
+}
+
+std::string built_without(std::string_view library) {
+  return "this equiaffine was built without " + std::string(library);
+}
+
+[[noreturn]] void fail_to_read_volume_without(std::string_view library, const std::string& path) {
+  fail_to_read_volume(path, built_without(library), "convert it to one of " + known_extensions(false));
+}
+
+std::string advice_for_writing() {
+  const std::string list = known_extensions(true);
+  return list.empty() ? "build it with ITK (.nrrd .mhd .mha .nii) or VTK (.vti)" : "use one of " + list;
 }
 
 Extension find_written_extension(const std::string& path) {
@@ -54,7 +85,10 @@ Extension find_written_extension(const std::string& path) {
   if (!extension || !extension->is_written)
     throw Input_error("cannot write the volume '" + path + "': " +
                       (extension ? std::string(extension->text) + " is only read" : "its extension is not known") +
-                      "; use one of " + known_extensions(true));
+                      "; " + advice_for_writing());
+  if (const auto library = missing_library(extension->format); !library.empty())
+    throw Input_error("cannot write the volume '" + path + "': " + built_without(library) + "; " +
+                      advice_for_writing());
   return *extension;
 }
 
@@ -109,18 +143,25 @@ Volume_3<Kernel> read_volume(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) fail_to_read_volume(path, "there is no such file", "check the path");
-  if (fs::is_directory(status)) return read_dicom_series(path);
+  if (fs::is_directory(status)) {
+    if constexpr (has_itk) return read_dicom_series(path);
+    else fail_to_read_volume_without("ITK", path);
+  }
   const std::optional<Extension> extension = find_extension(path);
   if (!extension)
     fail_to_read_volume(path, "its extension is not known",
                         "use one of " + known_extensions(false) + " or a folder with a DICOM series");
+  if (const auto library = missing_library(extension->format); !library.empty())
+    fail_to_read_volume_without(library, path);
   if (::access(path.c_str(), R_OK) != 0) fail_to_read_volume(path, "permission denied", "make it readable");
+  if (fs::is_regular_file(status) && fs::file_size(path, error) == 0)
+    fail_to_read_volume(path, "it is empty", "get the complete file again");
   try {
-    switch (extension->format) {
-    case Volume_format::INR: return read_inr_volume(path);
-    case Volume_format::VTI: return read_vti_volume(path);
-    default: return read_itk_volume(path, extension->format);
-    }
+    if constexpr (has_vtk)
+      if (extension->format == Volume_format::VTI) return read_vti_volume(path);
+    if constexpr (has_itk)
+      if (extension->format != Volume_format::INR) return read_itk_volume(path, extension->format);
+    return read_inr_volume(path);
   } catch (const std::bad_alloc&) {
     fail_to_read_volume(path, "it does not fit into memory", "check its header or crop it");
   }
@@ -131,8 +172,10 @@ void check_volume_output(const std::string& path) { find_written_extension(path)
 void write_volume(Output_file& file, const Volume_3<Kernel>& volume, bool as_float) {
   const Volume_format format = find_written_extension(file.path()).format;
   try {
-    if (format == Volume_format::VTI) write_vti_volume(file.stream(), volume, as_float);
-    else write_itk_volume(file.temporary_path().string(), format, volume, as_float);
+    if constexpr (has_vtk)
+      if (format == Volume_format::VTI) write_vti_volume(file.stream(), volume, as_float);
+    if constexpr (has_itk)
+      if (format != Volume_format::VTI) write_itk_volume(file.temporary_path().string(), format, volume, as_float);
   } catch (const Input_error& error) {
     throw Input_error("cannot write the volume '" + file.path() + "': " + error.what());
   }
@@ -144,33 +187,5 @@ void write_volume(const std::string& path, const Volume_3<Kernel>& volume, bool 
   write_volume(file, volume, as_float);
   file.commit();
 }
-
-#ifndef EQUIAFFINE_WITH_ITK
-namespace {
-constexpr const char* no_itk = "this equiaffine was built without ITK";
-constexpr const char* instead_of_itk = "build it with ITK, or use .inr or .vti";
-} // namespace
-
-Volume_3<Kernel> read_itk_volume(const std::string& path, Volume_format) {
-  fail_to_read_volume(path, no_itk, instead_of_itk);
-}
-Volume_3<Kernel> read_dicom_series(const std::string& folder) { fail_to_read_volume(folder, no_itk, instead_of_itk); }
-void write_itk_volume(const std::string&, Volume_format, const Volume_3<Kernel>&, bool) {
-  throw Input_error(std::string(no_itk) + "; build it with ITK, or write .vti");
-}
-#endif
-
-#ifndef EQUIAFFINE_WITH_VTK
-namespace {
-constexpr const char* no_vtk = "this equiaffine was built without VTK";
-} // namespace
-
-Volume_3<Kernel> read_vti_volume(const std::string& path) {
-  fail_to_read_volume(path, no_vtk, "build it with VTK, or use one of the other formats");
-}
-void write_vti_volume(std::ostream&, const Volume_3<Kernel>&, bool) {
-  throw Input_error(std::string(no_vtk) + "; build it with VTK, or write one of the other formats");
-}
-#endif
 
 } // namespace equiaffine

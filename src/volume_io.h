@@ -17,7 +17,7 @@ namespace equiaffine {
 /// Throws `Input_error` for everything that is not a complete volume with two nodes or more per axis.
 Volume_3<Kernel> read_volume(const std::string& path);
 
-/// Throws `Input_error` unless `write_volume` knows the extension of `path`.
+/// Throws `Input_error` unless this program, with the libraries that it was built with, writes the extension of `path`.
 void check_volume_output(const std::string& path);
 
 /// Writes `.nrrd .mhd .mha .nii .nii.gz` through ITK or `.vti` through VTK, as float or double, without committing

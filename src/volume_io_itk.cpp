@@ -19,8 +19,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <memory>
+#include <string>
+#include <system_error>
 #include <type_traits>
 #include <vector>
 
@@ -57,14 +60,15 @@ itk::ImageIOBase::Pointer make_image_io(Volume_format format) {
 }
 
 /// What an ITK exception says, without the places in ITK and the libraries below it where it was found: the last line,
-/// after "): " and after "[library] function: ".
+/// after "): " and after "[library] function: ". MetaImage gives the last error of the system, which is none of this
+/// file: nothing remains of it.
 std::string reason_of(const itk::ExceptionObject& exception) {
   std::string text = exception.GetDescription();
   text.erase(text.find_last_not_of(" .\n") + 1);
   text.erase(0, text.rfind('\n') + 1);
   if (const std::size_t end = text.rfind("): "); end != std::string::npos) text.erase(0, end + 3);
   if (text.starts_with('[')) text.erase(0, text.find(": ") + 2);
-  return text;
+  return text.starts_with("Reason: ") ? "" : " (" + text + ')';
 }
 
 void check_scalars(const std::string& path, const itk::ImageIOBase& io) {
@@ -149,6 +153,19 @@ void check_nifti_length(const std::string& path, std::size_t number_of_nodes) {
   if (error != Z_OK || !(length >= expected)) fail_to_read_volume_data(path);
 }
 
+/// Fails if the header of a MetaImage names a file with the data that does not exist. `LOCAL` and `LIST` are no names,
+/// and one with a % stands for several files.
+void check_data_file(const std::string& path, itk::ImageIOBase& io) {
+  auto* const meta = dynamic_cast<itk::MetaImageIO*>(&io);
+  if (!meta) return;
+  const std::filesystem::path name = meta->GetMetaImagePointer()->ElementDataFileName();
+  if (!name.has_extension() || name.string().find('%') != std::string::npos) return;
+  std::error_code error;
+  if (!std::filesystem::exists(std::filesystem::path(path).parent_path() / name, error))
+    fail_to_read_volume(path, "the file with its data, '" + name.string() + "', is missing",
+                        "put it beside the header");
+}
+
 } // namespace
 
 Volume_3<Kernel> read_itk_volume(const std::string& path, Volume_format format) {
@@ -158,9 +175,10 @@ Volume_3<Kernel> read_itk_volume(const std::string& path, Volume_format format) 
   try {
     io->ReadImageInformation();
   } catch (const itk::ExceptionObject& exception) {
-    fail_to_read_volume(path, "its header is not understood (" + reason_of(exception) + ")",
+    fail_to_read_volume(path, "its header is not understood" + reason_of(exception),
                         "check that the extension is right and the file complete");
   }
+  check_data_file(path, *io);
   check_scalars(path, *io);
   const Lattice_3<Kernel> lattice = lattice_of(path, *io);
   if (format == Volume_format::NIFTI) check_nifti_length(path, lattice.number_of_nodes());
@@ -211,7 +229,7 @@ Volume_3<Kernel> read_dicom_series(const std::string& folder) {
     return {make_lattice(folder, {size[0], size[1], size[2]}, Point_3(origin[0], origin[1], origin[2]), steps),
             {image.GetBufferPointer(), image.GetBufferPointer() + size[0] * size[1] * size[2]}};
   } catch (const itk::ExceptionObject& exception) {
-    fail_to_read_volume(folder, "a file of the series is not understood (" + reason_of(exception) + ")",
+    fail_to_read_volume(folder, "a file of the series is not understood" + reason_of(exception),
                         "get the complete series again or convert it");
   }
 }

@@ -4,6 +4,7 @@
 
 #include "kernel.h"
 #include <equiaffine/Indexed_triangle_mesh_3.h>
+#include <equiaffine/parabolic_curves.h>
 
 #include <ostream>
 
@@ -12,6 +13,9 @@ namespace equiaffine {
 /// Writes a VTK polydata file: points in double precision, triangles, a double point array per column and, if there
 /// is a status, an unsigned char array `status`. Errors are in the state of the stream.
 void write_VTP(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes);
+
+/// The same for curves: a polyline for each, a closed one ends with the index of its first point.
+void write_VTP(std::ostream& stream, const Parabolic_curves_3<Kernel>& curves);
 
 } // namespace equiaffine
 

@@ -219,6 +219,11 @@ TEST_F(Program_command_line, points_without_finite_coordinates_are_outside) {
     }
     EXPECT_EQ(table[3].at("status"), "regular");
   }
+  const std::string cells = "x,y,z\nnan,0,0\n0,-nan,0\n0,0,-inf\n";
+  for (const auto& row : rows(run_well(Arguments{"evaluate", "--points", "-", "-o", "-"} + sphere, cells))) {
+    EXPECT_EQ(row.at("status"), "outside");
+    EXPECT_EQ(row.at("k1"), "nan");
+  }
 }
 
 TEST_F(Program_command_line, evaluate_writes_PLY_from_CSV_and_back) {
@@ -290,6 +295,67 @@ TEST_F(Program_command_line, a_page_is_made_with_the_mesh_or_from_it_later) {
   EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
   EXPECT_NE(page.find("x^2 + y^2 + z^2 = 1"), std::string::npos);
   EXPECT_EQ(data(page), data(later));
+}
+
+TEST_F(Program_command_line, the_parabolic_curves_of_a_torus_are_two_closed_ones) {
+  const Arguments torus = {"mesh",
+                           "-o",
+                           "t.off",
+                           "--function",
+                           "(x^2 + y^2 + z^2 + 0.75)^2 = 4*(x^2 + y^2)",
+                           "--box",
+                           "-2",
+                           "2",
+                           "-2",
+                           "2",
+                           "-1",
+                           "1",
+                           "--resolution",
+                           "24",
+                           "--parabolic-curves"};
+  EXPECT_NE(run_well(torus + Arguments{"c.obj"}).find("\n2 parabolic curves\nwrote t.off\nwrote c.obj\n"),
+            std::string::npos);
+  std::size_t curves = 0;
+  for (const std::string& line : split(file("c.obj"), '\n')) {
+    const Arguments words = split(line, ' ');
+    if (words.at(0) == "v") {
+      EXPECT_NEAR(std::hypot(std::stod(words.at(1)), std::stod(words.at(2))), 1, rounding);
+      EXPECT_NEAR(std::abs(std::stod(words.at(3))), 0.5, rounding);
+    } else {
+      EXPECT_EQ(words.at(0), "l");
+      EXPECT_EQ(words.at(1), words.back());
+      ++curves;
+    }
+  }
+  EXPECT_EQ(curves, 2U);
+  EXPECT_EQ(run_well(torus + Arguments{"-", "--transform", "1", "0", "0", "0", "1", "0", "0", "0", "1"}),
+            file("c.obj"));
+}
+
+TEST_F(Program_command_line, a_surface_without_parabolic_curves_gives_an_empty_file) {
+  const std::string out = run_well(Arguments{"mesh", "-o", "s.off", "--html", "s.html", "--parabolic-curves", "c.obj",
+                                             "--stats", "s.json", "--resolution", "9"} +
+                                   sphere);
+  EXPECT_NE(out.find("\n0 parabolic curves\n"), std::string::npos);
+  EXPECT_EQ(names(), (Arguments{"c.obj", "s.html", "s.json", "s.off"}));
+  EXPECT_EQ(file("c.obj"), "");
+  EXPECT_EQ(Json::parse(file("s.json"))["components"], 1);
+  EXPECT_TRUE(file("s.html").starts_with("<!DOCTYPE html>"));
+}
+
+TEST_F(Program_command_line, standard_input_may_be_a_mesh) {
+  const std::string cube = "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+                           "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+  write_file(folder_ / "cube.off", cube);
+  const Arguments options = {"--resolution", "17", "--attributes", "none", "-o", "-", "--distance-to"};
+  EXPECT_EQ(run_well(Arguments{"mesh"} + options + Arguments{"-"}, cube),
+            run_well(Arguments{"mesh"} + options + Arguments{"cube.off"}));
+  const Arguments evaluate = {"evaluate", "--function", "x + y", "--attributes", "nx", "-o", "-", "--points"};
+  run_well({"evaluate", "--function", "x", "--attributes", "none", "--points", "cube.off", "-o", "cube.ply"});
+  const std::string expected = run_well(evaluate + Arguments{"cube.off"});
+  EXPECT_EQ(rows(expected).size(), 8U);
+  EXPECT_EQ(run_well(evaluate + Arguments{"-"}, cube), expected);
+  EXPECT_EQ(run_well(evaluate + Arguments{"-"}, file("cube.ply")), expected);
 }
 
 TEST_F(Program_command_line, any_axis_may_point_up_on_a_page) {

@@ -60,11 +60,8 @@ protected:
 
 } // namespace
 
-TEST_F(Program_errors, no_command_shows_the_usage) {
-  const Result result = run({});
-  EXPECT_EQ(result.status, 2);
-  EXPECT_TRUE(result.error.starts_with("equiaffine: error: no command is given"));
-  EXPECT_NE(result.error.find("Usage: equiaffine COMMAND"), std::string::npos);
+TEST_F(Program_errors, no_command_is_told_in_one_line) {
+  expect_error({}, {"no command is given; use mesh, evaluate, sample or view", "see 'equiaffine --help'"});
 }
 
 TEST_F(Program_errors, an_unknown_command_or_option_is_named_and_the_nearest_suggested) {
@@ -160,6 +157,7 @@ TEST_F(Program_errors, words_to_choose_from_are_listed) {
   expect_error(mesh_of("x") + box + Arguments{"--derivatives", "exact"}, {"--derivatives", "jets or spline"});
   expect_error(mesh_of("x") + box + Arguments{"--attributes", "k1,kk"}, {"--attributes", "'kk'"});
   expect_error(mesh_of("x") + box + Arguments{"--threads", "0"}, {"--threads", "'0'"});
+  expect_error(mesh_of("x") + box + Arguments{"--threads", "1000000000"}, {"--threads", "'1000000000'", "1024"});
   expect_error(mesh_of("x") + box + Arguments{"--isovalue", "high"}, {"--isovalue", "'high'"});
   expect_error(mesh_of("x") + box + Arguments{"--color", "k1"}, {"--color", "--html"});
   expect_error(mesh_of("x") + box + Arguments{"--html", "o.html", "--color", "affine_k1"}, {"--color", "'affine_k1'"});
@@ -180,11 +178,35 @@ TEST_F(Program_errors, an_output_that_cannot_be_written_is_found_out) {
   expect_error(Arguments{"mesh", "--function", "x", "-o", "out.xyz"} + box, {"'out.xyz'", ".ply .off"});
   expect_error(Arguments{"mesh", "--function", "x"} + box, {"--output is missing"});
   expect_error(mesh_of("x") + box + Arguments{"--html", "out.ply"}, {"two outputs", "'out.ply'"});
+  expect_error(mesh_of("x") + box + Arguments{"--html", "./out.ply"}, {"two outputs", "'./out.ply'"});
+  expect_error(mesh_of("x") + box + Arguments{"--html", "new.html", "--stats", "../work/new.html"},
+               {"two outputs", "'../work/new.html'"});
+  expect_error(mesh_of("x") + box + Arguments{"--parabolic-curves", "out.ply"}, {"'out.ply'"});
+  expect_error(mesh_of("x") + box + Arguments{"--parabolic-curves", "curves.csv"}, {"'curves.csv'", "use one of .obj"});
   expect_error(Arguments{"sample", "--function", "x", "-o", "v.xyz"} + box, {"v.xyz", ".nrrd"});
   expect_error({"evaluate", "--function", "x", "--points", "p.csv", "-o", "o.off"}, {"o.off", ".csv or .ply"});
   const Result full = run(Arguments{"mesh", "--function", "x", "-o", "-"} + box, "", "/dev/full");
   EXPECT_EQ(full.status, 2);
   EXPECT_TRUE(full.error.starts_with("equiaffine: error: cannot write standard output")) << full.error;
+}
+
+TEST_F(Program_errors, an_output_that_refuses_its_bytes_leaves_the_others_as_they_were) {
+  expect_error(mesh_of("x") + box + Arguments{"--resolution", "4", "--stats", "/dev/full"}, {"'/dev/full'"});
+}
+
+TEST_F(Program_errors, a_file_to_read_holds_something) {
+  for (const char* name : {"e.csv", "e.ply", "e.off"}) {
+    add_input(name, "");
+    expect_error({"evaluate", "--function", "x", "--points", name, "-o", "o.csv"}, {name, "it is empty"});
+  }
+  expect_error({"view", "e.ply", "-o", "o.html"}, {"'e.ply'", "it is empty"});
+  expect_error({"mesh", "--distance-to", "e.off", "-o", "out.ply"}, {"'e.off'", "it is empty"});
+  expect_error({"mesh", "--distance-to", "-", "-o", "out.ply"}, {"standard input", "it is empty"});
+  expect_error({"mesh", "--distance-to", "..", "-o", "out.ply"}, {"'..'", "it is a folder"});
+  expect_error({"evaluate", "--function", "x", "--points", "..", "-o", "o.csv"}, {"'..'", "it is a folder"});
+  expect_error({"view", "..", "-o", "o.html"}, {"'..'", "it is a folder"});
+  expect_error({"evaluate", "--distance-to", "-", "--points", "-", "-o", "o.csv"},
+               {"--distance-to and --points", "standard input"});
 }
 
 TEST_F(Program_errors, a_missing_file_is_named) {
@@ -218,6 +240,34 @@ TEST_F(Program_errors, a_volume_is_complete) {
   std::filesystem::resize_file(folder_ / "v.nrrd", std::filesystem::file_size(folder_ / "v.nrrd") / 2);
   before_ = names();
   expect_error({"mesh", "--volume", "v.nrrd", "-o", "out.ply"}, {"v.nrrd", "end"});
+}
+
+TEST_F(Program_errors, a_volume_in_two_files_has_both) {
+  run_well(Arguments{"sample", "--function", "x", "--resolution", "9", "-o", "v.mhd"} + box);
+  std::filesystem::remove(folder_ / "v.raw");
+  before_ = names();
+  expect_error({"mesh", "--volume", "v.mhd", "-o", "out.ply"}, {"'v.mhd'", "'v.raw', is missing"});
+}
+
+TEST_F(Program_errors, a_header_that_ends_early_is_not_explained_by_another_error) {
+  add_input("h.mha", "ObjectType = Image\nNDims = 3\n");
+  const Result result = run({"mesh", "--volume", "h.mha", "-o", "out.ply"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.error, "equiaffine: error: cannot read the volume 'h.mha': its header is not understood; check that "
+                          "the extension is right and the file complete\n");
+  add_input("e.mhd", "");
+  expect_error({"mesh", "--volume", "e.mhd", "-o", "out.ply"}, {"'e.mhd'", "it is empty"});
+}
+#else
+TEST_F(Program_errors, a_format_that_this_program_does_not_write_is_refused_before_sampling) {
+  expect_error(Arguments{"sample", "--function", "x + foo", "-o", "v.nrrd"} + box, {"'v.nrrd'", "without ITK"});
+}
+#endif
+
+#ifndef EQUIAFFINE_WITH_VTK
+TEST_F(Program_errors, a_VTK_format_is_refused_before_sampling) {
+  expect_error(Arguments{"sample", "--function", "x + foo", "-o", "v.vti"} + box, {"'v.vti'", "without VTK"});
+  expect_error(mesh_of("x + foo") + box + Arguments{"--parabolic-curves", "c.vtp"}, {"'c.vtp'", "without VTK", ".obj"});
 }
 #endif
 

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <vector>
 
 namespace {
 
@@ -53,6 +54,29 @@ TEST(Program_write_VTP, vtk_reads_the_same_mesh_and_attributes) {
   data.GetCellPoints(1, corners);
   EXPECT_EQ(corners->GetId(0), 2);
   EXPECT_EQ(corners->GetId(2), 0);
+}
+
+TEST(Program_write_VTP, closed_curves_end_with_their_first_point_and_open_ones_do_not) {
+  const equiaffine::Parabolic_curves_3<Kernel> curves{
+      {{{{0, 0, 0}, {1, 0, 0}, {0.1, 1, 0}}, true}, {{{0, 0, 1}, {1, 0, 1}}, false}}};
+  std::ostringstream stream;
+  equiaffine::write_VTP(stream, curves);
+
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->ReadFromInputStringOn();
+  reader->SetInputString(stream.str());
+  reader->Update();
+  vtkPolyData& data = *reader->GetOutput();
+  ASSERT_EQ(data.GetNumberOfPoints(), 5);
+  ASSERT_EQ(data.GetNumberOfLines(), 2);
+  EXPECT_EQ(data.GetPoint(2)[0], 0.1);
+  const std::vector<std::vector<vtkIdType>> expected = {{0, 1, 2, 0}, {3, 4}};
+  for (vtkIdType line = 0; line < 2; ++line) {
+    vtkNew<vtkIdList> points;
+    data.GetCellPoints(line, points);
+    const std::vector<vtkIdType> indices(points->begin(), points->end());
+    EXPECT_EQ(indices, expected[std::size_t(line)]);
+  }
 }
 
 } // namespace

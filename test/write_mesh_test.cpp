@@ -165,7 +165,7 @@ TEST(Write_mesh, csv_has_17_significant_digits_nan_and_words_for_the_status) {
             "x,y,z,k1,status\n"
             "0.10000000000000001,-0.33333333333333331,0,0.10000000000000001,regular\n"
             "1e-300,0.66666666666666663,1e+22,nan,singular\n"
-            "1,-0,0.69999999999999996,3,unconverged\n"
+            "1,0,0.69999999999999996,3,unconverged\n"
             "-4,5,0.14285714285714285,-0.33333333333333331,parabolic\n");
   EXPECT_EQ(written(Mesh_format::CSV, Mesh{{Point_3(1, 2, 3)}, {}}, {}), "x,y,z\n1,2,3\n");
   EXPECT_EQ(written(Mesh_format::CSV, Mesh{}, {}), "x,y,z\n");

@@ -28,12 +28,12 @@ public:
 
   Buffered_output& operator<<(char character) { return *this << std::string_view(&character, 1); }
 
-  /// 17 significant digits, which give every double back; `nan` has no sign.
+  /// 17 significant digits, which give every double back; `nan` and zero have no sign.
   Buffered_output& operator<<(double number) {
     if (std::isnan(number)) return *this << "nan";
     std::array<char, 32> digits;
     const auto end =
-        std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::general, 17);
+        std::to_chars(digits.data(), digits.data() + digits.size(), number + 0., std::chars_format::general, 17);
     return *this << std::string_view(digits.data(), end.ptr);
   }
 

@@ -3,10 +3,15 @@
 #define EQUIAFFINE_INTERNAL_TEXT_INPUT_H
 
 #include <equiaffine/Indexed_triangle_mesh_3.h>
+#include <equiaffine/Input_error.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <istream>
 #include <iterator>
 #include <optional>
@@ -19,6 +24,26 @@ namespace equiaffine::internal {
 
 inline std::string read_all(std::istream& stream) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Whether `path` ends with `extension`, which is in lower case, in lower or upper case.
+inline bool has_extension(std::string_view path, std::string_view extension) {
+  return path.size() >= extension.size() &&
+         std::equal(extension.begin(), extension.end(), path.end() - std::ptrdiff_t(extension.size()),
+                    [](char a, unsigned char b) { return a == char(std::tolower(b)); });
+}
+
+/// Opens a file with something in it as binary; throws `Input_error` that says why it is none.
+inline std::ifstream open_input(const std::string& path) {
+  const auto fail = [&](const std::string& reason) { throw Input_error("cannot read '" + path + "': " + reason); };
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) fail("there is no such file; check the path");
+  if (std::filesystem::is_directory(status)) fail("it is a folder; name a file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) fail("permission denied; make it readable");
+  if (file.peek() == std::ifstream::traits_type::eof()) fail("it is empty; check the path");
+  return file;
 }
 
 inline std::string_view trim(std::string_view text) {

@@ -36,11 +36,12 @@ public:
       line = trim(line.substr(0, line.find('#')));
       if (!line.empty()) return line;
     }
-    fail("is the last one, but the header announces more");
+    fail("is the last one, but more has to follow");
   }
 
   /// The numbers of vertices and faces, after the keyword `OFF` with prefixes for what vertices have besides points.
   std::array<std::size_t, 2> header() {
+    if (trim(rest_).empty()) throw Input_error("cannot read '" + name_ + "': it is empty; give an OFF file");
     std::string_view text = line();
     std::string_view after_keyword = text;
     const std::string_view keyword = take_word(after_keyword);

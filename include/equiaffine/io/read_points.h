@@ -13,15 +13,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cmath>
 #include <cstddef>
-#include <fstream>
 #include <iostream>
 #include <optional>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace equiaffine {
@@ -147,7 +146,8 @@ inline std::vector<Vertex_attributes::Column> numeric_columns(const std::vector<
 } // namespace internal
 
 /// Reads a CSV file whose header names x, y, z in any places. `name` stands for the file in messages. Throws
-/// `Input_error` with line and column for a cell that is missing, and for a coordinate that is not a finite number.
+/// `Input_error` with line and column for a cell that is missing, and for a coordinate that is not a number. A
+/// number is also nan or inf: such a point is nowhere.
 template <class Kernel>
 Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
   const std::string text = internal::read_all(stream);
@@ -167,8 +167,7 @@ Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string cell = internal::unquote(row[coordinates[axis]]);
       const std::optional<double> value = internal::parse_number<double>(cell);
-      if (!value || !std::isfinite(*value))
-        scanner.fail(line + ", column '" + "xyz"[axis] + "': '" + cell + "' is not a finite number", advice);
+      if (!value) scanner.fail(line + ", column '" + "xyz"[axis] + "': '" + cell + "' is not a number", advice);
       p[axis] = *value;
     }
     table.mesh.points.emplace_back(p[0], p[1], p[2]);
@@ -178,18 +177,26 @@ Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
   return table;
 }
 
-/// Reads points from `.csv`, `.ply` or `.off`, or CSV from standard input for "-".
+/// Reads points from `.csv`, `.ply` or `.off`, or from standard input for "-": PLY or OFF if the first word says so,
+/// otherwise CSV.
 template <class Kernel>
 Point_table_3<Kernel> read_points(const std::string& path) {
-  if (path == "-") return read_CSV<Kernel>(std::cin, "standard input");
-  std::string lower = path;
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  std::ifstream file(path, std::ios::binary);
-  if (!file || file.peek() == std::ifstream::traits_type::eof())
-    throw Input_error("cannot read '" + path + "': there is no such file, or nothing in it; check the path");
-  if (lower.ends_with(".csv")) return read_CSV<Kernel>(file, path);
-  if (lower.ends_with(".ply")) return {read_PLY<Kernel>(file, path), {}, {}};
-  if (lower.ends_with(".off")) return {{read_OFF<Kernel>(file, path), {}}, {}, {}};
+  const auto read = [](std::istream& stream, const std::string& name, std::string_view extension) {
+    if (extension == ".ply") return Point_table_3<Kernel>{read_PLY<Kernel>(stream, name), {}, {}};
+    if (extension == ".off") return Point_table_3<Kernel>{{read_OFF<Kernel>(stream, name), {}}, {}, {}};
+    return read_CSV<Kernel>(stream, name);
+  };
+  if (path == "-") {
+    std::string text = internal::read_all(std::cin);
+    std::string_view rest = text;
+    const std::string_view word = internal::take_word(rest);
+    const char* const extension = word == "ply" ? ".ply" : word.ends_with("OFF") ? ".off" : ".csv";
+    std::istringstream stream(std::move(text));
+    return read(stream, "standard input", extension);
+  }
+  std::ifstream file = internal::open_input(path);
+  for (const std::string_view extension : {".csv", ".ply", ".off"})
+    if (internal::has_extension(path, extension)) return read(file, path, extension);
   throw Input_error("cannot read '" + path + "': its extension is not known; use one of .csv .ply .off");
 }
 

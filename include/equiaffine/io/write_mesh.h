@@ -8,14 +8,13 @@
 
 #include <equiaffine/Indexed_triangle_mesh_3.h>
 #include <equiaffine/internal/buffered_output.h>
+#include <equiaffine/internal/text_input.h>
 #include <equiaffine/io/write_CSV.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/number_utils.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -31,10 +30,8 @@ enum class Mesh_format { PLY, OFF, OBJ, STL, CSV };
 /// The format that the extension of a path stands for, in lower or upper case, if there is one.
 inline std::optional<Mesh_format> mesh_format(const std::string& path) {
   constexpr std::array<std::string_view, 5> extensions = {".ply", ".off", ".obj", ".stl", ".csv"};
-  std::string lower = path;
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
   for (std::size_t i = 0; i < extensions.size(); ++i)
-    if (lower.ends_with(extensions[i])) return static_cast<Mesh_format>(i);
+    if (internal::has_extension(path, extensions[i])) return static_cast<Mesh_format>(i);
   return std::nullopt;
 }
 
