@@ -4,8 +4,9 @@
 
 #include <equiaffine/Batch_function_traits_3.h>
 #include <equiaffine/Indexed_triangle_mesh_3.h>
-#include <equiaffine/internal/marching_cubes_cases.h>
-#include <equiaffine/internal/parallel_for.h>
+#include <equiaffine/internal/inner_vertex.h>
+#include <equiaffine/internal/isosurface_extraction.h>
+#include <equiaffine/internal/sample_signs.h>
 #include <equiaffine/named_parameters.h>
 #include <equiaffine/project_to_surface.h>
 
@@ -13,10 +14,9 @@
 #include <CGAL/tags.h>
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace equiaffine {
@@ -32,181 +32,132 @@ struct Isosurface_3 : Indexed_triangle_mesh_3<Kernel> {
 
 namespace internal {
 
-/// Sweeps the nodes in planes of constant k. Memory: the output, and a few numbers per node of two planes.
-template <class ConcurrencyTag, class Traits>
+/// The surface of a function on a lattice: topology from the signs and values at the nodes, then the vertices.
+template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
 class Marching_cubes_3 {
   using FT = typename Traits::FT;
   using Kernel = Kernel_of<Traits>;
   using Point_3 = typename Traits::Point_3;
-  using Index = std::uint32_t;
-
-  enum Sign : std::uint8_t { NEGATIVE, POSITIVE, UNDEFINED };
-  static constexpr Index no_vertex = std::numeric_limits<Index>::max();
-
-  struct Plane {
-    std::vector<FT> values;
-    std::vector<std::uint8_t> signs;
-    std::array<std::vector<Index>, 3> vertices; // on the edges that begin at a node, by axis
-  };
-
-  struct Crossing {
-    std::array<std::uint32_t, 3> node; // the edge runs from here
-    std::uint32_t axis;
-    FT first, second; // values at its ends
-  };
+  using Node = std::array<std::size_t, 3>;
 
 public:
-  Marching_cubes_3(const Traits& traits, const Lattice_3<Kernel>& lattice)
-      : traits_(traits), lattice_(lattice), is_left_handed_(lattice.determinant() < FT(0)) {}
+  Marching_cubes_3(const Traits& traits, const Lattice_3<Kernel>& lattice) : traits_(traits), lattice_(lattice) {}
 
   Isosurface_3<Kernel> operator()(Vertex_position position) {
     CGAL::Real_timer timer;
     timer.start();
-    const auto& n = lattice_.size();
-    for (std::size_t k = 0; k < n[2]; ++k) {
-      std::swap(planes_[0], planes_[1]);
-      evaluate_plane(k);
-      if (k > 0)
-        for (std::size_t j = 0; j + 1 < n[1]; ++j) emit_row(j, k - 1);
-    }
+    Node_signs signs(lattice_.size());
+    const Sign_sampler<ConcurrencyTag, SkipsEmptySpace, Traits> sampler(traits_, lattice_, signs);
+    const auto value = [&](std::size_t i, std::size_t j, std::size_t k) { return node_value({i, j, k}); };
+    const Isosurface_extraction<ConcurrencyTag, decltype(value)> extraction(signs, value, FT(0));
+    result_.points.resize(extraction.number_of_vertices());
+    result_.vertex_status.assign(extraction.number_of_vertices(), Point_status::REGULAR);
+    result_.triangles.resize(extraction.number_of_triangles());
+    evaluations_ = sampler.evaluations() + node_evaluations(8 * extraction.number_of_ambiguous_cells());
+    extraction.emit(result_.triangles.data(), lattice_.determinant() < FT(0),
+                    [&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, const auto& edges) {
+                      place_inner_vertex(v, {i, j, k}, edges, position);
+                    });
     result_.sampling_seconds = timer.time();
-    place_vertices(position);
+    extraction.for_each_edge_vertex([&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) {
+      place_edge_vertex(v, {i, j, k}, axis, position);
+    });
     result_.projection_seconds = timer.time() - result_.sampling_seconds;
+    result_.function_evaluations = evaluations_;
     return std::move(result_);
   }
 
 private:
-  void evaluate_plane(std::size_t k) {
-    const std::size_t nx = lattice_.size()[0], ny = lattice_.size()[1];
-    Plane& plane = planes_[1];
-    plane.values.resize(nx * ny);
-    plane.signs.resize(nx * ny);
-    for (auto& vertices : plane.vertices) vertices.assign(nx * ny, no_vertex);
-    parallel_for<ConcurrencyTag>(0, ny, [&](std::size_t j) {
-      const std::span<FT> row(plane.values.data() + j * nx, nx);
-      evaluate_row(j, k, row);
-      for (std::size_t i = 0; i < nx; ++i)
-        plane.signs[j * nx + i] = row[i] >= FT(0) ? POSITIVE : row[i] < FT(0) ? NEGATIVE : UNDEFINED;
-    });
+  Point_3 point(const Node& n, const std::array<FT, 3>& offset = {FT(0), FT(0), FT(0)}) const {
+    return lattice_.point(FT(double(n[0])) + offset[0], FT(double(n[1])) + offset[1], FT(double(n[2])) + offset[2]);
   }
 
-  void evaluate_row(std::size_t j, std::size_t k, std::span<FT> row) const {
-    if constexpr (LatticeImplicitFunctionTraits_3<Traits>) {
-      for (std::size_t i = 0; i < row.size(); ++i) row[i] = traits_.sample(i, j, k);
-    } else {
-      std::vector<Point_3> points(row.size());
-      for (std::size_t i = 0; i < row.size(); ++i) points[i] = node(i, j, k);
-      traits_.values(points, row);
+  FT node_value(const Node& n) const {
+    if constexpr (LatticeImplicitFunctionTraits_3<Traits>) return traits_.sample(n[0], n[1], n[2]);
+    else return traits_.value(point(n));
+  }
+
+  /// Samples are there already, a function is evaluated anew.
+  static constexpr std::size_t node_evaluations(std::size_t n) {
+    return LatticeImplicitFunctionTraits_3<Traits> ? 0 : n;
+  }
+
+  void place_edge_vertex(std::size_t v, const Node& first, std::size_t axis, Vertex_position position) {
+    Node second = first;
+    ++second[axis];
+    const Point_3 a = point(first), b = point(second);
+    const FT fa = node_value(first), fb = node_value(second);
+    const Point_3 linear = a + linear_zero(fa, fb) * (b - a);
+    std::size_t evaluations = node_evaluations(2);
+    result_.points[v] = linear;
+    if (position == Vertex_position::PROJECTED) {
+      const auto surface_point = intersect_edge(a, b, fa, fb, linear);
+      if (surface_point.has_converged) result_.points[v] = surface_point.point;
+      else result_.vertex_status[v] = Point_status::UNCONVERGED;
+      evaluations += surface_point.evaluations;
     }
+    evaluations_.fetch_add(evaluations, std::memory_order_relaxed);
   }
 
-  Point_3 node(std::size_t i, std::size_t j, std::size_t k) const {
-    return lattice_.point(FT(double(i)), FT(double(j)), FT(double(k)));
+  void place_inner_vertex(std::size_t v, const Node& cell, const Polygon& edges, Vertex_position position) {
+    std::array<FT, 8> f;
+    for (std::size_t c = 0; c < 8; ++c)
+      f[c] = node_value({cell[0] + (c & 1), cell[1] + (c >> 1 & 1), cell[2] + (c >> 2)});
+    const std::array<FT, 3> offset = inner_vertex(f, edges);
+    std::size_t evaluations = node_evaluations(8);
+    result_.points[v] = point(cell, offset);
+    if (position == Vertex_position::PROJECTED) {
+      const auto projected = project_within(cell, offset);
+      if (projected.has_converged) result_.points[v] = projected.point;
+      else result_.vertex_status[v] = Point_status::UNCONVERGED;
+      evaluations += projected.evaluations;
+    }
+    evaluations_.fetch_add(evaluations, std::memory_order_relaxed);
   }
 
-  /// The triangles of the cells between rows j, j + 1 and planes k, k + 1.
-  void emit_row(std::size_t j, std::size_t k) {
-    const std::size_t nx = lattice_.size()[0];
-    const std::uint8_t* rows[4] = {&planes_[0].signs[j * nx], &planes_[0].signs[(j + 1) * nx],
-                                   &planes_[1].signs[j * nx], &planes_[1].signs[(j + 1) * nx]};
-    const auto& cases = Marching_cubes_cases::instance();
-    for (std::size_t i = 0; i + 1 < nx; ++i) {
-      unsigned positive = 0, undefined = 0;
-      for (unsigned c = 0; c < 8; ++c) {
-        const unsigned sign = rows[c >> 1][i + (c & 1)];
-        positive |= (sign & 1) << c;
-        undefined |= sign >> 1;
+  /// A zero near a point in a cell: on the way to the wall of the cell along an axis, so that it stays inside.
+  Surface_point_3<Kernel> project_within(const Node& cell, const std::array<FT, 3>& offset) const {
+    const Point_3 p = point(cell, offset);
+    Surface_point_3<Kernel> best{p, false, 1};
+    const FT value = traits_.value(p);
+    if (value == FT(0)) return {p, true, 1};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const FT& wall : {FT(0.0625), FT(0.9375)}) {
+        auto end = offset;
+        end[axis] = wall;
+        const Point_3 q = point(cell, end);
+        const FT end_value = traits_.value(q);
+        ++best.evaluations;
+        if (!(value < FT(0) ? end_value >= FT(0) : end_value < FT(0)) || p == q) continue;
+        const auto found = intersect_segment(traits_, p, q, value, end_value);
+        best.evaluations += found.evaluations;
+        if (!found.has_converged) continue;
+        if (!best.has_converged || (found.point - p).squared_length() < (best.point - p).squared_length())
+          best.point = found.point, best.has_converged = true;
       }
-      if (undefined || positive == 0 || positive == 255) continue;
-      for (const auto& triangle : cases[positive]) {
-        std::array<Index, 3> t;
-        for (std::size_t m = 0; m < 3; ++m) t[m] = vertex_on(triangle[m], i, j, k);
-        if (is_left_handed_) std::swap(t[1], t[2]);
-        result_.triangles.push_back(t);
-      }
-    }
+    return best;
   }
 
-  /// The vertex on an edge of cell (i, j, k), made when it is first asked for.
-  Index vertex_on(int edge, std::size_t i, std::size_t j, std::size_t k) {
-    const int corner = Marching_cubes_cases::first_corner(edge), axis = edge / 4;
-    const std::size_t nx = lattice_.size()[0];
-    const std::array<std::size_t, 3> first = {i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)};
-    Plane& plane = planes_[std::size_t(corner >> 2)];
-    const std::size_t here = first[1] * nx + first[0];
-    Index& vertex = plane.vertices[std::size_t(axis)][here];
-    if (vertex == no_vertex) {
-      CGAL_precondition(crossings_.size() < no_vertex);
-      vertex = Index(crossings_.size());
-      const FT& end = axis == 2 ? planes_[1].values[here] : plane.values[here + (axis == 0 ? 1 : nx)];
-      crossings_.push_back({{std::uint32_t(first[0]), std::uint32_t(first[1]), std::uint32_t(first[2])},
-                            std::uint32_t(axis),
-                            plane.values[here],
-                            end});
-    }
-    return vertex;
-  }
-
-  void place_vertices(Vertex_position position) {
-    const std::size_t n = crossings_.size();
-    result_.points.resize(n);
-    result_.vertex_status.assign(n, Point_status::REGULAR);
-    std::vector<std::uint32_t> evaluations(n, 0);
-    parallel_for<ConcurrencyTag>(
-        0, n,
-        [&](std::size_t v) {
-          if (position == Vertex_position::LINEAR) {
-            result_.points[v] = linear_intersection(crossings_[v]);
-            return;
-          }
-          const auto surface_point = intersect_edge(crossings_[v]);
-          result_.points[v] = surface_point.has_converged ? surface_point.point : linear_intersection(crossings_[v]);
-          if (!surface_point.has_converged) result_.vertex_status[v] = Point_status::UNCONVERGED;
-          evaluations[v] = std::uint32_t(surface_point.evaluations);
-        },
-        256);
-    if constexpr (!LatticeImplicitFunctionTraits_3<Traits>) result_.function_evaluations = lattice_.number_of_nodes();
-    for (std::uint32_t e : evaluations) result_.function_evaluations += e;
-  }
-
-  std::array<Point_3, 2> ends(const Crossing& crossing) const {
-    auto second = crossing.node;
-    ++second[crossing.axis];
-    return {node(crossing.node[0], crossing.node[1], crossing.node[2]), node(second[0], second[1], second[2])};
-  }
-
-  Point_3 linear_intersection(const Crossing& crossing) const {
-    const auto [a, b] = ends(crossing);
-    const FT t = crossing.first / (crossing.first - crossing.second);
-    return a + (t >= FT(0) && t <= FT(1) ? t : FT(0.5)) * (b - a);
-  }
-
-  static FT length(const typename Traits::Vector_3& v) {
-    using std::sqrt;
-    return sqrt(v.squared_length());
-  }
-
-  Surface_point_3<Kernel> intersect_edge(const Crossing& crossing) const {
-    const auto [a, b] = ends(crossing);
+  Surface_point_3<Kernel> intersect_edge(const Point_3& a, const Point_3& b, const FT& first, const FT& second,
+                                         const Point_3& linear) const {
     if constexpr (LatticeImplicitFunctionTraits_3<Traits>) {
       // The spline need not have the signs of the samples: if it has no sign change here, its zero is looked for nearby.
+      using std::sqrt;
       const FT fa = traits_.value(a), fb = traits_.value(b);
       const bool has_sign_change = (fa >= FT(0) && fb < FT(0)) || (fa < FT(0) && fb >= FT(0));
       auto result = has_sign_change ? intersect_segment(traits_, a, b, fa, fb)
-                                    : project_to_surface(traits_, linear_intersection(crossing), length(b - a));
+                                    : project_to_surface(traits_, linear, FT(sqrt((b - a).squared_length())));
       result.evaluations += 2;
       return result;
     } else {
-      return intersect_segment(traits_, a, b, crossing.first, crossing.second);
+      return intersect_segment(traits_, a, b, first, second);
     }
   }
 
   const Batch_function_traits_3<Traits> traits_;
   const Lattice_3<Kernel> lattice_;
-  const bool is_left_handed_;
-  std::array<Plane, 2> planes_; // k and k + 1
-  std::vector<Crossing> crossings_;
   Isosurface_3<Kernel> result_;
+  std::atomic<std::size_t> evaluations_ = 0;
 };
 
 } // namespace internal
@@ -234,7 +185,8 @@ Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const Named
                               internal::get_parameter<internal::Number_of_nodes_tag>(parameters, Size{64, 64, 64}));
   }();
   const auto position = internal::get_parameter<internal::Vertex_position_tag>(parameters, Vertex_position::PROJECTED);
-  return internal::Marching_cubes_3<ConcurrencyTag, Traits>(traits, lattice)(position);
+  constexpr bool skips_empty_space = internal::has_parameter<internal::Skip_empty_space_tag, NamedParameters>;
+  return internal::Marching_cubes_3<ConcurrencyTag, skips_empty_space, Traits>(traits, lattice)(position);
 }
 
 } // namespace equiaffine
