@@ -29,9 +29,9 @@ Array_isosurface_3<double> surface_of(const Grid& grid) {
   return marching_cubes_of_array(std::span<const double>(grid.values), grid.size, 0.0);
 }
 
-class Marching_cubes_topology : public testing::TestWithParam<const char*> {};
+class Marching_cubes_topology_of : public testing::TestWithParam<const char*> {};
 
-TEST_P(Marching_cubes_topology, is_that_of_the_trilinear_interpolant) {
+TEST_P(Marching_cubes_topology_of, is_that_of_the_trilinear_interpolant) {
   const std::string kind = GetParam();
   const bool is_closed = kind == "closed" || kind == "check";
   std::uint64_t judged = 0;
@@ -52,8 +52,31 @@ TEST_P(Marching_cubes_topology, is_that_of_the_trilinear_interpolant) {
   EXPECT_GE(double(judged), 0.99 * double(number_of_grids())) << "grids too close to a critical value";
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Marching_cubes_topology, testing::Values("closed", "open", "check", "cell", "case13"),
+INSTANTIATE_TEST_SUITE_P(Kinds, Marching_cubes_topology_of, testing::Values("closed", "open", "check", "cell", "case13"),
                          [](const auto& kind) { return std::string(kind.param); });
+
+// Values at the isovalue: nodes, and saddles on faces.
+TEST(Marching_cubes_topology, surfaces_through_nodes_are_closed_manifolds_without_triangles_of_zero_area) {
+  Isosurface_repairs sum;
+  for (std::uint64_t seed = first_seed(); seed < first_seed() + number_of_grids(); ++seed) {
+    const auto surface = surface_of(random_grid("ties", seed));
+    sum.contracted_edges += surface.repairs.contracted_edges;
+    sum.dropped_components += surface.repairs.dropped_components;
+    sum.moved_vertices += surface.repairs.moved_vertices;
+    ASSERT_EQ(surface.repairs.zero_area_left, 0u) << seed;
+    if (surface.triangles.empty()) continue;
+    const auto t = mesh_topology(surface.triangles, surface.points.size());
+    ASSERT_TRUE(t.is_manifold) << seed;
+    ASSERT_EQ(t.boundary_edges, 0u) << seed;
+    for (const auto& [a, b, c] : surface.triangles) {
+      const auto& p = surface.points;
+      ASSERT_FALSE(internal::has_zero_area(p[a], p[b], p[c])) << seed;
+    }
+  }
+  EXPECT_GT(sum.contracted_edges, 10 * number_of_grids());
+  EXPECT_GT(sum.dropped_components, 0u);
+  EXPECT_GT(sum.moved_vertices, 0u);
+}
 
 TEST(Trilinear_topology, the_oracle_says_the_same_along_all_axes) {
   for (const char* kind : {"closed", "check", "cell", "case13"})

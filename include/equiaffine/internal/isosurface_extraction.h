@@ -8,11 +8,15 @@
 
 #include <CGAL/assertions.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
+#include <type_traits>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -83,21 +87,68 @@ public:
     return sum;
   }
 
-  /// Calls place(vertex, i, j, k, axis) for every vertex on an edge.
+  /// Calls place(vertex, i, j, k, axis) for every vertex on an edge; it tells whether the vertex lies at a node.
   template <class Place>
-  void for_each_edge_vertex(const Place& place) const {
-    parallel_for<ConcurrencyTag>(
-        0, layers_.size(), [&](std::size_t k) { has_undefined_ ? visit<true>(k, place) : visit<false>(k, place); });
+  void for_each_edge_vertex(const Place& place) {
+    parallel_for<ConcurrencyTag>(0, layers_.size(),
+                                 [&](std::size_t k) { has_undefined_ ? visit<true>(k, place) : visit<false>(k, place); });
   }
 
-  /// Writes triangles; calls place(vertex, i, j, k, edges) for every inner vertex of cell (i, j, k), amid those edges.
+  /// Writes triangles; calls place(vertex, i, j, k, edges, triangles) for the inner vertices of cell (i, j, k), the first
+  /// of them and the edges amid which each lies; it tells whether one of the cell's triangles has no area.
   template <class Place>
-  void emit(std::array<Index, 3>* triangles, bool is_left_handed, const Place& place) const {
+  void emit(std::array<Index, 3>* triangles, bool is_left_handed, const Place& place) {
     parallel_for<ConcurrencyTag>(0, layers_.size() - 1, [&](std::size_t k) {
       auto* out = triangles + layers_[k].first_triangle;
       has_undefined_ ? emit_layer<true>(k, out, is_left_handed, place)
                      : emit_layer<false>(k, out, is_left_handed, place);
     });
+  }
+
+  /// The triangles of the rows of cells around vertices for which `place` said so, ascending.
+  std::vector<std::size_t> doubtful_triangles() const {
+    std::vector<std::size_t> result;
+    if (std::all_of(layers_.begin(), layers_.end(), [](const Layer& layer) { return layer.doubtful_rows.empty(); }))
+      return result;
+    const std::size_t ny = signs_.size()[1];
+    std::vector<bool> is_doubtful(rows_.size());
+    for (std::size_t k = 0; k < layers_.size(); ++k)
+      for (const std::size_t j : layers_[k].doubtful_rows)
+        for (std::size_t q = k > 0 ? k - 1 : 0; q <= k; ++q)
+          for (std::size_t p = j > 0 ? j - 1 : 0; p <= j; ++p) is_doubtful[q * ny + p] = true;
+    std::size_t triangle = 0;
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      if (is_doubtful[r])
+        for (std::size_t t = 0; t < rows_[r].triangles; ++t) result.push_back(triangle + t);
+      triangle += rows_[r].triangles;
+    }
+    return result;
+  }
+
+  struct Edge {
+    std::array<std::size_t, 3> node;
+    std::size_t axis;
+  };
+
+  /// The edge on which a vertex lies; nothing for an inner vertex.
+  std::optional<Edge> edge_of(std::size_t vertex) const {
+    if (vertex >= layers_.front().first_inner_vertex) return std::nullopt;
+    const auto after = std::upper_bound(rows_.begin(), rows_.end(), vertex,
+                                        [](std::size_t v, const Row& r) { return v < r.first[0]; });
+    const std::size_t r = std::size_t(after - rows_.begin()) - 1, j = r % signs_.size()[1], k = r / signs_.size()[1];
+    const auto& first = rows_[r].first;
+    const std::size_t axis = vertex >= first[2] ? 2 : vertex >= first[1] ? 1 : 0;
+    std::size_t before = vertex - first[axis];
+    for (std::size_t w = 0;; ++w) {
+      Word crossed = signs_.crossed_edges<true>(axis, j, k, w);
+      const auto n = std::size_t(std::popcount(crossed));
+      if (before >= n) {
+        before -= n;
+        continue;
+      }
+      for (; before > 0; --before) crossed &= crossed - 1;
+      return Edge{{64 * w + std::size_t(std::countr_zero(crossed)), j, k}, axis};
+    }
   }
 
 private:
@@ -107,6 +158,7 @@ private:
   };
   struct Layer {
     std::vector<std::uint16_t> sub_cases; // of the ambiguous cells
+    std::vector<std::size_t> doubtful_rows;
     std::size_t first_triangle = 0, first_inner_vertex = 0, inner_vertices = 0;
   };
 
@@ -202,14 +254,17 @@ private:
   }
 
   template <bool HasUndefined, class Place>
-  void visit(std::size_t k, const Place& place) const {
-    for (std::size_t j = 0; j < signs_.size()[1]; ++j)
+  void visit(std::size_t k, const Place& place) {
+    for (std::size_t j = 0; j < signs_.size()[1]; ++j) {
+      bool is_doubtful = false;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        Index vertex = row(j, k).first[axis];
+        std::size_t vertex = row(j, k).first[axis];
         for (std::size_t w = 0; w < signs_.words(); ++w)
           for (Word crossed = signs_.crossed_edges<HasUndefined>(axis, j, k, w); crossed != 0; crossed &= crossed - 1)
-            place(std::size_t(vertex++), 64 * w + std::size_t(std::countr_zero(crossed)), j, k, axis);
+            is_doubtful |= place(vertex++, 64 * w + std::size_t(std::countr_zero(crossed)), j, k, axis);
       }
+      if (is_doubtful) layers_[k].doubtful_rows.push_back(j);
+    }
   }
 
   /// The vertices on the edges 0, 1, 2, 3, 4, 5, 8, 10 of a cell, those that begin at i.
@@ -230,7 +285,7 @@ private:
   }
 
   template <bool HasUndefined, class Place>
-  void emit_layer(std::size_t k, std::array<Index, 3>* out, bool is_left_handed, const Place& place) const {
+  void emit_layer(std::size_t k, std::array<Index, 3>* out, bool is_left_handed, const Place& place) {
     const auto& flat = Flat_cases::instance();
     const auto& cases = Marching_cubes_cases::instance();
     const std::size_t second = is_left_handed ? 2 : 1, third = 3 - second;
@@ -265,8 +320,11 @@ private:
         const std::uint8_t* edge = &flat.edges[range.first_edge];
         for (unsigned t = 0; t < range.triangles; ++t, edge += 3)
           *out++ = {vertices[edge[0]], vertices[edge[second]], vertices[edge[third]]};
-        for (unsigned n = 0; n < range.inner_vertices; ++n)
-          place(std::size_t(inner++), i, j, k, cases[s].inner_edges[n]);
+        if (range.inner_vertices > 0) {
+          const std::span<const std::array<Index, 3>> triangles(out - range.triangles, range.triangles);
+          if (place(std::size_t(inner), i, j, k, cases[s].inner_edges, triangles)) layers_[k].doubtful_rows.push_back(j);
+          inner += range.inner_vertices;
+        }
         for (std::size_t n = 0; n < 8; ++n) cursor[n] += crossed[n];
       });
     }
