@@ -52,7 +52,8 @@ TEST_P(Marching_cubes_topology_of, is_that_of_the_trilinear_interpolant) {
   EXPECT_GE(double(judged), 0.99 * double(number_of_grids())) << "grids too close to a critical value";
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Marching_cubes_topology_of, testing::Values("closed", "open", "check", "cell", "case13"),
+INSTANTIATE_TEST_SUITE_P(Kinds, Marching_cubes_topology_of,
+                         testing::Values("closed", "open", "check", "cell", "case13"),
                          [](const auto& kind) { return std::string(kind.param); });
 
 // Values at the isovalue: nodes, and saddles on faces.

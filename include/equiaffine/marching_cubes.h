@@ -7,9 +7,11 @@
 #include <equiaffine/internal/inner_vertex.h>
 #include <equiaffine/internal/isosurface_extraction.h>
 #include <equiaffine/internal/sample_signs.h>
+#include <equiaffine/internal/zero_area_repair.h>
 #include <equiaffine/named_parameters.h>
 #include <equiaffine/project_to_surface.h>
 
+#include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/Real_timer.h>
 #include <CGAL/tags.h>
 
@@ -17,6 +19,8 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace equiaffine {
@@ -26,6 +30,7 @@ template <class Kernel>
 struct Isosurface_3 : Indexed_triangle_mesh_3<Kernel> {
   /// Per point: REGULAR, or UNCONVERGED where it could not be put on the surface and stays at the linear intersection.
   std::vector<Point_status> vertex_status;
+  Isosurface_repairs repairs;
   std::size_t function_evaluations = 0; ///< of f, with or without derivatives
   double sampling_seconds = 0, projection_seconds = 0;
 };
@@ -40,6 +45,11 @@ class Marching_cubes_3 {
   using Point_3 = typename Traits::Point_3;
   using Node = std::array<std::size_t, 3>;
 
+  struct Inner_vertex {
+    Node cell;
+    std::array<FT, 3> offset; // in the cell
+  };
+
 public:
   Marching_cubes_3(const Traits& traits, const Lattice_3<Kernel>& lattice) : traits_(traits), lattice_(lattice) {}
 
@@ -49,19 +59,16 @@ public:
     Node_signs signs(lattice_.size());
     const Sign_sampler<ConcurrencyTag, SkipsEmptySpace, Traits> sampler(traits_, lattice_, signs);
     const auto value = [&](std::size_t i, std::size_t j, std::size_t k) { return node_value({i, j, k}); };
-    const Isosurface_extraction<ConcurrencyTag, decltype(value)> extraction(signs, value, FT(0));
-    result_.points.resize(extraction.number_of_vertices());
+    Extraction<decltype(value)> extraction(signs, value, FT(0));
+    auto& points = result_.points;
+    points.resize(extraction.number_of_vertices());
     result_.vertex_status.assign(extraction.number_of_vertices(), Point_status::REGULAR);
     result_.triangles.resize(extraction.number_of_triangles());
     evaluations_ = sampler.evaluations() + node_evaluations(8 * extraction.number_of_ambiguous_cells());
-    extraction.emit(result_.triangles.data(), lattice_.determinant() < FT(0),
-                    [&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, const auto& edges) {
-                      place_inner_vertex(v, {i, j, k}, edges, position);
-                    });
+    place_linearly(extraction);
     result_.sampling_seconds = timer.time();
-    extraction.for_each_edge_vertex([&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) {
-      place_edge_vertex(v, {i, j, k}, axis, position);
-    });
+    if (position == Vertex_position::PROJECTED) project(extraction);
+    repair(extraction);
     result_.projection_seconds = timer.time() - result_.sampling_seconds;
     result_.function_evaluations = evaluations_;
     return std::move(result_);
@@ -82,43 +89,132 @@ private:
     return LatticeImplicitFunctionTraits_3<Traits> ? 0 : n;
   }
 
-  void place_edge_vertex(std::size_t v, const Node& first, std::size_t axis, Vertex_position position) {
-    Node second = first;
-    ++second[axis];
-    const Point_3 a = point(first), b = point(second);
-    const FT fa = node_value(first), fb = node_value(second);
-    const Point_3 linear = a + linear_zero(fa, fb) * (b - a);
-    std::size_t evaluations = node_evaluations(2);
-    result_.points[v] = linear;
-    if (position == Vertex_position::PROJECTED) {
-      const auto surface_point = intersect_edge(a, b, fa, fb, linear);
-      if (surface_point.has_converged) result_.points[v] = surface_point.point;
-      else result_.vertex_status[v] = Point_status::UNCONVERGED;
-      evaluations += surface_point.evaluations;
-    }
-    evaluations_.fetch_add(evaluations, std::memory_order_relaxed);
+  template <class Value>
+  using Extraction = Isosurface_extraction<ConcurrencyTag, Value>;
+
+  void count_evaluations(std::size_t n) {
+    if (n > 0) evaluations_.fetch_add(n, std::memory_order_relaxed);
   }
 
-  void place_inner_vertex(std::size_t v, const Node& cell, const Polygon& edges, Vertex_position position) {
+  std::array<FT, 8> cell_values(const Node& cell) const {
     std::array<FT, 8> f;
     for (std::size_t c = 0; c < 8; ++c)
       f[c] = node_value({cell[0] + (c & 1), cell[1] + (c >> 1 & 1), cell[2] + (c >> 2)});
-    const std::array<FT, 3> offset = inner_vertex(f, edges);
-    std::size_t evaluations = node_evaluations(8);
-    result_.points[v] = point(cell, offset);
-    if (position == Vertex_position::PROJECTED) {
-      const auto projected = project_within(cell, offset);
-      if (projected.has_converged) result_.points[v] = projected.point;
-      else result_.vertex_status[v] = Point_status::UNCONVERGED;
-      evaluations += projected.evaluations;
-    }
-    evaluations_.fetch_add(evaluations, std::memory_order_relaxed);
+    return f;
+  }
+
+  template <class Extraction>
+  void place_linearly(Extraction& extraction) {
+    auto& points = result_.points;
+    extraction.for_each_edge_vertex([&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) {
+      const auto [a, b] = ends({{i, j, k}, axis});
+      points[v] = a + linear_zero(node_value({i, j, k}), node_value(next({i, j, k}, axis))) * (b - a);
+      count_evaluations(node_evaluations(2));
+      return points[v] == a || points[v] == b;
+    });
+    inner_vertices_.resize(extraction.number_of_vertices() - extraction.number_of_edge_vertices());
+    extraction.emit(
+        result_.triangles.data(), lattice_.determinant() < FT(0),
+        [&](std::size_t first, std::size_t i, std::size_t j, std::size_t k, const auto& edges, const auto& triangles) {
+          const auto f = cell_values({i, j, k});
+          for (std::size_t n = 0; n < edges.size(); ++n) {
+            const auto offset = inner_vertex(f, edges[n]);
+            points[first + n] = point({i, j, k}, offset);
+            inner_vertices_[first + n - extraction.number_of_edge_vertices()] = {{i, j, k}, offset};
+          }
+          count_evaluations(node_evaluations(8));
+          return any_zero_area(triangles, [&](std::size_t v) { return coordinates(points[v]); });
+        });
+  }
+
+  /// Puts the vertices on the surface of the function. A triangle that would turn over, away from the side to which its
+  /// linear version looks, keeps its vertices.
+  template <class Extraction>
+  void project(Extraction& extraction) {
+    std::vector<Point_3> linear = result_.points;
+    auto& points = result_.points;
+    extraction.for_each_edge_vertex([&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) {
+      const auto [a, b] = ends({{i, j, k}, axis});
+      set_projected(v, intersect_edge(a, b, node_value({i, j, k}), node_value(next({i, j, k}, axis)), linear[v]));
+      count_evaluations(node_evaluations(2));
+      return points[v] == a || points[v] == b;
+    });
+    parallel_for<ConcurrencyTag>(
+        0, inner_vertices_.size(),
+        [&](std::size_t n) {
+          const Inner_vertex& vertex = inner_vertices_[n];
+          set_projected(extraction.number_of_edge_vertices() + n, project_within(vertex.cell, vertex.offset));
+        },
+        16);
+    undo_flips(linear);
+  }
+
+  void set_projected(std::size_t v, const Surface_point_3<Kernel>& projected) {
+    if (projected.has_converged) result_.points[v] = projected.point;
+    else result_.vertex_status[v] = Point_status::UNCONVERGED;
+    count_evaluations(projected.evaluations);
+  }
+
+  void undo_flips(const std::vector<Point_3>& linear) {
+    auto& points = result_.points;
+    // In lattice coordinates, so that the image of a surface under an affine map has the images of its vertices.
+    const auto& steps = lattice_.steps();
+    const auto normal = [&](const std::vector<Point_3>& p, const auto& t) {
+      const auto n = CGAL::cross_product(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
+      return typename Traits::Vector_3(n * steps[0], n * steps[1], n * steps[2]);
+    };
+    for (bool has_changed = true; std::exchange(has_changed, false);)
+      for (const auto& t : result_.triangles) {
+        if (!(normal(points, t) * normal(linear, t) < FT(0))) continue;
+        for (const std::size_t v : t) {
+          if (points[v] == linear[v]) continue;
+          points[v] = linear[v];
+          result_.vertex_status[v] = Point_status::UNCONVERGED;
+          ++result_.repairs.flips_undone;
+          has_changed = true;
+        }
+      }
+  }
+
+  template <class Extraction>
+  void repair(const Extraction& extraction) {
+    const auto part = extraction.doubtful_triangles();
+    if (part.empty()) return;
+    auto& points = result_.points;
+    const auto nudge = [&](std::size_t v, int round) {
+      const auto edge = extraction.edge_of(v);
+      auto direction = lattice_.steps()[edge ? edge->axis : (v + std::size_t(round)) % 3];
+      const Point_3 old = points[v];
+      if (edge) {
+        const auto [a, b] = ends(*edge);
+        if ((b - old).squared_length() < (old - a).squared_length()) direction = -direction;
+      }
+      points[v] = nudged(old, v, round, [&](double d) { return old + FT(d) * direction; });
+    };
+    const auto at = [&](std::size_t v) { return coordinates(points[v]); };
+    const Zero_area_repair repair(std::span(result_.triangles), part, at, nudge);
+    const std::size_t flips_undone = result_.repairs.flips_undone;
+    result_.repairs = repair.repairs();
+    result_.repairs.flips_undone = flips_undone;
+    remove_from_mesh(repair.removed_vertices(), result_.triangles, points, result_.vertex_status);
+  }
+
+  static std::array<FT, 3> coordinates(const Point_3& p) { return {p.x(), p.y(), p.z()}; }
+
+  static Node next(Node node, std::size_t axis) {
+    ++node[axis];
+    return node;
+  }
+
+  std::array<Point_3, 2> ends(const Grid_edge& edge) const {
+    return {point(edge.node), point(next(edge.node, edge.axis))};
   }
 
   /// A zero near a point in a cell: on the way to the wall of the cell along an axis, so that it stays inside.
   Surface_point_3<Kernel> project_within(const Node& cell, const std::array<FT, 3>& offset) const {
     const Point_3 p = point(cell, offset);
     Surface_point_3<Kernel> best{p, false, 1};
+    FT best_distance(1); // in squared steps of the lattice
     const FT value = traits_.value(p);
     if (value == FT(0)) return {p, true, 1};
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -131,9 +227,11 @@ private:
         if (!(value < FT(0) ? end_value >= FT(0) : end_value < FT(0)) || p == q) continue;
         const auto found = intersect_segment(traits_, p, q, value, end_value);
         best.evaluations += found.evaluations;
-        if (!found.has_converged) continue;
-        if (!best.has_converged || (found.point - p).squared_length() < (best.point - p).squared_length())
-          best.point = found.point, best.has_converged = true;
+        const FT distance = (found.point - p).squared_length() / lattice_.steps()[axis].squared_length();
+        if (!found.has_converged || !(distance < best_distance)) continue;
+        best.point = found.point;
+        best.has_converged = true;
+        best_distance = distance;
       }
     return best;
   }
@@ -157,6 +255,7 @@ private:
   const Batch_function_traits_3<Traits> traits_;
   const Lattice_3<Kernel> lattice_;
   Isosurface_3<Kernel> result_;
+  std::vector<Inner_vertex> inner_vertices_;
   std::atomic<std::size_t> evaluations_ = 0;
 };
 
@@ -167,13 +266,16 @@ private:
 /// LatticeImplicitFunctionTraits_3, else `sampling_lattice(traits, number_of_nodes)`.
 ///
 /// The mesh is an oriented 2-manifold for every input, with boundary where the surface leaves the grid or meets a node
-/// without a value (NaN); normals point along the gradient. Vertices stay on their grid edges when projected, so
-/// projection changes neither the topology nor the orientation of the triangles' projections along the axes. Nothing is found
-/// where the surface crosses no grid edge. A vertex at a node with value exactly zero can make triangles of zero area.
+/// without a value (NaN); normals point along the gradient. Its topology is exactly that of the zero set of the values'
+/// trilinear interpolant, zeros taken as positive; cells whose signs leave it open have vertices inside where a tunnel or
+/// a curved disc needs them. Projection does not change it, and undoes moves that turn a triangle over. Where the surface
+/// passes through nodes, triangles without area are contracted or opened and components without area dropped. All this
+/// is counted in `repairs`. Nothing is found where the surface crosses no grid edge.
 ///
-/// Named parameters: `number_of_nodes` (64), `vertex_position` (PROJECTED).
-/// The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Time: one evaluation per node, 4
-/// to 6 with gradient per vertex. Memory: output plus O(nodes of a plane).
+/// Named parameters: `number_of_nodes` (64), `vertex_position` (PROJECTED), `skip_empty_space` (not given).
+/// The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Time: one evaluation per node,
+/// of those near the surface when empty space is skipped; 2 more per vertex, and 4 to 6 with gradient. Memory: output,
+/// one bit per node, and the points once more while they are projected.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           class NamedParameters = internal::No_parameters>
 Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const NamedParameters& parameters = {}) {

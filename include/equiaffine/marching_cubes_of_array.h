@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_OF_ARRAY_H
 #define EQUIAFFINE_MARCHING_CUBES_OF_ARRAY_H
 
+#include <equiaffine/internal/Output_allocator.h>
 #include <equiaffine/internal/inner_vertex.h>
 #include <equiaffine/internal/isosurface_extraction.h>
 #include <equiaffine/internal/zero_area_repair.h>
@@ -13,39 +14,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace equiaffine {
 
-namespace internal {
-
-/// Leaves numbers that are about to be overwritten uninitialised.
-template <class T>
-struct Default_init_allocator : std::allocator<T> {
-  template <class U>
-  struct rebind {
-    using other = Default_init_allocator<U>;
-  };
-  template <class U>
-  void construct(U* p) {
-    ::new (static_cast<void*>(p)) U;
-  }
-  template <class U, class... Arguments>
-  void construct(U* p, Arguments&&... arguments) {
-    ::new (static_cast<void*>(p)) U(std::forward<Arguments>(arguments)...);
-  }
-};
-
-} // namespace internal
-
 /// A triangle mesh as plain arrays, triangles counterclockwise seen from the side of the greater values.
 template <class FT>
 struct Array_isosurface_3 {
-  std::vector<std::array<FT, 3>, internal::Default_init_allocator<std::array<FT, 3>>> points;
-  std::vector<std::array<std::uint32_t, 3>, internal::Default_init_allocator<std::array<std::uint32_t, 3>>> triangles;
+  std::vector<std::array<FT, 3>, internal::Output_allocator<std::array<FT, 3>>> points;
+  std::vector<std::array<std::uint32_t, 3>, internal::Output_allocator<std::array<std::uint32_t, 3>>> triangles;
   Isosurface_repairs repairs;
 };
 
@@ -65,7 +43,7 @@ Array_isosurface_3<FT> marching_cubes_of_array(std::span<const FT> values, const
     for (std::size_t j = 0; j < ny; ++j)
       for (std::size_t i = 0; i < nx; i += 64) {
         const std::size_t n = std::min<std::size_t>(64, nx - i);
-        signs.set(i, j, k, n, internal::sign_word(&values[(k * ny + j) * nx + i], n, isovalue));
+        signs.set(i, j, k, internal::sign_word(&values[(k * ny + j) * nx + i], n, isovalue));
       }
   });
   const std::array<std::size_t, 3> stride = {1, nx, nx * ny};
@@ -80,7 +58,7 @@ Array_isosurface_3<FT> marching_cubes_of_array(std::span<const FT> values, const
   auto* const points = result.points.data();
   const auto point = [&](const std::array<std::size_t, 3>& node, const std::array<FT, 3>& offset) {
     std::array<FT, 3> p;
-    for (std::size_t a = 0; a < 3; ++a) p[a] = origin[a] + (FT(node[a]) + offset[a]) * spacing[a];
+    for (std::size_t a = 0; a < 3; ++a) p[a] = origin[a] + (FT(std::ptrdiff_t(node[a])) + offset[a]) * spacing[a];
     return p;
   };
   extraction.for_each_edge_vertex([&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) {
@@ -88,19 +66,20 @@ Array_isosurface_3<FT> marching_cubes_of_array(std::span<const FT> values, const
     const FT* const here = data + i + j * stride[1] + k * stride[2];
     std::array<FT, 3> offset{0, 0, 0};
     offset[axis] = internal::linear_zero(FT(here[0] - isovalue), FT(here[stride[axis]] - isovalue));
-    points[v] = point(node, offset);
-    return points[v][axis] == origin[axis] + FT(node[axis]) * spacing[axis] ||
-           points[v][axis] == origin[axis] + FT(node[axis] + 1) * spacing[axis];
+    const std::array<FT, 3> p = points[v] = point(node, offset);
+    const FT first = FT(std::ptrdiff_t(node[axis]));
+    return p[axis] == origin[axis] + first * spacing[axis] || p[axis] == origin[axis] + (first + 1) * spacing[axis];
   });
   const auto coordinates = [&](std::size_t v) -> const std::array<FT, 3>& { return points[v]; };
-  extraction.emit(result.triangles.data(), false,
-                  [&](std::size_t first, std::size_t i, std::size_t j, std::size_t k, const auto& edges, auto triangles) {
-                    std::array<FT, 8> f;
-                    for (std::size_t c = 0; c < 8; ++c) f[c] = value(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)) - isovalue;
-                    for (std::size_t n = 0; n < edges.size(); ++n)
-                      points[first + n] = point({i, j, k}, internal::inner_vertex(f, edges[n]));
-                    return internal::any_zero_area(triangles, coordinates);
-                  });
+  extraction.emit(
+      result.triangles.data(), false,
+      [&](std::size_t first, std::size_t i, std::size_t j, std::size_t k, const auto& edges, auto triangles) {
+        std::array<FT, 8> f;
+        for (std::size_t c = 0; c < 8; ++c) f[c] = value(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)) - isovalue;
+        for (std::size_t n = 0; n < edges.size(); ++n)
+          points[first + n] = point({i, j, k}, internal::inner_vertex(f, edges[n]));
+        return internal::any_zero_area(triangles, coordinates);
+      });
   const auto nudge = [&](std::size_t v, int round) {
     const auto edge = extraction.edge_of(v);
     const std::size_t axis = edge ? edge->axis : (v + std::size_t(round)) % 3;

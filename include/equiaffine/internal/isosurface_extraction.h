@@ -57,6 +57,12 @@ struct Flat_cases {
   std::array<std::array<std::uint32_t, 8>, 256> crossed; // of the edges 0, 1, 2, 3, 4, 5, 8, 10 of the cell
 };
 
+/// The edge of a grid that begins at a node.
+struct Grid_edge {
+  std::array<std::size_t, 3> node;
+  std::size_t axis;
+};
+
 /// Marching Cubes in passes, each of them parallel over planes or layers of cells: `count` finds the sub-case of every
 /// cell, a scan gives every row of the grid its first vertex and every layer its first triangle, and `emit` makes the
 /// triangles of a layer. The vertices of a row are those on its edges along i, then j, then k: the number of a vertex is
@@ -79,6 +85,8 @@ public:
   }
 
   std::size_t number_of_vertices() const { return number_of_vertices_; }
+  /// They come first, inner vertices of cells after them.
+  std::size_t number_of_edge_vertices() const { return layers_.front().first_inner_vertex; }
   std::size_t number_of_triangles() const { return number_of_triangles_; }
 
   std::size_t number_of_ambiguous_cells() const {
@@ -90,8 +98,8 @@ public:
   /// Calls place(vertex, i, j, k, axis) for every vertex on an edge; it tells whether the vertex lies at a node.
   template <class Place>
   void for_each_edge_vertex(const Place& place) {
-    parallel_for<ConcurrencyTag>(0, layers_.size(),
-                                 [&](std::size_t k) { has_undefined_ ? visit<true>(k, place) : visit<false>(k, place); });
+    parallel_for<ConcurrencyTag>(
+        0, layers_.size(), [&](std::size_t k) { has_undefined_ ? visit<true>(k, place) : visit<false>(k, place); });
   }
 
   /// Writes triangles; calls place(vertex, i, j, k, edges, triangles) for the inner vertices of cell (i, j, k), the first
@@ -125,14 +133,9 @@ public:
     return result;
   }
 
-  struct Edge {
-    std::array<std::size_t, 3> node;
-    std::size_t axis;
-  };
-
   /// The edge on which a vertex lies; nothing for an inner vertex.
-  std::optional<Edge> edge_of(std::size_t vertex) const {
-    if (vertex >= layers_.front().first_inner_vertex) return std::nullopt;
+  std::optional<Grid_edge> edge_of(std::size_t vertex) const {
+    if (vertex >= number_of_edge_vertices()) return std::nullopt;
     const auto after = std::upper_bound(rows_.begin(), rows_.end(), vertex,
                                         [](std::size_t v, const Row& r) { return v < r.first[0]; });
     const std::size_t r = std::size_t(after - rows_.begin()) - 1, j = r % signs_.size()[1], k = r / signs_.size()[1];
@@ -147,7 +150,7 @@ public:
         continue;
       }
       for (; before > 0; --before) crossed &= crossed - 1;
-      return Edge{{64 * w + std::size_t(std::countr_zero(crossed)), j, k}, axis};
+      return Grid_edge{{64 * w + std::size_t(std::countr_zero(crossed)), j, k}, axis};
     }
   }
 
@@ -288,6 +291,11 @@ private:
   void emit_layer(std::size_t k, std::array<Index, 3>* out, bool is_left_handed, const Place& place) {
     const auto& flat = Flat_cases::instance();
     const auto& cases = Marching_cubes_cases::instance();
+    const auto* const flat_crossed = flat.crossed.data();
+    const auto* const flat_triangles = flat.triangles.data();
+    const auto* const flat_sub_case = flat.sub_case.data();
+    const auto* const ranges = flat.ranges.data();
+    const auto* const edges = flat.edges.data();
     const std::size_t second = is_left_handed ? 2 : 1, third = 3 - second;
     const std::uint16_t* sub_case = layers_[k].sub_cases.data();
     Index inner = Index(layers_[k].first_inner_vertex);
@@ -298,31 +306,36 @@ private:
       for_each_cell<HasUndefined>(j, k, [&](std::size_t i, unsigned signs) {
         // Edges between two cells of this loop are in no cell without undefined nodes: only then the cursor can jump.
         if constexpr (HasUndefined) cursor = cursor_at(i, j, k);
-        const auto& crossed = flat.crossed[signs];
-        const std::array<Index, 16> vertices = {cursor[0],
-                                                cursor[1],
-                                                cursor[2],
-                                                cursor[3],
-                                                cursor[4],
-                                                cursor[5],
-                                                cursor[4] + crossed[4],
-                                                cursor[5] + crossed[5],
-                                                cursor[6],
-                                                cursor[6] + crossed[6],
-                                                cursor[7],
-                                                cursor[7] + crossed[7],
-                                                inner,
-                                                inner + 1,
-                                                inner + 2,
-                                                0};
-        const std::size_t s = flat.triangles[signs] == Flat_cases::ambiguous ? *sub_case++ : flat.sub_case[signs];
-        const auto& range = flat.ranges[s];
-        const std::uint8_t* edge = &flat.edges[range.first_edge];
-        for (unsigned t = 0; t < range.triangles; ++t, edge += 3)
-          *out++ = {vertices[edge[0]], vertices[edge[second]], vertices[edge[third]]};
+        const auto& crossed = flat_crossed[signs];
+        const Index vertices[16] = {cursor[0],
+                                    cursor[1],
+                                    cursor[2],
+                                    cursor[3],
+                                    cursor[4],
+                                    cursor[5],
+                                    cursor[4] + crossed[4],
+                                    cursor[5] + crossed[5],
+                                    cursor[6],
+                                    cursor[6] + crossed[6],
+                                    cursor[7],
+                                    cursor[7] + crossed[7],
+                                    inner,
+                                    inner + 1,
+                                    inner + 2,
+                                    0};
+        const std::size_t s = flat_triangles[signs] == Flat_cases::ambiguous ? *sub_case++ : flat_sub_case[signs];
+        const Flat_cases::Range range = ranges[s];
+        const std::uint8_t* edge = edges + range.first_edge;
+        auto* const begin = out;
+        out += range.triangles;
+        for (auto* triangle = begin; triangle != out; ++triangle, edge += 3) {
+          const Index a = vertices[edge[0]], b = vertices[edge[second]], c = vertices[edge[third]];
+          *triangle = {a, b, c};
+        }
         if (range.inner_vertices > 0) {
           const std::span<const std::array<Index, 3>> triangles(out - range.triangles, range.triangles);
-          if (place(std::size_t(inner), i, j, k, cases[s].inner_edges, triangles)) layers_[k].doubtful_rows.push_back(j);
+          if (place(std::size_t(inner), i, j, k, cases[s].inner_edges, triangles))
+            layers_[k].doubtful_rows.push_back(j);
           inner += range.inner_vertices;
         }
         for (std::size_t n = 0; n < 8; ++n) cursor[n] += crossed[n];

@@ -79,9 +79,8 @@ public:
   }
   const Word* row(std::size_t j, std::size_t k) const { return &positive_[(k * size_[1] + j) * words_]; }
 
-  /// Sets bits [first, first + n) of a row, n <= 64, all in one word.
-  void set(std::size_t first, std::size_t j, std::size_t k, std::size_t n, const Sign_word& signs) {
-    CGAL_assertion(first % 64 + n <= 64);
+  /// Sets the bits of a row from `first` on; all must lie in one word.
+  void set(std::size_t first, std::size_t j, std::size_t k, const Sign_word& signs) {
     positive_[(k * size_[1] + j) * words_ + first / 64] |= signs.positive << first % 64;
     if (signs.undefined == 0) return;
     if (undefined_[k].empty()) undefined_[k].resize(words_ * size_[1]);

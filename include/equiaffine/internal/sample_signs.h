@@ -78,7 +78,7 @@ private:
         for (std::size_t y = j[0]; y < j[1]; ++y)
           for (std::size_t x = i[0], n = 0; x < i[1]; x += n) {
             n = std::min(i[1] - x, 64 - x % 64);
-            sampler.signs_.set(x, y, z, n, {Node_signs::within(~Node_signs::Word(0), 0, n), 0});
+            sampler.signs_.set(x, y, z, {Node_signs::within(~Node_signs::Word(0), 0, n), 0});
           }
     }
 
@@ -93,7 +93,7 @@ private:
           for (std::size_t row = y; row < end; ++row)
             for (std::size_t x = i[0], m = 0; x < i[1]; x += m) {
               m = std::min(i[1] - x, 64 - x % 64);
-              sampler.signs_.set(x, row, z, m, sign_word(&values[(row - y) * n + x - i[0]], m, FT(0)));
+              sampler.signs_.set(x, row, z, sign_word(&values[(row - y) * n + x - i[0]], m, FT(0)));
             }
         }
     }

@@ -54,9 +54,18 @@ public:
   /// `part` holds the numbers of all triangles at points where two vertices coincide.
   Zero_area_repair(std::span<Triangle> triangles, const std::vector<std::size_t>& part, const Coordinates& coordinates,
                    const Nudge& nudge)
-      : triangles_(triangles), part_(part), coordinates_(coordinates), nudge_(nudge) {
-    for (const std::size_t t : part_)
-      for (const Index v : triangles_[t]) stars_[v].push_back(t);
+      : triangles_(triangles), coordinates_(coordinates), nudge_(nudge) {
+    for (const std::size_t t : part)
+      if (is_flat(t)) flat_.push_back(t);
+    if (flat_.empty()) return;
+    Index last = 0;
+    for (const std::size_t t : part) last = std::max({last, triangles_[t][0], triangles_[t][1], triangles_[t][2]});
+    std::vector<bool> has_star(std::size_t(last) + 1);
+    for (const std::size_t t : flat_)
+      for (const Index v : triangles_[t]) has_star[v] = true;
+    for (const std::size_t t : part)
+      for (const Index v : triangles_[t])
+        if (has_star[v]) stars_[v].push_back(t);
     while (contract_edges()) continue;
     drop_components();
     move_vertices();
@@ -79,7 +88,7 @@ private:
 
   bool contract_edges() {
     const std::size_t before = repairs_.contracted_edges;
-    for (const std::size_t t : part_)
+    for (const std::size_t t : flat_)
       for (std::size_t m = 0; m < 3 && !is_removed(triangles_[t]); ++m) {
         const Index u = triangles_[t][m], v = triangles_[t][(m + 1) % 3];
         if (coordinates_(u) == coordinates_(v) && may_contract(u, v)) contract(u, v);
@@ -128,7 +137,7 @@ private:
       Triangle& triangle = triangles_[t];
       if (contains(triangle, v)) {
         for (const Index w : triangle)
-          if (w != u) std::erase(stars_[w], t);
+          if (const auto star = stars_.find(w); w != u && star != stars_.end()) std::erase(star->second, t);
         triangle.fill(v);
       } else {
         std::replace(triangle.begin(), triangle.end(), u, v);
@@ -142,7 +151,7 @@ private:
 
   void drop_components() {
     std::unordered_set<std::size_t> visited;
-    for (const std::size_t first : part_) {
+    for (const std::size_t first : flat_) {
       if (!is_flat(first) || visited.contains(first)) continue;
       std::vector<std::size_t> component = {first};
       visited.insert(first);
@@ -172,22 +181,27 @@ private:
     std::unordered_set<Index> moved;
     for (int round = 0; round < rounds; ++round) {
       std::vector<Index> vertices;
-      for (const std::size_t t : part_)
+      for (const std::size_t t : flat_)
         if (is_flat(t)) vertices.insert(vertices.end(), triangles_[t].begin(), triangles_[t].end());
       std::sort(vertices.begin(), vertices.end());
       vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
       for (const Index v : vertices) nudge_(v, round);
       moved.insert(vertices.begin(), vertices.end());
+      flat_.clear(); // what a vertex could have flattened lies around it
+      for (const Index v : moved) flat_.insert(flat_.end(), stars_[v].begin(), stars_[v].end());
     }
     repairs_.moved_vertices = moved.size();
-    repairs_.zero_area_left = std::size_t(std::count_if(part_.begin(), part_.end(), [&](std::size_t t) { return is_flat(t); }));
+    std::sort(flat_.begin(), flat_.end());
+    flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());
+    repairs_.zero_area_left =
+        std::size_t(std::count_if(flat_.begin(), flat_.end(), [&](std::size_t t) { return is_flat(t); }));
   }
 
   std::span<Triangle> triangles_;
-  const std::vector<std::size_t>& part_;
   const Coordinates& coordinates_;
   const Nudge& nudge_;
-  std::unordered_map<Index, std::vector<std::size_t>> stars_;
+  std::vector<std::size_t> flat_;                             // triangles that have or may have no area
+  std::unordered_map<Index, std::vector<std::size_t>> stars_; // of the vertices of flat triangles
   std::vector<Index> removed_vertices_;
   Isosurface_repairs repairs_;
 };
