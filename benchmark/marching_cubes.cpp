@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Marching Cubes against VTK's Flying Edges in one process: runs alternate, figures are medians of ratios of neighbouring
-// runs. Normals, gradients and scalars are off in VTK. Usage: benchmark_marching_cubes [runs]
+// Marching Cubes against VTK's Flying Edges in one process: runs alternate, figures are medians of ratios of
+// neighbouring runs. Normals, gradients and scalars are off in VTK. Usage: benchmark_marching_cubes [runs]
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/marching_cubes.h>
 #include <equiaffine/marching_cubes_of_array.h>

@@ -239,7 +239,8 @@ private:
   Surface_point_3<Kernel> intersect_edge(const Point_3& a, const Point_3& b, const FT& first, const FT& second,
                                          const Point_3& linear) const {
     if constexpr (LatticeImplicitFunctionTraits_3<Traits>) {
-      // The spline need not have the signs of the samples: if it has no sign change here, its zero is looked for nearby.
+      // The spline need not have the signs of the samples: if it has no sign change here, its zero is looked for
+      // nearby.
       using std::sqrt;
       const FT fa = traits_.value(a), fb = traits_.value(b);
       const bool has_sign_change = (fa >= FT(0) && fb < FT(0)) || (fa < FT(0) && fb >= FT(0));
@@ -261,20 +262,21 @@ private:
 
 } // namespace internal
 
-/// The zero set of a function, by Marching Cubes (Lorensen, Cline 1987): a triangle mesh with a vertex on every edge of a
-/// node grid at whose ends the function has different signs. A value of zero counts as positive. The grid is the lattice of a model of
-/// LatticeImplicitFunctionTraits_3, else `sampling_lattice(traits, number_of_nodes)`.
+/// The zero set of a function, by Marching Cubes (Lorensen, Cline 1987): a triangle mesh with a vertex on every edge of
+/// a node grid at whose ends the function has different signs. A value of zero counts as positive. The grid is the
+/// lattice of a model of LatticeImplicitFunctionTraits_3, else `sampling_lattice(traits, number_of_nodes)`.
 ///
 /// The mesh is an oriented 2-manifold for every input, with boundary where the surface leaves the grid or meets a node
-/// without a value (NaN); normals point along the gradient. Its topology is exactly that of the zero set of the values'
-/// trilinear interpolant, zeros taken as positive; cells whose signs leave it open have vertices inside where a tunnel or
-/// a curved disc needs them. Projection does not change it, and undoes moves that turn a triangle over. Where the surface
-/// passes through nodes, triangles without area are contracted or opened and components without area dropped. All this
-/// is counted in `repairs`. Nothing is found where the surface crosses no grid edge.
+/// without a value (NaN), where two parts of it may touch in a vertex; normals point along the gradient. Its topology
+/// is exactly that of the zero set of the values' trilinear interpolant, zeros taken as positive; cells whose signs
+/// leave it open have vertices inside where a tunnel or a curved disc needs them. Projection does not change it, and
+/// undoes moves that turn a triangle over. Where the surface passes through nodes, triangles without area are
+/// contracted or opened and components without area dropped. All this is counted in `repairs`. Nothing is found where
+/// the surface crosses no grid edge.
 ///
 /// Named parameters: `number_of_nodes` (64), `vertex_position` (PROJECTED), `skip_empty_space` (not given).
 /// The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Time: one evaluation per node,
-/// of those near the surface when empty space is skipped; 2 more per vertex, and 4 to 6 with gradient. Memory: output,
+/// of those near the surface when empty space is skipped; 4 more per vertex, and 4 to 6 with gradient. Memory: output,
 /// one bit per node, and the points once more while they are projected.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           class NamedParameters = internal::No_parameters>

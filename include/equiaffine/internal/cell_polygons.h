@@ -44,8 +44,8 @@ constexpr bool share_face(int edge, int other) {
 
 using Polygon = std::vector<std::uint8_t>; // edges of the cell
 
-/// The boundary curves of the surface. On each face a segment leads from the edge after a run of positive corners to the
-/// edge before it or, where the positive corners of the face are joined, to the edge before the next run. The face
+/// The boundary curves of the surface. On each face a segment leads from the edge after a run of positive corners to
+/// the edge before it or, where the positive corners of the face are joined, to the edge before the next run. The face
 /// behind an edge traverses it the other way round, so the segments of all faces form closed curves.
 inline std::vector<Polygon> boundary_curves(unsigned signs, unsigned joined) {
   const auto is_positive = [&](int corner) { return (signs >> corner & 1) != 0; };

@@ -12,7 +12,8 @@
 
 namespace equiaffine::internal {
 
-/// Where on an edge the linear interpolant of the values at its ends vanishes, as a fraction; halfway if they are infinite.
+/// Where on an edge the linear interpolant of the values at its ends vanishes, as a fraction; halfway if they are
+/// infinite.
 template <class FT>
 FT linear_zero(const FT& first, const FT& second) {
   const FT t = first / (first - second);

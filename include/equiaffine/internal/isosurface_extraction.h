@@ -65,8 +65,8 @@ struct Grid_edge {
 
 /// Marching Cubes in passes, each of them parallel over planes or layers of cells: `count` finds the sub-case of every
 /// cell, a scan gives every row of the grid its first vertex and every layer its first triangle, and `emit` makes the
-/// triangles of a layer. The vertices of a row are those on its edges along i, then j, then k: the number of a vertex is
-/// that of its row and kind plus the number of crossed edges before it, so no vertex is ever looked up.
+/// triangles of a layer. The vertices of a row are those on its edges along i, then j, then k: the number of a vertex
+/// is that of its row and kind plus the number of crossed edges before it, so no vertex is ever looked up.
 ///
 /// `value(i, j, k)` is the value at a node. Memory: 20 bytes per row, 2 bytes per ambiguous cell.
 template <class ConcurrencyTag, class Value>
@@ -102,8 +102,8 @@ public:
         0, layers_.size(), [&](std::size_t k) { has_undefined_ ? visit<true>(k, place) : visit<false>(k, place); });
   }
 
-  /// Writes triangles; calls place(vertex, i, j, k, edges, triangles) for the inner vertices of cell (i, j, k), the first
-  /// of them and the edges amid which each lies; it tells whether one of the cell's triangles has no area.
+  /// Writes triangles; calls place(vertex, i, j, k, edges, triangles) for the inner vertices of cell (i, j, k), the
+  /// first of them and the edges amid which each lies; it tells whether one of the cell's triangles has no area.
   template <class Place>
   void emit(std::array<Index, 3>* triangles, bool is_left_handed, const Place& place) {
     parallel_for<ConcurrencyTag>(0, layers_.size() - 1, [&](std::size_t k) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The triangles of every topology that the zero set of a trilinear function has in a cell. Made from the signs at the
-// corners, the decision on every face with a diagonal pair of positive corners, and the pair of boundary curves that are
-// joined by a tunnel, if there is one.
+// corners, the decision on every face with a diagonal pair of positive corners, and the pair of boundary curves that
+// are joined by a tunnel, if there is one.
 #ifndef EQUIAFFINE_INTERNAL_MARCHING_CUBES_CASES_H
 #define EQUIAFFINE_INTERNAL_MARCHING_CUBES_CASES_H
 
@@ -20,12 +20,12 @@
 namespace equiaffine::internal {
 
 /// Numbering of corners, edges and faces: cell_polygons.h. Bit c of `signs` says that corner c is positive, bit f of
-/// `joined` that the positive corners of face f are connected across the face; it counts only where they face each other
-/// diagonally.
+/// `joined` that the positive corners of face f are connected across the face; it counts only where they face each
+/// other diagonally.
 ///
-/// The boundary curves cut the surface of the cell into regions, one more than there are curves. Inside the cell at most
-/// two regions of the same sign are joined (see trilinear_cell.h); then the two curves between them bound one annulus,
-/// else every curve bounds a disc of its own.
+/// The boundary curves cut the surface of the cell into regions, one more than there are curves. Inside the cell at
+/// most two regions of the same sign are joined (see trilinear_cell.h); then the two curves between them bound one
+/// annulus, else every curve bounds a disc of its own.
 class Marching_cubes_cases {
 public:
   using Triangle = std::array<std::uint8_t, 3>;          ///< counterclockwise seen from the positive side

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The topology of the set where the trilinear interpolant f of eight values is positive, decided exactly. Everywhere a
-// value of zero is taken as positive: of a corner, of a saddle on a face, of a saddle inside. So the topology is that of
-// the set where f is greater than -e, for all small e > 0: one and the same perturbation for all cells.
+// value of zero is taken as positive: of a corner, of a saddle on a face, of a saddle inside. So the topology is that
+// of the set where f is greater than -e, for all small e > 0: one and the same perturbation for all cells.
 #ifndef EQUIAFFINE_INTERNAL_TRILINEAR_CELL_H
 #define EQUIAFFINE_INTERNAL_TRILINEAR_CELL_H
 
