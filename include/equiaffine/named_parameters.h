@@ -20,6 +20,7 @@ namespace internal {
 
 struct Number_of_nodes_tag {};
 struct Vertex_position_tag {};
+struct Skip_empty_space_tag {};
 struct No_parameters {};
 
 /// One parameter and those given before it.
@@ -37,6 +38,11 @@ struct Named_parameters {
   auto vertex_position(Vertex_position position) const {
     return Named_parameters<Vertex_position, Vertex_position_tag, Named_parameters>{position, *this};
   }
+
+  /// The sampler asks the function for bounds and evaluates it near its zero set only.
+  auto skip_empty_space() const {
+    return Named_parameters<std::true_type, Skip_empty_space_tag, Named_parameters>{{}, *this};
+  }
 };
 
 template <class Tag, class Default>
@@ -50,6 +56,13 @@ Default get_parameter(const Named_parameters<Value, OtherTag, Base>& parameters,
   if constexpr (std::is_same_v<Tag, OtherTag>) return parameters.value;
   else return get_parameter<Tag>(parameters.base, otherwise);
 }
+
+/// Whether a parameter was given.
+template <class Tag, class Parameters>
+inline constexpr bool has_parameter = false;
+template <class Tag, class Value, class OtherTag, class Base>
+inline constexpr bool has_parameter<Tag, Named_parameters<Value, OtherTag, Base>> =
+    std::is_same_v<Tag, OtherTag> || has_parameter<Tag, Base>;
 
 } // namespace internal
 
@@ -67,6 +80,12 @@ inline auto number_of_nodes(std::size_t n) { return number_of_nodes(std::array<s
 /// Default Vertex_position::PROJECTED.
 inline auto vertex_position(Vertex_position position) {
   return internal::Named_parameters<Vertex_position, internal::Vertex_position_tag>{position, {}};
+}
+
+/// Requires bounds, see BoundedImplicitFunctionTraits_3. Not the default: whether a function written as code accepts
+/// Interval cannot be asked without an error where it does not.
+inline auto skip_empty_space() {
+  return internal::Named_parameters<std::true_type, internal::Skip_empty_space_tag>{{}, {}};
 }
 
 } // namespace parameters

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_INTERNAL_ZERO_AREA_REPAIR_H
+#define EQUIAFFINE_INTERNAL_ZERO_AREA_REPAIR_H
+
+#include <equiaffine/Isosurface_repairs.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// Whether three points span no triangle, in the precision of double.
+template <class Coordinates>
+bool has_zero_area(const Coordinates& a, const Coordinates& b, const Coordinates& c) {
+  std::array<double, 3> u, v;
+  for (std::size_t m = 0; m < 3; ++m) {
+    u[m] = double(b[m]) - double(a[m]);
+    v[m] = double(c[m]) - double(a[m]);
+  }
+  for (std::size_t m = 0; m < 3; ++m) {
+    const std::size_t n = (m + 1) % 3;
+    if (u[m] * v[n] - u[n] * v[m] != 0) return false;
+  }
+  return true;
+}
+
+template <class Triangles, class Coordinates>
+bool any_zero_area(const Triangles& triangles, const Coordinates& coordinates) {
+  return std::any_of(triangles.begin(), triangles.end(), [&](const auto& t) {
+    return has_zero_area(coordinates(t[0]), coordinates(t[1]), coordinates(t[2]));
+  });
+}
+
+/// Removes triangles of zero area from a mesh made by Marching Cubes, where the surface passes through nodes: edges
+/// without length are contracted while that leaves the topology as it is (link condition: Dey, Edelsbrunner, Guha,
+/// Nekhayev 1999), components without area are dropped, and what is left is given area by moving vertices a little.
+///
+/// `coordinates(v)` are those of a point, `nudge(v, round)` moves it. Triangles that are
+/// removed get three equal indices.
+template <class Coordinates, class Nudge>
+class Zero_area_repair {
+public:
+  using Index = std::uint32_t;
+  using Triangle = std::array<Index, 3>;
+
+  /// `part` holds the numbers of all triangles at points where two vertices coincide.
+  Zero_area_repair(std::span<Triangle> triangles, const std::vector<std::size_t>& part, const Coordinates& coordinates,
+                   const Nudge& nudge)
+      : triangles_(triangles), coordinates_(coordinates), nudge_(nudge) {
+    for (const std::size_t t : part)
+      if (is_flat(t)) flat_.push_back(t);
+    if (flat_.empty()) return;
+    Index last = 0;
+    for (const std::size_t t : part) last = std::max({last, triangles_[t][0], triangles_[t][1], triangles_[t][2]});
+    std::vector<bool> has_star(std::size_t(last) + 1);
+    for (const std::size_t t : flat_)
+      for (const Index v : triangles_[t]) has_star[v] = true;
+    for (const std::size_t t : part)
+      for (const Index v : triangles_[t])
+        if (has_star[v]) stars_[v].push_back(t);
+    while (contract_edges()) continue;
+    drop_components();
+    move_vertices();
+  }
+
+  const Isosurface_repairs& repairs() const { return repairs_; }
+
+  /// The vertices that are in no triangle any more.
+  const std::vector<Index>& removed_vertices() const { return removed_vertices_; }
+
+private:
+  static bool is_removed(const Triangle& t) { return t[0] == t[1]; }
+  static bool contains(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
+
+  bool is_flat(std::size_t t) const {
+    const Triangle& triangle = triangles_[t];
+    return !is_removed(triangle) &&
+           has_zero_area(coordinates_(triangle[0]), coordinates_(triangle[1]), coordinates_(triangle[2]));
+  }
+
+  bool contract_edges() {
+    const std::size_t before = repairs_.contracted_edges;
+    for (const std::size_t t : flat_)
+      for (std::size_t m = 0; m < 3 && !is_removed(triangles_[t]); ++m) {
+        const Index u = triangles_[t][m], v = triangles_[t][(m + 1) % 3];
+        if (coordinates_(u) == coordinates_(v) && may_contract(u, v)) contract(u, v);
+      }
+    return repairs_.contracted_edges != before;
+  }
+
+  /// The vertices around v with the number of triangles at v that have them: 1 on the boundary, else 2.
+  std::unordered_map<Index, int> neighbors(Index v) const {
+    std::unordered_map<Index, int> result;
+    for (const std::size_t t : stars_.at(v))
+      for (const Index w : triangles_[t])
+        if (w != v) ++result[w];
+    return result;
+  }
+
+  static bool is_on_boundary(const std::unordered_map<Index, int>& around) {
+    return std::any_of(around.begin(), around.end(), [](const auto& n) { return n.second == 1; });
+  }
+
+  bool may_contract(Index u, Index v) const {
+    const auto around_u = neighbors(u), around_v = neighbors(v);
+    const int triangles = around_u.at(v);
+    if (is_on_boundary(around_u) && is_on_boundary(around_v) && triangles == 2) return false;
+    int common = 0;
+    for (const auto& [w, n] : around_u) {
+      const auto at_v = around_v.find(w);
+      if (at_v == around_v.end()) continue;
+      ++common;
+      if (n == 1 && at_v->second == 1) return false; // w has no other triangle
+    }
+    if (common != triangles) return false;
+    // No edge may face both u and v: its two triangles would become the same.
+    for (const std::size_t s : stars_.at(u)) {
+      if (contains(triangles_[s], v)) continue;
+      for (const std::size_t t : stars_.at(v)) {
+        const auto faces_both = [&](Index w) { return w == u || contains(triangles_[t], w); };
+        if (std::all_of(triangles_[s].begin(), triangles_[s].end(), faces_both)) return false;
+      }
+    }
+    return true;
+  }
+
+  void contract(Index u, Index v) {
+    for (const std::size_t t : stars_[u]) {
+      Triangle& triangle = triangles_[t];
+      if (contains(triangle, v)) {
+        for (const Index w : triangle)
+          if (const auto star = stars_.find(w); w != u && star != stars_.end()) std::erase(star->second, t);
+        triangle.fill(v);
+      } else {
+        std::replace(triangle.begin(), triangle.end(), u, v);
+        stars_[v].push_back(t);
+      }
+    }
+    stars_.erase(u);
+    removed_vertices_.push_back(u);
+    ++repairs_.contracted_edges;
+  }
+
+  void drop_components() {
+    std::unordered_set<std::size_t> visited;
+    for (const std::size_t first : flat_) {
+      if (!is_flat(first) || visited.contains(first)) continue;
+      std::vector<std::size_t> component = {first};
+      visited.insert(first);
+      bool is_closed_and_flat = true;
+      for (std::size_t n = 0; n < component.size(); ++n) {
+        if (!is_flat(component[n])) {
+          is_closed_and_flat = false;
+          continue; // the rest of the component is not visited from here
+        }
+        for (const Index v : triangles_[component[n]]) {
+          if (is_on_boundary(neighbors(v))) is_closed_and_flat = false;
+          for (const std::size_t t : stars_[v])
+            if (visited.insert(t).second) component.push_back(t);
+        }
+      }
+      if (!is_closed_and_flat) continue;
+      ++repairs_.dropped_components;
+      for (const std::size_t t : component) {
+        removed_vertices_.insert(removed_vertices_.end(), triangles_[t].begin(), triangles_[t].end());
+        triangles_[t].fill(triangles_[t][0]);
+      }
+    }
+  }
+
+  void move_vertices() {
+    constexpr int rounds = 8;
+    std::unordered_set<Index> moved;
+    for (int round = 0; round < rounds; ++round) {
+      std::vector<Index> vertices;
+      for (const std::size_t t : flat_)
+        if (is_flat(t)) vertices.insert(vertices.end(), triangles_[t].begin(), triangles_[t].end());
+      std::sort(vertices.begin(), vertices.end());
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+      for (const Index v : vertices) nudge_(v, round);
+      moved.insert(vertices.begin(), vertices.end());
+      flat_.clear(); // what a vertex could have flattened lies around it
+      for (const Index v : moved) flat_.insert(flat_.end(), stars_[v].begin(), stars_[v].end());
+    }
+    repairs_.moved_vertices = moved.size();
+    std::sort(flat_.begin(), flat_.end());
+    flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());
+    repairs_.zero_area_left =
+        std::size_t(std::count_if(flat_.begin(), flat_.end(), [&](std::size_t t) { return is_flat(t); }));
+  }
+
+  std::span<Triangle> triangles_;
+  const Coordinates& coordinates_;
+  const Nudge& nudge_;
+  std::vector<std::size_t> flat_;                             // triangles that have or may have no area
+  std::unordered_map<Index, std::vector<std::size_t>> stars_; // of the vertices of flat triangles
+  std::vector<Index> removed_vertices_;
+  Isosurface_repairs repairs_;
+};
+
+/// The first of move(d), move(2 d), ... that differs from a point; d is at most 1e-7 and not the same for all vertices.
+template <class Point, class Move>
+Point nudged(const Point& p, std::size_t vertex, int round, const Move& move) {
+  const double golden = 0.6180339887498949 * double(vertex) + 0.37 * round;
+  for (double d = 0.5e-7 * (1 + golden - std::floor(golden));; d *= 2) {
+    const Point q = move(d);
+    if (!(q == p) || !(d < 1)) return q;
+  }
+}
+
+/// Removes vertices and the triangles with equal indices; `points...` are arrays with an entry per vertex.
+template <class Triangles, class... Points>
+void remove_from_mesh(const std::vector<std::uint32_t>& vertices, Triangles& triangles, Points&... points) {
+  if (vertices.empty()) return;
+  const std::size_t n = std::max({points.size()...});
+  std::vector<std::uint32_t> number(n, 0);
+  for (const std::uint32_t v : vertices) number[v] = 1;
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < n; ++v) {
+    if (number[v] == 1) continue;
+    number[v] = kept;
+    ((points[kept] = points[v]), ...);
+    ++kept;
+  }
+  (points.erase(points.begin() + std::ptrdiff_t(kept), points.end()), ...);
+  std::erase_if(triangles, [](const auto& t) { return t[0] == t[1]; });
+  for (auto& t : triangles)
+    for (auto& v : t) v = number[v];
+}
+
+} // namespace equiaffine::internal
+
+#endif
