@@ -236,7 +236,9 @@ TEST(Marching_cubes, nodes_without_a_value_leave_a_clean_border) {
   for (int n = 0; n < 100; ++n) {
     const Sampled_function_traits_3<Kernel> traits(random_volume(7, random, {-1.0, -0.3, 0.4, 0.8, nan}));
     const auto surface = marching_cubes(traits);
-    with_border += topology(surface).boundary_edges > 0;
+    const auto t = topology(surface);
+    EXPECT_TRUE(t.is_manifold) << "volume " << n;
+    with_border += t.boundary_edges > 0;
     std::vector<bool> is_used(surface.points.size());
     for (const auto& triangle : surface.triangles)
       for (auto v : triangle) is_used[v] = true;

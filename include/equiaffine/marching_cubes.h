@@ -7,6 +7,7 @@
 #include <equiaffine/internal/inner_vertex.h>
 #include <equiaffine/internal/isosurface_extraction.h>
 #include <equiaffine/internal/sample_signs.h>
+#include <equiaffine/internal/split_fans.h>
 #include <equiaffine/internal/zero_area_repair.h>
 #include <equiaffine/named_parameters.h>
 #include <equiaffine/project_to_surface.h>
@@ -69,6 +70,11 @@ public:
     result_.sampling_seconds = timer.time();
     if (position == Vertex_position::PROJECTED) project(extraction);
     repair(extraction);
+    if (signs.has_undefined())
+      split_fans(result_.triangles, points.size(), [&](std::size_t v) {
+        points.push_back(Point_3(points[v]));
+        result_.vertex_status.push_back(Point_status(result_.vertex_status[v]));
+      });
     result_.projection_seconds = timer.time() - result_.sampling_seconds;
     result_.function_evaluations = evaluations_;
     return std::move(result_);
@@ -267,10 +273,10 @@ private:
 /// lattice of a model of LatticeImplicitFunctionTraits_3, else `sampling_lattice(traits, number_of_nodes)`.
 ///
 /// The mesh is an oriented 2-manifold for every input, with boundary where the surface leaves the grid or meets a node
-/// without a value (NaN), where two parts of it may touch in a vertex; normals point along the gradient. Its topology
-/// is exactly that of the zero set of the values' trilinear interpolant, zeros taken as positive; cells whose signs
-/// leave it open have vertices inside where a tunnel or a curved disc needs them. Projection does not change it, and
-/// undoes moves that turn a triangle over. Where the surface passes through nodes, triangles without area are
+/// without a value (NaN); parts that touch there have vertices of their own. Normals point along the gradient. Its
+/// topology is exactly that of the zero set of the values' trilinear interpolant, zeros taken as positive; cells whose
+/// signs leave it open have vertices inside where a tunnel or a curved disc needs them. Projection does not change it,
+/// and undoes moves that turn a triangle over. Where the surface passes through nodes, triangles without area are
 /// contracted or opened and components without area dropped. All this is counted in `repairs`. Nothing is found where
 /// the surface crosses no grid edge.
 ///
