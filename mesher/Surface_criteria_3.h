@@ -26,7 +26,7 @@ public:
 
     Is_facet_bad operator()(const Triangulation& triangulation, const typename Triangulation::Facet& facet) const {
       const auto& [cell, opposite] = facet;
-      const auto point = [&, c = cell, o = opposite](int i) -> const auto& {
+      const auto point = [&, c = cell, o = opposite ](int i) -> const auto& {
         return triangulation.point(c, (o + i) & 3).point();
       };
       const auto &p = point(1), &q = point(2), &r = point(3);

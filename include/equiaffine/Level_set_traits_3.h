@@ -39,8 +39,8 @@ public:
     const Interval b = base_.bounds(box) - Interval(CGAL::to_double(isovalue_));
     return is_reversed_ ? -b : b;
   }
-  Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const
-      requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
+  Jet_3<Interval, 1>
+  first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
     Jet_3<Interval, 1> jet = base_.first_order_bounds(box);
     jet.at<0>() = jet.value() - Interval(CGAL::to_double(isovalue_));
     return is_reversed_ ? -jet : jet;

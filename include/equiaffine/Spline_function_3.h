@@ -95,25 +95,21 @@ public:
   /// the least and the greatest coefficient of those that do not vanish there. The whole line if the box leaves the
   /// support. The time is proportional to the number of cells that the box meets.
   Interval bounds(const CGAL::Bbox_3& box) const {
-    const auto range = coefficients_that_reach(box);
-    return range ? coefficient_range(*range) : Interval::whole();
-  }
-
-  /// The same for value and gradient: the coefficients of a derivative are the differences of neighbours.
-  Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const {
-    Jet_3<Interval, 1> jet(Interval::whole());
-    const auto range = coefficients_that_reach(box);
-    if (!range) {
-      jet.coefficients().fill(Interval::whole());
-      return jet;
-    }
-    jet.at<0>() = coefficient_range(*range);
+    std::array<std::size_t, 3> first, last;
+    if (!is_supported_) return Interval::whole();
     for (std::size_t a = 0; a < 3; ++a) {
-      const Interval slope = coefficient_range(*range, a);
-      for (std::size_t b = 0; b < 3; ++b)
-        jet.coefficients()[1 + b] += Interval::widened(double(to_lattice_[a][b]), double(to_lattice_[a][b])) * slope;
+      FT lower = 0, upper = 0;
+      for (int b = 0; b < 3; ++b) {
+        const FT p = to_lattice_[a][std::size_t(b)] * (FT(box.min(b)) - lattice_.origin()[b]);
+        const FT q = to_lattice_[a][std::size_t(b)] * (FT(box.max(b)) - lattice_.origin()[b]);
+        lower += std::min(p, q);
+        upper += std::max(p, q);
+      }
+      if (!is_inside(lower, a) || !is_inside(upper, a)) return Interval::whole();
+      first[a] = cell(lower - slack_[a], a);
+      last[a] = cell(upper + slack_[a], a) + std::size_t(degree_);
     }
-    return jet;
+    return coefficient_range(first, last);
   }
 
 private:
@@ -123,30 +119,6 @@ private:
     std::array<std::size_t, 3> cell;
     std::array<FT, 3> offset; // in [0, 1], up to rounding
   };
-
-  /// The first and the last coefficients along each axis.
-  struct Coefficient_box {
-    std::array<std::size_t, 3> first, last;
-  };
-
-  /// Those that do not vanish somewhere in the box; none if the box leaves the support.
-  std::optional<Coefficient_box> coefficients_that_reach(const CGAL::Bbox_3& box) const {
-    if (!is_supported_) return std::nullopt;
-    Coefficient_box range;
-    for (std::size_t a = 0; a < 3; ++a) {
-      FT lower = 0, upper = 0;
-      for (int b = 0; b < 3; ++b) {
-        const FT p = to_lattice_[a][std::size_t(b)] * (FT(box.min(b)) - lattice_.origin()[b]);
-        const FT q = to_lattice_[a][std::size_t(b)] * (FT(box.max(b)) - lattice_.origin()[b]);
-        lower += std::min(p, q);
-        upper += std::max(p, q);
-      }
-      if (!is_inside(lower, a) || !is_inside(upper, a)) return std::nullopt;
-      range.first[a] = cell(lower - slack_[a], a);
-      range.last[a] = cell(upper + slack_[a], a) + std::size_t(degree_);
-    }
-    return range;
-  }
 
   template <class F>
   void for_degree(F f) const {
@@ -199,27 +171,22 @@ private:
     return (c[2] * size_[1] + c[1]) * size_[0] + c[0];
   }
 
-  /// Range of the coefficients in the box or, given an axis, of their differences along it, with the rounding of an
-  /// evaluation: n steps of Horner's scheme with two operations each and n + 1 taps, per axis.
-  Interval coefficient_range(const Coefficient_box& box, std::optional<std::size_t> axis = {}) const {
-    FT least = std::numeric_limits<FT>::infinity(), greatest = -least, magnitude = 0;
+  Interval coefficient_range(const std::array<std::size_t, 3>& first, const std::array<std::size_t, 3>& last) const {
+    FT least = std::numeric_limits<FT>::infinity(), greatest = -least;
     bool is_finite = true;
-    const std::array<std::size_t, 3> stride = {1, size_[0], size_[0] * size_[1]};
-    auto last = box.last;
-    if (axis) --last[*axis];
-    for (std::size_t k = box.first[2]; k <= last[2]; ++k)
-      for (std::size_t j = box.first[1]; j <= last[1]; ++j) {
+    for (std::size_t k = first[2]; k <= last[2]; ++k)
+      for (std::size_t j = first[1]; j <= last[1]; ++j) {
         const FT* row = &coefficients_[coefficient_index({0, j, k})];
-        for (std::size_t i = box.first[0]; i <= last[0]; ++i) {
-          const FT c = axis ? row[i + stride[*axis]] - row[i] : row[i];
-          least = std::min(least, c);
-          greatest = std::max(greatest, c);
-          magnitude = std::max(magnitude, std::abs(row[i]));
-          is_finite = is_finite && std::isfinite(c);
+        for (std::size_t i = first[0]; i <= last[0]; ++i) {
+          least = std::min(least, row[i]);
+          greatest = std::max(greatest, row[i]);
+          is_finite = is_finite && std::isfinite(row[i]);
         }
       }
     if (!is_finite) return Interval::whole();
-    const FT rounding = FT((axis ? 6 : 3) * (3 * degree_ + 1)) * std::numeric_limits<FT>::epsilon() * magnitude;
+    // Rounding of an evaluation: n steps of Horner's scheme with two operations each and n + 1 taps, per axis.
+    const FT rounding =
+        FT(3 * (3 * degree_ + 1)) * std::numeric_limits<FT>::epsilon() * std::max(std::abs(least), std::abs(greatest));
     return Interval::widened(double(least) - double(rounding), double(greatest) + double(rounding));
   }
 

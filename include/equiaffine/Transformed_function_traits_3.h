@@ -41,8 +41,8 @@ public:
   Interval bounds(const CGAL::Bbox_3& box) const requires BoundedImplicitFunctionTraits_3<Base> {
     return base_.bounds(preimage(box));
   }
-  Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const
-      requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
+  Jet_3<Interval, 1>
+  first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
     const Jet_3<Interval, 1> jet = base_.first_order_bounds(preimage(box));
     Jet_3<Interval, 1> result(jet.value());
     for (int row = 0; row < 3; ++row)

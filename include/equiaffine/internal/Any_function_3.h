@@ -33,6 +33,7 @@ public:
   Jet_3<double> taylor(const Point_3& p) const { return function_->taylor(p); }
   Interval bounds(const CGAL::Bbox_3& box) const { return function_->bounds(box); }
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return function_->first_order_bounds(box); }
+  bool has_gradient_bounds() const { return function_->has_gradient_bounds(); }
   CGAL::Bbox_3 bbox() const { return function_->bbox(); }
   Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa, double fb) const {
     return function_->intersect_segment(a, b, fa, fb);
@@ -46,6 +47,7 @@ private:
     virtual Jet_3<double> taylor(const Point_3& p) const = 0;
     virtual Interval bounds(const CGAL::Bbox_3& box) const = 0;
     virtual Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const = 0;
+    virtual bool has_gradient_bounds() const = 0;
     virtual CGAL::Bbox_3 bbox() const = 0;
     virtual Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa,
                                                       double fb) const = 0;
@@ -60,8 +62,7 @@ private:
     template <int Order, class FT>
     static Jet_3<double, Order> to_double(const Jet_3<FT, Order>& jet) {
       Jet_3<double, Order> result;
-      for (std::size_t n = 0; n < result.size; ++n)
-        result.coefficients()[n] = CGAL::to_double(jet.coefficients()[n]);
+      for (std::size_t n = 0; n < result.size; ++n) result.coefficients()[n] = CGAL::to_double(jet.coefficients()[n]);
       return result;
     }
 
@@ -77,6 +78,7 @@ private:
     Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const override {
       return internal::first_order_bounds(traits, box);
     }
+    bool has_gradient_bounds() const override { return internal::has_gradient_bounds(traits); }
     CGAL::Bbox_3 bbox() const override { return traits.bbox(); }
     Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa, double fb) const override {
       using FT = typename Traits::FT;

@@ -61,7 +61,8 @@ private:
   }
 
   std::size_t bucket(const Cell& c) const {
-    const std::uint64_t hash = (std::uint64_t(c[0]) * 0x9E3779B97F4A7C15U) ^ (std::uint64_t(c[1]) * 0xC2B2AE3D27D4EB4FU) ^
+    const std::uint64_t hash = (std::uint64_t(c[0]) * 0x9E3779B97F4A7C15U) ^
+                               (std::uint64_t(c[1]) * 0xC2B2AE3D27D4EB4FU) ^
                                (std::uint64_t(c[2]) * 0x165667B19E3779F9U);
     return std::size_t((hash ^ hash >> 29) & (heads_.size() - 1));
   }

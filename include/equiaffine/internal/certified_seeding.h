@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -50,24 +51,24 @@ class Certified_seeding_3 {
   enum State { EMPTY, DECIDED, UNDECIDED };
 
 public:
-  static constexpr bool has_gradient_bounds = FirstOrderBoundedImplicitFunctionTraits_3<Traits>;
   static constexpr int maximal_level = 24;
-  /// Children of undecided cells of one level, smaller than facets, that are worth a try: a singular point makes few at
-  /// each level, a singular curve twice as many each time.
-  static constexpr std::ptrdiff_t maximal_undecided_cells = 50'000;
+  /// Children of undecided cells of one level, much smaller than facets, that are worth a try: a singular point makes
+  /// few at each level, a singular curve twice as many each time.
+  static constexpr std::ptrdiff_t maximal_undecided_cells = 200'000;
 
   /// `size(p)` bounds the circumradius of facets near p, and is at most `largest_size`.
   Certified_seeding_3(const Traits& traits, const Clip_domain_3& domain, Sizing size, double largest_size)
       : traits_(traits), domain_(domain), box_(domain.bbox()), size_(std::move(size)), largest_size_(largest_size),
-        side_(std::max({box_.x_span(), box_.y_span(), box_.z_span()})), grid_(packing * largest_size) {}
+        side_(std::max({box_.x_span(), box_.y_span(), box_.z_span()})), grid_(packing * largest_size),
+        has_gradient_bounds_(internal::has_gradient_bounds(traits)) {}
 
   Seeding_3<Point_3> operator()() {
     std::vector<Cell> cells = {{{0, 0, 0}, false}}, next;
     for (level_ = 0; !cells.empty(); ++level_) {
       const double h = cell_side();
       const auto undecided = std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return !c.is_decided; });
-      const bool is_last = level_ == maximal_level || (h < largest_size_ && (undecided > maximal_undecided_cells ||
-                                                                             !has_gradient_bounds));
+      const bool is_last = level_ == maximal_level || (h < largest_size_ && !has_gradient_bounds_) ||
+                           (4 * h < largest_size_ && undecided > maximal_undecided_cells);
       next.clear();
       for (const Cell& cell : cells) {
         const CGAL::Bbox_3 box = box_of(cell);
@@ -76,9 +77,8 @@ public:
         if (state == EMPTY) {
           if (h >= 4 * largest_size_) empty_cells_.push_back(box);
         } else if (state == UNDECIDED && is_last) {
-          if (has_gradient_bounds) result_.undecided_boxes.push_back(box);
-          make_seeds(box, packing * size_(center(box)));
-        } else if (state == DECIDED && h <= size_(center(box))) {
+          give_up(cell);
+        } else if (state == DECIDED && h <= seeded_size * size_(center(box))) {
           make_seeds(box, packing * std::min(size_(center(box)), coarsening * h));
         } else {
           subdivide(cell, state == DECIDED, next);
@@ -86,14 +86,15 @@ public:
       }
       std::swap(cells, next);
     }
-    if (!has_gradient_bounds) result_.undecided_boxes = {box_};
+    if (!has_gradient_bounds_) result_.undecided_boxes = {box_};
     for (const Seed& seed : grid_.seeds()) result_.seeds.push_back(seed.point);
     make_scaffold();
     return std::move(result_);
   }
 
 private:
-  static constexpr double packing = 0.95; // distance of seeds / bound of circumradii
+  static constexpr double seeded_size = 4; // side of the cells that are seeded / bound of circumradii
+  static constexpr double packing = 1.1;   // distance of seeds / bound of circumradii
 
   double cell_side() const { return std::ldexp(side_, -level_); }
 
@@ -132,9 +133,9 @@ private:
   bool contains_zero(const Jet_3<Interval, 1>& jet, const CGAL::Bbox_3& box) const {
     const auto& c = jet.coefficients();
     if (!c[0].contains(0)) return false;
-    if constexpr (has_gradient_bounds) {
+    if (has_gradient_bounds_) {
       const Point_3 p = center(box);
-      Interval sum = traits_.bounds(p.bbox());
+      Interval sum = first_order_bounds(traits_, p.bbox()).value();
       for (int a = 0; a < 3; ++a)
         sum += c[std::size_t(1 + a)] * (Interval(box.min(a), box.max(a)) - Interval(CGAL::to_double(p[a])));
       return sum.contains(0);
@@ -170,6 +171,19 @@ private:
       if (contains_zero(jet_there, part) && !has_acute_gradients(jet_there, is_free)) return false;
     }
     return true;
+  }
+
+  /// An undecided cell is reported and seeded as the one of a sixteenth of the facet size that contains it.
+  void give_up(Cell cell) {
+    const int level = level_;
+    for (; level_ > 0 && 16 * cell_side() < largest_size_; --level_)
+      for (auto& x : cell.position) x /= 2;
+    if (given_up_.insert(cell.position).second) {
+      const CGAL::Bbox_3 box = box_of(cell);
+      result_.undecided_boxes.push_back(box);
+      make_seeds(box, packing * size_(center(box)));
+    }
+    level_ = level;
   }
 
   /// Seeds at the projections of random points of a cell; where none of them leads back into the cell, on its edges.
@@ -251,7 +265,7 @@ private:
   }
 
   static constexpr double coarsening = 2; // a cell that had to be small has seeds at this distance in sides
-  static constexpr double candidates_per_spacing = 5;
+  static constexpr double candidates_per_spacing = 4;
 
   const Traits& traits_;
   const Clip_domain_3& domain_;
@@ -260,7 +274,9 @@ private:
   const double largest_size_, side_;
   int level_ = 0;
   Grid grid_;
+  const bool has_gradient_bounds_;
   std::vector<CGAL::Bbox_3> empty_cells_;
+  std::set<std::array<std::uint32_t, 3>> given_up_;
   Seeding_3<Point_3> result_;
   std::uint64_t state_ = 1;
 };

@@ -19,6 +19,13 @@ Jet_3<Interval, 1> first_order_bounds(const Traits& traits, const CGAL::Bbox_3& 
   }
 }
 
+/// Whether it knows something of the gradients. A model that learns this at run time has a member.
+template <ImplicitFunctionTraits_3 Traits>
+bool has_gradient_bounds(const Traits& traits) {
+  if constexpr (requires { traits.has_gradient_bounds(); }) return traits.has_gradient_bounds();
+  else return FirstOrderBoundedImplicitFunctionTraits_3<Traits>;
+}
+
 } // namespace equiaffine::internal
 
 #endif
