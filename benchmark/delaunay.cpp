@@ -201,6 +201,24 @@ void compare(const std::string& name, const F& f, double radius, const Expected&
   compare(name, f, Clip_domain_3(f.box()), radius, expected, repeats);
 }
 
+/// How often a sphere with a radius of a thousandth of the box is found beside a large one.
+int tiny_spheres_found(int placements) {
+  std::mt19937 random(7);
+  const auto coordinate = [&] { return (double(random()) / double(std::mt19937::max()) * 2 - 1) * 1.9; };
+  int found = 0;
+  for (int n = 0; n < placements;) {
+    functions::Two_spheres f;
+    f.small_radius = 0.004;
+    f.center = {coordinate(), coordinate(), coordinate()};
+    if (std::hypot(f.center[0], f.center[1], f.center[2]) < 1.02) continue;
+    const auto mesh = delaunay_surface(make_analytic_traits<Kernel>(f, f.box()), {30, 0.4, 0});
+    const auto topology = mesh_topology(mesh.triangles, mesh.points.size());
+    found += topology.components == 2 && topology.euler_characteristic == 4;
+    ++n;
+  }
+  return found;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -216,4 +234,5 @@ int main(int argc, char** argv) {
   compare("chmutov", functions::Chmutov_sextic(), 0.053, {1, -54, true, true, 100}, repeats);
   const Gaussians gaussians;
   compare("gaussians", gaussians, 0.05, {1, 2, true, true, 60, 1.4, 1.4}, repeats);
+  figure("delaunay_tiny_spheres_found", tiny_spheres_found(1000), "of_1000", ">=1000");
 }
