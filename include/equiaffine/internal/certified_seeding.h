@@ -94,7 +94,7 @@ public:
 
 private:
   static constexpr double seeded_size = 4; // side of the cells that are seeded / bound of circumradii
-  static constexpr double packing = 1.1;   // distance of seeds / bound of circumradii
+  static constexpr double packing = 0.95;  // distance of seeds / bound of circumradii
 
   double cell_side() const { return std::ldexp(side_, -level_); }
 
@@ -265,7 +265,7 @@ private:
   }
 
   static constexpr double coarsening = 2; // a cell that had to be small has seeds at this distance in sides
-  static constexpr double candidates_per_spacing = 4;
+  static constexpr double candidates_per_spacing = 5;
 
   const Traits& traits_;
   const Clip_domain_3& domain_;
