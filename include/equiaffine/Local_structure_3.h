@@ -2,9 +2,12 @@
 #ifndef EQUIAFFINE_LOCAL_STRUCTURE_3_H
 #define EQUIAFFINE_LOCAL_STRUCTURE_3_H
 
+#include <equiaffine/Point_status.h>
 #include <equiaffine/affine_structure.h>
 #include <equiaffine/euclidean_structure.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 
 namespace equiaffine {
@@ -29,15 +32,35 @@ Euclidean_structure_3<FT> no_euclidean_structure() {
 template <class FT>
 Affine_structure_3<FT> no_affine_structure() {
   const FT nan = std::numeric_limits<FT>::quiet_NaN();
-  return {{nan, nan, nan},     {nan, nan, nan}, nan, nan, nan, false, nan, nan, {nan, nan, nan, nan, nan, nan},
-          {nan, nan, nan, nan}};
+  return {{{nan, nan, nan}, {nan, nan, nan}, nan, nan, nan, {nan, nan, nan, nan}, {nan, nan}},
+          false,
+          nan,
+          nan,
+          {nan, nan, nan, nan, nan, nan}};
 }
 
+/// Every coefficient of the jet, and every power of d, takes part in some of these numbers.
 template <class FT>
-bool is_finite(const Affine_structure_3<FT>& s) {
+Mask_of<FT> is_finite(const Affine_invariants_3<FT>& s) {
   FT sum = s.gaussian_curvature + s.mean_curvature + s.pick_invariant;
-  for (int i = 0; i < 3; ++i) sum += s.conormal[std::size_t(i)] + s.normal[std::size_t(i)];
-  return sum - sum == FT(0);
+  for (std::size_t i = 0; i < 3; ++i) sum += s.conormal[i] + s.normal[i];
+  return is_finite_number(sum);
+}
+
+/// Why a point is not regular: the value is NaN or infinite, another coefficient is, the gradient vanishes, or d does
+/// up to rounding, or is so small that its powers leave the range of FT.
+template <class FT>
+Point_status reason_of_irregularity(const Jet_3<FT>& jet, const Monge_chart_3<FT>& chart) {
+  const auto& c = jet.coefficients();
+  if (!is_finite_number(c[0])) return Point_status::OUTSIDE;
+  const bool is_smooth = std::all_of(c.begin(), c.end(), [](const FT& x) { return is_finite_number(x); });
+  return is_smooth && chart.is_steep ? Point_status::PARABOLIC : Point_status::SINGULAR;
+}
+
+/// Whether everything exists at a point.
+template <class FT>
+Mask_of<FT> is_regular(const Jet_3<FT>& jet, const Monge_chart_3<FT>& chart, const Affine_invariants_3<FT>& affine) {
+  return chart.is_steep && chart.is_curved && is_finite_number(jet.value()) && is_finite(affine);
 }
 
 } // namespace internal
@@ -47,16 +70,11 @@ bool is_finite(const Affine_structure_3<FT>& s) {
 template <class FT>
 Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const FT& point_magnitude = FT(0)) {
   const Monge_chart_3<FT> chart(jet, point_magnitude);
-  Local_structure_3<FT> s = {chart.status, internal::no_euclidean_structure<FT>(), internal::no_affine_structure<FT>()};
-  if (s.status == Point_status::REGULAR || s.status == Point_status::PARABOLIC)
-    s.euclidean = euclidean_structure(chart);
-  if (s.status == Point_status::REGULAR) {
-    s.affine = affine_structure(chart);
-    if (!internal::is_finite(s.affine)) { // so near d = 0 that the powers of d leave the range of FT
-      s.status = Point_status::PARABOLIC;
-      s.affine = internal::no_affine_structure<FT>();
-    }
-  }
+  Local_structure_3<FT> s = {Point_status::REGULAR, euclidean_structure(chart), affine_structure(chart)};
+  if (internal::is_regular(jet, chart, s.affine)) return s;
+  s.status = internal::reason_of_irregularity(jet, chart);
+  s.affine = internal::no_affine_structure<FT>();
+  if (s.status != Point_status::PARABOLIC) s.euclidean = internal::no_euclidean_structure<FT>();
   return s;
 }
 
