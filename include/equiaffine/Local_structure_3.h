@@ -57,11 +57,16 @@ Point_status reason_of_irregularity(const Jet_3<FT>& jet, const Monge_chart_3<FT
   return is_smooth && chart.is_steep ? Point_status::PARABOLIC : Point_status::SINGULAR;
 }
 
-/// Whether everything exists at a point.
+/// Everything for one number or for each lane of a pack, with whether it exists. Nothing branches on values.
 template <class FT>
-Mask_of<FT> is_regular(const Jet_3<FT>& jet, const Monge_chart_3<FT>& chart, const Affine_invariants_3<FT>& affine) {
-  return chart.is_steep && chart.is_curved && is_finite_number(jet.value()) && is_finite(affine);
-}
+struct Local_structure_lanes {
+  Local_structure_3<FT> structure;
+  Mask_of<FT> is_regular;
+
+  explicit Local_structure_lanes(const Jet_3<FT>& jet, const Monge_chart_3<FT>& chart)
+      : structure{Point_status::REGULAR, euclidean_structure(chart), affine_structure(chart)},
+        is_regular(chart.is_steep && chart.is_curved && is_finite_number(jet.value()) && is_finite(structure.affine)) {}
+};
 
 } // namespace internal
 
@@ -70,8 +75,9 @@ Mask_of<FT> is_regular(const Jet_3<FT>& jet, const Monge_chart_3<FT>& chart, con
 template <class FT>
 Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const FT& point_magnitude = FT(0)) {
   const Monge_chart_3<FT> chart(jet, point_magnitude);
-  Local_structure_3<FT> s = {Point_status::REGULAR, euclidean_structure(chart), affine_structure(chart)};
-  if (internal::is_regular(jet, chart, s.affine)) return s;
+  const internal::Local_structure_lanes<FT> lanes(jet, chart);
+  Local_structure_3<FT> s = lanes.structure;
+  if (lanes.is_regular) return s;
   s.status = internal::reason_of_irregularity(jet, chart);
   s.affine = internal::no_affine_structure<FT>();
   if (s.status != Point_status::PARABOLIC) s.euclidean = internal::no_euclidean_structure<FT>();

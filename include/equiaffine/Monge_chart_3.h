@@ -47,9 +47,10 @@ struct Monge_chart_3 {
   /// `point_magnitude` is the largest absolute coordinate of the point, 0 if unknown: a gradient that one rounding of
   /// the coordinates could produce at a singular point is taken for zero.
   explicit Monge_chart_3(const Jet_3<FT>& jet, const FT& point_magnitude = FT(0)) {
+    using internal::select;
     using std::abs;
     const auto& c = jet.coefficients();
-    const auto larger = [](const FT& x, const FT& y) { return internal::select(x > y, x, y); };
+    const auto larger = [](const FT& x, const FT& y) { return select(x > y, x, y); };
     FT second = abs(c[4]);
     for (std::size_t n = 5; n < 10; ++n) second = larger(abs(c[n]), second);
     is_steep = larger(larger(abs(c[1]), abs(c[2])), abs(c[3])) > roundings(4) * second * point_magnitude;
@@ -79,16 +80,16 @@ private:
   /// The axis with the largest f_i^2 / |f_ii|, which changes of the units of the axes do not affect; a small f_ii counts
   /// as 2^-12 of the largest second derivative.
   void choose_pivot(const std::array<FT, 3>& gradient, std::array<FT, 3> curvature, const FT& largest_curvature) {
-    const FT least = internal::select(largest_curvature > FT(0), largest_curvature, FT(1)) * FT(1. / 4096);
+    using internal::select;
+    const FT least = select(largest_curvature > FT(0), largest_curvature, FT(1)) * FT(1. / 4096);
     for (FT& x : curvature) x = x + least;
     const auto first_is_better = [](const FT& f, const FT& curvature_f, const FT& g, const FT& curvature_g) {
       const FT ratio = f / g;
       return ratio * ratio * curvature_g > curvature_f;
     };
     const Mask x_beats_y = first_is_better(gradient[0], curvature[0], gradient[1], curvature[1]);
-    const Mask it_beats_z =
-        first_is_better(internal::select(x_beats_y, gradient[0], gradient[1]),
-                        internal::select(x_beats_y, curvature[0], curvature[1]), gradient[2], curvature[2]);
+    const Mask it_beats_z = first_is_better(select(x_beats_y, gradient[0], gradient[1]),
+                                            select(x_beats_y, curvature[0], curvature[1]), gradient[2], curvature[2]);
     pivot_is_x = x_beats_y && it_beats_z;
     pivot_is_y = !x_beats_y && it_beats_z;
   }
@@ -127,7 +128,8 @@ private:
   void expand(const Jet_3<FT>& jet) {
     const FT r = FT(1) / f<P, 0, 0, 1>(jet), r2 = r * FT(0.5), r4 = r * FT(0.25);
     const FT r3 = r * (FT(1) / FT(3)), r6 = r * (FT(1) / FT(6));
-    sign = internal::select(r > FT(0), FT(1), FT(-1));
+    using internal::select;
+    sign = select(r > FT(0), FT(1), FT(-1));
     a = f<P, 1, 0, 0>(jet) * r;
     b = f<P, 0, 1, 0>(jet) * r;
 

@@ -44,7 +44,7 @@ struct Affine_structure_3 : Affine_invariants_3<FT> {
   std::array<FT, 6> metric;
 };
 
-/// The invariants from a chart, in 310 floating-point operations with the chart. Meaningful where chart.is_curved.
+/// The invariants from a chart, in 320 floating-point operations with the chart. Meaningful where chart.is_curved.
 ///
 /// Writing p for the quadratic form Q, with which indices are raised and traces taken (h = -2 p), and v for a quarter of
 /// the trace of the cubic form, C = t + 3 sym(v p) with t apolar. The direction alpha = -(1/2) p^-1 L, conjugate to the
@@ -89,7 +89,8 @@ Affine_invariants_3<FT> affine_invariants(const Monge_chart_3<FT>& chart) {
                    FT(4) / FT(3) * (chart.e - (l1 * alpha1 + l2 * alpha2)) - trace(m[0], m[1], m[2]) * (FT(1) / FT(6));
 
   Affine_invariants_3<FT> s;
-  const FT length = chart.sign * sqrt(FT(2) * sqrt(abs(chart.determinant))), inverse = FT(1) / length;
+  const FT square = FT(2) * sqrt(abs(chart.determinant)), length = chart.sign * sqrt(square);
+  const FT inverse = length * square * abs(reciprocal) * FT(0.25); // without another division: length^4 is |d|
   s.conormal = chart.unpermuted(a * inverse, b * inverse, inverse);
   s.slope = {alpha1 + w1, alpha2 + w2};
   const FT xi1 = length * s.slope[0], xi2 = length * s.slope[1];
