@@ -50,9 +50,10 @@ Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z
 ///     };
 ///     Analytic_function_traits_3<Kernel, Sphere> traits(Sphere(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
 ///
-/// It is called with FT, Jet_3<FT, order>, Interval and, for the batches of compute_attributes, Jet_3<Pack<FT>>. Elementary functions must be found by argument-dependent lookup
-/// (`using std::exp; return exp(x);`). With three template parameters, or `auto`, for the arguments and `auto` for
-/// intermediate results it computes only the derivatives that its structure leaves nonzero.
+/// It is called with FT, Jet_3<FT, order>, Interval and, for the batches of compute_attributes, Jet_3<Pack<FT>>.
+/// Elementary functions must be found by argument-dependent lookup (`using std::exp; return exp(x);`). With three
+/// template parameters, or `auto`, for the arguments and `auto` for intermediate results it computes only the
+/// derivatives that its structure leaves nonzero.
 template <class Kernel, class Function>
 class Analytic_function_traits_3 {
 public:

@@ -16,15 +16,16 @@ namespace equiaffine {
 /// The level set of f through a point in a frame of determinant 1 that suits it, made from the jet of f there.
 ///
 /// The coordinates are permuted cyclically to (x, y, z) so that z suits best as the direction of a graph (the pivot):
-/// f_z^2 / |f_zz| is largest, up to a limit that keeps |a|, |b| <= 64.01. With a = f_x / f_z, b = f_y / f_z the vectors e_u = (1, 0, -a), e_v = (0, 1, -b) are tangent, and the
-/// gradient of f / f_z in the frame (e_u, e_v, e_w) with e_w = (0, 0, 1) is (0, 0, 1). There
+/// f_z^2 / |f_zz| is largest, up to a limit that keeps |a|, |b| <= 64.01. With a = f_x / f_z, b = f_y / f_z the
+/// vectors e_u = (1, 0, -a), e_v = (0, 1, -b) are tangent, and the gradient of f / f_z in the frame (e_u, e_v, e_w)
+/// with e_w = (0, 0, 1) is (0, 0, 1). There
 ///
 ///     f / f_z = w + Q + w L + e w^2 + C + w D + R + terms that do not matter,
 ///
 /// with forms in (u, v) of degree Q:2, L:1, C:3, D:2, R:4. A form of degree n is given by its symmetric coefficients
 /// s_i: it is the sum of binomial(n, i) s_i u^(n-i) v^i. A rotation instead of this shear would mix the scales of an
-/// anisotropic surface; without the pivot digits are lost wherever f_z is small, and with
-/// the largest component of the gradient as pivot, where the surface is long in another direction.
+/// anisotropic surface; without the pivot digits are lost wherever f_z is small, and with the largest component of the
+/// gradient as pivot, where the surface is long in another direction.
 ///
 /// FT is a number or a pack of numbers; nothing here branches on values but the choice of the pivot of a number.
 template <class FT>
@@ -77,8 +78,8 @@ struct Monge_chart_3 {
   std::array<FT, 3> tangent(const FT& u, const FT& v) const { return unpermuted(u, v, -(a * u + b * v)); }
 
 private:
-  /// The axis with the largest f_i^2 / |f_ii|, which changes of the units of the axes do not affect; a small f_ii counts
-  /// as 2^-12 of the largest second derivative.
+  /// The axis with the largest f_i^2 / |f_ii|, which changes of the units of the axes do not affect; a small f_ii
+  /// counts as 2^-12 of the largest second derivative.
   void choose_pivot(const std::array<FT, 3>& gradient, std::array<FT, 3> curvature, const FT& largest_curvature) {
     using internal::select;
     const FT least = select(largest_curvature > FT(0), largest_curvature, FT(1)) * FT(1. / 4096);

@@ -46,11 +46,11 @@ struct Affine_structure_3 : Affine_invariants_3<FT> {
 
 /// The invariants from a chart, in 320 floating-point operations with the chart. Meaningful where chart.is_curved.
 ///
-/// Writing p for the quadratic form Q, with which indices are raised and traces taken (h = -2 p), and v for a quarter of
-/// the trace of the cubic form, C = t + 3 sym(v p) with t apolar. The direction alpha = -(1/2) p^-1 L, conjugate to the
-/// tangent plane with respect to the second derivatives of f, is that of the affine normal of a quadric; what remains,
-/// rho = alpha + (3/2) p^-1 v, is small where the surface is near one, however anisotropic: without alpha digits are
-/// lost there. The Gauss-Weingarten equations of the graph -(Q + C + R + Q (e Q - D)) then reduce to
+/// Writing p for the quadratic form Q, with which indices are raised and traces taken (h = -2 p), and v for a quarter
+/// of the trace of the cubic form, C = t + 3 sym(v p) with t apolar. The direction alpha = -(1/2) p^-1 L, conjugate to
+/// the tangent plane with respect to the second derivatives of f, is that of the affine normal of a quadric; what
+/// remains, rho = alpha + (3/2) p^-1 v, is small where the surface is near one, however anisotropic: without alpha
+/// digits are lost there. The Gauss-Weingarten equations of the graph -(Q + C + R + Q (e Q - D)) then reduce to
 ///
 ///     B = -3/2 s |d|^(1/4) (p^-1 N + sigma I),   N = tr R - D - 3 C(alpha + 2 p^-1 v) + 3 v v^T,
 ///     sigma = v (3/2 p^-1 v - 2 alpha) - 3/8 |t|^2 + 4/3 (e + L(alpha) / 2) - tr D / 6,
@@ -63,7 +63,8 @@ Affine_invariants_3<FT> affine_invariants(const Monge_chart_3<FT>& chart) {
   using std::sqrt;
   const FT &a = chart.a, &b = chart.b;
   const auto &p = chart.quadratic, &m = chart.mixed_quadratic;
-  const auto &c = chart.cubic, &r = chart.quartic;
+  const auto& c = chart.cubic;
+  const auto& r = chart.quartic;
   const FT reciprocal = FT(1) / chart.determinant;
   const FT i11 = p[2] * reciprocal, i12 = p[1] * reciprocal, i22 = p[0] * reciprocal; // p^-1 but for the sign of i12
   const FT i12_twice = i12 + i12;

@@ -160,8 +160,8 @@ Jet_3<Pack<FT>> taylor_lanes(const Traits& traits, const typename Traits::Point_
   return result;
 }
 
-/// Fills the rows [first, first + count), count <= Pack::size, of the columns. Lanes that are not regular are done again
-/// as single points, where the reason is found.
+/// Fills the rows [first, first + count), count <= Pack::size, of the columns. Lanes that are not regular are done
+/// again as single points, where the reason is found.
 template <class Traits>
 void compute_block_of_attributes(const Traits& traits, std::span<const typename Traits::Point_3> points,
                                  std::size_t first, std::size_t count, const Attribute_selection& selection,

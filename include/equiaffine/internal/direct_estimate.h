@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Section 2 of the paper: the surface as a graph z = g(x, y), whose derivatives follow from the implicit function theorem.
+// Section 2 of the paper: the surface as a graph z = g(x, y), differentiated by the implicit function theorem.
 #ifndef EQUIAFFINE_INTERNAL_DIRECT_ESTIMATE_H
 #define EQUIAFFINE_INTERNAL_DIRECT_ESTIMATE_H
 
