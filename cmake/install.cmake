@@ -8,6 +8,6 @@ install(TARGETS equiaffine EXPORT equiaffineTargets FILE_SET HEADERS)
 install(EXPORT equiaffineTargets NAMESPACE equiaffine:: DESTINATION ${package_dir})
 
 configure_package_config_file(cmake/equiaffineConfig.cmake.in equiaffineConfig.cmake INSTALL_DESTINATION ${package_dir})
-write_basic_package_version_file(equiaffineConfigVersion.cmake COMPATIBILITY SameMajorVersion ARCH_INDEPENDENT)
+write_basic_package_version_file(equiaffineConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/equiaffineConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/equiaffineConfigVersion.cmake
         DESTINATION ${package_dir})

@@ -132,6 +132,41 @@ TYPED_TEST_P(Conformance, bounds_enclose_the_values_and_shrink_with_the_box) {
   }
 }
 
+TYPED_TEST_P(Conformance, bounds_of_first_order_enclose_value_and_gradient_and_shrink_with_the_box) {
+  if constexpr (equiaffine::FirstOrderBoundedImplicitFunctionTraits_3<typename TypeParam::Traits>) {
+    using Point_3 = typename TypeParam::Traits::Point_3;
+    const auto traits = TypeParam::make();
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (const auto& p : TypeParam::points()) {
+      std::array<double, 4> last_width;
+      last_width.fill(std::numeric_limits<double>::infinity());
+      for (double r = TypeParam::length / 2; r > TypeParam::length / 100; r /= 2) {
+        const auto bounds =
+            traits.first_order_bounds(CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r));
+        for (int n = 0; n < 50; ++n) {
+          const Point_3 q(p.x() + r * unit(random), p.y() + r * unit(random), p.z() + r * unit(random));
+          const auto jet = equiaffine::first_order(traits, q);
+          for (std::size_t c = 0; c < 4; ++c) {
+            // The expansion is not rounded outwards.
+            const double rounding = 1e-13 * (1 + std::abs(jet.coefficients()[c]));
+            EXPECT_GE(jet.coefficients()[c], bounds.coefficients()[c].lower() - rounding) << q;
+            EXPECT_LE(jet.coefficients()[c], bounds.coefficients()[c].upper() + rounding) << q;
+          }
+        }
+        for (std::size_t c = 0; c < 4; ++c) {
+          const double width = bounds.coefficients()[c].upper() - bounds.coefficients()[c].lower();
+          EXPECT_LE(width, last_width[c]);
+          last_width[c] = width;
+        }
+      }
+      for (const double width : last_width) EXPECT_TRUE(std::isfinite(width));
+    }
+  } else {
+    GTEST_SKIP() << "the model has no bounds of its gradient";
+  }
+}
+
 TYPED_TEST_P(Conformance, batches_are_single_calls_bit_for_bit) {
   const equiaffine::Batch_function_traits_3 traits(TypeParam::make());
   const auto points = TypeParam::points();
@@ -176,8 +211,10 @@ TYPED_TEST_P(Conformance, copies_own_their_data) {
 
 REGISTER_TYPED_TEST_SUITE_P(Conformance, value_is_the_constant_coefficient, taylor_is_the_expansion_of_value,
                             first_order_is_the_beginning_of_taylor, the_box_contains_the_points,
-                            bounds_enclose_the_values_and_shrink_with_the_box, batches_are_single_calls_bit_for_bit,
-                            several_threads_get_the_numbers_of_one, copies_own_their_data);
+                            bounds_enclose_the_values_and_shrink_with_the_box,
+                            bounds_of_first_order_enclose_value_and_gradient_and_shrink_with_the_box,
+                            batches_are_single_calls_bit_for_bit, several_threads_get_the_numbers_of_one,
+                            copies_own_their_data);
 
 } // namespace conformance
 

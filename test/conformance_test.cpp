@@ -6,6 +6,7 @@
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
+#include <equiaffine/delaunay_surface.h>
 #include <equiaffine/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -143,6 +144,10 @@ static_assert(ImplicitFunctionTraits_3<Archetype> && ImplicitFunctionTraits_3<An
               ImplicitFunctionTraits_3<Sampled>);
 static_assert(BoundedImplicitFunctionTraits_3<Analytic> && BoundedImplicitFunctionTraits_3<Sampled>);
 static_assert(!BoundedImplicitFunctionTraits_3<Archetype>);
+static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Analytic>);
+static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Level_set_traits_3<Transformed_function_traits_3<Analytic>>>);
+static_assert(!FirstOrderBoundedImplicitFunctionTraits_3<Archetype>);
+static_assert(!FirstOrderBoundedImplicitFunctionTraits_3<Sampled>);
 static_assert(BatchImplicitFunctionTraits_3<Batch_function_traits_3<Archetype>>);
 static_assert(!BatchImplicitFunctionTraits_3<Archetype>);
 static_assert(FirstOrderImplicitFunctionTraits_3<Analytic> && !FirstOrderImplicitFunctionTraits_3<Archetype>);
@@ -173,6 +178,13 @@ static_assert(!BoundedImplicitFunctionTraits_3<With_wide_bounds>);
 
 TEST(Concepts, the_archetype_is_enough_for_marching_cubes) {
   EXPECT_GT(marching_cubes(Archetype::make(), parameters::number_of_nodes(8)).triangles.size(), 0u);
+}
+
+TEST(Concepts, the_archetype_is_enough_for_delaunay_surface) {
+  const auto surface = delaunay_surface(Archetype::make(), {30, 0.2, 0.1});
+  EXPECT_GT(surface.triangles.size(), 0u);
+  EXPECT_FALSE(surface.is_certified);
+  EXPECT_EQ(surface.undecided_boxes.size(), 1u);
 }
 
 } // namespace

@@ -41,15 +41,15 @@ Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z
 
 } // namespace internal
 
-/// Model of FirstOrderImplicitFunctionTraits_3 and, if the function takes Interval, of BoundedImplicitFunctionTraits_3
-/// for a function given as code: `f(x, y, z)`, templated on its number type, const and callable from several threads.
+/// Model of FirstOrderImplicitFunctionTraits_3 and, if the function takes Interval, of
+/// FirstOrderBoundedImplicitFunctionTraits_3 for a function given as code: `f(x, y, z)`, templated on its number type, const and callable from several threads.
 ///
 ///     struct Sphere {
 ///       template <class T> T operator()(const T& x, const T& y, const T& z) const { return x*x + y*y + z*z - 1.0; }
 ///     };
 ///     Analytic_function_traits_3<Kernel, Sphere> traits(Sphere(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
 ///
-/// It is called with FT, Jet_3<FT, order> and Interval. Elementary functions must be found by argument-dependent lookup
+/// It is called with FT, Jet_3<FT, order>, Interval and Jet_3<Interval, 1>. Elementary functions must be found by argument-dependent lookup
 /// (`using std::exp; return exp(x);`). With three template parameters, or `auto`, for the arguments and `auto` for
 /// intermediate results it computes only the derivatives that its structure leaves nonzero.
 template <class Kernel, class Function>
@@ -69,6 +69,11 @@ public:
   Interval bounds(const CGAL::Bbox_3& box) const {
     return function_(Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()),
                      Interval(box.zmin(), box.zmax()));
+  }
+
+  Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const {
+    return internal::expand<1, Interval>(function_, Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()),
+                                         Interval(box.zmin(), box.zmax()));
   }
 
   CGAL::Bbox_3 bbox() const { return box_; }

@@ -39,6 +39,12 @@ public:
     const Interval b = base_.bounds(box) - Interval(CGAL::to_double(isovalue_));
     return is_reversed_ ? -b : b;
   }
+  Jet_3<Interval, 1>
+  first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
+    Jet_3<Interval, 1> jet = base_.first_order_bounds(box);
+    jet.at<0>() = jet.value() - Interval(CGAL::to_double(isovalue_));
+    return is_reversed_ ? -jet : jet;
+  }
   CGAL::Bbox_3 bbox() const { return base_.bbox(); }
   Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
     return sampling_lattice(base_, size);

@@ -39,16 +39,17 @@ public:
 
   /// Bounds over the box of the preimage of `box`.
   Interval bounds(const CGAL::Bbox_3& box) const requires BoundedImplicitFunctionTraits_3<Base> {
-    const std::array<Interval, 3> side = {Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()),
-                                          Interval(box.zmin(), box.zmax())};
-    std::array<Interval, 3> image;
-    for (int row = 0; row < 3; ++row) {
-      image[std::size_t(row)] = Interval(CGAL::to_double(inverse_.m(row, 3)));
+    return base_.bounds(preimage(box));
+  }
+  Jet_3<Interval, 1>
+  first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
+    const Jet_3<Interval, 1> jet = base_.first_order_bounds(preimage(box));
+    Jet_3<Interval, 1> result(jet.value());
+    for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column)
-        image[std::size_t(row)] += Interval(CGAL::to_double(inverse_.m(row, column))) * side[std::size_t(column)];
-    }
-    return base_.bounds(CGAL::Bbox_3(image[0].lower(), image[1].lower(), image[2].lower(), image[0].upper(),
-                                     image[1].upper(), image[2].upper()));
+        result.coefficients()[std::size_t(1 + column)] +=
+            Interval(CGAL::to_double(inverse_.m(row, column))) * jet.coefficients()[std::size_t(1 + row)];
+    return result;
   }
 
   /// The box of the image of the base's box.
@@ -69,6 +70,20 @@ public:
   const Aff_transformation_3& transformation() const { return map_; }
 
 private:
+  /// The box of the preimage of a box.
+  CGAL::Bbox_3 preimage(const CGAL::Bbox_3& box) const {
+    const std::array<Interval, 3> side = {Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()),
+                                          Interval(box.zmin(), box.zmax())};
+    std::array<Interval, 3> image;
+    for (int row = 0; row < 3; ++row) {
+      image[std::size_t(row)] = Interval(CGAL::to_double(inverse_.m(row, 3)));
+      for (int column = 0; column < 3; ++column)
+        image[std::size_t(row)] += Interval(CGAL::to_double(inverse_.m(row, column))) * side[std::size_t(column)];
+    }
+    return CGAL::Bbox_3(image[0].lower(), image[1].lower(), image[2].lower(), image[0].upper(), image[1].upper(),
+                        image[2].upper());
+  }
+
   static typename internal::Linear_substitution_3<FT>::Matrix linear_part(const Aff_transformation_3& map) {
     return {{{map.m(0, 0), map.m(0, 1), map.m(0, 2)},
              {map.m(1, 0), map.m(1, 1), map.m(1, 2)},

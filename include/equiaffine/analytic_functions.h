@@ -138,6 +138,30 @@ struct Gyroid {
   CGAL::Bbox_3 box() const { return internal::cube(std::numbers::pi); }
 };
 
+/// 2 y (y^2 - 3 x^2) (1 - z^2) + (x^2 + y^2)^2 - (9 z^2 - 1) (1 - z^2): a closed surface of genus 2, and other sheets
+/// outside the box. Palais: The visualization of mathematics, 1999.
+struct Genus_two {
+  auto operator()(const auto& x, const auto& y, const auto& z) const {
+    const auto x2 = square(x), y2 = square(y), z2 = square(z);
+    return 2.0 * (y * (y2 - 3.0 * x2) * (1.0 - z2)) + square(x2 + y2) - (9.0 * z2 - 1.0) * (1.0 - z2);
+  }
+  CGAL::Bbox_3 box() const { return internal::cube(2); }
+};
+
+/// The union of a ball of the given radius about the origin and a smaller one: min(|p|^2 - R^2, |p - c|^2 - r^2).
+struct Two_spheres {
+  double radius = 1;
+  std::array<double, 3> center = {1.3, 0.2, 0.1};
+  double small_radius = 0.1;
+
+  auto operator()(const auto& x, const auto& y, const auto& z) const {
+    using std::min;
+    return min(square(x) + square(y) + square(z) - radius * radius,
+               square(x - center[0]) + square(y - center[1]) + square(z - center[2]) - small_radius * small_radius);
+  }
+  CGAL::Bbox_3 box() const { return internal::cube(2 * radius); }
+};
+
 /// t - sum of exp(-|p - c_i|^2 / s^2) over eight centres c_i: positive outside, transcendental, and no symmetry. `size`
 /// is s, `threshold` the pure number t. Blinn: A generalization of algebraic surface drawing, 1982.
 struct Metaballs {
@@ -186,14 +210,16 @@ struct Chmutov_sextic {
   CGAL::Bbox_3 box() const { return internal::cube(1.1); }
 };
 
-/// 4 (g^2 x^2 - y^2) (g^2 y^2 - z^2) (g^2 z^2 - x^2) - (1 + 2 g) (x^2 + y^2 + z^2 - 1)^2 with the golden ratio g: 65
-/// nodes, of which 15 at infinity; (1, 0, 0) is one. Barth: Two projective surfaces with many nodes, admitting the
+/// 4 (g^2 x^2 - y^2) (g^2 y^2 - z^2) (g^2 z^2 - x^2) - (1 + 2 g) (x^2 + y^2 + z^2 - 1)^2 + c with the golden ratio g.
+/// For c = 0 it has 65 nodes, of which 15 at infinity; (1, 0, 0) is one. A small c > 0 opens them: smooth and connected. Barth: Two projective surfaces with many nodes, admitting the
 /// symmetries of the icosahedron, 1996.
 struct Barth_sextic {
+  double c = 0;
+
   auto operator()(const auto& x, const auto& y, const auto& z) const {
     constexpr double g = std::numbers::phi, g2 = g * g;
     const auto x2 = square(x), y2 = square(y), z2 = square(z);
-    return 4.0 * ((g2 * x2 - y2) * (g2 * y2 - z2) * (g2 * z2 - x2)) - (1.0 + 2.0 * g) * square(x2 + y2 + z2 - 1.0);
+    return 4.0 * ((g2 * x2 - y2) * (g2 * y2 - z2) * (g2 * z2 - x2)) - (1.0 + 2.0 * g) * square(x2 + y2 + z2 - 1.0) + c;
   }
   CGAL::Bbox_3 box() const { return internal::cube(2); }
 };

@@ -41,6 +41,15 @@ concept BoundedImplicitFunctionTraits_3 =
     { traits.bounds(box) } -> std::same_as<Interval>;
   };
 
+/// ... that also bounds its gradient: coefficient n of `first_order_bounds(box)` contains that of `first_order(p)` for
+/// every p in the box.
+template <class Traits>
+concept FirstOrderBoundedImplicitFunctionTraits_3 =
+  BoundedImplicitFunctionTraits_3<Traits> &&
+  requires(const Traits& traits, const CGAL::Bbox_3& box) {
+    { traits.first_order_bounds(box) } -> std::same_as<Jet_3<Interval, 1>>;
+  };
+
 /// ... that evaluates many points at once; the numbers are those of the single calls, bit for bit.
 template <class Traits>
 concept BatchImplicitFunctionTraits_3 =

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_MARCHING_CUBES_H
 
 #include <equiaffine/Batch_function_traits_3.h>
-#include <equiaffine/Indexed_triangle_mesh_3.h>
+#include <equiaffine/Isosurface_3.h>
 #include <equiaffine/internal/inner_vertex.h>
 #include <equiaffine/internal/isosurface_extraction.h>
 #include <equiaffine/internal/sample_signs.h>
@@ -25,16 +25,6 @@
 #include <vector>
 
 namespace equiaffine {
-
-/// What a sampler makes of the zero set of a function: a mesh and what is known about it.
-template <class Kernel>
-struct Isosurface_3 : Indexed_triangle_mesh_3<Kernel> {
-  /// Per point: REGULAR, or UNCONVERGED where it could not be put on the surface and stays at the linear intersection.
-  std::vector<Point_status> vertex_status;
-  Isosurface_repairs repairs;
-  std::size_t function_evaluations = 0; ///< of f, with or without derivatives
-  double sampling_seconds = 0, projection_seconds = 0;
-};
 
 namespace internal {
 

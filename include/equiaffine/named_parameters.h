@@ -16,8 +16,17 @@ enum class Vertex_position {
   LINEAR     ///< where linear interpolation of the values at the ends of the grid edge vanishes, as the paper does
 };
 
+/// How the size of facets varies over a surface.
+enum class Facet_sizing {
+  UNIFORM,   ///< not
+  EUCLIDEAN, ///< at most a quarter of the smaller radius of curvature
+  AFFINE     ///< equal affine area: proportional to |K_e|^(-1/8), since the affine area is |K_e|^(1/4) dA
+};
+
 namespace internal {
 
+struct Clip_tag {};
+struct Facet_sizing_tag {};
 struct Number_of_nodes_tag {};
 struct Vertex_position_tag {};
 struct Skip_empty_space_tag {};
@@ -42,6 +51,16 @@ struct Named_parameters {
   /// The sampler asks the function for bounds and evaluates it near its zero set only.
   auto skip_empty_space() const {
     return Named_parameters<std::true_type, Skip_empty_space_tag, Named_parameters>{{}, *this};
+  }
+
+  /// A Clip_domain_3.
+  template <class Domain>
+  auto clip(const Domain& domain) const {
+    return Named_parameters<Domain, Clip_tag, Named_parameters>{domain, *this};
+  }
+
+  auto facet_sizing(Facet_sizing sizing) const {
+    return Named_parameters<Facet_sizing, Facet_sizing_tag, Named_parameters>{sizing, *this};
   }
 };
 
@@ -86,6 +105,17 @@ inline auto vertex_position(Vertex_position position) {
 /// Interval cannot be asked without an error where it does not.
 inline auto skip_empty_space() {
   return internal::Named_parameters<std::true_type, internal::Skip_empty_space_tag>{{}, {}};
+}
+
+/// The Clip_domain_3 where the surface is looked for; default the box of the function.
+template <class Domain>
+auto clip(const Domain& domain) {
+  return internal::Named_parameters<Domain, internal::Clip_tag>{domain, {}};
+}
+
+/// Default Facet_sizing::UNIFORM.
+inline auto facet_sizing(Facet_sizing sizing) {
+  return internal::Named_parameters<Facet_sizing, internal::Facet_sizing_tag>{sizing, {}};
 }
 
 } // namespace parameters

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/annotate.h>
+#include <equiaffine/delaunay_surface.h>
 #include <equiaffine/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -22,5 +23,6 @@ int main() {
   const auto curvature = mesh.add_property_map<Vertex_index, double>("v:affine_gaussian_curvature").first;
   for (const Vertex_index v : mesh.vertices())
     if (!(std::abs(curvature[v] - 0.5) < 1e-12)) return EXIT_FAILURE;
+  if (!equiaffine::delaunay_surface(traits).is_certified) return EXIT_FAILURE;
   return mesh.number_of_vertices() > 1000 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

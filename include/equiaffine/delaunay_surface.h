@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_DELAUNAY_SURFACE_H
+#define EQUIAFFINE_DELAUNAY_SURFACE_H
+
+#include <equiaffine/Clip_domain_3.h>
+#include <equiaffine/Isosurface_3.h>
+#include <equiaffine/internal/Any_function_3.h>
+#include <equiaffine/named_parameters.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/assertions.h>
+
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+/// What every triangle of a Delaunay mesh satisfies. Lengths are absolute.
+struct Delaunay_criteria {
+  double angle = 30;   ///< least angle in degrees, at most 30
+  double radius = 0;   ///< bound of the radius of surface Delaunay balls; 0: 1/50 of the diagonal of the clip domain
+  double distance = 0; ///< bound of the distance of a triangle's circumcentre to the centre of that ball; 0: radius/10
+};
+
+/// A Delaunay mesh of the zero set of a function.
+template <class Kernel>
+struct Delaunay_surface_3 : Isosurface_3<Kernel> {
+  bool is_certified = false; ///< no component of the surface was missed
+  /// Where a part of the surface may have been missed, since neither its absence nor its regularity could be proved:
+  /// around singular points, or everywhere for a function without bounds of its gradient.
+  std::vector<CGAL::Bbox_3> undecided_boxes;
+};
+
+namespace internal {
+
+/// Compiled in the target equiaffine::mesher. The criteria are complete.
+Delaunay_surface_3<Any_function_3::Kernel> mesh_surface(const Any_function_3& function, const Clip_domain_3& domain,
+                                                        const Delaunay_criteria& criteria, Facet_sizing sizing);
+
+} // namespace internal
+
+/// The zero set of a function, by Delaunay refinement (Boissonnat, Oudot: Provably good sampling and meshing of surfaces,
+/// 2005): a triangle mesh with vertices on the surface, all angles at least `criteria.angle`, and normals along the
+/// gradient. Link with equiaffine::mesher.
+///
+/// The refinement is that of CGAL's 3D Mesh Generation. It starts from points on every component of the surface, which
+/// a subdivision of the domain into boxes finds with the interval bounds of the function: when `is_certified`, none was
+/// missed, however small. A closed regular surface gives a closed oriented 2-manifold. At the border of the clip domain
+/// the surface is cut off to within about a radius. Near singular points the mesh ends in facets of radius/16, whatever
+/// their angles.
+///
+/// Named parameters: `clip` (the box of the function), `facet_sizing` (UNIFORM).
+/// Deterministic; one thread. Time: for 20,000 triangles about half a second and 50 evaluations per triangle.
+template <ImplicitFunctionTraits_3 Traits, class NamedParameters = internal::No_parameters>
+Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Delaunay_criteria criteria = {},
+                                                       const NamedParameters& parameters = {}) {
+  using Kernel = Kernel_of<Traits>;
+  const auto domain = internal::get_parameter<internal::Clip_tag>(parameters, Clip_domain_3(traits.bbox()));
+  const auto sizing = internal::get_parameter<internal::Facet_sizing_tag>(parameters, Facet_sizing::UNIFORM);
+  if (criteria.radius == 0) criteria.radius = domain.diagonal() / 50;
+  if (criteria.distance == 0) criteria.distance = criteria.radius / 10;
+  CGAL_precondition(criteria.angle >= 0 && criteria.angle <= 30);
+  CGAL_precondition(criteria.radius > 0 && criteria.distance > 0);
+  auto mesh = internal::mesh_surface(internal::Any_function_3::make(traits), domain, criteria, sizing);
+  if constexpr (std::is_same_v<Kernel, internal::Any_function_3::Kernel>) {
+    return mesh;
+  } else {
+    Delaunay_surface_3<Kernel> result;
+    for (const auto& p : mesh.points) result.points.emplace_back(p.x(), p.y(), p.z());
+    result.triangles = std::move(mesh.triangles);
+    result.vertex_status = std::move(mesh.vertex_status);
+    result.function_evaluations = mesh.function_evaluations;
+    result.sampling_seconds = mesh.sampling_seconds;
+    result.projection_seconds = mesh.projection_seconds;
+    result.is_certified = mesh.is_certified;
+    result.undecided_boxes = std::move(mesh.undecided_boxes);
+    return result;
+  }
+}
+
+} // namespace equiaffine
+
+#endif

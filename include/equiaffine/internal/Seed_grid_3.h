@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_INTERNAL_SEED_GRID_3_H
+#define EQUIAFFINE_INTERNAL_SEED_GRID_3_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// Points with distances that they keep from each other, in a hashed grid: insertion and query in constant time while
+/// the distances do not vary by orders of magnitude.
+template <class Point_3, class Vector_3>
+class Seed_grid_3 {
+public:
+  struct Seed {
+    Point_3 point;
+    Vector_3 normal;
+    double spacing;
+  };
+
+  explicit Seed_grid_3(double largest_spacing) : cell_(largest_spacing) {}
+
+  const std::vector<Seed>& seeds() const { return seeds_; }
+
+  /// Whether a seed is nearer than the smaller one of both spacings, and on a sheet of the same orientation: the two
+  /// sides of a thin part are sampled each for itself.
+  bool is_crowded(const Seed& candidate) const {
+    const auto cell = cell_of(candidate.point);
+    for (std::int64_t k = -1; k <= 1; ++k)
+      for (std::int64_t j = -1; j <= 1; ++j)
+        for (std::int64_t i = -1; i <= 1; ++i)
+          for (std::uint32_t s = heads_[bucket({cell[0] + i, cell[1] + j, cell[2] + k})]; s != none; s = next_[s])
+            if (is_near(seeds_[s], candidate)) return true;
+    return false;
+  }
+
+  void insert(const Seed& seed) {
+    if (2 * seeds_.size() >= heads_.size()) grow();
+    seeds_.push_back(seed);
+    next_.push_back(none);
+    link(std::uint32_t(seeds_.size() - 1));
+  }
+
+private:
+  using Cell = std::array<std::int64_t, 3>;
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  static bool is_near(const Seed& a, const Seed& b) {
+    const double spacing = std::min(a.spacing, b.spacing);
+    return (a.point - b.point).squared_length() < spacing * spacing && a.normal * b.normal > 0;
+  }
+
+  Cell cell_of(const Point_3& p) const {
+    return {std::int64_t(std::floor(p.x() / cell_)), std::int64_t(std::floor(p.y() / cell_)),
+            std::int64_t(std::floor(p.z() / cell_))};
+  }
+
+  std::size_t bucket(const Cell& c) const {
+    const std::uint64_t hash = (std::uint64_t(c[0]) * 0x9E3779B97F4A7C15U) ^
+                               (std::uint64_t(c[1]) * 0xC2B2AE3D27D4EB4FU) ^
+                               (std::uint64_t(c[2]) * 0x165667B19E3779F9U);
+    return std::size_t((hash ^ hash >> 29) & (heads_.size() - 1));
+  }
+
+  void link(std::uint32_t s) {
+    auto& head = heads_[bucket(cell_of(seeds_[s].point))];
+    next_[s] = head;
+    head = s;
+  }
+
+  void grow() {
+    heads_.assign(2 * heads_.size(), none);
+    for (std::uint32_t s = 0; s < seeds_.size(); ++s) link(s);
+  }
+
+  double cell_;
+  std::vector<Seed> seeds_;
+  std::vector<std::uint32_t> heads_ = std::vector<std::uint32_t>(1024, none), next_;
+};
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_INTERNAL_CERTIFIED_SEEDING_H
+#define EQUIAFFINE_INTERNAL_CERTIFIED_SEEDING_H
+
+#include <equiaffine/Clip_domain_3.h>
+#include <equiaffine/internal/Seed_grid_3.h>
+#include <equiaffine/internal/first_order_bounds.h>
+#include <equiaffine/project_to_surface.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// Points to begin a mesh with.
+template <class Point_3>
+struct Seeding_3 {
+  std::vector<Point_3> seeds;                ///< on the surface, on every component that was found
+  std::vector<Point_3> scaffold;             ///< in the middle of large boxes without surface
+  std::vector<CGAL::Bbox_3> undecided_boxes; ///< where a part of the surface may have been missed
+  std::size_t evaluations = 0;               ///< of f, with or without gradient; not of its bounds
+};
+
+/// Subdivides the box into an octree until every cell has no surface, or has gradients that pairwise form acute angles.
+/// By a theorem of Plantinga and Vegter (Isotopic approximation of implicit curves and surfaces, 2004) a component of
+/// the surface cannot hide in such a cell from the signs at the corners of the octree. Cells at the border of the box
+/// must satisfy the same within its faces and edges.
+///
+/// The cells are then subdivided to the local facet size and packed with points.
+template <ImplicitFunctionTraits_3 Traits, class Sizing>
+class Certified_seeding_3 {
+  using Point_3 = typename Traits::Point_3;
+  using Vector_3 = typename Traits::Vector_3;
+  using FT = typename Traits::FT;
+  using Grid = Seed_grid_3<Point_3, Vector_3>;
+  using Seed = typename Grid::Seed;
+
+  struct Cell {
+    std::array<std::uint32_t, 3> position;
+    bool is_decided;
+  };
+  enum State { EMPTY, DECIDED, UNDECIDED };
+
+public:
+  static constexpr int maximal_level = 24;
+  /// Children of undecided cells of one level, much smaller than facets, that are worth a try: a singular point makes
+  /// few at each level, a singular curve twice as many each time.
+  static constexpr std::ptrdiff_t maximal_undecided_cells = 200'000;
+
+  /// `size(p)` bounds the circumradius of facets near p, and is at most `largest_size`.
+  Certified_seeding_3(const Traits& traits, const Clip_domain_3& domain, Sizing size, double largest_size)
+      : traits_(traits), domain_(domain), box_(domain.bbox()), size_(std::move(size)), largest_size_(largest_size),
+        side_(std::max({box_.x_span(), box_.y_span(), box_.z_span()})), grid_(packing * largest_size),
+        has_gradient_bounds_(internal::has_gradient_bounds(traits)) {}
+
+  Seeding_3<Point_3> operator()() {
+    std::vector<Cell> cells = {{{0, 0, 0}, false}}, next;
+    for (level_ = 0; !cells.empty(); ++level_) {
+      const double h = cell_side();
+      const auto undecided = std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return !c.is_decided; });
+      const bool is_last = level_ == maximal_level || (h < largest_size_ && !has_gradient_bounds_) ||
+                           (4 * h < largest_size_ && undecided > maximal_undecided_cells);
+      next.clear();
+      for (const Cell& cell : cells) {
+        const CGAL::Bbox_3 box = box_of(cell);
+        if (domain_.excludes(box)) continue;
+        const State state = classify(box, cell.is_decided);
+        if (state == EMPTY) {
+          if (h >= 4 * largest_size_) empty_cells_.push_back(box);
+        } else if (state == UNDECIDED && is_last) {
+          give_up(cell);
+        } else if (state == DECIDED && h <= seeded_size * size_(center(box))) {
+          make_seeds(box, packing * std::min(size_(center(box)), coarsening * h));
+        } else {
+          subdivide(cell, state == DECIDED, next);
+        }
+      }
+      std::swap(cells, next);
+    }
+    if (!has_gradient_bounds_) result_.undecided_boxes = {box_};
+    for (const Seed& seed : grid_.seeds()) result_.seeds.push_back(seed.point);
+    make_scaffold();
+    return std::move(result_);
+  }
+
+private:
+  static constexpr double seeded_size = 4; // side of the cells that are seeded / bound of circumradii
+  static constexpr double packing = 0.95;  // distance of seeds / bound of circumradii
+
+  double cell_side() const { return std::ldexp(side_, -level_); }
+
+  CGAL::Bbox_3 box_of(const Cell& cell) const {
+    const double h = cell_side();
+    const auto at = [&](int a, std::uint32_t n) { return std::min(box_.min(a) + n * h, box_.max(a)); };
+    const auto& c = cell.position;
+    return CGAL::Bbox_3(at(0, c[0]), at(1, c[1]), at(2, c[2]), at(0, c[0] + 1), at(1, c[1] + 1), at(2, c[2] + 1));
+  }
+
+  static Point_3 center(const CGAL::Bbox_3& b) {
+    return Point_3(FT((b.xmin() + b.xmax()) / 2), FT((b.ymin() + b.ymax()) / 2), FT((b.zmin() + b.zmax()) / 2));
+  }
+
+  void subdivide(const Cell& cell, bool is_decided, std::vector<Cell>& next) const {
+    const double h = cell_side() / 2;
+    for (std::uint32_t c = 0; c < 8; ++c) {
+      Cell child = {{}, is_decided};
+      bool is_in_box = true;
+      for (std::uint32_t a = 0; a < 3; ++a) {
+        child.position[a] = 2 * cell.position[a] + (c >> a & 1);
+        is_in_box = is_in_box && (box_.min(int(a)) + child.position[a] * h < box_.max(int(a)));
+      }
+      if (is_in_box) next.push_back(child);
+    }
+  }
+
+  State classify(const CGAL::Bbox_3& box, bool is_decided) const {
+    const auto jet = first_order_bounds(traits_, box);
+    if (!contains_zero(jet, box)) return EMPTY;
+    if (is_decided) return DECIDED;
+    return has_acute_gradients(jet, {true, true, true}) && is_decided_at_border(jet, box) ? DECIDED : UNDECIDED;
+  }
+
+  /// By the bounds of the values and by the mean value theorem.
+  bool contains_zero(const Jet_3<Interval, 1>& jet, const CGAL::Bbox_3& box) const {
+    const auto& c = jet.coefficients();
+    if (!c[0].contains(0)) return false;
+    if (has_gradient_bounds_) {
+      const Point_3 p = center(box);
+      Interval sum = first_order_bounds(traits_, p.bbox()).value();
+      for (int a = 0; a < 3; ++a)
+        sum += c[std::size_t(1 + a)] * (Interval(box.min(a), box.max(a)) - Interval(CGAL::to_double(p[a])));
+      return sum.contains(0);
+    }
+    return true;
+  }
+
+  /// Whether the projections to some axes of any two gradients in the box have a positive product.
+  static bool has_acute_gradients(const Jet_3<Interval, 1>& jet, const std::array<bool, 3>& axes) {
+    Interval product(0);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Interval g = jet.coefficients()[1 + a], independent = g;
+      if (axes[a]) product += g * independent;
+    }
+    return product.lower() > 0;
+  }
+
+  bool is_decided_at_border(const Jet_3<Interval, 1>& jet, const CGAL::Bbox_3& box) const {
+    for (unsigned face = 1; face < 7; ++face) { // the axes that are constant: one on a face, two on an edge of the box
+      std::array<double, 3> lower = {box.xmin(), box.ymin(), box.zmin()}, upper = {box.xmax(), box.ymax(), box.zmax()};
+      std::array<bool, 3> is_free = {true, true, true};
+      bool is_border = true;
+      for (unsigned a = 0; a < 3; ++a) {
+        if (!(face >> a & 1)) continue;
+        is_free[a] = false;
+        if (lower[a] == box_.min(int(a))) upper[a] = lower[a];
+        else if (upper[a] == box_.max(int(a))) lower[a] = upper[a];
+        else is_border = false;
+      }
+      if (!is_border || has_acute_gradients(jet, is_free)) continue;
+      const CGAL::Bbox_3 part(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]);
+      const auto jet_there = first_order_bounds(traits_, part);
+      if (contains_zero(jet_there, part) && !has_acute_gradients(jet_there, is_free)) return false;
+    }
+    return true;
+  }
+
+  /// An undecided cell is reported and seeded as the one of a sixteenth of the facet size that contains it.
+  void give_up(Cell cell) {
+    const int level = level_;
+    for (; level_ > 0 && 16 * cell_side() < largest_size_; --level_)
+      for (auto& x : cell.position) x /= 2;
+    if (given_up_.insert(cell.position).second) {
+      const CGAL::Bbox_3 box = box_of(cell);
+      result_.undecided_boxes.push_back(box);
+      make_seeds(box, packing * size_(center(box)));
+    }
+    level_ = level;
+  }
+
+  /// Seeds at the projections of random points of a cell; where none of them leads back into the cell, on its edges.
+  void make_seeds(const CGAL::Bbox_3& box, double spacing) {
+    const double ratio = cell_side() / spacing;
+    const int candidates = std::max(1, int(std::lround(candidates_per_spacing * ratio * ratio)));
+    bool is_found = false;
+    for (int n = 0; n < candidates; ++n) is_found = project(random_point(box), box, spacing) || is_found;
+    if (!is_found) search_edges(box, spacing);
+  }
+
+  /// Whether a point of the surface, or one near it, was found in the cell.
+  bool project(const Point_3& p, const CGAL::Bbox_3& box, double spacing) {
+    const auto jet = first_order(traits_, p);
+    ++result_.evaluations;
+    const auto& c = jet.coefficients();
+    const Vector_3 gradient(c[1], c[2], c[3]);
+    const FT squared_norm = gradient.squared_length();
+    if (!(squared_norm > FT(0)) || !(c[0] - c[0] == FT(0))) return false;
+    const Point_3 newton = p - c[0] / squared_norm * gradient;
+    if (!CGAL::do_overlap(newton.bbox(), box)) return false;
+    if (grid_.is_crowded({newton, gradient, 0.95 * spacing})) return true; // before more is spent on it
+    const auto found = project_to_surface(traits_, p, FT(2 * cell_side()), jet);
+    result_.evaluations += found.evaluations;
+    if (!found.has_converged) return false;
+    insert({found.point, gradient, spacing});
+    return true;
+  }
+
+  void search_edges(const CGAL::Bbox_3& box, double spacing) {
+    std::array<Point_3, 8> corners;
+    std::array<FT, 8> values;
+    for (unsigned c = 0; c < 8; ++c) {
+      corners[c] = Point_3(FT(c & 1 ? box.xmax() : box.xmin()), FT(c & 2 ? box.ymax() : box.ymin()),
+                           FT(c & 4 ? box.zmax() : box.zmin()));
+      values[c] = traits_.value(corners[c]);
+    }
+    result_.evaluations += 8;
+    for (unsigned c = 0; c < 8; ++c)
+      for (unsigned axis = 1; axis < 8; axis *= 2) {
+        const unsigned d = c | axis;
+        if (c == d || !((values[c] < FT(0) && values[d] >= FT(0)) || (values[c] >= FT(0) && values[d] < FT(0))))
+          continue;
+        const auto found = intersect_segment(traits_, corners[c], corners[d], values[c], values[d]);
+        result_.evaluations += found.evaluations;
+        if (!found.has_converged) continue;
+        const auto jet = first_order(traits_, found.point);
+        ++result_.evaluations;
+        insert({found.point, Vector_3(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]), spacing});
+      }
+  }
+
+  void insert(const Seed& seed) {
+    if (domain_.contains(seed.point) && !grid_.is_crowded(seed)) grid_.insert(seed);
+  }
+
+  /// A regular arrangement would be a degenerate one.
+  Point_3 random_point(const CGAL::Bbox_3& b) {
+    return Point_3(FT(b.xmin() + random() * b.x_span()), FT(b.ymin() + random() * b.y_span()),
+                   FT(b.zmin() + random() * b.z_span()));
+  }
+
+  /// In [0, 1), the same on every machine (Vigna: splitmix64, 2015).
+  double random() {
+    std::uint64_t z = state_ += 0x9E3779B97F4A7C15U;
+    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
+    z = (z ^ z >> 27) * 0x94D049BB133111EBU;
+    return std::ldexp(double((z ^ z >> 31) >> 11), -53);
+  }
+
+  void make_scaffold() {
+    constexpr std::size_t enough = 1000;
+    const double fraction = double(enough) / double(std::max(empty_cells_.size(), enough));
+    for (const CGAL::Bbox_3& b : empty_cells_) {
+      if (random() > fraction) continue;
+      const Point_3 p = random_point(b), c = center(b);
+      result_.scaffold.push_back(c + FT(0.1) * (p - c));
+    }
+  }
+
+  static constexpr double coarsening = 2; // a cell that had to be small has seeds at this distance in sides
+  static constexpr double candidates_per_spacing = 5;
+
+  const Traits& traits_;
+  const Clip_domain_3& domain_;
+  const CGAL::Bbox_3 box_;
+  Sizing size_;
+  const double largest_size_, side_;
+  int level_ = 0;
+  Grid grid_;
+  const bool has_gradient_bounds_;
+  std::vector<CGAL::Bbox_3> empty_cells_;
+  std::set<std::array<std::uint32_t, 3>> given_up_;
+  Seeding_3<Point_3> result_;
+  std::uint64_t state_ = 1;
+};
+
+} // namespace equiaffine::internal
+
+#endif

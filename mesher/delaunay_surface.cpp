@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The only translation unit of the library that instantiates CGAL's mesher.
+#include "Facet_sizing_field.h"
+#include "Memoized_function_3.h"
+#include "Surface_criteria_3.h"
+#include <equiaffine/Implicit_mesh_domain_3.h>
+#include <equiaffine/delaunay_surface.h>
+#include <equiaffine/mesh_topology.h>
+
+#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
+#include <CGAL/Mesh_triangulation_3.h>
+#include <CGAL/Real_timer.h>
+#include <CGAL/refine_mesh_3.h>
+#include <CGAL/spatial_sort.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+namespace {
+
+/// The surface alone: no point has to be asked on which side it is.
+struct Surface_domain_3 : Implicit_mesh_domain_3<Memoized_function_3> {
+  using Implicit_mesh_domain_3::Implicit_mesh_domain_3;
+
+  struct Is_in_domain {
+    Subdomain operator()(const Point_3&) const { return Subdomain(); }
+  };
+  Is_in_domain is_in_domain_object() const { return {}; }
+};
+
+using Triangulation = CGAL::Mesh_triangulation_3<Surface_domain_3>::type;
+using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
+using Mesh = Delaunay_surface_3<Any_function_3::Kernel>;
+using Point_3 = Any_function_3::Point_3;
+
+class Surface_mesher {
+public:
+  Surface_mesher(const Any_function_3& function, const Clip_domain_3& domain, const Delaunay_criteria& criteria,
+                 Facet_sizing sizing)
+      : memory_(function), function_(memory_), domain_(function_, domain, criteria.radius), criteria_(criteria),
+        size_(function, domain, criteria.radius, sizing) {}
+
+  Mesh operator()() {
+    CGAL::Real_timer timer;
+    timer.start();
+    insert_seeds();
+    if (complex_.triangulation().dimension() == 3) refine(Manifoldness::ANY);
+    if (!result_.triangles.empty() && result_.undecided_boxes.empty()) refine_until_manifold();
+    result_.function_evaluations = memory_.evaluations();
+    result_.sampling_seconds = timer.time();
+    return std::move(result_);
+  }
+
+private:
+  void insert_seeds() {
+    auto seeding = Certified_seeding_3(function_, domain_.domain(), size_, criteria_.radius)();
+    result_.is_certified = seeding.undecided_boxes.empty();
+    result_.undecided_boxes = std::move(seeding.undecided_boxes);
+    if (seeding.seeds.empty()) return;
+    insert(seeding.scaffold, 3);
+    insert(seeding.seeds, 2);
+  }
+
+  void insert(const std::vector<Point_3>& points, int dimension) {
+    using Kernel_point = Surface_domain_3::Point_3;
+    std::vector<Kernel_point> sorted;
+    for (const Point_3& p : points) sorted.emplace_back(p.x(), p.y(), p.z());
+    CGAL::spatial_sort(sorted.begin(), sorted.end());
+    Triangulation& triangulation = complex_.triangulation();
+    Triangulation::Cell_handle hint;
+    for (const Kernel_point& p : sorted) {
+      const auto vertex = triangulation.insert(Triangulation::Weighted_point(p), hint);
+      if (vertex == Triangulation::Vertex_handle()) continue;
+      hint = vertex->cell();
+      complex_.set_dimension(vertex, dimension);
+      complex_.set_index(vertex, 1);
+    }
+  }
+
+  void refine(Manifoldness manifoldness) {
+    const double smallest = result_.undecided_boxes.empty() ? 0 : criteria_.radius / 16;
+    const Surface_criteria_3<Triangulation> criteria(criteria_, size_, smallest);
+    refine_facets(complex_, domain_, criteria, manifoldness);
+    read_mesh();
+  }
+
+  /// Seldom needed: on a surface that is sampled densely enough every Delaunay facet has its place (Boissonnat, Oudot).
+  void refine_until_manifold() {
+    const auto topology = mesh_topology(result_.triangles, result_.points.size());
+    if (topology.is_manifold) return;
+    refine(topology.boundary_edges > 0 ? Manifoldness::MANIFOLD_WITH_BOUNDARY : Manifoldness::MANIFOLD);
+  }
+
+  void read_mesh() {
+    result_.points.clear();
+    result_.triangles.clear();
+    std::vector<Any_function_3::Vector_3> gradients;
+    std::unordered_map<const void*, std::uint32_t> number;
+    for (auto facet = complex_.facets_in_complex_begin(); facet != complex_.facets_in_complex_end(); ++facet) {
+      std::array<std::uint32_t, 3> triangle;
+      for (int i = 0; i < 3; ++i) {
+        const auto vertex = facet->first->vertex((facet->second + 1 + i) & 3);
+        const auto [entry, is_new] = number.try_emplace(&*vertex, std::uint32_t(number.size()));
+        triangle[std::size_t(i)] = entry->second;
+        if (!is_new) continue;
+        const auto& p = vertex->point();
+        result_.points.emplace_back(p.x(), p.y(), p.z());
+        const auto jet = function_.first_order(result_.points.back());
+        gradients.emplace_back(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]);
+      }
+      const auto& [a, b, c] = triangle;
+      const auto& p = result_.points;
+      const auto normal = CGAL::cross_product(p[b] - p[a], p[c] - p[a]);
+      if (normal * (gradients[a] + gradients[b] + gradients[c]) < 0) std::swap(triangle[1], triangle[2]);
+      result_.triangles.push_back(triangle);
+    }
+    result_.vertex_status.assign(result_.points.size(), Point_status::REGULAR);
+  }
+
+  Memoized_function_3::Memory memory_;
+  Memoized_function_3 function_;
+  Surface_domain_3 domain_;
+  Delaunay_criteria criteria_;
+  Facet_sizing_field size_;
+  Complex complex_;
+  Mesh result_;
+};
+
+} // namespace
+
+Mesh mesh_surface(const Any_function_3& function, const Clip_domain_3& domain, const Delaunay_criteria& criteria,
+                  Facet_sizing sizing) {
+  return Surface_mesher(function, domain, criteria, sizing)();
+}
+
+} // namespace equiaffine::internal

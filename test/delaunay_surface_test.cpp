@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/Expression_3.h>
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/Sampled_function_traits_3.h>
+#include <equiaffine/Transformed_function_traits_3.h>
+#include <equiaffine/analytic_functions.h>
+#include <equiaffine/annotate.h>
+#include <equiaffine/delaunay_surface.h>
+#include <equiaffine/mesh_topology.h>
+#include <equiaffine/sample_on_lattice.h>
+
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Simple_cartesian.h>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace {
+
+using namespace equiaffine;
+namespace functions = equiaffine::analytic_functions;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point_3 = Kernel::Point_3;
+using Surface = Delaunay_surface_3<Kernel>;
+
+template <class Function>
+auto traits_of(const Function& f) {
+  return make_analytic_traits<Kernel>(f, f.box());
+}
+
+Mesh_topology topology(const Surface& surface) { return mesh_topology(surface.triangles, surface.points.size()); }
+
+double smallest_angle(const Surface& surface) {
+  double smallest = 180;
+  for (const auto& t : surface.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      smallest = std::min(smallest, CGAL::approximate_angle(surface.points[t[(i + 1) % 3]], surface.points[t[i]],
+                                                            surface.points[t[(i + 2) % 3]]));
+  return smallest;
+}
+
+template <class Traits>
+void expect_vertices_on_surface(const Traits& traits, const Surface& surface, double diagonal) {
+  for (const Point_3& p : surface.points) ASSERT_LE(distance_estimate(first_order(traits, p)), 1e-14 * diagonal) << p;
+  for (const Point_status status : surface.vertex_status) ASSERT_EQ(status, Point_status::REGULAR);
+  ASSERT_EQ(surface.vertex_status.size(), surface.points.size());
+}
+
+struct Expected {
+  double radius;
+  long components, euler_characteristic;
+  bool is_closed = true;
+};
+
+template <class Function>
+void expect_mesh(const Function& f, const Expected& expected, const Clip_domain_3& domain) {
+  const auto traits = traits_of(f);
+  const auto surface = delaunay_surface(traits, {30, expected.radius, 0}, parameters::clip(domain));
+  const auto t = topology(surface);
+  EXPECT_TRUE(t.is_manifold);
+  EXPECT_EQ(t.boundary_edges == 0, expected.is_closed);
+  EXPECT_EQ(long(t.components), expected.components);
+  EXPECT_EQ(long(t.euler_characteristic), expected.euler_characteristic);
+  EXPECT_TRUE(surface.is_certified);
+  EXPECT_TRUE(surface.undecided_boxes.empty());
+  EXPECT_GE(smallest_angle(surface), 29.999);
+  EXPECT_GT(surface.triangles.size(), 1000u);
+  EXPECT_LE(double(surface.function_evaluations), 60 * double(surface.triangles.size()));
+  expect_vertices_on_surface(traits, surface, domain.diagonal());
+}
+
+template <class Function>
+void expect_mesh(const Function& f, const Expected& expected) {
+  expect_mesh(f, expected, Clip_domain_3(f.box()));
+}
+
+TEST(Delaunay_surface, the_sphere) { expect_mesh(functions::Sphere(), {0.07, 1, 2}); }
+TEST(Delaunay_surface, the_torus) { expect_mesh(functions::Torus(), {0.04, 1, 0}); }
+TEST(Delaunay_surface, blobby_is_two_nested_spheres) { expect_mesh(functions::Blobby(), {0.06, 2, 4}); }
+TEST(Delaunay_surface, the_tanglecube_has_genus_5) { expect_mesh(functions::Tanglecube(), {0.15, 1, -8}); }
+TEST(Delaunay_surface, chmutovs_sextic_has_genus_28) { expect_mesh(functions::Chmutov_sextic(), {0.06, 1, -54}); }
+TEST(Delaunay_surface, a_small_sphere_beside_a_large_one) { expect_mesh(functions::Two_spheres(), {0.1, 2, 4}); }
+
+TEST(Delaunay_surface, sheets_outside_the_ball_make_no_holes) {
+  expect_mesh(functions::Genus_two(), {0.08, 1, -2}, Clip_domain_3({0, 0, 0}, 2.5));
+}
+
+TEST(Delaunay_surface, a_sextic_is_cut_off_at_the_ball) {
+  expect_mesh(functions::Barth_sextic{0.3}, {0.07, 1, -40, false}, Clip_domain_3({0, 0, 0}, 1.7));
+}
+
+TEST(Delaunay_surface, every_point_of_the_surface_is_near_the_mesh) {
+  const double radius = 0.08, distance = 0.004;
+  const auto surface = delaunay_surface(traits_of(functions::Sphere()), {30, radius, distance});
+  for (const auto& t : surface.triangles) {
+    const Point_3 c = CGAL::circumcenter(surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]);
+    const double height = 1 - std::sqrt((c - CGAL::ORIGIN).squared_length());
+    EXPECT_LE(height, distance);
+    EXPECT_LE(CGAL::squared_distance(c, surface.points[t[0]]) + height * height, radius * radius * (1 + 1e-12));
+  }
+}
+
+TEST(Delaunay_surface, triangles_are_counterclockwise_seen_from_the_side_of_the_gradient) {
+  const auto traits = traits_of(functions::Sphere());
+  const Kernel::Aff_transformation_3 reflection(1, 0, 0, 0, 1, 0, 0, 0, -1);
+  const auto volume = [](const auto& function) {
+    return CGAL::Polygon_mesh_processing::volume(to_surface_mesh(delaunay_surface(function, {30, 0.1, 0})));
+  };
+  const double ball = 4 * CGAL_PI / 3;
+  EXPECT_NEAR(volume(traits), ball, 0.01 * ball);
+  EXPECT_NEAR(volume(Transformed_function_traits_3(traits, reflection)), ball, 0.01 * ball);
+  EXPECT_NEAR(volume(Level_set_traits_3(traits, 0.0, Orientation_of_level_set::AGAINST_GRADIENT)), -ball, 0.01 * ball);
+}
+
+TEST(Delaunay_surface, the_image_of_a_surface_has_its_topology_and_vertices_on_it) {
+  const functions::Tanglecube f;
+  const Kernel::Aff_transformation_3 map(0.9, 0, 0.9, 0, 2, 0, 1.1, 0, 0.6);
+  const Transformed_function_traits_3 traits(traits_of(f), map);
+  const auto surface = delaunay_surface(traits, {30, 0.25, 0});
+  EXPECT_EQ(topology(surface).euler_characteristic, -8);
+  EXPECT_TRUE(topology(surface).is_manifold);
+  const double diagonal = Clip_domain_3(traits.bbox()).diagonal();
+  expect_vertices_on_surface(traits, surface, diagonal);
+}
+
+TEST(Delaunay_surface, a_volume_is_meshed_like_its_function) {
+  const functions::Torus torus;
+  const auto traits = traits_of(torus);
+  const Sampled_function_traits_3<Kernel> volume(sample_on_lattice(traits, sampling_lattice(traits, {40, 40, 24})));
+  const auto surface = delaunay_surface(volume, {30, 0.06, 0});
+  EXPECT_EQ(topology(surface).euler_characteristic, 0);
+  EXPECT_EQ(topology(surface).components, 1u);
+  EXPECT_FALSE(surface.is_certified) << "a spline does not bound its gradients";
+  expect_vertices_on_surface(volume, surface, Clip_domain_3(torus.box()).diagonal());
+}
+
+TEST(Delaunay_surface, curvatures_at_the_vertices_are_those_of_50_digits) {
+  using Number = boost::multiprecision::cpp_bin_float_50;
+  const functions::Tanglecube f;
+  const auto traits = traits_of(f);
+  const auto surface = delaunay_surface(traits, {30, 0.25, 0});
+  int compared = 0;
+  for (const Point_3& p : surface.points) {
+    const auto exact = local_structure(internal::expand<4, Number>(f, Number(p.x()), Number(p.y()), Number(p.z())));
+    const double K = double(exact.affine.gaussian_curvature), H = double(exact.affine.mean_curvature);
+    const double K_e = double(exact.euclidean.gaussian_curvature);
+    if (!(std::abs(K_e) * 12 * 9 > 1e-2)) continue;
+    const auto structure = local_structure_at(traits, p);
+    const double S = std::abs(K) + H * H + std::pow(std::abs(K_e), 1.5);
+    ASSERT_NEAR(structure.affine.gaussian_curvature, K, 1e-9 * S) << p;
+    ASSERT_NEAR(structure.affine.mean_curvature, H, 1e-9 * std::sqrt(S)) << p;
+    ++compared;
+  }
+  EXPECT_GT(compared, 900);
+}
+
+TEST(Delaunay_surface, a_tiny_sphere_is_found_wherever_it_is) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(-1.9, 1.9);
+  const int placements = 100;
+  for (int found = 0; found < placements;) {
+    functions::Two_spheres f;
+    f.small_radius = 0.004; // a thousandth of the box
+    f.center = {coordinate(random), coordinate(random), coordinate(random)};
+    const double distance = std::hypot(f.center[0], f.center[1], f.center[2]);
+    if (distance < 1.02) continue;
+    const auto surface = delaunay_surface(traits_of(f), {30, 0.4, 0});
+    const auto t = topology(surface);
+    ASSERT_EQ(t.components, 2u) << f.center[0] << ' ' << f.center[1] << ' ' << f.center[2];
+    ASSERT_EQ(t.euler_characteristic, 4);
+    ASSERT_TRUE(t.is_manifold && t.boundary_edges == 0 && surface.is_certified);
+    ++found;
+  }
+}
+
+struct Three_planes {
+  auto operator()(const auto& x, const auto& y, const auto& z) const { return x * y * z; }
+  CGAL::Bbox_3 box() const { return CGAL::Bbox_3(-1, -1.1, -1.2, 1.1, 1, 1); }
+};
+
+struct Cone {
+  auto operator()(const auto& x, const auto& y, const auto& z) const { return x * x + y * y - z * z; }
+  CGAL::Bbox_3 box() const { return CGAL::Bbox_3(-1, -1.1, -1.2, 1.1, 1, 1); }
+};
+
+template <class Function>
+Surface singular_surface(const Function& f) {
+  const auto surface = delaunay_surface(traits_of(f), {30, 0.2, 0});
+  EXPECT_FALSE(surface.is_certified);
+  EXPECT_FALSE(surface.undecided_boxes.empty());
+  EXPECT_GT(surface.triangles.size(), 100u);
+  return surface;
+}
+
+bool is_covered(const Surface& surface, const Point_3& p) {
+  return std::any_of(surface.undecided_boxes.begin(), surface.undecided_boxes.end(),
+                     [&](const CGAL::Bbox_3& box) { return CGAL::do_overlap(box, p.bbox()); });
+}
+
+TEST(Delaunay_surface, singular_points_end_in_undecided_boxes) {
+  const auto cayley = singular_surface(functions::Cayley_cubic());
+  for (const Point_3& node : {Point_3(1, 1, 1), Point_3(1, -1, -1), Point_3(-1, 1, -1), Point_3(-1, -1, 1)})
+    EXPECT_TRUE(is_covered(cayley, node)) << node;
+  EXPECT_TRUE(is_covered(singular_surface(Cone()), Point_3(0, 0, 0)));
+}
+
+TEST(Delaunay_surface, singular_curves_end_in_undecided_boxes) {
+  const auto planes = singular_surface(Three_planes());
+  for (double t = -0.95; t < 1; t += 0.1)
+    for (const Point_3& p : {Point_3(t, 0, 0), Point_3(0, t, 0), Point_3(0, 0, t)}) EXPECT_TRUE(is_covered(planes, p));
+}
+
+TEST(Delaunay_surface, an_empty_surface_is_certified) {
+  const auto traits = make_analytic_traits<Kernel>(Expression_3("x^2+y^2+z^2+1"), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  const auto surface = delaunay_surface(traits);
+  EXPECT_TRUE(surface.triangles.empty() && surface.points.empty());
+  EXPECT_TRUE(surface.is_certified);
+}
+
+TEST(Delaunay_surface, a_cap_cut_off_by_the_border_is_found) {
+  const auto traits = make_analytic_traits<Kernel>(Expression_3("x^2+y^2+(z-1.49)^2-0.25"), // reaches 0.01 inside
+                                                   CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  const auto surface = delaunay_surface(traits, {30, 0.01, 0});
+  EXPECT_GT(surface.triangles.size(), 100u);
+  EXPECT_EQ(topology(surface).components, 1u);
+}
+
+TEST(Delaunay_surface, curvature_adapted_facets_are_smaller_where_the_curvature_is_larger) {
+  functions::Ellipsoid ellipsoid;
+  const auto traits = traits_of(ellipsoid);
+  const auto mean_edge = [](const Surface& surface, auto is_there) {
+    double sum = 0;
+    int n = 0;
+    for (const auto& t : surface.triangles)
+      if (is_there(surface.points[t[0]])) {
+        sum += std::sqrt(CGAL::squared_distance(surface.points[t[0]], surface.points[t[1]]));
+        ++n;
+      }
+    return sum / n;
+  };
+  const auto at_tip = [](const Point_3& p) { return std::abs(p.x()) > 1.4; };
+  const auto at_flat = [](const Point_3& p) { return std::abs(p.z()) > 0.48; };
+  const auto ratio = [&](Facet_sizing sizing) {
+    const auto surface = delaunay_surface(traits, {30, 0.2, 1}, parameters::facet_sizing(sizing));
+    EXPECT_EQ(topology(surface).euler_characteristic, 2);
+    return mean_edge(surface, at_flat) / mean_edge(surface, at_tip);
+  };
+  EXPECT_NEAR(ratio(Facet_sizing::UNIFORM), 1, 0.2);
+  EXPECT_GT(ratio(Facet_sizing::EUCLIDEAN), 1.5);
+  EXPECT_GT(ratio(Facet_sizing::AFFINE), 1.2);
+}
+
+} // namespace
