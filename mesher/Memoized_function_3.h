@@ -71,6 +71,9 @@ public:
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const {
     return memory_->function_.first_order_bounds(box);
   }
+  Jet_3<Interval, 1> mean_value_bounds(const CGAL::Bbox_3& box) const {
+    return memory_->function_.mean_value_bounds(box);
+  }
   bool has_gradient_bounds() const { return memory_->function_.has_gradient_bounds(); }
   CGAL::Bbox_3 bbox() const { return memory_->function_.bbox(); }
 

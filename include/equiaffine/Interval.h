@@ -51,17 +51,17 @@ public:
   Interval operator+() const { return *this; }
 
   friend Interval operator+(const Interval& a, const Interval& b) {
-    return widened(a.lower_ + b.lower_, a.upper_ + b.upper_);
+    return rounded(a.lower_ + b.lower_, a.upper_ + b.upper_);
   }
   friend Interval operator-(const Interval& a, const Interval& b) {
-    return widened(a.lower_ - b.upper_, a.upper_ - b.lower_);
+    return rounded(a.lower_ - b.upper_, a.upper_ - b.lower_);
   }
   /// An interval times itself is a square: never negative.
   friend Interval operator*(const Interval& a, const Interval& b) {
     if (&a == &b) return square(a);
-    const double p = product(a.lower_, b.lower_), q = product(a.lower_, b.upper_);
-    const double r = product(a.upper_, b.lower_), s = product(a.upper_, b.upper_);
-    return widened(std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s)));
+    const double p = a.lower_ * b.lower_, q = a.lower_ * b.upper_, r = a.upper_ * b.lower_, s = a.upper_ * b.upper_;
+    if (!(is_normal(p) && is_normal(q) && is_normal(r) && is_normal(s))) return special_product(a, b);
+    return rounded(std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s)));
   }
   friend Interval operator/(const Interval& a, const Interval& b) {
     if (b.lower_ <= 0 && b.upper_ >= 0) return whole();
@@ -78,18 +78,19 @@ public:
 
   friend Interval square(const Interval& a) {
     const double p = a.lower_ * a.lower_, q = a.upper_ * a.upper_;
-    const Interval r = widened(a.contains(0) ? 0 : std::min(p, q), std::max(p, q));
+    const double lower = a.contains(0) ? 0 : std::min(p, q), upper = std::max(p, q);
+    if (is_normal(p) && is_normal(q)) return rounded(lower, upper);
+    if (a.lower_ == 0 && a.upper_ == 0) return a;
+    const Interval r = widened(lower, upper);
     return Interval(std::max(r.lower_, 0.0), r.upper_);
   }
 
-  /// [lower, upper] widened by `ulps` units in the last place on each side. A bound that overflowed inwards is replaced
-  /// by the largest number.
+  /// [lower, upper] widened by `ulps` units in the last place on each side, and by the smallest number. A bound that
+  /// overflowed inwards is replaced by the largest number.
   static Interval widened(double lower, double upper, int ulps = 1) {
-    using Limits = std::numeric_limits<double>;
-    constexpr double unit = Limits::epsilon(), tiny = Limits::denorm_min();
-    lower = std::min(lower, Limits::max());
-    upper = std::max(upper, Limits::lowest());
-    return Interval(lower - (std::abs(lower) * (unit * ulps) + tiny), upper + (std::abs(upper) * (unit * ulps) + tiny));
+    constexpr double tiny = Limits::denorm_min();
+    const Interval r = rounded(lower, upper, ulps);
+    return Interval(r.lower_ - tiny, r.upper_ + tiny);
   }
 
   /// The smallest interval that contains both.
@@ -97,7 +98,41 @@ public:
     return Interval(std::min(a.lower_, b.lower_), std::max(a.upper_, b.upper_));
   }
 
+  /// What both contain; two bounds of the same number have something in common.
+  static Interval intersection(const Interval& a, const Interval& b) {
+    return Interval(std::max(a.lower_, b.lower_), std::min(a.upper_, b.upper_));
+  }
+
 private:
+  using Limits = std::numeric_limits<double>;
+
+  /// Not so small that rounding may have been that of subnormal numbers, and not NaN.
+  static bool is_normal(double x) { return std::abs(x) >= Limits::min() / Limits::epsilon(); }
+
+  /// Like widened() for bounds that are exact where they are subnormal: sums are. A subnormal number, once made, would
+  /// slow down all that is computed of it.
+  static Interval rounded(double lower, double upper, int ulps = 1) {
+    lower = std::min(lower, Limits::max());
+    upper = std::max(upper, Limits::lowest());
+    return Interval(lower - std::abs(lower) * (Limits::epsilon() * ulps),
+                    upper + std::abs(upper) * (Limits::epsilon() * ulps));
+  }
+
+  /// Where a factor is zero, infinite, or so small that a product may be subnormal.
+  static Interval special_product(const Interval& a, const Interval& b) {
+    if ((a.lower_ == 0 && a.upper_ == 0) || (b.lower_ == 0 && b.upper_ == 0)) return Interval(0.0, 0.0);
+    double lower = Limits::infinity(), upper = -Limits::infinity();
+    bool is_exact_if_small = true;
+    for (const double x : {a.lower_, a.upper_})
+      for (const double y : {b.lower_, b.upper_}) {
+        const double p = product(x, y);
+        lower = std::min(lower, p);
+        upper = std::max(upper, p);
+        is_exact_if_small = is_exact_if_small && (x == 0 || y == 0 || is_normal(p));
+      }
+    return is_exact_if_small ? rounded(lower, upper) : widened(lower, upper);
+  }
+
   // An infinite bound is approached, never reached: 0 times it is 0, and anything divided by it tends to 0.
   static double product(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
   static double quotient(double a, double b) { return std::isinf(b) ? 0 : a / b; }

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_LEVEL_SET_TRAITS_3_H
 
 #include <equiaffine/concepts.h>
+#include <equiaffine/internal/first_order_bounds.h>
 
 #include <CGAL/number_utils.h>
 
@@ -41,9 +42,11 @@ public:
   }
   Jet_3<Interval, 1>
   first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
-    Jet_3<Interval, 1> jet = base_.first_order_bounds(box);
-    jet.at<0>() = jet.value() - Interval(CGAL::to_double(isovalue_));
-    return is_reversed_ ? -jet : jet;
+    return from_base(base_.first_order_bounds(box));
+  }
+  Jet_3<Interval, 1>
+  mean_value_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
+    return from_base(internal::tight_first_order_bounds(base_, box));
   }
   CGAL::Bbox_3 bbox() const { return base_.bbox(); }
   Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
@@ -65,6 +68,11 @@ private:
     if (is_reversed_) jet = -jet;
     jet.template at<0>() = is_reversed_ ? isovalue_ + jet.value() : jet.value() - isovalue_;
     return jet;
+  }
+
+  Jet_3<Interval, 1> from_base(Jet_3<Interval, 1> jet) const {
+    jet.at<0>() = jet.value() - Interval(CGAL::to_double(isovalue_));
+    return is_reversed_ ? -jet : jet;
   }
 
   Base base_;

@@ -4,6 +4,7 @@
 
 #include <equiaffine/concepts.h>
 #include <equiaffine/internal/Linear_substitution_3.h>
+#include <equiaffine/internal/first_order_bounds.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/number_utils.h>
@@ -43,13 +44,11 @@ public:
   }
   Jet_3<Interval, 1>
   first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
-    const Jet_3<Interval, 1> jet = base_.first_order_bounds(preimage(box));
-    Jet_3<Interval, 1> result(jet.value());
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 3; ++column)
-        result.coefficients()[std::size_t(1 + column)] +=
-            Interval(CGAL::to_double(inverse_.m(row, column))) * jet.coefficients()[std::size_t(1 + row)];
-    return result;
+    return image(base_.first_order_bounds(preimage(box)));
+  }
+  Jet_3<Interval, 1>
+  mean_value_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
+    return image(internal::tight_first_order_bounds(base_, preimage(box)));
   }
 
   /// The box of the image of the base's box.
@@ -82,6 +81,15 @@ private:
     }
     return CGAL::Bbox_3(image[0].lower(), image[1].lower(), image[2].lower(), image[0].upper(), image[1].upper(),
                         image[2].upper());
+  }
+
+  Jet_3<Interval, 1> image(const Jet_3<Interval, 1>& jet) const {
+    Jet_3<Interval, 1> result(jet.value());
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column)
+        result.coefficients()[std::size_t(1 + column)] +=
+            Interval(CGAL::to_double(inverse_.m(row, column))) * jet.coefficients()[std::size_t(1 + row)];
+    return result;
   }
 
   static typename internal::Linear_substitution_3<FT>::Matrix linear_part(const Aff_transformation_3& map) {

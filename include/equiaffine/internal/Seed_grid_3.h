@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_INTERNAL_SEED_GRID_3_H
 #define EQUIAFFINE_INTERNAL_SEED_GRID_3_H
 
+#include <CGAL/Bbox_3.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,6 +38,16 @@ public:
         for (std::int64_t i = -1; i <= 1; ++i)
           for (std::uint32_t s = heads_[bucket({cell[0] + i, cell[1] + j, cell[2] + k})]; s != none; s = next_[s])
             if (is_near(seeds_[s], candidate)) return true;
+    return false;
+  }
+
+  bool has_seed_in(const CGAL::Bbox_3& box) const {
+    const auto first = cell_of({box.xmin(), box.ymin(), box.zmin()}), last = cell_of({box.xmax(), box.ymax(), box.zmax()});
+    for (std::int64_t k = first[2]; k <= last[2]; ++k)
+      for (std::int64_t j = first[1]; j <= last[1]; ++j)
+        for (std::int64_t i = first[0]; i <= last[0]; ++i)
+          for (std::uint32_t s = heads_[bucket({i, j, k})]; s != none; s = next_[s])
+            if (CGAL::do_overlap(seeds_[s].point.bbox(), box)) return true;
     return false;
   }
 

@@ -8,6 +8,7 @@
 #include <equiaffine/project_to_surface.h>
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
@@ -15,6 +16,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
@@ -46,11 +49,13 @@ class Certified_seeding_3 {
 
   struct Cell {
     std::array<std::uint32_t, 3> position;
-    bool is_decided;
+    /// Of a decided cell, or of one that contains it: the difference of values at two of its points per side.
+    double slope = infinity;
+    bool is_decided() const { return slope < infinity; }
   };
-  enum State { EMPTY, DECIDED, UNDECIDED };
 
 public:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr int maximal_level = 24;
   /// Children of undecided cells of one level, much smaller than facets, that are worth a try: a singular point makes
   /// few at each level, a singular curve twice as many each time.
@@ -63,25 +68,24 @@ public:
         has_gradient_bounds_(internal::has_gradient_bounds(traits)) {}
 
   Seeding_3<Point_3> operator()() {
-    std::vector<Cell> cells = {{{0, 0, 0}, false}}, next;
+    std::vector<Cell> cells = {{{0, 0, 0}}}, next;
     for (level_ = 0; !cells.empty(); ++level_) {
       const double h = cell_side();
-      const auto undecided = std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return !c.is_decided; });
+      const auto undecided = std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return !c.is_decided(); });
       const bool is_last = level_ == maximal_level || (h < largest_size_ && !has_gradient_bounds_) ||
                            (4 * h < largest_size_ && undecided > maximal_undecided_cells);
       next.clear();
-      for (const Cell& cell : cells) {
+      for (Cell& cell : cells) {
         const CGAL::Bbox_3 box = box_of(cell);
         if (domain_.excludes(box)) continue;
-        const State state = classify(box, cell.is_decided);
-        if (state == EMPTY) {
+        if (is_empty(cell, box)) {
           if (h >= 4 * largest_size_) empty_cells_.push_back(box);
-        } else if (state == UNDECIDED && is_last) {
+        } else if (is_last && !cell.is_decided()) {
           give_up(cell);
-        } else if (state == DECIDED && h <= seeded_size * size_(center(box))) {
+        } else if (cell.is_decided() && h <= seeded_size * size_(center(box))) {
           make_seeds(box, packing * std::min(size_(center(box)), coarsening * h));
         } else {
-          subdivide(cell, state == DECIDED, next);
+          subdivide(cell, next);
         }
       }
       std::swap(cells, next);
@@ -94,7 +98,7 @@ public:
 
 private:
   static constexpr double seeded_size = 4; // side of the cells that are seeded / bound of circumradii
-  static constexpr double packing = 0.95;  // distance of seeds / bound of circumradii
+  static constexpr double packing = 1.1;   // distance of seeds / bound of circumradii
 
   double cell_side() const { return std::ldexp(side_, -level_); }
 
@@ -109,10 +113,10 @@ private:
     return Point_3(FT((b.xmin() + b.xmax()) / 2), FT((b.ymin() + b.ymax()) / 2), FT((b.zmin() + b.zmax()) / 2));
   }
 
-  void subdivide(const Cell& cell, bool is_decided, std::vector<Cell>& next) const {
+  void subdivide(const Cell& cell, std::vector<Cell>& next) const {
     const double h = cell_side() / 2;
     for (std::uint32_t c = 0; c < 8; ++c) {
-      Cell child = {{}, is_decided};
+      Cell child = {{}, cell.slope};
       bool is_in_box = true;
       for (std::uint32_t a = 0; a < 3; ++a) {
         child.position[a] = 2 * cell.position[a] + (c >> a & 1);
@@ -122,25 +126,26 @@ private:
     }
   }
 
-  State classify(const CGAL::Bbox_3& box, bool is_decided) const {
-    const auto jet = first_order_bounds(traits_, box);
-    if (!contains_zero(jet, box)) return EMPTY;
-    if (is_decided) return DECIDED;
-    return has_acute_gradients(jet, {true, true, true}) && is_decided_at_border(jet, box) ? DECIDED : UNDECIDED;
-  }
-
-  /// By the bounds of the values and by the mean value theorem.
-  bool contains_zero(const Jet_3<Interval, 1>& jet, const CGAL::Bbox_3& box) const {
-    const auto& c = jet.coefficients();
-    if (!c[0].contains(0)) return false;
-    if (has_gradient_bounds_) {
-      const Point_3 p = center(box);
-      Interval sum = first_order_bounds(traits_, p.bbox()).value();
-      for (int a = 0; a < 3; ++a)
-        sum += c[std::size_t(1 + a)] * (Interval(box.min(a), box.max(a)) - Interval(CGAL::to_double(p[a])));
-      return sum.contains(0);
+  /// Whether there is no surface in a cell, which is decided here if it can be.
+  bool is_empty(Cell& cell, const CGAL::Bbox_3& box) {
+    if (cell.is_decided()) {
+      ++result_.evaluations;
+      return std::abs(CGAL::to_double(traits_.value(center(box)))) > cell.slope * cell_side();
     }
-    return true;
+    if constexpr (BoundedImplicitFunctionTraits_3<Traits>)
+      if (!traits_.bounds(box).contains(0)) return true;
+    auto jet = first_order_bounds(traits_, box);
+    bool is_decided = has_acute_gradients(jet, {true, true, true}) && is_decided_at_border(jet, box);
+    if (!is_decided && jet.value().contains(0) && cell_side() <= seeded_size * largest_size_) {
+      jet = tight_first_order_bounds(traits_, box);
+      is_decided = has_acute_gradients(jet, {true, true, true}) && is_decided_at_border(jet, box);
+    }
+    if (is_decided) {
+      double sum = 0;
+      for (std::size_t a = 1; a < 4; ++a) sum += abs(jet.coefficients()[a]).upper();
+      cell.slope = 0.501 * sum; // from the center half a side along each axis, and some rounding
+    }
+    return !jet.value().contains(0);
   }
 
   /// Whether the projections to some axes of any two gradients in the box have a positive product.
@@ -167,8 +172,8 @@ private:
       }
       if (!is_border || has_acute_gradients(jet, is_free)) continue;
       const CGAL::Bbox_3 part(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]);
-      const auto jet_there = first_order_bounds(traits_, part);
-      if (contains_zero(jet_there, part) && !has_acute_gradients(jet_there, is_free)) return false;
+      const auto jet_there = tight_first_order_bounds(traits_, part);
+      if (jet_there.value().contains(0) && !has_acute_gradients(jet_there, is_free)) return false;
     }
     return true;
   }
@@ -186,17 +191,18 @@ private:
     level_ = level;
   }
 
-  /// Seeds at the projections of random points of a cell; where none of them leads back into the cell, on its edges.
+  /// A seed in a cell, and from there as far as the surface goes without one.
   void make_seeds(const CGAL::Bbox_3& box, double spacing) {
-    const double ratio = cell_side() / spacing;
-    const int candidates = std::max(1, int(std::lround(candidates_per_spacing * ratio * ratio)));
+    if (grid_.has_seed_in(box)) return;
     bool is_found = false;
-    for (int n = 0; n < candidates; ++n) is_found = project(random_point(box), box, spacing) || is_found;
+    for (int n = 0; n < candidates && !is_found; ++n)
+      is_found = project(random_point(box), box, spacing, 2 * cell_side());
     if (!is_found) search_edges(box, spacing);
+    spread();
   }
 
-  /// Whether a point of the surface, or one near it, was found in the cell.
-  bool project(const Point_3& p, const CGAL::Bbox_3& box, double spacing) {
+  /// Whether a point of the surface that is near p, and by Newton's method in the box, got a seed or had one nearby.
+  bool project(const Point_3& p, const CGAL::Bbox_3& box, double spacing, double reach) {
     const auto jet = first_order(traits_, p);
     ++result_.evaluations;
     const auto& c = jet.coefficients();
@@ -205,12 +211,38 @@ private:
     if (!(squared_norm > FT(0)) || !(c[0] - c[0] == FT(0))) return false;
     const Point_3 newton = p - c[0] / squared_norm * gradient;
     if (!CGAL::do_overlap(newton.bbox(), box)) return false;
-    if (grid_.is_crowded({newton, gradient, 0.95 * spacing})) return true; // before more is spent on it
-    const auto found = project_to_surface(traits_, p, FT(2 * cell_side()), jet);
+    if (grid_.is_crowded({newton, gradient, 0.99 * spacing})) return true; // before more is spent on it
+    const auto found = project_to_surface(traits_, p, FT(reach), jet);
     result_.evaluations += found.evaluations;
     if (!found.has_converged) return false;
     insert({found.point, gradient, spacing});
     return true;
+  }
+
+  /// From each new seed, seeds around it at the distance that they keep.
+  void spread() {
+    for (; spread_seeds_ < grid_.seeds().size(); ++spread_seeds_) {
+      const Seed seed = grid_.seeds()[spread_seeds_]; // a copy: insertion may move it
+      const Vector_3& n = seed.normal;
+      const int axis = int(std::min_element(n.cartesian_begin(), n.cartesian_end(),
+                                            [](const FT& a, const FT& b) { return CGAL::abs(a) < CGAL::abs(b); }) -
+                           n.cartesian_begin());
+      Vector_3 u = CGAL::cross_product(n, Vector_3(FT(axis == 0), FT(axis == 1), FT(axis == 2)));
+      u = u / FT(std::sqrt(CGAL::to_double(u.squared_length())));
+      Vector_3 v = CGAL::cross_product(n, u);
+      v = v / FT(std::sqrt(CGAL::to_double(v.squared_length())));
+      const double start = random();
+      for (int k = 0; k < directions; ++k) {
+        const double angle = 2 * std::numbers::pi * (k + start) / directions;
+        const double distance = seed.spacing * (1 + 0.2 * random());
+        const Point_3 p = seed.point + FT(distance * std::cos(angle)) * u + FT(distance * std::sin(angle)) * v;
+        if (!domain_.contains(p)) continue;
+        const double spacing = std::min(packing * size_(p), growth * seed.spacing);
+        if (grid_.is_crowded({p, n, 0.98 * spacing})) continue;
+        const double r = spacing / 2;
+        project(p, CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r), spacing, spacing);
+      }
+    }
   }
 
   void search_edges(const CGAL::Bbox_3& box, double spacing) {
@@ -265,7 +297,9 @@ private:
   }
 
   static constexpr double coarsening = 2; // a cell that had to be small has seeds at this distance in sides
-  static constexpr double candidates_per_spacing = 5;
+  static constexpr int candidates = 3;    // of a cell, before its edges are searched
+  static constexpr int directions = 8;
+  static constexpr double growth = 1.2; // of the spacing from a seed to those around it
 
   const Traits& traits_;
   const Clip_domain_3& domain_;
@@ -278,6 +312,7 @@ private:
   std::vector<CGAL::Bbox_3> empty_cells_;
   std::set<std::array<std::uint32_t, 3>> given_up_;
   Seeding_3<Point_3> result_;
+  std::size_t spread_seeds_ = 0;
   std::uint64_t state_ = 1;
 };
 

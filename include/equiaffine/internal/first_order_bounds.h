@@ -19,6 +19,13 @@ Jet_3<Interval, 1> first_order_bounds(const Traits& traits, const CGAL::Bbox_3& 
   }
 }
 
+/// The tightest that it knows, at a higher cost.
+template <ImplicitFunctionTraits_3 Traits>
+Jet_3<Interval, 1> tight_first_order_bounds(const Traits& traits, const CGAL::Bbox_3& box) {
+  if constexpr (requires { traits.mean_value_bounds(box); }) return traits.mean_value_bounds(box);
+  else return first_order_bounds(traits, box);
+}
+
 /// Whether it knows something of the gradients. A model that learns this at run time has a member.
 template <ImplicitFunctionTraits_3 Traits>
 bool has_gradient_bounds(const Traits& traits) {
