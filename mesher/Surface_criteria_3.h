@@ -27,16 +27,25 @@ public:
     Is_facet_bad operator()(const Triangulation& triangulation, const typename Triangulation::Facet& facet) const {
       const auto& [cell, opposite] = facet;
       const auto point = [&, c = cell, o = opposite ](int i) -> const auto& {
-        return triangulation.point(c, (o + i) & 3).point();
+        return triangulation.point(c, (o + i) & 3);
       };
-      const auto &p = point(1), &q = point(2), &r = point(3);
+      const auto &p = point(1).point(), &q = point(2).point(), &r = point(3).point();
       const auto& center = cell->get_facet_surface_center(opposite);
       const double squared_radius = CGAL::squared_distance(center, p);
       if (squared_radius < smallest * smallest) return Is_facet_bad();
-      for (int i = 1; i < 4; ++i)
-        if (cell->vertex((opposite + i) & 3)->in_dimension() > 2) return bad(0, 0);
+      double largest_weight = 0;
+      bool touches_corner = false;
+      for (int i = 1; i < 4; ++i) {
+        const int dimension = cell->vertex((opposite + i) & 3)->in_dimension();
+        if (dimension > 2) return bad(0, 0);
+        touches_corner = touches_corner || dimension == 0;
+        largest_weight = std::max(largest_weight, double(point(i).weight()));
+      }
+      // No vertex may come into or near a ball around a feature.
+      if (squared_radius - point(1).weight() < clearance * largest_weight) return Is_facet_bad();
       const double bound = size(center);
       if (squared_radius > bound * bound) return bad(1, bound * bound / squared_radius);
+      if (touches_corner) return Is_facet_bad();
 
       const double a = CGAL::squared_distance(q, r), b = CGAL::squared_distance(r, p), c = CGAL::squared_distance(p, q);
       const double squared_area = CGAL::cross_product(q - p, r - p).squared_length(); // of the parallelogram
@@ -49,6 +58,8 @@ public:
     }
 
     static Is_facet_bad bad(int criterion, double quality) { return Is_facet_bad(Facet_quality(criterion, quality)); }
+
+    static constexpr double clearance = 2; // square of distance / radius of a ball
 
     Facet_sizing_field size;
     double least_sine, distance, smallest;

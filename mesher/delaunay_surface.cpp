@@ -5,6 +5,9 @@
 #include "Surface_criteria_3.h"
 #include <equiaffine/Implicit_mesh_domain_3.h>
 #include <equiaffine/delaunay_surface.h>
+#include <equiaffine/internal/boundary_curves.h>
+#include <equiaffine/internal/protecting_balls.h>
+#include <equiaffine/internal/singular_points.h>
 #include <equiaffine/mesh_topology.h>
 
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
@@ -15,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <unordered_map>
@@ -39,13 +43,16 @@ using Triangulation = CGAL::Mesh_triangulation_3<Surface_domain_3>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using Mesh = Delaunay_surface_3<Any_function_3::Kernel>;
 using Point_3 = Any_function_3::Point_3;
+using Kernel_point = Surface_domain_3::Point_3;
+using Polyline = Polyline_3<Any_function_3::Kernel>;
+using Ball = Protecting_ball_3<Any_function_3::Kernel>;
 
 class Surface_mesher {
 public:
   Surface_mesher(const Any_function_3& function, const Clip_domain_3& domain, const Delaunay_criteria& criteria,
-                 Facet_sizing sizing)
+                 Facet_sizing sizing, const std::vector<Polyline>& features)
       : memory_(function), function_(memory_), domain_(function_, domain, criteria.radius), criteria_(criteria),
-        size_(function, domain, criteria.radius, sizing) {}
+        size_(function, domain, criteria.radius, sizing), features_(features) {}
 
   Mesh operator()() {
     CGAL::Real_timer timer;
@@ -59,17 +66,62 @@ public:
   }
 
 private:
+  // Of vertices on features, and of others from them, relative to the size of facets: with these, the facets beside
+  // features have the angles of others, as far as features themselves do not prevent it.
+  static constexpr double feature_spacing = 0.8, feature_clearance = 0.7;
+
   void insert_seeds() {
-    auto seeding = Certified_seeding_3(function_, domain_.domain(), size_, criteria_.radius)();
+    Certified_seeding_3 seeder(function_, domain_.domain(), size_, criteria_.radius);
+    Protecting_balls_3<Any_function_3::Kernel> features;
+    cover_curves(features);
+    auto balls = features();
+    for (const Ball& ball : balls) seeder.keep_away(ball.center, feature_clearance * size_(ball.center));
+    auto seeding = seeder();
     result_.is_certified = seeding.undecided_boxes.empty();
     result_.undecided_boxes = std::move(seeding.undecided_boxes);
-    if (seeding.seeds.empty()) return;
+    for (const Point_3& p : nodes_in(function_, result_.undecided_boxes)) add_node(p, seeding.seeds, balls);
+    if (seeding.seeds.empty() && balls.empty()) return;
+    insert(balls);
     insert(seeding.scaffold, 3);
     insert(seeding.seeds, 2);
   }
 
+  /// Features: where the surface meets the border of the domain, and what the caller gave.
+  void cover_curves(Protecting_balls_3<Any_function_3::Kernel>& features) const {
+    const auto spacing = [&](const Point_3& p) { return feature_spacing * size_(p); };
+    Boundary_curves_3 boundary(function_, domain_.domain(), criteria_.radius);
+    for (const auto& curve : boundary())
+      features.cover(curve, spacing, [&](const Point_3& p) { return boundary.project(p, curve.axis).value_or(p); });
+    for (const auto& curve : features_)
+      features.cover(curve, spacing, [&](const Point_3& p) {
+        const auto found = project_to_surface(function_, p, size_(p));
+        return found.has_converged ? found.point : p;
+      });
+  }
+
+  /// A ball for a node of the surface, which no seed is in.
+  void add_node(const Point_3& p, std::vector<Point_3>& seeds, std::vector<Ball>& balls) const {
+    if (!domain_.domain().contains(p)) return;
+    double radius = 0.4 * size_(p);
+    for (const Ball& ball : balls)
+      radius = std::min(radius, 0.9 * (std::sqrt(CGAL::squared_distance(p, ball.center)) - ball.radius));
+    if (!(radius > 0)) return;
+    balls.push_back({p, 0, radius});
+    std::erase_if(seeds, [&](const Point_3& q) { return CGAL::squared_distance(p, q) < 2 * radius * radius; });
+  }
+
+  void insert(const std::vector<Ball>& balls) {
+    for (const Ball& ball : balls) {
+      const Kernel_point p(ball.center.x(), ball.center.y(), ball.center.z());
+      const auto vertex =
+          complex_.triangulation().insert(Triangulation::Weighted_point(p, ball.radius * ball.radius));
+      if (vertex == Triangulation::Vertex_handle()) continue;
+      complex_.set_dimension(vertex, ball.dimension);
+      complex_.set_index(vertex, 1);
+    }
+  }
+
   void insert(const std::vector<Point_3>& points, int dimension) {
-    using Kernel_point = Surface_domain_3::Point_3;
     std::vector<Kernel_point> sorted;
     for (const Point_3& p : points) sorted.emplace_back(p.x(), p.y(), p.z());
     CGAL::spatial_sort(sorted.begin(), sorted.end());
@@ -85,7 +137,7 @@ private:
   }
 
   void refine(Manifoldness manifoldness) {
-    const double smallest = result_.undecided_boxes.empty() ? 0 : criteria_.radius / 16;
+    const double smallest = result_.undecided_boxes.empty() ? 0 : criteria_.radius / 8;
     const Surface_criteria_3<Triangulation> criteria(criteria_, size_, smallest);
     refine_facets(complex_, domain_, criteria, manifoldness);
     read_mesh();
@@ -129,6 +181,7 @@ private:
   Surface_domain_3 domain_;
   Delaunay_criteria criteria_;
   Facet_sizing_field size_;
+  const std::vector<Polyline>& features_;
   Complex complex_;
   Mesh result_;
 };
@@ -136,8 +189,8 @@ private:
 } // namespace
 
 Mesh mesh_surface(const Any_function_3& function, const Clip_domain_3& domain, const Delaunay_criteria& criteria,
-                  Facet_sizing sizing) {
-  return Surface_mesher(function, domain, criteria, sizing)();
+                  Facet_sizing sizing, const std::vector<Polyline>& features) {
+  return Surface_mesher(function, domain, criteria, sizing, features)();
 }
 
 } // namespace equiaffine::internal

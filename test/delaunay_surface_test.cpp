@@ -8,6 +8,7 @@
 #include <equiaffine/annotate.h>
 #include <equiaffine/delaunay_surface.h>
 #include <equiaffine/mesh_topology.h>
+#include <equiaffine/parabolic_curves.h>
 #include <equiaffine/sample_on_lattice.h>
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -18,7 +19,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -35,13 +40,25 @@ auto traits_of(const Function& f) {
 
 Mesh_topology topology(const Surface& surface) { return mesh_topology(surface.triangles, surface.points.size()); }
 
-double smallest_angle(const Surface& surface) {
+/// Of the triangles without a vertex on a feature.
+double smallest_angle(const Surface& surface, const std::vector<bool>& is_on_feature) {
   double smallest = 180;
   for (const auto& t : surface.triangles)
     for (std::size_t i = 0; i < 3; ++i)
-      smallest = std::min(smallest, CGAL::approximate_angle(surface.points[t[(i + 1) % 3]], surface.points[t[i]],
+      if (!is_on_feature[t[0]] && !is_on_feature[t[1]] && !is_on_feature[t[2]]) smallest = std::min(smallest, CGAL::approximate_angle(surface.points[t[(i + 1) % 3]], surface.points[t[i]],
                                                             surface.points[t[(i + 2) % 3]]));
   return smallest;
+}
+
+/// Per vertex; a boundary edge is one of a single triangle.
+std::vector<bool> is_on_boundary(const Surface& surface) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> triangles;
+  for (const auto& t : surface.triangles)
+    for (std::size_t i = 0; i < 3; ++i) ++triangles[std::minmax(t[i], t[(i + 1) % 3])];
+  std::vector<bool> result(surface.points.size(), false);
+  for (const auto& [edge, n] : triangles)
+    if (n == 1) result[edge.first] = result[edge.second] = true;
+  return result;
 }
 
 template <class Traits>
@@ -68,7 +85,7 @@ void expect_mesh(const Function& f, const Expected& expected, const Clip_domain_
   EXPECT_EQ(long(t.euler_characteristic), expected.euler_characteristic);
   EXPECT_TRUE(surface.is_certified);
   EXPECT_TRUE(surface.undecided_boxes.empty());
-  EXPECT_GE(smallest_angle(surface), 29.999);
+  EXPECT_GE(smallest_angle(surface, is_on_boundary(surface)), 29.999);
   EXPECT_GT(surface.triangles.size(), 1000u);
   EXPECT_LE(double(surface.function_evaluations), 60 * double(surface.triangles.size()));
   expect_vertices_on_surface(traits, surface, domain.diagonal());
@@ -92,6 +109,67 @@ TEST(Delaunay_surface, sheets_outside_the_ball_make_no_holes) {
 
 TEST(Delaunay_surface, a_sextic_is_cut_off_at_the_ball) {
   expect_mesh(functions::Barth_sextic{0.3}, {0.07, 1, -40, false}, Clip_domain_3({0, 0, 0}, 1.7));
+}
+
+TEST(Delaunay_surface, the_boundary_lies_on_the_sphere_that_cuts_a_surface_off) {
+  const auto surface = delaunay_surface(traits_of(functions::Barth_sextic{0.3}), {30, 0.1, 0},
+                                        parameters::clip(Clip_domain_3({0, 0, 0}, 1.7)));
+  const auto is_boundary = is_on_boundary(surface);
+  std::size_t on_sphere = 0;
+  for (std::size_t v = 0; v < surface.points.size(); ++v) {
+    const double distance = std::abs(std::sqrt((surface.points[v] - CGAL::ORIGIN).squared_length()) - 1.7);
+    EXPECT_EQ(is_boundary[v], distance < 1e-14) << surface.points[v];
+    on_sphere += is_boundary[v];
+  }
+  EXPECT_GT(on_sphere, 50u);
+}
+
+TEST(Delaunay_surface, the_boundary_lies_on_the_faces_of_the_box_and_has_vertices_on_its_edges) {
+  const functions::Gyroid gyroid;
+  const auto surface = delaunay_surface(traits_of(gyroid), {30, 0.25, 0});
+  const CGAL::Bbox_3 box = gyroid.box();
+  const auto is_boundary = is_on_boundary(surface);
+  std::size_t corners = 0;
+  for (std::size_t v = 0; v < surface.points.size(); ++v) {
+    int planes = 0;
+    for (int a = 0; a < 3; ++a) planes += surface.points[v][a] == box.min(a) || surface.points[v][a] == box.max(a);
+    EXPECT_EQ(is_boundary[v], planes > 0) << surface.points[v];
+    corners += planes > 1;
+  }
+  EXPECT_EQ(corners, 24u) << "cos(x) sin(y) and its like vanish twice on every edge of the cube of side 2 pi";
+  expect_vertices_on_surface(traits_of(gyroid), surface, Clip_domain_3(box).diagonal());
+}
+
+TEST(Delaunay_surface, nodes_are_vertices) {
+  const auto has_vertex = [](const Surface& surface, const Point_3& p) {
+    return std::any_of(surface.points.begin(), surface.points.end(),
+                       [&](const Point_3& q) { return CGAL::squared_distance(p, q) < 1e-24; });
+  };
+  const auto cayley = delaunay_surface(traits_of(functions::Cayley_cubic()), {30, 0.2, 0});
+  for (const Point_3& node : {Point_3(1, 1, 1), Point_3(1, -1, -1), Point_3(-1, 1, -1), Point_3(-1, -1, 1)})
+    EXPECT_TRUE(has_vertex(cayley, node)) << node;
+}
+
+TEST(Delaunay_surface, no_triangle_straddles_a_feature_curve) {
+  const auto torus = traits_of(functions::Torus());
+  const auto curves = parabolic_curves(delaunay_surface(torus, {30, 0.05, 0}), torus);
+  ASSERT_EQ(curves.polylines.size(), 2u);
+  const auto surface = delaunay_surface(torus, {30, 0.1, 0}, parameters::feature_curves(curves.polylines));
+  EXPECT_EQ(topology(surface).euler_characteristic, 0);
+  EXPECT_TRUE(topology(surface).is_manifold);
+  const functions::Torus f;
+  std::size_t on_curve = 0;
+  for (const auto& t : surface.triangles) {
+    int inside = 0, outside = 0;
+    for (const auto v : t) {
+      const Point_3& p = surface.points[v];
+      const double distance = std::hypot(p.x(), p.y()) - f.major_radius; // K_e has its sign
+      if (std::abs(distance) < 1e-4) ++on_curve;
+      else ++(distance < 0 ? inside : outside);
+    }
+    EXPECT_TRUE(inside == 0 || outside == 0);
+  }
+  EXPECT_GT(on_curve, 100u);
 }
 
 TEST(Delaunay_surface, every_point_of_the_surface_is_near_the_mesh) {

@@ -26,6 +26,7 @@ enum class Facet_sizing {
 namespace internal {
 
 struct Clip_tag {};
+struct Feature_curves_tag {};
 struct Facet_sizing_tag {};
 struct Number_of_nodes_tag {};
 struct Vertex_position_tag {};
@@ -57,6 +58,12 @@ struct Named_parameters {
   template <class Domain>
   auto clip(const Domain& domain) const {
     return Named_parameters<Domain, Clip_tag, Named_parameters>{domain, *this};
+  }
+
+  /// A range of Polyline_3.
+  template <class Polylines>
+  auto feature_curves(const Polylines& curves) const {
+    return Named_parameters<Polylines, Feature_curves_tag, Named_parameters>{curves, *this};
   }
 
   auto facet_sizing(Facet_sizing sizing) const {
@@ -111,6 +118,13 @@ inline auto skip_empty_space() {
 template <class Domain>
 auto clip(const Domain& domain) {
   return internal::Named_parameters<Domain, internal::Clip_tag>{domain, {}};
+}
+
+/// A range of Polyline_3 on the surface that the edges of the mesh follow, default none. Segments are short beside the
+/// facets; the mesh has vertices of its own on them.
+template <class Polylines>
+auto feature_curves(const Polylines& curves) {
+  return internal::Named_parameters<Polylines, internal::Feature_curves_tag>{curves, {}};
 }
 
 /// Default Facet_sizing::UNIFORM.

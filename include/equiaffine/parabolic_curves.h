@@ -3,7 +3,9 @@
 #define EQUIAFFINE_PARABOLIC_CURVES_H
 
 #include <equiaffine/Indexed_triangle_mesh_3.h>
+#include <equiaffine/Polyline_3.h>
 #include <equiaffine/concepts.h>
+#include <equiaffine/internal/curve_step.h>
 #include <equiaffine/internal/parallel_for.h>
 
 #include <CGAL/tags.h>
@@ -20,14 +22,10 @@
 namespace equiaffine {
 
 /// The curves on which the Gaussian curvature changes its sign, where the affine metric is degenerate and the affine
-/// curvatures are infinite. A closed curve does not repeat its first point.
+/// curvatures are infinite.
 template <class Kernel>
 struct Parabolic_curves_3 {
-  struct Polyline {
-    std::vector<typename Kernel::Point_3> points;
-    bool is_closed;
-  };
-  std::vector<Polyline> polylines;
+  std::vector<Polyline_3<Kernel>> polylines;
   std::size_t unconverged_points = 0; ///< left at the linear intersection with an edge of the mesh
 };
 
@@ -124,13 +122,7 @@ private:
     points_[e] = start;
     for (int n = 0; n < maximal_iterations; ++n) {
       const auto jet = traits_.taylor(p);
-      const auto d = parabolic_function(jet);
-      const auto gradient = [](const auto& c) { return Vector_3(c[1], c[2], c[3]); };
-      const Vector_3 u = gradient(jet.coefficients()), v = gradient(d.coefficients());
-      const FT uu = u * u, uv = u * v, vv = v * v, determinant = uu * vv - uv * uv;
-      const FT s = (uv * d.value() - vv * jet.value()) / determinant;
-      const FT t = (uv * jet.value() - uu * d.value()) / determinant;
-      const Vector_3 step = s * u + t * v;
+      const Vector_3 step = step_to_curve<Vector_3>(jet, parabolic_function(jet));
       if (!((p + step - start).squared_length() <= reach)) return false; // also NaN
       p = p + step;
       const FT rounding = FT(8) * std::numeric_limits<FT>::epsilon();
@@ -142,10 +134,10 @@ private:
     return false;
   }
 
-  void link(std::vector<typename Parabolic_curves_3<Kernel>::Polyline>& polylines) {
+  void link(std::vector<Polyline_3<Kernel>>& polylines) {
     std::vector<bool> is_used(edges_.size(), false);
     const auto follow = [&](Index first) {
-      typename Parabolic_curves_3<Kernel>::Polyline line{{}, false};
+      Polyline_3<Kernel> line;
       Index last = none;
       for (Index here = first; here != none;) {
         is_used[here] = true;

@@ -4,6 +4,7 @@
 
 #include <equiaffine/Clip_domain_3.h>
 #include <equiaffine/internal/Seed_grid_3.h>
+#include <equiaffine/internal/curve_step.h>
 #include <equiaffine/internal/first_order_bounds.h>
 #include <equiaffine/project_to_surface.h>
 
@@ -58,22 +59,32 @@ public:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr int maximal_level = 24;
   /// Children of undecided cells of one level, much smaller than facets, that are worth a try: a singular point makes
-  /// few at each level, a singular curve twice as many each time.
+  /// few at each level, a singular curve twice as many each time. Seeds as dense as those would be too many.
   static constexpr std::ptrdiff_t maximal_undecided_cells = 200'000;
 
   /// `size(p)` bounds the circumradius of facets near p, and is at most `largest_size`.
   Certified_seeding_3(const Traits& traits, const Clip_domain_3& domain, Sizing size, double largest_size)
       : traits_(traits), domain_(domain), box_(domain.bbox()), size_(std::move(size)), largest_size_(largest_size),
-        side_(std::max({box_.x_span(), box_.y_span(), box_.z_span()})), grid_(packing * largest_size),
+        side_(std::max({box_.x_span(), box_.y_span(), box_.z_span()})),
         has_gradient_bounds_(internal::has_gradient_bounds(traits)) {}
 
+  /// Seeds keep the distance `spacing` from a vertex that the mesh has already.
+  void keep_away(const Point_3& vertex, double spacing) {
+    const auto jet = first_order(traits_, vertex);
+    ++result_.evaluations;
+    grid_.insert({vertex, unit(gradient_of<Vector_3>(jet)), spacing, true});
+    vertices_ = grid_.seeds().size();
+  }
+
   Seeding_3<Point_3> operator()() {
+    spread();
     std::vector<Cell> cells = {{{0, 0, 0}}}, next;
     for (level_ = 0; !cells.empty(); ++level_) {
       const double h = cell_side();
       const auto undecided = std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return !c.is_decided(); });
-      const bool is_last = level_ == maximal_level || (h < largest_size_ && !has_gradient_bounds_) ||
-                           (4 * h < largest_size_ && undecided > maximal_undecided_cells);
+      const bool is_hopeless = 4 * h < largest_size_ && undecided > maximal_undecided_cells;
+      const bool is_last = level_ == maximal_level || (h < largest_size_ && !has_gradient_bounds_) || is_hopeless;
+      if (is_hopeless) least_spacing_ = packing * largest_size_ / 16;
       next.clear();
       for (Cell& cell : cells) {
         const CGAL::Bbox_3 box = box_of(cell);
@@ -91,7 +102,8 @@ public:
       std::swap(cells, next);
     }
     if (!has_gradient_bounds_) result_.undecided_boxes = {box_};
-    for (const Seed& seed : grid_.seeds()) result_.seeds.push_back(seed.point);
+    for (std::size_t n = vertices_; n < grid_.seeds().size(); ++n)
+      if (const Seed& seed = grid_.seeds()[n]; seed.spacing >= least_spacing_) result_.seeds.push_back(seed.point);
     make_scaffold();
     return std::move(result_);
   }
@@ -205,17 +217,17 @@ private:
   bool project(const Point_3& p, const CGAL::Bbox_3& box, double spacing, double reach) {
     const auto jet = first_order(traits_, p);
     ++result_.evaluations;
-    const auto& c = jet.coefficients();
-    const Vector_3 gradient(c[1], c[2], c[3]);
+    const auto gradient = gradient_of<Vector_3>(jet);
     const FT squared_norm = gradient.squared_length();
-    if (!(squared_norm > FT(0)) || !(c[0] - c[0] == FT(0))) return false;
-    const Point_3 newton = p - c[0] / squared_norm * gradient;
+    if (!(squared_norm > FT(0)) || !(jet.value() - jet.value() == FT(0))) return false;
+    const Point_3 newton = p - jet.value() / squared_norm * gradient;
     if (!CGAL::do_overlap(newton.bbox(), box)) return false;
-    if (grid_.is_crowded({newton, gradient, 0.99 * spacing})) return true; // before more is spent on it
+    const Vector_3 normal = unit(gradient);
+    if (grid_.is_crowded({newton, normal, 0.99 * spacing})) return true; // before more is spent on it
     const auto found = project_to_surface(traits_, p, FT(reach), jet);
     result_.evaluations += found.evaluations;
     if (!found.has_converged) return false;
-    insert({found.point, gradient, spacing});
+    insert({found.point, normal, spacing});
     return true;
   }
 
@@ -224,17 +236,14 @@ private:
     for (; spread_seeds_ < grid_.seeds().size(); ++spread_seeds_) {
       const Seed seed = grid_.seeds()[spread_seeds_]; // a copy: insertion may move it
       const Vector_3& n = seed.normal;
-      const int axis = int(std::min_element(n.cartesian_begin(), n.cartesian_end(),
-                                            [](const FT& a, const FT& b) { return CGAL::abs(a) < CGAL::abs(b); }) -
-                           n.cartesian_begin());
-      Vector_3 u = CGAL::cross_product(n, Vector_3(FT(axis == 0), FT(axis == 1), FT(axis == 2)));
-      u = u / FT(std::sqrt(CGAL::to_double(u.squared_length())));
-      Vector_3 v = CGAL::cross_product(n, u);
-      v = v / FT(std::sqrt(CGAL::to_double(v.squared_length())));
-      const double start = random();
+      const auto is_smaller = [](const FT& a, const FT& b) { return CGAL::abs(a) < CGAL::abs(b); };
+      const auto axis = std::min_element(n.cartesian_begin(), n.cartesian_end(), is_smaller) - n.cartesian_begin();
+      const Vector_3 u = unit(CGAL::cross_product(n, Vector_3(FT(axis == 0), FT(axis == 1), FT(axis == 2))));
+      const Vector_3 v = CGAL::cross_product(n, u);
+      const double turn = random();
       for (int k = 0; k < directions; ++k) {
-        const double angle = 2 * std::numbers::pi * (k + start) / directions;
-        const double distance = seed.spacing * (1 + 0.2 * random());
+        const double angle = 2 * std::numbers::pi * (k + turn) / directions;
+        const double distance = seed.spacing * (1 + jitter * random());
         const Point_3 p = seed.point + FT(distance * std::cos(angle)) * u + FT(distance * std::sin(angle)) * v;
         if (!domain_.contains(p)) continue;
         const double spacing = std::min(packing * size_(p), growth * seed.spacing);
@@ -262,14 +271,19 @@ private:
         const auto found = intersect_segment(traits_, corners[c], corners[d], values[c], values[d]);
         result_.evaluations += found.evaluations;
         if (!found.has_converged) continue;
-        const auto jet = first_order(traits_, found.point);
         ++result_.evaluations;
-        insert({found.point, Vector_3(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]), spacing});
+        insert({found.point, unit(gradient_of<Vector_3>(first_order(traits_, found.point))), spacing});
       }
   }
 
   void insert(const Seed& seed) {
     if (domain_.contains(seed.point) && !grid_.is_crowded(seed)) grid_.insert(seed);
+  }
+
+  /// Zero stays zero: a singular point has no normal.
+  static Vector_3 unit(const Vector_3& v) {
+    const double norm = std::sqrt(CGAL::to_double(v.squared_length()));
+    return norm > 0 ? v / FT(norm) : v;
   }
 
   /// A regular arrangement would be a degenerate one.
@@ -296,9 +310,10 @@ private:
     }
   }
 
-  static constexpr double coarsening = 2; // a cell that had to be small has seeds at this distance in sides
+  static constexpr double coarsening = 1.4; // a cell that had to be small has seeds at this distance in sides
   static constexpr int candidates = 3;    // of a cell, before its edges are searched
-  static constexpr int directions = 8;
+  static constexpr int directions = 8;   // from a seed to others
+  static constexpr double jitter = 0.2;  // of their distance, as a fraction
   static constexpr double growth = 1.2; // of the spacing from a seed to those around it
 
   const Traits& traits_;
@@ -312,7 +327,8 @@ private:
   std::vector<CGAL::Bbox_3> empty_cells_;
   std::set<std::array<std::uint32_t, 3>> given_up_;
   Seeding_3<Point_3> result_;
-  std::size_t spread_seeds_ = 0;
+  std::size_t vertices_ = 0, spread_seeds_ = 0; // of the seeds in the grid, the first ones
+  double least_spacing_ = 0;
   std::uint64_t state_ = 1;
 };
 

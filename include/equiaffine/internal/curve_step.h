@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_INTERNAL_CURVE_STEP_H
+#define EQUIAFFINE_INTERNAL_CURVE_STEP_H
+
+namespace equiaffine::internal {
+
+/// Of a jet of any order.
+template <class Vector_3, class Jet>
+Vector_3 gradient_of(const Jet& jet) {
+  return Vector_3(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]);
+}
+
+/// The step of least length to f = g = 0 by Newton's method; not finite where the gradients are parallel.
+template <class Vector_3, class Jet_f, class Jet_g>
+Vector_3 step_to_curve(const Jet_f& f, const Jet_g& g) {
+  const Vector_3 u = gradient_of<Vector_3>(f), v = gradient_of<Vector_3>(g);
+  const auto uu = u * u, uv = u * v, vv = v * v, determinant = uu * vv - uv * uv;
+  return (uv * g.value() - vv * f.value()) / determinant * u + (uv * f.value() - uu * g.value()) / determinant * v;
+}
+
+} // namespace equiaffine::internal
+
+#endif
