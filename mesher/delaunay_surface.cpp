@@ -44,13 +44,12 @@ using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using Mesh = Delaunay_surface_3<Any_function_3::Kernel>;
 using Point_3 = Any_function_3::Point_3;
 using Kernel_point = Surface_domain_3::Point_3;
-using Polyline = Polyline_3<Any_function_3::Kernel>;
 using Ball = Protecting_ball_3<Any_function_3::Kernel>;
 
 class Surface_mesher {
 public:
   Surface_mesher(const Any_function_3& function, const Clip_domain_3& domain, const Delaunay_criteria& criteria,
-                 Facet_sizing sizing, const std::vector<Polyline>& features)
+                 Facet_sizing sizing, const std::vector<Feature_curve_3>& features)
       : memory_(function), function_(memory_), domain_(function_, domain, criteria.radius), criteria_(criteria),
         size_(function, domain, criteria.radius, sizing), features_(features) {}
 
@@ -92,11 +91,7 @@ private:
     Boundary_curves_3 boundary(function_, domain_.domain(), criteria_.radius);
     for (const auto& curve : boundary())
       features.cover(curve, spacing, [&](const Point_3& p) { return boundary.project(p, curve.axis).value_or(p); });
-    for (const auto& curve : features_)
-      features.cover(curve, spacing, [&](const Point_3& p) {
-        const auto found = project_to_surface(function_, p, size_(p));
-        return found.has_converged ? found.point : p;
-      });
+    for (const Feature_curve_3& curve : features_) features.cover(curve.polyline, spacing, curve.project);
   }
 
   /// A ball for a node of the surface, which no seed is in.
@@ -181,7 +176,7 @@ private:
   Surface_domain_3 domain_;
   Delaunay_criteria criteria_;
   Facet_sizing_field size_;
-  const std::vector<Polyline>& features_;
+  const std::vector<Feature_curve_3>& features_;
   Complex complex_;
   Mesh result_;
 };
@@ -189,7 +184,7 @@ private:
 } // namespace
 
 Mesh mesh_surface(const Any_function_3& function, const Clip_domain_3& domain, const Delaunay_criteria& criteria,
-                  Facet_sizing sizing, const std::vector<Polyline>& features) {
+                  Facet_sizing sizing, const std::vector<Feature_curve_3>& features) {
   return Surface_mesher(function, domain, criteria, sizing, features)();
 }
 

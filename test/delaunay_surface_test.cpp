@@ -125,19 +125,20 @@ TEST(Delaunay_surface, the_boundary_lies_on_the_sphere_that_cuts_a_surface_off) 
 }
 
 TEST(Delaunay_surface, the_boundary_lies_on_the_faces_of_the_box_and_has_vertices_on_its_edges) {
-  const functions::Gyroid gyroid;
-  const auto surface = delaunay_surface(traits_of(gyroid), {30, 0.25, 0});
-  const CGAL::Bbox_3 box = gyroid.box();
+  const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
+  const auto traits = make_analytic_traits<Kernel>(Expression_3("x^2+y^2+z^2-2.2"), box); // a piece at each corner
+  const auto surface = delaunay_surface(traits, {30, 0.08, 0});
+  EXPECT_EQ(topology(surface).components, 8u);
   const auto is_boundary = is_on_boundary(surface);
-  std::size_t corners = 0;
+  int corners = 0;
   for (std::size_t v = 0; v < surface.points.size(); ++v) {
     int planes = 0;
-    for (int a = 0; a < 3; ++a) planes += surface.points[v][a] == box.min(a) || surface.points[v][a] == box.max(a);
+    for (int a = 0; a < 3; ++a) planes += std::abs(surface.points[v][a]) == 1;
     EXPECT_EQ(is_boundary[v], planes > 0) << surface.points[v];
-    corners += planes > 1;
+    corners += planes == 2;
   }
-  EXPECT_EQ(corners, 24u) << "cos(x) sin(y) and its like vanish twice on every edge of the cube of side 2 pi";
-  expect_vertices_on_surface(traits_of(gyroid), surface, Clip_domain_3(box).diagonal());
+  EXPECT_EQ(corners, 24);
+  expect_vertices_on_surface(traits, surface, Clip_domain_3(box).diagonal());
 }
 
 TEST(Delaunay_surface, nodes_are_vertices) {
@@ -150,26 +151,47 @@ TEST(Delaunay_surface, nodes_are_vertices) {
     EXPECT_TRUE(has_vertex(cayley, node)) << node;
 }
 
-TEST(Delaunay_surface, no_triangle_straddles_a_feature_curve) {
-  const auto torus = traits_of(functions::Torus());
-  const auto curves = parabolic_curves(delaunay_surface(torus, {30, 0.05, 0}), torus);
-  ASSERT_EQ(curves.polylines.size(), 2u);
-  const auto surface = delaunay_surface(torus, {30, 0.1, 0}, parameters::feature_curves(curves.polylines));
+TEST(Delaunay_surface, no_triangle_straddles_a_parabolic_curve) {
+  const functions::Torus f;
+  const auto surface = delaunay_surface(traits_of(f), {30, 0.1, 0}, parameters::parabolic_features());
   EXPECT_EQ(topology(surface).euler_characteristic, 0);
   EXPECT_TRUE(topology(surface).is_manifold);
-  const functions::Torus f;
-  std::size_t on_curve = 0;
+  int on_curve = 0;
   for (const auto& t : surface.triangles) {
-    int inside = 0, outside = 0;
+    int inner = 0, outer = 0;
     for (const auto v : t) {
       const Point_3& p = surface.points[v];
       const double distance = std::hypot(p.x(), p.y()) - f.major_radius; // K_e has its sign
-      if (std::abs(distance) < 1e-4) ++on_curve;
-      else ++(distance < 0 ? inside : outside);
+      if (std::abs(distance) < 1e-14) ++on_curve;
+      else ++(distance < 0 ? inner : outer);
     }
-    EXPECT_TRUE(inside == 0 || outside == 0);
+    EXPECT_TRUE(inner == 0 || outer == 0);
   }
-  EXPECT_GT(on_curve, 100u);
+  EXPECT_GT(on_curve, 200);
+}
+
+TEST(Delaunay_surface, edges_follow_a_curve_that_is_given) {
+  const double radius = std::sqrt(0.75); // of the parallel of the unit sphere at z = 1/2
+  Polyline_3<Kernel> parallel;
+  for (int n = 0; n < 200; ++n) {
+    const double angle = 2 * CGAL_PI * n / 200;
+    parallel.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.5);
+  }
+  parallel.is_closed = true;
+  const auto traits = traits_of(functions::Sphere());
+  const auto surface =
+      delaunay_surface(traits, {30, 0.2, 0}, parameters::feature_curves(std::vector{parallel}));
+  EXPECT_EQ(topology(surface).euler_characteristic, 2);
+  expect_vertices_on_surface(traits, surface, 1);
+  const double sagitta = radius * (1 - std::cos(CGAL_PI / 200));
+  for (const auto& t : surface.triangles) {
+    int above = 0, below = 0;
+    for (const auto v : t) {
+      const double height = surface.points[v].z() - 0.5;
+      if (std::abs(height) > sagitta) ++(height > 0 ? above : below);
+    }
+    EXPECT_TRUE(above == 0 || below == 0);
+  }
 }
 
 TEST(Delaunay_surface, every_point_of_the_surface_is_near_the_mesh) {

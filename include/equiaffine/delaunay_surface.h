@@ -7,10 +7,15 @@
 #include <equiaffine/Polyline_3.h>
 #include <equiaffine/internal/Any_function_3.h>
 #include <equiaffine/named_parameters.h>
+#include <equiaffine/parabolic_curves.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>
 
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -34,10 +39,45 @@ struct Delaunay_surface_3 : Isosurface_3<Kernel> {
 
 namespace internal {
 
+/// A curve on the surface that becomes a chain of edges, and the point of it near one of the polyline.
+struct Feature_curve_3 {
+  Polyline_3<Any_function_3::Kernel> polyline;
+  std::function<Any_function_3::Point_3(const Any_function_3::Point_3&)> project;
+};
+
 /// Compiled in the target equiaffine::mesher. The criteria are complete.
 Delaunay_surface_3<Any_function_3::Kernel> mesh_surface(const Any_function_3& function, const Clip_domain_3& domain,
                                                         const Delaunay_criteria& criteria, Facet_sizing sizing,
-                                                        const std::vector<Polyline_3<Any_function_3::Kernel>>& features);
+                                                        const std::vector<Feature_curve_3>& features);
+
+/// The curves that a caller of delaunay_surface gave, of any kernel.
+template <class Polylines>
+std::vector<Feature_curve_3> given_features(const Any_function_3& function, const Polylines& curves, double reach) {
+  std::vector<Feature_curve_3> features;
+  for (const auto& curve : curves) {
+    auto& feature = features.emplace_back();
+    feature.polyline.is_closed = curve.is_closed;
+    for (const auto& p : curve.points)
+      feature.polyline.points.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+    feature.project = [function, reach](const Any_function_3::Point_3& p) {
+      const auto found = project_to_surface(function, p, reach);
+      return found.has_converged ? found.point : p;
+    };
+  }
+  return features;
+}
+
+/// The parabolic curves, found on a mesh.
+inline std::vector<Feature_curve_3> parabolic_features(const Any_function_3& function,
+                                                       const Delaunay_surface_3<Any_function_3::Kernel>& mesh,
+                                                       double reach) {
+  std::vector<Feature_curve_3> features;
+  for (auto& curve : parabolic_curves(mesh, function).polylines)
+    features.push_back({std::move(curve), [function, reach](const Any_function_3::Point_3& p) {
+                          return project_to_parabolic_curve(function, p, reach * reach).value_or(p);
+                        }});
+  return features;
+}
 
 } // namespace internal
 
@@ -49,11 +89,12 @@ Delaunay_surface_3<Any_function_3::Kernel> mesh_surface(const Any_function_3& fu
 /// a subdivision of the domain into boxes finds with the interval bounds of the function: when `is_certified`, none was
 /// missed, however small. A closed regular surface gives a closed oriented 2-manifold.
 ///
-/// Features are made of edges of the mesh: the curves where the surface meets the border of the clip domain, and
-/// `feature_curves`. Beside them angles may be smaller, as at their corners they must be. Nodes of the surface, as the
+/// Features are made of edges of the mesh: the curves where the surface meets the border of the clip domain, `feature_curves`,
+/// and the parabolic curves if they are asked for. Beside them angles may be smaller, as at their corners they must be. Nodes of the surface, as the
 /// apex of a cone, are vertices; near other singular points the mesh ends in facets of radius/8, whatever their angles.
 ///
-/// Named parameters: `clip` (the box of the function), `facet_sizing` (UNIFORM), `feature_curves` (none).
+/// Named parameters: `clip` (the box of the function), `facet_sizing` (UNIFORM), `feature_curves` (none),
+/// `parabolic_features` (no).
 /// Deterministic; one thread. Time: for 20,000 triangles about 0.2 seconds and 10 to 40 evaluations per triangle.
 template <ImplicitFunctionTraits_3 Traits, class NamedParameters = internal::No_parameters>
 Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Delaunay_criteria criteria = {},
@@ -65,14 +106,16 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Del
   if (criteria.distance == 0) criteria.distance = criteria.radius / 10;
   CGAL_precondition(criteria.angle >= 0 && criteria.angle <= 30);
   CGAL_precondition(criteria.radius > 0 && criteria.distance > 0);
-  std::vector<Polyline_3<internal::Any_function_3::Kernel>> features;
-  for (const auto& curve : internal::get_parameter<internal::Feature_curves_tag>(parameters, std::vector<Polyline_3<Kernel>>())) {
-    auto& copy = features.emplace_back();
-    copy.is_closed = curve.is_closed;
-    for (const auto& p : curve.points)
-      copy.points.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+  const auto function = internal::Any_function_3::make(traits);
+  const auto curves =
+      internal::get_parameter<internal::Feature_curves_tag>(parameters, std::vector<Polyline_3<Kernel>>());
+  auto features = internal::given_features(function, curves, criteria.radius);
+  auto mesh = internal::mesh_surface(function, domain, criteria, sizing, features);
+  if constexpr (internal::has_parameter<internal::Parabolic_features_tag, NamedParameters>) {
+    auto parabolic = internal::parabolic_features(function, mesh, criteria.radius);
+    std::move(parabolic.begin(), parabolic.end(), std::back_inserter(features));
+    mesh = internal::mesh_surface(function, domain, criteria, sizing, features);
   }
-  auto mesh = internal::mesh_surface(internal::Any_function_3::make(traits), domain, criteria, sizing, features);
   if constexpr (std::is_same_v<Kernel, internal::Any_function_3::Kernel>) {
     return mesh;
   } else {

@@ -27,6 +27,7 @@ namespace internal {
 
 struct Clip_tag {};
 struct Feature_curves_tag {};
+struct Parabolic_features_tag {};
 struct Facet_sizing_tag {};
 struct Number_of_nodes_tag {};
 struct Vertex_position_tag {};
@@ -64,6 +65,10 @@ struct Named_parameters {
   template <class Polylines>
   auto feature_curves(const Polylines& curves) const {
     return Named_parameters<Polylines, Feature_curves_tag, Named_parameters>{curves, *this};
+  }
+
+  auto parabolic_features() const {
+    return Named_parameters<std::true_type, Parabolic_features_tag, Named_parameters>{{}, *this};
   }
 
   auto facet_sizing(Facet_sizing sizing) const {
@@ -125,6 +130,12 @@ auto clip(const Domain& domain) {
 template <class Polylines>
 auto feature_curves(const Polylines& curves) {
   return internal::Named_parameters<Polylines, internal::Feature_curves_tag>{curves, {}};
+}
+
+/// The edges of the mesh follow the parabolic curves, so that no triangle has points on both sides of one, where the
+/// affine curvatures are infinite.
+inline auto parabolic_features() {
+  return internal::Named_parameters<std::true_type, internal::Parabolic_features_tag>{{}, {}};
 }
 
 /// Default Facet_sizing::UNIFORM.

@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,26 @@ Jet_3<FT, 1> parabolic_function(const Jet_3<FT>& f) {
 }
 
 namespace internal {
+
+/// The solution of f = 0, d = 0 that Newton's method with steps of least length finds from p; nothing if one of them
+/// leads too far away.
+template <ImplicitFunctionTraits_3 Traits>
+std::optional<typename Traits::Point_3> project_to_parabolic_curve(const Traits& traits,
+                                                                   const typename Traits::Point_3& start,
+                                                                   const typename Traits::FT& squared_reach) {
+  using FT = typename Traits::FT;
+  constexpr int maximal_iterations = 30;
+  auto p = start;
+  for (int n = 0; n < maximal_iterations; ++n) {
+    const auto jet = traits.taylor(p);
+    const auto step = step_to_curve<typename Traits::Vector_3>(jet, parabolic_function(jet));
+    if (!((p + step - start).squared_length() <= squared_reach)) return std::nullopt; // also NaN
+    p = p + step;
+    const FT rounding = FT(8) * std::numeric_limits<FT>::epsilon();
+    if (step.squared_length() <= rounding * rounding * (p - CGAL::ORIGIN).squared_length()) return p;
+  }
+  return std::nullopt;
+}
 
 template <class ConcurrencyTag, class Traits>
 class Parabolic_curve_finder_3 {
@@ -110,28 +131,14 @@ private:
     }
   }
 
-  /// From the linear intersection with the edge to f = 0, d = 0 by Newton's method with steps of least length, which
-  /// may not lead further away than the edge is long.
+  /// From the linear intersection with the edge, not further away than the edge is long.
   bool place_point(std::size_t e) {
-    constexpr int maximal_iterations = 30;
     const auto [a, b] = edges_[e];
     const Vector_3 edge = mesh_.points[b] - mesh_.points[a];
-    const Point_3 start = mesh_.points[a] + values_[a] / (values_[a] - values_[b]) * edge;
-    const FT reach = edge.squared_length();
-    Point_3 p = start;
-    points_[e] = start;
-    for (int n = 0; n < maximal_iterations; ++n) {
-      const auto jet = traits_.taylor(p);
-      const Vector_3 step = step_to_curve<Vector_3>(jet, parabolic_function(jet));
-      if (!((p + step - start).squared_length() <= reach)) return false; // also NaN
-      p = p + step;
-      const FT rounding = FT(8) * std::numeric_limits<FT>::epsilon();
-      if (step.squared_length() <= rounding * rounding * (p - CGAL::ORIGIN).squared_length()) {
-        points_[e] = p;
-        return true;
-      }
-    }
-    return false;
+    points_[e] = mesh_.points[a] + values_[a] / (values_[a] - values_[b]) * edge;
+    const auto p = project_to_parabolic_curve(traits_, points_[e], edge.squared_length());
+    if (p) points_[e] = *p;
+    return p.has_value();
   }
 
   void link(std::vector<Polyline_3<Kernel>>& polylines) {
