@@ -108,8 +108,7 @@ private:
   void insert(const std::vector<Ball>& balls) {
     for (const Ball& ball : balls) {
       const Kernel_point p(ball.center.x(), ball.center.y(), ball.center.z());
-      const auto vertex =
-          complex_.triangulation().insert(Triangulation::Weighted_point(p, ball.radius * ball.radius));
+      const auto vertex = complex_.triangulation().insert(Triangulation::Weighted_point(p, ball.radius * ball.radius));
       if (vertex == Triangulation::Vertex_handle()) continue;
       complex_.set_dimension(vertex, ball.dimension);
       complex_.set_index(vertex, 1);

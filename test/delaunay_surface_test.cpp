@@ -45,8 +45,9 @@ double smallest_angle(const Surface& surface, const std::vector<bool>& is_on_fea
   double smallest = 180;
   for (const auto& t : surface.triangles)
     for (std::size_t i = 0; i < 3; ++i)
-      if (!is_on_feature[t[0]] && !is_on_feature[t[1]] && !is_on_feature[t[2]]) smallest = std::min(smallest, CGAL::approximate_angle(surface.points[t[(i + 1) % 3]], surface.points[t[i]],
-                                                            surface.points[t[(i + 2) % 3]]));
+      if (!is_on_feature[t[0]] && !is_on_feature[t[1]] && !is_on_feature[t[2]])
+        smallest = std::min(smallest, CGAL::approximate_angle(surface.points[t[(i + 1) % 3]], surface.points[t[i]],
+                                                              surface.points[t[(i + 2) % 3]]));
   return smallest;
 }
 
@@ -179,8 +180,7 @@ TEST(Delaunay_surface, edges_follow_a_curve_that_is_given) {
   }
   parallel.is_closed = true;
   const auto traits = traits_of(functions::Sphere());
-  const auto surface =
-      delaunay_surface(traits, {30, 0.2, 0}, parameters::feature_curves(std::vector{parallel}));
+  const auto surface = delaunay_surface(traits, {30, 0.2, 0}, parameters::feature_curves(std::vector{parallel}));
   EXPECT_EQ(topology(surface).euler_characteristic, 2);
   expect_vertices_on_surface(traits, surface, 1);
   const double sagitta = radius * (1 - std::cos(CGAL_PI / 200));

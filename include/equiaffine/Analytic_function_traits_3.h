@@ -56,8 +56,7 @@ inline Jet_3<Interval, 1> mean_value_bounds(const Jet_3<Interval, 2>& jet, const
     }
   }
   Jet_3<Interval, 1> bounds;
-  for (std::size_t n = 0; n < 4; ++n)
-    bounds.coefficients()[n] = Interval::intersection(jet.coefficients()[n], sum[n]);
+  for (std::size_t n = 0; n < 4; ++n) bounds.coefficients()[n] = Interval::intersection(jet.coefficients()[n], sum[n]);
   return bounds;
 }
 

@@ -43,8 +43,8 @@ public:
   using Surface_patch = internal::Cgal_optional<Surface_patch_index>;
   using Intersection = std::tuple<Point_3, Index, int>;
 
-  /// `facet_size` is the bound of the radii of surface Delaunay balls that will be asked for, 0 for 1/50 of the diagonal:
-  /// initial points are that dense, and on longer dual edges pairs of intersections are looked for.
+  /// `facet_size` is the bound of the radii of surface Delaunay balls that will be asked for, 0 for 1/50 of the
+  /// diagonal: initial points are that dense, and on longer dual edges pairs of intersections are looked for.
   Implicit_mesh_domain_3(Traits traits, const Clip_domain_3& domain, double facet_size = 0)
       : facet_size_(facet_size > 0 ? facet_size : domain.diagonal() / 50),
         oracle_(std::make_shared<const Oracle>(std::move(traits), domain, 2 * facet_size_)) {}

@@ -211,8 +211,8 @@ struct Chmutov_sextic {
 };
 
 /// 4 (g^2 x^2 - y^2) (g^2 y^2 - z^2) (g^2 z^2 - x^2) - (1 + 2 g) (x^2 + y^2 + z^2 - 1)^2 + c with the golden ratio g.
-/// For c = 0 it has 65 nodes, of which 15 at infinity; (1, 0, 0) is one. A small c > 0 opens them: smooth and connected. Barth: Two projective surfaces with many nodes, admitting the
-/// symmetries of the icosahedron, 1996.
+/// For c = 0 it has 65 nodes, of which 15 at infinity; (1, 0, 0) is one. A small c > 0 opens them: smooth and
+/// connected. Barth: Two projective surfaces with many nodes, admitting the symmetries of the icosahedron, 1996.
 struct Barth_sextic {
   double c = 0;
 

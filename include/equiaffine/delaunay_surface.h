@@ -81,17 +81,18 @@ inline std::vector<Feature_curve_3> parabolic_features(const Any_function_3& fun
 
 } // namespace internal
 
-/// The zero set of a function, by Delaunay refinement (Boissonnat, Oudot: Provably good sampling and meshing of surfaces,
-/// 2005): a triangle mesh with vertices on the surface, angles of at least `criteria.angle`, and normals along the
-/// gradient. Link with equiaffine::mesher.
+/// The zero set of a function, by Delaunay refinement (Boissonnat, Oudot: Provably good sampling and meshing of
+/// surfaces, 2005): a triangle mesh with vertices on the surface, angles of at least `criteria.angle`, and normals along
+/// the gradient. Link with equiaffine::mesher.
 ///
 /// The refinement is that of CGAL's 3D Mesh Generation. It starts from points on every component of the surface, which
 /// a subdivision of the domain into boxes finds with the interval bounds of the function: when `is_certified`, none was
 /// missed, however small. A closed regular surface gives a closed oriented 2-manifold.
 ///
-/// Features are made of edges of the mesh: the curves where the surface meets the border of the clip domain, `feature_curves`,
-/// and the parabolic curves if they are asked for. Beside them angles may be smaller, as at their corners they must be. Nodes of the surface, as the
-/// apex of a cone, are vertices; near other singular points the mesh ends in facets of radius/8, whatever their angles.
+/// Features are made of edges of the mesh: the curves where the surface meets the border of the clip domain,
+/// `feature_curves`, and the parabolic curves if they are asked for. Beside them angles may be smaller, as at their
+/// corners they must be. Nodes of the surface, as the apex of a cone, are vertices; near other singular points the mesh
+/// ends in facets of radius/8, whatever their angles.
 ///
 /// Named parameters: `clip` (the box of the function), `facet_sizing` (UNIFORM), `feature_curves` (none),
 /// `parabolic_features` (no).

@@ -113,8 +113,9 @@ private:
 
   bool is_empty(const CGAL::Bbox_3& b, double margin) const {
     if constexpr (BoundedImplicitFunctionTraits_3<Traits>)
-      return !traits_.bounds(CGAL::Bbox_3(b.xmin() - margin, b.ymin() - margin, b.zmin() - margin, b.xmax() + margin,
-                                          b.ymax() + margin, b.zmax() + margin))
+      return !traits_
+                  .bounds(CGAL::Bbox_3(b.xmin() - margin, b.ymin() - margin, b.zmin() - margin, b.xmax() + margin,
+                                       b.ymax() + margin, b.zmax() + margin))
                   .contains(0);
     else return false;
   }
@@ -137,9 +138,7 @@ private:
     if (curve.is_closed || !is_short(curve.points.front(), curve.points.back())) curves_.push_back(std::move(curve));
   }
 
-  bool is_short(const Point_3& p, const Point_3& q) const {
-    return CGAL::squared_distance(p, q) < step_ * step_ / 100;
-  }
+  bool is_short(const Point_3& p, const Point_3& q) const { return CGAL::squared_distance(p, q) < step_ * step_ / 100; }
 
   /// A step may end right before an edge of the box, or the curve may have been found there.
   void drop_neighbors_of_ends(std::vector<Point_3>& p) const {

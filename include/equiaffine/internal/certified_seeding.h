@@ -4,6 +4,7 @@
 
 #include <equiaffine/Clip_domain_3.h>
 #include <equiaffine/internal/Seed_grid_3.h>
+#include <equiaffine/internal/acute_gradients.h>
 #include <equiaffine/internal/curve_step.h>
 #include <equiaffine/internal/first_order_bounds.h>
 #include <equiaffine/project_to_surface.h>
@@ -147,10 +148,10 @@ private:
     if constexpr (BoundedImplicitFunctionTraits_3<Traits>)
       if (!traits_.bounds(box).contains(0)) return true;
     auto jet = first_order_bounds(traits_, box);
-    bool is_decided = has_acute_gradients(jet, {true, true, true}) && is_decided_at_border(jet, box);
+    bool is_decided = has_acute_gradients(traits_, jet, box, box_);
     if (!is_decided && jet.value().contains(0) && cell_side() <= seeded_size * largest_size_) {
       jet = tight_first_order_bounds(traits_, box);
-      is_decided = has_acute_gradients(jet, {true, true, true}) && is_decided_at_border(jet, box);
+      is_decided = has_acute_gradients(traits_, jet, box, box_);
     }
     if (is_decided) {
       double sum = 0;
@@ -158,36 +159,6 @@ private:
       cell.slope = 0.501 * sum; // from the center half a side along each axis, and some rounding
     }
     return !jet.value().contains(0);
-  }
-
-  /// Whether the projections to some axes of any two gradients in the box have a positive product.
-  static bool has_acute_gradients(const Jet_3<Interval, 1>& jet, const std::array<bool, 3>& axes) {
-    Interval product(0);
-    for (std::size_t a = 0; a < 3; ++a) {
-      const Interval g = jet.coefficients()[1 + a], independent = g;
-      if (axes[a]) product += g * independent;
-    }
-    return product.lower() > 0;
-  }
-
-  bool is_decided_at_border(const Jet_3<Interval, 1>& jet, const CGAL::Bbox_3& box) const {
-    for (unsigned face = 1; face < 7; ++face) { // the axes that are constant: one on a face, two on an edge of the box
-      std::array<double, 3> lower = {box.xmin(), box.ymin(), box.zmin()}, upper = {box.xmax(), box.ymax(), box.zmax()};
-      std::array<bool, 3> is_free = {true, true, true};
-      bool is_border = true;
-      for (unsigned a = 0; a < 3; ++a) {
-        if (!(face >> a & 1)) continue;
-        is_free[a] = false;
-        if (lower[a] == box_.min(int(a))) upper[a] = lower[a];
-        else if (upper[a] == box_.max(int(a))) lower[a] = upper[a];
-        else is_border = false;
-      }
-      if (!is_border || has_acute_gradients(jet, is_free)) continue;
-      const CGAL::Bbox_3 part(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]);
-      const auto jet_there = tight_first_order_bounds(traits_, part);
-      if (jet_there.value().contains(0) && !has_acute_gradients(jet_there, is_free)) return false;
-    }
-    return true;
   }
 
   /// An undecided cell is reported and seeded as the one of a sixteenth of the facet size that contains it.
@@ -311,10 +282,10 @@ private:
   }
 
   static constexpr double coarsening = 1.4; // a cell that had to be small has seeds at this distance in sides
-  static constexpr int candidates = 3;    // of a cell, before its edges are searched
-  static constexpr int directions = 8;   // from a seed to others
-  static constexpr double jitter = 0.2;  // of their distance, as a fraction
-  static constexpr double growth = 1.2; // of the spacing from a seed to those around it
+  static constexpr int candidates = 3;      // of a cell, before its edges are searched
+  static constexpr int directions = 8;      // from a seed to others
+  static constexpr double jitter = 0.2;     // of their distance, as a fraction
+  static constexpr double growth = 1.2;     // of the spacing from a seed to those around it
 
   const Traits& traits_;
   const Clip_domain_3& domain_;

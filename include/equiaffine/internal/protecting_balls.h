@@ -85,8 +85,8 @@ private:
   }
 
   std::size_t corner(const Point_3& p) {
-    const auto known = std::find_if(corners_.begin(), corners_.end(),
-                                    [&](std::size_t n) { return balls_[n].center == p; });
+    const auto known =
+        std::find_if(corners_.begin(), corners_.end(), [&](std::size_t n) { return balls_[n].center == p; });
     if (known != corners_.end()) return *known;
     corners_.push_back(add(p, 0));
     return corners_.back();

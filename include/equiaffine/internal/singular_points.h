@@ -6,7 +6,6 @@
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions_3.h>
-
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -29,8 +28,8 @@ std::optional<typename Traits::Point_3> node_near(const Traits& traits, const ty
     Eigen::Matrix3d hessian;
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column)
-        hessian(row, column) = jet.derivative((row == 0) + (column == 0), (row == 1) + (column == 1),
-                                              (row == 2) + (column == 2));
+        hessian(row, column) =
+            jet.derivative((row == 0) + (column == 0), (row == 1) + (column == 1), (row == 2) + (column == 2));
     const double scale = hessian.norm();
     constexpr double least_determinant = 1e-6; // on a singular curve it is 0
     if (!(std::abs(hessian.determinant()) > least_determinant * scale * scale * scale)) return std::nullopt;
