@@ -99,7 +99,7 @@ inline std::vector<Feature_curve_3> parabolic_features(const Any_function_3& fun
 template <ImplicitFunctionTraits_3 Traits, class NamedParameters = internal::No_parameters>
 Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Delaunay_criteria criteria = {},
                                                        const NamedParameters& parameters = {}) {
-  using Kernel = Kernel_of<Traits>;
+  using Surface = Delaunay_surface_3<Kernel_of<Traits>>;
   const auto domain = internal::get_parameter<internal::Clip_tag>(parameters, Clip_domain_3(traits.bbox()));
   const auto sizing = internal::get_parameter<internal::Facet_sizing_tag>(parameters, Facet_sizing::UNIFORM);
   if (criteria.radius == 0) criteria.radius = domain.diagonal() / 50;
@@ -108,7 +108,7 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Del
   CGAL_precondition(criteria.radius > 0 && criteria.distance > 0);
   const auto function = internal::Any_function_3::make(traits);
   const auto curves =
-      internal::get_parameter<internal::Feature_curves_tag>(parameters, std::vector<Polyline_3<Kernel>>());
+      internal::get_parameter<internal::Feature_curves_tag>(parameters, std::vector<Polyline_3<Kernel_of<Traits>>>());
   auto features = internal::given_features(function, curves, criteria.radius);
   auto mesh = internal::mesh_surface(function, domain, criteria, sizing, features);
   if constexpr (internal::has_parameter<internal::Parabolic_features_tag, NamedParameters>) {
@@ -116,10 +116,10 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Del
     std::move(parabolic.begin(), parabolic.end(), std::back_inserter(features));
     mesh = internal::mesh_surface(function, domain, criteria, sizing, features);
   }
-  if constexpr (std::is_same_v<Kernel, internal::Any_function_3::Kernel>) {
+  if constexpr (std::is_same_v<Surface, decltype(mesh)>) {
     return mesh;
   } else {
-    Delaunay_surface_3<Kernel> result;
+    Surface result;
     for (const auto& p : mesh.points) result.points.emplace_back(p.x(), p.y(), p.z());
     result.triangles = std::move(mesh.triangles);
     result.vertex_status = std::move(mesh.vertex_status);
