@@ -206,7 +206,7 @@ TEST(Delaunay_surface, the_image_of_a_surface_has_its_topology_and_vertices_on_i
   const functions::Tanglecube f;
   const Kernel::Aff_transformation_3 map(0.9, 0, 0.9, 0, 2, 0, 1.1, 0, 0.6);
   const Transformed_function_traits_3 traits(traits_of(f), map);
-  const auto surface = delaunay_surface(traits, {30, 0.25, 0});
+  const auto surface = delaunay_surface(traits, {30, 0.15, 0});
   EXPECT_TRUE(surface.is_certified);
   EXPECT_TRUE(surface.undecided_boxes.empty());
   EXPECT_EQ(topology(surface).components, 1u);
