@@ -91,7 +91,7 @@ void sample(const Traits& function, const Mesh_options& options, const Delaunay_
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
   check_box_of_delaunay_surface(box, diagonal);
   Delaunay_criteria criteria = method.criteria;
-  if (criteria.radius == 0) criteria.radius = diagonal / 50;
+  criteria.radius = criteria.radius == 0 ? diagonal / 50 : std::min(criteria.radius, diagonal); // of no larger ball
   if (criteria.distance == 0) criteria.distance = criteria.radius / 10;
   check_memory_of_delaunay_surface(diagonal, criteria.radius, criteria.distance);
   const Clip_domain_3 domain = method.clips_to_ball ? Clip_domain_3::ball_in(box) : Clip_domain_3(box);
