@@ -58,13 +58,13 @@ void check_memory_of_delaunay_surface(double diagonal, double radius, double dis
   // A ball of radius r about a point of the sphere of diameter d rises r^2 / d above the plane of its triangle. A
   // square of side r has 2/3 vertices, each with 7 tetrahedra of the triangulation, 2 triangles and its attributes.
   // The surface may be much smaller than the sphere: what is refused cannot have been meant.
-  constexpr double vertices_per_square = 2.0 / 3, bytes_per_vertex = 1500, part_of_sphere = 0.01;
+  constexpr double vertices_per_square = 2.0 / 3, bytes_per_vertex = 1500, part_of_sphere = 1e-4;
   const double diameter = diagonal / std::sqrt(3.0), area = 3.14159265 * diameter * diameter;
   const double squared_radius = std::min(radius * radius, distance * diameter);
   std::ostringstream reason;
   reason << "--radius and --distance: triangles within " << radius << " and " << distance;
   check_memory(part_of_sphere * bytes_per_vertex * vertices_per_square * area / squared_radius, reason.str(),
-               "a hundredth of the sphere in the box", "use larger ones");
+               "a ten-thousandth of the sphere in the box", "use larger ones");
 }
 
 } // namespace equiaffine

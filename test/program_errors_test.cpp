@@ -181,7 +181,7 @@ TEST_F(Program_errors, criteria_of_a_Delaunay_mesh_can_be_satisfied) {
   for (const char* option : {"--radius", "--distance"}) {
     for (const char* bad : {"0", "-1", "nan", "wide"})
       expect_error(delaunay + Arguments{option, bad}, {option, std::string("'").append(bad).append("'")});
-    expect_error(delaunay + Arguments{option, "1e-12"}, {option, "1e-12", "GB of memory", "use larger ones"});
+    expect_error(delaunay + Arguments{option, "1e-14"}, {option, "1e-14", "GB of memory", "use larger ones"});
   }
   for (const char* bad : {"30.1", "-1", "inf"}) expect_error(delaunay + Arguments{"--angle", bad}, {"--angle", bad});
   for (const char* side : {"1e50", "1e-50"}) {
