@@ -61,6 +61,8 @@ public:
 
     static constexpr double clearance = 2; // square of distance / radius of a ball
 
+    double squared_min_radius_bound() const { return smallest * smallest; } // CGAL 6 asks for it
+
     Facet_sizing_field size;
     double least_sine, distance, smallest;
   };

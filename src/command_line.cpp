@@ -167,12 +167,27 @@ private:
     add(command, "--isovalue", 1, "V", "the level set f = V, by default 0");
     add_surface(command);
     group_ = "Sampling";
-    add(command, "--method", 1, "marching-cubes", "how the surface is sampled");
+    add(command, "--method", 1, "marching-cubes|delaunay",
+        "a mesh on the edges of a grid (marching-cubes, the default), or one of triangles with\n"
+        "good angles that is proved to be complete where the function has bounds (delaunay)");
     add_resolution(command);
+    add_threads(command);
+    group_ = "Sampling with --method marching-cubes";
     add(command, "--vertices", 1, "projected|linear",
         "on the surface (projected, the default), or where linear interpolation along the\n"
         "grid edges finds it (linear)");
-    add_threads(command);
+    group_ = "Sampling with --method delaunay";
+    add(command, "--angle", 1, "DEG", "the least angle of triangles, at most 30, the default");
+    add(command, "--radius", 1, "R",
+        "the greatest radius of a ball about a point of the surface through the corners of a\n"
+        "triangle, by default 1/50 of the diagonal of the box");
+    add(command, "--distance", 1, "D",
+        "the greatest distance of a triangle's circumcenter from the center of that ball, by\n"
+        "default R/10");
+    add(command, "--sizing", 1, "uniform|euclidean|affine",
+        "triangles of one size (uniform, the default), smaller ones where a radius of curvature\n"
+        "is less than 4 R (euclidean), or such of equal affine area (affine)");
+    add(command, "--clip", 1, "box|ball", "cut the surface off at the box (the default) or at the largest ball in it");
     add_output(command, "OUT",
                "the mesh: .ply .off .obj .stl"
 #ifdef EQUIAFFINE_WITH_VTK

@@ -8,6 +8,7 @@
 #include <equiaffine/Input_error.h>
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/attributes.h>
+#include <equiaffine/delaunay_surface.h>
 #include <equiaffine/distance_to_surface.h>
 #include <equiaffine/marching_cubes.h>
 #include <equiaffine/parabolic_curves.h>
@@ -15,7 +16,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -27,12 +30,15 @@ struct Annotated_surface {
   Isosurface_3<Kernel> mesh;
   Vertex_attributes attributes;
   std::array<std::size_t, number_of_point_statuses> status{};
+  std::optional<Completeness> completeness;
   double max_distance = 0, annotation_seconds = 0;
-  Parabolic_curves_3<Kernel> curves; ///< if they were asked for
+  std::optional<Parabolic_curves_3<Kernel>> curves; ///< if they were asked for
 };
 
+/// `place` is where it was looked for, `refinement` what may find more.
 template <class Traits>
-[[noreturn]] void fail_without_surface(const Traits& function, double isovalue) {
+[[noreturn]] void fail_without_surface(const Traits& function, double isovalue, const std::string& place,
+                                       const std::string& refinement) {
   const auto samples = [&] {
     if constexpr (LatticeImplicitFunctionTraits_3<Traits>) {
       Volume_3<Kernel> volume{function.lattice(), {}};
@@ -50,11 +56,55 @@ template <class Traits>
     if (value > greatest) greatest = value;
   }
   std::ostringstream text;
-  text << "no surface f = " << isovalue << " in the box: at its nodes f ";
+  text << "no surface f = " << isovalue << " in the " << place << ": at the nodes of a grid f ";
   if (least <= greatest) text << "lies between " << least << " and " << greatest;
   else text << "is undefined";
-  text << "; choose another --isovalue or box, or a finer --resolution";
+  text << "; choose another --isovalue or box" << refinement;
   throw Input_error(text.str());
+}
+
+template <class Traits>
+void sample(const Traits& function, const Mesh_options& options, const Marching_cubes_options& method,
+            Annotated_surface& surface) {
+  surface.mesh = marching_cubes<CGAL::Parallel_if_available_tag>(
+      function, parameters::vertex_position(method.vertices)
+                    .number_of_nodes(options.source.resolution.value_or(default_resolution(options.source.kind))));
+  if (surface.mesh.triangles.empty())
+    fail_without_surface(function.base(), options.isovalue, "box", ", or a finer --resolution");
+}
+
+/// The mesher computes polynomials of degree 6 in lengths, which must not over- or underflow.
+void check_box_of_delaunay_surface(const CGAL::Bbox_3& box, double diagonal) {
+  constexpr double least = 1e-40, greatest = 1e40;
+  double farthest = diagonal;
+  for (int a = 0; a < 3; ++a) farthest = std::max({farthest, std::abs(box.min(a)), std::abs(box.max(a))});
+  if (diagonal >= least && farthest <= greatest) return;
+  std::ostringstream text;
+  text << "the box of the function has the diagonal " << diagonal << ", and coordinates to " << farthest
+       << "; --method delaunay works with numbers from " << least << " to " << greatest << ": choose another unit";
+  throw Input_error(text.str());
+}
+
+template <class Traits>
+void sample(const Traits& function, const Mesh_options& options, const Delaunay_options& method,
+            Annotated_surface& surface) {
+  const CGAL::Bbox_3 box = function.bbox();
+  const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
+  check_box_of_delaunay_surface(box, diagonal);
+  Delaunay_criteria criteria = method.criteria;
+  criteria.radius = criteria.radius == 0 ? diagonal / 50 : std::min(criteria.radius, diagonal); // of no larger ball
+  if (criteria.distance == 0) criteria.distance = criteria.radius / 10;
+  check_memory_of_delaunay_surface(diagonal, criteria.radius, criteria.distance);
+  const Clip_domain_3 domain = method.clips_to_ball ? Clip_domain_3::ball_in(box) : Clip_domain_3(box);
+  const auto parameters = parameters::clip(domain).facet_sizing(method.sizing);
+  auto mesh = options.curves ? delaunay_surface(function, criteria, parameters.parabolic_features())
+                             : delaunay_surface(function, criteria, parameters);
+  if (mesh.triangles.empty())
+    fail_without_surface(function.base(), options.isovalue, method.clips_to_ball ? "ball" : "box",
+                         mesh.is_certified ? "" : ", or a smaller --radius");
+  surface.completeness = {mesh.is_certified, std::move(mesh.undecided_boxes)};
+  if (options.curves) surface.curves = std::move(mesh.parabolic_curves);
+  surface.mesh = std::move(mesh);
 }
 
 template <class Traits>
@@ -64,10 +114,7 @@ Annotated_surface make_surface(const Traits& function, const Mesh_options& optio
   const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
   Annotated_surface surface;
   progress.begin("extracting the surface");
-  surface.mesh = marching_cubes<CGAL::Parallel_if_available_tag>(
-      extracted, parameters::vertex_position(options.vertices)
-                     .number_of_nodes(options.source.resolution.value_or(default_resolution(options.source.kind))));
-  if (surface.mesh.triangles.empty()) fail_without_surface(function, options.isovalue);
+  std::visit([&](const auto& method) { sample(extracted, options, method, surface); }, options.method);
   if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
     for (auto& triangle : surface.mesh.triangles) std::swap(triangle[1], triangle[2]);
   const Stopwatch stopwatch;
@@ -82,7 +129,7 @@ Annotated_surface make_surface(const Traits& function, const Mesh_options& optio
   surface.status = count(*surface.attributes.status);
   if (!options.attributes.has_status) surface.attributes.status.reset();
   surface.annotation_seconds = stopwatch.seconds();
-  if (options.curves) {
+  if (options.curves && !surface.curves) {
     progress.begin("finding parabolic curves");
     surface.curves = parabolic_curves<CGAL::Parallel_if_available_tag>(surface.mesh, level_set);
   }
@@ -101,6 +148,7 @@ Statistics make_statistics(const Mesh_options& options, const Annotated_surface&
   statistics.sample_seconds = surface.mesh.sampling_seconds;
   statistics.project_seconds = surface.mesh.projection_seconds;
   statistics.annotate_seconds = surface.annotation_seconds;
+  statistics.completeness = surface.completeness;
   statistics.function_evaluations = source.function_evaluations + surface.mesh.function_evaluations;
   return statistics;
 }
@@ -159,7 +207,7 @@ struct Outputs {
 
 void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress) {
   Outputs outputs(options);
-  if (options.source.derivatives == Derivatives::JETS)
+  if (options.source.derivatives == Derivatives::JETS && std::holds_alternative<Marching_cubes_options>(options.method))
     check_memory_of_surface(options.source.resolution.value_or(default_resolution(options.source.kind)));
   const Stopwatch source_stopwatch;
   const Source source = make_source(options.source, progress);
@@ -175,7 +223,7 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   write_surface(*file++, surface.mesh, surface.attributes);
   if (options.html)
     write_page(*file++, surface.mesh, surface.attributes, options.page, make_description(options, statistics));
-  if (options.curves) write_curves(*file++, surface.curves);
+  if (options.curves) write_curves(*file++, *surface.curves);
   for (Output_file& output : outputs.files) output.close();
   statistics.write_seconds = write_stopwatch.seconds();
   if (options.stats) file->stream() << to_JSON(statistics);
@@ -183,7 +231,7 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   commit_all(outputs.files);
   if (!outputs.use_standard_output()) {
     out << summary(statistics);
-    if (options.curves) out << summary(surface.curves);
+    if (options.curves) out << summary(*surface.curves);
     for (const Output_file& output : outputs.files) out << "wrote " << output.path() << '\n';
   }
 }

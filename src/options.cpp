@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -143,14 +145,53 @@ void check_outputs(const std::vector<std::string>& paths) {
                         "; give each its own name");
 }
 
+double read_length(const Command_line& line, const std::string& option) {
+  if (!line.has(option)) return 0; // its default
+  const std::string word = line.word(option, {});
+  const double length = parse_finite_number(option, word);
+  if (!(length > 0)) fail_option(option, "'" + word + "' is not a length", "give a number above 0, or leave it out");
+  return length;
+}
+
+Delaunay_options read_delaunay_options(const Command_line& line, const Source_options& source) {
+  if (line.has("--resolution") && source.derivatives == Derivatives::JETS)
+    fail_option("--resolution", "--method delaunay needs no grid for a formula",
+                "leave it out and say with --radius how fine the mesh is to be");
+  Delaunay_options options;
+  const std::string angle = line.word("--angle", "30");
+  options.criteria = {parse_finite_number("--angle", angle), read_length(line, "--radius"),
+                      read_length(line, "--distance")};
+  if (!(options.criteria.angle >= 0 && options.criteria.angle <= 30))
+    fail_option("--angle", "'" + angle + "' is not between 0 and 30 degrees",
+                "give a smaller one: with more than 30 the refinement need not end");
+  options.sizing = static_cast<Facet_sizing>(
+      parse_choice("--sizing", line.word("--sizing", "uniform"), {"uniform", "euclidean", "affine"}));
+  options.clips_to_ball = parse_choice("--clip", line.word("--clip", "box"), {"box", "ball"}) == 1;
+  return options;
+}
+
+/// `--method` and the options that belong to it.
+std::variant<Marching_cubes_options, Delaunay_options> read_method(const Command_line& line,
+                                                                   const Source_options& source) {
+  const std::initializer_list<std::string_view> methods = {"marching-cubes", "delaunay"};
+  const bool is_delaunay = parse_choice("--method", line.word("--method", "marching-cubes"), methods) == 1;
+  const Words others =
+      is_delaunay ? Words{"--vertices"} : Words{"--angle", "--radius", "--distance", "--sizing", "--clip"};
+  for (const std::string& option : others)
+    if (line.has(option))
+      fail_option(option, std::string("it is for --method ") + (is_delaunay ? "marching-cubes" : "delaunay"),
+                  is_delaunay ? "leave it out" : "add --method delaunay or leave it out");
+  if (is_delaunay) return read_delaunay_options(line, source);
+  return Marching_cubes_options{static_cast<Vertex_position>(
+      parse_choice("--vertices", line.word("--vertices", "projected"), {"projected", "linear"}))};
+}
+
 Mesh_options read_mesh_options(const Command_line& line) {
   Mesh_options options;
   options.source = read_source(line);
   options.isovalue = parse_finite_number("--isovalue", line.word("--isovalue", "0"));
   options.orientation = read_orientation(line);
-  parse_choice("--method", line.word("--method", "marching-cubes"), {"marching-cubes"});
-  options.vertices = static_cast<Vertex_position>(
-      parse_choice("--vertices", line.word("--vertices", "projected"), {"projected", "linear"}));
+  options.method = read_method(line, options.source);
   options.attributes = read_attributes(line);
   options.output = read_output(line);
   options.html = optional_word(line, "--html");

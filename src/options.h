@@ -5,6 +5,7 @@
 #include "kernel.h"
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/attributes.h>
+#include <equiaffine/delaunay_surface.h>
 #include <equiaffine/named_parameters.h>
 
 #include <CGAL/Aff_transformation_3.h>
@@ -42,11 +43,21 @@ struct Page_options {
   std::array<double, 3> up = {0, 0, 1};
 };
 
+struct Marching_cubes_options {
+  Vertex_position vertices = Vertex_position::PROJECTED;
+};
+
+struct Delaunay_options {
+  Delaunay_criteria criteria; ///< a length of 0 stands for its default
+  Facet_sizing sizing = Facet_sizing::UNIFORM;
+  bool clips_to_ball = false; ///< the largest one in the box
+};
+
 struct Mesh_options {
   Source_options source;
   double isovalue = 0;
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
-  Vertex_position vertices = Vertex_position::PROJECTED;
+  std::variant<Marching_cubes_options, Delaunay_options> method;
   Attribute_selection attributes;
   std::string output;
   std::optional<std::string> html, curves, stats;

@@ -61,7 +61,8 @@ int run(const std::vector<std::string>& arguments, const Streams& streams) {
     if (!error.excerpt().empty()) streams.error << error.excerpt() << (error.excerpt().ends_with('\n') ? "" : "\n");
     return error_of_user;
   } catch (const std::bad_alloc&) {
-    report(streams.error, "error", "the memory of this computer is not enough; use a smaller --resolution or input");
+    report(streams.error, "error",
+           "the memory of this computer is not enough; use a smaller --resolution or input, or a larger --radius");
     return error_of_user;
   } catch (const std::exception& error) {
     report(streams.error, "internal error", error.what());

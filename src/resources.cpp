@@ -3,7 +3,11 @@
 
 #include <equiaffine/Input_error.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <numbers>
+#include <sstream>
 #include <string>
 #include <unistd.h>
 
@@ -17,12 +21,19 @@ std::string gigabytes(double bytes) {
   return text.data();
 }
 
-void check_memory(double needed, const std::array<std::size_t, 3>& n, const std::string& purpose) {
+/// `reason` is what needs the memory, `purpose` what it is for.
+void check_memory(double needed, const std::string& reason, const std::string& purpose, const std::string& advice) {
   const double pages = double(::sysconf(_SC_PHYS_PAGES)), page_size = double(::sysconf(_SC_PAGE_SIZE));
   if (pages > 0 && page_size > 0 && needed > pages * page_size)
-    throw Input_error("--resolution: " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
-                      std::to_string(n[2]) + " nodes need about " + gigabytes(needed) + " of memory for " + purpose +
-                      ", and this computer has " + gigabytes(pages * page_size) + "; use a smaller one");
+    throw Input_error(reason + " need about " + gigabytes(needed) + " of memory for " + purpose +
+                      ", and this computer has " + gigabytes(pages * page_size) + "; " + advice);
+}
+
+void check_memory(double needed, const std::array<std::size_t, 3>& n, const std::string& purpose) {
+  check_memory(needed,
+               "--resolution: " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " + std::to_string(n[2]) +
+                   " nodes",
+               purpose, "use a smaller one");
 }
 
 } // namespace
@@ -42,6 +53,19 @@ void check_memory_of_surface(const std::array<std::size_t, 3>& resolution) {
   const double sides = double(nx) * double(ny) + double(ny) * double(nz) + double(nz) * double(nx);
   check_memory(vertices_per_node * bytes_per_vertex * sides + bytes_per_node * double(nx) * double(ny), resolution,
                "the surface");
+}
+
+void check_memory_of_delaunay_surface(double diagonal, double radius, double distance) {
+  // A ball of radius r about a point of the sphere of diameter d rises r^2 / d above the plane of its triangle. A
+  // square of side r has 2/3 vertices, each with 7 tetrahedra of the triangulation, 2 triangles and its attributes.
+  // The surface may be much smaller than the sphere: what is refused cannot have been meant.
+  constexpr double vertices_per_square = 2.0 / 3, bytes_per_vertex = 1500, part_of_sphere = 1e-4;
+  const double diameter = diagonal / std::sqrt(3.0), area = std::numbers::pi * diameter * diameter;
+  const double squared_radius = std::min(radius * radius, distance * diameter);
+  std::ostringstream reason;
+  reason << "--radius and --distance: triangles within " << radius << " and " << distance;
+  check_memory(part_of_sphere * bytes_per_vertex * vertices_per_square * area / squared_radius, reason.str(),
+               "a ten-thousandth of the sphere in the box", "use larger ones");
 }
 
 } // namespace equiaffine

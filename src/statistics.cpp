@@ -31,6 +31,12 @@ std::string to_JSON(const Statistics& s) {
                      {"annotate", s.annotate_seconds},
                      {"write", s.write_seconds}};
   json["function_evaluations"] = s.function_evaluations;
+  if (s.completeness) {
+    json["certified"] = s.completeness->is_certified;
+    json["undecided_boxes"] = nlohmann::ordered_json::array();
+    for (const CGAL::Bbox_3& b : s.completeness->undecided_boxes) // as for --box
+      json["undecided_boxes"].push_back({b.xmin(), b.xmax(), b.ymin(), b.ymax(), b.zmin(), b.zmax()});
+  }
   // Texts come from the command line and need not be UTF-8.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
@@ -54,6 +60,11 @@ std::string summary(const Statistics& s) {
   if (s.max_distance_to_surface == s.max_distance_to_surface) text << "at most " << s.max_distance_to_surface;
   else text << "unknown";
   text << '\n';
+  if (s.completeness) {
+    const std::size_t n = s.completeness->undecided_boxes.size();
+    if (s.completeness->is_certified) text << "certified: no component is missing\n";
+    else text << "not certified: parts may be missing in " << n << (n == 1 ? " box\n" : " boxes\n");
+  }
   return text.str();
 }
 

@@ -5,12 +5,22 @@
 #include <equiaffine/Point_status.h>
 #include <equiaffine/mesh_topology.h>
 
+#include <CGAL/Bbox_3.h>
+
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace equiaffine {
+
+/// What a method that looks for all components of a surface says of its search.
+struct Completeness {
+  bool is_certified = false;
+  std::vector<CGAL::Bbox_3> undecided_boxes;
+};
 
 /// What is known about a mesh that was made.
 struct Statistics {
@@ -22,6 +32,7 @@ struct Statistics {
   double max_distance_to_surface = 0; ///< in the unit of the coordinates; NaN if f is defined at no vertex
   double sample_seconds = 0, project_seconds = 0, annotate_seconds = 0, write_seconds = 0;
   std::size_t function_evaluations = 0;
+  std::optional<Completeness> completeness; ///< of a mesh by a method that has one
 };
 
 std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_status> status);

@@ -17,6 +17,7 @@ std::vector<double> to_doubles(const CGAL::Image_3& image) {
 }
 
 std::vector<double> values_of(const CGAL::Image_3& image) {
+  using namespace CGAL; // where CGAL 6 has the constants, which are global in CGAL 5
   const std::size_t bytes = image.image()->wdim;
   if (image.image()->wordKind == WK_FLOAT) return bytes == 4 ? to_doubles<float>(image) : to_doubles<double>(image);
   const bool is_signed = image.image()->sign == SGN_SIGNED;
@@ -38,7 +39,7 @@ Volume_3<Kernel> read_inr_volume(const std::string& path) {
     has_been_read = image.read(path);
   }
   if (!has_been_read) fail_to_read_volume(path, "it is not a complete INRIMAGE-4 file", "get the complete file again");
-  const _image& header = *image.image();
+  const auto& header = *image.image();
   if (header.vdim != 1)
     fail_to_read_volume(path, "it has " + std::to_string(header.vdim) + " numbers per node",
                         "extract one of them to a file first");

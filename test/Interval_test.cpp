@@ -327,6 +327,39 @@ TEST(Interval, subnormal_numbers_and_zero_are_enclosed) {
   EXPECT_TRUE(encloses(pow(Interval(1e-200), 2), pow(Exact(1e-200), 2)));
 }
 
+TEST(Interval, products_that_underflow_are_enclosed) {
+  Random random;
+  for (const double size : {1e-150, 1e-155, 1e-160, 1e-165, 1e-200})
+    for (int n = 0; n < 2000; ++n) {
+      const Interval a = Interval(size) * random.box(1e3), b = Interval(size) * random.box(1e3);
+      for (const Interval& r : {a * b, square(a)}) ASSERT_LE(r.lower(), r.upper());
+      for (const double x : {a.lower(), a.upper()}) {
+        if (std::isinf(x)) continue;
+        ASSERT_TRUE(encloses(square(a), Exact(x) * Exact(x))) << text(a);
+        for (const double y : {b.lower(), b.upper()})
+          if (!std::isinf(y)) {
+            ASSERT_TRUE(encloses(a * b, Exact(x) * Exact(y))) << text(a) << " * " << text(b);
+          }
+      }
+    }
+}
+
+// A subnormal number takes a processor a hundred times as long, and so does all that is computed of it.
+TEST(Interval, zeros_make_no_subnormal_numbers) {
+  const auto is_subnormal = [](double x) { return std::fpclassify(x) == FP_SUBNORMAL; };
+  const std::array<Interval, 9> boxes = {Interval(0),      Interval(0, 2),    Interval(-2, 0),
+                                         Interval(-2, 2),  Interval(1),       Interval(2, 3),
+                                         Interval(-3, -2), Interval::whole(), Interval(0, infinity)};
+  for (const Interval& a : boxes)
+    for (const Interval& b : boxes)
+      for (const Interval& r : {a * b, a + b, a - b, square(a), a * b + a, a * b * a})
+        EXPECT_FALSE(is_subnormal(r.lower()) || is_subnormal(r.upper()))
+            << text(a) << ", " << text(b) << ": " << text(r);
+  EXPECT_EQ(Interval(0) * Interval::whole(), Interval(0));
+  EXPECT_EQ(Interval(0) + Interval(0), Interval(0));
+  EXPECT_EQ(square(Interval(0)), Interval(0));
+}
+
 // Jets of intervals.
 namespace {
 

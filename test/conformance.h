@@ -7,6 +7,7 @@
 
 #include <equiaffine/Batch_function_traits_3.h>
 #include <equiaffine/concepts.h>
+#include <equiaffine/internal/first_order_bounds.h>
 
 #include <gtest/gtest.h>
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <random>
 #include <thread>
 #include <vector>
@@ -53,6 +55,39 @@ double remainder(const Traits& traits, const typename Traits::Point_3& p, double
 template <class T>
 bool same_bits(const T& a, const T& b) {
   return std::memcmp(&a, &b, sizeof(T)) == 0;
+}
+
+/// `bounds_on(traits, box)` encloses values and gradients at points of the box, and shrinks with it.
+template <class Model, class Bounds>
+void expect_bounds_of_first_order(const Bounds& bounds_on) {
+  using Point_3 = typename Model::Traits::Point_3;
+  const auto traits = Model::make();
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (const auto& p : Model::points()) {
+    std::array<double, 4> last_width;
+    last_width.fill(std::numeric_limits<double>::infinity());
+    for (double r = Model::length / 2; r > Model::length / 100; r /= 2) {
+      const auto bounds =
+          bounds_on(traits, CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r));
+      for (int n = 0; n < 50; ++n) {
+        const Point_3 q(p.x() + r * unit(random), p.y() + r * unit(random), p.z() + r * unit(random));
+        const auto jet = equiaffine::first_order(traits, q);
+        for (std::size_t c = 0; c < 4; ++c) {
+          // The expansion is not rounded outwards.
+          const double rounding = 1e-13 * (1 + std::abs(jet.coefficients()[c]));
+          EXPECT_GE(jet.coefficients()[c], bounds.coefficients()[c].lower() - rounding) << q;
+          EXPECT_LE(jet.coefficients()[c], bounds.coefficients()[c].upper() + rounding) << q;
+        }
+      }
+      for (std::size_t c = 0; c < 4; ++c) {
+        const double width = bounds.coefficients()[c].upper() - bounds.coefficients()[c].lower();
+        EXPECT_LE(width, last_width[c]);
+        last_width[c] = width;
+      }
+    }
+    for (const double width : last_width) EXPECT_TRUE(std::isfinite(width));
+  }
 }
 
 template <class Model>
@@ -134,34 +169,24 @@ TYPED_TEST_P(Conformance, bounds_enclose_the_values_and_shrink_with_the_box) {
 
 TYPED_TEST_P(Conformance, bounds_of_first_order_enclose_value_and_gradient_and_shrink_with_the_box) {
   if constexpr (equiaffine::FirstOrderBoundedImplicitFunctionTraits_3<typename TypeParam::Traits>) {
-    using Point_3 = typename TypeParam::Traits::Point_3;
-    const auto traits = TypeParam::make();
-    std::mt19937 random(2);
-    std::uniform_real_distribution<double> unit(-1, 1);
-    for (const auto& p : TypeParam::points()) {
-      std::array<double, 4> last_width;
-      last_width.fill(std::numeric_limits<double>::infinity());
-      for (double r = TypeParam::length / 2; r > TypeParam::length / 100; r /= 2) {
-        const auto bounds =
-            traits.first_order_bounds(CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r));
-        for (int n = 0; n < 50; ++n) {
-          const Point_3 q(p.x() + r * unit(random), p.y() + r * unit(random), p.z() + r * unit(random));
-          const auto jet = equiaffine::first_order(traits, q);
-          for (std::size_t c = 0; c < 4; ++c) {
-            // The expansion is not rounded outwards.
-            const double rounding = 1e-13 * (1 + std::abs(jet.coefficients()[c]));
-            EXPECT_GE(jet.coefficients()[c], bounds.coefficients()[c].lower() - rounding) << q;
-            EXPECT_LE(jet.coefficients()[c], bounds.coefficients()[c].upper() + rounding) << q;
-          }
-        }
-        for (std::size_t c = 0; c < 4; ++c) {
-          const double width = bounds.coefficients()[c].upper() - bounds.coefficients()[c].lower();
-          EXPECT_LE(width, last_width[c]);
-          last_width[c] = width;
-        }
+    expect_bounds_of_first_order<TypeParam>(
+        [](const auto& traits, const CGAL::Bbox_3& box) { return traits.first_order_bounds(box); });
+  } else {
+    GTEST_SKIP() << "the model has no bounds of its gradient";
+  }
+}
+
+TYPED_TEST_P(Conformance, tight_bounds_of_first_order_are_such_and_inside_the_usual_ones) {
+  if constexpr (equiaffine::FirstOrderBoundedImplicitFunctionTraits_3<typename TypeParam::Traits>) {
+    expect_bounds_of_first_order<TypeParam>([](const auto& traits, const CGAL::Bbox_3& box) {
+      const auto tight = equiaffine::internal::tight_first_order_bounds(traits, box);
+      const auto usual = traits.first_order_bounds(box);
+      for (std::size_t c = 0; c < 4; ++c) {
+        EXPECT_GE(tight.coefficients()[c].lower(), usual.coefficients()[c].lower());
+        EXPECT_LE(tight.coefficients()[c].upper(), usual.coefficients()[c].upper());
       }
-      for (const double width : last_width) EXPECT_TRUE(std::isfinite(width));
-    }
+      return tight;
+    });
   } else {
     GTEST_SKIP() << "the model has no bounds of its gradient";
   }
@@ -213,6 +238,7 @@ REGISTER_TYPED_TEST_SUITE_P(Conformance, value_is_the_constant_coefficient, tayl
                             first_order_is_the_beginning_of_taylor, the_box_contains_the_points,
                             bounds_enclose_the_values_and_shrink_with_the_box,
                             bounds_of_first_order_enclose_value_and_gradient_and_shrink_with_the_box,
+                            tight_bounds_of_first_order_are_such_and_inside_the_usual_ones,
                             batches_are_single_calls_bit_for_bit, several_threads_get_the_numbers_of_one,
                             copies_own_their_data);
 

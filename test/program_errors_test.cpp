@@ -152,6 +152,10 @@ TEST_F(Program_errors, a_transform_has_an_inverse) {
 
 TEST_F(Program_errors, words_to_choose_from_are_listed) {
   expect_error(mesh_of("x") + box + Arguments{"--method", "cubes"}, {"--method", "'cubes'", "marching-cubes"});
+  const Arguments delaunay = mesh_of("x") + box + Arguments{"--method", "delaunay"};
+  expect_error(mesh_of("x") + box + Arguments{"--method", "delauney"}, {"--method", "marching-cubes or delaunay"});
+  expect_error(delaunay + Arguments{"--sizing", "small"}, {"--sizing", "'small'", "uniform or euclidean or affine"});
+  expect_error(delaunay + Arguments{"--clip", "cube"}, {"--clip", "'cube'", "box or ball"});
   expect_error(mesh_of("x") + box + Arguments{"--vertices", "linar"}, {"--vertices", "'linar'", "projected or linear"});
   expect_error(mesh_of("x") + box + Arguments{"--orientation", "up"}, {"--orientation", "gradient or against"});
   expect_error(mesh_of("x") + box + Arguments{"--derivatives", "exact"}, {"--derivatives", "jets or spline"});
@@ -163,7 +167,37 @@ TEST_F(Program_errors, words_to_choose_from_are_listed) {
   expect_error(mesh_of("x") + box + Arguments{"--html", "o.html", "--color", "affine_k1"}, {"--color", "'affine_k1'"});
 }
 
+TEST_F(Program_errors, an_option_of_the_other_method_is_refused) {
+  for (const char* option : {"--angle", "--radius", "--distance", "--sizing", "--clip"})
+    expect_error(mesh_of("x") + box + Arguments{option, "1"},
+                 {option, "it is for --method delaunay; add --method delaunay or leave it out"});
+  const Arguments delaunay = mesh_of("x") + box + Arguments{"--method", "delaunay"};
+  expect_error(delaunay + Arguments{"--vertices", "linear"}, {"--vertices", "it is for --method marching-cubes"});
+  expect_error(delaunay + Arguments{"--resolution", "64"}, {"--resolution", "needs no grid for a formula", "--radius"});
+}
+
+TEST_F(Program_errors, criteria_of_a_Delaunay_mesh_can_be_satisfied) {
+  const Arguments delaunay = mesh_of("x") + box + Arguments{"--method", "delaunay"};
+  for (const char* option : {"--radius", "--distance"}) {
+    for (const char* bad : {"0", "-1", "nan", "wide"})
+      expect_error(delaunay + Arguments{option, bad}, {option, std::string("'").append(bad).append("'")});
+    expect_error(delaunay + Arguments{option, "1e-14"}, {option, "1e-14", "GB of memory", "use larger ones"});
+  }
+  for (const char* bad : {"30.1", "-1", "inf"}) expect_error(delaunay + Arguments{"--angle", bad}, {"--angle", bad});
+  for (const char* side : {"1e50", "1e-50"}) {
+    const std::string low = std::string("-") + side;
+    expect_error(mesh_of("x") + Arguments{"--method", "delaunay", "--box", low, side, low, side, low, side},
+                 {"diagonal", "choose another unit"});
+  }
+}
+
 TEST_F(Program_errors, a_surface_outside_the_box_is_none) {
+  const Arguments delaunay = {"--method", "delaunay"};
+  expect_error(mesh_of("x^2 + y^2 + z^2 + 1") + box + delaunay,
+               {"no surface f = 0 in the box", "between 1 and 13", "choose another --isovalue or box"});
+  expect_error(mesh_of("x^2 + y^2 + z^2 - 10") + box + delaunay + Arguments{"--clip", "ball", "--stats", "o.json"},
+               {"no surface f = 0 in the ball", "between -10 and 2"});
+  expect_error(mesh_of("log(-1 - x^2)") + box + delaunay, {"undefined", "a smaller --radius"});
   expect_error(mesh_of("x^2 + y^2 + z^2 + 1") + box, {"no surface f = 0", "between 1 and 13"});
   expect_error(mesh_of("x") + box + Arguments{"--isovalue", "3", "--html", "o.html", "--stats", "o.json"},
                {"no surface f = 3"});

@@ -41,25 +41,6 @@ Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z
   }
 }
 
-/// Bounds on a box from the expansion on it, the one at one of its points, and the offsets of the box from that point
-/// (mean value form; Moore, Kearfott, Cloud: Introduction to Interval Analysis, 2009, section 6.4).
-inline Jet_3<Interval, 1> mean_value_bounds(const Jet_3<Interval, 2>& jet, const Jet_3<Interval, 1>& start,
-                                            const std::array<Interval, 3>& offset) {
-  std::array<Interval, 4> sum = start.coefficients();
-  for (std::size_t a = 0; a < 3; ++a) {
-    sum[0] += jet.coefficients()[1 + a] * offset[a];
-    for (std::size_t b = 0; b < 3; ++b) {
-      std::array<int, 3> exponents = {};
-      ++exponents[a], ++exponents[b];
-      const int n = monomial_index(exponents[0], exponents[1], exponents[2]);
-      sum[1 + a] += jet.coefficients()[std::size_t(n)] * offset[b] * Interval(a == b ? 2 : 1);
-    }
-  }
-  Jet_3<Interval, 1> bounds;
-  for (std::size_t n = 0; n < 4; ++n) bounds.coefficients()[n] = Interval::intersection(jet.coefficients()[n], sum[n]);
-  return bounds;
-}
-
 } // namespace internal
 
 /// Model of FirstOrderImplicitFunctionTraits_3 and, if the function takes Interval, of
@@ -98,19 +79,9 @@ public:
                                          Interval(box.zmin(), box.zmax()));
   }
 
-  /// The same, at about three times the cost, with an excess over the range that shrinks with the square of the box.
-  Jet_3<Interval, 1> mean_value_bounds(const CGAL::Bbox_3& box) const {
-    const std::array<Interval, 3> side = {Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()),
-                                          Interval(box.zmin(), box.zmax())};
-    std::array<Interval, 3> center, offset;
-    for (int a = 0; a < 3; ++a) {
-      const std::size_t n = std::size_t(a);
-      center[n] = Interval((box.min(a) + box.max(a)) / 2);
-      offset[n] = side[n] - center[n];
-    }
-    const auto jet = internal::expand<2, Interval>(function_, side[0], side[1], side[2]);
-    const auto start = internal::expand<1, Interval>(function_, center[0], center[1], center[2]);
-    return internal::mean_value_bounds(jet, start, offset);
+  Jet_3<Interval, 2> second_order_bounds(const CGAL::Bbox_3& box) const {
+    return internal::expand<2, Interval>(function_, Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()),
+                                         Interval(box.zmin(), box.zmax()));
   }
 
   CGAL::Bbox_3 bbox() const { return box_; }

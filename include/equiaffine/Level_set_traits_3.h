@@ -44,10 +44,10 @@ public:
   first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
     return from_base(base_.first_order_bounds(box));
   }
-  Jet_3<Interval, 1>
-  mean_value_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
-    return from_base(internal::tight_first_order_bounds(base_, box));
+  Jet_3<Interval, 2> second_order_bounds(const CGAL::Bbox_3& box) const requires requires(const Base& base) {
+    base.second_order_bounds(box);
   }
+  { return from_base(base_.second_order_bounds(box)); }
   CGAL::Bbox_3 bbox() const { return base_.bbox(); }
   Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
     return sampling_lattice(base_, size);
@@ -70,8 +70,9 @@ private:
     return jet;
   }
 
-  Jet_3<Interval, 1> from_base(Jet_3<Interval, 1> jet) const {
-    jet.at<0>() = jet.value() - Interval(CGAL::to_double(isovalue_));
+  template <int Order>
+  Jet_3<Interval, Order> from_base(Jet_3<Interval, Order> jet) const {
+    jet.template at<0>() = jet.value() - Interval(CGAL::to_double(isovalue_));
     return is_reversed_ ? -jet : jet;
   }
 

@@ -30,7 +30,9 @@ public:
 
   /// \pre the linear part of `map` has a nonzero determinant.
   Transformed_function_traits_3(Base base, const Aff_transformation_3& map)
-      : base_(std::move(base)), map_(map), inverse_(map.inverse()), substitution_(linear_part(inverse_)) {}
+      : base_(std::move(base)), map_(map), inverse_(map.inverse()),
+        substitution_(linear_part(inverse_, [](const FT& m) { return m; })),
+        substitution_of_bounds_(linear_part(inverse_, [](const FT& m) { return Interval(CGAL::to_double(m)); })) {}
 
   FT value(const Point_3& p) const { return base_.value(inverse_(p)); }
   Jet_3<FT, 1> first_order(const Point_3& p) const {
@@ -44,12 +46,12 @@ public:
   }
   Jet_3<Interval, 1>
   first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
-    return image(base_.first_order_bounds(preimage(box)));
+    return substitution_of_bounds_(base_.first_order_bounds(preimage(box)));
   }
-  Jet_3<Interval, 1>
-  mean_value_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
-    return image(internal::tight_first_order_bounds(base_, preimage(box)));
+  Jet_3<Interval, 2> second_order_bounds(const CGAL::Bbox_3& box) const requires requires(const Base& base) {
+    base.second_order_bounds(box);
   }
+  { return substitution_of_bounds_(base_.second_order_bounds(preimage(box))); }
 
   /// The box of the image of the base's box.
   CGAL::Bbox_3 bbox() const { return Lattice_3<Kernel_of<Base>>({2, 2, 2}, base_.bbox()).transform(map_).bbox(); }
@@ -83,24 +85,19 @@ private:
                         image[2].upper());
   }
 
-  Jet_3<Interval, 1> image(const Jet_3<Interval, 1>& jet) const {
-    Jet_3<Interval, 1> result(jet.value());
+  template <class Convert>
+  static auto linear_part(const Aff_transformation_3& map, const Convert& convert) {
+    std::array<std::array<decltype(convert(FT())), 3>, 3> matrix;
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column)
-        result.coefficients()[std::size_t(1 + column)] +=
-            Interval(CGAL::to_double(inverse_.m(row, column))) * jet.coefficients()[std::size_t(1 + row)];
-    return result;
-  }
-
-  static typename internal::Linear_substitution_3<FT>::Matrix linear_part(const Aff_transformation_3& map) {
-    return {{{map.m(0, 0), map.m(0, 1), map.m(0, 2)},
-             {map.m(1, 0), map.m(1, 1), map.m(1, 2)},
-             {map.m(2, 0), map.m(2, 1), map.m(2, 2)}}};
+        matrix[std::size_t(row)][std::size_t(column)] = convert(map.m(row, column));
+    return matrix;
   }
 
   Base base_;
   Aff_transformation_3 map_, inverse_;
   internal::Linear_substitution_3<FT> substitution_;
+  internal::Linear_substitution_3<Interval> substitution_of_bounds_;
 };
 
 } // namespace equiaffine

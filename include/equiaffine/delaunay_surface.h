@@ -12,9 +12,8 @@
 #include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>
 
-#include <algorithm>
+#include <cstddef>
 #include <functional>
-#include <iterator>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -35,6 +34,7 @@ struct Delaunay_surface_3 : Isosurface_3<Kernel> {
   /// Where a part of the surface may have been missed, since neither its absence nor its regularity could be proved:
   /// around singular points, or everywhere for a function without bounds of its gradient.
   std::vector<CGAL::Bbox_3> undecided_boxes;
+  Parabolic_curves_3<Kernel> parabolic_curves; ///< if the mesh was asked to follow them
 };
 
 namespace internal {
@@ -50,32 +50,23 @@ Delaunay_surface_3<Any_function_3::Kernel> mesh_surface(const Any_function_3& fu
                                                         const Delaunay_criteria& criteria, Facet_sizing sizing,
                                                         const std::vector<Feature_curve_3>& features);
 
-/// The curves that a caller of delaunay_surface gave, of any kernel.
-template <class Polylines>
-std::vector<Feature_curve_3> given_features(const Any_function_3& function, const Polylines& curves, double reach) {
-  std::vector<Feature_curve_3> features;
-  for (const auto& curve : curves) {
-    auto& feature = features.emplace_back();
-    feature.polyline.is_closed = curve.is_closed;
-    for (const auto& p : curve.points)
-      feature.polyline.points.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
-    feature.project = [function, reach](const Any_function_3::Point_3& p) {
-      const auto found = project_to_surface(function, p, reach);
-      return found.has_converged ? found.point : p;
-    };
-  }
-  return features;
+/// A copy with the points of another kernel.
+template <class Kernel, class Other>
+Polyline_3<Kernel> converted(const Polyline_3<Other>& curve) {
+  Polyline_3<Kernel> copy{{}, curve.is_closed};
+  for (const auto& p : curve.points)
+    copy.points.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+  return copy;
 }
 
-/// The parabolic curves, found on a mesh.
-inline std::vector<Feature_curve_3> parabolic_features(const Any_function_3& function,
-                                                       const Delaunay_surface_3<Any_function_3::Kernel>& mesh,
-                                                       double reach) {
+template <class Polylines>
+std::vector<Feature_curve_3> given_features(const Any_function_3& function, const Polylines& curves, double reach) {
+  const auto project = [function, reach](const Any_function_3::Point_3& p) {
+    const auto found = project_to_surface(function, p, reach);
+    return found.has_converged ? found.point : p;
+  };
   std::vector<Feature_curve_3> features;
-  for (auto& curve : parabolic_curves(mesh, function).polylines)
-    features.push_back({std::move(curve), [function, reach](const Any_function_3::Point_3& p) {
-                          return project_to_parabolic_curve(function, p, reach * reach).value_or(p);
-                        }});
+  for (const auto& curve : curves) features.push_back({converted<Any_function_3::Kernel>(curve), project});
   return features;
 }
 
@@ -100,7 +91,7 @@ inline std::vector<Feature_curve_3> parabolic_features(const Any_function_3& fun
 template <ImplicitFunctionTraits_3 Traits, class NamedParameters = internal::No_parameters>
 Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Delaunay_criteria criteria = {},
                                                        const NamedParameters& parameters = {}) {
-  using Kernel = Kernel_of<Traits>;
+  using Surface = Delaunay_surface_3<Kernel_of<Traits>>;
   const auto domain = internal::get_parameter<internal::Clip_tag>(parameters, Clip_domain_3(traits.bbox()));
   const auto sizing = internal::get_parameter<internal::Facet_sizing_tag>(parameters, Facet_sizing::UNIFORM);
   if (criteria.radius == 0) criteria.radius = domain.diagonal() / 50;
@@ -109,18 +100,27 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Del
   CGAL_precondition(criteria.radius > 0 && criteria.distance > 0);
   const auto function = internal::Any_function_3::make(traits);
   const auto curves =
-      internal::get_parameter<internal::Feature_curves_tag>(parameters, std::vector<Polyline_3<Kernel>>());
+      internal::get_parameter<internal::Feature_curves_tag>(parameters, std::vector<Polyline_3<Kernel_of<Traits>>>());
   auto features = internal::given_features(function, curves, criteria.radius);
   auto mesh = internal::mesh_surface(function, domain, criteria, sizing, features);
   if constexpr (internal::has_parameter<internal::Parabolic_features_tag, NamedParameters>) {
-    auto parabolic = internal::parabolic_features(function, mesh, criteria.radius);
-    std::move(parabolic.begin(), parabolic.end(), std::back_inserter(features));
+    auto parabolic = parabolic_curves(mesh, function);
+    const auto project = [=](const internal::Any_function_3::Point_3& p) {
+      return internal::project_to_parabolic_curve(function, p, criteria.radius * criteria.radius).value_or(p);
+    };
+    for (const auto& curve : parabolic.polylines) features.push_back({curve, project});
+    const std::size_t evaluations = mesh.function_evaluations;
+    const double seconds = mesh.sampling_seconds;
     mesh = internal::mesh_surface(function, domain, criteria, sizing, features);
+    mesh.function_evaluations += evaluations;
+    mesh.sampling_seconds += seconds;
+    mesh.parabolic_curves = std::move(parabolic);
   }
-  if constexpr (std::is_same_v<Kernel, internal::Any_function_3::Kernel>) {
+  if constexpr (std::is_same_v<Surface, decltype(mesh)>) {
     return mesh;
   } else {
-    Delaunay_surface_3<Kernel> result;
+    using Kernel = Kernel_of<Traits>;
+    Surface result;
     for (const auto& p : mesh.points) result.points.emplace_back(p.x(), p.y(), p.z());
     result.triangles = std::move(mesh.triangles);
     result.vertex_status = std::move(mesh.vertex_status);
@@ -129,6 +129,9 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Del
     result.projection_seconds = mesh.projection_seconds;
     result.is_certified = mesh.is_certified;
     result.undecided_boxes = std::move(mesh.undecided_boxes);
+    for (const auto& curve : mesh.parabolic_curves.polylines)
+      result.parabolic_curves.polylines.push_back(internal::converted<Kernel>(curve));
+    result.parabolic_curves.unconverged_points = mesh.parabolic_curves.unconverged_points;
     return result;
   }
 }

@@ -83,7 +83,7 @@ public:
     for (level_ = 0; !cells.empty(); ++level_) {
       const double h = cell_side();
       const auto undecided = std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return !c.is_decided(); });
-      const bool is_hopeless = 4 * h < largest_size_ && undecided > maximal_undecided_cells;
+      const bool is_hopeless = 8 * h < largest_size_ && undecided > maximal_undecided_cells;
       const bool is_last = level_ == maximal_level || (h < largest_size_ && !has_gradient_bounds_) || is_hopeless;
       if (is_hopeless) least_spacing_ = packing * largest_size_ / 16;
       next.clear();

@@ -28,7 +28,7 @@ enum class Manifoldness { ANY, MANIFOLD, MANIFOLD_WITH_BOUNDARY };
 template <class C3t3, class Domain, class Criteria>
 void refine_facets(C3t3& c3t3, const Domain& domain, const Criteria& criteria, Manifoldness manifoldness) {
   namespace parameters = CGAL::parameters;
-  const auto refine = [&](const auto& topology) {
+  const auto refine = [&](auto topology) {
 #if CGAL_VERSION_NR >= 1060000000
     CGAL::refine_mesh_3(c3t3, domain, criteria, topology.no_perturb().no_exude().surface_only());
 #else
