@@ -119,7 +119,6 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Del
   if constexpr (std::is_same_v<Surface, decltype(mesh)>) {
     return mesh;
   } else {
-    using Kernel = Kernel_of<Traits>;
     Surface result;
     for (const auto& p : mesh.points) result.points.emplace_back(p.x(), p.y(), p.z());
     result.triangles = std::move(mesh.triangles);
@@ -130,7 +129,7 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Del
     result.is_certified = mesh.is_certified;
     result.undecided_boxes = std::move(mesh.undecided_boxes);
     for (const auto& curve : mesh.parabolic_curves.polylines)
-      result.parabolic_curves.polylines.push_back(internal::converted<Kernel>(curve));
+      result.parabolic_curves.polylines.push_back(internal::converted<Kernel_of<Traits>>(curve));
     result.parabolic_curves.unconverged_points = mesh.parabolic_curves.unconverged_points;
     return result;
   }
