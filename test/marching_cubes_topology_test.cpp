@@ -202,7 +202,7 @@ bool is_joined_on_bottom(double p, double q, double r, double s) {
   const std::array<double, 8> v = {p, -r, -s, q, 1, 1, 1, 1};
   const auto& cases = Marching_cubes_cases::instance();
   const unsigned signs = 0b11111001;
-  const std::size_t sub_case = internal::Trilinear_cell<double>(v, 0.0).sub_case(cases, signs);
+  const std::size_t sub_case = internal::Trilinear_cell<double>(v, 0.0).sub_case(signs);
   const std::size_t joined = cases.variant(signs, 1U << 4).sub_case, separate = cases.variant(signs, 0).sub_case;
   EXPECT_TRUE(sub_case == joined || sub_case == separate);
   return sub_case == joined;
@@ -229,8 +229,8 @@ TEST(Trilinear_cell, the_isovalue_is_subtracted_exactly) {
   const std::array<float, 8> v = {1e16F, -1e16F, -1e16F, 1e16F, 1e16F, 1e16F, 1e16F, 1e16F};
   const auto& cases = Marching_cubes_cases::instance();
   const unsigned signs = 0b11111001;
-  EXPECT_EQ((internal::Trilinear_cell<float>(v, 1.0F).sub_case(cases, signs)), cases.variant(signs, 0).sub_case);
-  EXPECT_EQ((internal::Trilinear_cell<float>(v, -1.0F).sub_case(cases, signs)), cases.variant(signs, 1U << 4).sub_case);
+  EXPECT_EQ((internal::Trilinear_cell<float>(v, 1.0F).sub_case(signs)), cases.variant(signs, 0).sub_case);
+  EXPECT_EQ((internal::Trilinear_cell<float>(v, -1.0F).sub_case(signs)), cases.variant(signs, 1U << 4).sub_case);
 }
 
 TEST(Trilinear_cell, saddles_inside_are_decided_exactly) {
@@ -239,7 +239,7 @@ TEST(Trilinear_cell, saddles_inside_are_decided_exactly) {
   ASSERT_TRUE(cases.is_ambiguous(signs));
   const auto tunnels = [&](double h) {
     const std::array<double, 8> v = {h, -1, -1, -1, -1, -1, -1, h};
-    return cases[internal::Trilinear_cell<double>(v, 0.0).sub_case(cases, signs)].tunnels;
+    return cases[internal::Trilinear_cell<double>(v, 0.0).sub_case(signs)].tunnels;
   };
   // The saddle lies in the middle by symmetry, where f = (2 h - 6) / 8.
   const double u = std::numeric_limits<double>::epsilon();

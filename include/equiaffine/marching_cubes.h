@@ -8,6 +8,7 @@
 #include <equiaffine/internal/isosurface_extraction.h>
 #include <equiaffine/internal/sample_signs.h>
 #include <equiaffine/internal/split_fans.h>
+#include <equiaffine/internal/trilinear_cell.h>
 #include <equiaffine/internal/zero_area_repair.h>
 #include <equiaffine/named_parameters.h>
 #include <equiaffine/project_to_surface.h>
@@ -59,8 +60,10 @@ public:
     timer.start();
     Node_signs signs(lattice_.size());
     const Sign_sampler<ConcurrencyTag, SkipsEmptySpace, Traits> sampler(traits_, lattice_, signs);
-    const auto value = [&](std::size_t i, std::size_t j, std::size_t k) { return node_value({i, j, k}); };
-    Extraction<decltype(value)> extraction(signs, value, FT(0));
+    const auto choose = [&](std::size_t i, std::size_t j, std::size_t k, unsigned corner_signs) {
+      return Trilinear_cell<FT>(cell_values({i, j, k}), FT(0)).sub_case(corner_signs);
+    };
+    Isosurface_extraction<ConcurrencyTag, decltype(choose)> extraction(signs, Case_table::instance(), choose);
     auto& points = result_.points;
     points.resize(extraction.number_of_vertices());
     result_.vertex_status.assign(extraction.number_of_vertices(), Point_status::REGULAR);
@@ -94,9 +97,6 @@ private:
   static constexpr std::size_t node_evaluations(std::size_t n) {
     return LatticeImplicitFunctionTraits_3<Traits> ? 0 : n;
   }
-
-  template <class Value>
-  using Extraction = Isosurface_extraction<ConcurrencyTag, Value>;
 
   void count_evaluations(std::size_t n) {
     if (n > 0) evaluations_.fetch_add(n, std::memory_order_relaxed);
@@ -198,11 +198,14 @@ private:
       points[v] = nudged(old, v, round, [&](double d) { return old + FT(d) * direction; });
     };
     const auto at = [&](std::size_t v) { return coordinates(points[v]); };
-    const Zero_area_repair repair(std::span(result_.triangles), part, at, nudge);
+    Zero_area_repair repair(std::span(result_.triangles), part, at, nudge);
     const std::size_t flips_undone = result_.repairs.flips_undone;
     result_.repairs = repair.repairs();
     result_.repairs.flips_undone = flips_undone;
-    remove_from_mesh(repair.removed_vertices(), result_.triangles, points, result_.vertex_status);
+    const auto for_each_part = [&](std::size_t v, const auto& visit) {
+      extraction.for_each_part_with_vertices_from(v, visit);
+    };
+    repair.remove(result_.triangles, for_each_part, points, result_.vertex_status);
   }
 
   static std::array<FT, 3> coordinates(const Point_3& p) { return {p.x(), p.y(), p.z()}; }

@@ -5,6 +5,7 @@
 #include <equiaffine/internal/Output_allocator.h>
 #include <equiaffine/internal/inner_vertex.h>
 #include <equiaffine/internal/isosurface_extraction.h>
+#include <equiaffine/internal/trilinear_cell.h>
 #include <equiaffine/internal/zero_area_repair.h>
 
 #include <CGAL/assertions.h>
@@ -51,7 +52,16 @@ Array_isosurface_3<FT> marching_cubes_of_array(std::span<const FT> values, const
   const auto value = [data, stride](std::size_t i, std::size_t j, std::size_t k) {
     return data[i + j * stride[1] + k * stride[2]];
   };
-  internal::Isosurface_extraction<ConcurrencyTag, decltype(value)> extraction(signs, value, isovalue);
+  const auto corner_values = [&](std::size_t i, std::size_t j, std::size_t k) {
+    std::array<FT, 8> v;
+    for (std::size_t c = 0; c < 8; ++c) v[c] = value(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2));
+    return v;
+  };
+  const auto choose = [&](std::size_t i, std::size_t j, std::size_t k, unsigned s) {
+    return internal::Trilinear_cell<FT>(corner_values(i, j, k), isovalue).sub_case(s);
+  };
+  internal::Isosurface_extraction<ConcurrencyTag, decltype(choose)> extraction(signs, internal::Case_table::instance(),
+                                                                               choose);
   Array_isosurface_3<FT> result;
   result.points.resize(extraction.number_of_vertices());
   result.triangles.resize(extraction.number_of_triangles());
@@ -61,7 +71,7 @@ Array_isosurface_3<FT> marching_cubes_of_array(std::span<const FT> values, const
     for (std::size_t a = 0; a < 3; ++a) p[a] = origin[a] + (FT(std::ptrdiff_t(node[a])) + offset[a]) * spacing[a];
     return p;
   };
-  extraction.for_each_edge_vertex([&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) {
+  extraction.for_each_edge_vertex([&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, auto axis) {
     const std::array<std::size_t, 3> node = {i, j, k};
     const FT* const here = data + i + j * stride[1] + k * stride[2];
     std::array<FT, 3> offset{0, 0, 0};
@@ -95,7 +105,10 @@ Array_isosurface_3<FT> marching_cubes_of_array(std::span<const FT> values, const
   if (!part.empty()) {
     internal::Zero_area_repair repair(std::span(result.triangles), part, coordinates, nudge);
     result.repairs = repair.repairs();
-    internal::remove_from_mesh(repair.removed_vertices(), result.triangles, result.points);
+    repair.remove(
+        result.triangles,
+        [&](std::size_t v, const auto& visit) { extraction.for_each_part_with_vertices_from(v, visit); },
+        result.points);
   }
   return result;
 }

@@ -2,9 +2,10 @@
 #ifndef EQUIAFFINE_INTERNAL_ISOSURFACE_EXTRACTION_H
 #define EQUIAFFINE_INTERNAL_ISOSURFACE_EXTRACTION_H
 
+#include <equiaffine/internal/active_cells.h>
+#include <equiaffine/internal/case_table.h>
 #include <equiaffine/internal/node_signs.h>
 #include <equiaffine/internal/parallel_for.h>
-#include <equiaffine/internal/trilinear_cell.h>
 
 #include <CGAL/assertions.h>
 
@@ -21,42 +22,6 @@
 
 namespace equiaffine::internal {
 
-/// The sub-cases in flat arrays, for speed.
-struct Flat_cases {
-  static constexpr std::uint8_t ambiguous = 255;
-  struct Range {
-    std::uint32_t first_edge;
-    std::uint8_t triangles, inner_vertices;
-  };
-
-  static const Flat_cases& instance() {
-    static const Flat_cases cases;
-    return cases;
-  }
-
-  Flat_cases() {
-    const auto& cases = Marching_cubes_cases::instance();
-    for (std::size_t s = 0; s < cases.size(); ++s) {
-      ranges.push_back({std::uint32_t(edges.size()), std::uint8_t(cases[s].triangles.size()),
-                        std::uint8_t(cases[s].inner_edges.size())});
-      for (const auto& t : cases[s].triangles) edges.insert(edges.end(), t.begin(), t.end());
-    }
-    for (unsigned signs = 0; signs < 256; ++signs) {
-      sub_case[signs] = cases.variant(signs, 0).sub_case;
-      triangles[signs] = cases.is_ambiguous(signs) ? ambiguous : ranges[sub_case[signs]].triangles;
-      const auto differ = [&](int c, int d) { return (signs >> c ^ signs >> d) & 1; };
-      crossed[signs] = {differ(0, 1), differ(2, 3), differ(4, 5), differ(6, 7),
-                        differ(0, 2), differ(4, 6), differ(0, 4), differ(2, 6)};
-    }
-  }
-
-  std::vector<Range> ranges;                             // per sub-case
-  std::vector<std::uint8_t> edges;                       // three per triangle
-  std::array<std::uint16_t, 256> sub_case;               // of unambiguous signs
-  std::array<std::uint8_t, 256> triangles;               // or `ambiguous`
-  std::array<std::array<std::uint32_t, 8>, 256> crossed; // of the edges 0, 1, 2, 3, 4, 5, 8, 10 of the cell
-};
-
 /// The edge of a grid that begins at a node.
 struct Grid_edge {
   std::array<std::size_t, 3> node;
@@ -68,17 +33,17 @@ struct Grid_edge {
 /// triangles of a layer. The vertices of a row are those on its edges along i, then j, then k: the number of a vertex
 /// is that of its row and kind plus the number of crossed edges before it, so no vertex is ever looked up.
 ///
-/// `value(i, j, k)` is the value at a node. Memory: 20 bytes per row, 2 bytes per ambiguous cell.
-template <class ConcurrencyTag, class Value>
+/// `choose(i, j, k, signs)` is the sub-case of a cell that is ambiguous in the table. Memory: 16 bytes per row, 2 bytes
+/// per ambiguous cell.
+template <class ConcurrencyTag, class Choose>
 class Isosurface_extraction {
 public:
   using Word = Node_signs::Word;
   using Index = std::uint32_t;
-  using FT = std::decay_t<std::invoke_result_t<const Value&, std::size_t, std::size_t, std::size_t>>;
 
-  Isosurface_extraction(const Node_signs& signs, const Value& value, const FT& isovalue)
-      : signs_(signs), value_(value), isovalue_(isovalue), has_undefined_(signs.has_undefined()),
-        rows_(signs.size()[1] * signs.size()[2]), layers_(signs.size()[2]) {
+  Isosurface_extraction(const Node_signs& signs, const Case_table& table, const Choose& choose)
+      : signs_(signs), table_(table), choose_(choose), has_undefined_(signs.has_undefined()),
+        rows_(signs.size()[1] * signs.size()[2] + 1), layers_(signs.size()[2]) {
     parallel_for<ConcurrencyTag>(0, layers_.size(),
                                  [&](std::size_t k) { has_undefined_ ? count<true>(k) : count<false>(k); });
     scan();
@@ -125,12 +90,23 @@ public:
         for (std::size_t q = k > 0 ? k - 1 : 0; q <= k; ++q)
           for (std::size_t p = j > 0 ? j - 1 : 0; p <= j; ++p) is_doubtful[q * ny + p] = true;
     std::size_t triangle = 0;
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
+    for (std::size_t r = 0; r + 1 < rows_.size(); ++r) {
       if (is_doubtful[r])
         for (std::size_t t = 0; t < rows_[r].triangles; ++t) result.push_back(triangle + t);
       triangle += rows_[r].triangles;
     }
     return result;
+  }
+
+  /// Calls visit(first, end) for ranges of triangles that hold all with a vertex from `vertex` on.
+  template <class Visit>
+  void for_each_part_with_vertices_from(std::size_t vertex, const Visit& visit) const {
+    for (std::size_t k = 0; k + 1 < layers_.size(); ++k) {
+      const std::size_t edge_vertices_end = rows_[(k + 2) * signs_.size()[1]].first[0];
+      const std::size_t inner_vertices_end = layers_[k].inner_vertices == 0 ? 0 : layers_[k + 1].first_inner_vertex;
+      if (std::max(edge_vertices_end, inner_vertices_end) > vertex)
+        visit(layers_[k].first_triangle, layers_[k + 1].first_triangle);
+    }
   }
 
   /// The edge on which a vertex lies; nothing for an inner vertex.
@@ -143,7 +119,7 @@ public:
     const std::size_t axis = vertex >= first[2] ? 2 : vertex >= first[1] ? 1 : 0;
     std::size_t before = vertex - first[axis];
     for (std::size_t w = 0;; ++w) {
-      Word crossed = signs_.crossed_edges<true>(axis, j, k, w);
+      Word crossed = signs_.crossed_edges<true>(j, k, w)[axis];
       const auto n = std::size_t(std::popcount(crossed));
       if (before >= n) {
         before -= n;
@@ -168,80 +144,34 @@ private:
   Row& row(std::size_t j, std::size_t k) { return rows_[k * signs_.size()[1] + j]; }
   const Row& row(std::size_t j, std::size_t k) const { return rows_[k * signs_.size()[1] + j]; }
 
-  /// Calls visit(i, signs) for every cell of a row that the surface meets.
-  template <bool HasUndefined, class Visit>
-  void for_each_cell(std::size_t j, std::size_t k, const Visit& visit) const {
-    const Word* const rows[4] = {signs_.row(j, k), signs_.row(j + 1, k), signs_.row(j, k + 1),
-                                 signs_.row(j + 1, k + 1)};
-    for (std::size_t w = 0; w < signs_.words(); ++w) {
-      Word here[8];
-      const bool is_last = w + 1 == signs_.words();
-      for (std::size_t r = 0; r < 4; ++r) {
-        here[2 * r] = rows[r][w];
-        here[2 * r + 1] = rows[r][w] >> 1 | (is_last ? 0 : rows[r][w + 1] << 63);
-      }
-      Word active = 0;
-      for (std::size_t c = 1; c < 8; ++c) active |= here[0] ^ here[c];
-      active = Node_signs::within(active, w, signs_.size()[0] - 1);
-      if constexpr (HasUndefined) active &= signs_.defined_cells(j, k, w);
-      for (unsigned byte = 0; active != 0; ++byte, active >>= 8) {
-        Word bits = active & 0xff;
-        if (bits == 0) continue;
-        const Word cases = transposed(here, 8 * byte);
-        for (; bits != 0; bits &= bits - 1) {
-          const unsigned bit = unsigned(std::countr_zero(bits));
-          visit(64 * w + 8 * byte + bit, unsigned(cases >> 8 * bit & 0xff));
-        }
-      }
-    }
-  }
-
-  /// Byte i, bit c of the result is bit shift + i of word c (Warren, Hacker's Delight, 2012, section 7-3).
-  static Word transposed(const Word (&words)[8], unsigned shift) {
-    Word x = 0;
-    for (unsigned c = 0; c < 8; ++c) x |= (words[c] >> shift & 0xff) << 8 * c;
-    Word t = (x ^ x >> 7) & 0x00AA00AA00AA00AA;
-    x ^= t ^ t << 7;
-    t = (x ^ x >> 14) & 0x0000CCCC0000CCCC;
-    x ^= t ^ t << 14;
-    t = (x ^ x >> 28) & 0x00000000F0F0F0F0;
-    return x ^ t ^ t << 28;
-  }
-
-  std::array<FT, 8> values(std::size_t i, std::size_t j, std::size_t k) const {
-    std::array<FT, 8> v;
-    for (std::size_t c = 0; c < 8; ++c) v[c] = value_(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2));
-    return v;
-  }
-
   template <bool HasUndefined>
   void count(std::size_t k) {
-    const auto& flat = Flat_cases::instance();
-    const auto& cases = Marching_cubes_cases::instance();
     Layer& layer = layers_[k];
     for (std::size_t j = 0; j < signs_.size()[1]; ++j) {
-      Row& counts = row(j, k);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::size_t w = 0; w < signs_.words(); ++w)
-          counts.first[axis] += Index(std::popcount(signs_.crossed_edges<HasUndefined>(axis, j, k, w)));
-      if (j + 1 == signs_.size()[1] || k + 1 == signs_.size()[2]) continue;
-      for_each_cell<HasUndefined>(j, k, [&](std::size_t i, unsigned signs) {
-        if (flat.triangles[signs] != Flat_cases::ambiguous) {
-          counts.triangles += flat.triangles[signs];
-          return;
-        }
-        const std::size_t s = Trilinear_cell<FT>(values(i, j, k), isovalue_).sub_case(cases, signs);
-        layer.sub_cases.push_back(std::uint16_t(s));
-        counts.triangles += flat.ranges[s].triangles;
-        layer.inner_vertices += flat.ranges[s].inner_vertices;
-      });
+      Row counts;
+      for (std::size_t w = 0; w < signs_.words(); ++w) {
+        const auto crossed = signs_.crossed_edges<HasUndefined>(j, k, w);
+        if ((crossed[0] | crossed[1] | crossed[2]) == 0) continue;
+        for (std::size_t axis = 0; axis < 3; ++axis) counts.first[axis] += Index(std::popcount(crossed[axis]));
+      }
+      if (j + 1 < signs_.size()[1] && k + 1 < signs_.size()[2])
+        for_each_active_cell<HasUndefined>(signs_, j, k, [&](std::size_t i, unsigned signs) {
+          const Case_table::Entry* entry = &table_.of_signs[signs];
+          if (entry->is_ambiguous) {
+            layer.sub_cases.push_back(std::uint16_t(choose_(i, j, k, signs)));
+            entry = &table_.of_sub_case[layer.sub_cases.back()];
+            layer.inner_vertices += entry->inner_vertices;
+          }
+          counts.triangles += entry->triangles;
+        });
+      row(j, k) = counts;
     }
   }
 
   void scan() {
     const std::size_t ny = signs_.size()[1];
     for (std::size_t r = 0; r < rows_.size(); ++r) {
-      if (r % ny == 0) layers_[r / ny].first_triangle = number_of_triangles_;
+      if (r % ny == 0 && r / ny < layers_.size()) layers_[r / ny].first_triangle = number_of_triangles_;
       for (Index& first : rows_[r].first) {
         const Index n = first;
         first = Index(number_of_vertices_);
@@ -259,95 +189,92 @@ private:
   template <bool HasUndefined, class Place>
   void visit(std::size_t k, const Place& place) {
     for (std::size_t j = 0; j < signs_.size()[1]; ++j) {
+      auto vertex = row(j, k).first;
+      if (vertex[0] == (&row(j, k))[1].first[0]) continue;
       bool is_doubtful = false;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::size_t vertex = row(j, k).first[axis];
-        for (std::size_t w = 0; w < signs_.words(); ++w)
-          for (Word crossed = signs_.crossed_edges<HasUndefined>(axis, j, k, w); crossed != 0; crossed &= crossed - 1)
-            is_doubtful |= place(vertex++, 64 * w + std::size_t(std::countr_zero(crossed)), j, k, axis);
+      for (std::size_t w = 0; w < signs_.words(); ++w) {
+        const auto crossed = signs_.crossed_edges<HasUndefined>(j, k, w);
+        const auto visit_along = [&](auto axis) {
+          for (Word bits = crossed[axis]; bits != 0; bits &= bits - 1)
+            is_doubtful |= place(vertex[axis]++, 64 * w + std::size_t(std::countr_zero(bits)), j, k, axis);
+        };
+        visit_along(std::integral_constant<std::size_t, 0>());
+        visit_along(std::integral_constant<std::size_t, 1>());
+        visit_along(std::integral_constant<std::size_t, 2>());
       }
       if (is_doubtful) layers_[k].doubtful_rows.push_back(j);
     }
   }
 
-  /// The vertices on the edges 0, 1, 2, 3, 4, 5, 8, 10 of a cell, those that begin at i.
-  using Cursor = std::array<Index, 8>;
+  /// The vertices of a cell, in the slots of the table.
+  using Cell_vertices = std::array<Index, 16>;
 
-  /// The cursor at cell i, by counting the edges before it.
-  Cursor cursor_at(std::size_t i, std::size_t j, std::size_t k) const {
-    Cursor cursor;
+  /// Those on the edges that begin at i, by counting the edges before.
+  void set_vertices(Cell_vertices& vertices, std::size_t i, std::size_t j, std::size_t k) const {
     constexpr std::size_t axes[8] = {0, 0, 0, 0, 1, 1, 2, 2}, dj[8] = {0, 1, 0, 1, 0, 0, 0, 1},
                           dk[8] = {0, 0, 1, 1, 0, 1, 0, 0};
     for (std::size_t n = 0; n < 8; ++n) {
-      cursor[n] = row(j + dj[n], k + dk[n]).first[axes[n]];
+      vertices[n] = row(j + dj[n], k + dk[n]).first[axes[n]];
       for (std::size_t w = 0; 64 * w < i; ++w)
-        cursor[n] += Index(
-            std::popcount(Node_signs::within(signs_.crossed_edges<true>(axes[n], j + dj[n], k + dk[n], w), w, i)));
+        vertices[n] += Index(std::popcount(
+            Node_signs::within(signs_.template crossed_edges<true>(j + dj[n], k + dk[n], w)[axes[n]], w, i)));
     }
-    return cursor;
+  }
+
+  /// Writes the triangles of a cell. As many as most cells have are written without asking how many there are, where
+  /// there is room: a wrong guess of the processor costs more than what is overwritten afterwards.
+  static void write(const Cell_vertices& vertices, const std::uint8_t* slot, std::size_t n, std::array<Index, 3>* out,
+                    const std::array<Index, 3>* end) {
+    std::size_t t = 0;
+    const auto write_one = [&] {
+      out[t] = {vertices[slot[3 * t]], vertices[slot[3 * t + 1]], vertices[slot[3 * t + 2]]};
+      ++t;
+    };
+    if (std::size_t(end - out) >= Case_table::at_once)
+      while (t < Case_table::at_once) write_one();
+    while (t < n) write_one();
   }
 
   template <bool HasUndefined, class Place>
   void emit_layer(std::size_t k, std::array<Index, 3>* out, bool is_left_handed, const Place& place) {
-    const auto& flat = Flat_cases::instance();
     const auto& cases = Marching_cubes_cases::instance();
-    const auto* const flat_crossed = flat.crossed.data();
-    const auto* const flat_triangles = flat.triangles.data();
-    const auto* const flat_sub_case = flat.sub_case.data();
-    const auto* const ranges = flat.ranges.data();
-    const auto* const edges = flat.edges.data();
-    const std::size_t second = is_left_handed ? 2 : 1, third = 3 - second;
+    const std::array<Index, 3>* const end = out + (layers_[k + 1].first_triangle - layers_[k].first_triangle);
+    const std::uint8_t* const slots = table_.slots[is_left_handed].data();
     const std::uint16_t* sub_case = layers_[k].sub_cases.data();
-    Index inner = Index(layers_[k].first_inner_vertex);
+    Cell_vertices vertices{};
+    const auto set_inner = [&](std::size_t first) {
+      for (std::size_t n = 0; n < 3; ++n) vertices[12 + n] = Index(first + n);
+    };
+    set_inner(layers_[k].first_inner_vertex);
     for (std::size_t j = 0; j + 1 < signs_.size()[1]; ++j) {
       if (row(j, k).triangles == 0) continue;
-      Cursor cursor;
-      if constexpr (!HasUndefined) cursor = cursor_at(0, j, k);
-      for_each_cell<HasUndefined>(j, k, [&](std::size_t i, unsigned signs) {
-        // Edges between two cells of this loop are in no cell without undefined nodes: only then the cursor can jump.
-        if constexpr (HasUndefined) cursor = cursor_at(i, j, k);
-        const auto& crossed = flat_crossed[signs];
-        const Index vertices[16] = {cursor[0],
-                                    cursor[1],
-                                    cursor[2],
-                                    cursor[3],
-                                    cursor[4],
-                                    cursor[5],
-                                    cursor[4] + crossed[4],
-                                    cursor[5] + crossed[5],
-                                    cursor[6],
-                                    cursor[6] + crossed[6],
-                                    cursor[7],
-                                    cursor[7] + crossed[7],
-                                    inner,
-                                    inner + 1,
-                                    inner + 2,
-                                    0};
-        const std::size_t s = flat_triangles[signs] == Flat_cases::ambiguous ? *sub_case++ : flat_sub_case[signs];
-        const Flat_cases::Range range = ranges[s];
-        const std::uint8_t* edge = edges + range.first_edge;
-        auto* const begin = out;
-        out += range.triangles;
-        for (auto* triangle = begin; triangle != out; ++triangle, edge += 3) {
-          const Index a = vertices[edge[0]], b = vertices[edge[second]], c = vertices[edge[third]];
-          *triangle = {a, b, c};
-        }
-        if (range.inner_vertices > 0) {
-          const std::span<const std::array<Index, 3>> triangles(out - range.triangles, range.triangles);
-          if (place(std::size_t(inner), i, j, k, cases[s].inner_edges, triangles))
+      if constexpr (!HasUndefined) set_vertices(vertices, 0, j, k);
+      for_each_active_cell<HasUndefined>(signs_, j, k, [&](std::size_t i, unsigned signs) {
+        // Edges between two cells of this loop are in no cell without undefined nodes: only then i can jump.
+        if constexpr (HasUndefined) set_vertices(vertices, i, j, k);
+        const auto& crossed = table_.crossed[signs];
+        for (std::size_t n = 4; n < 8; ++n) vertices[n + 4] = vertices[n] + crossed[n];
+        const Case_table::Entry* entry = &table_.of_signs[signs];
+        if (entry->is_ambiguous) entry = &table_.of_sub_case[*sub_case++];
+        write(vertices, slots + entry->first_slot, entry->triangles, out, end);
+        if (entry->inner_vertices > 0) {
+          const std::span<const std::array<Index, 3>> triangles(out, entry->triangles);
+          if (place(std::size_t(vertices[12]), i, j, k, cases[sub_case[-1]].inner_edges, triangles))
             layers_[k].doubtful_rows.push_back(j);
-          inner += range.inner_vertices;
+          set_inner(vertices[12] + entry->inner_vertices);
         }
-        for (std::size_t n = 0; n < 8; ++n) cursor[n] += crossed[n];
+        out += entry->triangles;
+        for (std::size_t n = 0; n < 4; ++n) vertices[n] += crossed[n];
+        for (std::size_t n = 4; n < 8; ++n) vertices[n] = vertices[n + 4];
       });
     }
   }
 
   const Node_signs& signs_;
-  const Value& value_;
-  const FT isovalue_;
+  const Case_table& table_;
+  const Choose& choose_;
   const bool has_undefined_;
-  std::vector<Row> rows_;
+  std::vector<Row> rows_; // and one behind the last
   std::vector<Layer> layers_;
   std::size_t number_of_vertices_ = 0, number_of_triangles_ = 0;
 };

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_INTERNAL_NODE_SIGNS_H
 #define EQUIAFFINE_INTERNAL_NODE_SIGNS_H
 
-#include <CGAL/assertions.h>
+#include <equiaffine/internal/sign_word.h>
 
 #include <algorithm>
 #include <array>
@@ -11,55 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
 namespace equiaffine::internal {
-
-/// Signs of 64 numbers and fewer, bit i for number i.
-struct Sign_word {
-  std::uint64_t positive = 0;  ///< >= isovalue
-  std::uint64_t undefined = 0; ///< NaN
-};
-
-template <class FT>
-Sign_word sign_word(const FT* values, std::size_t n, const FT& isovalue) {
-  Sign_word word;
-  for (std::size_t i = 0; i < n; ++i) {
-    word.positive |= std::uint64_t(values[i] >= isovalue) << i;
-    word.undefined |= std::uint64_t(!(values[i] >= isovalue) && !(values[i] < isovalue)) << i;
-  }
-  return word;
-}
-
-#ifdef __SSE2__
-inline Sign_word sign_word(const float* values, std::size_t n, const float& isovalue) {
-  if (n < 64) return sign_word<float>(values, n, isovalue);
-  Sign_word word;
-  __m128 undefined = _mm_setzero_ps();
-  const __m128 level = _mm_set1_ps(isovalue);
-  for (std::size_t i = 0; i < 64; i += 4) {
-    const __m128 x = _mm_loadu_ps(values + i);
-    undefined = _mm_or_ps(undefined, _mm_cmpunord_ps(x, x));
-    word.positive |= std::uint64_t(unsigned(_mm_movemask_ps(_mm_cmpge_ps(x, level)))) << i;
-  }
-  return _mm_movemask_ps(undefined) ? sign_word<float>(values, n, isovalue) : word;
-}
-
-inline Sign_word sign_word(const double* values, std::size_t n, const double& isovalue) {
-  if (n < 64) return sign_word<double>(values, n, isovalue);
-  Sign_word word;
-  __m128d undefined = _mm_setzero_pd();
-  const __m128d level = _mm_set1_pd(isovalue);
-  for (std::size_t i = 0; i < 64; i += 2) {
-    const __m128d x = _mm_loadu_pd(values + i);
-    undefined = _mm_or_pd(undefined, _mm_cmpunord_pd(x, x));
-    word.positive |= std::uint64_t(unsigned(_mm_movemask_pd(_mm_cmpge_pd(x, level)))) << i;
-  }
-  return _mm_movemask_pd(undefined) ? sign_word<double>(values, n, isovalue) : word;
-}
-#endif
 
 /// The signs of the nodes of a grid, one bit each, in rows along i that begin with a new word; bits behind the end of a
 /// row are 0. Planes of constant k may be written by different threads.
@@ -74,17 +26,12 @@ public:
   const Size& size() const { return size_; }
   std::size_t words() const { return words_; }
 
-  Word positive(std::size_t j, std::size_t k, std::size_t w) const {
-    return positive_[(k * size_[1] + j) * words_ + w];
-  }
   const Word* row(std::size_t j, std::size_t k) const { return &positive_[(k * size_[1] + j) * words_]; }
 
   /// Sets the bits of a row from `first` on; all must lie in one word.
   void set(std::size_t first, std::size_t j, std::size_t k, const Sign_word& signs) {
     positive_[(k * size_[1] + j) * words_ + first / 64] |= signs.positive << first % 64;
-    if (signs.undefined == 0) return;
-    if (undefined_[k].empty()) undefined_[k].resize(words_ * size_[1]);
-    undefined_[k][j * words_ + first / 64] |= signs.undefined << first % 64;
+    if (signs.undefined != 0) set_undefined(first, j, k, signs.undefined);
   }
 
   /// Whether some node of some plane has no value.
@@ -111,25 +58,26 @@ public:
     return within(~(here | here >> 1 | undefined(w + 1) << 63), w, size_[0] - 1);
   }
 
-  /// Bit i: the edge along `axis` that begins at node (i, j, k) has ends of different signs and a cell all of whose
-  /// nodes have values.
+  /// For the edges along each axis: bit i says that the one that begins at node (i, j, k) has ends of different signs
+  /// and a cell all of whose nodes have values.
   template <bool HasUndefined>
-  Word crossed_edges(std::size_t axis, std::size_t j, std::size_t k, std::size_t w) const {
-    const Word here = positive(j, k, w);
-    Word crossed;
-    if (axis == 0) {
-      const Word next = w + 1 < words_ ? positive(j, k, w + 1) : 0;
-      crossed = within(here ^ (here >> 1 | next << 63), w, size_[0] - 1);
-    } else {
-      if (axis == 1 ? j + 1 >= size_[1] : k + 1 >= size_[2]) return 0;
-      crossed = here ^ (axis == 1 ? positive(j + 1, k, w) : positive(j, k + 1, w));
-    }
+  std::array<Word, 3> crossed_edges(std::size_t j, std::size_t k, std::size_t w) const {
+    const Word* const word = row(j, k) + w;
+    const Word next = *word >> 1 | (w + 1 < words_ ? word[1] << 63 : 0);
+    std::array<Word, 3> crossed = {within(*word ^ next, w, size_[0] - 1), j + 1 < size_[1] ? *word ^ word[words_] : 0,
+                                   k + 1 < size_[2] ? *word ^ word[words_ * size_[1]] : 0};
     if constexpr (HasUndefined)
-      if (crossed != 0) crossed &= edges_of_defined_cells(axis, j, k, w);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (crossed[axis] != 0) crossed[axis] &= edges_of_defined_cells(axis, j, k, w);
     return crossed;
   }
 
 private:
+  void set_undefined(std::size_t first, std::size_t j, std::size_t k, Word bits) {
+    if (undefined_[k].empty()) undefined_[k].resize(words_ * size_[1]);
+    undefined_[k][j * words_ + first / 64] |= bits << first % 64;
+  }
+
   Word edges_of_defined_cells(std::size_t axis, std::size_t j, std::size_t k, std::size_t w) const {
     Word word = 0;
     for (std::size_t b = 0; b < (axis == 1 ? 1U : 2U); ++b)

@@ -97,7 +97,8 @@ public:
     for (std::size_t c = 0; c < 8; ++c) f_[c] = Number(v_[c]) - Number(isovalue_);
   }
 
-  std::size_t sub_case(const Marching_cubes_cases& cases, unsigned signs) const {
+  std::size_t sub_case(unsigned signs) const {
+    const auto& cases = Marching_cubes_cases::instance();
     unsigned joined = 0;
     for (unsigned faces = cases.ambiguous_faces(signs); faces != 0; faces &= faces - 1) {
       const int face = std::countr_zero(faces);
