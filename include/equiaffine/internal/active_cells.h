@@ -63,23 +63,19 @@ void for_each_active_cell(const Node_signs& signs, std::size_t j, std::size_t k,
   const auto differ = [&](std::size_t w) { // across the row
     return (rows[0][w] ^ rows[1][w]) | (rows[0][w] ^ rows[2][w]) | (rows[0][w] ^ rows[3][w]);
   };
-  Word differ_here = differ(0);
-  for (std::size_t w = 0; w < signs.words(); ++w) {
-    const bool is_last = w + 1 == signs.words();
-    const auto shifted = [&](std::size_t r) { return rows[r][w] >> 1 | (is_last ? 0 : rows[r][w + 1] << 63); };
-    const Word differ_next = is_last ? 0 : differ(w + 1), next = shifted(0);
-    Word active = differ_here | differ_here >> 1 | differ_next << 63 | (rows[0][w] ^ next);
-    active = Node_signs::within(active, w, signs.size()[0] - 1);
-    differ_here = differ_next;
-    if (active == 0) continue;
+  const auto shifted = [&](std::size_t r, std::size_t w) { return rows[r][w] >> 1 | rows[r][w + 1] << 63; };
+  signs.for_each_word(j, k, [&](std::size_t w) {
+    const Word differ_here = differ(w);
+    Word active = signs.cells(differ_here | differ_here >> 1 | differ(w + 1) << 63 | (rows[0][w] ^ shifted(0, w)), w);
+    if (active == 0) return;
     if constexpr (HasUndefined) active &= signs.defined_cells(j, k, w);
     const Bit_columns corners(
-        {rows[0][w], next, rows[1][w], shifted(1), rows[2][w], shifted(2), rows[3][w], shifted(3)});
+        {rows[0][w], shifted(0, w), rows[1][w], shifted(1, w), rows[2][w], shifted(2, w), rows[3][w], shifted(3, w)});
     for (; active != 0; active &= active - 1) {
       const unsigned bit = unsigned(std::countr_zero(active));
       visit(64 * w + bit, corners[bit]);
     }
-  }
+  });
 }
 
 } // namespace equiaffine::internal

@@ -2,8 +2,10 @@
 #ifndef EQUIAFFINE_INTERNAL_SIGN_WORD_H
 #define EQUIAFFINE_INTERNAL_SIGN_WORD_H
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 
 #ifdef __SSE2__
@@ -35,32 +37,39 @@ inline __m128 are_undefined(const double* x) {
   return _mm_castpd_ps(_mm_or_pd(four(x), four(x + 4)));
 }
 
-/// The signs of the first `16 * (n / 16)` numbers; false if one of them is NaN.
+/// The signs of 16 numbers; adds to `undefined` whether one of them is NaN.
 template <class FT>
-bool sign_sixteens(const FT* x, std::size_t n, FT level, std::uint64_t& positive) {
+std::uint64_t sixteen_signs(const FT* x, FT level, __m128& undefined) {
+  undefined = _mm_or_ps(undefined, _mm_or_ps(are_undefined(x), are_undefined(x + 8)));
+  const __m128i low = _mm_packs_epi32(are_positive(x, level), are_positive(x + 4, level));
+  const __m128i high = _mm_packs_epi32(are_positive(x + 8, level), are_positive(x + 12, level));
+  return std::uint64_t(unsigned(_mm_movemask_epi8(_mm_packs_epi16(low, high))));
+}
+
+template <class FT>
+std::optional<Sign_word> sign_word_without_undefined(const FT* values, std::size_t n, FT isovalue) {
+  Sign_word word;
   __m128 undefined = _mm_setzero_ps();
-  for (std::size_t i = 0; i + 16 <= n; i += 16, x += 16) {
-    undefined = _mm_or_ps(undefined, _mm_or_ps(are_undefined(x), are_undefined(x + 8)));
-    const __m128i low = _mm_packs_epi32(are_positive(x, level), are_positive(x + 4, level));
-    const __m128i high = _mm_packs_epi32(are_positive(x + 8, level), are_positive(x + 12, level));
-    positive |= std::uint64_t(unsigned(_mm_movemask_epi8(_mm_packs_epi16(low, high)))) << i;
+  std::size_t i = 0;
+  for (; i + 16 <= n; i += 16) word.positive |= sixteen_signs(values + i, isovalue, undefined) << i;
+  if (i < n) {
+    FT rest[16] = {};
+    std::copy(values + i, values + n, rest);
+    word.positive |= (sixteen_signs(rest, isovalue, undefined) & ((std::uint64_t(1) << (n - i)) - 1)) << i;
   }
-  return _mm_movemask_ps(undefined) == 0;
+  return _mm_movemask_ps(undefined) == 0 ? std::optional(word) : std::nullopt;
 }
 #endif
 
 /// \pre n <= 64
 template <class FT>
 Sign_word sign_word(const FT* values, std::size_t n, const FT& isovalue) {
-  Sign_word word;
-  std::size_t i = 0;
 #ifdef __SSE2__
-  if constexpr (std::is_same_v<FT, float> || std::is_same_v<FT, double>) {
-    if (sign_sixteens(values, n, isovalue, word.positive)) i = n / 16 * 16;
-    else word.positive = 0;
-  }
+  if constexpr (std::is_same_v<FT, float> || std::is_same_v<FT, double>)
+    if (const auto word = sign_word_without_undefined(values, n, isovalue)) return *word;
 #endif
-  for (; i < n; ++i) {
+  Sign_word word;
+  for (std::size_t i = 0; i < n; ++i) {
     word.positive |= std::uint64_t(values[i] >= isovalue) << i;
     word.undefined |= std::uint64_t(!(values[i] >= isovalue) && !(values[i] < isovalue)) << i;
   }

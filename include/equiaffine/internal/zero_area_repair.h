@@ -3,6 +3,7 @@
 #define EQUIAFFINE_INTERNAL_ZERO_AREA_REPAIR_H
 
 #include <equiaffine/Isosurface_repairs.h>
+#include <equiaffine/internal/isosurface_numbering.h>
 #include <equiaffine/internal/remove_from_mesh.h>
 
 #include <algorithm>
@@ -75,10 +76,9 @@ public:
   const Isosurface_repairs& repairs() const { return repairs_; }
 
   /// Removes the vertices that are in no triangle any more from `points...`, arrays with an entry per vertex, and the
-  /// triangles that are gone. `for_each_part(v, visit)` calls visit(first, end) for ranges of triangles that hold all
-  /// that had a vertex from v on when they were made.
-  template <class Triangles, class ForEachPart, class... Points>
-  void remove(Triangles& triangles, const ForEachPart& for_each_part, Points&... points) {
+  /// triangles that are gone.
+  template <class Triangles, class... Points>
+  void remove(const Isosurface_numbering& numbering, Triangles& triangles, Points&... points) {
     sort_and_unite(removed_vertices_);
     sort_and_unite(removed_triangles_);
     const std::size_t n = std::max({points.size()...});
@@ -89,8 +89,8 @@ public:
         if (v >= kept) v = number[v - kept];
     };
     fill_holes(n, removed_vertices_, [&](std::size_t from, std::size_t to) { number[from - kept] = Index(to); });
-    for_each_part(kept, [&](std::size_t first, std::size_t end) {
-      for (std::size_t t = first; t < end; ++t) renumber(t);
+    numbering.for_each_part_with_vertices_from(kept, [&](const Index_range& part) {
+      for (std::size_t t = part.first; t < part.end; ++t) renumber(t);
     });
     for (std::size_t v = kept; v < n; ++v) // contraction has brought other triangles there
       if (const auto star = stars_.find(Index(v)); star != stars_.end())
