@@ -234,14 +234,14 @@ private:
   Isosurface_repairs repairs_;
 };
 
-/// The first of move(d), move(2 d), ... that differs from a point; d is at most 1e-7 and not the same for all vertices.
+/// move(d) for a small d, at most 2.5e-7 where move(1e-7) differs from p, else few roundings, and not the same for all
+/// vertices and rounds.
 template <class Point, class Move>
 Point nudged(const Point& p, std::size_t vertex, int round, const Move& move) {
   const double golden = 0.6180339887498949 * double(vertex) + 0.37 * round;
-  for (double d = 0.5e-7 * (1 + golden - std::floor(golden));; d *= 2) {
-    const Point q = move(d);
-    if (!(q == p) || !(d < 1)) return q;
-  }
+  double d = 0.5e-7;
+  while (move(d) == p && d < 1) d *= 2;
+  return move(d * (1 + 4 * (golden - std::floor(golden))));
 }
 
 } // namespace equiaffine::internal
