@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <functional>
 #include <malloc.h>
 #include <string>
@@ -13,11 +14,14 @@
 #include <unistd.h>
 #include <vector>
 
-inline double seconds(const std::function<void()>& f) {
-  const auto begin = std::chrono::steady_clock::now();
-  f();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+using Clock = double (*)(); // seconds
+
+/// For programs with several threads: nothing else should run.
+inline double wall_clock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+/// For programs with one thread: what this process has computed, whatever else runs.
+inline double processor_clock() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 inline double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -25,13 +29,18 @@ inline double median(std::vector<double> values) {
   return n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
-/// Medians of seconds(a) / seconds(b), and of each.
+/// Medians of the times of a and b, and of their ratio.
 struct Comparison {
   double ratio, a, b;
 };
 
 /// Runs alternate, so that what disturbs one disturbs the other; the first of each is not counted.
-inline Comparison compare(int runs, const std::function<void()>& a, const std::function<void()>& b) {
+inline Comparison compare(Clock clock, int runs, const std::function<void()>& a, const std::function<void()>& b) {
+  const auto seconds = [&](const std::function<void()>& f) {
+    const double begin = clock();
+    f();
+    return clock() - begin;
+  };
   a();
   b();
   std::vector<double> ratios, times_a, times_b;

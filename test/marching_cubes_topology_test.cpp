@@ -205,11 +205,11 @@ TEST(Marching_cubes_cases, the_border_of_a_sub_case_lies_in_the_faces) {
 // Exactness.
 
 /// A cell whose face z = 0 has the saddle p q - r s for diagonal positive p, q and negative r, s.
-bool is_joined_on_bottom(double p, double q, double r, double s) {
+bool is_joined_on_bottom(double p, double q, double r, double s, double isovalue = 0) {
   const std::array<double, 8> v = {p, -r, -s, q, 1, 1, 1, 1};
   const auto& cases = Marching_cubes_cases::instance();
   const unsigned signs = 0b11111001;
-  const std::size_t sub_case = internal::Trilinear_cell<double>(v, 0.0).sub_case(signs);
+  const std::size_t sub_case = internal::Trilinear_cell<double>(v, isovalue).sub_case(signs);
   const std::size_t joined = cases.variant(signs, 1U << 4).sub_case, separate = cases.variant(signs, 0).sub_case;
   EXPECT_TRUE(sub_case == joined || sub_case == separate);
   return sub_case == joined;
@@ -226,6 +226,9 @@ TEST(Trilinear_cell, saddles_on_faces_are_decided_exactly) {
     EXPECT_FALSE(is_joined_on_bottom((1 + u) * scale, (1 - u) * scale, scale, scale)) << scale;
     EXPECT_TRUE(is_joined_on_bottom(scale, scale, (1 + u) * scale, (1 - u) * scale)) << scale;
   }
+  // Differences from the isovalue that round, so that the products are in the wrong order.
+  EXPECT_FALSE(is_joined_on_bottom(1 + 2 * u, 1 + u, 1 + u, 1 + u, 0.45 * u));
+  EXPECT_TRUE(is_joined_on_bottom(1 + u, 1 + u, 1 + 2 * u, 1 + u, -0.45 * u));
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(is_joined_on_bottom(infinity, 1, 1, 1));
   EXPECT_FALSE(is_joined_on_bottom(1, 1, infinity, 1));
