@@ -17,8 +17,8 @@ namespace equiaffine::internal {
 /// The signs of the nodes of a grid, one bit each, in rows along i that begin with a new word; bits behind the end of a
 /// row are 0. Planes of constant k may be written by different threads.
 ///
-/// Words in which only `set_positive` was called, or nothing, are known not to meet the surface: no cell has all its
-/// nodes in such words and different signs.
+/// Nodes for which only `set_positive` was called, or nothing, are known not to be corners of a cell that meets the
+/// surface.
 class Node_signs {
 public:
   using Word = std::uint64_t;
@@ -56,22 +56,12 @@ public:
     return std::any_of(undefined_.begin(), undefined_.end(), [](const auto& plane) { return !plane.empty(); });
   }
 
-  /// Calls visit(w) for the words w of a row in which a cell or edge that begins there may meet the surface.
+  /// Calls visit(w) for the words w of a row with nodes from which edges or cells may begin that meet the surface.
   template <class Visit>
   void for_each_word(std::size_t j, std::size_t k, const Visit& visit) const {
-    const auto mask = [&](std::size_t m) {
-      Word evaluated = 0;
-      if (m < masks_)
-        for (std::size_t q = k; q <= std::min(k + 1, size_[2] - 1); ++q)
-          for (std::size_t p = j; p <= std::min(j + 1, size_[1] - 1); ++p)
-            evaluated |= evaluated_[(q * size_[1] + p) * masks_ + m];
-      return evaluated;
-    };
-    for (std::size_t m = 0; m < masks_; ++m) {
-      const Word here = mask(m);
-      Word bits = here | here >> 1 | mask(m + 1) << 63; // the last cell of a word has nodes in the next one
-      for (; bits != 0; bits &= bits - 1) visit(64 * m + std::size_t(std::countr_zero(bits)));
-    }
+    for (std::size_t m = 0; m < masks_; ++m)
+      for (Word bits = evaluated_[(k * size_[1] + j) * masks_ + m]; bits != 0; bits &= bits - 1)
+        visit(64 * m + std::size_t(std::countr_zero(bits)));
   }
 
   /// The word without its bits behind the end of a row of n.
