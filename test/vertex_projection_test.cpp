@@ -50,8 +50,8 @@ struct Traits_with_samples : Function {
 };
 
 TEST(Vertex_projection, no_triangle_loses_its_area) {
-  // Six vertices around the negative sample. Projected on the plane x = y, those on the edges that leave to the back along
-  // x and to the front along y would both lie at the node.
+  // Six vertices around the negative sample. Projected on the plane x = y, those on the edges that leave to the back
+  // along x and to the front along y would both lie at the node.
   const CGAL::Bbox_3 box(0, 0, 0, 2, 2, 2);
   Traits_with_samples traits{Function(Expression_3("x-y"), box),
                              {Lattice_3<Kernel>({3, 3, 3}, box), std::vector<double>(27, 1.0)}};

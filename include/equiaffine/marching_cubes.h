@@ -134,9 +134,9 @@ private:
 /// without a value (NaN); parts that touch there have vertices of their own. Normals point along the gradient. Its
 /// topology is exactly that of the zero set of the values' trilinear interpolant, zeros taken as positive; cells whose
 /// signs leave it open have vertices inside where a tunnel or a curved disc needs them. Projection does not change it,
-/// and undoes moves that turn a triangle over or leave it without area. Where the surface passes through nodes, triangles without area are
-/// contracted or opened and components without area dropped. All this is counted in `repairs`. Nothing is found where
-/// the surface crosses no grid edge.
+/// and undoes moves that turn a triangle over or leave it without area. Where the surface passes through nodes,
+/// triangles without area are contracted or opened and components without area dropped. All this is counted in
+/// `repairs`. Nothing is found where the surface crosses no grid edge.
 ///
 /// Named parameters: `number_of_nodes` (64), `vertex_position` (PROJECTED), `skip_empty_space` (not given).
 /// The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Time: one evaluation per node,

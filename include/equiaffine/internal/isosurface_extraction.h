@@ -22,7 +22,8 @@ namespace equiaffine::internal {
 /// cell, a scan gives every row of the grid its first vertex and every layer its first triangle, then vertices and
 /// triangles are made in any order.
 ///
-/// `choose(i, j, k, signs)` is the sub-case of a cell that is ambiguous in the table. Memory: 2 bytes per ambiguous cell.
+/// `choose(i, j, k, signs)` is the sub-case of a cell that is ambiguous in the table. Memory: 2 bytes per ambiguous
+/// cell.
 template <class ConcurrencyTag, class Choose>
 class Isosurface_extraction {
 public:

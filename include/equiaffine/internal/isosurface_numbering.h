@@ -30,8 +30,8 @@ struct Index_range {
 
 /// The numbers of the vertices and triangles of a surface in a grid. The vertices of a row of nodes are those on its
 /// edges along i, then j, then k, each in the order of i: the number of a vertex is that of its row and kind plus the
-/// number of crossed edges before it, so no vertex is ever looked up. The inner vertices of cells come last, layer after
-/// layer. Triangles are ordered like their cells.
+/// number of crossed edges before it, so no vertex is ever looked up. The inner vertices of cells come last, layer
+/// after layer. Triangles are ordered like their cells.
 ///
 /// Memory: 16 bytes per row of nodes.
 class Isosurface_numbering {

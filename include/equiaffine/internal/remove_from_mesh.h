@@ -8,8 +8,8 @@
 
 namespace equiaffine::internal {
 
-/// Removes entries of an array of n by putting the last ones in their places: calls move(from, to), and returns how many
-/// are left. `removed` is ascending, without repetition.
+/// Removes entries of an array of n by putting the last ones in their places: calls move(from, to), and returns how
+/// many are left. `removed` is ascending, without repetition.
 template <class Index, class Move>
 std::size_t fill_holes(std::size_t n, const std::vector<Index>& removed, const Move& move) {
   const std::size_t kept = n - removed.size();
