@@ -96,6 +96,15 @@ TEST(Marching_cubes, skipping_empty_space_does_not_take_the_end_of_the_domain_fo
   EXPECT_EQ(all.triangles, some.triangles);
 }
 
+TEST(Marching_cubes, skipping_empty_space_keeps_the_samples_of_a_volume) {
+  // Convolution smooths a single negative sample away: the bounds of the spline do not see it.
+  Volume_3<Kernel> volume{Lattice_3<Kernel>({12, 12, 12}, CGAL::Bbox_3(0, 0, 0, 11, 11, 11)),
+                          std::vector<double>(1728, 1.0)};
+  volume.values[volume.lattice.index(6, 6, 6)] = -0.5;
+  const Sampled_function_traits_3<Kernel> traits(volume, 5, Spline_scheme::CONVOLUTION);
+  EXPECT_EQ(marching_cubes(traits, parameters::skip_empty_space()).points.size(), 6u);
+}
+
 Volume_3<Kernel> random_volume(std::size_t n, std::mt19937& random, const std::vector<double>& values) {
   Volume_3<Kernel> volume{Lattice_3<Kernel>({n, n, n}, CGAL::Bbox_3(0, 0, 0, 1, 1, 1)), {}};
   for (std::size_t k = 0; k < n; ++k)

@@ -5,6 +5,7 @@
 #include <equiaffine/internal/Output_allocator.h>
 #include <equiaffine/internal/inner_vertex.h>
 #include <equiaffine/internal/isosurface_extraction.h>
+#include <equiaffine/internal/trilinear_cell.h>
 #include <equiaffine/internal/zero_area_repair.h>
 
 #include <CGAL/assertions.h>
@@ -27,6 +28,108 @@ struct Array_isosurface_3 {
   Isosurface_repairs repairs;
 };
 
+namespace internal {
+
+/// Node values with i fastest, and where the nodes lie.
+template <class FT>
+struct Array_grid {
+  using Node = std::array<std::size_t, 3>;
+  std::span<const FT> values;
+  Node size;
+  FT isovalue;
+  std::array<FT, 3> origin, spacing;
+
+  Node stride() const { return {1, size[0], size[0] * size[1]}; }
+  const FT* at(const Node& n) const { return &values[n[0] + size[0] * (n[1] + size[1] * n[2])]; }
+
+  std::array<FT, 3> point(const Node& node, const std::array<FT, 3>& offset) const {
+    std::array<FT, 3> p;
+    for (std::size_t a = 0; a < 3; ++a) p[a] = origin[a] + (FT(std::ptrdiff_t(node[a])) + offset[a]) * spacing[a];
+    return p;
+  }
+
+  std::array<FT, 8> cell_values(const Node& cell) const {
+    const FT* const first = at(cell);
+    std::array<FT, 8> v;
+    for (std::size_t c = 0; c < 8; ++c) v[c] = first[(c & 1) + (c >> 1 & 1) * stride()[1] + (c >> 2) * stride()[2]];
+    return v;
+  }
+};
+
+template <class ConcurrencyTag, class FT>
+Node_signs node_signs(const Array_grid<FT>& grid) {
+  Node_signs signs(grid.size);
+  const std::size_t nx = grid.size[0];
+  parallel_for<ConcurrencyTag>(0, grid.size[2], [&](std::size_t k) {
+    for (std::size_t j = 0; j < grid.size[1]; ++j)
+      for (std::size_t i = 0; i < nx; i += 64)
+        signs.set(i, j, k, sign_word(grid.at({i, j, k}), std::min<std::size_t>(64, nx - i), grid.isovalue));
+  });
+  return signs;
+}
+
+template <class Extraction, class FT>
+void repair(const Extraction& extraction, const Array_grid<FT>& grid, Array_isosurface_3<FT>& surface) {
+  const auto part = extraction.doubtful_triangles();
+  if (part.empty()) return;
+  auto& points = surface.points;
+  const auto nudge = [&](std::size_t v, int round) {
+    const auto edge = extraction.numbering().edge_of(v);
+    const std::size_t axis = edge ? edge->axis : (v + std::size_t(round)) % 3;
+    const std::array<FT, 3> old = points[v];
+    std::array<FT, 3> halfway{0, 0, 0};
+    halfway[axis] = FT(0.5);
+    const bool is_back = edge && old[axis] > grid.point(edge->node, halfway)[axis];
+    points[v] = nudged(old, v, round, [&](double d) {
+      auto p = old;
+      p[axis] += FT(is_back ? -d : d) * grid.spacing[axis];
+      return p;
+    });
+  };
+  const auto coordinates = [&](std::size_t v) -> const std::array<FT, 3>& { return points[v]; };
+  Zero_area_repair repair(std::span(surface.triangles), part, coordinates, nudge);
+  surface.repairs = repair.repairs();
+  repair.remove(extraction.numbering(), surface.triangles, points);
+}
+
+/// With the decisions of a table; those it leaves open are made by the trilinear interpolant.
+template <class ConcurrencyTag, class FT>
+Array_isosurface_3<FT> extract(const Array_grid<FT>& grid, const Case_table& table) {
+  const Node_signs signs = node_signs<ConcurrencyTag>(grid);
+  const auto choose = [&](std::size_t i, std::size_t j, std::size_t k, unsigned corner_signs) {
+    return Trilinear_cell<FT>(grid.cell_values({i, j, k}), grid.isovalue).sub_case(corner_signs);
+  };
+  Isosurface_extraction<ConcurrencyTag, decltype(choose)> extraction(signs, table, choose);
+  Array_isosurface_3<FT> surface;
+  surface.points.resize(extraction.numbering().number_of_vertices());
+  surface.triangles.resize(extraction.numbering().number_of_triangles());
+  auto* const points = surface.points.data();
+  extraction.for_each_edge_vertex([&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, auto axis) {
+    const std::array<std::size_t, 3> node = {i, j, k};
+    const FT* const here = grid.at(node);
+    std::array<FT, 3> offset{0, 0, 0};
+    offset[axis] = linear_zero(FT(here[0] - grid.isovalue), FT(here[grid.stride()[axis]] - grid.isovalue));
+    const std::array<FT, 3> p = points[v] = grid.point(node, offset);
+    const FT first = FT(std::ptrdiff_t(node[axis]));
+    return p[axis] == grid.origin[axis] + first * grid.spacing[axis] ||
+           p[axis] == grid.origin[axis] + (first + 1) * grid.spacing[axis];
+  });
+  extraction.emit(
+      surface.triangles.data(), false,
+      [&](std::size_t first, std::size_t i, std::size_t j, std::size_t k, const auto& edges, const auto& triangles) {
+        auto f = grid.cell_values({i, j, k});
+        for (FT& x : f) x -= grid.isovalue;
+        for (std::size_t n = 0; n < edges.size(); ++n)
+          points[first + n] = grid.point({i, j, k}, inner_vertex(f, edges[n]));
+        return any_zero_area(
+            triangles, [&](std::size_t v) -> const auto& { return points[v]; });
+      });
+  repair(extraction, grid, surface);
+  return surface;
+}
+
+} // namespace internal
+
 /// Marching Cubes on a plain array: the surface where `values`, float or double with i fastest, pass `isovalue`. Node
 /// (i, j, k) lies at origin + (i, j, k) * spacing. Topology and conventions of values at the isovalue and of NaN are
 /// those of `marching_cubes`; vertices are the linear intersections.
@@ -35,69 +138,11 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, class FT>
 Array_isosurface_3<FT> marching_cubes_of_array(std::span<const FT> values, const std::array<std::size_t, 3>& size,
                                                FT isovalue, const std::array<FT, 3>& origin = {0, 0, 0},
                                                const std::array<FT, 3>& spacing = {1, 1, 1}) {
-  const auto [nx, ny, nz] = size;
+  [[maybe_unused]] const auto [nx, ny, nz] = size;
   CGAL_precondition(nx >= 2 && ny >= 2 && nz >= 2 && values.size() == nx * ny * nz);
   CGAL_precondition(spacing[0] > 0 && spacing[1] > 0 && spacing[2] > 0);
-  internal::Node_signs signs(size);
-  internal::parallel_for<ConcurrencyTag>(0, nz, [&, nx = nx, ny = ny](std::size_t k) {
-    for (std::size_t j = 0; j < ny; ++j)
-      for (std::size_t i = 0; i < nx; i += 64) {
-        const std::size_t n = std::min<std::size_t>(64, nx - i);
-        signs.set(i, j, k, internal::sign_word(&values[(k * ny + j) * nx + i], n, isovalue));
-      }
-  });
-  const std::array<std::size_t, 3> stride = {1, nx, nx * ny};
-  const FT* const data = values.data();
-  const auto value = [data, stride](std::size_t i, std::size_t j, std::size_t k) {
-    return data[i + j * stride[1] + k * stride[2]];
-  };
-  internal::Isosurface_extraction<ConcurrencyTag, decltype(value)> extraction(signs, value, isovalue);
-  Array_isosurface_3<FT> result;
-  result.points.resize(extraction.number_of_vertices());
-  result.triangles.resize(extraction.number_of_triangles());
-  auto* const points = result.points.data();
-  const auto point = [&](const std::array<std::size_t, 3>& node, const std::array<FT, 3>& offset) {
-    std::array<FT, 3> p;
-    for (std::size_t a = 0; a < 3; ++a) p[a] = origin[a] + (FT(std::ptrdiff_t(node[a])) + offset[a]) * spacing[a];
-    return p;
-  };
-  extraction.for_each_edge_vertex([&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) {
-    const std::array<std::size_t, 3> node = {i, j, k};
-    const FT* const here = data + i + j * stride[1] + k * stride[2];
-    std::array<FT, 3> offset{0, 0, 0};
-    offset[axis] = internal::linear_zero(FT(here[0] - isovalue), FT(here[stride[axis]] - isovalue));
-    const std::array<FT, 3> p = points[v] = point(node, offset);
-    const FT first = FT(std::ptrdiff_t(node[axis]));
-    return p[axis] == origin[axis] + first * spacing[axis] || p[axis] == origin[axis] + (first + 1) * spacing[axis];
-  });
-  const auto coordinates = [&](std::size_t v) -> const std::array<FT, 3>& { return points[v]; };
-  extraction.emit(
-      result.triangles.data(), false,
-      [&](std::size_t first, std::size_t i, std::size_t j, std::size_t k, const auto& edges, auto triangles) {
-        std::array<FT, 8> f;
-        for (std::size_t c = 0; c < 8; ++c) f[c] = value(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)) - isovalue;
-        for (std::size_t n = 0; n < edges.size(); ++n)
-          points[first + n] = point({i, j, k}, internal::inner_vertex(f, edges[n]));
-        return internal::any_zero_area(triangles, coordinates);
-      });
-  const auto nudge = [&](std::size_t v, int round) {
-    const auto edge = extraction.edge_of(v);
-    const std::size_t axis = edge ? edge->axis : (v + std::size_t(round)) % 3;
-    const std::array<FT, 3> old = points[v];
-    const bool is_back = edge && old[axis] > origin[axis] + (FT(edge->node[axis]) + FT(0.5)) * spacing[axis];
-    points[v] = internal::nudged(old, v, round, [&](double d) {
-      auto p = old;
-      p[axis] += FT(is_back ? -d : d) * spacing[axis];
-      return p;
-    });
-  };
-  const auto part = extraction.doubtful_triangles();
-  if (!part.empty()) {
-    internal::Zero_area_repair repair(std::span(result.triangles), part, coordinates, nudge);
-    result.repairs = repair.repairs();
-    internal::remove_from_mesh(repair.removed_vertices(), result.triangles, result.points);
-  }
-  return result;
+  return internal::extract<ConcurrencyTag, FT>({values, size, isovalue, origin, spacing},
+                                               internal::Case_table::instance());
 }
 
 } // namespace equiaffine

@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_MESH_TOPOLOGY_H
 #define EQUIAFFINE_MESH_TOPOLOGY_H
 
+#include <equiaffine/internal/disjoint_sets.h>
+
 #include <CGAL/assertions.h>
 
 #include <algorithm>
@@ -112,20 +114,11 @@ struct Corner_lists {
 
 inline std::size_t number_of_components(std::span<const std::array<std::uint32_t, 3>> triangles,
                                         std::size_t number_of_points) {
-  std::vector<std::uint32_t> parent(number_of_points);
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  Disjoint_sets<std::uint32_t> sets(number_of_points);
   std::size_t components = number_of_points;
   for (const auto& triangle : triangles)
-    for (std::size_t c = 1; c < 3; ++c) {
-      const std::uint32_t a = root(triangle[0]), b = root(triangle[c]);
-      if (a == b) continue;
-      parent[std::max(a, b)] = std::min(a, b);
-      --components;
-    }
+    for (std::size_t c = 1; c < 3; ++c)
+      if (sets.unite(triangle[0], triangle[c])) --components;
   return components;
 }
 

@@ -2,19 +2,17 @@
 #ifndef EQUIAFFINE_INTERNAL_OUTPUT_ALLOCATOR_H
 #define EQUIAFFINE_INTERNAL_OUTPUT_ALLOCATOR_H
 
+#include <equiaffine/internal/large_pages.h>
+
 #include <cstddef>
 #include <cstdlib>
 #include <new>
 #include <utility>
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
-
 namespace equiaffine::internal {
 
 /// For large arrays that are written once, right after they are made: leaves numbers uninitialised and asks for large
-/// pages, since the first touch of every small one costs more than what is computed for it.
+/// pages.
 template <class T>
 struct Output_allocator {
   using value_type = T;
@@ -24,19 +22,11 @@ struct Output_allocator {
   Output_allocator(const Output_allocator<U>&) {}
 
   T* allocate(std::size_t n) {
-    constexpr std::size_t page = std::size_t(1) << 21;
-    const std::size_t bytes = n * sizeof(T);
-    void* memory;
-    if (bytes < 2 * page) {
-      memory = std::malloc(bytes);
-    } else {
-      const std::size_t rounded = (bytes + page - 1) / page * page;
-      memory = std::aligned_alloc(page, rounded);
-#ifdef __linux__
-      if (memory) (void)madvise(memory, rounded, MADV_HUGEPAGE); // advice: without it the array is but slower
-#endif
-    }
+    const std::size_t bytes = n * sizeof(T), rounded = (bytes + large_page - 1) / large_page * large_page;
+    const bool is_large = bytes >= 2 * large_page;
+    void* const memory = is_large ? std::aligned_alloc(large_page, rounded) : std::malloc(bytes);
     if (!memory) throw std::bad_alloc();
+    if (is_large) advise_large_pages(memory, rounded);
     return static_cast<T*>(memory);
   }
   void deallocate(T* p, std::size_t) { std::free(p); }

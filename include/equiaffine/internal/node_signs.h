@@ -2,7 +2,8 @@
 #ifndef EQUIAFFINE_INTERNAL_NODE_SIGNS_H
 #define EQUIAFFINE_INTERNAL_NODE_SIGNS_H
 
-#include <CGAL/assertions.h>
+#include <equiaffine/internal/large_pages.h>
+#include <equiaffine/internal/sign_word.h>
 
 #include <algorithm>
 #include <array>
@@ -11,80 +12,43 @@
 #include <cstdint>
 #include <vector>
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
 namespace equiaffine::internal {
-
-/// Signs of 64 numbers and fewer, bit i for number i.
-struct Sign_word {
-  std::uint64_t positive = 0;  ///< >= isovalue
-  std::uint64_t undefined = 0; ///< NaN
-};
-
-template <class FT>
-Sign_word sign_word(const FT* values, std::size_t n, const FT& isovalue) {
-  Sign_word word;
-  for (std::size_t i = 0; i < n; ++i) {
-    word.positive |= std::uint64_t(values[i] >= isovalue) << i;
-    word.undefined |= std::uint64_t(!(values[i] >= isovalue) && !(values[i] < isovalue)) << i;
-  }
-  return word;
-}
-
-#ifdef __SSE2__
-inline Sign_word sign_word(const float* values, std::size_t n, const float& isovalue) {
-  if (n < 64) return sign_word<float>(values, n, isovalue);
-  Sign_word word;
-  __m128 undefined = _mm_setzero_ps();
-  const __m128 level = _mm_set1_ps(isovalue);
-  for (std::size_t i = 0; i < 64; i += 4) {
-    const __m128 x = _mm_loadu_ps(values + i);
-    undefined = _mm_or_ps(undefined, _mm_cmpunord_ps(x, x));
-    word.positive |= std::uint64_t(unsigned(_mm_movemask_ps(_mm_cmpge_ps(x, level)))) << i;
-  }
-  return _mm_movemask_ps(undefined) ? sign_word<float>(values, n, isovalue) : word;
-}
-
-inline Sign_word sign_word(const double* values, std::size_t n, const double& isovalue) {
-  if (n < 64) return sign_word<double>(values, n, isovalue);
-  Sign_word word;
-  __m128d undefined = _mm_setzero_pd();
-  const __m128d level = _mm_set1_pd(isovalue);
-  for (std::size_t i = 0; i < 64; i += 2) {
-    const __m128d x = _mm_loadu_pd(values + i);
-    undefined = _mm_or_pd(undefined, _mm_cmpunord_pd(x, x));
-    word.positive |= std::uint64_t(unsigned(_mm_movemask_pd(_mm_cmpge_pd(x, level)))) << i;
-  }
-  return _mm_movemask_pd(undefined) ? sign_word<double>(values, n, isovalue) : word;
-}
-#endif
 
 /// The signs of the nodes of a grid, one bit each, in rows along i that begin with a new word; bits behind the end of a
 /// row are 0. Planes of constant k may be written by different threads.
+///
+/// Nodes for which only `set_positive` was called, or nothing, are known not to be corners of a cell that meets the
+/// surface.
 class Node_signs {
 public:
   using Word = std::uint64_t;
   using Size = std::array<std::size_t, 3>;
 
   explicit Node_signs(const Size& size)
-      : size_(size), words_((size[0] + 63) / 64), positive_(words_ * size[1] * size[2]), undefined_(size[2]) {}
+      : size_(size), words_((size[0] + 63) / 64), masks_((words_ + 63) / 64),
+        cells_of_last_word_(within(~Word(0), words_ - 1, size[0] - 1)), evaluated_(masks_ * size[1] * size[2]),
+        undefined_(size[2]) {
+    resize_with_large_pages(positive_, words_ * size[1] * size[2] + 1);
+  }
 
   const Size& size() const { return size_; }
   std::size_t words() const { return words_; }
 
-  Word positive(std::size_t j, std::size_t k, std::size_t w) const {
-    return positive_[(k * size_[1] + j) * words_ + w];
-  }
+  /// Words behind the end of a row may be read, but only bits of cells mean anything then.
   const Word* row(std::size_t j, std::size_t k) const { return &positive_[(k * size_[1] + j) * words_]; }
 
   /// Sets the bits of a row from `first` on; all must lie in one word.
   void set(std::size_t first, std::size_t j, std::size_t k, const Sign_word& signs) {
-    positive_[(k * size_[1] + j) * words_ + first / 64] |= signs.positive << first % 64;
-    if (signs.undefined == 0) return;
-    if (undefined_[k].empty()) undefined_[k].resize(words_ * size_[1]);
-    undefined_[k][j * words_ + first / 64] |= signs.undefined << first % 64;
+    const std::size_t row = k * size_[1] + j, w = first / 64;
+    positive_[row * words_ + w] |= signs.positive << first % 64;
+    evaluated_[row * masks_ + w / 64] |= Word(1) << w % 64;
+    if (signs.undefined != 0) set_undefined(first, j, k, signs.undefined);
+  }
+
+  /// Sets the bits from `first` to `end` of a row.
+  void set_positive(std::size_t first, std::size_t end, std::size_t j, std::size_t k) {
+    for (std::size_t w = first / 64; 64 * w < end; ++w)
+      positive_[(k * size_[1] + j) * words_ + w] |= within(~Word(0), w, end) & ~within(~Word(0), w, first);
   }
 
   /// Whether some node of some plane has no value.
@@ -92,10 +56,21 @@ public:
     return std::any_of(undefined_.begin(), undefined_.end(), [](const auto& plane) { return !plane.empty(); });
   }
 
+  /// Calls visit(w) for the words w of a row with nodes from which edges or cells may begin that meet the surface.
+  template <class Visit>
+  void for_each_word(std::size_t j, std::size_t k, const Visit& visit) const {
+    for (std::size_t m = 0; m < masks_; ++m)
+      for (Word bits = evaluated_[(k * size_[1] + j) * masks_ + m]; bits != 0; bits &= bits - 1)
+        visit(64 * m + std::size_t(std::countr_zero(bits)));
+  }
+
   /// The word without its bits behind the end of a row of n.
   static Word within(Word word, std::size_t w, std::size_t n) {
     return 64 * (w + 1) <= n ? word : 64 * w >= n ? 0 : word & ((Word(1) << n % 64) - 1);
   }
+
+  /// The word without its bits that are no cells of a row.
+  Word cells(Word word, std::size_t w) const { return w + 1 == words_ ? word & cells_of_last_word_ : word; }
 
   /// Bit i: the cell (i, j, k) exists and its eight nodes have values.
   Word defined_cells(std::size_t j, std::size_t k, std::size_t w) const {
@@ -108,28 +83,42 @@ public:
       return word;
     };
     const Word here = undefined(w);
-    return within(~(here | here >> 1 | undefined(w + 1) << 63), w, size_[0] - 1);
+    return cells(~(here | here >> 1 | undefined(w + 1) << 63), w);
   }
 
-  /// Bit i: the edge along `axis` that begins at node (i, j, k) has ends of different signs and a cell all of whose
-  /// nodes have values.
+  /// The edges that begin at the nodes of a row.
   template <bool HasUndefined>
-  Word crossed_edges(std::size_t axis, std::size_t j, std::size_t k, std::size_t w) const {
-    const Word here = positive(j, k, w);
-    Word crossed;
-    if (axis == 0) {
-      const Word next = w + 1 < words_ ? positive(j, k, w + 1) : 0;
-      crossed = within(here ^ (here >> 1 | next << 63), w, size_[0] - 1);
-    } else {
-      if (axis == 1 ? j + 1 >= size_[1] : k + 1 >= size_[2]) return 0;
-      crossed = here ^ (axis == 1 ? positive(j + 1, k, w) : positive(j, k + 1, w));
+  class Edge_row {
+  public:
+    Edge_row(const Node_signs& signs, std::size_t j, std::size_t k)
+        : signs_(signs), j_(j), k_(k), here_(signs.row(j, k)),
+          along_j_(j + 1 < signs.size_[1] ? signs.row(j + 1, k) : here_),
+          along_k_(k + 1 < signs.size_[2] ? signs.row(j, k + 1) : here_) {}
+
+    /// Along each axis: bit i says that the edge at node 64 w + i has ends of different signs and a cell all of whose
+    /// nodes have values.
+    std::array<Word, 3> crossed(std::size_t w) const {
+      const Word here = here_[w];
+      std::array<Word, 3> crossed = {signs_.cells(here ^ (here >> 1 | here_[w + 1] << 63), w), here ^ along_j_[w],
+                                     here ^ along_k_[w]};
+      if constexpr (HasUndefined)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          if (crossed[axis] != 0) crossed[axis] &= signs_.edges_of_defined_cells(axis, j_, k_, w);
+      return crossed;
     }
-    if constexpr (HasUndefined)
-      if (crossed != 0) crossed &= edges_of_defined_cells(axis, j, k, w);
-    return crossed;
-  }
+
+  private:
+    const Node_signs& signs_;
+    std::size_t j_, k_;
+    const Word *here_, *along_j_, *along_k_;
+  };
 
 private:
+  void set_undefined(std::size_t first, std::size_t j, std::size_t k, Word bits) {
+    if (undefined_[k].empty()) undefined_[k].resize(words_ * size_[1]);
+    undefined_[k][j * words_ + first / 64] |= bits << first % 64;
+  }
+
   Word edges_of_defined_cells(std::size_t axis, std::size_t j, std::size_t k, std::size_t w) const {
     Word word = 0;
     for (std::size_t b = 0; b < (axis == 1 ? 1U : 2U); ++b)
@@ -143,8 +132,10 @@ private:
   }
 
   Size size_;
-  std::size_t words_;
-  std::vector<Word> positive_;
+  std::size_t words_, masks_; // per row
+  Word cells_of_last_word_;
+  std::vector<Word> positive_;               // and a word behind the end
+  std::vector<Word> evaluated_;              // one bit per word
   std::vector<std::vector<Word>> undefined_; // per plane; empty: every node has a value
 };
 

@@ -2,12 +2,13 @@
 #ifndef EQUIAFFINE_INTERNAL_SPLIT_FANS_H
 #define EQUIAFFINE_INTERNAL_SPLIT_FANS_H
 
+#include <equiaffine/internal/disjoint_sets.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -32,24 +33,19 @@ void split_fans(std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_
   }
   std::sort(edges.begin(), edges.end());
 
-  std::vector<std::size_t> fans(3 * triangles.size()); // of the corners, as a forest
-  std::iota(fans.begin(), fans.end(), std::size_t(0));
-  const auto find = [&](std::size_t c) {
-    while (fans[c] != c) c = fans[c] = fans[fans[c]];
-    return c;
-  };
+  Disjoint_sets<std::size_t> fans(3 * triangles.size()); // of corners
   for (std::size_t n = 1; n < edges.size(); ++n) {
     if (edges[n - 1] < edges[n]) continue;
-    fans[find(edges[n].first_corner)] = find(edges[n - 1].first_corner);
-    fans[find(edges[n].second_corner)] = find(edges[n - 1].second_corner);
+    fans.unite(edges[n].first_corner, edges[n - 1].first_corner);
+    fans.unite(edges[n].second_corner, edges[n - 1].second_corner);
   }
 
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> vertex_of_fan(fans.size(), none);
+  std::vector<std::uint32_t> vertex_of_fan(3 * triangles.size(), none);
   std::vector<bool> is_taken(number_of_vertices, false);
-  for (std::size_t c = 0; c < fans.size(); ++c) {
+  for (std::size_t c = 0; c < 3 * triangles.size(); ++c) {
     std::uint32_t& corner = triangles[c / 3][c % 3];
-    std::uint32_t& vertex = vertex_of_fan[find(c)];
+    std::uint32_t& vertex = vertex_of_fan[fans.find(c)];
     if (vertex == none) {
       vertex = is_taken[corner] ? std::uint32_t(number_of_vertices++) : corner;
       if (vertex == corner) is_taken[corner] = true;

@@ -92,12 +92,11 @@ class Trilinear_cell {
 
 public:
   Trilinear_cell(const std::array<FT, 8>& v, const FT& isovalue) : v_(v), isovalue_(isovalue) {
-    if constexpr (has_exact_signs) // an infinite value counts as the largest number
-      for (FT& x : v_) x = std::clamp(x, std::numeric_limits<FT>::lowest(), std::numeric_limits<FT>::max());
     for (std::size_t c = 0; c < 8; ++c) f_[c] = Number(v_[c]) - Number(isovalue_);
   }
 
-  std::size_t sub_case(const Marching_cubes_cases& cases, unsigned signs) const {
+  std::size_t sub_case(unsigned signs) const {
+    const auto& cases = Marching_cubes_cases::instance();
     unsigned joined = 0;
     for (unsigned faces = cases.ambiguous_faces(signs); faces != 0; faces &= faces - 1) {
       const int face = std::countr_zero(faces);
@@ -118,14 +117,16 @@ public:
 private:
   /// Of a face with diagonal signs. The order of the corners is that of their numbers, the same for both cells.
   bool are_positive_joined_on(int face) const {
-    const int axis = face / 2, u = axis == 0 ? 2 : 1, w = axis == 2 ? 2 : 4, base = (face & 1) << axis;
-    const std::array<std::size_t, 4> c = {std::size_t(base), std::size_t(base | u), std::size_t(base | w),
-                                          std::size_t(base | u | w)};
+    static constexpr std::uint8_t corners[6][4] = {{0, 2, 4, 6}, {1, 3, 5, 7}, {0, 1, 4, 5},
+                                                   {2, 3, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}};
+    const auto& c = corners[face];
     const Number p = f_[c[0]] * f_[c[3]], q = f_[c[1]] * f_[c[2]];
     const bool is_first_positive = v_[c[0]] >= isovalue_;
     if constexpr (has_exact_signs) {
       constexpr double relative = 1e-15, absolute = 1e-290; // 9 roundings; products do not underflow
-      if (!(std::abs(p - q) > relative * (std::abs(p) + std::abs(q)) + absolute) || !std::isfinite(p - q)) {
+      const double difference = p - q;
+      if (!(std::abs(difference) > relative * (std::abs(p) + std::abs(q)) + absolute) ||
+          std::abs(difference) > std::numeric_limits<double>::max()) {
         const Exact D = exact(c[0]) * exact(c[3]) - exact(c[1]) * exact(c[2]);
         return is_first_positive ? D >= 0 : D <= 0;
       }
@@ -150,8 +151,12 @@ private:
   }
 
   Exact exact(std::size_t c) const {
-    if constexpr (has_exact_signs) return Exact(double(v_[c])) - Exact(double(isovalue_));
-    else return f_[c];
+    if constexpr (has_exact_signs) { // an infinite value counts as the largest number
+      constexpr FT lowest = std::numeric_limits<FT>::lowest(), largest = std::numeric_limits<FT>::max();
+      return Exact(double(std::clamp(v_[c], lowest, largest))) - Exact(double(isovalue_));
+    } else {
+      return f_[c];
+    }
   }
 
   std::array<FT, 8> v_;

@@ -3,6 +3,8 @@
 #define EQUIAFFINE_INTERNAL_ZERO_AREA_REPAIR_H
 
 #include <equiaffine/Isosurface_repairs.h>
+#include <equiaffine/internal/isosurface_numbering.h>
+#include <equiaffine/internal/remove_from_mesh.h>
 
 #include <algorithm>
 #include <array>
@@ -43,8 +45,8 @@ bool any_zero_area(const Triangles& triangles, const Coordinates& coordinates) {
 /// without length are contracted while that leaves the topology as it is (link condition: Dey, Edelsbrunner, Guha,
 /// Nekhayev 1999), components without area are dropped, and what is left is given area by moving vertices a little.
 ///
-/// `coordinates(v)` are those of a point, `nudge(v, round)` moves it. Triangles that are
-/// removed get three equal indices.
+/// `coordinates(v)` are those of a point, `nudge(v, round)` moves it. Removed triangles get
+/// three equal indices; `remove` takes them out.
 template <class Coordinates, class Nudge>
 class Zero_area_repair {
 public:
@@ -73,11 +75,36 @@ public:
 
   const Isosurface_repairs& repairs() const { return repairs_; }
 
-  /// The vertices that are in no triangle any more.
-  const std::vector<Index>& removed_vertices() const { return removed_vertices_; }
+  /// Removes the vertices that are in no triangle any more from `points...`, arrays with an entry per vertex, and the
+  /// triangles that are gone.
+  template <class Triangles, class... Points>
+  void remove(const Isosurface_numbering& numbering, Triangles& triangles, Points&... points) {
+    sort_and_unite(removed_vertices_);
+    sort_and_unite(removed_triangles_);
+    const std::size_t n = std::max({points.size()...});
+    std::vector<Index> number(removed_vertices_.size()); // of the last vertices
+    const std::size_t kept = n - number.size();
+    const auto renumber = [&](std::size_t t) {
+      for (Index& v : triangles[t])
+        if (v >= kept) v = number[v - kept];
+    };
+    fill_holes(n, removed_vertices_, [&](std::size_t from, std::size_t to) { number[from - kept] = Index(to); });
+    numbering.for_each_part_with_vertices_from(kept, [&](const Index_range& part) {
+      for (std::size_t t = part.first; t < part.end; ++t) renumber(t);
+    });
+    for (std::size_t v = kept; v < n; ++v) // contraction has brought other triangles there
+      if (const auto star = stars_.find(Index(v)); star != stars_.end())
+        for (const std::size_t t : star->second) renumber(t);
+    (remove_from_array(removed_vertices_, points), ...);
+    remove_from_array(removed_triangles_, triangles);
+  }
 
 private:
   static bool is_removed(const Triangle& t) { return t[0] == t[1]; }
+  static void sort_and_unite(auto& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  }
   static bool contains(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
 
   bool is_flat(std::size_t t) const {
@@ -139,6 +166,7 @@ private:
         for (const Index w : triangle)
           if (const auto star = stars_.find(w); w != u && star != stars_.end()) std::erase(star->second, t);
         triangle.fill(v);
+        removed_triangles_.push_back(t);
       } else {
         std::replace(triangle.begin(), triangle.end(), u, v);
         stars_[v].push_back(t);
@@ -173,6 +201,7 @@ private:
         removed_vertices_.insert(removed_vertices_.end(), triangles_[t].begin(), triangles_[t].end());
         triangles_[t].fill(triangles_[t][0]);
       }
+      removed_triangles_.insert(removed_triangles_.end(), component.begin(), component.end());
     }
   }
 
@@ -183,16 +212,14 @@ private:
       std::vector<Index> vertices;
       for (const std::size_t t : flat_)
         if (is_flat(t)) vertices.insert(vertices.end(), triangles_[t].begin(), triangles_[t].end());
-      std::sort(vertices.begin(), vertices.end());
-      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+      sort_and_unite(vertices);
       for (const Index v : vertices) nudge_(v, round);
       moved.insert(vertices.begin(), vertices.end());
       flat_.clear(); // what a vertex could have flattened lies around it
       for (const Index v : moved) flat_.insert(flat_.end(), stars_[v].begin(), stars_[v].end());
     }
     repairs_.moved_vertices = moved.size();
-    std::sort(flat_.begin(), flat_.end());
-    flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());
+    sort_and_unite(flat_);
     repairs_.zero_area_left =
         std::size_t(std::count_if(flat_.begin(), flat_.end(), [&](std::size_t t) { return is_flat(t); }));
   }
@@ -203,37 +230,18 @@ private:
   std::vector<std::size_t> flat_;                             // triangles that have or may have no area
   std::unordered_map<Index, std::vector<std::size_t>> stars_; // of the vertices of flat triangles
   std::vector<Index> removed_vertices_;
+  std::vector<std::size_t> removed_triangles_;
   Isosurface_repairs repairs_;
 };
 
-/// The first of move(d), move(2 d), ... that differs from a point; d is at most 1e-7 and not the same for all vertices.
+/// move(d) for a small d, at most 2.5e-7 where move(1e-7) differs from p, else few roundings, and not the same for all
+/// vertices and rounds.
 template <class Point, class Move>
 Point nudged(const Point& p, std::size_t vertex, int round, const Move& move) {
   const double golden = 0.6180339887498949 * double(vertex) + 0.37 * round;
-  for (double d = 0.5e-7 * (1 + golden - std::floor(golden));; d *= 2) {
-    const Point q = move(d);
-    if (!(q == p) || !(d < 1)) return q;
-  }
-}
-
-/// Removes vertices and the triangles with equal indices; `points...` are arrays with an entry per vertex.
-template <class Triangles, class... Points>
-void remove_from_mesh(const std::vector<std::uint32_t>& vertices, Triangles& triangles, Points&... points) {
-  if (vertices.empty()) return;
-  const std::size_t n = std::max({points.size()...});
-  std::vector<std::uint32_t> number(n, 0);
-  for (const std::uint32_t v : vertices) number[v] = 1;
-  std::uint32_t kept = 0;
-  for (std::size_t v = 0; v < n; ++v) {
-    if (number[v] == 1) continue;
-    number[v] = kept;
-    ((points[kept] = points[v]), ...);
-    ++kept;
-  }
-  (points.erase(points.begin() + std::ptrdiff_t(kept), points.end()), ...);
-  std::erase_if(triangles, [](const auto& t) { return t[0] == t[1]; });
-  for (auto& t : triangles)
-    for (auto& v : t) v = number[v];
+  double d = 0.5e-7;
+  while (move(d) == p && d < 1) d *= 2;
+  return move(d * (1 + 4 * (golden - std::floor(golden))));
 }
 
 } // namespace equiaffine::internal
