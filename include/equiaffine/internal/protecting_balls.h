@@ -5,6 +5,7 @@
 #include <equiaffine/Polyline_3.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
+#include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,7 @@
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions_3.h>
+#include <CGAL/squared_distance_3.h>
 #include <Eigen/Dense>
 
 #include <algorithm>

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -117,7 +118,19 @@ private:
     }
     const FT cosine = normal(points) * normal(linear);
     if (cosine > FT(0)) return false;
-    return cosine < FT(0) || (have_no_area(points) && !have_no_area(linear));
+    return (cosine < FT(0) && has_side(linear)) || (have_no_area(points) && !have_no_area(linear));
+  }
+
+  /// Whether a triangle has an area above the rounding of its coordinates.
+  static bool has_side(const std::array<Point_3, 3>& p) {
+    const Vector_3 u = p[1] - p[0], v = p[2] - p[0];
+    const FT length = std::max(u.squared_length(), v.squared_length());
+    return CGAL::cross_product(u, v).squared_length() > squared_rounding(p[0]) * length;
+  }
+
+  static FT squared_rounding(const Point_3& p) {
+    const FT rounding = FT(16) * std::numeric_limits<FT>::epsilon();
+    return rounding * rounding * (p - CGAL::ORIGIN).squared_length();
   }
 
   static bool have_no_area(const std::array<Point_3, 3>& p) {
@@ -135,9 +148,17 @@ private:
     };
     for (std::size_t n = 0; n < suspects.size(); ++n) {
       if (!is_flipped(suspects[n], linear)) continue;
-      for (const std::size_t v : surface_.triangles[suspects[n]]) {
+      const Triangle& flipped = surface_.triangles[suspects[n]];
+      // Beside a node whose value all but vanishes two vertices are the same but for rounding; the third is not to blame.
+      const bool is_sliver = !has_side({linear(flipped[0]), linear(flipped[1]), linear(flipped[2])});
+      for (const std::size_t v : flipped) {
         const Point_3 position = linear(v);
         if (surface_.points[v] == position) continue;
+        if (is_sliver) {
+          if ((surface_.points[v] - position).squared_length() <= squared_rounding(position))
+            surface_.points[v] = position;
+          continue;
+        }
         surface_.points[v] = position;
         surface_.vertex_status[v] = Point_status::UNCONVERGED;
         ++surface_.repairs.flips_undone;
