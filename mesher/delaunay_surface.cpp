@@ -13,6 +13,7 @@
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
 #include <CGAL/Real_timer.h>
+#include <CGAL/assertions_behaviour.h>
 #include <CGAL/refine_mesh_3.h>
 #include <CGAL/spatial_sort.h>
 
@@ -21,6 +22,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -37,6 +39,19 @@ struct Surface_domain_3 : Implicit_mesh_domain_3<Memoized_function_3> {
     Subdomain operator()(const Point_3&) const { return Subdomain(); }
   };
   Is_in_domain is_in_domain_object() const { return {}; }
+};
+
+/// CGAL's mesher warns on the standard error stream of a triangulation that does not meet the surface.
+class Silent_warnings {
+public:
+  Silent_warnings()
+      : handler_(CGAL::set_warning_handler([](const char*, const char*, const char*, int, const char*) {})) {}
+  ~Silent_warnings() { CGAL::set_warning_handler(handler_); }
+  Silent_warnings(const Silent_warnings&) = delete;
+  Silent_warnings& operator=(const Silent_warnings&) = delete;
+
+private:
+  CGAL::Failure_function handler_;
 };
 
 using Triangulation = CGAL::Mesh_triangulation_3<Surface_domain_3>::type;
@@ -58,7 +73,8 @@ public:
     timer.start();
     insert_seeds();
     if (complex_.triangulation().dimension() == 3) refine(Manifoldness::ANY);
-    if (!result_.triangles.empty() && result_.undecided_boxes.empty()) refine_until_manifold();
+    if (!result_.triangles.empty() && result_.undecided_boxes.empty() && !has_features_) refine_until_manifold();
+    report_lost_vertices();
     result_.function_evaluations = memory_.evaluations();
     result_.sampling_seconds = timer.time();
     return std::move(result_);
@@ -68,13 +84,16 @@ private:
   // Of vertices on features, and of others from them, relative to the size of facets: with these, the facets beside
   // features have the angles of others, as far as features themselves do not prevent it.
   static constexpr double feature_spacing = 0.8, feature_clearance = 0.7;
+  static constexpr double seed_clearance = 1.7; // the same, relative to the radius of a smaller ball
 
   void insert_seeds() {
     Certified_seeding_3 seeder(function_, domain_.domain(), size_, criteria_.radius);
     Protecting_balls_3<Any_function_3::Kernel> features;
     cover_curves(features);
     auto balls = features();
-    for (const Ball& ball : balls) seeder.keep_away(ball.center, feature_clearance * size_(ball.center));
+    for (const Ball& ball : balls)
+      seeder.keep_away(ball.center, std::min(feature_clearance * size_(ball.center), seed_clearance * ball.radius));
+    has_features_ = !balls.empty();
     auto seeding = seeder();
     result_.is_certified = seeding.undecided_boxes.empty();
     result_.undecided_boxes = std::move(seeding.undecided_boxes);
@@ -90,8 +109,16 @@ private:
     const auto spacing = [&](const Point_3& p) { return feature_spacing * size_(p); };
     Boundary_curves_3 boundary(function_, domain_.domain(), criteria_.radius);
     for (const auto& curve : boundary())
-      features.cover(curve, spacing, [&](const Point_3& p) { return boundary.project(p, curve.axis).value_or(p); });
-    for (const Feature_curve_3& curve : features_) features.cover(curve.polyline, spacing, curve.project);
+      features.cover(
+          curve, spacing, [&](const Point_3& p) { return boundary.project(p, curve.axis); },
+          [](const Point_3& p) { return std::optional(p); });
+    for (const Feature_curve_3& curve : features_) {
+      const auto project = [&](const Point_3& p) {
+        const auto q = curve.project(p);
+        return q && domain_.domain().contains(*q) ? q : std::nullopt;
+      };
+      features.cover(curve.polyline, spacing, project, project);
+    }
   }
 
   /// A ball for a node of the surface, which no seed is in.
@@ -109,7 +136,10 @@ private:
     for (const Ball& ball : balls) {
       const Kernel_point p(ball.center.x(), ball.center.y(), ball.center.z());
       const auto vertex = complex_.triangulation().insert(Triangulation::Weighted_point(p, ball.radius * ball.radius));
-      if (vertex == Triangulation::Vertex_handle()) continue;
+      if (vertex == Triangulation::Vertex_handle()) {
+        lost_.push_back(p);
+        continue;
+      }
       complex_.set_dimension(vertex, ball.dimension);
       complex_.set_index(vertex, 1);
     }
@@ -123,7 +153,10 @@ private:
     Triangulation::Cell_handle hint;
     for (const Kernel_point& p : sorted) {
       const auto vertex = triangulation.insert(Triangulation::Weighted_point(p), hint);
-      if (vertex == Triangulation::Vertex_handle()) continue;
+      if (vertex == Triangulation::Vertex_handle()) {
+        if (dimension < 3) lost_.push_back(p);
+        continue;
+      }
       hint = vertex->cell();
       complex_.set_dimension(vertex, dimension);
       complex_.set_index(vertex, 1);
@@ -133,8 +166,22 @@ private:
   void refine(Manifoldness manifoldness) {
     const double smallest = result_.undecided_boxes.empty() ? 0 : criteria_.radius / 8;
     const Surface_criteria_3<Triangulation> criteria(criteria_, size_, smallest);
+    const Silent_warnings silence;
     refine_facets(complex_, domain_, criteria, manifoldness);
     read_mesh();
+  }
+
+  /// A seed or vertex of a feature without a triangle: the part of the surface around it is not in the mesh.
+  void report_lost_vertices() {
+    const Triangulation& triangulation = complex_.triangulation();
+    for (const auto vertex : triangulation.finite_vertex_handles())
+      if (vertex->in_dimension() < 3 && !number_.contains(&*vertex))
+        lost_.push_back(triangulation.point(vertex).point());
+    for (const Kernel_point& p : lost_) {
+      const double r = size_(p);
+      result_.undecided_boxes.emplace_back(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r);
+    }
+    result_.is_certified = result_.is_certified && lost_.empty();
   }
 
   /// Seldom needed: on a surface that is sampled densely enough every Delaunay facet has its place (Boissonnat, Oudot).
@@ -148,12 +195,12 @@ private:
     result_.points.clear();
     result_.triangles.clear();
     std::vector<Any_function_3::Vector_3> gradients;
-    std::unordered_map<const void*, std::uint32_t> number;
+    number_.clear();
     for (auto facet = complex_.facets_in_complex_begin(); facet != complex_.facets_in_complex_end(); ++facet) {
       std::array<std::uint32_t, 3> triangle;
       for (int i = 0; i < 3; ++i) {
         const auto vertex = facet->first->vertex((facet->second + 1 + i) & 3);
-        const auto [entry, is_new] = number.try_emplace(&*vertex, std::uint32_t(number.size()));
+        const auto [entry, is_new] = number_.try_emplace(&*vertex, std::uint32_t(number_.size()));
         triangle[std::size_t(i)] = entry->second;
         if (!is_new) continue;
         const auto& p = vertex->point();
@@ -177,6 +224,9 @@ private:
   Facet_sizing_field size_;
   const std::vector<Feature_curve_3>& features_;
   Complex complex_;
+  bool has_features_ = false;
+  std::unordered_map<const void*, std::uint32_t> number_; // of the vertices of the mesh
+  std::vector<Kernel_point> lost_;                        // hidden by the balls of others
   Mesh result_;
 };
 

@@ -139,6 +139,26 @@ TEST(Delaunay_surface, the_boundary_lies_on_the_faces_of_the_box_and_has_vertice
   expect_vertices_on_surface(traits, surface, Clip_domain_3(box).diagonal());
 }
 
+TEST(Delaunay_surface, components_at_any_face_and_edge_of_the_box_are_found) {
+  const auto expect_two = [](const char* text, const CGAL::Bbox_3& box, double radius) {
+    const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box), {30, radius, 0});
+    EXPECT_EQ(topology(surface).components, 2u) << text;
+    EXPECT_TRUE(surface.is_certified) << text;
+  };
+  const CGAL::Bbox_3 cube(-2, -2, -2, 2, 2, 2), slab(-1, -1, 0, 1, 1, 0.1);
+  expect_two("min(x^2+y^2+z^2-1, (x-1.31)^2+(y-2)^2+(z-2)^2-1e-3)", cube, 0.1);
+  expect_two("min(x^2+y^2+z^2-1, (x-1.31)^2+(y+2)^2+(z-2)^2-1e-3)", cube, 0.1);
+  expect_two("min(0.1-1e-6+(x-.313)^2+(y-.217)^2-z, (x+.5)^2+(y+.5)^2+(z-.05)^2-.0004)", slab, 0.03);
+  expect_two("min(-1e-6+(x-.313)^2+(y-.217)^2+z, (x+.5)^2+(y+.5)^2+(z-.05)^2-.0004)", slab, 0.03);
+}
+
+TEST(Delaunay_surface, what_is_lost_is_not_certified) {
+  const CGAL::Bbox_3 slice(-2, -2, -0.02, 2, 2, 0.02); // much thinner than the facets
+  const auto surface = delaunay_surface(make_analytic_traits<Kernel>(functions::Sphere(), slice));
+  EXPECT_FALSE(surface.is_certified);
+  EXPECT_FALSE(surface.undecided_boxes.empty());
+}
+
 TEST(Delaunay_surface, nodes_are_vertices) {
   const auto has_vertex = [](const Surface& surface, const Point_3& p) {
     return std::any_of(surface.points.begin(), surface.points.end(),

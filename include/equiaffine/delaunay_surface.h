@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -30,19 +31,20 @@ struct Delaunay_criteria {
 /// A Delaunay mesh of the zero set of a function.
 template <class Kernel>
 struct Delaunay_surface_3 : Isosurface_3<Kernel> {
-  bool is_certified = false; ///< no component of the surface was missed
+  bool is_certified = false; ///< no component of the surface was missed: there are no undecided boxes
   /// Where a part of the surface may have been missed, since neither its absence nor its regularity could be proved:
-  /// around singular points, or everywhere for a function without bounds of its gradient.
+  /// around singular points, where the surface touches the border of the box, or everywhere for a function without
+  /// bounds of its gradient. Also where a part was found and yet got no triangle, for being small beside a feature.
   std::vector<CGAL::Bbox_3> undecided_boxes;
   Parabolic_curves_3<Kernel> parabolic_curves; ///< if the mesh was asked to follow them
 };
 
 namespace internal {
 
-/// A curve on the surface that becomes a chain of edges, and the point of it near one of the polyline.
+/// A curve on the surface that becomes a chain of edges, and the point of it near one of the polyline, if there is one.
 struct Feature_curve_3 {
   Polyline_3<Any_function_3::Kernel> polyline;
-  std::function<Any_function_3::Point_3(const Any_function_3::Point_3&)> project;
+  std::function<std::optional<Any_function_3::Point_3>(const Any_function_3::Point_3&)> project;
 };
 
 /// Compiled in the target equiaffine::mesher. The criteria are complete.
@@ -63,7 +65,7 @@ template <class Polylines>
 std::vector<Feature_curve_3> given_features(const Any_function_3& function, const Polylines& curves, double reach) {
   const auto project = [function, reach](const Any_function_3::Point_3& p) {
     const auto found = project_to_surface(function, p, reach);
-    return found.has_converged ? found.point : p;
+    return found.has_converged ? std::optional(found.point) : std::nullopt;
   };
   std::vector<Feature_curve_3> features;
   for (const auto& curve : curves) features.push_back({converted<Any_function_3::Kernel>(curve), project});
@@ -82,7 +84,8 @@ std::vector<Feature_curve_3> given_features(const Any_function_3& function, cons
 ///
 /// Features are made of edges of the mesh: the curves where the surface meets the border of the clip domain,
 /// `feature_curves`, and the parabolic curves if they are asked for. Beside them angles may be smaller, as at their
-/// corners they must be. Nodes of the surface, as the apex of a cone, are vertices; near other singular points the mesh
+/// corners they must be, and where features are sharp, or nearer to each other than the radius, edges may leave them and
+/// the mesh need not be manifold. Features much smaller than the radius may be missed. Nodes of the surface, as the apex of a cone, are vertices; near other singular points the mesh
 /// ends in facets of radius/8, whatever their angles.
 ///
 /// Named parameters: `clip` (the box of the function), `facet_sizing` (UNIFORM), `feature_curves` (none),
@@ -106,7 +109,7 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Del
   if constexpr (internal::has_parameter<internal::Parabolic_features_tag, NamedParameters>) {
     auto parabolic = parabolic_curves(mesh, function);
     const auto project = [=](const internal::Any_function_3::Point_3& p) {
-      return internal::project_to_parabolic_curve(function, p, criteria.radius * criteria.radius).value_or(p);
+      return internal::project_to_parabolic_curve(function, p, criteria.radius * criteria.radius);
     };
     for (const auto& curve : parabolic.polylines) features.push_back({curve, project});
     const std::size_t evaluations = mesh.function_evaluations;

@@ -60,7 +60,7 @@ public:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr int maximal_level = 24;
   /// Children of undecided cells of one level, much smaller than facets, that are worth a try: a singular point makes
-  /// few at each level, a singular curve twice as many each time. Seeds as dense as those would be too many.
+  /// few at each level, a singular curve twice as many each time.
   static constexpr std::ptrdiff_t maximal_undecided_cells = 200'000;
 
   /// `size(p)` bounds the circumradius of facets near p, and is at most `largest_size`.
@@ -85,7 +85,6 @@ public:
       const auto undecided = std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return !c.is_decided(); });
       const bool is_hopeless = 8 * h < largest_size_ && undecided > maximal_undecided_cells;
       const bool is_last = level_ == maximal_level || (h < largest_size_ && !has_gradient_bounds_) || is_hopeless;
-      if (is_hopeless) least_spacing_ = packing * largest_size_ / 16;
       next.clear();
       for (Cell& cell : cells) {
         const CGAL::Bbox_3 box = box_of(cell);
@@ -104,7 +103,7 @@ public:
     }
     if (!has_gradient_bounds_) result_.undecided_boxes = {box_};
     for (std::size_t n = vertices_; n < grid_.seeds().size(); ++n)
-      if (const Seed& seed = grid_.seeds()[n]; seed.spacing >= least_spacing_) result_.seeds.push_back(seed.point);
+      if (!is_superfluous(grid_.seeds()[n])) result_.seeds.push_back(grid_.seeds()[n].point);
     make_scaffold();
     return std::move(result_);
   }
@@ -166,12 +165,26 @@ private:
     const int level = level_;
     for (; level_ > 0 && 16 * cell_side() < largest_size_; --level_)
       for (auto& x : cell.position) x /= 2;
+    given_up_side_ = cell_side();
     if (given_up_.insert(cell.position).second) {
       const CGAL::Bbox_3 box = box_of(cell);
       result_.undecided_boxes.push_back(box);
       make_seeds(box, packing * size_(center(box)));
     }
     level_ = level;
+  }
+
+  /// Seeds get the denser the nearer they are to a singular point; where facets end, they may end.
+  bool is_superfluous(const Seed& seed) const {
+    if (given_up_.empty() || seed.spacing >= packing * largest_size_ / 16) return false;
+    std::array<std::int64_t, 3> cell;
+    for (int a = 0; a < 3; ++a)
+      cell[std::size_t(a)] = std::int64_t(std::floor((CGAL::to_double(seed.point[a]) - box_.min(a)) / given_up_side_));
+    for (std::int64_t n = 0; n < 125; ++n)
+      if (given_up_.contains({std::uint32_t(cell[0] + n % 5 - 2), std::uint32_t(cell[1] + n / 5 % 5 - 2),
+                              std::uint32_t(cell[2] + n / 25 - 2)}))
+        return true;
+    return false;
   }
 
   /// A seed in a cell, and from there as far as the surface goes without one.
@@ -297,9 +310,9 @@ private:
   const bool has_gradient_bounds_;
   std::vector<CGAL::Bbox_3> empty_cells_;
   std::set<std::array<std::uint32_t, 3>> given_up_;
+  double given_up_side_ = 0;
   Seeding_3<Point_3> result_;
   std::size_t vertices_ = 0, spread_seeds_ = 0; // of the seeds in the grid, the first ones
-  double least_spacing_ = 0;
   std::uint64_t state_ = 1;
 };
 

@@ -2,6 +2,9 @@
 #ifndef EQUIAFFINE_INTERNAL_CURVE_STEP_H
 #define EQUIAFFINE_INTERNAL_CURVE_STEP_H
 
+#include <algorithm>
+#include <cmath>
+
 namespace equiaffine::internal {
 
 /// Of a jet of any order.
@@ -13,9 +16,16 @@ Vector_3 gradient_of(const Jet& jet) {
 /// The step of least length to f = g = 0 by Newton's method; not finite where the gradients are parallel.
 template <class Vector_3, class Jet_f, class Jet_g>
 Vector_3 step_to_curve(const Jet_f& f, const Jet_g& g) {
-  const Vector_3 u = gradient_of<Vector_3>(f), v = gradient_of<Vector_3>(g);
+  const auto scale_of = [](const auto& jet) { // so that no product of four gradients over- or underflows
+    const auto& c = jet.coefficients();
+    using std::abs;
+    return std::max({abs(c[1]), abs(c[2]), abs(c[3])});
+  };
+  const auto s = scale_of(f), t = scale_of(g);
+  const Vector_3 u = gradient_of<Vector_3>(f) / s, v = gradient_of<Vector_3>(g) / t;
+  const auto a = f.value() / s, b = g.value() / t;
   const auto uu = u * u, uv = u * v, vv = v * v, determinant = uu * vv - uv * uv;
-  return (uv * g.value() - vv * f.value()) / determinant * u + (uv * f.value() - uu * g.value()) / determinant * v;
+  return (uv * b - vv * a) / determinant * u + (uv * a - uu * b) / determinant * v;
 }
 
 } // namespace equiaffine::internal

@@ -35,30 +35,32 @@ class Protecting_balls_3 {
 
 public:
   /// Balls along a polyline of short segments, at distances of at most `size(p)`. `project(p)` is a point of the curve
-  /// near a point of the polyline.
-  template <class Sizing, class Projection>
-  void cover(const Polyline_3<Kernel>& curve, const Sizing& size, const Projection& project) {
+  /// near a point of the polyline, `project_end(p)` near an end, or nothing.
+  template <class Sizing, class Projection, class End_projection>
+  void cover(const Polyline_3<Kernel>& curve, const Sizing& size, const Projection& project,
+             const End_projection& project_end) {
     std::vector<Point_3> points = curve.points;
     if (curve.is_closed) points.push_back(points.front());
     std::vector<double> length = {0}; // along the polyline, in sizes
     for (std::size_t n = 1; n < points.size(); ++n)
       length.push_back(length.back() +
                        distance(points[n - 1], points[n]) / size(CGAL::midpoint(points[n - 1], points[n])));
-    const auto pieces = std::max(curve.is_closed ? 3.0 : 1.0, std::ceil(length.back()));
-    const std::size_t first = curve.is_closed ? add(project(points.front()), 1) : corner(points.front());
-    std::size_t last = first;
-    for (std::size_t k = 1, n = 1; double(k) < pieces; ++k) {
+    const auto pieces = std::max(3.0, std::ceil(length.back()));
+    std::vector<std::size_t> chain;
+    const auto append_end = [&](const Point_3& p) {
+      if (const auto end = project_end(p)) chain.push_back(corner(*end));
+    };
+    if (!curve.is_closed) append_end(points.front());
+    for (std::size_t k = curve.is_closed ? 0 : 1, n = 1; double(k) < pieces; ++k) {
       const double at = length.back() * double(k) / pieces;
       while (length[n] < at) ++n;
       const double t = (at - length[n - 1]) / (length[n] - length[n - 1]);
-      const std::size_t next = add(project(points[n - 1] + t * (points[n] - points[n - 1])), 1);
-      join(last, next);
-      last = next;
+      if (const auto p = project(points[n - 1] + t * (points[n] - points[n - 1]))) chain.push_back(add(*p, 1));
     }
-    join(last, curve.is_closed ? first : corner(points.back()));
+    if (!curve.is_closed) append_end(points.back());
+    for (std::size_t n = 1; n < chain.size(); ++n) join(chain[n - 1], chain[n]);
+    if (curve.is_closed && chain.size() > 2) join(chain.back(), chain.front());
   }
-
-  void cover(const Point_3& point, double radius) { balls_[corner(point)].radius = radius; }
 
   std::vector<Ball> operator()() {
     for (std::size_t n = 0; n < balls_.size(); ++n) {
