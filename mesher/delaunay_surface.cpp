@@ -6,6 +6,7 @@
 #include <equiaffine/Implicit_mesh_domain_3.h>
 #include <equiaffine/delaunay_surface.h>
 #include <equiaffine/internal/boundary_curves.h>
+#include <equiaffine/internal/curve_step.h>
 #include <equiaffine/internal/protecting_balls.h>
 #include <equiaffine/internal/singular_points.h>
 #include <equiaffine/mesh_topology.h>
@@ -135,13 +136,7 @@ private:
   void insert(const std::vector<Ball>& balls) {
     for (const Ball& ball : balls) {
       const Kernel_point p(ball.center.x(), ball.center.y(), ball.center.z());
-      const auto vertex = complex_.triangulation().insert(Triangulation::Weighted_point(p, ball.radius * ball.radius));
-      if (vertex == Triangulation::Vertex_handle()) {
-        lost_.push_back(p);
-        continue;
-      }
-      complex_.set_dimension(vertex, ball.dimension);
-      complex_.set_index(vertex, 1);
+      insert(Triangulation::Weighted_point(p, ball.radius * ball.radius), ball.dimension, {});
     }
   }
 
@@ -149,18 +144,21 @@ private:
     std::vector<Kernel_point> sorted;
     for (const Point_3& p : points) sorted.emplace_back(p.x(), p.y(), p.z());
     CGAL::spatial_sort(sorted.begin(), sorted.end());
-    Triangulation& triangulation = complex_.triangulation();
     Triangulation::Cell_handle hint;
-    for (const Kernel_point& p : sorted) {
-      const auto vertex = triangulation.insert(Triangulation::Weighted_point(p), hint);
-      if (vertex == Triangulation::Vertex_handle()) {
-        if (dimension < 3) lost_.push_back(p);
-        continue;
-      }
-      hint = vertex->cell();
-      complex_.set_dimension(vertex, dimension);
-      complex_.set_index(vertex, 1);
+    for (const Kernel_point& p : sorted) hint = insert(Triangulation::Weighted_point(p), dimension, hint);
+  }
+
+  /// A cell to begin the next search at.
+  Triangulation::Cell_handle insert(const Triangulation::Weighted_point& p, int dimension,
+                                    Triangulation::Cell_handle hint) {
+    const auto vertex = complex_.triangulation().insert(p, hint);
+    if (vertex == Triangulation::Vertex_handle()) {
+      if (dimension < 3) lost_.push_back(p.point());
+      return hint;
     }
+    complex_.set_dimension(vertex, dimension);
+    complex_.set_index(vertex, 1);
+    return vertex->cell();
   }
 
   void refine(Manifoldness manifoldness) {
@@ -206,7 +204,7 @@ private:
         const auto& p = vertex->point();
         result_.points.emplace_back(p.x(), p.y(), p.z());
         const auto jet = function_.first_order(result_.points.back());
-        gradients.emplace_back(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]);
+        gradients.push_back(gradient_of<Any_function_3::Vector_3>(jet));
       }
       const auto& [a, b, c] = triangle;
       const auto& p = result_.points;
