@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The only translation unit of the library that instantiates CGAL's mesher.
+#include "Angle_improvement_3.h"
 #include "Facet_sizing_field.h"
 #include "Memoized_function_3.h"
 #include "Surface_criteria_3.h"
@@ -24,6 +25,7 @@
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -56,11 +58,12 @@ private:
 };
 
 using Triangulation = CGAL::Mesh_triangulation_3<Surface_domain_3>::type;
+using Vertex = Triangulation::Vertex_handle;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using Mesh = Delaunay_surface_3<Any_function_3::Kernel>;
 using Point_3 = Any_function_3::Point_3;
 using Kernel_point = Surface_domain_3::Point_3;
-using Ball = Protecting_ball_3<Any_function_3::Kernel>;
+using Features = Protecting_balls_3<Any_function_3::Kernel>;
 
 class Surface_mesher {
 public:
@@ -75,7 +78,11 @@ public:
     insert_seeds();
     if (complex_.triangulation().dimension() == 3) refine(Manifoldness::ANY);
     if (!result_.triangles.empty() && result_.undecided_boxes.empty() && !has_features_) refine_until_manifold();
-    report_lost_vertices();
+    if (has_features_) {
+      Angle_improvement_3 improve_angles(function_, domain_.domain(), criteria_, size_);
+      improve_angles(result_, is_on_feature_);
+    }
+    report_what_is_lost();
     result_.function_evaluations = memory_.evaluations();
     result_.sampling_seconds = timer.time();
     return std::move(result_);
@@ -89,10 +96,9 @@ private:
 
   void insert_seeds() {
     Certified_seeding_3 seeder(function_, domain_.domain(), size_, criteria_.radius);
-    Protecting_balls_3<Any_function_3::Kernel> features;
-    cover_curves(features);
-    auto balls = features();
-    for (const Ball& ball : balls)
+    const Features features = cover_curves();
+    auto balls = features.balls();
+    for (const Features::Ball& ball : balls)
       seeder.keep_away(ball.center, std::min(feature_clearance * size_(ball.center), seed_clearance * ball.radius));
     has_features_ = !balls.empty();
     auto seeding = seeder();
@@ -100,13 +106,16 @@ private:
     result_.undecided_boxes = std::move(seeding.undecided_boxes);
     for (const Point_3& p : nodes_in(function_, result_.undecided_boxes)) add_node(p, seeding.seeds, balls);
     if (seeding.seeds.empty() && balls.empty()) return;
-    insert(balls);
+    const auto vertices = insert(balls);
+    for (const auto& segment : features.segments())
+      feature_edges_.emplace_back(vertices[segment.first], vertices[segment.second]);
     insert(seeding.scaffold, 3);
     insert(seeding.seeds, 2);
   }
 
   /// Features: where the surface meets the border of the domain, and what the caller gave.
-  void cover_curves(Protecting_balls_3<Any_function_3::Kernel>& features) const {
+  Features cover_curves() const {
+    Features features;
     const auto spacing = [&](const Point_3& p) { return feature_spacing * size_(p); };
     Boundary_curves_3 boundary(function_, domain_.domain(), criteria_.radius);
     for (const auto& curve : boundary())
@@ -120,24 +129,28 @@ private:
       };
       features.cover(curve.polyline, spacing, project, project);
     }
+    features.complete();
+    return features;
   }
 
   /// A ball for a node of the surface, which no seed is in.
-  void add_node(const Point_3& p, std::vector<Point_3>& seeds, std::vector<Ball>& balls) const {
+  void add_node(const Point_3& p, std::vector<Point_3>& seeds, std::vector<Features::Ball>& balls) const {
     if (!domain_.domain().contains(p)) return;
     double radius = 0.4 * size_(p);
-    for (const Ball& ball : balls)
+    for (const Features::Ball& ball : balls)
       radius = std::min(radius, 0.9 * (std::sqrt(CGAL::squared_distance(p, ball.center)) - ball.radius));
     if (!(radius > 0)) return;
     balls.push_back({p, 0, radius});
     std::erase_if(seeds, [&](const Point_3& q) { return CGAL::squared_distance(p, q) < 2 * radius * radius; });
   }
 
-  void insert(const std::vector<Ball>& balls) {
-    for (const Ball& ball : balls) {
+  std::vector<Vertex> insert(const std::vector<Features::Ball>& balls) {
+    std::vector<Vertex> vertices;
+    for (const Features::Ball& ball : balls) {
       const Kernel_point p(ball.center.x(), ball.center.y(), ball.center.z());
-      insert(Triangulation::Weighted_point(p, ball.radius * ball.radius), ball.dimension, {});
+      vertices.push_back(insert(Triangulation::Weighted_point(p, ball.radius * ball.radius), ball.dimension, {}));
     }
+    return vertices;
   }
 
   void insert(const std::vector<Point_3>& points, int dimension) {
@@ -145,20 +158,22 @@ private:
     for (const Point_3& p : points) sorted.emplace_back(p.x(), p.y(), p.z());
     CGAL::spatial_sort(sorted.begin(), sorted.end());
     Triangulation::Cell_handle hint;
-    for (const Kernel_point& p : sorted) hint = insert(Triangulation::Weighted_point(p), dimension, hint);
+    for (const Kernel_point& p : sorted) {
+      const Vertex vertex = insert(Triangulation::Weighted_point(p), dimension, hint);
+      if (vertex != Vertex()) hint = vertex->cell();
+    }
   }
 
-  /// A cell to begin the next search at.
-  Triangulation::Cell_handle insert(const Triangulation::Weighted_point& p, int dimension,
-                                    Triangulation::Cell_handle hint) {
-    const auto vertex = complex_.triangulation().insert(p, hint);
-    if (vertex == Triangulation::Vertex_handle()) {
+  /// No vertex if the ball of another hides it.
+  Vertex insert(const Triangulation::Weighted_point& p, int dimension, Triangulation::Cell_handle hint) {
+    const Vertex vertex = complex_.triangulation().insert(p, hint);
+    if (vertex == Vertex()) {
       if (dimension < 3) lost_.push_back(p.point());
-      return hint;
+      return vertex;
     }
     complex_.set_dimension(vertex, dimension);
     complex_.set_index(vertex, 1);
-    return vertex->cell();
+    return vertex;
   }
 
   void refine(Manifoldness manifoldness) {
@@ -169,12 +184,23 @@ private:
     read_mesh();
   }
 
-  /// A seed or vertex of a feature without a triangle: the part of the surface around it is not in the mesh.
-  void report_lost_vertices() {
+  /// A seed or vertex of a feature without a triangle, or two neighbors on a feature without an edge: a part of the
+  /// surface around them is not in the mesh.
+  void report_what_is_lost() {
     const Triangulation& triangulation = complex_.triangulation();
     for (const auto vertex : triangulation.finite_vertex_handles())
       if (vertex->in_dimension() < 3 && !number_.contains(&*vertex))
         lost_.push_back(triangulation.point(vertex).point());
+    std::set<std::pair<std::uint32_t, std::uint32_t>> edges; // between vertices of features, smaller index first
+    for (const auto& t : result_.triangles)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (is_on_feature_[t[i]] && is_on_feature_[t[(i + 1) % 3]]) edges.insert(std::minmax(t[i], t[(i + 1) % 3]));
+    for (const auto& [v, w] : feature_edges_) {
+      const auto first = number_.find(&*v), second = number_.find(&*w);
+      if (first == number_.end() || second == number_.end()) continue; // reported as a vertex
+      if (!edges.contains(std::minmax(first->second, second->second)))
+        lost_.push_back(CGAL::midpoint(v->point().point(), w->point().point()));
+    }
     for (const Kernel_point& p : lost_) {
       const double r = size_(p);
       result_.undecided_boxes.emplace_back(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r);
@@ -194,6 +220,7 @@ private:
     result_.triangles.clear();
     std::vector<Any_function_3::Vector_3> gradients;
     number_.clear();
+    is_on_feature_.clear();
     for (auto facet = complex_.facets_in_complex_begin(); facet != complex_.facets_in_complex_end(); ++facet) {
       std::array<std::uint32_t, 3> triangle;
       for (int i = 0; i < 3; ++i) {
@@ -201,6 +228,7 @@ private:
         const auto [entry, is_new] = number_.try_emplace(&*vertex, std::uint32_t(number_.size()));
         triangle[std::size_t(i)] = entry->second;
         if (!is_new) continue;
+        is_on_feature_.push_back(vertex->in_dimension() < 2);
         const auto& p = vertex->point();
         result_.points.emplace_back(p.x(), p.y(), p.z());
         const auto jet = function_.first_order(result_.points.back());
@@ -223,7 +251,9 @@ private:
   const std::vector<Feature_curve_3>& features_;
   Complex complex_;
   bool has_features_ = false;
+  std::vector<std::pair<Vertex, Vertex>> feature_edges_;
   std::unordered_map<const void*, std::uint32_t> number_; // of the vertices of the mesh
+  std::vector<bool> is_on_feature_;                       // per vertex of the mesh
   std::vector<Kernel_point> lost_;                        // hidden by the balls of others
   Mesh result_;
 };

@@ -53,6 +53,10 @@ private:
       if (root.has_converged) return root.point;
       return std::nullopt;
     }
+    if (!(fa == fa && fb == fb)) {
+      if (fa == fa) return before_undefined(a, b, fa);
+      if (fb == fb) return before_undefined(b, a, fb);
+    }
     if constexpr (BoundedImplicitFunctionTraits_3<Traits>) {
       const Vector_3 d = b - a;
       if (d.squared_length() > FT(certified_length_ * certified_length_) && may_have_two_roots(a, b, d)) {
@@ -60,6 +64,23 @@ private:
         const FT f = traits_.value(middle);
         if (const auto root = on_segment(a, middle, fa, f)) return root;
         return on_segment(middle, b, f, fb);
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// A root between a and where f ceases to be defined on the way to b.
+  std::optional<Point_3> before_undefined(Point_3 a, Point_3 b, const FT& fa) const {
+    constexpr int halvings = 12;
+    for (int n = 0; n < halvings; ++n) {
+      const Point_3 middle = a + (b - a) / FT(2);
+      const FT f = traits_.value(middle);
+      if (!(f == f)) {
+        b = middle;
+      } else if ((f < FT(0)) == (fa < FT(0))) {
+        a = middle;
+      } else {
+        return on_segment(a, middle, fa, f);
       }
     }
     return std::nullopt;

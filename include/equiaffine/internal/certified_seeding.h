@@ -32,7 +32,6 @@ struct Seeding_3 {
   std::vector<Point_3> seeds;                ///< on the surface, on every component that was found
   std::vector<Point_3> scaffold;             ///< in the middle of large boxes without surface
   std::vector<CGAL::Bbox_3> undecided_boxes; ///< where a part of the surface may have been missed
-  std::size_t evaluations = 0;               ///< of f, with or without gradient; not of its bounds
 };
 
 /// Subdivides the box into an octree until every cell has no surface, or has gradients that pairwise form acute angles.
@@ -59,8 +58,8 @@ class Certified_seeding_3 {
 public:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr int maximal_level = 24;
-  /// Children of undecided cells of one level, much smaller than facets, that are worth a try: a singular point makes
-  /// few at each level, a singular curve twice as many each time.
+  /// Of one level, smaller than facets, that are worth a try: a singular point makes few at each level, a singular curve
+  /// twice as many each time.
   static constexpr std::ptrdiff_t maximal_undecided_cells = 200'000;
 
   /// `size(p)` bounds the circumradius of facets near p, and is at most `largest_size`.
@@ -72,7 +71,6 @@ public:
   /// Seeds keep the distance `spacing` from a vertex that the mesh has already.
   void keep_away(const Point_3& vertex, double spacing) {
     const auto jet = first_order(traits_, vertex);
-    ++result_.evaluations;
     grid_.insert({vertex, unit(gradient_of<Vector_3>(jet)), spacing, true});
     vertices_ = grid_.seeds().size();
   }
@@ -83,7 +81,7 @@ public:
     for (level_ = 0; !cells.empty(); ++level_) {
       const double h = cell_side();
       const auto undecided = std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return !c.is_decided(); });
-      const bool is_hopeless = 8 * h < largest_size_ && undecided > maximal_undecided_cells;
+      const bool is_small = 2 * h < largest_size_, is_hopeless = is_small && undecided > maximal_undecided_cells;
       const bool is_last = level_ == maximal_level || (h < largest_size_ && !has_gradient_bounds_) || is_hopeless;
       next.clear();
       for (Cell& cell : cells) {
@@ -91,8 +89,10 @@ public:
         if (domain_.excludes(box)) continue;
         if (is_empty(cell, box)) {
           if (h >= 4 * largest_size_) empty_cells_.push_back(box);
-        } else if (is_last && !cell.is_decided()) {
+        } else if (!cell.is_decided() && is_last) {
           give_up(cell);
+        } else if (!cell.is_decided() && is_small && is_unbounded(box)) {
+          report(box);
         } else if (cell.is_decided() && h <= seeded_size * size_(center(box))) {
           make_seeds(box, packing * std::min(size_(center(box)), coarsening * h));
         } else {
@@ -141,7 +141,6 @@ private:
   /// Whether there is no surface in a cell, which is decided here if it can be.
   bool is_empty(Cell& cell, const CGAL::Bbox_3& box) {
     if (cell.is_decided()) {
-      ++result_.evaluations;
       return std::abs(CGAL::to_double(traits_.value(center(box)))) > cell.slope * cell_side();
     }
     if constexpr (BoundedImplicitFunctionTraits_3<Traits>)
@@ -160,18 +159,25 @@ private:
     return !jet.value().contains(0);
   }
 
+  /// At a pole, or where f is not defined, which no subdivision removes.
+  bool is_unbounded(const CGAL::Bbox_3& box) const {
+    if constexpr (BoundedImplicitFunctionTraits_3<Traits>) return traits_.bounds(box) == Interval::whole();
+    else return false;
+  }
+
   /// An undecided cell is reported and seeded as the one of a sixteenth of the facet size that contains it.
   void give_up(Cell cell) {
     const int level = level_;
     for (; level_ > 0 && 16 * cell_side() < largest_size_; --level_)
       for (auto& x : cell.position) x /= 2;
     given_up_side_ = cell_side();
-    if (given_up_.insert(cell.position).second) {
-      const CGAL::Bbox_3 box = box_of(cell);
-      result_.undecided_boxes.push_back(box);
-      make_seeds(box, packing * size_(center(box)));
-    }
+    if (given_up_.insert(cell.position).second) report(box_of(cell));
     level_ = level;
+  }
+
+  void report(const CGAL::Bbox_3& box) {
+    result_.undecided_boxes.push_back(box);
+    make_seeds(box, packing * size_(center(box)));
   }
 
   /// Seeds get the denser the nearer they are to a singular point; where facets end, they may end.
@@ -200,7 +206,6 @@ private:
   /// Whether a point of the surface that is near p, and by Newton's method in the box, got a seed or had one nearby.
   bool project(const Point_3& p, const CGAL::Bbox_3& box, double spacing, double reach) {
     const auto jet = first_order(traits_, p);
-    ++result_.evaluations;
     const auto gradient = gradient_of<Vector_3>(jet);
     const FT squared_norm = gradient.squared_length();
     if (!(squared_norm > FT(0)) || !(jet.value() - jet.value() == FT(0))) return false;
@@ -209,7 +214,6 @@ private:
     const Vector_3 normal = unit(gradient);
     if (grid_.is_crowded({newton, normal, 0.99 * spacing})) return true; // before more is spent on it
     const auto found = project_to_surface(traits_, p, FT(reach), jet);
-    result_.evaluations += found.evaluations;
     if (!found.has_converged) return false;
     insert({found.point, normal, spacing});
     return true;
@@ -246,16 +250,13 @@ private:
                            FT(c & 4 ? box.zmax() : box.zmin()));
       values[c] = traits_.value(corners[c]);
     }
-    result_.evaluations += 8;
     for (unsigned c = 0; c < 8; ++c)
       for (unsigned axis = 1; axis < 8; axis *= 2) {
         const unsigned d = c | axis;
         if (c == d || !((values[c] < FT(0) && values[d] >= FT(0)) || (values[c] >= FT(0) && values[d] < FT(0))))
           continue;
         const auto found = intersect_segment(traits_, corners[c], corners[d], values[c], values[d]);
-        result_.evaluations += found.evaluations;
         if (!found.has_converged) continue;
-        ++result_.evaluations;
         insert({found.point, unit(gradient_of<Vector_3>(first_order(traits_, found.point))), spacing});
       }
   }

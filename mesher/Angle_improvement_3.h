@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_MESHER_ANGLE_IMPROVEMENT_3_H
+#define EQUIAFFINE_MESHER_ANGLE_IMPROVEMENT_3_H
+
+#include "Facet_sizing_field.h"
+#include <equiaffine/delaunay_surface.h>
+#include <equiaffine/internal/curve_step.h>
+#include <equiaffine/project_to_surface.h>
+
+#include <CGAL/Kernel/global_functions_3.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// Refinement has to stop beside features. A few triangles with smaller angles are left there; this moves their vertices
+/// on the surface, as far as the other criteria hold, until all triangles around them have the angle.
+template <class Function>
+class Angle_improvement_3 {
+  using Surface = Delaunay_surface_3<Any_function_3::Kernel>;
+  using Point_3 = Any_function_3::Point_3;
+  using Vector_3 = Any_function_3::Vector_3;
+  using Triangle = std::array<std::uint32_t, 3>;
+
+public:
+  Angle_improvement_3(const Function& function, const Clip_domain_3& domain, const Delaunay_criteria& criteria,
+                      const Facet_sizing_field& size)
+      : function_(function), domain_(domain), criteria_(criteria), size_(size),
+        least_cosine_(std::cos(criteria.angle * std::numbers::pi / 180)) {}
+
+  /// Complexity: that of a sweep over the triangles, if all of them are good.
+  void operator()(Surface& surface, const std::vector<bool>& is_fixed) {
+    constexpr int sweeps = 10;
+    for (int n = 0; n < sweeps; ++n) {
+      const auto vertices = vertices_of_bad_triangles(surface, is_fixed);
+      if (vertices.empty()) return;
+      if (n == 0) find_stars(surface);
+      for (const std::uint32_t v : vertices) move(surface, v);
+    }
+  }
+
+private:
+  std::vector<std::uint32_t> vertices_of_bad_triangles(const Surface& surface,
+                                                       const std::vector<bool>& is_fixed) const {
+    std::vector<std::uint32_t> vertices;
+    for (const Triangle& t : surface.triangles)
+      if (largest_cosine(surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]) > least_cosine_)
+        for (const std::uint32_t v : t)
+          if (!is_fixed[v]) vertices.push_back(v);
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+  }
+
+  void find_stars(const Surface& surface) {
+    stars_.resize(surface.points.size());
+    for (const Triangle& t : surface.triangles)
+      for (std::size_t i = 0; i < 3; ++i) stars_[t[i]].push_back({t[(i + 1) % 3], t[(i + 2) % 3]});
+  }
+
+  /// Of the angles of a triangle.
+  static double largest_cosine(const Point_3& p, const Point_3& q, const Point_3& r) {
+    const double a = CGAL::squared_distance(q, r), b = CGAL::squared_distance(r, p), c = CGAL::squared_distance(p, q);
+    const double sum = a + b + c, shortest = std::min({a, b, c}), product = a * b * c;
+    return (sum / 2 - shortest) * std::sqrt(shortest / product);
+  }
+
+  /// Of the angles around vertex v if it were at p, where f has that gradient; larger than any if a criterion or the
+  /// orientation of a triangle forbids it.
+  double largest_cosine(const Surface& surface, std::uint32_t v, const Point_3& p, const Vector_3& gradient) const {
+    double largest = 0;
+    for (const auto& [a, b] : stars_[v]) {
+      const Point_3 &q = surface.points[a], &r = surface.points[b];
+      if (!(CGAL::cross_product(q - p, r - p) * gradient > 0)) return infinity;
+      largest = std::max(largest, largest_cosine(p, q, r));
+    }
+    return largest;
+  }
+
+  bool satisfies_other_criteria(const Surface& surface, std::uint32_t v, const Point_3& p) const {
+    return std::all_of(stars_[v].begin(), stars_[v].end(), [&](const auto& edge) {
+      const Point_3 center = CGAL::circumcenter(p, surface.points[edge[0]], surface.points[edge[1]]);
+      const double distance = distance_estimate(first_order(function_, center)), bound = size_(center);
+      return distance <= criteria_.distance && CGAL::squared_distance(center, p) + distance * distance <= bound * bound;
+    });
+  }
+
+  /// Downhill along the best of some directions, by shorter and shorter steps.
+  void move(Surface& surface, std::uint32_t v) const {
+    constexpr int directions = 8;
+    Point_3& p = surface.points[v];
+    Vector_3 gradient = gradient_of<Vector_3>(first_order(function_, p));
+    double cosine = largest_cosine(surface, v, p, gradient), shortest = infinity;
+    for (const auto& edge : stars_[v])
+      shortest = std::min(shortest, CGAL::squared_distance(p, surface.points[edge[0]]));
+    for (double step = std::sqrt(shortest) / 4, last = step / 16; step > last && cosine > least_cosine_;) {
+      const Vector_3 to_neighbor = surface.points[stars_[v].front()[0]] - p;
+      const Vector_3 across = CGAL::cross_product(gradient, to_neighbor), along = CGAL::cross_product(across, gradient);
+      const Vector_3 x = along / std::sqrt(along.squared_length()), y = across / std::sqrt(across.squared_length());
+      Point_3 best = p;
+      double best_cosine = cosine;
+      for (int n = 0; n < directions; ++n) {
+        const double angle = 2 * std::numbers::pi * n / directions;
+        const auto q = project_to_surface(function_, p + step * (std::cos(angle) * x + std::sin(angle) * y), step);
+        if (!q.has_converged || !domain_.contains(q.point)) continue;
+        const double cosine_there = largest_cosine(surface, v, q.point, gradient);
+        if (!(cosine_there < best_cosine) || !satisfies_other_criteria(surface, v, q.point)) continue;
+        best = q.point;
+        best_cosine = cosine_there;
+      }
+      if (best == p) step /= 2;
+      p = best;
+      cosine = best_cosine;
+      gradient = gradient_of<Vector_3>(first_order(function_, p));
+    }
+  }
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  const Function& function_;
+  const Clip_domain_3& domain_;
+  const Delaunay_criteria& criteria_;
+  const Facet_sizing_field& size_;
+  const double least_cosine_;
+  std::vector<std::vector<std::array<std::uint32_t, 2>>> stars_; // per vertex, the opposite edges
+};
+
+} // namespace equiaffine::internal
+
+#endif
