@@ -96,6 +96,7 @@ private:
   /// Downhill along the best of some directions, by shorter and shorter steps.
   void move(Surface& surface, std::uint32_t v) const {
     constexpr int directions = 8;
+    constexpr double least_gain = 1e-3; // that makes a step worth to be repeated
     Point_3& p = surface.points[v];
     Vector_3 gradient = gradient_of<Vector_3>(first_order(function_, p));
     double cosine = largest_cosine(surface, v, p, gradient), shortest = infinity;
@@ -106,7 +107,7 @@ private:
       const Vector_3 across = CGAL::cross_product(gradient, to_neighbor), along = CGAL::cross_product(across, gradient);
       const Vector_3 x = along / std::sqrt(along.squared_length()), y = across / std::sqrt(across.squared_length());
       Point_3 best = p;
-      double best_cosine = cosine;
+      double best_cosine = cosine - least_gain;
       for (int n = 0; n < directions; ++n) {
         const double angle = 2 * std::numbers::pi * n / directions;
         const auto q = project_to_surface(function_, p + step * (std::cos(angle) * x + std::sin(angle) * y), step);
@@ -116,7 +117,10 @@ private:
         best = q.point;
         best_cosine = cosine_there;
       }
-      if (best == p) step /= 2;
+      if (best == p) {
+        step /= 2;
+        continue;
+      }
       p = best;
       cosine = best_cosine;
       gradient = gradient_of<Vector_3>(first_order(function_, p));

@@ -4,6 +4,7 @@
 #include "Facet_sizing_field.h"
 #include "Memoized_function_3.h"
 #include "Surface_criteria_3.h"
+#include "feature_ends.h"
 #include <equiaffine/Implicit_mesh_domain_3.h>
 #include <equiaffine/delaunay_surface.h>
 #include <equiaffine/internal/boundary_curves.h>
@@ -118,17 +119,21 @@ private:
     Features features;
     const auto spacing = [&](const Point_3& p) { return feature_spacing * size_(p); };
     Boundary_curves_3 boundary(function_, domain_.domain(), criteria_.radius);
-    for (const auto& curve : boundary())
-      features.cover(
-          curve, spacing, [&](const Point_3& p) { return boundary.project(p, curve.axis); },
-          [](const Point_3& p) { return std::optional(p); });
-    for (const Feature_curve_3& curve : features_) {
-      const auto project = [&](const Point_3& p) {
-        const auto q = curve.project(p);
+    const auto exactly = [](const Point_3& p) { return std::optional(p); };
+    Feature_ends_3 ends(domain_.domain(), criteria_.radius);
+    for (Feature_curve_3 curve : features_) {
+      if (curve.reaches_border) ends.extend(curve);
+      const auto project = [this, on_curve = curve.project](const Point_3& p) {
+        const auto q = on_curve(p);
         return q && domain_.domain().contains(*q) ? q : std::nullopt;
       };
-      features.cover(curve.polyline, spacing, project, project);
+      const auto project_end = [&](const Point_3& p) { return ends.is_on_border(p) ? std::optional(p) : project(p); };
+      features.cover(curve.polyline, spacing, project, project_end);
     }
+    for (const auto& curve : boundary())
+      for (const auto& piece : ends.split(curve))
+        features.cover(
+            piece, spacing, [&, axis = curve.axis](const Point_3& p) { return boundary.project(p, axis); }, exactly);
     features.complete();
     return features;
   }

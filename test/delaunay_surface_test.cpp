@@ -139,6 +139,47 @@ TEST(Delaunay_surface, the_boundary_lies_on_the_faces_of_the_box_and_has_vertice
   expect_vertices_on_surface(traits, surface, Clip_domain_3(box).diagonal());
 }
 
+TEST(Delaunay_surface, curves_on_the_border_nearer_than_facets_are_large_are_kept_apart) {
+  const CGAL::Bbox_3 box(-3, -3, -3, 3, 3, 3);
+  const auto traits = make_analytic_traits<Kernel>(Expression_3("sin(3*x)*sin(3*y)*sin(3*z)-0.2"), box);
+  const auto surface = delaunay_surface(traits);
+  EXPECT_EQ(topology(surface).components, 108u);
+  EXPECT_EQ(topology(surface).euler_characteristic, 108);
+  EXPECT_TRUE(topology(surface).is_manifold);
+  EXPECT_TRUE(surface.is_certified);
+}
+
+TEST(Delaunay_surface, beside_features_angles_are_as_large_as_elsewhere) {
+  const auto surface = delaunay_surface(traits_of(functions::Gyroid()), {30, 0.2, 0});
+  EXPECT_GT(topology(surface).boundary_edges, 500u);
+  EXPECT_GE(smallest_angle(surface, std::vector<bool>(surface.points.size(), false)), 29.999);
+  EXPECT_TRUE(topology(surface).is_manifold);
+  EXPECT_EQ(topology(surface).euler_characteristic, -3);
+}
+
+TEST(Delaunay_surface, a_function_may_be_undefined_in_a_part_of_the_box) {
+  const CGAL::Bbox_3 box(-2, -2, -2, 2, 2, 2);
+  const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3("log(x)-z"), box));
+  EXPECT_EQ(topology(surface).components, 1u);
+  EXPECT_EQ(topology(surface).euler_characteristic, 1);
+  EXPECT_TRUE(topology(surface).is_manifold);
+  EXPECT_FALSE(surface.is_certified);
+  const auto is_boundary = is_on_boundary(surface);
+  for (std::size_t v = 0; v < surface.points.size(); ++v)
+    if (is_boundary[v]) {
+      const Point_3& p = surface.points[v];
+      EXPECT_TRUE(std::abs(p.y()) == 2 || std::abs(p.z()) == 2 || p.x() == 2) << p;
+    }
+}
+
+TEST(Delaunay_surface, what_has_no_gradient_anywhere_ends_in_undecided_boxes) {
+  const auto surface =
+      delaunay_surface(make_analytic_traits<Kernel>(Expression_3("0"), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1)));
+  EXPECT_TRUE(surface.triangles.empty());
+  EXPECT_FALSE(surface.is_certified);
+  EXPECT_FALSE(surface.undecided_boxes.empty());
+}
+
 TEST(Delaunay_surface, components_at_any_face_and_edge_of_the_box_are_found) {
   const auto expect_two = [](const char* text, const CGAL::Bbox_3& box, double radius) {
     const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box), {30, radius, 0});
@@ -186,6 +227,35 @@ TEST(Delaunay_surface, no_triangle_straddles_a_parabolic_curve) {
     EXPECT_TRUE(inner == 0 || outer == 0);
   }
   EXPECT_GT(on_curve, 200);
+}
+
+TEST(Delaunay_surface, no_triangle_straddles_parabolic_curves_that_cross_and_end_at_the_border) {
+  const CGAL::Bbox_3 box(-4, -4, -4, 4, 4, 4);
+  const auto traits = make_analytic_traits<Kernel>(Expression_3("z-sin(x)*sin(y)"), box); // lines, x+y and x-y constant
+  const auto surface = delaunay_surface(traits, {30, 0.2, 0}, parameters::parabolic_features());
+  EXPECT_TRUE(surface.is_certified);
+  EXPECT_TRUE(topology(surface).is_manifold);
+  EXPECT_EQ(topology(surface).euler_characteristic, 1);
+  const auto K = [](const Point_3& p) { return -std::cos(p.x() + p.y()) * std::cos(p.x() - p.y()); }; // has its sign
+  for (const auto& t : surface.triangles) {
+    int negative = 0, positive = 0;
+    for (const auto v : t)
+      if (std::abs(K(surface.points[v])) > 1e-12) ++(K(surface.points[v]) < 0 ? negative : positive);
+    EXPECT_TRUE(negative == 0 || positive == 0);
+  }
+  int at_border = 0, at_node = 0;
+  for (const auto& curve : surface.parabolic_curves.polylines)
+    for (const Point_3& p : {curve.points.front(), curve.points.back()}) {
+      const bool is_node = std::abs(std::cos(p.x() + p.y())) < 1e-12 && std::abs(std::cos(p.x() - p.y())) < 1e-12;
+      ++(is_node ? at_node : at_border);
+      const double squared_reach = is_node ? 1e-24 : 0.04;
+      EXPECT_TRUE(std::any_of(surface.points.begin(), surface.points.end(), [&](const Point_3& q) {
+        const bool is_there = is_node || (std::max(std::abs(q.x()), std::abs(q.y())) == 4 && std::abs(K(q)) < 1e-12);
+        return is_there && CGAL::squared_distance(p, q) <= squared_reach;
+      })) << p;
+    }
+  EXPECT_EQ(at_node, 4 * 12);
+  EXPECT_EQ(at_border, 2 * 12);
 }
 
 TEST(Delaunay_surface, edges_follow_a_curve_that_is_given) {

@@ -61,6 +61,23 @@ TEST(Parabolic_curves, the_function_is_the_gaussian_curvature_times_a_power_of_t
   EXPECT_NEAR(at(x, y, z).coefficient(1, 0, 0), (at(x + h, y, z).value() - at(x - h, y, z).value()) / (2 * h), 1e-8);
 }
 
+TEST(Parabolic_curves, curves_that_cross_end_where_they_do) {
+  const auto wave = [](const auto& x, const auto& y, const auto& z) {
+    using std::sin;
+    return z - sin(x) * sin(y);
+  };
+  const auto traits = make_analytic_traits<Kernel>(wave, CGAL::Bbox_3(-1.1, -1.2, -1, 2.9, 1.3, 1.5));
+  const auto curves = parabolic_curves(marching_cubes(traits, parameters::number_of_nodes(30)), traits);
+  int arms = 0;
+  for (const auto& line : curves.polylines) {
+    EXPECT_FALSE(line.is_closed);
+    for (const Point_3& p : {line.points.front(), line.points.back()})
+      arms += CGAL::squared_distance(p, Point_3(CGAL_PI / 2, 0, 0)) < 1e-24;
+  }
+  EXPECT_EQ(arms, 4) << "two curves cross at (pi/2, 0)";
+  EXPECT_EQ(curves.unconverged_points, 0u);
+}
+
 TEST(Parabolic_curves, curves_end_where_the_surface_leaves_the_box) {
   const auto wave = [](const auto& x, const auto& y, const auto& z) {
     using std::sin;

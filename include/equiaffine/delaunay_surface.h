@@ -33,8 +33,9 @@ template <class Kernel>
 struct Delaunay_surface_3 : Isosurface_3<Kernel> {
   bool is_certified = false; ///< no component of the surface was missed: there are no undecided boxes
   /// Where a part of the surface may have been missed, since neither its absence nor its regularity could be proved:
-  /// around singular points, where the surface touches the border of the box, or everywhere for a function without
-  /// bounds of its gradient. Also where a part was found and yet got no triangle, for being small beside a feature.
+  /// around singular points, where the surface touches the border of the box, where f is not defined, or everywhere for a
+  /// function without bounds of its gradient. Also where a part was found and yet got no triangle, for being small beside a feature,
+  /// or a feature no edge.
   std::vector<CGAL::Bbox_3> undecided_boxes;
   Parabolic_curves_3<Kernel> parabolic_curves; ///< if the mesh was asked to follow them
 };
@@ -45,6 +46,7 @@ namespace internal {
 struct Feature_curve_3 {
   Polyline_3<Any_function_3::Kernel> polyline;
   std::function<std::optional<Any_function_3::Point_3>(const Any_function_3::Point_3&)> project;
+  bool reaches_border = false; ///< of the clip domain, if an end is near it
 };
 
 /// Compiled in the target equiaffine::mesher. The criteria are complete.
@@ -68,7 +70,7 @@ std::vector<Feature_curve_3> given_features(const Any_function_3& function, cons
     return found.has_converged ? std::optional(found.point) : std::nullopt;
   };
   std::vector<Feature_curve_3> features;
-  for (const auto& curve : curves) features.push_back({converted<Any_function_3::Kernel>(curve), project});
+  for (const auto& curve : curves) features.push_back({converted<Any_function_3::Kernel>(curve), project, false});
   return features;
 }
 
@@ -83,10 +85,12 @@ std::vector<Feature_curve_3> given_features(const Any_function_3& function, cons
 /// missed, however small. A closed regular surface gives a closed oriented 2-manifold.
 ///
 /// Features are made of edges of the mesh: the curves where the surface meets the border of the clip domain,
-/// `feature_curves`, and the parabolic curves if they are asked for. Beside them angles may be smaller, as at their
-/// corners they must be, and where features are sharp, or nearer to each other than the radius, edges may leave them and
-/// the mesh need not be manifold. Features much smaller than the radius may be missed. Nodes of the surface, as the apex of a cone, are vertices; near other singular points the mesh
-/// ends in facets of radius/8, whatever their angles.
+/// `feature_curves`, and the parabolic curves, with their crossings and their ends on the border, if they are asked for.
+/// Where features are nearer to each other than the radius, or meet in sharp corners, edges are shorter, and angles at
+/// the corners smaller. Of features nearer than a fiftieth of that, segments may be no edges, which takes the certificate
+/// away, and the mesh need not be manifold there. Features much smaller than the radius may be missed. Nodes of the
+/// surface, as the apex of a cone, are vertices; near other singular points the mesh ends in facets of radius/8, whatever
+/// their angles, and so it does where f ceases to be defined.
 ///
 /// Named parameters: `clip` (the box of the function), `facet_sizing` (UNIFORM), `feature_curves` (none),
 /// `parabolic_features` (no).
@@ -111,7 +115,7 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Del
     const auto project = [=](const internal::Any_function_3::Point_3& p) {
       return internal::project_to_parabolic_curve(function, p, criteria.radius * criteria.radius);
     };
-    for (const auto& curve : parabolic.polylines) features.push_back({curve, project});
+    for (const auto& curve : parabolic.polylines) features.push_back({curve, project, true});
     const std::size_t evaluations = mesh.function_evaluations;
     const double seconds = mesh.sampling_seconds;
     mesh = internal::mesh_surface(function, domain, criteria, sizing, features);

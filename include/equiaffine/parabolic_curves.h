@@ -6,6 +6,8 @@
 #include <equiaffine/Polyline_3.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/internal/curve_step.h>
+#include <equiaffine/internal/monomials_3.h>
+#include <equiaffine/internal/parabolic_nodes.h>
 #include <equiaffine/internal/parallel_for.h>
 
 #include <CGAL/tags.h>
@@ -16,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -31,13 +34,16 @@ struct Parabolic_curves_3 {
 };
 
 /// K_e |grad f|^4, a polynomial in the derivatives of f of order 1 and 2 (Goldman: Curvature formulas for implicit
-/// curves and surfaces, 2005), with its gradient. \pre the jet is finite.
-template <class FT>
-Jet_3<FT, 1> parabolic_function(const Jet_3<FT>& f) {
+/// curves and surfaces, 2005), with its derivatives up to order 1 or 2. \pre the jet is finite.
+template <int Order = 1, class FT>
+requires(Order >= 1 && Order <= 2) Jet_3<FT, Order> parabolic_function(const Jet_3<FT>& f) {
   const auto derivative = [&](int i, int j, int k) {
-    Jet_3<FT, 1> jet;
-    jet.coefficients() = {f.derivative(i, j, k), f.derivative(i + 1, j, k), f.derivative(i, j + 1, k),
-                          f.derivative(i, j, k + 1)};
+    Jet_3<FT, Order> jet;
+    for (std::size_t n = 0; n < jet.size; ++n) {
+      const auto& m = internal::monomials[n];
+      const int factorials = (m.i == 2 || m.j == 2 || m.k == 2) ? 2 : 1;
+      jet.coefficients()[n] = f.derivative(i + m.i, j + m.j, k + m.k) / FT(factorials);
+    }
     return jet;
   };
   const auto x = derivative(1, 0, 0), y = derivative(0, 1, 0), z = derivative(0, 0, 1);
@@ -93,8 +99,9 @@ public:
     std::vector<std::uint8_t> has_converged(edges_.size());
     parallel_for<ConcurrencyTag>(
         0, edges_.size(), [&](std::size_t e) { has_converged[e] = place_point(e); }, 64);
+    find_nodes();
     Parabolic_curves_3<Kernel> curves;
-    curves.unconverged_points = std::size_t(std::count(has_converged.begin(), has_converged.end(), 0));
+    for (std::size_t e = 0; e < edges_.size(); ++e) curves.unconverged_points += !has_converged[e] && !is_at_node_[e];
     link(curves.polylines);
     return curves;
   }
@@ -141,26 +148,65 @@ private:
     return p.has_value();
   }
 
+  /// Appends the nodes to the points, and makes each a neighbor in place of the points near it: the mesh does not tell
+  /// which of them are on which branch.
+  void find_nodes() {
+    const auto jets = [this](const Point_3& p) {
+      const auto jet = traits_.taylor(p);
+      return std::pair(jet, parabolic_function<2>(jet));
+    };
+    is_at_node_.assign(edges_.size(), false);
+    std::vector<FT> squared_radii;
+    for (Index e = 0; e < edges_.size(); ++e) {
+      FT squared_length(0);
+      for (const Index m : neighbours_[e])
+        if (m != none) squared_length = std::max(squared_length, CGAL::squared_distance(points_[e], points_[m]));
+      const double reach = 2 * std::sqrt(CGAL::to_double(squared_length));
+      const auto node = node_of_curve_near<Point_3, Vector_3>(points_[e], reach, jets);
+      if (!node) continue;
+      const auto is_same = [&](const Point_3& p) { return CGAL::squared_distance(p, *node) <= squared_length; };
+      if (std::any_of(points_.begin() + std::ptrdiff_t(edges_.size()), points_.end(), is_same)) continue;
+      points_.push_back(*node);
+      squared_radii.push_back(FT(2) * squared_length);
+    }
+    std::vector<Index> replacement(points_.size());
+    std::iota(replacement.begin(), replacement.end(), Index(0));
+    for (Index e = 0; e < edges_.size(); ++e)
+      for (std::size_t n = 0; n < squared_radii.size(); ++n)
+        if (CGAL::squared_distance(points_[e], points_[edges_.size() + n]) <= squared_radii[n]) {
+          replacement[e] = Index(edges_.size() + n);
+          is_at_node_[e] = true;
+        }
+    for (auto& neighbours : neighbours_)
+      for (Index& m : neighbours)
+        if (m != none) m = replacement[m];
+  }
+
   void link(std::vector<Polyline_3<Kernel>>& polylines) {
-    std::vector<bool> is_used(edges_.size(), false);
-    const auto follow = [&](Index first) {
+    auto is_used = is_at_node_;
+    const auto is_node = [this](Index n) { return n != none && n >= edges_.size(); };
+    const auto follow = [&](Index first, Index last) {
       Polyline_3<Kernel> line;
-      Index last = none;
+      if (is_node(last)) line.points.push_back(points_[last]);
       for (Index here = first; here != none;) {
-        is_used[here] = true;
         line.points.push_back(points_[here]);
+        if (is_node(here)) break;
+        is_used[here] = true;
         const auto& [p, q] = neighbours_[here];
         const Index next = p != last ? p : q;
         last = here;
         line.is_closed = next == first;
-        here = next == none || is_used[next] ? none : next;
+        here = next == none || (!is_node(next) && is_used[next]) ? none : next;
       }
       if (line.points.size() > 1) polylines.push_back(std::move(line));
     };
     for (Index e = 0; e < edges_.size(); ++e)
-      if (!is_used[e] && neighbours_[e][1] == none) follow(e); // an end, at the border of the mesh
+      if (!is_used[e] && neighbours_[e][1] == none) follow(e, none); // an end, at the border of the mesh
     for (Index e = 0; e < edges_.size(); ++e)
-      if (!is_used[e]) follow(e);
+      for (const Index m : neighbours_[e])
+        if (!is_used[e] && is_node(m)) follow(e, m);
+    for (Index e = 0; e < edges_.size(); ++e)
+      if (!is_used[e]) follow(e, none);
   }
 
   const Indexed_triangle_mesh_3<Kernel>& mesh_;
@@ -168,13 +214,14 @@ private:
   std::vector<FT> values_; // of the parabolic function at the vertices
   std::vector<Edge> edges_;
   std::vector<std::array<Index, 2>> neighbours_; // along the curve, per edge
-  std::vector<Point_3> points_;
+  std::vector<bool> is_at_node_;                 // per edge
+  std::vector<Point_3> points_;                  // on the edges, then nodes
 };
 
 } // namespace internal
 
 /// The parabolic curves of the zero set of f, as polylines with a point for every edge of `mesh` at whose ends K_e has
-/// different signs. `mesh` is what a sampler made of the zero set; its resolution decides which curves are found, and
+/// different signs, that end where they cross. `mesh` is what a sampler made of the zero set; its resolution decides which curves are found, and
 /// their points lie on f = 0 and K_e = 0 to rounding whatever it is. Curves where K_e touches zero without a change of
 /// sign are not found. The same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits>

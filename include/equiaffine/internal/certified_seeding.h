@@ -58,8 +58,8 @@ class Certified_seeding_3 {
 public:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr int maximal_level = 24;
-  /// Of one level, smaller than facets, that are worth a try: a singular point makes few at each level, a singular curve
-  /// twice as many each time.
+  /// Children of undecided cells of one level, much smaller than facets, that are worth a try: a singular point makes
+  /// few at each level, a singular curve twice as many each time.
   static constexpr std::ptrdiff_t maximal_undecided_cells = 200'000;
 
   /// `size(p)` bounds the circumradius of facets near p, and is at most `largest_size`.
@@ -81,7 +81,10 @@ public:
     for (level_ = 0; !cells.empty(); ++level_) {
       const double h = cell_side();
       const auto undecided = std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return !c.is_decided(); });
-      const bool is_small = 2 * h < largest_size_, is_hopeless = is_small && undecided > maximal_undecided_cells;
+      const bool is_small = 2 * h < largest_size_;
+      const bool is_solid =
+          is_small && double(undecided) * h * h * h > solid * box_.x_span() * box_.y_span() * box_.z_span();
+      const bool is_hopeless = is_solid || (8 * h < largest_size_ && undecided > maximal_undecided_cells);
       const bool is_last = level_ == maximal_level || (h < largest_size_ && !has_gradient_bounds_) || is_hopeless;
       next.clear();
       for (Cell& cell : cells) {
@@ -109,6 +112,7 @@ public:
   }
 
 private:
+  static constexpr double solid = 0.125;   // part of the box that undecided cells are not worth another try to fill
   static constexpr double seeded_size = 4; // side of the cells that are seeded / bound of circumradii
   static constexpr double packing = 1.1;   // distance of seeds / bound of circumradii
 

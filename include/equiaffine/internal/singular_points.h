@@ -3,11 +3,11 @@
 #define EQUIAFFINE_INTERNAL_SINGULAR_POINTS_H
 
 #include <equiaffine/concepts.h>
+#include <equiaffine/internal/eigen_derivatives.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/squared_distance_3.h>
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -26,16 +26,11 @@ std::optional<typename Traits::Point_3> node_near(const Traits& traits, const ty
   auto p = start;
   for (int n = 0; n < maximal_iterations; ++n) {
     const auto jet = traits.taylor(p);
-    Eigen::Matrix3d hessian;
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 3; ++column)
-        hessian(row, column) =
-            jet.derivative((row == 0) + (column == 0), (row == 1) + (column == 1), (row == 2) + (column == 2));
+    const Eigen::Matrix3d hessian = eigen_hessian(jet);
     const double scale = hessian.norm();
     constexpr double least_determinant = 1e-6; // on a singular curve it is 0
     if (!(std::abs(hessian.determinant()) > least_determinant * scale * scale * scale)) return std::nullopt;
-    const Eigen::Vector3d gradient(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]);
-    const Eigen::Vector3d step = -(hessian.inverse() * gradient);
+    const Eigen::Vector3d step = -(hessian.inverse() * eigen_gradient(jet));
     p = p + Vector_3(step[0], step[1], step[2]);
     if (!(CGAL::squared_distance(p, start) <= reach * reach)) return std::nullopt;
     const double rounding = 1e-12 * reach;
