@@ -150,6 +150,7 @@ private:
     if constexpr (BoundedImplicitFunctionTraits_3<Traits>)
       if (!traits_.bounds(box).contains(0)) return true;
     auto jet = first_order_bounds(traits_, box);
+    jet.template at<0>() = Interval::intersection(jet.value(), mean_value_bound(traits_, jet, box));
     bool is_decided = has_acute_gradients(traits_, jet, box, box_);
     if (!is_decided && jet.value().contains(0) && cell_side() <= seeded_size * largest_size_) {
       jet = tight_first_order_bounds(traits_, box);
@@ -301,8 +302,8 @@ private:
 
   static constexpr double coarsening = 1.4; // a cell that had to be small has seeds at this distance in sides
   static constexpr int candidates = 3;      // of a cell, before its edges are searched
-  static constexpr int directions = 8;      // from a seed to others
-  static constexpr double jitter = 0.2;     // of their distance, as a fraction
+  static constexpr int directions = 16;     // from a seed to others
+  static constexpr double jitter = 0.3;     // of their distance, as a fraction
   static constexpr double growth = 1.2;     // of the spacing from a seed to those around it
 
   const Traits& traits_;

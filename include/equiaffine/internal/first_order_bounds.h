@@ -22,8 +22,41 @@ Jet_3<Interval, 1> first_order_bounds(const Traits& traits, const CGAL::Bbox_3& 
   }
 }
 
-/// Bounds on a box from those of second order and the expansion at a point, where `offset` is the box less the point
-/// (mean value form; Moore, Kearfott, Cloud: Introduction to Interval Analysis, 2009, section 6.4).
+/// A box less its center, along the axes.
+inline std::array<Interval, 3> offset_from_center(const CGAL::Bbox_3& box, const std::array<double, 3>& center) {
+  std::array<Interval, 3> offset;
+  for (int a = 0; a < 3; ++a) {
+    const auto n = std::size_t(a);
+    offset[n] = Interval(box.min(a), box.max(a)) - Interval(center[n]);
+  }
+  return offset;
+}
+
+inline std::array<double, 3> center_of(const CGAL::Bbox_3& box) {
+  return {(box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2, (box.zmin() + box.zmax()) / 2};
+}
+
+inline CGAL::Bbox_3 box_of_point(const std::array<double, 3>& p) {
+  return CGAL::Bbox_3(p[0], p[1], p[2], p[0], p[1], p[2]);
+}
+
+/// A bound of f on a box from those of its gradient there and its value at the center (mean value form; Moore, Kearfott,
+/// Cloud: Introduction to Interval Analysis, 2009, section 6.4).
+template <ImplicitFunctionTraits_3 Traits>
+Interval mean_value_bound(const Traits& traits, const Jet_3<Interval, 1>& jet, const CGAL::Bbox_3& box) {
+  if constexpr (BoundedImplicitFunctionTraits_3<Traits>) {
+    const auto center = center_of(box);
+    const auto offset = offset_from_center(box, center);
+    Interval sum = traits.bounds(box_of_point(center));
+    for (std::size_t a = 0; a < 3; ++a) sum += jet.coefficients()[1 + a] * offset[a];
+    return sum;
+  } else {
+    return Interval::whole();
+  }
+}
+
+/// Bounds on a box from those of second order and the expansion at a point, where `offset` is the box less the point,
+/// in mean value form.
 inline Jet_3<Interval, 1> mean_value_bounds(const Jet_3<Interval, 2>& jet, const Jet_3<Interval, 1>& start,
                                             const std::array<Interval, 3>& offset) {
   std::array<Interval, 4> sum = start.coefficients();
@@ -48,15 +81,9 @@ Jet_3<Interval, 1> tight_first_order_bounds(const Traits& traits, const CGAL::Bb
   if constexpr (requires { traits.mean_value_bounds(box); }) {
     return traits.mean_value_bounds(box);
   } else if constexpr (requires { traits.second_order_bounds(box); }) {
-    std::array<double, 3> center;
-    std::array<Interval, 3> offset;
-    for (int a = 0; a < 3; ++a) {
-      const auto n = std::size_t(a);
-      center[n] = (box.min(a) + box.max(a)) / 2;
-      offset[n] = Interval(box.min(a), box.max(a)) - Interval(center[n]);
-    }
-    const CGAL::Bbox_3 point(center[0], center[1], center[2], center[0], center[1], center[2]);
-    return mean_value_bounds(traits.second_order_bounds(box), traits.first_order_bounds(point), offset);
+    const auto center = center_of(box);
+    const auto start = traits.first_order_bounds(box_of_point(center));
+    return mean_value_bounds(traits.second_order_bounds(box), start, offset_from_center(box, center));
   } else {
     return first_order_bounds(traits, box);
   }
