@@ -77,7 +77,7 @@ private:
             const auto edge = function_.edge({{i, j, k}, axis});
             evaluations_[k] += Function::evaluations(2);
             set_projected(v, k, intersect(edge, linear[v]));
-            return surface_.points[v] == edge.ends[0] || surface_.points[v] == edge.ends[1];
+            return edge.ends_at(surface_.points[v]);
           });
       const Index_range inner = numbering_.inner_vertices_of_layer(k);
       for (std::size_t v = inner.first; v < inner.end; ++v) set_projected(v, k, project_within_cell(inner_vertex(v)));

@@ -184,17 +184,14 @@ private:
       std::vector<std::size_t> component = {first};
       visited.insert(first);
       bool is_closed_and_flat = true;
-      for (std::size_t n = 0; n < component.size(); ++n) {
-        if (!is_flat(component[n])) {
-          is_closed_and_flat = false;
-          continue; // the rest of the component is not visited from here
-        }
+      for (std::size_t n = 0; n < component.size(); ++n)
         for (const Index v : triangles_[component[n]]) {
           if (is_on_boundary(neighbors(v))) is_closed_and_flat = false;
-          for (const std::size_t t : stars_[v])
-            if (visited.insert(t).second) component.push_back(t);
+          for (const std::size_t t : stars_[v]) {
+            if (!is_flat(t)) is_closed_and_flat = false;
+            else if (visited.insert(t).second) component.push_back(t);
+          }
         }
-      }
       if (!is_closed_and_flat) continue;
       ++repairs_.dropped_components;
       for (const std::size_t t : component) {
