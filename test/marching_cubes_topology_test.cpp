@@ -71,6 +71,28 @@ Grid without_ties(Grid grid) {
   return grid;
 }
 
+/// Vertices on edges of the grid lie where the linear interpolant of the values vanishes, but for 1e-6 of the edge or a
+/// few roundings.
+template <class FT>
+void expect_vertices_near_zeros(const Grid& grid, const Array_isosurface_3<FT>& surface) {
+  for (const auto& p : surface.points) {
+    std::array<std::size_t, 3> node;
+    std::size_t inside = 0, axis = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      node[a] = std::size_t(p[a]);
+      if (p[a] != FT(node[a])) ++inside, axis = a;
+    }
+    if (inside != 1) continue; // at a node, or within a cell
+    auto end = node;
+    ++end[axis];
+    const double f = grid.values[grid.index(node[0], node[1], node[2])],
+                 g = grid.values[grid.index(end[0], end[1], end[2])];
+    EXPECT_NE(f >= 0, g >= 0) << "an edge without a zero";
+    EXPECT_NEAR(double(p[axis]) - double(node[axis]), f / (f - g),
+                1e-6 + 8 * double(std::numeric_limits<FT>::epsilon()) * double(end[axis]));
+  }
+}
+
 /// What was done to the surfaces of many grids, which are judged.
 template <class FT>
 Isosurface_repairs repairs_of(const std::string& kind) {
@@ -86,6 +108,7 @@ Isosurface_repairs repairs_of(const std::string& kind) {
       const auto& p = surface.points;
       EXPECT_FALSE(internal::has_zero_area(p[a], p[b], p[c])) << kind << " " << seed;
     }
+    expect_vertices_near_zeros(grid, surface);
     const auto before = surface_of(without_ties(grid));
     const auto t = mesh_topology(surface.triangles, surface.points.size()),
                u = mesh_topology(before.triangles, before.points.size());

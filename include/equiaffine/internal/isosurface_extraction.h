@@ -76,7 +76,6 @@ private:
     auto& sub_cases = sub_cases_[k];
     auto& layer = numbering_.layer(k);
     for (std::size_t j = 0; j < signs_.size()[1]; ++j) {
-      if (!signs_.has_words(j, k)) continue;
       Isosurface_numbering::Row counts;
       const Node_signs::Edge_row<HasUndefined> edges(signs_, j, k);
       signs_.for_each_word(j, k, [&](std::size_t w) {

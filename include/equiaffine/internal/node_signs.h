@@ -69,11 +69,6 @@ public:
     return std::any_of(undefined_.begin(), undefined_.end(), [](const auto& plane) { return !plane.empty(); });
   }
 
-  bool has_words(std::size_t j, std::size_t k) const {
-    const auto first = evaluated_.begin() + std::ptrdiff_t((k * size_[1] + j) * masks_);
-    return std::any_of(first, first + std::ptrdiff_t(masks_), [](Word mask) { return mask != 0; });
-  }
-
   /// Calls visit(w) for the words w of a row with nodes from which edges or cells may begin that meet the surface.
   template <class Visit>
   void for_each_word(std::size_t j, std::size_t k, const Visit& visit) const {

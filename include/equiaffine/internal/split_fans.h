@@ -16,6 +16,7 @@ namespace equiaffine::internal {
 /// beside nodes without a value. `copy_vertex(v)` appends a copy of vertex v. No edge has more than two triangles.
 template <class Triangles, class CopyVertex>
 void split_fans(Triangles& triangles, std::size_t number_of_vertices, const CopyVertex& copy_vertex) {
+  if (triangles.empty()) return;
   struct Half_edge {
     std::uint32_t first, second;             // vertices, the smaller one first
     std::size_t first_corner, second_corner; // 3 t + m for corner m of triangle t

@@ -203,7 +203,7 @@ private:
   }
 
   void move_vertices() {
-    constexpr int rounds = 8;
+    constexpr int rounds = 4; // of 2.5e-7 at most
     std::unordered_set<Index> moved;
     for (int round = 0; round < rounds; ++round) {
       std::vector<Index> vertices;
@@ -213,7 +213,7 @@ private:
       for (const Index v : vertices) nudge_(v, round);
       moved.insert(vertices.begin(), vertices.end());
       flat_.clear(); // what a vertex could have flattened lies around it
-      for (const Index v : moved) flat_.insert(flat_.end(), stars_[v].begin(), stars_[v].end());
+      for (const Index v : vertices) flat_.insert(flat_.end(), stars_[v].begin(), stars_[v].end());
     }
     repairs_.moved_vertices = moved.size();
     sort_and_unite(flat_);
