@@ -235,7 +235,7 @@ private:
 /// vertices and rounds.
 template <class Point, class Move>
 Point nudged(const Point& p, std::size_t vertex, int round, const Move& move) {
-  const double golden = 0.6180339887498949 * double(vertex) + 0.37 * round;
+  const double golden = 0.6180339887498949 * double(vertex) * (round + 1) * (round + 1); // vertices alike differ later
   double d = 0.5e-7;
   while (move(d) == p && d < 1) d *= 2;
   return move(d * (1 + 4 * (golden - std::floor(golden))));
