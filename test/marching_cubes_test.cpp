@@ -5,12 +5,14 @@
 #include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
 #include <equiaffine/marching_cubes.h>
+#include <equiaffine/marching_cubes_of_array.h>
 #include <equiaffine/mesh_topology.h>
 
 #include <CGAL/Simple_cartesian.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -85,15 +87,31 @@ TEST(Marching_cubes, skipping_empty_space_changes_nothing_but_the_number_of_eval
     }
 }
 
-TEST(Marching_cubes, skipping_empty_space_does_not_take_the_end_of_the_domain_for_a_surface) {
-  // sqrt(x) is undefined for x < 0, where the bounds know nothing of it; y - 0.3 changes its sign.
-  const auto traits =
-      make_analytic_traits<Kernel>(Expression_3("(y-0.3)*(1+0.01*sqrt(x))"), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
-  const auto nodes = parameters::number_of_nodes(40).vertex_position(Vertex_position::LINEAR);
-  const auto all = marching_cubes(traits, nodes), some = marching_cubes(traits, nodes.skip_empty_space());
-  EXPECT_FALSE(all.triangles.empty());
+TEST(Marching_cubes, skipping_empty_space_changes_nothing_on_skew_lattices) {
+  const Kernel::Aff_transformation_3 map(0.9, 0, -0.9, 0, -2, 0.3, 1.1, -0.2, 0.6);
+  const Transformed_function_traits_3 image(traits_of(surfaces[0]), map);
+  const auto nodes = parameters::number_of_nodes(70).vertex_position(Vertex_position::LINEAR);
+  const auto all = marching_cubes(image, nodes), some = marching_cubes(image, nodes.skip_empty_space());
   EXPECT_EQ(all.points, some.points);
   EXPECT_EQ(all.triangles, some.triangles);
+  EXPECT_LT(some.function_evaluations, all.function_evaluations);
+}
+
+TEST(Marching_cubes, skipping_empty_space_does_not_take_the_end_of_the_domain_for_a_surface) {
+  // The square root is undefined on one side of a plane, where the bounds know nothing of it; y - 0.3 and the like
+  // change their sign.
+  for (const char* text : {"(y-0.3)*(1+0.01*sqrt(x))", "(y-0.3)*(1+0.01*sqrt(-x))",
+                           // the plane crosses what is just above the surface, where blocks begin
+                           "(x-0.3)*(1+0.01*sqrt(0.33-x+0.2*y))", "(y-0.3)*(1+0.01*sqrt(0.33-y+0.2*z))",
+                           "(z-0.3)*(1+0.01*sqrt(0.33-z+0.2*x))"})
+    for (const std::size_t n : {37, 40}) {
+      const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+      const auto nodes = parameters::number_of_nodes(n).vertex_position(Vertex_position::LINEAR);
+      const auto all = marching_cubes(traits, nodes), some = marching_cubes(traits, nodes.skip_empty_space());
+      EXPECT_FALSE(all.triangles.empty());
+      EXPECT_EQ(all.points, some.points) << text;
+      EXPECT_EQ(all.triangles, some.triangles) << text;
+    }
 }
 
 TEST(Marching_cubes, skipping_empty_space_keeps_the_samples_of_a_volume) {
@@ -160,6 +178,24 @@ TEST(Marching_cubes, surfaces_through_nodes_have_no_triangles_of_zero_area) {
         ASSERT_FALSE(CGAL::collinear(surface.points[a], surface.points[b], surface.points[c])) << n;
     }
   EXPECT_GT(contracted, 1000u);
+}
+
+TEST(Marching_cubes, a_volume_has_the_surface_of_its_array) {
+  std::mt19937 random(13);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int n = 0; n < 50; ++n)
+    for (const auto& values : {std::vector{-1.0, -0.5, 0.0, 0.5, 1.0}, std::vector{-1.0, 0.0, 0.0, 1.0, nan}}) {
+      auto volume = random_volume(7, random, values);
+      volume.lattice = Lattice_3<Kernel>({7, 7, 7}, CGAL::Bbox_3(0, 0, 0, 6, 6, 6));
+      const auto surface = marching_cubes(Sampled_function_traits_3<Kernel>(volume),
+                                          parameters::vertex_position(Vertex_position::LINEAR));
+      const auto of_array = marching_cubes_of_array(std::span<const double>(volume.values), {7, 7, 7}, 0.0);
+      std::vector<Point_3> points;
+      for (const auto& [x, y, z] : of_array.points) points.emplace_back(x, y, z);
+      EXPECT_EQ(surface.points, points);
+      EXPECT_TRUE(std::equal(surface.triangles.begin(), surface.triangles.end(), of_array.triangles.begin(),
+                             of_array.triangles.end()));
+    }
 }
 
 TEST(Marching_cubes, all_256_cases_occur_and_fit_together) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct Grid {
 /// cell    one random cell
 /// case13  one cell with alternating signs
 /// ties    like closed, but with few different values inside, zero among them
+/// holes   few different values everywhere, zero among them, and one node in eight without a value
 inline Grid random_grid(const std::string& kind, std::uint64_t seed) {
   std::seed_seq sequence{std::uint32_t(seed), std::uint32_t(seed >> 32), std::uint32_t(kind[0]),
                          std::uint32_t(kind[1])};
@@ -41,7 +43,8 @@ inline Grid random_grid(const std::string& kind, std::uint64_t seed) {
         const bool is_odd = (i + j + k) % 2 == 1, coin = random() % 2 == 1;
         const double x = magnitude(random);
         if (is_boundary && (kind == "closed" || kind == "check" || kind == "ties")) grid.values.push_back(-x);
-        else if (kind == "ties") grid.values.push_back(0.5 * double(random() % 5) - 1);
+        else if (kind == "holes" && random() % 8 == 0) grid.values.push_back(std::numeric_limits<double>::quiet_NaN());
+        else if (kind == "ties" || kind == "holes") grid.values.push_back(0.5 * double(random() % 5) - 1);
         else if (kind == "check" || kind == "case13") grid.values.push_back(is_odd ? -x : x);
         else grid.values.push_back(coin ? -x : x);
       }

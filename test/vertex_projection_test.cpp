@@ -63,4 +63,22 @@ TEST(Vertex_projection, no_triangle_loses_its_area) {
   EXPECT_EQ(surface.repairs.contracted_edges, 0u);
 }
 
+TEST(Vertex_projection, no_triangle_is_left_without_area_beside_samples_that_all_but_vanish) {
+  std::mt19937 random(5);
+  const CGAL::Bbox_3 box(0, 0, 0, 4, 4, 4);
+  const std::array<const char*, 4> planes = {"x-2", "x+y-3", "x-y+2*z-1", "2*x+y+z-2"};
+  const std::array<double, 8> values = {1, -1, 4e-16, -4e-16, 1e-15, -1e-15, 3, -3};
+  for (int n = 0; n < 3000; ++n) {
+    Traits_with_samples traits{Function(Expression_3(planes[random() % 4]), box),
+                               {Lattice_3<Kernel>({5, 5, 5}, box), {}}};
+    for (int v = 0; v < 125; ++v) traits.volume.values.push_back(values[random() % 8]);
+    const auto surface = marching_cubes(traits);
+    const auto at = [&](std::size_t v) {
+      const auto& p = surface.points[v];
+      return std::array<double, 3>{p.x(), p.y(), p.z()};
+    };
+    ASSERT_FALSE(internal::any_zero_area(surface.triangles, at)) << n;
+  }
+}
+
 } // namespace

@@ -74,7 +74,7 @@ private:
     extraction.for_each_edge_vertex([&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, auto axis) {
       const auto edge = function_.edge({{i, j, k}, axis});
       points[v] = edge.linear_intersection();
-      return points[v] == edge.ends[0] || points[v] == edge.ends[1];
+      return edge.ends_at(points[v]);
     });
     inner_vertices_.resize(numbering.number_of_vertices() - first_inner);
     extraction.emit(

@@ -5,6 +5,7 @@
 #include <equiaffine/internal/Output_allocator.h>
 #include <equiaffine/internal/inner_vertex.h>
 #include <equiaffine/internal/isosurface_extraction.h>
+#include <equiaffine/internal/split_fans.h>
 #include <equiaffine/internal/trilinear_cell.h>
 #include <equiaffine/internal/zero_area_repair.h>
 
@@ -125,6 +126,9 @@ Array_isosurface_3<FT> extract(const Array_grid<FT>& grid, const Case_table& tab
             triangles, [&](std::size_t v) -> const auto& { return points[v]; });
       });
   repair(extraction, grid, surface);
+  if (signs.has_undefined())
+    split_fans(surface.triangles, surface.points.size(),
+               [&](std::size_t v) { surface.points.push_back(std::array<FT, 3>(surface.points[v])); });
   return surface;
 }
 

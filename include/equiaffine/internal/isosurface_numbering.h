@@ -23,11 +23,6 @@ struct Grid_edge {
   std::size_t axis;
 };
 
-/// Numbers [first, end).
-struct Index_range {
-  std::size_t first = 0, end = 0;
-};
-
 /// The numbers of the vertices and triangles of a surface in a grid. The vertices of a row of nodes are those on its
 /// edges along i, then j, then k, each in the order of i: the number of a vertex is that of its row and kind plus the
 /// number of crossed edges before it, so no vertex is ever looked up. The inner vertices of cells come last, layer

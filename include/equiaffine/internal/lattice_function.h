@@ -28,6 +28,7 @@ public:
     std::array<FT, 2> values;
 
     Point_3 linear_intersection() const { return ends[0] + linear_zero(values[0], values[1]) * (ends[1] - ends[0]); }
+    bool ends_at(const Point_3& p) const { return coincide(p, ends[0]) || coincide(p, ends[1]); }
   };
 
   Lattice_function(const Traits& traits, const Lattice_3<Kernel>& lattice) : traits_(traits), lattice_(lattice) {}
@@ -47,8 +48,8 @@ public:
   }
 
   Edge edge(const Grid_edge& e) const {
-    Node end = e.node;
-    ++end[e.axis];
+    const auto& [i, j, k] = e.node;
+    const Node end = {i + (e.axis == 0), j + (e.axis == 1), k + (e.axis == 2)};
     const std::array<Point_3, 2> ends = {point(e.node), point(end)};
     return {ends, {value(e.node, ends[0]), value(end, ends[1])}};
   }
@@ -66,6 +67,9 @@ public:
   static constexpr std::size_t evaluations(std::size_t n) { return has_samples ? 0 : n; }
 
 private:
+  static bool coincide(const Point_3& p, const Point_3& q) {
+    return p.x() == q.x() && p.y() == q.y() && p.z() == q.z();
+  }
   static FT number(std::size_t n) { return FT(double(std::ptrdiff_t(n))); } // signed: one instruction
 
   const Batch_function_traits_3<Traits> traits_;

@@ -14,6 +14,15 @@
 
 namespace equiaffine::internal {
 
+/// Numbers [first, end).
+struct Index_range {
+  std::size_t first = 0, end = 0;
+  std::size_t size() const { return end - first; }
+};
+
+/// Nodes of a grid, those in a range along each axis.
+using Node_block = std::array<Index_range, 3>;
+
 /// The signs of the nodes of a grid, one bit each, in rows along i that begin with a new word; bits behind the end of a
 /// row are 0. Planes of constant k may be written by different threads.
 ///
@@ -45,10 +54,14 @@ public:
     if (signs.undefined != 0) set_undefined(first, j, k, signs.undefined);
   }
 
-  /// Sets the bits from `first` to `end` of a row.
-  void set_positive(std::size_t first, std::size_t end, std::size_t j, std::size_t k) {
-    for (std::size_t w = first / 64; 64 * w < end; ++w)
-      positive_[(k * size_[1] + j) * words_ + w] |= within(~Word(0), w, end) & ~within(~Word(0), w, first);
+  /// Sets the bits of all nodes of a block.
+  void set_positive(const Node_block& block) {
+    const auto& [is, js, ks] = block;
+    for (std::size_t w = is.first / 64; 64 * w < is.end; ++w) {
+      const Word bits = within(~Word(0), w, is.end) & ~within(~Word(0), w, is.first);
+      for (std::size_t k = ks.first; k < ks.end; ++k)
+        for (std::size_t j = js.first; j < js.end; ++j) positive_[(k * size_[1] + j) * words_ + w] |= bits;
+    }
   }
 
   /// Whether some node of some plane has no value.

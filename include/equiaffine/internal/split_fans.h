@@ -5,7 +5,6 @@
 #include <equiaffine/internal/disjoint_sets.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -15,9 +14,9 @@ namespace equiaffine::internal {
 
 /// Gives every fan of triangles a vertex of its own where several fans meet in one vertex, as parts of a surface do
 /// beside nodes without a value. `copy_vertex(v)` appends a copy of vertex v. No edge has more than two triangles.
-template <class CopyVertex>
-void split_fans(std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t number_of_vertices,
-                const CopyVertex& copy_vertex) {
+template <class Triangles, class CopyVertex>
+void split_fans(Triangles& triangles, std::size_t number_of_vertices, const CopyVertex& copy_vertex) {
+  if (triangles.empty()) return;
   struct Half_edge {
     std::uint32_t first, second;             // vertices, the smaller one first
     std::size_t first_corner, second_corner; // 3 t + m for corner m of triangle t

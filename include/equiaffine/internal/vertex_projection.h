@@ -77,7 +77,7 @@ private:
             const auto edge = function_.edge({{i, j, k}, axis});
             evaluations_[k] += Function::evaluations(2);
             set_projected(v, k, intersect(edge, linear[v]));
-            return surface_.points[v] == edge.ends[0] || surface_.points[v] == edge.ends[1];
+            return edge.ends_at(surface_.points[v]);
           });
       const Index_range inner = numbering_.inner_vertices_of_layer(k);
       for (std::size_t v = inner.first; v < inner.end; ++v) set_projected(v, k, project_within_cell(inner_vertex(v)));
@@ -149,22 +149,24 @@ private:
     for (std::size_t n = 0; n < suspects.size(); ++n) {
       if (!is_flipped(suspects[n], linear)) continue;
       const Triangle& flipped = surface_.triangles[suspects[n]];
-      // Beside a node whose value all but vanishes two vertices are the same but for rounding; the third is not to blame.
-      const bool is_sliver = !has_side({linear(flipped[0]), linear(flipped[1]), linear(flipped[2])});
+      if (!has_side({linear(flipped[0]), linear(flipped[1]), linear(flipped[2])})) {
+        // Beside a node whose value all but vanishes two vertices are the same but for rounding; the third is not to
+        // blame if they get back what makes them differ.
+        for (const std::size_t v : flipped) {
+          const Point_3 position = linear(v);
+          if ((surface_.points[v] - position).squared_length() <= squared_rounding(position))
+            surface_.points[v] = position;
+        }
+        if (!is_flipped(suspects[n], linear)) continue;
+      }
       for (const std::size_t v : flipped) {
         const Point_3 position = linear(v);
         if (surface_.points[v] == position) continue;
-        if (is_sliver) {
-          if ((surface_.points[v] - position).squared_length() <= squared_rounding(position))
-            surface_.points[v] = position;
-          continue;
-        }
         surface_.points[v] = position;
         surface_.vertex_status[v] = Point_status::UNCONVERGED;
         ++surface_.repairs.flips_undone;
         const auto node = is_inner(v) ? inner_vertex(v).cell : numbering_.edge_of(v)->node;
-        const std::size_t above = is_inner(v) ? 1 : 0; // the cell of an inner vertex lies above its node
-        numbering_.for_each_triangle_around(node[1] + above, node[2] + above, [&](std::size_t t) {
+        numbering_.for_each_triangle_around(node[1], node[2], [&](std::size_t t) {
           const Triangle& triangle = surface_.triangles[t];
           if (std::find(triangle.begin(), triangle.end(), v) != triangle.end()) suspects.push_back(t);
         });
