@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 
 namespace equiaffine {
@@ -52,9 +53,10 @@ Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z
 ///     };
 ///     Analytic_function_traits_3<Kernel, Sphere> traits(Sphere(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
 ///
-/// It is called with FT, Interval, and jets of both. Elementary functions must be found by argument-dependent lookup
-/// (`using std::exp; return exp(x);`). With three template parameters, or `auto`, for the arguments and `auto` for
-/// intermediate results it computes only the derivatives that its structure leaves nonzero.
+/// It is called with FT, Interval, jets of both and, for the batches of compute_attributes, jets of Pack<FT>. Elementary
+/// functions must be found by argument-dependent lookup (`using std::exp; return exp(x);`). With three template
+/// parameters, or `auto`, for the arguments and `auto` for intermediate results it computes only the derivatives that
+/// its structure leaves nonzero.
 template <class Kernel, class Function>
 class Analytic_function_traits_3 {
 public:
@@ -68,6 +70,12 @@ public:
   FT value(const Point_3& p) const { return function_(p.x(), p.y(), p.z()); }
   Jet_3<FT, 1> first_order(const Point_3& p) const { return internal::expand<1, FT>(function_, p.x(), p.y(), p.z()); }
   Jet_3<FT> taylor(const Point_3& p) const { return internal::expand<4, FT>(function_, p.x(), p.y(), p.z()); }
+
+  /// Lane by lane; a function that asks whether x < y has to be answered alike in all lanes. \throw Lanes_disagree
+  Jet_3<Pack<FT>> taylor(const Pack<FT>& x, const Pack<FT>& y, const Pack<FT>& z) const
+      requires(std::is_floating_point_v<FT>) {
+    return internal::expand<4, Pack<FT>>(function_, x, y, z);
+  }
 
   Interval bounds(const CGAL::Bbox_3& box) const {
     return function_(Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()),

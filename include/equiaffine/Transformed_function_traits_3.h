@@ -40,6 +40,19 @@ public:
   }
   Jet_3<FT> taylor(const Point_3& p) const { return substitution_(base_.taylor(inverse_(p))); }
 
+  Jet_3<Pack<FT>> taylor(const Pack<FT>& x, const Pack<FT>& y,
+                         const Pack<FT>& z) const requires PackImplicitFunctionTraits_3<Base> {
+    std::array<std::array<FT, Pack<FT>::size>, 3> preimages;
+    for (std::size_t i = 0; i < Pack<FT>::size; ++i) {
+      const Point_3 p = inverse_(Point_3(x[i], y[i], z[i]));
+      for (int axis = 0; axis < 3; ++axis) preimages[std::size_t(axis)][i] = p[axis];
+    }
+    const auto pack = [&](std::size_t axis) {
+      return Pack<FT>::generate([&](std::size_t i) { return preimages[axis][i]; });
+    };
+    return substitution_(base_.taylor(pack(0), pack(1), pack(2)));
+  }
+
   /// Bounds over the box of the preimage of `box`.
   Interval bounds(const CGAL::Bbox_3& box) const requires BoundedImplicitFunctionTraits_3<Base> {
     return base_.bounds(preimage(box));
