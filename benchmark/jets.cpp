@@ -18,7 +18,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,7 +33,7 @@ using Jet = Jet_3<double>;
 using Array = std::array<double, 35>;
 
 constexpr std::size_t number_of_points = 64; // with their results they stay in the first two levels of cache
-constexpr std::size_t repetitions = 32;
+constexpr std::size_t repetitions = 64;
 
 struct Points {
   std::array<std::array<double, number_of_points>, 3> c;
@@ -125,7 +127,7 @@ void compare(const Case& c, const Function& f, const Hand& hand, [[maybe_unused]
   const Expression_3 expression(c.expression);
   std::vector<Contender> contenders;
   contenders.push_back(contender("jets", repetitions, 1, [&](std::size_t i) {
-    out[i] = internal::expand<4, double>(f, p.c[0][i], p.c[1][i], p.c[2][i]);
+    std::construct_at(&out[i], internal::expand<4, double>(f, p.c[0][i], p.c[1][i], p.c[2][i])); // without a copy
     keep(out[i]);
   }));
   contenders.push_back(contender("hand-derived", repetitions, 1, [&](std::size_t i) {
@@ -136,12 +138,18 @@ void compare(const Case& c, const Function& f, const Hand& hand, [[maybe_unused]
     return Lanes(Lanes::Simd(&axis[i], std::experimental::element_aligned));
   };
   contenders.push_back(contender("jets in packs", repetitions, Lanes::size, [&](std::size_t i) {
-    pack_out[i] = internal::expand<4, Lanes>(f, lanes(p.c[0], i), lanes(p.c[1], i), lanes(p.c[2], i));
+    std::construct_at(&pack_out[i],
+                      internal::expand<4, Lanes>(f, lanes(p.c[0], i), lanes(p.c[1], i), lanes(p.c[2], i)));
     keep(pack_out[i]);
   }));
-  contenders.push_back(contender("expression, jets in packs", repetitions, Lanes::size, [&](std::size_t i) {
-    pack_out[i] = internal::expand<4, Lanes>(expression, lanes(p.c[0], i), lanes(p.c[1], i), lanes(p.c[2], i));
-    keep(pack_out[i]);
+  std::array<std::vector<Lanes>, 3> packs_of_points;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t i = 0; i < number_of_points; i += Lanes::size)
+      packs_of_points[axis].push_back(lanes(p.c[axis], i));
+  const std::span<const Lanes> x(packs_of_points[0]), y(packs_of_points[1]), z(packs_of_points[2]);
+  contenders.push_back(contender("expression, jets in packs", repetitions, number_of_points, [&](std::size_t) {
+    expression.taylor(x, y, z, std::span(pack_out).first(x.size()));
+    keep(pack_out);
   }));
   if constexpr (!std::is_same_v<Function, analytic_functions::Metaballs>)
     contenders.push_back(contender("Boost.Math autodiff", 1, 1, [&](std::size_t i) {
@@ -156,18 +164,18 @@ void compare(const Case& c, const Function& f, const Hand& hand, [[maybe_unused]
   }));
 #endif
   std::printf("%s, per point, %zu lanes\n", c.name.c_str(), Lanes::size);
-  race(contenders, 40);
+  race(contenders, 101);
 
   const double jets = contenders[0].nanoseconds, packs = contenders[2].nanoseconds;
   const std::string prefix = "jets_" + c.name;
-  figure_at_most((prefix + "_to_hand").c_str(), jets / contenders[1].nanoseconds, "x", c.is_algebraic ? 1.15 : 1.5);
+  figure(prefix + "_to_hand", jets / contenders[1].nanoseconds, "x", c.is_algebraic ? "<=1.15" : "<=1.5");
   double best_peer = std::numeric_limits<double>::infinity();
   for (std::size_t n = 4; n < contenders.size(); ++n) best_peer = std::min(best_peer, contenders[n].nanoseconds);
-  if (contenders.size() > 4) figure_at_least((prefix + "_best_peer_to_jets").c_str(), best_peer / jets, "x", 8);
-  if (c.is_algebraic) figure_at_least((prefix + "_boost_to_jets").c_str(), contenders[4].nanoseconds / jets, "x", 100);
-  else figure_at_least((prefix + "_scalar_to_packs").c_str(), jets / packs, "x", Lanes::size >= 8 ? 4 : 2.2);
-  figure_at_most((prefix + "_expression_to_functor").c_str(), contenders[3].nanoseconds / packs, "x", 3);
-  figure_at_most((prefix + "_fourth_derivative_error").c_str(), fourth_order_error(f, p), "eps", 5);
+  if (contenders.size() > 4) figure(prefix + "_best_peer_to_jets", best_peer / jets, "x", ">=8");
+  if (c.is_algebraic) figure(prefix + "_boost_to_jets", contenders[4].nanoseconds / jets, "x", ">=100");
+  else figure(prefix + "_scalar_to_packs", jets / packs, "x", Lanes::size >= 8 ? ">=4" : ">=2.2");
+  figure(prefix + "_expression_to_functor", contenders[3].nanoseconds / packs, "x", "<=3");
+  figure(prefix + "_fourth_derivative_error", fourth_order_error(f, p), "eps", "<=5");
   double difference = 0; // the competitors compute the same thing
   for (std::size_t i = 0; i < number_of_points; ++i)
     for (std::size_t n = 0; n < 35; ++n)

@@ -73,7 +73,7 @@ void table_1() {
               "  the same methods here      %12ld %8ld %9ld %7ld %8ld\n"
               "  pivot and shear, with J    %12s %8s %9s %7ld\n",
               map, mapping, transformation - map - mapping, transformation, direct, "", "", "", compact);
-  figure_at_most("kernel_operations", double(compact), "flop", 321);
+  figure("kernel_operations", double(compact), "flop", "<=321");
 }
 
 void times() {
@@ -111,12 +111,12 @@ void times() {
       {"direct", estimated([](const auto& jet) { return affine_estimate(jet, Estimator::DIRECT); }),
        double(jets.size())}};
   std::printf("Kernel alone, per point, %zu lanes\n", Lanes::size);
-  race(contenders, 60);
+  race(contenders, 101);
   const double scalar = time_of(contenders, "compact, one by one");
-  figure_at_least("kernel_packs_to_scalar", scalar / time_of(contenders, "compact, packs"), "x",
-                  Lanes::size >= 8 ? 3.8 : 1.9);
-  figure_at_least("kernel_transformation_to_compact", time_of(contenders, "transformation") / scalar, "x", 8);
-  figure_at_least("kernel_direct_to_compact", time_of(contenders, "direct") / scalar, "x", 15);
+  figure("kernel_packs_to_scalar", scalar / time_of(contenders, "compact, packs"), "x",
+         Lanes::size >= 8 ? ">=3.8" : ">=1.9");
+  figure("kernel_transformation_to_compact", time_of(contenders, "transformation") / scalar, "x", ">=8");
+  figure("kernel_direct_to_compact", time_of(contenders, "direct") / scalar, "x", ">=15");
 }
 
 void threads() {
@@ -140,7 +140,7 @@ void threads() {
     }
   std::printf("Jets and structure of 10^7 points of metaballs: %.2f s on one thread, %.2f s on two\n", best[0],
               best[1]);
-  figure_at_least("kernel_two_threads", best[0] / best[1], "x", 1.8);
+  figure("kernel_two_threads", best[0] / best[1], "x", ">=1.8");
 #endif
 }
 
@@ -160,8 +160,8 @@ void accuracy() {
     worst = std::max(worst, errors.back() / row.limit);
   }
   std::sort(errors.begin(), errors.end());
-  figure_at_most("kernel_reference_worst_to_limit", worst, "x", 1);
-  figure_at_most("kernel_reference_median_error", errors[errors.size() / 2], "1", 1e-14);
+  figure("kernel_reference_worst_to_limit", worst, "x", "<=1");
+  figure("kernel_reference_median_error", errors[errors.size() / 2], "1", "<=1e-14");
 
   const auto f = [](const auto& x, const auto& y, const auto& z) {
     using std::sin;
@@ -179,7 +179,7 @@ void accuracy() {
         std::max(anisotropic, error_of(local_structure(traits.taylor(p)).affine, double(t.affine.gaussian_curvature),
                                        double(t.affine.mean_curvature), double(t.euclidean.gaussian_curvature)));
   }
-  figure_at_most("kernel_anisotropic_worst_error", anisotropic, "1", 1e-12);
+  figure("kernel_anisotropic_worst_error", anisotropic, "1", "<=1e-12");
 }
 
 } // namespace

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Times of competing ways to do one thing, taken in turn so that a busy machine disturbs all of them alike, and the
-// lines in which a benchmark reports.
+// Times of competing ways to do one thing, taken in turn so that a busy machine disturbs all of them alike.
 #ifndef EQUIAFFINE_BENCHMARK_RUNNER_H
 #define EQUIAFFINE_BENCHMARK_RUNNER_H
 
+#include "measure.h"
+
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <cstdio>
+#include <ctime>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,37 +21,39 @@ void keep(const T& value) {
   asm volatile("" : : "r"(&value) : "memory");
 }
 
-/// One way: a call does `items` things, so often that it takes about a millisecond.
+/// Processor time of this thread in seconds.
+inline double thread_clock() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
+/// One way: a call does `items` things, and takes some 20 microseconds or more.
 struct Contender {
   std::string name;
   std::function<void()> run;
   double items;
-  double nanoseconds = std::numeric_limits<double>::infinity(); ///< per item, the best of all rounds
+  double nanoseconds = 0; ///< per item, the median of all rounds
 };
 
-/// Runs every contender once per round and keeps its best time.
-inline void race(std::vector<Contender>& contenders, int rounds = 25) {
-  using Clock = std::chrono::steady_clock;
+/// Runs every contender once per round.
+inline void race(std::vector<Contender>& contenders, int rounds) {
+  std::vector<std::vector<double>> times(contenders.size());
   for (int round = 0; round < rounds; ++round)
-    for (Contender& c : contenders) {
-      const auto start = Clock::now();
-      c.run();
-      const std::chrono::duration<double, std::nano> time = Clock::now() - start;
-      c.nanoseconds = std::min(c.nanoseconds, time.count() / c.items);
+    for (std::size_t n = 0; n < contenders.size(); ++n) {
+      const double start = thread_clock();
+      contenders[n].run();
+      times[n].push_back(thread_clock() - start);
     }
-  for (const Contender& c : contenders) std::printf("  %-44s %10.1f ns\n", c.name.c_str(), c.nanoseconds);
+  for (std::size_t n = 0; n < contenders.size(); ++n) {
+    contenders[n].nanoseconds = 1e9 * median(times[n]) / contenders[n].items;
+    std::printf("  %-44s %10.1f ns\n", contenders[n].name.c_str(), contenders[n].nanoseconds);
+  }
 }
 
 inline double time_of(const std::vector<Contender>& contenders, const std::string& name) {
   return std::find_if(contenders.begin(), contenders.end(), [&](const Contender& c) { return c.name == name; })
       ->nanoseconds;
-}
-
-inline void figure_at_least(const char* name, double value, const char* unit, double target) {
-  std::printf("figure %s %.4g %s target >=%g\n", name, value, unit, target);
-}
-inline void figure_at_most(const char* name, double value, const char* unit, double target) {
-  std::printf("figure %s %.4g %s target <=%g\n", name, value, unit, target);
 }
 
 } // namespace benchmark_runner

@@ -257,6 +257,32 @@ TEST(Affine_structure, the_gauss_equation_holds) {
   }
 }
 
+TEST(Affine_structure, double_keeps_its_digits_where_components_of_the_gradient_vanish) {
+  using Number = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int regular = 0;
+  for (int n = 0; n < 600; ++n) {
+    Jet jet;
+    for (double& c : jet.coefficients()) c = unit(random);
+    const std::size_t kept = std::size_t(n % 3); // of the gradient; sometimes another component is tiny, not zero
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (axis != kept && (n % 2 == 0 || axis != (kept + 1) % 3))
+        jet.coefficients()[1 + axis] = n % 5 == 0 ? 1e-200 : 0;
+    const auto s = local_structure(jet);
+    ASSERT_TRUE(s.status == Point_status::REGULAR || !std::isnan(s.euclidean.gaussian_curvature));
+    if (std::abs(s.euclidean.gaussian_curvature) < 0.1) continue;
+    ++regular;
+    Jet_3<Number> exact;
+    for (std::size_t c = 0; c < Jet::size; ++c) exact.coefficients()[c] = jet.coefficients()[c];
+    const auto t = local_structure(exact);
+    const double K = double(t.affine.gaussian_curvature), H = double(t.affine.mean_curvature), S = scale(s);
+    EXPECT_NEAR(s.affine.gaussian_curvature, K, 1e-12 * S);
+    EXPECT_NEAR(s.affine.mean_curvature, H, 1e-12 * std::sqrt(S));
+  }
+  EXPECT_GT(regular, 300);
+}
+
 TEST(Affine_structure, paraboloids_have_constant_affine_normals) {
   for (double sign : {1.0, -1.0}) {
     const auto f = [&](const auto& x, const auto& y, const auto& z) { return z - 0.5 * (x * x + sign * y * y); };

@@ -124,7 +124,7 @@ public:
 
   Jet_3 operator-() const {
     Jet_3 r;
-    for (std::size_t n = 0; n < size; ++n) r.c_[n] = -c_[n];
+    for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = -this->template at<n>(); });
     return r;
   }
   Jet_3 operator+() const { return *this; }
@@ -259,7 +259,7 @@ template <class T, int Order, Monomial_set A, JetScalar<T> S>
 auto operator*(const Jet_3<T, Order, A>& a, const S& s) {
   Jet_3<T, Order, A> r;
   const T factor = T(s);
-  for (std::size_t n = 0; n < r.size; ++n) r.coefficients()[n] = a.coefficients()[n] * factor;
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = a.template at<n>() * factor; });
   return r;
 }
 template <class T, int Order, Monomial_set A, JetScalar<T> S>
@@ -270,7 +270,7 @@ template <class T, int Order, Monomial_set A, JetScalar<T> S>
 auto operator/(const Jet_3<T, Order, A>& a, const S& s) {
   Jet_3<T, Order, A> r;
   const T divisor = T(s);
-  for (std::size_t n = 0; n < r.size; ++n) r.coefficients()[n] = a.coefficients()[n] / divisor;
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = a.template at<n>() / divisor; });
   return r;
 }
 

@@ -8,6 +8,7 @@
 #include <CGAL/number_utils.h>
 
 #include <cstddef>
+#include <span>
 #include <utility>
 
 namespace equiaffine {
@@ -36,9 +37,10 @@ public:
   FT value(const Point_3& p) const { return shifted(base_.value(p)); }
   Jet_3<FT, 1> first_order(const Point_3& p) const { return shifted(equiaffine::first_order(base_, p)); }
   Jet_3<FT> taylor(const Point_3& p) const { return shifted(base_.taylor(p)); }
-  Jet_3<Pack<FT>> taylor(const Pack<FT>& x, const Pack<FT>& y,
-                         const Pack<FT>& z) const requires PackImplicitFunctionTraits_3<Base> {
-    return shifted(base_.taylor(x, y, z));
+  void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
+                    std::span<Jet_3<Pack<FT>>> jets) const requires PackImplicitFunctionTraits_3<Base> {
+    base_.taylor_packs(x, y, z, jets);
+    for (auto& jet : jets) jet = shifted(jet);
   }
   Interval bounds(const CGAL::Bbox_3& box) const requires BoundedImplicitFunctionTraits_3<Base> {
     const Interval b = base_.bounds(box) - Interval(CGAL::to_double(isovalue_));

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace equiaffine {
 
@@ -102,82 +103,90 @@ private:
     return pivot == 2 ? Jet_3<FT>::index(i, j, k) : pivot == 1 ? Jet_3<FT>::index(j, k, i) : Jet_3<FT>::index(k, i, j);
   }
 
+  /// The coefficient that plays x^I y^J z^K, when it is known which axis plays z, or (Pivot == 3) lane by lane.
   template <int Pivot, int I, int J, int K>
-  static const FT& f(const Jet_3<FT>& jet) {
-    return jet.template at<played_by(Pivot, I, J, K)>();
+  EQUIAFFINE_INLINE FT f(const Jet_3<FT>& jet) const {
+    using internal::select;
+    if constexpr (Pivot < 3) return jet.template at<played_by(Pivot, I, J, K)>();
+    else return select(pivot_is_x, f<0, I, J, K>(jet), select(pivot_is_y, f<1, I, J, K>(jet), f<2, I, J, K>(jet)));
   }
 
   void build(const Jet_3<FT>& jet) {
-    if constexpr (std::is_same_v<Mask, bool>) {
-      if (pivot_is_x) expand<0>(jet);
-      else if (pivot_is_y) expand<1>(jet);
-      else expand<2>(jet);
-    } else {
-      Jet_3<FT> permuted;
-      jet.for_each_monomial([&](auto n) {
-        constexpr auto m = internal::monomials[std::size_t(n())];
-        permuted.template at<n>() = select(pivot_is_x, f<0, m.i, m.j, m.k>(jet),
-                                           select(pivot_is_y, f<1, m.i, m.j, m.k>(jet), f<2, m.i, m.j, m.k>(jet)));
-      });
-      expand<2>(permuted);
-    }
+    if constexpr (!std::is_same_v<Mask, bool>) expand<3>(jet);
+    else if (pivot_is_x) expand<0>(jet);
+    else if (pivot_is_y) expand<1>(jet);
+    else expand<2>(jet);
   }
 
   /// Synthetic division of each homogeneous part by z - (w - a u - b v): the remainder is its part without w, the next
   /// one the coefficient of w.
   template <int P>
   void expand(const Jet_3<FT>& jet) {
-    const FT r = FT(1) / f<P, 0, 0, 1>(jet), r2 = r * FT(0.5), r4 = r * FT(0.25);
-    const FT r3 = r * (FT(1) / FT(3)), r6 = r * (FT(1) / FT(6));
+    using internal::fraction;
     using internal::select;
+    const FT r = FT(1) / f<P, 0, 0, 1>(jet), r2 = r * FT(0.5), r4 = r * FT(0.25);
+    const FT r3 = r * fraction<1, 3, FT>(), r6 = r * fraction<1, 6, FT>();
     sign = select(r > FT(0), FT(1), FT(-1));
     a = f<P, 1, 0, 0>(jet) * r;
     b = f<P, 0, 1, 0>(jet) * r;
 
-    const Form<0> q0 = {f<P, 0, 0, 2>(jet)};
-    const Form<1> q1 = times(q0, {f<P, 1, 0, 1>(jet), f<P, 0, 1, 1>(jet)});
-    const Form<2> q2 = times(q1, {f<P, 2, 0, 0>(jet), f<P, 1, 1, 0>(jet), f<P, 0, 2, 0>(jet)});
-    const Form<1> l = times(q0, q1);
+    const FT xx = f<P, 2, 0, 0>(jet), xy = f<P, 1, 1, 0>(jet), yy = f<P, 0, 2, 0>(jet);
+    const FT xz = f<P, 1, 0, 1>(jet), yz = f<P, 0, 1, 1>(jet), zz = f<P, 0, 0, 2>(jet);
+    const Form<0> q0 = {zz};
+    Form<1> q1 = {xz, yz}, l;
+    Form<2> q2 = {xx, xy, yy};
+    reduce(q1, q0);
+    reduce(q2, q1);
+    l = q1;
+    reduce(l, q0);
     quadratic = {r * q2[0], r2 * q2[1], r * q2[2]};
     mixed = {r * l[0], r * l[1]};
-    e = r * q0[0];
+    e = r * zz;
 
     const Form<0> c0 = {f<P, 0, 0, 3>(jet)};
-    const Form<1> c1 = times(c0, {f<P, 1, 0, 2>(jet), f<P, 0, 1, 2>(jet)});
-    const Form<2> c2 = times(c1, {f<P, 2, 0, 1>(jet), f<P, 1, 1, 1>(jet), f<P, 0, 2, 1>(jet)});
-    const Form<3> c3 = times(c2, {f<P, 3, 0, 0>(jet), f<P, 2, 1, 0>(jet), f<P, 1, 2, 0>(jet), f<P, 0, 3, 0>(jet)});
-    const Form<2> d2 = times(times(c0, c1), c2);
+    Form<1> c1 = {f<P, 1, 0, 2>(jet), f<P, 0, 1, 2>(jet)}, d1;
+    Form<2> c2 = {f<P, 2, 0, 1>(jet), f<P, 1, 1, 1>(jet), f<P, 0, 2, 1>(jet)}, d2;
+    Form<3> c3 = {f<P, 3, 0, 0>(jet), f<P, 2, 1, 0>(jet), f<P, 1, 2, 0>(jet), f<P, 0, 3, 0>(jet)};
+    reduce(c1, c0);
+    reduce(c2, c1);
+    reduce(c3, c2);
+    d1 = c1;
+    reduce(d1, c0);
+    d2 = c2;
+    reduce(d2, d1);
     cubic = {r * c3[0], r3 * c3[1], r3 * c3[2], r * c3[3]};
     mixed_quadratic = {r * d2[0], r2 * d2[1], r * d2[2]};
 
     const Form<0> s0 = {f<P, 0, 0, 4>(jet)};
-    const Form<1> s1 = times(s0, {f<P, 1, 0, 3>(jet), f<P, 0, 1, 3>(jet)});
-    const Form<2> s2 = times(s1, {f<P, 2, 0, 2>(jet), f<P, 1, 1, 2>(jet), f<P, 0, 2, 2>(jet)});
-    const Form<3> s3 = times(s2, {f<P, 3, 0, 1>(jet), f<P, 2, 1, 1>(jet), f<P, 1, 2, 1>(jet), f<P, 0, 3, 1>(jet)});
-    const Form<4> s4 =
-        times(s3, {f<P, 4, 0, 0>(jet), f<P, 3, 1, 0>(jet), f<P, 2, 2, 0>(jet), f<P, 1, 3, 0>(jet), f<P, 0, 4, 0>(jet)});
+    Form<1> s1 = {f<P, 1, 0, 3>(jet), f<P, 0, 1, 3>(jet)};
+    Form<2> s2 = {f<P, 2, 0, 2>(jet), f<P, 1, 1, 2>(jet), f<P, 0, 2, 2>(jet)};
+    Form<3> s3 = {f<P, 3, 0, 1>(jet), f<P, 2, 1, 1>(jet), f<P, 1, 2, 1>(jet), f<P, 0, 3, 1>(jet)};
+    Form<4> s4 = {f<P, 4, 0, 0>(jet), f<P, 3, 1, 0>(jet), f<P, 2, 2, 0>(jet), f<P, 1, 3, 0>(jet), f<P, 0, 4, 0>(jet)};
+    reduce(s1, s0);
+    reduce(s2, s1);
+    reduce(s3, s2);
+    reduce(s4, s3);
     quartic = {r * s4[0], r4 * s4[1], r6 * s4[2], r4 * s4[3], r * s4[4]};
 
     determinant = quadratic[0] * quadratic[2] - quadratic[1] * quadratic[1];
     // The terms of which the coefficients of Q are sums (Andrade, Lewiner 2012, equation (2)).
     using std::abs;
-    const FT u = abs(f<P, 1, 0, 1>(jet)) + abs(a * q0[0]), v = abs(f<P, 0, 1, 1>(jet)) + abs(b * q0[0]);
-    const FT uu = r * (abs(f<P, 2, 0, 0>(jet)) + abs(a) * u), vv = r * (abs(f<P, 0, 2, 0>(jet)) + abs(b) * v);
-    const FT uv = r2 * (abs(f<P, 1, 1, 0>(jet)) + abs(a) * v + abs(b) * u);
+    const FT u = abs(xz) + abs(a * zz), v = abs(yz) + abs(b * zz);
+    const FT uu = r * (abs(xx) + abs(a) * u), vv = r * (abs(yy) + abs(b) * v);
+    const FT uv = r2 * (abs(xy) + abs(a) * v + abs(b) * u);
     is_curved = abs(determinant) > roundings(1000) * (uu * vv + uv * uv);
   }
 
   template <std::size_t Degree>
   using Form = std::array<FT, Degree + 1>;
 
-  /// A form times -(a u + b v), and another.
+  /// Subtracts (a u + b v) times another form. In place: copies of arrays of packs would go through memory.
   template <std::size_t N>
-  Form<N> times(const std::array<FT, N>& form, Form<N> sum) const {
-    for (std::size_t n = 0; n < N; ++n) {
-      sum[n] -= a * form[n];
-      sum[n + 1] -= b * form[n];
+  EQUIAFFINE_INLINE void reduce(std::array<FT, N + 1>& form, const std::array<FT, N>& other) const {
+    [&]<std::size_t... I>(std::index_sequence<I...>) EQUIAFFINE_INLINE {
+      ((form[I] -= a * other[I], form[I + 1] -= b * other[I]), ...);
     }
-    return sum;
+    (std::make_index_sequence<N>());
   }
 };
 

@@ -19,10 +19,18 @@ struct Lanes_disagree : std::exception {
   const char* what() const noexcept override { return "the lanes of a pack disagree"; }
 };
 
-/// A truth value per lane.
+namespace internal {
+
+/// Translation units that are compiled for different processors have different packs, never two of one name.
 template <class T>
+using Native_abi = std::experimental::simd_abi::native<T>;
+
+} // namespace internal
+
+/// A truth value per lane.
+template <class T, class Abi = internal::Native_abi<T>>
 struct Pack_mask {
-  using Simd_mask = typename std::experimental::native_simd<T>::mask_type;
+  using Simd_mask = std::experimental::simd_mask<T, Abi>;
   Simd_mask lanes;
 
   Pack_mask() = default;
@@ -50,10 +58,10 @@ struct Pack_mask {
 /// As many numbers as one vector register holds under the compiler's flags, to be used as one number: a number type for
 /// Jet_3, Monge_chart_3 and what follows. Every operation is that of T in each lane, functions are those of <cmath>, so
 /// that, unless the compiler contracts products and sums (-ffp-contract=off), a lane has the bits that T would have.
-template <class T>
+template <class T, class Abi = internal::Native_abi<T>>
 struct Pack {
-  using Simd = std::experimental::native_simd<T>;
-  using Mask = Pack_mask<T>;
+  using Simd = std::experimental::simd<T, Abi>;
+  using Mask = Pack_mask<T, Abi>;
   static constexpr std::size_t size = Simd::size();
 
   Simd lanes;
@@ -145,7 +153,7 @@ struct Pack {
 } // namespace equiaffine
 
 /// Those of a lane; they convert to a pack.
-template <class T>
-struct std::numeric_limits<equiaffine::Pack<T>> : std::numeric_limits<T> {};
+template <class T, class Abi>
+struct std::numeric_limits<equiaffine::Pack<T, Abi>> : std::numeric_limits<T> {};
 
 #endif

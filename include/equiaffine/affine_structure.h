@@ -87,7 +87,8 @@ Affine_invariants_3<FT> affine_invariants(const Monge_chart_3<FT>& chart) {
   const FT n12 = trace(r[1], r[2], r[3]) - m[1] - (c[1] * u1 + c[2] * u2) + v1_thrice * v2;
   const FT n22 = trace(r[2], r[3], r[4]) - m[2] - (c[2] * u1 + c[3] * u2) + v2_thrice * v2;
   const FT sigma = v1 * (w1 - (alpha1 + alpha1)) + v2 * (w2 - (alpha2 + alpha2)) + FT(0.75) * covariant +
-                   FT(4) / FT(3) * (chart.e - (l1 * alpha1 + l2 * alpha2)) - trace(m[0], m[1], m[2]) * (FT(1) / FT(6));
+                   internal::fraction<4, 3, FT>() * (chart.e - (l1 * alpha1 + l2 * alpha2)) -
+                   trace(m[0], m[1], m[2]) * internal::fraction<1, 6, FT>();
 
   Affine_invariants_3<FT> s;
   const FT square = FT(2) * sqrt(abs(chart.determinant)), length = chart.sign * sqrt(square);

@@ -4,10 +4,11 @@
 
 #include <equiaffine/Indexed_triangle_mesh_3.h>
 #include <equiaffine/Input_error.h>
-#include <equiaffine/Local_structure_3.h>
 #include <equiaffine/Pack.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/internal/parallel_for.h>
+#include <equiaffine/named_parameters.h>
+#include <equiaffine/reference_estimators.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/tags.h>
@@ -23,20 +24,19 @@
 
 namespace equiaffine {
 
-/// One number of the local structure, as it is named in files: a scalar, or a component of a vector.
-struct Attribute {
+/// One number of the local structure over FT, as it is named in files: a scalar, or a component of a vector.
+template <class FT>
+struct Attribute_of {
   std::string_view name;
   std::string_view group; ///< the vector or form it belongs to; for a scalar its own name
   bool is_basic;
-  double (*get)(const Local_structure_3<double>&);
-  Pack<double> (*get_lanes)(const Local_structure_3<Pack<double>>&);
-
-  constexpr Attribute(std::string_view its_name, std::string_view its_group, bool basic, auto of_structure)
-      : name(its_name), group(its_group), is_basic(basic), get(of_structure), get_lanes(of_structure) {}
+  FT (*get)(const Local_structure_3<FT>&);
 };
 
 /// All attributes in the order of the columns of a file.
-inline constexpr auto all_attributes = [] {
+template <class FT>
+inline constexpr auto all_attributes_of = [] {
+  using Attribute = Attribute_of<FT>;
   return std::array{
       Attribute{"nx", "normal", true, [](const auto& s) { return s.euclidean.normal[0]; }},
       Attribute{"ny", "normal", true, [](const auto& s) { return s.euclidean.normal[1]; }},
@@ -73,6 +73,9 @@ inline constexpr auto all_attributes = [] {
       Attribute{"metric_zz", "metric", false, [](const auto& s) { return s.affine.metric[5]; }},
   };
 }();
+
+using Attribute = Attribute_of<double>;
+inline constexpr auto all_attributes = all_attributes_of<double>;
 
 /// Which attributes to compute, in the order of the table; with at least one of them, or `status` alone, comes the
 /// status.
@@ -122,8 +125,9 @@ auto magnitude(const Point_3& p) {
 /// UNCONVERGED stays so, with the numbers that exist, unless it is OUTSIDE.
 template <ImplicitFunctionTraits_3 Traits>
 Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, const typename Traits::Point_3& p,
-                                                          Point_status sampled_status = Point_status::REGULAR) {
-  auto structure = local_structure(traits.taylor(p), internal::magnitude(p));
+                                                          Point_status sampled_status = Point_status::REGULAR,
+                                                          Estimator estimator = Estimator::COMPACT) {
+  auto structure = local_structure(traits.taylor(p), internal::magnitude(p), estimator);
   if (sampled_status == Point_status::UNCONVERGED && structure.status != Point_status::OUTSIDE)
     structure.status = Point_status::UNCONVERGED;
   return structure;
@@ -138,51 +142,80 @@ Jet_3<FT> lane(const Jet_3<Pack<FT>>& jet, std::size_t i) {
   return result;
 }
 
-/// The expansions at `count` <= Pack::size points, the last one repeated: from the model's own packs if it has them and
-/// its function does not branch differently there, else one by one.
-template <class Traits, class FT = typename Traits::FT>
-Jet_3<Pack<FT>> taylor_lanes(const Traits& traits, const typename Traits::Point_3* points, std::size_t count) {
-  const auto point = [&](std::size_t lane) -> decltype(auto) { return points[std::min(lane, count - 1)]; };
+/// f(i) for the lanes of pack n; the last point stands for those that are missing.
+template <class Point_3, class F>
+Pack<double> pack_of(std::span<const Point_3> points, std::size_t n, F f) {
+  return Pack<double>::generate(
+      [&](std::size_t i) { return f(points[std::min(n * Pack<double>::size + i, points.size() - 1)]); });
+}
+
+inline constexpr std::size_t packs_per_block = 4, points_per_block = packs_per_block * Pack<double>::size;
+using Block_of_jets = std::array<Jet_3<Pack<double>>, packs_per_block>;
+
+/// The expansions at up to points_per_block points: from the model's own packs if it has them and its function does not
+/// branch differently there, else one by one.
+template <class Traits, class Point_3 = typename Traits::Point_3>
+void expand_block(const Traits& traits, std::span<const Point_3> points, std::span<Jet_3<Pack<double>>> jets) {
   if constexpr (PackImplicitFunctionTraits_3<Traits>) {
+    std::array<Pack<double>, packs_per_block> x, y, z;
+    for (std::size_t n = 0; n < jets.size(); ++n) {
+      x[n] = pack_of(points, n, [](const Point_3& p) { return p.x(); });
+      y[n] = pack_of(points, n, [](const Point_3& p) { return p.y(); });
+      z[n] = pack_of(points, n, [](const Point_3& p) { return p.z(); });
+    }
     try {
-      return traits.taylor(Pack<FT>::generate([&](std::size_t i) { return point(i).x(); }),
-                           Pack<FT>::generate([&](std::size_t i) { return point(i).y(); }),
-                           Pack<FT>::generate([&](std::size_t i) { return point(i).z(); }));
+      const auto used = [&](const auto& axis) { return std::span<const Pack<double>>(axis.data(), jets.size()); };
+      return traits.taylor_packs(used(x), used(y), used(z), jets);
     } catch (const Lanes_disagree&) {
     }
   }
-  std::array<Jet_3<FT>, Pack<FT>::size> jets;
-  for (std::size_t i = 0; i < count; ++i) jets[i] = traits.taylor(points[i]);
-  Jet_3<Pack<FT>> result;
-  for (std::size_t n = 0; n < result.size; ++n)
-    result.coefficients()[n] =
-        Pack<FT>::generate([&](std::size_t i) { return jets[std::min(i, count - 1)].coefficients()[n]; });
-  return result;
+  std::array<Jet_3<double>, points_per_block> singles;
+  for (std::size_t i = 0; i < points.size(); ++i) singles[i] = traits.taylor(points[i]);
+  const std::span<const Jet_3<double>> used(singles.data(), points.size());
+  for (std::size_t n = 0; n < jets.size(); ++n)
+    for (std::size_t c = 0; c < Jet_3<double>::size; ++c)
+      jets[n].coefficients()[c] = pack_of(used, n, [&](const Jet_3<double>& jet) { return jet.coefficients()[c]; });
 }
 
-/// Fills the rows [first, first + count), count <= Pack::size, of the columns. Lanes that are not regular are done
-/// again as single points, where the reason is found.
+/// What is to be computed, with the functions that take it from packs.
+struct Attribute_columns {
+  const std::vector<Attribute>& singles;
+  std::vector<Attribute_of<Pack<double>>> packs;
+  Estimator estimator;
+
+  Attribute_columns(const Attribute_selection& selection, Estimator way) : singles(selection.columns), estimator(way) {
+    constexpr const auto& table = all_attributes_of<Pack<double>>;
+    for (const Attribute& single : singles)
+      packs.push_back(*std::find_if(table.begin(), table.end(), [&](const auto& a) { return a.name == single.name; }));
+  }
+};
+
+/// Fills the rows from `first` on, one per point, of which there are at most points_per_block. Lanes that are not
+/// regular are done again as single points, where the reason is found.
 template <class Traits>
 void compute_block_of_attributes(const Traits& traits, std::span<const typename Traits::Point_3> points,
-                                 std::size_t first, std::size_t count, const Attribute_selection& selection,
-                                 Vertex_attributes& result) {
+                                 std::size_t first, const Attribute_columns& columns, Vertex_attributes& result) {
   using Lanes = Pack<double>;
-  const auto jet = taylor_lanes(traits, &points[first], count);
-  const Lanes magnitudes =
-      Lanes::generate([&](std::size_t i) { return magnitude(points[first + std::min(i, count - 1)]); });
-  const Local_structure_lanes<Lanes> lanes(jet, Monge_chart_3<Lanes>(jet, magnitudes));
-  for (std::size_t n = 0; n < selection.columns.size(); ++n) {
-    const Lanes values = selection.columns[n].get_lanes(lanes.structure);
-    for (std::size_t i = 0; i < count; ++i) result.columns[n].values[first + i] = values[i];
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    Point_status& status = (*result.status)[first + i];
-    status = Point_status::REGULAR;
-    if (lanes.is_regular[i]) continue;
-    const auto structure = local_structure(lane(jet, i), magnitudes[i]);
-    for (std::size_t n = 0; n < selection.columns.size(); ++n)
-      result.columns[n].values[first + i] = selection.columns[n].get(structure);
-    status = structure.status;
+  Block_of_jets block;
+  const std::span jets(block.data(), (points.size() + Lanes::size - 1) / Lanes::size);
+  expand_block(traits, points, jets);
+  for (std::size_t n = 0; n < jets.size(); ++n) {
+    const Lanes magnitudes = pack_of(points, n, [](const auto& p) { return magnitude(p); });
+    const Local_structure_lanes<Lanes> lanes(jets[n], Monge_chart_3<Lanes>(jets[n], magnitudes));
+    const std::size_t row = first + n * Lanes::size, count = std::min(Lanes::size, first + points.size() - row);
+    for (std::size_t c = 0; c < columns.packs.size(); ++c) {
+      const Lanes values = columns.packs[c].get(lanes.structure);
+      for (std::size_t i = 0; i < count; ++i) result.columns[c].values[row + i] = values[i];
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      Point_status& status = (*result.status)[row + i];
+      status = Point_status::REGULAR;
+      if (lanes.is_regular[i] && columns.estimator == Estimator::COMPACT) continue;
+      const auto structure = local_structure(lane(jets[n], i), magnitudes[i], columns.estimator);
+      for (std::size_t c = 0; c < columns.singles.size(); ++c)
+        result.columns[c].values[row + i] = columns.singles[c].get(structure);
+      status = structure.status;
+    }
   }
 }
 
@@ -191,23 +224,27 @@ void compute_block_of_attributes(const Traits& traits, std::span<const typename 
 /// Attributes of points, one column per scalar, in double. One Taylor expansion of order 4 per point; the same for
 /// CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Points are taken in packs; the numbers are those of
 /// local_structure_at, bit for bit unless the compiler contracts products and sums (-ffp-contract=off).
-/// `sampled_status` is empty or has one entry per point.
-template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits>
+/// `sampled_status` is empty or has one entry per point. Named parameter: `estimator`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
+          class Parameters = internal::No_parameters>
 Vertex_attributes compute_attributes(const Traits& traits, std::span<const typename Traits::Point_3> points,
                                      const Attribute_selection& selection,
-                                     std::span<const Point_status> sampled_status = {}) {
+                                     std::span<const Point_status> sampled_status = {},
+                                     const Parameters& parameters = {}) {
   static_assert(std::is_same_v<typename Traits::FT, double>);
+  const internal::Attribute_columns columns(
+      selection, internal::get_parameter<internal::Estimator_tag>(parameters, Estimator::COMPACT));
   Vertex_attributes result;
   for (const Attribute& attribute : selection.columns)
     result.columns.push_back({std::string(attribute.name), std::vector<double>(points.size())});
   if (!selection.has_status) return result;
   std::vector<Point_status>& status = result.status.emplace(points.size());
-  constexpr std::size_t block = Pack<double>::size;
+  constexpr std::size_t block = internal::points_per_block;
   internal::parallel_for<ConcurrencyTag>(
       0, (points.size() + block - 1) / block,
       [&](std::size_t n) {
         const std::size_t first = n * block, count = std::min(block, points.size() - first);
-        internal::compute_block_of_attributes(traits, points, first, count, selection, result);
+        internal::compute_block_of_attributes(traits, points.subspan(first, count), first, columns, result);
         for (std::size_t i = first; i < first + count && !sampled_status.empty(); ++i)
           if (sampled_status[i] == Point_status::UNCONVERGED && status[i] != Point_status::OUTSIDE)
             status[i] = Point_status::UNCONVERGED;

@@ -61,13 +61,14 @@ concept BatchImplicitFunctionTraits_3 =
     traits.taylors(points, jets);
   };
 
-/// ... that expands at the points of a pack at once: lane i of x, y, z is a point, lane i of the result its expansion,
-/// bit for bit unless the compiler contracts products and sums. May throw Lanes_disagree.
+/// ... that expands at the points of packs at once: lane i of x[n], y[n], z[n] is a point, lane i of jets[n] its
+/// expansion, bit for bit unless the compiler contracts products and sums. May throw Lanes_disagree.
 template <class Traits>
 concept PackImplicitFunctionTraits_3 =
   ImplicitFunctionTraits_3<Traits> &&
-  requires(const Traits& traits, const Pack<typename Traits::FT>& x) {
-    { traits.taylor(x, x, x) } -> std::same_as<Jet_3<Pack<typename Traits::FT>>>;
+  requires(const Traits& traits, std::span<const Pack<typename Traits::FT>> x,
+           std::span<Jet_3<Pack<typename Traits::FT>>> jets) {
+    traits.taylor_packs(x, x, x, jets);
   };
 
 /// ... with a cheaper expansion of order 1, for root finding.

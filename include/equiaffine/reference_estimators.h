@@ -5,20 +5,11 @@
 #include <equiaffine/Local_structure_3.h>
 #include <equiaffine/internal/direct_estimate.h>
 #include <equiaffine/internal/transformation_estimate.h>
+#include <equiaffine/named_parameters.h>
 
 #include <cmath>
 
 namespace equiaffine {
-
-/// Ways from the 34 derivatives of f at a point to the affine structure: our own, and those of Andrade, Lewiner:
-/// Affine-invariant curvature estimators for implicit surfaces, 2012, with the errata of doc/errata.md corrected. They
-/// are there to compare with, being longer, slower and less accurate.
-enum class Estimator {
-  COMPACT,        ///< pivot and shear: affine_structure()
-  TRANSFORMATION, ///< section 3: an affine map after which the formulas are short
-  DIRECT,         ///< section 2: the implicit function theorem on the axis that is closest to the gradient
-  DIRECT_Z        ///< section 2 on the z axis wherever the gradient points; not finite where f_z vanishes
-};
 
 /// Co-normal, normal and curvatures by the given way. Not finite where they do not exist.
 template <class FT>

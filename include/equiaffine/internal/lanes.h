@@ -26,6 +26,23 @@ Mask_of<FT> is_finite_number(const FT& x) {
   return abs(x) <= FT(std::numeric_limits<FT>::max());
 }
 
+/// For numbers of the processor, up to double, and packs of them.
+template <class FT>
+inline constexpr bool is_built_in =
+    std::numeric_limits<FT>::is_iec559&& std::numeric_limits<FT>::digits <= std::numeric_limits<double>::digits;
+
+/// P / Q, for built-in numbers and packs of them divided by the compiler, which under -frounding-math (CGAL sets it)
+/// would leave that to every call.
+template <int P, int Q, class FT>
+FT fraction() {
+  if constexpr (is_built_in<FT>) {
+    constexpr double quotient = double(P) / Q;
+    return FT(quotient);
+  } else {
+    return FT(P) / FT(Q);
+  }
+}
+
 } // namespace equiaffine::internal
 
 #endif
