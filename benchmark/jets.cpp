@@ -18,7 +18,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
+#include <new>
 #include <random>
 #include <span>
 #include <string>
@@ -127,7 +127,7 @@ void compare(const Case& c, const Function& f, const Hand& hand, [[maybe_unused]
   const Expression_3 expression(c.expression);
   std::vector<Contender> contenders;
   contenders.push_back(contender("jets", repetitions, 1, [&](std::size_t i) {
-    std::construct_at(&out[i], internal::expand<4, double>(f, p.c[0][i], p.c[1][i], p.c[2][i])); // without a copy
+    ::new (&out[i]) Jet(internal::expand<4, double>(f, p.c[0][i], p.c[1][i], p.c[2][i])); // without a copy
     keep(out[i]);
   }));
   contenders.push_back(contender("hand-derived", repetitions, 1, [&](std::size_t i) {
@@ -138,8 +138,8 @@ void compare(const Case& c, const Function& f, const Hand& hand, [[maybe_unused]
     return Lanes(Lanes::Simd(&axis[i], std::experimental::element_aligned));
   };
   contenders.push_back(contender("jets in packs", repetitions, Lanes::size, [&](std::size_t i) {
-    std::construct_at(&pack_out[i],
-                      internal::expand<4, Lanes>(f, lanes(p.c[0], i), lanes(p.c[1], i), lanes(p.c[2], i)));
+    ::new (&pack_out[i])
+        Jet_3<Lanes>(internal::expand<4, Lanes>(f, lanes(p.c[0], i), lanes(p.c[1], i), lanes(p.c[2], i)));
     keep(pack_out[i]);
   }));
   std::array<std::vector<Lanes>, 3> packs_of_points;

@@ -100,13 +100,12 @@ void annotate(CGAL::Surface_mesh<typename Traits::Point_3>& mesh, const Traits& 
               const Parameters& parameters = {}) {
   using Mesh = CGAL::Surface_mesh<typename Traits::Point_3>;
   using Vertex_index = typename Mesh::Vertex_index;
-  const auto estimator = internal::get_parameter<internal::Estimator_tag>(parameters, Estimator::COMPACT);
   internal::Structure_maps<Mesh> maps(mesh);
   internal::parallel_for<ConcurrencyTag>(
       0, mesh.num_vertices() + mesh.number_of_removed_vertices(),
       [&](std::size_t i) {
         const Vertex_index v{static_cast<typename Vertex_index::size_type>(i)};
-        if (!mesh.is_removed(v)) maps.set(v, local_structure_at(traits, mesh.point(v), maps.status[v], estimator));
+        if (!mesh.is_removed(v)) maps.set(v, local_structure_at(traits, mesh.point(v), maps.status[v], parameters));
       },
       256);
 }

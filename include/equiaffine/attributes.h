@@ -119,15 +119,23 @@ auto magnitude(const Point_3& p) {
   return std::max({abs(p.x()), abs(p.y()), abs(p.z())});
 }
 
+/// By the estimator of the named parameters. Without it the paper's ones are not even compiled.
+template <class Parameters, class FT>
+Local_structure_3<FT> local_structure_by(const Parameters& parameters, const Jet_3<FT>& jet, const FT& magnitude) {
+  if constexpr (has_parameter<Estimator_tag, Parameters>)
+    return local_structure(jet, magnitude, get_parameter<Estimator_tag>(parameters, Estimator::COMPACT));
+  else return local_structure(jet, magnitude);
+}
+
 } // namespace internal
 
 /// The local structure of the level set of f through p. `sampled_status` is what the sampler says of p: a point that is
-/// UNCONVERGED stays so, with the numbers that exist, unless it is OUTSIDE.
-template <ImplicitFunctionTraits_3 Traits>
+/// UNCONVERGED stays so, with the numbers that exist, unless it is OUTSIDE. Named parameter: `estimator`.
+template <ImplicitFunctionTraits_3 Traits, class Parameters = internal::No_parameters>
 Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, const typename Traits::Point_3& p,
                                                           Point_status sampled_status = Point_status::REGULAR,
-                                                          Estimator estimator = Estimator::COMPACT) {
-  auto structure = local_structure(traits.taylor(p), internal::magnitude(p), estimator);
+                                                          const Parameters& parameters = {}) {
+  auto structure = internal::local_structure_by(parameters, traits.taylor(p), internal::magnitude(p));
   if (sampled_status == Point_status::UNCONVERGED && structure.status != Point_status::OUTSIDE)
     structure.status = Point_status::UNCONVERGED;
   return structure;
@@ -178,12 +186,14 @@ void expand_block(const Traits& traits, std::span<const Point_3> points, std::sp
 }
 
 /// What is to be computed, with the functions that take it from packs.
+template <class Parameters>
 struct Attribute_columns {
   const std::vector<Attribute>& singles;
   std::vector<Attribute_of<Pack<double>>> packs;
-  Estimator estimator;
+  const Parameters& parameters;
 
-  Attribute_columns(const Attribute_selection& selection, Estimator way) : singles(selection.columns), estimator(way) {
+  Attribute_columns(const Attribute_selection& selection, const Parameters& named)
+      : singles(selection.columns), parameters(named) {
     constexpr const auto& table = all_attributes_of<Pack<double>>;
     for (const Attribute& single : singles)
       packs.push_back(*std::find_if(table.begin(), table.end(), [&](const auto& a) { return a.name == single.name; }));
@@ -192,10 +202,12 @@ struct Attribute_columns {
 
 /// Fills the rows from `first` on, one per point, of which there are at most points_per_block. Lanes that are not
 /// regular are done again as single points, where the reason is found.
-template <class Traits>
+template <class Traits, class Parameters>
 void compute_block_of_attributes(const Traits& traits, std::span<const typename Traits::Point_3> points,
-                                 std::size_t first, const Attribute_columns& columns, Vertex_attributes& result) {
+                                 std::size_t first, const Attribute_columns<Parameters>& columns,
+                                 Vertex_attributes& result) {
   using Lanes = Pack<double>;
+  const bool is_compact = get_parameter<Estimator_tag>(columns.parameters, Estimator::COMPACT) == Estimator::COMPACT;
   Block_of_jets block;
   const std::span jets(block.data(), (points.size() + Lanes::size - 1) / Lanes::size);
   expand_block(traits, points, jets);
@@ -210,8 +222,8 @@ void compute_block_of_attributes(const Traits& traits, std::span<const typename 
     for (std::size_t i = 0; i < count; ++i) {
       Point_status& status = (*result.status)[row + i];
       status = Point_status::REGULAR;
-      if (lanes.is_regular[i] && columns.estimator == Estimator::COMPACT) continue;
-      const auto structure = local_structure(lane(jets[n], i), magnitudes[i], columns.estimator);
+      if (lanes.is_regular[i] && is_compact) continue;
+      const auto structure = local_structure_by(columns.parameters, lane(jets[n], i), magnitudes[i]);
       for (std::size_t c = 0; c < columns.singles.size(); ++c)
         result.columns[c].values[row + i] = columns.singles[c].get(structure);
       status = structure.status;
@@ -232,8 +244,7 @@ Vertex_attributes compute_attributes(const Traits& traits, std::span<const typen
                                      std::span<const Point_status> sampled_status = {},
                                      const Parameters& parameters = {}) {
   static_assert(std::is_same_v<typename Traits::FT, double>);
-  const internal::Attribute_columns columns(
-      selection, internal::get_parameter<internal::Estimator_tag>(parameters, Estimator::COMPACT));
+  const internal::Attribute_columns<Parameters> columns(selection, parameters);
   Vertex_attributes result;
   for (const Attribute& attribute : selection.columns)
     result.columns.push_back({std::string(attribute.name), std::vector<double>(points.size())});

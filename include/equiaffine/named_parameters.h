@@ -135,9 +135,7 @@ inline auto skip_empty_space() {
 }
 
 /// How co-normal, affine normal and affine curvatures are computed, default Estimator::COMPACT.
-inline auto estimator(Estimator way) {
-  return internal::Named_parameters<Estimator, internal::Estimator_tag>{way, {}};
-}
+inline auto estimator(Estimator way) { return internal::Named_parameters<Estimator, internal::Estimator_tag>{way, {}}; }
 
 /// The Clip_domain_3 where the surface is looked for; default the box of the function.
 template <class Domain>

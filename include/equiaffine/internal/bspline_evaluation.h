@@ -55,7 +55,8 @@ struct Bspline_taylor {
   explicit Bspline_taylor(FT t) {
     static constexpr auto basis = bspline_basis_polynomials<FT, Degree, width>();
     const FT s = t - FT(0.5);
-    for (int r = 0; r < width; r += Spline_pack<FT>::lanes) { // Horner's scheme with its derivatives, a B-spline per lane
+    for (int r = 0; r < width;
+         r += Spline_pack<FT>::lanes) { // Horner's scheme with its derivatives, a B-spline per lane
       typename Spline_pack<FT>::type b[Order + 1] = {};
       b[0] = Spline_pack<FT>::load(&basis[Degree][r]);
       unrolled<Degree>([&](auto step) {

@@ -226,7 +226,9 @@ void integer_power(const T* a, T* result, std::size_t count, unsigned n) {
 
 /// A number type, or a pack of numbers, with the order that choices need.
 template <class T>
-concept Ordered = std::is_floating_point_v<T> || requires { typename T::Mask; };
+concept Ordered = std::is_floating_point_v<T> || requires {
+  typename T::Mask;
+};
 
 /// The choices of Taylor coefficients at kinks.
 template <std::size_t Block, class T>
@@ -327,8 +329,7 @@ void execute_function(const Instruction& instruction, const T* a, const T* b, T*
   case Opcode::MAX: return apply([](const T& u, const T& v) -> T { return maximum(u, v); });
   case Opcode::HYPOT: return apply([](const T& u, const T& v) -> T { return hypotenuse(u, v); });
   default:
-    if constexpr (Ordered<T>)
-      execute_choice<Block>(instruction, a, b, result, count);
+    if constexpr (Ordered<T>) execute_choice<Block>(instruction, a, b, result, count);
   }
 }
 
