@@ -187,6 +187,9 @@ void compare(const Case& c, const Function& f, const Hand& hand, [[maybe_unused]
 } // namespace
 
 int main() {
+#ifndef EQUIAFFINE_HAS_ADOLC
+  std::printf("ADOL-C (Debian's libadolc-dev) is not installed and left out\n");
+#endif
   namespace af = analytic_functions;
   const auto sphere = [](const auto& x, const auto& y, const auto& z) { return x * x + y * y + z * z - 1.0; };
   const auto blobby = [](const auto& x, const auto& y, const auto& z) {

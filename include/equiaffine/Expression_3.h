@@ -96,7 +96,7 @@ public:
   template <internal::expression::Ordered T>
   void taylor(std::span<const T> x, std::span<const T> y, std::span<const T> z, std::span<Jet_3<T>> out) const {
     CGAL_precondition(x.size() == out.size() && y.size() == out.size() && z.size() == out.size());
-    taylor_blocks<internal::expression::taylor_block_size<T>>(taylor_->get(tape_), x, y, z, out);
+    taylor_blocks<internal::expression::block_size<T>>(taylor_->get(tape_), x, y, z, out);
   }
 
   /// The text it was made from.

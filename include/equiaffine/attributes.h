@@ -157,7 +157,7 @@ Pack<double> pack_of(std::span<const Point_3> points, std::size_t n, F f) {
       [&](std::size_t i) { return f(points[std::min(n * Pack<double>::size + i, points.size() - 1)]); });
 }
 
-inline constexpr std::size_t packs_per_block = 4, points_per_block = packs_per_block * Pack<double>::size;
+inline constexpr std::size_t packs_per_block = 8, points_per_block = packs_per_block * Pack<double>::size;
 using Block_of_jets = std::array<Jet_3<Pack<double>>, packs_per_block>;
 
 /// The expansions at up to points_per_block points: from the model's own packs if it has them and its function does not

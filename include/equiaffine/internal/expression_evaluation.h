@@ -247,9 +247,14 @@ void execute_choice(const Instruction& instruction, const T* a, const T* b, T* r
 }
 
 template <std::size_t Block, class T>
-void execute_function(const Instruction& instruction, const T* a, const T* b, T* result, std::size_t count) {
+[[gnu::noinline]] void execute_function(const Instruction& instruction, const T* a, const T* b, T* result,
+                                        std::size_t count) {
+  const double c = instruction.constant;
   const auto apply = [&](auto f) { for_each_point<Block>(a, b, result, count, f); };
   switch (instruction.opcode) {
+  case Opcode::INTEGER_POWER: return integer_power<Block>(a, result, count, static_cast<unsigned>(c));
+  case Opcode::POWER_CONSTANT: return apply([c](const T& u, const T&) -> T { return constant_power(u, c); });
+  case Opcode::POWER: return apply([](const T& u, const T& v) -> T { return real_power(u, v); });
   case Opcode::SQRT:
     return apply([](const T& u, const T&) -> T {
       using std::sqrt;
@@ -333,9 +338,11 @@ void execute_function(const Instruction& instruction, const T* a, const T* b, T*
   }
 }
 
-/// Executes one instruction for `count` <= Block points.
+/// Executes one instruction for `count` <= Block points. Arithmetic, which is most of a tape, stays within the loop over
+/// the instructions: a call for each costs as much as what it computes.
 template <std::size_t Block, class T>
-void execute(const Instruction& instruction, const T* a, const T* b, T* result, std::size_t count) {
+[[gnu::always_inline]] inline void execute(const Instruction& instruction, const T* a, const T* b, T* result,
+                                           std::size_t count) {
   const double c = instruction.constant;
   const auto apply = [&](auto f) { for_each_point<Block>(a, b, result, count, f); };
   switch (instruction.opcode) {
@@ -351,9 +358,6 @@ void execute(const Instruction& instruction, const T* a, const T* b, T* result, 
   case Opcode::DIVIDE: return apply([](const T& u, const T& v) -> T { return u / v; });
   case Opcode::NEGATE: return apply([](const T& u, const T&) -> T { return -u; });
   case Opcode::SQUARE: return apply([](const T& u, const T&) -> T { return squared(u); });
-  case Opcode::INTEGER_POWER: return integer_power<Block>(a, result, count, static_cast<unsigned>(c));
-  case Opcode::POWER_CONSTANT: return apply([c](const T& u, const T&) -> T { return constant_power(u, c); });
-  case Opcode::POWER: return apply([](const T& u, const T& v) -> T { return real_power(u, v); });
   default: return execute_function<Block>(instruction, a, b, result, count);
   }
 }
@@ -362,10 +366,6 @@ void execute(const Instruction& instruction, const T* a, const T* b, T* result, 
 /// as large as a Taylor polynomial is taken one at a time.
 template <class T>
 inline constexpr std::size_t block_size = std::max<std::size_t>(1, 512 / sizeof(T));
-
-/// ... for a tape of Taylor coefficients, which has more slots.
-template <class T>
-inline constexpr std::size_t taylor_block_size = std::max<std::size_t>(1, 256 / sizeof(T));
 
 /// Working memory of an evaluation: uninitialised when T is, and on the stack for up to 32 slots of a trivial T.
 template <std::size_t Block, class T>
