@@ -226,8 +226,8 @@ Number gaussian_curvature(const Metric_jet& E, const Metric_jet& F, const Metric
   return (first_determinant - second_determinant) / (area * area);
 }
 
-// The metric as a function of (x, y) comes from the derivatives of the graph z = g(x, y), which no formula of the compact
-// kernel has to do with.
+// The metric as a function of (x, y) comes from the derivatives of the graph z = g(x, y), which no formula of the
+// compact kernel has to do with.
 TEST(Affine_structure, the_gauss_equation_holds) {
   using Number = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
   std::mt19937 random(11);

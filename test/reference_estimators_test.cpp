@@ -79,7 +79,7 @@ TEST(Reference_estimators, the_z_axis_alone_loses_the_digits_that_the_best_axis_
 }
 
 // Table 1 of the paper has 23,690 operations for the direct and 9,867 for the transformation method, of which 7,335 map
-// the derivatives. The direct count of the paper is of formulas in the derivatives of f alone; ours are those of a graph
+// the derivatives. The direct count of the paper is of formulas in the derivatives of f alone; ours are of a graph
 // fed with derivatives of the graph, each of them written out in the derivatives of f.
 TEST(Reference_estimators, table_1) {
   std::mt19937 random(1);

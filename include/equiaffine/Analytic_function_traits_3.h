@@ -70,7 +70,7 @@ concept HasTaylor = requires(const Function& f, const FT& x, std::span<const Pac
 ///     };
 ///     Analytic_function_traits_3<Kernel, Sphere> traits(Sphere(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
 ///
-/// It is called with FT, Interval, jets of both and, for the batches of compute_attributes, jets of Pack<FT>. Elementary
+/// It is called with FT, Interval, jets of both and, for batches in compute_attributes, jets of Pack<FT>. Elementary
 /// functions must be found by argument-dependent lookup (`using std::exp; return exp(x);`). With three template
 /// parameters, or `auto`, for the arguments and `auto` for intermediate results it computes only the derivatives that
 /// its structure leaves nonzero.

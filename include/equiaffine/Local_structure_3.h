@@ -52,8 +52,8 @@ Mask_of<FT> is_finite(const Euclidean_structure_3<FT>& s) {
   return is_finite_number(FT(s.k1 + s.gaussian_curvature));
 }
 
-/// Why a point is not regular: the value is NaN or infinite; another coefficient is, or the gradient vanishes; d does up
-/// to rounding; or numbers leave the range of FT, which is as good as parabolic near d = 0, else as good as singular.
+/// Why a point is not regular: the value is NaN or infinite; another coefficient is, or the gradient vanishes; d does
+/// up to rounding; or numbers leave the range of FT, which is as good as parabolic near d = 0, else as good as singular.
 template <class FT>
 Point_status reason_of_irregularity(const Jet_3<FT>& jet, const Monge_chart_3<FT>& chart,
                                     const Euclidean_structure_3<FT>& euclidean) {

@@ -338,8 +338,8 @@ template <std::size_t Block, class T>
   }
 }
 
-/// Executes one instruction for `count` <= Block points. Arithmetic, which is most of a tape, stays within the loop over
-/// the instructions: a call for each costs as much as what it computes.
+/// Executes one instruction for `count` <= Block points. Arithmetic, which is most of a tape, stays within the loop
+/// over the instructions: a call for each costs as much as what it computes.
 template <std::size_t Block, class T>
 [[gnu::always_inline]] inline void execute(const Instruction& instruction, const T* a, const T* b, T* result,
                                            std::size_t count) {
@@ -362,8 +362,8 @@ template <std::size_t Block, class T>
   }
 }
 
-/// Points, or packs of points, per block: half a kilobyte per slot keeps a typical tape in the first-level cache; a type
-/// as large as a Taylor polynomial is taken one at a time.
+/// Points, or packs of points, per block: half a kilobyte per slot keeps a typical tape in the first-level cache; a
+/// type as large as a Taylor polynomial is taken one at a time.
 template <class T>
 inline constexpr std::size_t block_size = std::max<std::size_t>(1, 512 / sizeof(T));
 
