@@ -69,7 +69,7 @@ inline double peak_megabytes(const std::function<void()>& f) {
 
 /// One line per figure: its name, value and unit, and the target whether met or not.
 inline void figure(const std::string& name, double value, const char* unit, const std::string& target) {
-  std::printf("figure %s %.3f %s target %s\n", name.c_str(), value, unit, target.c_str());
+  std::printf("figure %s %.4g %s target %s\n", name.c_str(), value, unit, target.c_str());
   std::fflush(stdout);
 }
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "atomic_file.h"
+#include "attribute_task.h"
 #include "commands.h"
-#include "source.h"
 #include "statistics.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/attributes.h>
 #include <equiaffine/io/read_points.h>
 #include <equiaffine/io/write_mesh.h>
 
@@ -46,13 +44,8 @@ void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& 
   const std::vector<Kernel::Point_3>& points = table.mesh.points;
   const Source source = make_source(options.source, progress);
   progress.begin("computing attributes");
-  Vertex_attributes attributes = std::visit(
-      [&](const auto& function) {
-        // The level set of a point goes through it whatever the value there, so any isovalue will do.
-        const Level_set_traits_3 level_set(function, 0., options.orientation);
-        return compute_attributes<CGAL::Parallel_if_available_tag>(level_set, points, options.attributes);
-      },
-      source.function);
+  Vertex_attributes attributes =
+      compute_attributes({source.function, options.orientation, points, options.attributes, options.estimator});
   mark_points_at_infinity(points, attributes);
   progress.begin("writing");
   if (format == Mesh_format::CSV) write_CSV(output.stream(), table, attributes);

@@ -144,6 +144,10 @@ private:
         "mean_curvature, conormal, affine_normal, affine_gaussian_curvature,\n"
         "affine_mean_curvature, pick_invariant, status; all adds affine_k1, affine_k2,\n"
         "direction1, direction2, metric; LIST is some of these words with commas between");
+    add(command, "--estimator", 1, "compact|transformation|direct|direct-z",
+        "how conormal, affine_normal, affine_gaussian_curvature and affine_mean_curvature are\n"
+        "computed from the derivatives: our own formulas (compact, the default), or those of\n"
+        "Andrade and Lewiner, to compare with");
   }
 
   void add_output(CLI::App& command, const std::string& type, const std::string& description) {

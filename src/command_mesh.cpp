@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "atomic_file.h"
+#include "attribute_task.h"
 #include "commands.h"
 #include "resources.h"
-#include "source.h"
 #include "statistics.h"
 #include "surface_output.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/attributes.h>
 #include <equiaffine/delaunay_surface.h>
 #include <equiaffine/distance_to_surface.h>
 #include <equiaffine/marching_cubes.h>
@@ -107,8 +106,10 @@ void sample(const Traits& function, const Mesh_options& options, const Delaunay_
   surface.mesh = std::move(mesh);
 }
 
+/// `function` is the alternative of `source`.
 template <class Traits>
-Annotated_surface make_surface(const Traits& function, const Mesh_options& options, Progress& progress) {
+Annotated_surface make_surface(const Traits& function, const Source& source, const Mesh_options& options,
+                               Progress& progress) {
   // The mesh is that of f, so that the orientation changes nothing but the side to which it is turned.
   const Level_set_traits_3<Traits> extracted(function, options.isovalue);
   const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
@@ -123,8 +124,8 @@ Annotated_surface make_surface(const Traits& function, const Mesh_options& optio
   surface.mesh.function_evaluations += surface.mesh.points.size();
   Attribute_selection selection = options.attributes;
   selection.has_status = true; // also if it is not written: the statistics count it
-  surface.attributes = compute_attributes<CGAL::Parallel_if_available_tag>(level_set, surface.mesh.points, selection,
-                                                                           surface.mesh.vertex_status);
+  surface.attributes = compute_attributes({source.function, options.orientation, surface.mesh.points, selection,
+                                           options.estimator, surface.mesh.vertex_status});
   surface.mesh.function_evaluations += surface.mesh.points.size();
   surface.status = count(*surface.attributes.status);
   if (!options.attributes.has_status) surface.attributes.status.reset();
@@ -212,8 +213,8 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   const Stopwatch source_stopwatch;
   const Source source = make_source(options.source, progress);
   const double source_seconds = source_stopwatch.seconds();
-  const Annotated_surface surface =
-      std::visit([&](const auto& function) { return make_surface(function, options, progress); }, source.function);
+  const Annotated_surface surface = std::visit(
+      [&](const auto& function) { return make_surface(function, source, options, progress); }, source.function);
 
   const Stopwatch write_stopwatch;
   progress.begin("writing");

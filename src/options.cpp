@@ -92,6 +92,11 @@ Attribute_selection read_attributes(const Command_line& line) {
   }
 }
 
+Estimator read_estimator(const Command_line& line) {
+  return static_cast<Estimator>(parse_choice("--estimator", line.word("--estimator", "compact"),
+                                             {"compact", "transformation", "direct", "direct-z"}));
+}
+
 std::size_t read_threads(const Command_line& line) {
   constexpr std::size_t most = 1024; // what a thread pool of any computer today takes without harm
   const std::string word = line.word("--threads", {});
@@ -193,6 +198,7 @@ Mesh_options read_mesh_options(const Command_line& line) {
   options.orientation = read_orientation(line);
   options.method = read_method(line, options.source);
   options.attributes = read_attributes(line);
+  options.estimator = read_estimator(line);
   options.output = read_output(line);
   options.html = optional_word(line, "--html");
   options.curves = optional_word(line, "--parabolic-curves");
@@ -207,8 +213,12 @@ Mesh_options read_mesh_options(const Command_line& line) {
 }
 
 Evaluate_options read_evaluate_options(const Command_line& line) {
-  Evaluate_options options{read_source(line), read_orientation(line), read_attributes(line),
-                           needed_word(line, "--points", "name the file with the points"), read_output(line)};
+  Evaluate_options options{read_source(line),
+                           read_orientation(line),
+                           read_attributes(line),
+                           read_estimator(line),
+                           needed_word(line, "--points", "name the file with the points"),
+                           read_output(line)};
   if (options.source.kind == Source_kind::DISTANCE && options.source.text == "-" && options.points == "-")
     throw Input_error("--distance-to and --points both read standard input; name a file for one of them");
   return options;

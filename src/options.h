@@ -59,6 +59,7 @@ struct Mesh_options {
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
   std::variant<Marching_cubes_options, Delaunay_options> method;
   Attribute_selection attributes;
+  Estimator estimator = Estimator::COMPACT;
   std::string output;
   std::optional<std::string> html, curves, stats;
   Page_options page;
@@ -68,6 +69,7 @@ struct Evaluate_options {
   Source_options source;
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
   Attribute_selection attributes;
+  Estimator estimator = Estimator::COMPACT;
   std::string points, output;
 };
 

@@ -211,6 +211,37 @@ TEST_F(Program_command_line, attributes_can_be_chosen) {
   EXPECT_EQ(header({"--attributes", "k2,normal"}), "x,y,z,nx,ny,nz,k2,status");
 }
 
+// The sphere of radius 1: all estimators agree where f_z is large; where it is small, z alone loses digits; and on the
+// equator the paper's formulas along z have no value, as the status says.
+TEST_F(Program_command_line, the_estimators_of_the_paper_can_be_chosen) {
+  const auto row = [&](const std::string& estimator, const std::string& point) {
+    return rows(
+               run_well({"evaluate", "--function", "x^2+y^2+z^2", "--estimator", estimator, "--points", "-", "-o", "-"},
+                        "x,y,z\n" + point + "\n"))
+        .at(0);
+  };
+  for (const char* estimator : {"compact", "transformation", "direct", "direct-z"}) {
+    auto attributes = row(estimator, "0.48,0.36,0.8");
+    EXPECT_NEAR(std::stod(attributes["affine_gaussian_curvature"]), 1, rounding) << estimator;
+    EXPECT_NEAR(std::stod(attributes["affine_mean_curvature"]), -1, rounding) << estimator;
+    EXPECT_NEAR(std::stod(attributes["affine_normal_x"]), 0.48, rounding) << estimator;
+    EXPECT_EQ(attributes["status"], "regular") << estimator;
+  }
+  const std::string near_equator = "0.6,0.79999999,0.0001264911";
+  EXPECT_NEAR(std::stod(row("direct", near_equator)["affine_gaussian_curvature"]), 1, 1e-7);
+  EXPECT_NE(row("direct", near_equator), row("direct-z", near_equator));
+  EXPECT_EQ(row("direct", "0.6,0.8,0")["status"], "regular");
+  EXPECT_EQ(row("direct-z", "0.6,0.8,0")["status"], "parabolic");
+  EXPECT_EQ(row("direct-z", "0.6,0.8,0")["affine_gaussian_curvature"], "nan");
+
+  const auto mesh = [&](const Arguments& choice) {
+    run_well(Arguments{"mesh", "-o", "s.csv", "--resolution", "5"} + sphere + choice);
+    return file("s.csv");
+  };
+  EXPECT_EQ(mesh({"--estimator", "compact"}), mesh({}));
+  EXPECT_NE(mesh({"--estimator", "transformation"}), mesh({}));
+}
+
 TEST_F(Program_command_line, evaluate_keeps_rows_columns_and_order) {
   const std::string out =
       run_well({"evaluate", "--function", "x^2 + y^2 + z^2", "--attributes", "k1", "--points", "-", "-o", "-"},

@@ -159,6 +159,8 @@ TEST_F(Program_errors, words_to_choose_from_are_listed) {
   expect_error(mesh_of("x") + box + Arguments{"--vertices", "linar"}, {"--vertices", "'linar'", "projected or linear"});
   expect_error(mesh_of("x") + box + Arguments{"--orientation", "up"}, {"--orientation", "gradient or against"});
   expect_error(mesh_of("x") + box + Arguments{"--derivatives", "exact"}, {"--derivatives", "jets or spline"});
+  expect_error(mesh_of("x") + box + Arguments{"--estimator", "best"},
+               {"--estimator", "compact or transformation or direct or direct-z"});
   expect_error(mesh_of("x") + box + Arguments{"--attributes", "k1,kk"}, {"--attributes", "'kk'"});
   expect_error(mesh_of("x") + box + Arguments{"--threads", "0"}, {"--threads", "'0'"});
   expect_error(mesh_of("x") + box + Arguments{"--threads", "1000000000"}, {"--threads", "'1000000000'", "1024"});

@@ -7,7 +7,10 @@
 #include <CGAL/Bbox_3.h>
 
 #include <array>
+#include <concepts>
 #include <cstddef>
+#include <span>
+#include <type_traits>
 #include <utility>
 
 namespace equiaffine {
@@ -27,19 +30,34 @@ concept CallableWith = requires(const Function& f, const X& x, const Y& y, const
   f(x, y, z);
 };
 
+/// f(x, y, z) with everything inlined: what crosses a call goes through memory, which costs more than its arithmetic.
+template <class Result, class Function, class X, class Y, class Z>
+[[gnu::flatten]] Result inlined_call(const Function& f, const X& x, const Y& y, const Z& z) {
+  return f(x, y, z);
+}
+
 /// The expansion of f at (x, y, z): on sparse jets when f takes three arguments of different types, else on full ones.
 template <int Order, class FT, class Function>
 Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z) {
   const auto sx = sparse_variable<FT, Order, 0>(x);
   const auto sy = sparse_variable<FT, Order, 1>(y);
   const auto sz = sparse_variable<FT, Order, 2>(z);
+  using Jet = Jet_3<FT, Order>;
   if constexpr (CallableWith<Function, decltype(sx), decltype(sy), decltype(sz)>) {
-    return f(sx, sy, sz);
+    if constexpr (is_built_in<FT>) return inlined_call<Jet>(f, sx, sy, sz);
+    else return f(sx, sy, sz);
   } else {
-    using Jet = Jet_3<FT, Order>;
     return f(Jet(sx), Jet(sy), Jet(sz));
   }
 }
+
+/// A function with an own way to its Taylor polynomials, for numbers and for spans of packs.
+template <class Function, class FT>
+concept HasTaylor = requires(const Function& f, const FT& x, std::span<const Pack<FT>> packs,
+                             std::span<Jet_3<Pack<FT>>> jets) {
+  { f.taylor(x, x, x) } -> std::same_as<Jet_3<FT>>;
+  f.taylor(packs, packs, packs, jets);
+};
 
 } // namespace internal
 
@@ -52,9 +70,10 @@ Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z
 ///     };
 ///     Analytic_function_traits_3<Kernel, Sphere> traits(Sphere(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
 ///
-/// It is called with FT, Interval, and jets of both. Elementary functions must be found by argument-dependent lookup
-/// (`using std::exp; return exp(x);`). With three template parameters, or `auto`, for the arguments and `auto` for
-/// intermediate results it computes only the derivatives that its structure leaves nonzero.
+/// It is called with FT, Interval, jets of both and, for batches in compute_attributes, jets of Pack<FT>. Elementary
+/// functions must be found by argument-dependent lookup (`using std::exp; return exp(x);`). With three template
+/// parameters, or `auto`, for the arguments and `auto` for intermediate results it computes only the derivatives that
+/// its structure leaves nonzero.
 template <class Kernel, class Function>
 class Analytic_function_traits_3 {
 public:
@@ -67,7 +86,19 @@ public:
 
   FT value(const Point_3& p) const { return function_(p.x(), p.y(), p.z()); }
   Jet_3<FT, 1> first_order(const Point_3& p) const { return internal::expand<1, FT>(function_, p.x(), p.y(), p.z()); }
-  Jet_3<FT> taylor(const Point_3& p) const { return internal::expand<4, FT>(function_, p.x(), p.y(), p.z()); }
+  Jet_3<FT> taylor(const Point_3& p) const {
+    if constexpr (internal::HasTaylor<Function, FT>) return function_.taylor(p.x(), p.y(), p.z());
+    else return internal::expand<4, FT>(function_, p.x(), p.y(), p.z());
+  }
+
+  /// A function that asks whether x < y has to be answered alike in all lanes of a pack. \throw Lanes_disagree
+  void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
+                    std::span<Jet_3<Pack<FT>>> jets) const requires(std::is_floating_point_v<FT>) {
+    if constexpr (internal::HasTaylor<Function, FT>) function_.taylor(x, y, z, jets);
+    else
+      for (std::size_t n = 0; n < jets.size(); ++n)
+        jets[n] = internal::expand<4, Pack<FT>>(function_, x[n], y[n], z[n]);
+  }
 
   Interval bounds(const CGAL::Bbox_3& box) const {
     return function_(Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()),

@@ -3,12 +3,15 @@
 #define EQUIAFFINE_EXPRESSION_3_H
 
 #include <equiaffine/internal/expression_parser.h>
+#include <equiaffine/internal/expression_taylor.h>
 
 #include <CGAL/assertions.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -62,7 +65,8 @@ public:
   template <class T>
   T operator()(const T& x, const T& y, const T& z) const {
     internal::expression::Slots<1, T> slots(tape_);
-    return *slots.run(tape_, {&x, &y, &z}, 1);
+    slots.run({&x, &y, &z}, 1);
+    return *slots.result();
   }
 
   /// out[i] = value at (x[i], y[i], z[i]), bit for bit that of the single call. The spans have equal sizes; `out` may
@@ -74,9 +78,25 @@ public:
     internal::expression::Slots<block, T> slots(tape_);
     for (std::size_t first = 0; first < out.size(); first += block) {
       const std::size_t count = std::min(block, out.size() - first);
-      const T* const result = slots.run(tape_, {&x[first], &y[first], &z[first]}, count);
-      std::copy_n(result, count, &out[first]);
+      slots.run({&x[first], &y[first], &z[first]}, count);
+      std::copy_n(slots.result(), count, &out[first]);
     }
+  }
+
+  /// The Taylor polynomial at (x, y, z), for a floating-point type or a Pack. It is that of the call on jets but for
+  /// rounding, computed by a tape of its own that leaves out what the structure of the expression makes zero.
+  template <internal::expression::Ordered T>
+  Jet_3<T> taylor(const T& x, const T& y, const T& z) const {
+    Jet_3<T> jet;
+    taylor_blocks<1>(taylor_->get(tape_), std::span(&x, 1), std::span(&y, 1), std::span(&z, 1), std::span(&jet, 1));
+    return jet;
+  }
+
+  /// out[i] = Taylor polynomial at (x[i], y[i], z[i]), bit for bit that of the single call. The spans have equal sizes.
+  template <internal::expression::Ordered T>
+  void taylor(std::span<const T> x, std::span<const T> y, std::span<const T> z, std::span<Jet_3<T>> out) const {
+    CGAL_precondition(x.size() == out.size() && y.size() == out.size() && z.size() == out.size());
+    taylor_blocks<internal::expression::block_size<T>>(taylor_->get(tape_), x, y, z, out);
   }
 
   /// The text it was made from.
@@ -86,8 +106,36 @@ public:
   std::size_t number_of_instructions() const { return tape_.instructions.size(); }
 
 private:
+  template <std::size_t Block, class T>
+  static void taylor_blocks(const internal::expression::Tape& tape, std::span<const T> x, std::span<const T> y,
+                            std::span<const T> z, std::span<Jet_3<T>> out) {
+    internal::expression::Slots<Block, T> slots(tape);
+    for (std::size_t first = 0; first < out.size(); first += Block) {
+      const std::size_t count = std::min(Block, out.size() - first);
+      slots.run({&x[first], &y[first], &z[first]}, count);
+      for (std::size_t n = 0; n < Jet_3<T>::size; ++n) {
+        const T* const coefficients = slots.result(n);
+        for (std::size_t i = 0; i < count; ++i) out[first + i].coefficients()[n] = coefficients[i];
+      }
+    }
+  }
+
+  /// Made when it is needed first: most expressions never need it.
+  class Taylor_tape {
+  public:
+    const internal::expression::Tape& get(const internal::expression::Tape& values) {
+      std::call_once(is_made_, [&] { tape_ = internal::expression::taylor_tape(values); });
+      return tape_;
+    }
+
+  private:
+    std::once_flag is_made_;
+    internal::expression::Tape tape_;
+  };
+
   std::string text_;
   internal::expression::Tape tape_;
+  std::shared_ptr<Taylor_tape> taylor_ = std::make_shared<Taylor_tape>(); ///< copies are equal and share it
 };
 
 } // namespace equiaffine

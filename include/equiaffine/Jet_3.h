@@ -10,6 +10,13 @@
 #include <type_traits>
 #include <utility>
 
+// Products are unrolled into lambdas; one that the compiler does not inline costs more than what it computes.
+#if defined(__GNUC__)
+#define EQUIAFFINE_INLINE __attribute__((always_inline))
+#else
+#define EQUIAFFINE_INLINE
+#endif
+
 namespace equiaffine {
 
 using internal::Monomial_set;
@@ -54,7 +61,8 @@ public:
   /// The same polynomial with a larger support.
   template <Monomial_set Other>
   Jet_3(const Jet_3<T, Order, Other>& other) requires((Other & ~Support) == 0 && Other != Support) {
-    for_each_monomial([&](auto n) { this->template at<n>() = other.template coefficient_or_zero<n>(); });
+    for_each_monomial([&](auto n)
+                          EQUIAFFINE_INLINE { this->template at<n>() = other.template coefficient_or_zero<n>(); });
   }
 
   /// The jet of coordinate `axis` (0, 1, 2 for x, y, z) at a point where that coordinate is `value`.
@@ -103,10 +111,10 @@ public:
 
   /// Calls `f(std::integral_constant<int, n>)` for every monomial n of the support, unrolled.
   template <class F>
-  static constexpr void for_each_monomial(F f) {
-    [&]<std::size_t... N>(std::index_sequence<N...>) {
+  EQUIAFFINE_INLINE static constexpr void for_each_monomial(F f) {
+    [&]<std::size_t... N>(std::index_sequence<N...>) EQUIAFFINE_INLINE {
       (
-          [&] {
+          [&]() EQUIAFFINE_INLINE {
             if constexpr (internal::contains(Support, int(N))) f(std::integral_constant<int, int(N)>());
           }(),
           ...);
@@ -116,7 +124,7 @@ public:
 
   Jet_3 operator-() const {
     Jet_3 r;
-    for (std::size_t n = 0; n < size; ++n) r.c_[n] = -c_[n];
+    for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = -this->template at<n>(); });
     return r;
   }
   Jet_3 operator+() const { return *this; }
@@ -152,14 +160,14 @@ namespace internal {
 template <int Degree, class T, int Order, Monomial_set A>
 auto part(const Jet_3<T, Order, A>& a) {
   Jet_3<T, Order, part_of_set(A, Degree, Order)> r;
-  r.for_each_monomial([&](auto n) { r.template at<n>() = a.template at<n>(); });
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = a.template at<n>(); });
   return r;
 }
 
 template <int Target, class T, int Order, Monomial_set A, Monomial_set B>
 T product_coefficient(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   using Pairs = Factor_pairs<A, B, Target>;
-  return [&]<std::size_t... P>(std::index_sequence<P...>) {
+  return [&]<std::size_t... P>(std::index_sequence<P...>) EQUIAFFINE_INLINE {
     return ((a.coefficients()[Pairs::pairs[P].first] * b.coefficients()[Pairs::pairs[P].second]) + ...);
   }
   (std::make_index_sequence<Pairs::size>());
@@ -170,9 +178,9 @@ T square_coefficient(const Jet_3<T, Order, A>& a) {
   using Pairs = Factor_pairs<A, A, Target>; // symmetric: first < second, then first == second, in either order
   T mixed = T(0), pure = T(0);
   bool has_mixed = false;
-  [&]<std::size_t... P>(std::index_sequence<P...>) {
+  [&]<std::size_t... P>(std::index_sequence<P...>) EQUIAFFINE_INLINE {
     (
-        [&] {
+        [&]() EQUIAFFINE_INLINE {
           constexpr auto pair = Pairs::pairs[P];
           if constexpr (pair.first < pair.second) {
             const T product = a.coefficients()[pair.first] * a.coefficients()[pair.second];
@@ -195,14 +203,14 @@ T square_coefficient(const Jet_3<T, Order, A>& a) {
 template <class T, int Order, Monomial_set A>
 auto square(const Jet_3<T, Order, A>& a) {
   Jet_3<T, Order, internal::product_of_sets(A, A, Order)> r;
-  r.for_each_monomial([&](auto n) { r.template at<n>() = internal::square_coefficient<n>(a); });
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = internal::square_coefficient<n>(a); });
   return r;
 }
 
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto operator+(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   Jet_3<T, Order, (A | B)> r;
-  r.for_each_monomial([&](auto n) {
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE {
     if constexpr (!internal::contains(B, n)) r.template at<n>() = a.template at<n>();
     else if constexpr (!internal::contains(A, n)) r.template at<n>() = b.template at<n>();
     else r.template at<n>() = a.template at<n>() + b.template at<n>();
@@ -213,7 +221,7 @@ auto operator+(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto operator-(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   Jet_3<T, Order, (A | B)> r;
-  r.for_each_monomial([&](auto n) {
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE {
     if constexpr (!internal::contains(B, n)) r.template at<n>() = a.template at<n>();
     else if constexpr (!internal::contains(A, n)) r.template at<n>() = -b.template at<n>();
     else r.template at<n>() = a.template at<n>() - b.template at<n>();
@@ -227,7 +235,7 @@ auto operator*(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   if constexpr (A == B)
     if (&a == &b) return square(a);
   Jet_3<T, Order, internal::product_of_sets(A, B, Order)> r;
-  r.for_each_monomial([&](auto n) { r.template at<n>() = internal::product_coefficient<n>(a, b); });
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = internal::product_coefficient<n>(a, b); });
   return r;
 }
 
@@ -251,7 +259,7 @@ template <class T, int Order, Monomial_set A, JetScalar<T> S>
 auto operator*(const Jet_3<T, Order, A>& a, const S& s) {
   Jet_3<T, Order, A> r;
   const T factor = T(s);
-  for (std::size_t n = 0; n < r.size; ++n) r.coefficients()[n] = a.coefficients()[n] * factor;
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = a.template at<n>() * factor; });
   return r;
 }
 template <class T, int Order, Monomial_set A, JetScalar<T> S>
@@ -262,7 +270,7 @@ template <class T, int Order, Monomial_set A, JetScalar<T> S>
 auto operator/(const Jet_3<T, Order, A>& a, const S& s) {
   Jet_3<T, Order, A> r;
   const T divisor = T(s);
-  for (std::size_t n = 0; n < r.size; ++n) r.coefficients()[n] = a.coefficients()[n] / divisor;
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = a.template at<n>() / divisor; });
   return r;
 }
 

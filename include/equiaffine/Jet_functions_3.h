@@ -5,6 +5,7 @@
 
 #include <equiaffine/Jet_3.h>
 #include <equiaffine/Jet_ordering_3.h>
+#include <equiaffine/internal/lanes.h>
 
 #include <climits>
 
@@ -59,7 +60,8 @@ auto real_power(const Jet_3<T, Order, A>& a, const T& value, const T& p) {
 /// exp(a), given its value.
 template <class T, int Order, Monomial_set A>
 auto exponential(const Jet_3<T, Order, A>& a, const T& e) {
-  return compose(a, std::array<T, 5>{e, e, e / T(2), e / T(6), e / T(24)});
+  const T third = e * fraction<1, 6, T>();
+  return compose(a, std::array<T, 5>{e, e, e * T(0.5), third, third * T(0.25)});
 }
 
 } // namespace internal
@@ -91,13 +93,21 @@ auto log(const Jet_3<T, Order, A>& a) {
   using std::log;
   const T l = log(a.value());
   const T one = T(1) + T(0) * l; // NaN where l is not finite: there 1 / a_0 alone could be
-  return compose(a * T(T(1) / a.value()), std::array<T, 5>{l, one, -one / T(2), one / T(3), -one / T(4)});
+  return compose(a * T(T(1) / a.value()),
+                 std::array<T, 5>{l, one, one * T(-0.5), one * internal::fraction<1, 3, T>(), one * T(-0.25)});
 }
 
+/// The root s from a = s^2, degree by degree: 2 s_0 s_n = a_n - (the products of lower parts).
 template <class T, int Order, Monomial_set A>
 auto sqrt(const Jet_3<T, Order, A>& a) {
   using std::sqrt;
-  return internal::real_power(a, T(sqrt(a.value())), T(0.5));
+  const T s0 = sqrt(a.value()), half = T(0.5) / s0;
+  const auto s1 = internal::part<1>(a) * half;
+  const auto s1_twice = s1 + s1;
+  const auto s2 = (internal::part<2>(a) - square(s1)) * half;
+  const auto s3 = (internal::part<3>(a) - s1_twice * s2) * half;
+  const auto s4 = (internal::part<4>(a) - (s1_twice * s3 + square(s2))) * half;
+  return Jet_3<T, Order, internal::closure(A & ~Monomial_set(1), Order)>(Jet_3<T, Order, 1>(s0) + s1 + s2 + s3 + s4);
 }
 
 template <class T, int Order, Monomial_set A>
@@ -148,7 +158,8 @@ auto sin(const Jet_3<T, Order, A>& a) {
   using std::cos;
   using std::sin;
   const T s = sin(a.value()), c = cos(a.value());
-  return compose(a, std::array<T, 5>{s, c, -s / T(2), -c / T(6), s / T(24)});
+  return compose(
+      a, std::array<T, 5>{s, c, s * T(-0.5), c * internal::fraction<-1, 6, T>(), s * internal::fraction<1, 24, T>()});
 }
 
 template <class T, int Order, Monomial_set A>
@@ -156,7 +167,8 @@ auto cos(const Jet_3<T, Order, A>& a) {
   using std::cos;
   using std::sin;
   const T s = sin(a.value()), c = cos(a.value());
-  return compose(a, std::array<T, 5>{c, -s, -c / T(2), s / T(6), c / T(24)});
+  return compose(
+      a, std::array<T, 5>{c, -s, c * T(-0.5), s * internal::fraction<1, 6, T>(), c * internal::fraction<1, 24, T>()});
 }
 
 template <class T, int Order, Monomial_set A>
@@ -171,7 +183,8 @@ auto sinh(const Jet_3<T, Order, A>& a) {
   using std::cosh;
   using std::sinh;
   const T s = sinh(a.value()), c = cosh(a.value());
-  return compose(a, std::array<T, 5>{s, c, s / T(2), c / T(6), s / T(24)});
+  return compose(
+      a, std::array<T, 5>{s, c, s * T(0.5), c * internal::fraction<1, 6, T>(), s * internal::fraction<1, 24, T>()});
 }
 
 template <class T, int Order, Monomial_set A>
@@ -179,7 +192,8 @@ auto cosh(const Jet_3<T, Order, A>& a) {
   using std::cosh;
   using std::sinh;
   const T s = sinh(a.value()), c = cosh(a.value());
-  return compose(a, std::array<T, 5>{c, s, c / T(2), s / T(6), c / T(24)});
+  return compose(
+      a, std::array<T, 5>{c, s, c * T(0.5), s * internal::fraction<1, 6, T>(), c * internal::fraction<1, 24, T>()});
 }
 
 /// tanh' = 1 / cosh^2: 1 - tanh^2 would lose all digits for large arguments.

@@ -8,6 +8,7 @@
 #include <CGAL/number_utils.h>
 
 #include <cstddef>
+#include <span>
 #include <utility>
 
 namespace equiaffine {
@@ -36,6 +37,11 @@ public:
   FT value(const Point_3& p) const { return shifted(base_.value(p)); }
   Jet_3<FT, 1> first_order(const Point_3& p) const { return shifted(equiaffine::first_order(base_, p)); }
   Jet_3<FT> taylor(const Point_3& p) const { return shifted(base_.taylor(p)); }
+  void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
+                    std::span<Jet_3<Pack<FT>>> jets) const requires PackImplicitFunctionTraits_3<Base> {
+    base_.taylor_packs(x, y, z, jets);
+    for (auto& jet : jets) jet = shifted(jet);
+  }
   Interval bounds(const CGAL::Bbox_3& box) const requires BoundedImplicitFunctionTraits_3<Base> {
     const Interval b = base_.bounds(box) - Interval(CGAL::to_double(isovalue_));
     return is_reversed_ ? -b : b;
@@ -63,8 +69,8 @@ public:
 private:
   FT shifted(const FT& value) const { return is_reversed_ ? isovalue_ - value : value - isovalue_; }
 
-  template <int Order>
-  Jet_3<FT, Order> shifted(Jet_3<FT, Order> jet) const {
+  template <class Number, int Order>
+  Jet_3<Number, Order> shifted(Jet_3<Number, Order> jet) const {
     if (is_reversed_) jet = -jet;
     jet.template at<0>() = is_reversed_ ? isovalue_ + jet.value() : jet.value() - isovalue_;
     return jet;

@@ -2,9 +2,12 @@
 #ifndef EQUIAFFINE_LOCAL_STRUCTURE_3_H
 #define EQUIAFFINE_LOCAL_STRUCTURE_3_H
 
+#include <equiaffine/Point_status.h>
 #include <equiaffine/affine_structure.h>
 #include <equiaffine/euclidean_structure.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 
 namespace equiaffine {
@@ -29,30 +32,50 @@ Euclidean_structure_3<FT> no_euclidean_structure() {
 template <class FT>
 Affine_structure_3<FT> no_affine_structure() {
   const FT nan = std::numeric_limits<FT>::quiet_NaN();
-  return {{nan, nan, nan},     {nan, nan, nan}, nan, nan, nan, false, nan, nan, {nan, nan, nan, nan, nan, nan},
-          {nan, nan, nan, nan}};
+  return {{{nan, nan, nan}, {nan, nan, nan}, nan, nan, nan, {nan, nan, nan, nan}, {nan, nan}},
+          false,
+          nan,
+          nan,
+          {nan, nan, nan, nan, nan, nan}};
 }
 
+/// Every coefficient of the jet, and every power of d, takes part in some of these numbers.
 template <class FT>
-bool is_finite(const FT& x) {
-  return x - x == FT(0);
-}
-
-template <class FT>
-bool is_finite(const Affine_structure_3<FT>& s) {
+Mask_of<FT> is_finite(const Affine_invariants_3<FT>& s) {
   FT sum = s.gaussian_curvature + s.mean_curvature + s.pick_invariant;
-  for (int i = 0; i < 3; ++i) sum += s.conormal[std::size_t(i)] + s.normal[std::size_t(i)];
-  return is_finite(sum);
+  for (std::size_t i = 0; i < 3; ++i) sum += s.conormal[i] + s.normal[i];
+  return is_finite_number(sum);
 }
 
-/// Powers of d that leave the range of FT: near d = 0 the point is as good as parabolic, else as good as singular.
 template <class FT>
-void withdraw_overflow(Local_structure_3<FT>& s, const FT& d) {
-  const bool is_nearly_parabolic = is_finite(d) && d * d < FT(1);
-  s.status = is_nearly_parabolic ? Point_status::PARABOLIC : Point_status::SINGULAR;
-  s.affine = no_affine_structure<FT>();
-  if (!is_nearly_parabolic) s.euclidean = no_euclidean_structure<FT>();
+Mask_of<FT> is_finite(const Euclidean_structure_3<FT>& s) {
+  return is_finite_number(FT(s.k1 + s.gaussian_curvature));
 }
+
+/// Why a point is not regular: the value is NaN or infinite; another coefficient is, or the gradient vanishes; d does
+/// up to rounding; or numbers leave the range of FT, which is as good as parabolic near d = 0, else as good as singular.
+template <class FT>
+Point_status reason_of_irregularity(const Jet_3<FT>& jet, const Monge_chart_3<FT>& chart,
+                                    const Euclidean_structure_3<FT>& euclidean) {
+  const auto& c = jet.coefficients();
+  if (!is_finite_number(c[0])) return Point_status::OUTSIDE;
+  const bool is_smooth = std::all_of(c.begin(), c.end(), [](const FT& x) { return is_finite_number(x); });
+  const bool is_flat = !chart.is_curved || chart.d() * chart.d() < FT(1);
+  return is_smooth && chart.is_steep && is_flat && is_finite(euclidean) ? Point_status::PARABOLIC
+                                                                        : Point_status::SINGULAR;
+}
+
+/// Everything for one number or for each lane of a pack, with whether it exists. Nothing branches on values.
+template <class FT>
+struct Local_structure_lanes {
+  Local_structure_3<FT> structure;
+  Mask_of<FT> is_regular;
+
+  explicit Local_structure_lanes(const Jet_3<FT>& jet, const Monge_chart_3<FT>& chart)
+      : structure{Point_status::REGULAR, euclidean_structure(chart), affine_structure(chart)},
+        is_regular(chart.is_steep && chart.is_curved && is_finite_number(jet.value()) &&
+                   is_finite(structure.euclidean) && is_finite(structure.affine)) {}
+};
 
 } // namespace internal
 
@@ -61,14 +84,12 @@ void withdraw_overflow(Local_structure_3<FT>& s, const FT& d) {
 template <class FT>
 Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const FT& point_magnitude = FT(0)) {
   const Monge_chart_3<FT> chart(jet, point_magnitude);
-  Local_structure_3<FT> s = {chart.status, internal::no_euclidean_structure<FT>(), internal::no_affine_structure<FT>()};
-  if (s.status == Point_status::REGULAR || s.status == Point_status::PARABOLIC)
-    s.euclidean = euclidean_structure(chart);
-  if (s.status == Point_status::REGULAR) s.affine = affine_structure(chart);
-  const bool is_overflow = !internal::is_finite(s.euclidean.k1 + s.euclidean.gaussian_curvature) ||
-                           (s.status == Point_status::REGULAR && !internal::is_finite(s.affine));
-  if (is_overflow && (s.status == Point_status::REGULAR || s.status == Point_status::PARABOLIC))
-    internal::withdraw_overflow(s, chart.d);
+  const internal::Local_structure_lanes<FT> lanes(jet, chart);
+  Local_structure_3<FT> s = lanes.structure;
+  if (lanes.is_regular) return s;
+  s.status = internal::reason_of_irregularity(jet, chart, s.euclidean);
+  s.affine = internal::no_affine_structure<FT>();
+  if (s.status != Point_status::PARABOLIC) s.euclidean = internal::no_euclidean_structure<FT>();
   return s;
 }
 

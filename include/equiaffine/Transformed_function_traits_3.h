@@ -11,7 +11,9 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace equiaffine {
 
@@ -39,6 +41,23 @@ public:
     return substitution_(equiaffine::first_order(base_, inverse_(p)));
   }
   Jet_3<FT> taylor(const Point_3& p) const { return substitution_(base_.taylor(inverse_(p))); }
+
+  void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
+                    std::span<Jet_3<Pack<FT>>> jets) const requires PackImplicitFunctionTraits_3<Base> {
+    std::array<std::vector<Pack<FT>>, 3> preimages;
+    for (auto& axis : preimages) axis.resize(jets.size());
+    for (std::size_t n = 0; n < jets.size(); ++n) {
+      std::array<std::array<FT, Pack<FT>::size>, 3> lanes;
+      for (std::size_t i = 0; i < Pack<FT>::size; ++i) {
+        const Point_3 p = inverse_(Point_3(x[n][i], y[n][i], z[n][i]));
+        for (int axis = 0; axis < 3; ++axis) lanes[std::size_t(axis)][i] = p[axis];
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        preimages[axis][n] = Pack<FT>::generate([&](std::size_t i) { return lanes[axis][i]; });
+    }
+    base_.taylor_packs(preimages[0], preimages[1], preimages[2], jets);
+    for (auto& jet : jets) jet = substitution_(jet);
+  }
 
   /// Bounds over the box of the preimage of `box`.
   Interval bounds(const CGAL::Bbox_3& box) const requires BoundedImplicitFunctionTraits_3<Base> {

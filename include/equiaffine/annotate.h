@@ -92,9 +92,12 @@ private:
 /// Fills property maps of the vertices of `mesh` with the local structure of the level sets of f through them:
 /// `v:status` (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`, `v:direction1`, `v:direction2` (Vector_3),
 /// and one of FT for every other attribute (see attributes.h), `v:k1` to `v:metric_zz`. A vertex whose `v:status` is
-/// UNCONVERGED before the call keeps it. The same for CGAL::Sequential_tag and CGAL::Parallel_tag.
-template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits>
-void annotate(CGAL::Surface_mesh<typename Traits::Point_3>& mesh, const Traits& traits) {
+/// UNCONVERGED before the call keeps it. The same for CGAL::Sequential_tag and CGAL::Parallel_tag. Named parameter:
+/// `estimator`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
+          class Parameters = internal::No_parameters>
+void annotate(CGAL::Surface_mesh<typename Traits::Point_3>& mesh, const Traits& traits,
+              const Parameters& parameters = {}) {
   using Mesh = CGAL::Surface_mesh<typename Traits::Point_3>;
   using Vertex_index = typename Mesh::Vertex_index;
   internal::Structure_maps<Mesh> maps(mesh);
@@ -102,7 +105,7 @@ void annotate(CGAL::Surface_mesh<typename Traits::Point_3>& mesh, const Traits& 
       0, mesh.num_vertices() + mesh.number_of_removed_vertices(),
       [&](std::size_t i) {
         const Vertex_index v{static_cast<typename Vertex_index::size_type>(i)};
-        if (!mesh.is_removed(v)) maps.set(v, local_structure_at(traits, mesh.point(v), maps.status[v]));
+        if (!mesh.is_removed(v)) maps.set(v, local_structure_at(traits, mesh.point(v), maps.status[v], parameters));
       },
       256);
 }

@@ -4,9 +4,11 @@
 
 #include <equiaffine/Indexed_triangle_mesh_3.h>
 #include <equiaffine/Input_error.h>
-#include <equiaffine/Local_structure_3.h>
+#include <equiaffine/Pack.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/internal/parallel_for.h>
+#include <equiaffine/named_parameters.h>
+#include <equiaffine/reference_estimators.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/tags.h>
@@ -22,51 +24,58 @@
 
 namespace equiaffine {
 
-/// One number of the local structure, as it is named in files: a scalar, or a component of a vector.
-struct Attribute {
+/// One number of the local structure over FT, as it is named in files: a scalar, or a component of a vector.
+template <class FT>
+struct Attribute_of {
   std::string_view name;
   std::string_view group; ///< the vector or form it belongs to; for a scalar its own name
   bool is_basic;
-  double (*get)(const Local_structure_3<double>&);
+  FT (*get)(const Local_structure_3<FT>&);
 };
 
 /// All attributes in the order of the columns of a file.
-inline constexpr auto all_attributes = [] {
-  using S = const Local_structure_3<double>&;
+template <class FT>
+inline constexpr auto all_attributes_of = [] {
+  using Attribute = Attribute_of<FT>;
   return std::array{
-      Attribute{"nx", "normal", true, [](S s) { return s.euclidean.normal[0]; }},
-      Attribute{"ny", "normal", true, [](S s) { return s.euclidean.normal[1]; }},
-      Attribute{"nz", "normal", true, [](S s) { return s.euclidean.normal[2]; }},
-      Attribute{"k1", "k1", true, [](S s) { return s.euclidean.k1; }},
-      Attribute{"k2", "k2", true, [](S s) { return s.euclidean.k2; }},
-      Attribute{"gaussian_curvature", "gaussian_curvature", true, [](S s) { return s.euclidean.gaussian_curvature; }},
-      Attribute{"mean_curvature", "mean_curvature", true, [](S s) { return s.euclidean.mean_curvature; }},
-      Attribute{"conormal_x", "conormal", true, [](S s) { return s.affine.conormal[0]; }},
-      Attribute{"conormal_y", "conormal", true, [](S s) { return s.affine.conormal[1]; }},
-      Attribute{"conormal_z", "conormal", true, [](S s) { return s.affine.conormal[2]; }},
-      Attribute{"affine_normal_x", "affine_normal", true, [](S s) { return s.affine.normal[0]; }},
-      Attribute{"affine_normal_y", "affine_normal", true, [](S s) { return s.affine.normal[1]; }},
-      Attribute{"affine_normal_z", "affine_normal", true, [](S s) { return s.affine.normal[2]; }},
+      Attribute{"nx", "normal", true, [](const auto& s) { return s.euclidean.normal[0]; }},
+      Attribute{"ny", "normal", true, [](const auto& s) { return s.euclidean.normal[1]; }},
+      Attribute{"nz", "normal", true, [](const auto& s) { return s.euclidean.normal[2]; }},
+      Attribute{"k1", "k1", true, [](const auto& s) { return s.euclidean.k1; }},
+      Attribute{"k2", "k2", true, [](const auto& s) { return s.euclidean.k2; }},
+      Attribute{"gaussian_curvature", "gaussian_curvature", true,
+                [](const auto& s) { return s.euclidean.gaussian_curvature; }},
+      Attribute{"mean_curvature", "mean_curvature", true, [](const auto& s) { return s.euclidean.mean_curvature; }},
+      Attribute{"conormal_x", "conormal", true, [](const auto& s) { return s.affine.conormal[0]; }},
+      Attribute{"conormal_y", "conormal", true, [](const auto& s) { return s.affine.conormal[1]; }},
+      Attribute{"conormal_z", "conormal", true, [](const auto& s) { return s.affine.conormal[2]; }},
+      Attribute{"affine_normal_x", "affine_normal", true, [](const auto& s) { return s.affine.normal[0]; }},
+      Attribute{"affine_normal_y", "affine_normal", true, [](const auto& s) { return s.affine.normal[1]; }},
+      Attribute{"affine_normal_z", "affine_normal", true, [](const auto& s) { return s.affine.normal[2]; }},
       Attribute{"affine_gaussian_curvature", "affine_gaussian_curvature", true,
-                [](S s) { return s.affine.gaussian_curvature; }},
-      Attribute{"affine_mean_curvature", "affine_mean_curvature", true, [](S s) { return s.affine.mean_curvature; }},
-      Attribute{"pick_invariant", "pick_invariant", true, [](S s) { return s.affine.pick_invariant; }},
-      Attribute{"affine_k1", "affine_k1", false, [](S s) { return s.affine.k1; }},
-      Attribute{"affine_k2", "affine_k2", false, [](S s) { return s.affine.k2; }},
-      Attribute{"direction1_x", "direction1", false, [](S s) { return s.euclidean.direction1[0]; }},
-      Attribute{"direction1_y", "direction1", false, [](S s) { return s.euclidean.direction1[1]; }},
-      Attribute{"direction1_z", "direction1", false, [](S s) { return s.euclidean.direction1[2]; }},
-      Attribute{"direction2_x", "direction2", false, [](S s) { return s.euclidean.direction2[0]; }},
-      Attribute{"direction2_y", "direction2", false, [](S s) { return s.euclidean.direction2[1]; }},
-      Attribute{"direction2_z", "direction2", false, [](S s) { return s.euclidean.direction2[2]; }},
-      Attribute{"metric_xx", "metric", false, [](S s) { return s.affine.metric[0]; }},
-      Attribute{"metric_xy", "metric", false, [](S s) { return s.affine.metric[1]; }},
-      Attribute{"metric_xz", "metric", false, [](S s) { return s.affine.metric[2]; }},
-      Attribute{"metric_yy", "metric", false, [](S s) { return s.affine.metric[3]; }},
-      Attribute{"metric_yz", "metric", false, [](S s) { return s.affine.metric[4]; }},
-      Attribute{"metric_zz", "metric", false, [](S s) { return s.affine.metric[5]; }},
+                [](const auto& s) { return s.affine.gaussian_curvature; }},
+      Attribute{"affine_mean_curvature", "affine_mean_curvature", true,
+                [](const auto& s) { return s.affine.mean_curvature; }},
+      Attribute{"pick_invariant", "pick_invariant", true, [](const auto& s) { return s.affine.pick_invariant; }},
+      Attribute{"affine_k1", "affine_k1", false, [](const auto& s) { return s.affine.k1; }},
+      Attribute{"affine_k2", "affine_k2", false, [](const auto& s) { return s.affine.k2; }},
+      Attribute{"direction1_x", "direction1", false, [](const auto& s) { return s.euclidean.direction1[0]; }},
+      Attribute{"direction1_y", "direction1", false, [](const auto& s) { return s.euclidean.direction1[1]; }},
+      Attribute{"direction1_z", "direction1", false, [](const auto& s) { return s.euclidean.direction1[2]; }},
+      Attribute{"direction2_x", "direction2", false, [](const auto& s) { return s.euclidean.direction2[0]; }},
+      Attribute{"direction2_y", "direction2", false, [](const auto& s) { return s.euclidean.direction2[1]; }},
+      Attribute{"direction2_z", "direction2", false, [](const auto& s) { return s.euclidean.direction2[2]; }},
+      Attribute{"metric_xx", "metric", false, [](const auto& s) { return s.affine.metric[0]; }},
+      Attribute{"metric_xy", "metric", false, [](const auto& s) { return s.affine.metric[1]; }},
+      Attribute{"metric_xz", "metric", false, [](const auto& s) { return s.affine.metric[2]; }},
+      Attribute{"metric_yy", "metric", false, [](const auto& s) { return s.affine.metric[3]; }},
+      Attribute{"metric_yz", "metric", false, [](const auto& s) { return s.affine.metric[4]; }},
+      Attribute{"metric_zz", "metric", false, [](const auto& s) { return s.affine.metric[5]; }},
   };
 }();
+
+using Attribute = Attribute_of<double>;
+inline constexpr auto all_attributes = all_attributes_of<double>;
 
 /// Which attributes to compute, in the order of the table; with at least one of them, or `status` alone, comes the
 /// status.
@@ -102,40 +111,156 @@ inline Attribute_selection select_attributes(std::string_view list) {
   return selection;
 }
 
-/// The local structure of the level set of f through p. `sampled_status` is what the sampler says of p: a point that is
-/// UNCONVERGED stays so, with the numbers that exist, unless it is OUTSIDE.
-template <ImplicitFunctionTraits_3 Traits>
-Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, const typename Traits::Point_3& p,
-                                                          Point_status sampled_status = Point_status::REGULAR) {
+namespace internal {
+
+template <class Point_3>
+auto magnitude(const Point_3& p) {
   using std::abs;
-  auto structure = local_structure(traits.taylor(p), std::max({abs(p.x()), abs(p.y()), abs(p.z())}));
+  return std::max({abs(p.x()), abs(p.y()), abs(p.z())});
+}
+
+/// By the estimator of the named parameters. Without it the paper's ones are not even compiled.
+template <class Parameters, class FT>
+Local_structure_3<FT> local_structure_by(const Parameters& parameters, const Jet_3<FT>& jet, const FT& magnitude) {
+  if constexpr (has_parameter<Estimator_tag, Parameters>)
+    return local_structure(jet, magnitude, get_parameter<Estimator_tag>(parameters, Estimator::COMPACT));
+  else return local_structure(jet, magnitude);
+}
+
+} // namespace internal
+
+/// The local structure of the level set of f through p. `sampled_status` is what the sampler says of p: a point that is
+/// UNCONVERGED stays so, with the numbers that exist, unless it is OUTSIDE. Named parameter: `estimator`.
+template <ImplicitFunctionTraits_3 Traits, class Parameters = internal::No_parameters>
+Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, const typename Traits::Point_3& p,
+                                                          Point_status sampled_status = Point_status::REGULAR,
+                                                          const Parameters& parameters = {}) {
+  auto structure = internal::local_structure_by(parameters, traits.taylor(p), internal::magnitude(p));
   if (sampled_status == Point_status::UNCONVERGED && structure.status != Point_status::OUTSIDE)
     structure.status = Point_status::UNCONVERGED;
   return structure;
 }
 
+namespace internal {
+
+template <class FT>
+Jet_3<FT> lane(const Jet_3<Pack<FT>>& jet, std::size_t i) {
+  Jet_3<FT> result;
+  for (std::size_t n = 0; n < result.size; ++n) result.coefficients()[n] = jet.coefficients()[n][i];
+  return result;
+}
+
+/// f(i) for the lanes of pack n; the last point stands for those that are missing.
+template <class Point_3, class F>
+Pack<double> pack_of(std::span<const Point_3> points, std::size_t n, F f) {
+  return Pack<double>::generate(
+      [&](std::size_t i) { return f(points[std::min(n * Pack<double>::size + i, points.size() - 1)]); });
+}
+
+inline constexpr std::size_t packs_per_block = 8, points_per_block = packs_per_block * Pack<double>::size;
+using Block_of_jets = std::array<Jet_3<Pack<double>>, packs_per_block>;
+
+/// The expansions at up to points_per_block points: from the model's own packs if it has them and its function does not
+/// branch differently there, else one by one.
+template <class Traits, class Point_3 = typename Traits::Point_3>
+void expand_block(const Traits& traits, std::span<const Point_3> points, std::span<Jet_3<Pack<double>>> jets) {
+  if constexpr (PackImplicitFunctionTraits_3<Traits>) {
+    std::array<Pack<double>, packs_per_block> x, y, z;
+    for (std::size_t n = 0; n < jets.size(); ++n) {
+      x[n] = pack_of(points, n, [](const Point_3& p) { return p.x(); });
+      y[n] = pack_of(points, n, [](const Point_3& p) { return p.y(); });
+      z[n] = pack_of(points, n, [](const Point_3& p) { return p.z(); });
+    }
+    try {
+      const auto used = [&](const auto& axis) { return std::span<const Pack<double>>(axis.data(), jets.size()); };
+      return traits.taylor_packs(used(x), used(y), used(z), jets);
+    } catch (const Lanes_disagree&) {
+    }
+  }
+  std::array<Jet_3<double>, points_per_block> singles;
+  for (std::size_t i = 0; i < points.size(); ++i) singles[i] = traits.taylor(points[i]);
+  const std::span<const Jet_3<double>> used(singles.data(), points.size());
+  for (std::size_t n = 0; n < jets.size(); ++n)
+    for (std::size_t c = 0; c < Jet_3<double>::size; ++c)
+      jets[n].coefficients()[c] = pack_of(used, n, [&](const Jet_3<double>& jet) { return jet.coefficients()[c]; });
+}
+
+/// What is to be computed, with the functions that take it from packs.
+template <class Parameters>
+struct Attribute_columns {
+  const std::vector<Attribute>& singles;
+  std::vector<Attribute_of<Pack<double>>> packs;
+  const Parameters& parameters;
+
+  Attribute_columns(const Attribute_selection& selection, const Parameters& named)
+      : singles(selection.columns), parameters(named) {
+    constexpr const auto& table = all_attributes_of<Pack<double>>;
+    for (const Attribute& single : singles)
+      packs.push_back(*std::find_if(table.begin(), table.end(), [&](const auto& a) { return a.name == single.name; }));
+  }
+};
+
+/// Fills the rows from `first` on, one per point, of which there are at most points_per_block. Lanes that are not
+/// regular are done again as single points, where the reason is found.
+template <class Traits, class Parameters>
+void compute_block_of_attributes(const Traits& traits, std::span<const typename Traits::Point_3> points,
+                                 std::size_t first, const Attribute_columns<Parameters>& columns,
+                                 Vertex_attributes& result) {
+  using Lanes = Pack<double>;
+  const bool is_compact = get_parameter<Estimator_tag>(columns.parameters, Estimator::COMPACT) == Estimator::COMPACT;
+  Block_of_jets block;
+  const std::span jets(block.data(), (points.size() + Lanes::size - 1) / Lanes::size);
+  expand_block(traits, points, jets);
+  for (std::size_t n = 0; n < jets.size(); ++n) {
+    const Lanes magnitudes = pack_of(points, n, [](const auto& p) { return magnitude(p); });
+    const Local_structure_lanes<Lanes> lanes(jets[n], Monge_chart_3<Lanes>(jets[n], magnitudes));
+    const std::size_t row = first + n * Lanes::size, count = std::min(Lanes::size, first + points.size() - row);
+    for (std::size_t c = 0; c < columns.packs.size(); ++c) {
+      const Lanes values = columns.packs[c].get(lanes.structure);
+      for (std::size_t i = 0; i < count; ++i) result.columns[c].values[row + i] = values[i];
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      Point_status& status = (*result.status)[row + i];
+      status = Point_status::REGULAR;
+      if (lanes.is_regular[i] && is_compact) continue;
+      const auto structure = local_structure_by(columns.parameters, lane(jets[n], i), magnitudes[i]);
+      for (std::size_t c = 0; c < columns.singles.size(); ++c)
+        result.columns[c].values[row + i] = columns.singles[c].get(structure);
+      status = structure.status;
+    }
+  }
+}
+
+} // namespace internal
+
 /// Attributes of points, one column per scalar, in double. One Taylor expansion of order 4 per point; the same for
-/// CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. `sampled_status` is empty or has one entry per point.
-template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits>
+/// CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Points are taken in packs; the numbers are those of
+/// local_structure_at, bit for bit unless the compiler contracts products and sums (-ffp-contract=off).
+/// `sampled_status` is empty or has one entry per point. Named parameter: `estimator`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
+          class Parameters = internal::No_parameters>
 Vertex_attributes compute_attributes(const Traits& traits, std::span<const typename Traits::Point_3> points,
                                      const Attribute_selection& selection,
-                                     std::span<const Point_status> sampled_status = {}) {
+                                     std::span<const Point_status> sampled_status = {},
+                                     const Parameters& parameters = {}) {
   static_assert(std::is_same_v<typename Traits::FT, double>);
+  const internal::Attribute_columns<Parameters> columns(selection, parameters);
   Vertex_attributes result;
   for (const Attribute& attribute : selection.columns)
     result.columns.push_back({std::string(attribute.name), std::vector<double>(points.size())});
   if (!selection.has_status) return result;
   std::vector<Point_status>& status = result.status.emplace(points.size());
+  constexpr std::size_t block = internal::points_per_block;
   internal::parallel_for<ConcurrencyTag>(
-      0, points.size(),
-      [&](std::size_t i) {
-        const auto structure =
-            local_structure_at(traits, points[i], sampled_status.empty() ? Point_status::REGULAR : sampled_status[i]);
-        for (std::size_t n = 0; n < selection.columns.size(); ++n)
-          result.columns[n].values[i] = selection.columns[n].get(structure);
-        status[i] = structure.status;
+      0, (points.size() + block - 1) / block,
+      [&](std::size_t n) {
+        const std::size_t first = n * block, count = std::min(block, points.size() - first);
+        internal::compute_block_of_attributes(traits, points.subspan(first, count), first, columns, result);
+        for (std::size_t i = first; i < first + count && !sampled_status.empty(); ++i)
+          if (sampled_status[i] == Point_status::UNCONVERGED && status[i] != Point_status::OUTSIDE)
+            status[i] = Point_status::UNCONVERGED;
       },
-      256);
+      256 / block);
   return result;
 }
 

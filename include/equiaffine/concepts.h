@@ -7,6 +7,7 @@
 #include <equiaffine/Interval.h>
 #include <equiaffine/Jet_3.h>
 #include <equiaffine/Lattice_3.h>
+#include <equiaffine/Pack.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel_traits.h>
@@ -58,6 +59,16 @@ concept BatchImplicitFunctionTraits_3 =
            std::span<typename Traits::FT> values, std::span<Jet_3<typename Traits::FT>> jets) {
     traits.values(points, values);
     traits.taylors(points, jets);
+  };
+
+/// ... that expands at the points of packs at once: lane i of x[n], y[n], z[n] is a point, lane i of jets[n] its
+/// expansion, bit for bit unless the compiler contracts products and sums. May throw Lanes_disagree.
+template <class Traits>
+concept PackImplicitFunctionTraits_3 =
+  ImplicitFunctionTraits_3<Traits> &&
+  requires(const Traits& traits, std::span<const Pack<typename Traits::FT>> x,
+           std::span<Jet_3<Pack<typename Traits::FT>>> jets) {
+    traits.taylor_packs(x, x, x, jets);
   };
 
 /// ... with a cheaper expansion of order 1, for root finding.

@@ -23,8 +23,19 @@ enum class Facet_sizing {
   AFFINE     ///< equal affine area: proportional to |K_e|^(-1/8), since the affine area is |K_e|^(1/4) dA
 };
 
+/// Ways from the 34 derivatives of f at a point to the affine structure: our own, and those of Andrade, Lewiner:
+/// Affine-invariant curvature estimators for implicit surfaces, 2012, with the errata of doc/errata.md corrected. They
+/// are there to compare with, being longer, slower and less accurate.
+enum class Estimator {
+  COMPACT,        ///< pivot and shear: affine_structure()
+  TRANSFORMATION, ///< section 3: an affine map after which the formulas are short
+  DIRECT,         ///< section 2: the implicit function theorem on the axis that is closest to the gradient
+  DIRECT_Z        ///< section 2 on the z axis wherever the gradient points; not finite where f_z vanishes
+};
+
 namespace internal {
 
+struct Estimator_tag {};
 struct Clip_tag {};
 struct Feature_curves_tag {};
 struct Parabolic_features_tag {};
@@ -53,6 +64,10 @@ struct Named_parameters {
   /// The sampler asks the function for bounds and evaluates it near its zero set only.
   auto skip_empty_space() const {
     return Named_parameters<std::true_type, Skip_empty_space_tag, Named_parameters>{{}, *this};
+  }
+
+  auto estimator(Estimator way) const {
+    return Named_parameters<Estimator, Estimator_tag, Named_parameters>{way, *this};
   }
 
   /// A Clip_domain_3.
@@ -118,6 +133,9 @@ inline auto vertex_position(Vertex_position position) {
 inline auto skip_empty_space() {
   return internal::Named_parameters<std::true_type, internal::Skip_empty_space_tag>{{}, {}};
 }
+
+/// How co-normal, affine normal and affine curvatures are computed, default Estimator::COMPACT.
+inline auto estimator(Estimator way) { return internal::Named_parameters<Estimator, internal::Estimator_tag>{way, {}}; }
 
 /// The Clip_domain_3 where the surface is looked for; default the box of the function.
 template <class Domain>

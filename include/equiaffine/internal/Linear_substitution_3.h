@@ -35,10 +35,11 @@ public:
     }
   }
 
-  template <int Order>
-  Jet_3<FT, Order> operator()(const Jet_3<FT, Order>& jet) const {
+  /// The jet may be of packs of FT.
+  template <class Number, int Order>
+  Jet_3<Number, Order> operator()(const Jet_3<Number, Order>& jet) const {
     const auto& in = jet.coefficients();
-    Jet_3<FT, Order> result(in[0]);
+    Jet_3<Number, Order> result(in[0]);
     auto& out = result.coefficients();
     if (is_diagonal_) {
       for (std::size_t n = 1; n < out.size(); ++n) out[n] = in[n] * columns_[n][n];

@@ -14,7 +14,7 @@ namespace equiaffine::internal {
 
 /// As many numbers as one register of the target holds, by the vector extension that g++ and clang share.
 template <class FT>
-struct Pack {
+struct Spline_pack {
 #if defined(__AVX512F__)
   static constexpr int bytes = 64;
 #elif defined(__AVX__)
@@ -49,20 +49,21 @@ void unrolled(F f) {
 /// The Taylor coefficients at t in [0, 1] of the n + 1 B-splines of a cell; row d: the d-th derivatives / d!.
 template <int Degree, int Order, class FT>
 struct Bspline_taylor {
-  static constexpr int width = Pack<FT>::round_up(Degree + 1);
+  static constexpr int width = Spline_pack<FT>::round_up(Degree + 1);
   FT rows[Order + 1][width];
 
   explicit Bspline_taylor(FT t) {
     static constexpr auto basis = bspline_basis_polynomials<FT, Degree, width>();
     const FT s = t - FT(0.5);
-    for (int r = 0; r < width; r += Pack<FT>::lanes) { // Horner's scheme with its derivatives, a B-spline per lane
-      typename Pack<FT>::type b[Order + 1] = {};
-      b[0] = Pack<FT>::load(&basis[Degree][r]);
+    for (int r = 0; r < width;
+         r += Spline_pack<FT>::lanes) { // Horner's scheme with its derivatives, a B-spline per lane
+      typename Spline_pack<FT>::type b[Order + 1] = {};
+      b[0] = Spline_pack<FT>::load(&basis[Degree][r]);
       unrolled<Degree>([&](auto step) {
         unrolled<Order>([&](auto e) { b[Order - e] = b[Order - e] * s + b[Order - e - 1]; });
-        b[0] = b[0] * s + Pack<FT>::load(&basis[Degree - 1 - step][r]);
+        b[0] = b[0] * s + Spline_pack<FT>::load(&basis[Degree - 1 - step][r]);
       });
-      unrolled<Order + 1>([&](auto d) { Pack<FT>::store(b[d], rows[d] + r); });
+      unrolled<Order + 1>([&](auto d) { Spline_pack<FT>::store(b[d], rows[d] + r); });
     }
   }
 };
@@ -75,7 +76,7 @@ struct Bspline_taylor {
 template <int Degree, int Order, class FT>
 void contract(const FT* c, std::size_t row, std::size_t slab, const std::array<FT, 3>& t,
               std::array<FT, std::size_t(number_of_monomials(Order))>& taylor) {
-  using Lanes = Pack<FT>;
+  using Lanes = Spline_pack<FT>;
   constexpr int taps = Degree + 1, width = Lanes::round_up(taps), orders = Order + 1;
   const Bspline_taylor<Degree, Order, FT> bx(t[0]), by(t[1]), bz(t[2]);
 

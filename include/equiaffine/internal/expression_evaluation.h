@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_INTERNAL_EXPRESSION_EVALUATION_H
 #define EQUIAFFINE_INTERNAL_EXPRESSION_EVALUATION_H
 
+#include <equiaffine/internal/kinks.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,6 +11,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <type_traits>
 #include <vector>
 
@@ -49,7 +52,10 @@ enum class Opcode : std::uint8_t {
   ABS,
   MIN,
   MAX,
-  HYPOT
+  HYPOT,
+  ORDER,          // 1 where a > b, -1 where a < b, else NaN; this and the next two only in tapes of Taylor coefficients
+  WHERE_POSITIVE, // b where a > 0, 0 where a < 0, else NaN
+  WHERE_NEGATIVE  // b where a < 0, 0 where a > 0, else NaN
 };
 
 /// result = opcode(a, b, constant). Operands 0, 1, 2 are x, y, z; operand 3 + s is slot s. A unary instruction has
@@ -65,7 +71,7 @@ inline constexpr std::uint32_t number_of_variables = 3;
 
 struct Tape {
   std::vector<Instruction> instructions;
-  std::uint32_t result = 0;
+  std::vector<std::uint32_t> results; ///< operands that hold them at the end
   std::uint32_t number_of_slots = 0;
 };
 
@@ -218,10 +224,37 @@ void integer_power(const T* a, T* result, std::size_t count, unsigned n) {
   }
 }
 
+/// A number type, or a pack of numbers, with the order that choices need.
+template <class T>
+concept Ordered = std::is_floating_point_v<T> || requires {
+  typename T::Mask;
+};
+
+/// The choices of Taylor coefficients at kinks.
 template <std::size_t Block, class T>
-void execute_function(const Instruction& instruction, const T* a, const T* b, T* result, std::size_t count) {
+void execute_choice(const Instruction& instruction, const T* a, const T* b, T* result, std::size_t count) {
+  using internal::branch_or_kink;
+  const auto apply = [&](auto f) { for_each_point<Block>(a, b, result, count, f); };
+  const T zero(0), one(1);
+  switch (instruction.opcode) {
+  case Opcode::ORDER: return apply([&](const T& u, const T& v) -> T { return branch_or_kink(u, v, one, -one, 1); });
+  case Opcode::WHERE_POSITIVE:
+    return apply([&](const T& u, const T& v) -> T { return branch_or_kink(u, zero, v, zero, 1); });
+  case Opcode::WHERE_NEGATIVE:
+    return apply([&](const T& u, const T& v) -> T { return branch_or_kink(u, zero, zero, v, 1); });
+  default: return;
+  }
+}
+
+template <std::size_t Block, class T>
+[[gnu::noinline]] void execute_function(const Instruction& instruction, const T* a, const T* b, T* result,
+                                        std::size_t count) {
+  const double c = instruction.constant;
   const auto apply = [&](auto f) { for_each_point<Block>(a, b, result, count, f); };
   switch (instruction.opcode) {
+  case Opcode::INTEGER_POWER: return integer_power<Block>(a, result, count, static_cast<unsigned>(c));
+  case Opcode::POWER_CONSTANT: return apply([c](const T& u, const T&) -> T { return constant_power(u, c); });
+  case Opcode::POWER: return apply([](const T& u, const T& v) -> T { return real_power(u, v); });
   case Opcode::SQRT:
     return apply([](const T& u, const T&) -> T {
       using std::sqrt;
@@ -300,13 +333,16 @@ void execute_function(const Instruction& instruction, const T* a, const T* b, T*
   case Opcode::MIN: return apply([](const T& u, const T& v) -> T { return minimum(u, v); });
   case Opcode::MAX: return apply([](const T& u, const T& v) -> T { return maximum(u, v); });
   case Opcode::HYPOT: return apply([](const T& u, const T& v) -> T { return hypotenuse(u, v); });
-  default: return;
+  default:
+    if constexpr (Ordered<T>) execute_choice<Block>(instruction, a, b, result, count);
   }
 }
 
-/// Executes one instruction for `count` <= Block points.
+/// Executes one instruction for `count` <= Block points. Arithmetic, which is most of a tape, stays within the loop
+/// over the instructions: a call for each costs as much as what it computes.
 template <std::size_t Block, class T>
-void execute(const Instruction& instruction, const T* a, const T* b, T* result, std::size_t count) {
+[[gnu::always_inline]] inline void execute(const Instruction& instruction, const T* a, const T* b, T* result,
+                                           std::size_t count) {
   const double c = instruction.constant;
   const auto apply = [&](auto f) { for_each_point<Block>(a, b, result, count, f); };
   switch (instruction.opcode) {
@@ -322,42 +358,45 @@ void execute(const Instruction& instruction, const T* a, const T* b, T* result, 
   case Opcode::DIVIDE: return apply([](const T& u, const T& v) -> T { return u / v; });
   case Opcode::NEGATE: return apply([](const T& u, const T&) -> T { return -u; });
   case Opcode::SQUARE: return apply([](const T& u, const T&) -> T { return squared(u); });
-  case Opcode::INTEGER_POWER: return integer_power<Block>(a, result, count, static_cast<unsigned>(c));
-  case Opcode::POWER_CONSTANT: return apply([c](const T& u, const T&) -> T { return constant_power(u, c); });
-  case Opcode::POWER: return apply([](const T& u, const T& v) -> T { return real_power(u, v); });
   default: return execute_function<Block>(instruction, a, b, result, count);
   }
 }
 
-/// Points per block: half a kilobyte per slot keeps a typical tape in the first-level cache; a type as large as a
-/// Taylor polynomial is taken one at a time.
+/// Points, or packs of points, per block: half a kilobyte per slot keeps a typical tape in the first-level cache; a
+/// type as large as a Taylor polynomial is taken one at a time.
 template <class T>
 inline constexpr std::size_t block_size = std::max<std::size_t>(1, 512 / sizeof(T));
 
-/// Working memory of an evaluation: on the stack, uninitialised, for up to 16 slots of a trivial T, else on the heap.
+/// Working memory of an evaluation: uninitialised when T is, and on the stack for up to 32 slots of a trivial T.
 template <std::size_t Block, class T>
 class Slots {
 public:
-  explicit Slots(const Tape& tape) {
-    if (const std::size_t size = tape.number_of_slots * Block; size > capacity) large_ = std::vector<T>(size);
+  explicit Slots(const Tape& tape) : tape_(tape) {
+    if (const std::size_t size = tape.number_of_slots * Block; size > capacity) large_.reset(new T[size]);
   }
 
-  /// Runs the tape for `count` <= Block points. The result lies in the slots or in `variables`.
-  const T* run(const Tape& tape, const std::array<const T*, number_of_variables>& variables, std::size_t count) {
-    T* const slots = large_.empty() ? small_.data() : large_.data();
-    const auto slot = [&](std::uint32_t index) { return slots + (index - number_of_variables) * Block; };
-    const auto operand = [&](std::uint32_t index) -> const T* {
-      return index < number_of_variables ? variables[index] : slot(index);
-    };
-    for (const Instruction& i : tape.instructions) execute<Block>(i, operand(i.a), operand(i.b), slot(i.result), count);
-    return operand(tape.result);
+  /// Runs the tape for `count` <= Block points.
+  void run(const std::array<const T*, number_of_variables>& variables, std::size_t count) {
+    variables_ = variables;
+    for (const Instruction& i : tape_.instructions)
+      execute<Block>(i, operand(i.a), operand(i.b), slot(i.result), count);
   }
+
+  /// Result n of the last run, in the slots or in its `variables`.
+  const T* result(std::size_t n = 0) { return operand(tape_.results[n]); }
 
 private:
-  static constexpr std::size_t capacity = std::is_trivially_default_constructible_v<T> ? 16 * Block : 0;
+  static constexpr std::size_t capacity = std::is_trivially_default_constructible_v<T> ? 32 * Block : 0;
 
+  T* slot(std::uint32_t index) {
+    return (large_ ? large_.get() : small_.data()) + (index - number_of_variables) * Block;
+  }
+  const T* operand(std::uint32_t index) { return index < number_of_variables ? variables_[index] : slot(index); }
+
+  const Tape& tape_;
+  std::array<const T*, number_of_variables> variables_{};
   std::array<T, capacity> small_;
-  std::vector<T> large_;
+  std::unique_ptr<T[]> large_;
 };
 
 } // namespace equiaffine::internal::expression

@@ -33,7 +33,7 @@ public:
       check_finite(root, "=", equation_sign_);
     }
     if (peek() != '\0' || !at_end()) fail_after_operand();
-    return builder_.tape(root);
+    return builder_.tape({&root, 1});
   }
 
 private:

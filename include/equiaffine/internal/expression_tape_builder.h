@@ -13,6 +13,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -72,13 +73,18 @@ public:
   /// A function of one (a == b) or two arguments.
   Node function(Opcode opcode, Node a, Node b) { return opcode == Opcode::POWER ? power(a, b) : node(opcode, a, b); }
 
-  /// The tape that computes `root`, without what it does not need, in as few slots as the order of the nodes allows.
-  Tape tape(Node root) const {
-    const std::vector<Node> last_reader = last_readers(root);
+  /// What an instruction of another tape does, with other operands.
+  Node repeat(const Instruction& i, Node a, Node b) {
+    return i.opcode == Opcode::CONSTANT ? constant(i.constant) : node(i.opcode, a, b, i.constant);
+  }
+
+  /// The tape that computes `roots`, without what they do not need, in as few slots as the order of the nodes allows.
+  Tape tape(std::span<const Node> roots) const {
+    const std::vector<Node> last_reader = last_readers(roots);
     std::vector<std::uint32_t> place(nodes_.size()), free_places;
     for (std::uint32_t v = 0; v < number_of_variables; ++v) place[v] = v;
     Tape tape;
-    for (Node n = number_of_variables; n <= root; ++n) {
+    for (Node n = number_of_variables; n < nodes_.size(); ++n) {
       if (last_reader[n] == NONE) continue;
       Instruction i = nodes_[n];
       if (free_places.empty()) free_places.push_back(number_of_variables + tape.number_of_slots++);
@@ -95,13 +101,13 @@ public:
       }
       tape.instructions.push_back(i);
     }
-    tape.result = place[root];
+    for (const Node root : roots) tape.results.push_back(place[root]);
     return tape;
   }
 
 private:
   using Key = std::tuple<Opcode, Node, Node, std::uint64_t>;
-  static constexpr Node NONE = std::numeric_limits<Node>::max();
+  static constexpr Node NONE = std::numeric_limits<Node>::max(), END = NONE - 1;
 
   Node intern(const Instruction& i) {
     const Key key(i.opcode, i.a, i.b, std::bit_cast<std::uint64_t>(i.constant));
@@ -133,11 +139,11 @@ private:
     return n == 2 ? node(Opcode::SQUARE, a, a) : node(Opcode::INTEGER_POWER, a, a, n);
   }
 
-  /// For each node the last one that reads it, the root for the root itself, NONE for what the root does not need.
-  std::vector<Node> last_readers(Node root) const {
+  /// For each node the last one that reads it, END for the roots, NONE for what the roots do not need.
+  std::vector<Node> last_readers(std::span<const Node> roots) const {
     std::vector<Node> last_reader(nodes_.size(), NONE);
-    last_reader[root] = root;
-    for (Node n = root; n >= number_of_variables; --n)
+    for (const Node root : roots) last_reader[root] = END;
+    for (Node n = static_cast<Node>(nodes_.size()) - 1; n >= number_of_variables; --n)
       if (last_reader[n] != NONE && nodes_[n].opcode != Opcode::CONSTANT)
         for (const Node operand : {nodes_[n].a, nodes_[n].b})
           if (last_reader[operand] == NONE) last_reader[operand] = n;

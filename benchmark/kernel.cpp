@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From the 34 derivatives of f at a point to co-normal, normal, B, K, H and J: operations, times, accuracy.
+#include "counting_number.h"
+#include "reference.h"
+#include "runner.h"
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/Expression_3.h>
+#include <equiaffine/analytic_functions.h>
+#include <equiaffine/attributes.h>
+#include <equiaffine/project_to_surface.h>
+#include <equiaffine/reference_estimators.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#endif
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using namespace benchmark_runner;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Lanes = Pack<double>;
+
+constexpr std::size_t number_of_jets = 64; // they stay in the first-level cache
+constexpr std::size_t repetitions = 64;
+
+std::vector<Jet_3<double>> random_jets() {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<Jet_3<double>> jets(number_of_jets);
+  for (auto& jet : jets)
+    for (double& c : jet.coefficients()) c = unit(random);
+  return jets;
+}
+
+std::vector<Jet_3<Lanes>> packed(const std::vector<Jet_3<double>>& jets) {
+  std::vector<Jet_3<Lanes>> result(jets.size() / Lanes::size);
+  for (std::size_t p = 0; p < result.size(); ++p)
+    for (std::size_t n = 0; n < 35; ++n)
+      result[p].coefficients()[n] =
+          Lanes::generate([&](std::size_t i) { return jets[p * Lanes::size + i].coefficients()[n]; });
+  return result;
+}
+
+void table_1() {
+  std::mt19937 random(1);
+  Jet_3<Counting_number> jet;
+  for (Counting_number& c : jet.coefficients())
+    c = Counting_number::variable(std::uniform_real_distribution<double>(-1, 1)(random));
+  const auto count = [&](auto estimate) {
+    Counting_number::reset();
+    estimate();
+    return Counting_number::operations();
+  };
+  const auto f = internal::partial_derivatives(jet);
+  const auto inverse = internal::Simplifying_map_3<Counting_number>(f).inverse;
+  const long map = count([&] { internal::Simplifying_map_3<Counting_number>{f}; });
+  const long mapping = count([&] { internal::mapped_derivatives(f, inverse); });
+  const long transformation = count([&] { transformation_estimate(jet); });
+  const long direct = count([&] { direct_estimate(jet, 2); });
+  const long compact = count([&] { affine_invariants(Monge_chart_3(jet, Counting_number::variable(1))); });
+  std::printf("Table 1: floating-point operations per point\n"
+              "                                matrices  mapping  formulas   total   direct\n"
+              "  Andrade, Lewiner 2012              749     7335      1783    9867    23690\n"
+              "  the same methods here      %12ld %8ld %9ld %7ld %8ld\n"
+              "  pivot and shear, with J    %12s %8s %9s %7ld\n",
+              map, mapping, transformation - map - mapping, transformation, direct, "", "", "", compact);
+  figure("kernel_operations", double(compact), "flop", "<=321");
+}
+
+void times() {
+  const auto jets = random_jets();
+  const auto packs = packed(jets);
+  std::vector<Affine_invariants_3<double>> out(jets.size());
+  std::vector<Affine_invariants_3<Lanes>> out_packs(packs.size());
+  std::vector<Affine_estimate_3<double>> estimates(jets.size());
+  const auto estimated = [&](auto estimator) {
+    return [&, estimator] {
+      for (std::size_t i = 0; i < jets.size(); ++i) estimates[i] = estimator(jets[i]);
+      keep(estimates[0]);
+    };
+  };
+  std::vector<Contender> contenders = {
+      {"compact, one by one",
+       [&] {
+         for (std::size_t n = 0; n < repetitions; ++n) {
+           for (std::size_t i = 0; i < jets.size(); ++i)
+             out[i] = affine_invariants(Monge_chart_3<double>(jets[i], 1.0));
+           keep(out[0]);
+         }
+       },
+       double(repetitions * jets.size())},
+      {"compact, packs",
+       [&] {
+         for (std::size_t n = 0; n < repetitions; ++n) {
+           for (std::size_t i = 0; i < packs.size(); ++i)
+             out_packs[i] = affine_invariants(Monge_chart_3<Lanes>(packs[i], Lanes(1)));
+           keep(out_packs[0]);
+         }
+       },
+       double(repetitions * jets.size())},
+      {"transformation", estimated([](const auto& jet) { return transformation_estimate(jet); }), double(jets.size())},
+      {"direct", estimated([](const auto& jet) { return affine_estimate(jet, Estimator::DIRECT); }),
+       double(jets.size())}};
+  std::printf("Kernel alone, per point, %zu lanes\n", Lanes::size);
+  race(contenders, 101);
+  const double scalar = time_of(contenders, "compact, one by one");
+  figure("kernel_packs_to_scalar", scalar / time_of(contenders, "compact, packs"), "x",
+         Lanes::size >= 8 ? ">=3.8" : ">=1.9");
+  figure("kernel_transformation_to_compact", time_of(contenders, "transformation") / scalar, "x", ">=8");
+  figure("kernel_direct_to_compact", time_of(contenders, "direct") / scalar, "x", ">=15");
+}
+
+void threads() {
+#ifdef CGAL_LINKED_WITH_TBB
+  constexpr std::size_t size = 10'000'000;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<Kernel::Point_3> points;
+  points.reserve(size);
+  for (std::size_t i = 0; i < size; ++i) points.emplace_back(unit(random), unit(random), unit(random));
+  const auto traits = make_analytic_traits<Kernel>(analytic_functions::Metaballs(), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  const auto selection = select_attributes("affine_gaussian_curvature,affine_mean_curvature");
+  std::array<double, 2> best = {1e300, 1e300};
+  for (int round = 0; round < 3; ++round)
+    for (std::size_t n = 0; n < 2; ++n) {
+      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, n + 1);
+      const auto start = std::chrono::steady_clock::now();
+      keep(compute_attributes<CGAL::Parallel_tag>(traits, points, selection));
+      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+      best[n] = std::min(best[n], time.count());
+    }
+  std::printf("Jets and structure of 10^7 points of metaballs: %.2f s on one thread, %.2f s on two\n", best[0],
+              best[1]);
+  figure("kernel_two_threads", best[0] / best[1], "x", ">=1.8");
+#endif
+}
+
+double error_of(const Affine_invariants_3<double>& s, double K, double H, double euclidean_K) {
+  const double S = std::abs(K) + H * H + std::pow(std::abs(euclidean_K), 1.5);
+  return std::max(std::abs(s.gaussian_curvature - K) / S, std::abs(s.mean_curvature - H) / std::sqrt(S));
+}
+
+void accuracy() {
+  using Number = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+  std::vector<double> errors;
+  double worst = 0;
+  for (const Reference_row& row : read_reference(EQUIAFFINE_TEST_DATA "/affine_structure.csv")) {
+    const auto& [x, y, z] = row.point;
+    const auto s = local_structure(internal::expand<4, double>(Expression_3(row.expression), x, y, z));
+    errors.push_back(error_of(s.affine, row.affine_K, row.affine_H, row.euclidean_K));
+    worst = std::max(worst, errors.back() / row.limit);
+  }
+  std::sort(errors.begin(), errors.end());
+  figure("kernel_reference_worst_to_limit", worst, "x", "<=1");
+  figure("kernel_reference_median_error", errors[errors.size() / 2], "1", "<=1e-14");
+
+  const auto f = [](const auto& x, const auto& y, const auto& z) {
+    using std::sin;
+    return 100 * x * x + y * y + 0.01 * z * z + 0.05 * sin(3 * x * y * z) - 1;
+  };
+  const auto traits = make_analytic_traits<Kernel>(f, CGAL::Bbox_3(-1, -2, -20, 1, 2, 20));
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  double anisotropic = 0;
+  for (int n = 0; n < 3000; ++n) {
+    const double u = normal(random), v = normal(random), w = normal(random), r = 1 / std::hypot(u, v, w);
+    const auto p = project_to_surface(traits, Kernel::Point_3(0.1 * u * r, v * r, 10 * w * r), 1.0).point;
+    const auto t = local_structure(internal::expand<4, Number>(f, Number(p.x()), Number(p.y()), Number(p.z())));
+    anisotropic =
+        std::max(anisotropic, error_of(local_structure(traits.taylor(p)).affine, double(t.affine.gaussian_curvature),
+                                       double(t.affine.mean_curvature), double(t.euclidean.gaussian_curvature)));
+  }
+  figure("kernel_anisotropic_worst_error", anisotropic, "1", "<=1e-12");
+}
+
+} // namespace
+
+int main() {
+  table_1();
+  times();
+  threads();
+  accuracy();
+}
