@@ -6,6 +6,7 @@
 #include <equiaffine/analytic_functions.h>
 #include <equiaffine/annotate.h>
 #include <equiaffine/delaunay_surface.h>
+#include <equiaffine/marching_cubes.h>
 #include <equiaffine/mesh_topology.h>
 #include <equiaffine/parabolic_curves.h>
 #include <equiaffine/sample_on_lattice.h>
@@ -15,10 +16,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <random>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -198,6 +201,35 @@ TEST(Delaunay_surface, what_is_lost_is_not_certified) {
   const auto surface = delaunay_surface(make_analytic_traits<Kernel>(functions::Sphere(), slice));
   EXPECT_FALSE(surface.is_certified);
   EXPECT_FALSE(surface.undecided_boxes.empty());
+}
+
+TEST(Delaunay_surface, what_is_certified_has_the_topology_that_marching_cubes_find_on_a_fine_grid) {
+  const int surfaces = 6;
+  int certified = 0;
+  for (unsigned seed = 1; seed <= surfaces; ++seed) {
+    std::mt19937 random(seed);
+    const auto uniform = [&](double a, double b) {
+      return a + (b - a) * double(random()) / double(std::mt19937::max());
+    };
+    std::ostringstream waves;
+    for (int n = 0; n < 5; ++n)
+      waves << uniform(-1, 1) << "*sin(" << uniform(-2.2, 2.2) << "*x+" << uniform(-2.2, 2.2) << "*y+"
+            << uniform(-2.2, 2.2) << "*z+" << uniform(0, 6.3) << ")+";
+    waves << uniform(-0.3, 0.3);
+    std::array<double, 6> side;
+    for (double& s : side) s = uniform(1, 1.7);
+    const CGAL::Bbox_3 box(-side[0], -side[1], -side[2], side[3], side[4], side[5]);
+    const auto traits = make_analytic_traits<Kernel>(Expression_3(waves.str()), box);
+    const auto surface = delaunay_surface(traits, {30, Clip_domain_3(box).diagonal() / 60, 0});
+    if (!surface.is_certified) continue;
+    ++certified;
+    const auto fine = marching_cubes(traits, parameters::number_of_nodes(100));
+    const auto expected = mesh_topology(fine.triangles, fine.points.size()), found = topology(surface);
+    EXPECT_TRUE(found.is_manifold) << waves.str();
+    EXPECT_EQ(found.components, expected.components) << waves.str();
+    EXPECT_EQ(found.euler_characteristic, expected.euler_characteristic) << waves.str();
+  }
+  EXPECT_GE(certified, 4);
 }
 
 TEST(Delaunay_surface, nodes_are_vertices) {
