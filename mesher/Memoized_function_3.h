@@ -75,6 +75,7 @@ public:
     return memory_->function_.mean_value_bounds(box);
   }
   bool has_gradient_bounds() const { return memory_->function_.has_gradient_bounds(); }
+  double sample_spacing() const { return memory_->function_.sample_spacing(); }
   CGAL::Bbox_3 bbox() const { return memory_->function_.bbox(); }
 
 private:

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -341,6 +342,124 @@ TEST(Spline_function_3, bounds_are_tight_where_the_coefficients_are_and_the_whol
   EXPECT_NE(spline.bounds(volume.lattice.bbox()), equiaffine::Interval::whole());
   volume.values[volume.lattice.index(10, 10, 10)] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(Spline_function_3(volume).bounds(CGAL::Bbox_3(8, 8, 8, 9, 9, 9)), equiaffine::Interval::whole());
+}
+
+TEST(Spline_function_3, first_order_bounds_enclose_values_and_gradients_in_a_box) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const int degree : {5, 7, 9})
+    for (const Lattice_3& lattice : {unit_lattice(11, 12, 13), skew_lattice(41, 12, 50)}) {
+      const Spline_function_3 spline(random_volume(lattice), degree);
+      std::size_t bounded = 0;
+      for (const double side : {1.0, 0.1, 0.01, 1e-4, 0.0}) // of the box, as a part of the lattice
+        for (int n = 0; n < 60; ++n) {
+          std::array<double, 3> u, v;
+          for (std::size_t a = 0; a < 3; ++a) {
+            const double last = double(lattice.size()[a] - 1), length = side * unit(random);
+            u[a] = n % 4 == 0 ? 0 : n % 4 == 1 ? (1 - length) * last : (1 - length) * unit(random) * last;
+            v[a] = std::min(u[a] + length * last, last);
+          }
+          CGAL::Bbox_3 box = lattice.point(u[0], u[1], u[2]).bbox();
+          if (side > 0) box += lattice.point(v[0], v[1], v[2]).bbox();
+          const auto bounds = spline.first_order_bounds(box);
+          bounded += std::isfinite(bounds.coefficients()[1].upper());
+          for (int m = 0; m < 40; ++m) {
+            const auto at = [&](int axis) { // sides, edges and corners too
+              const double t = unit(random);
+              return t < 0.15   ? box.min(axis)
+                     : t > 0.85 ? box.max(axis)
+                                : box.min(axis) + t * (box.max(axis) - box.min(axis));
+            };
+            const Point_3 p(at(0), at(1), at(2));
+            const auto jet = spline.taylor<1>(p);
+            for (std::size_t c = 0; c < 4; ++c) {
+              const auto& b = bounds.coefficients()[c];
+              if (std::isnan(jet.value())) {
+                if (c > 0) {
+                  ASSERT_EQ(b, equiaffine::Interval::whole());
+                }
+              } else ASSERT_TRUE(b.contains(jet.coefficients()[c])) << degree << ' ' << box << ' ' << p << ' ' << c;
+            }
+          }
+        }
+      EXPECT_GT(bounded, 100u) << "and they are not the whole line in too many boxes";
+    }
+}
+
+TEST(Spline_function_3, the_width_of_first_order_bounds_is_proportional_to_small_boxes) {
+  for (const int degree : {5, 7, 9})
+    for (const Lattice_3& lattice : {unit_lattice(20, 21, 22), skew_lattice(20, 21, 22)}) {
+      const Spline_function_3 spline(
+          sample(lattice, [](double x, double y,
+                             double z) { return std::sin(0.2 * x) * std::cos(0.15 * y) + std::exp(0.1 * z); }),
+          degree);
+      const Point_3 p = lattice.point(9.3, 11.2, 10.7);
+      const auto widths = [&](double r) {
+        std::array<double, 4> width;
+        const auto bounds =
+            spline.first_order_bounds(CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r));
+        for (std::size_t c = 0; c < 4; ++c)
+          width[c] = bounds.coefficients()[c].upper() - bounds.coefficients()[c].lower();
+        return width;
+      };
+      const auto large = widths(0.1), small = widths(0.1 / 64);
+      const auto jet = spline.taylor(p);
+      for (std::size_t c = 0; c < 4; ++c) {
+        double slopes = 0; // of the linear part, whose range is the least width
+        const auto exponent = [c](int a) { return int(c == std::size_t(a)); };
+        for (int a = 1; a < 4; ++a)
+          slopes += std::abs(jet.derivative((a == 1) + exponent(1), (a == 2) + exponent(2), (a == 3) + exponent(3)));
+        EXPECT_LT(small[c], 1.1 / 64 * large[c]) << degree << ' ' << c;
+        EXPECT_LT(large[c], (c == 0 ? 1.5 : 8) * 0.2 * slopes) << degree << ' ' << c;
+      }
+    }
+}
+
+TEST(Spline_function_3, first_order_bounds_know_no_gradient_but_the_other_values_where_points_have_no_value) {
+  Volume_3 volume = sample(unit_lattice(60, 60, 60), [](double x, double, double) { return x; });
+  const auto bounds_on = [](const Spline_function_3& spline, const CGAL::Bbox_3& box) {
+    const auto bounds = spline.first_order_bounds(box).coefficients();
+    const auto known = std::count_if(bounds.begin() + 1, bounds.end(),
+                                     [](const auto& b) { return b != equiaffine::Interval::whole(); });
+    EXPECT_TRUE(known == 0 || known == 3);
+    return std::pair(bounds[0], known == 3);
+  };
+  const auto expect = [](const std::pair<equiaffine::Interval, bool>& bounds, double lower, double upper, bool known) {
+    EXPECT_TRUE(bounds.first.contains(lower) && bounds.first.contains(upper));
+    EXPECT_TRUE(bounds.first.lower() >= lower - 1e-3 && bounds.first.upper() <= upper + 1e-3);
+    EXPECT_EQ(bounds.second, known);
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Spline_function_3 complete(volume);
+  expect(bounds_on(complete, CGAL::Bbox_3(0, 20, 20, 0.5, 20.5, 20.5)), 0, 0.5, true);
+  expect(bounds_on(complete, CGAL::Bbox_3(-1, 20, 20, 0.5, 20.5, 20.5)), 0, 0.5, false);
+  expect(bounds_on(complete, CGAL::Bbox_3(58.5, 20, 59.5, 62, 20.5, 60)), infinity, infinity, false);
+  expect(bounds_on(complete, CGAL::Bbox_3(-10, -10, -10, -1, -1, -1)), infinity, infinity, false);
+  volume.values[volume.lattice.index(30, 30, 30)] = std::numeric_limits<double>::quiet_NaN();
+  const Spline_function_3 masked(volume);
+  const auto inside = bounds_on(masked, CGAL::Bbox_3(30, 30, 30, 30.1, 30.1, 30.1));
+  EXPECT_FALSE(inside.second);
+  EXPECT_FALSE(bounds_on(masked, CGAL::Bbox_3(23.5, 30, 30, 23.6, 30.1, 30.1)).second);
+  EXPECT_TRUE(bounds_on(masked, CGAL::Bbox_3(22.5, 30, 30, 22.6, 30.1, 30.1)).second);
+  EXPECT_FALSE(bounds_on(masked, volume.lattice.bbox()).second) << "a box of many cells";
+  EXPECT_TRUE(bounds_on(masked, volume.lattice.bbox()).first.contains(59));
+  EXPECT_TRUE(bounds_on(masked, CGAL::Bbox_3(0, 0, 0, 59, 59, 10)).second);
+  expect(bounds_on(masked, CGAL::Bbox_3(28.1, 30.1, 30.1, 28.2, 30.2, 30.2)), infinity, infinity, false);
+}
+
+TEST(Spline_function_3, bounds_of_boxes_of_many_cells_are_nearly_those_of_their_coefficients) {
+  const Lattice_3 lattice = unit_lattice(70, 65, 90);
+  const Spline_function_3 spline(sample(lattice, [](double x, double y, double z) { return 2 * x - 3 * y + 0.5 * z; }));
+  const auto bounds = spline.first_order_bounds(CGAL::Bbox_3(15, 16, 17, 50, 48, 70)).coefficients();
+  const double excess = 7 + 4; // cells on each side: to the end of a block, and of a B-spline
+  EXPECT_LE(bounds[0].lower(), 2 * 15 - 3 * 48 + 0.5 * 17);
+  EXPECT_GE(bounds[0].upper(), 2 * 50 - 3 * 16 + 0.5 * 70);
+  EXPECT_GE(bounds[0].lower(), 2 * (15 - excess) - 3 * (48 + excess) + 0.5 * (17 - excess));
+  EXPECT_LE(bounds[0].upper(), 2 * (50 + excess) - 3 * (16 - excess) + 0.5 * (70 + excess));
+  for (const auto& [c, slope] : {std::pair{1, 2.0}, {2, -3.0}, {3, 0.5}}) {
+    EXPECT_NEAR(bounds[std::size_t(c)].lower(), slope, 1e-9);
+    EXPECT_NEAR(bounds[std::size_t(c)].upper(), slope, 1e-9);
+  }
 }
 
 #ifdef CGAL_LINKED_WITH_TBB

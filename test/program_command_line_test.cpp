@@ -461,18 +461,18 @@ TEST_F(Program_command_line, a_Delaunay_mesh_is_cut_off_at_the_box_or_at_a_ball)
 
 TEST_F(Program_command_line, every_kind_of_source_has_a_Delaunay_mesh) {
   const Arguments grid = {"--resolution", "24"};
-  const auto expect_sphere = [&](const Arguments& source) {
+  const auto expect_sphere = [&](const Arguments& source, bool is_smooth = true) {
     const Json stats = stats_of(source + delaunay);
     EXPECT_EQ(stats["components"], 1);
     EXPECT_EQ(stats["euler_characteristic"], 2);
     EXPECT_EQ(stats["boundary_edges"], 0);
     EXPECT_LE(stats["max_distance_to_surface"], 1e-13);
-    EXPECT_EQ(stats["certified"], false) << "samples do not bound the gradient between them";
-    EXPECT_EQ(stats["undecided_boxes"].size(), 1U);
+    EXPECT_EQ(stats["certified"], is_smooth);
   };
   expect_sphere(sphere + grid + Arguments{"--derivatives", "spline"});
   run_well(Arguments{"mesh", "-o", "sphere.off"} + sphere);
-  expect_sphere(Arguments{"--distance-to", "sphere.off"} + grid);
+  expect_sphere(Arguments{"--distance-to", "sphere.off"} + grid,
+                false); // kinks from edges reach the border of the grid
 #ifdef EQUIAFFINE_WITH_VTK
   run_well(Arguments{"sample", "-o", "sphere.vti"} + sphere + grid);
   expect_sphere({"--volume", "sphere.vti", "--orientation", "against"});

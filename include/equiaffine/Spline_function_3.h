@@ -6,6 +6,7 @@
 #include <equiaffine/Jet_3.h>
 #include <equiaffine/Volume_3.h>
 #include <equiaffine/internal/Linear_substitution_3.h>
+#include <equiaffine/internal/bspline_bounds.h>
 #include <equiaffine/internal/bspline_evaluation.h>
 #include <equiaffine/internal/parallel_for.h>
 
@@ -42,7 +43,8 @@ enum class Spline_scheme {
 /// cells at the border 10, 30, 1000 times that for degree 5, 7, 9.
 /// Unser, Aldroubi, Eden: B-spline signal processing, 1993; de Boor: Quasiinterpolants, 1990.
 ///
-/// Const members may be called from many threads at once. Memory: one number per node and per padding node.
+/// Const members may be called from many threads at once. Memory: one number per node and per padding node, and
+/// a fortieth of that once a box of many cells is bounded.
 template <class Kernel>
 class Spline_function_3 {
 public:
@@ -66,7 +68,10 @@ public:
     }
     if (!is_supported_) return;
     coefficients_.resize(size_[0] * size_[1] * size_[2] + internal::overread);
-    for_degree([&](auto n) { filter<n, ConcurrencyTag>(volume.values); });
+    for_degree([&](auto n) {
+      filter<n, ConcurrencyTag>(volume.values);
+      bounds_.emplace(degree_, internal::relative_error_of_value<n, FT>(), size_);
+    });
   }
 
   const Lattice& lattice() const { return lattice_; }
@@ -78,38 +83,45 @@ public:
   /// The expansion at p in the coordinates of space, to total order `Order` <= 4; the lower ones cost less.
   template <int Order = internal::maximal_order>
   Jet_3<FT, Order> taylor(const Point_3& p) const {
-    Jet_3<FT, Order> jet;
     const auto place = locate(p);
     if (!place) {
+      Jet_3<FT, Order> jet;
       jet.coefficients().fill(std::numeric_limits<FT>::quiet_NaN());
       return jet;
     }
-    const FT* first = &coefficients_[coefficient_index(place->cell)];
-    for_degree([&](auto n) {
-      internal::contract<n, Order>(first, size_[0], size_[0] * size_[1], place->offset, jet.coefficients());
-    });
-    return substitution_(jet);
+    return substitution_(taylor_in_lattice<Order>(*place));
   }
 
-  /// Contains the values at all points of the box: B-splines are non-negative and sum to one, so a value lies between
-  /// the least and the greatest coefficient of those that do not vanish there. The whole line if the box leaves the
-  /// support. The time is proportional to the number of cells that the box meets.
+  /// Contains the values at all points of the box, also as computed: they lie between the least and the greatest
+  /// coefficient of the B-splines that do not vanish there. The whole line if the box leaves the support. The time is
+  /// proportional to the number of cells that the box meets, or of blocks of 8 x 8 x 8 cells if it meets many.
   Interval bounds(const CGAL::Bbox_3& box) const {
-    std::array<std::size_t, 3> first, last;
-    if (!is_supported_) return Interval::whole();
-    for (std::size_t a = 0; a < 3; ++a) {
-      FT lower = 0, upper = 0;
-      for (int b = 0; b < 3; ++b) {
-        const FT p = to_lattice_[a][std::size_t(b)] * (FT(box.min(b)) - lattice_.origin()[b]);
-        const FT q = to_lattice_[a][std::size_t(b)] * (FT(box.max(b)) - lattice_.origin()[b]);
-        lower += std::min(p, q);
-        upper += std::max(p, q);
-      }
-      if (!is_inside(lower, a) || !is_inside(upper, a)) return Interval::whole();
-      first[a] = cell(lower - slack_[a], a);
-      last[a] = cell(upper + slack_[a], a) + std::size_t(degree_);
+    const auto part = locate(box);
+    if (!part || !part->is_complete) return Interval::whole();
+    const auto range = bounds_->values(coefficients_.data(), part->box);
+    return range.is_finite ? bounds_->bound(range) : Interval::whole();
+  }
+
+  /// Contains the values and the first derivatives in the same sense. In boxes of up to `degree` cells per axis these
+  /// also are bounded from the center of the box, by bounds of the second derivatives: widths are proportional to those
+  /// of small boxes. If there are points without a value in the box, the bounds of the derivatives are the whole line,
+  /// and those of the value are of the other points; infinity, if none of them has one.
+  Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const {
+    const auto part = locate(box);
+    std::array<Interval, 4> bounds;
+    bounds.fill(Interval::whole());
+    if (!part) bounds[0] = internal::no_values();
+    else {
+      const auto taylor = [&](const std::array<FT, 3>& u) { return taylor_in_lattice<1>(place_of(u)); };
+      const auto known = bounds_->first_order(coefficients_.data(), part->box, taylor);
+      if (part->is_complete) bounds = known;
+      else bounds[0] = known[0];
     }
-    return coefficient_range(first, last);
+    Jet_3<Interval, 1> in_space(bounds[0]);
+    for (std::size_t b = 0; b < 3; ++b)
+      for (std::size_t a = 0; a < 3; ++a)
+        if (to_lattice_[a][b] != 0) in_space.coefficients()[1 + b] += Interval(to_lattice_[a][b]) * bounds[1 + a];
+    return in_space;
   }
 
 private:
@@ -118,6 +130,11 @@ private:
   struct Place {
     std::array<std::size_t, 3> cell;
     std::array<FT, 3> offset; // in [0, 1], up to rounding
+  };
+
+  struct Part {
+    internal::Bspline_box<FT> box;
+    bool is_complete; // else the box leaves the support
   };
 
   template <class F>
@@ -155,39 +172,62 @@ private:
 
   std::optional<Place> locate(const Point_3& p) const {
     if (!is_supported_) return std::nullopt;
-    Place place;
+    std::array<FT, 3> u;
     const auto d = p - lattice_.origin();
     for (std::size_t a = 0; a < 3; ++a) {
-      const FT u = to_lattice_[a][0] * d.x() + to_lattice_[a][1] * d.y() + to_lattice_[a][2] * d.z();
-      if (!is_inside(u, a)) return std::nullopt;
-      place.cell[a] = cell(u, a);
-      place.offset[a] = u - FT(place.cell[a]);
+      u[a] = to_lattice_[a][0] * d.x() + to_lattice_[a][1] * d.y() + to_lattice_[a][2] * d.z();
+      if (!is_inside(u[a], a)) return std::nullopt;
+    }
+    return place_of(u);
+  }
+
+  /// What rounding puts outside moves to the border: no spline is extrapolated.
+  Place place_of(const std::array<FT, 3>& u) const {
+    Place place;
+    for (std::size_t a = 0; a < 3; ++a) {
+      place.cell[a] = cell(u[a], a);
+      place.offset[a] = std::clamp(u[a] - FT(place.cell[a]), FT(0), FT(1));
     }
     return place;
+  }
+
+  /// The part of a box in the support; nothing if there is none.
+  std::optional<Part> locate(const CGAL::Bbox_3& box) const {
+    if (!is_supported_) return std::nullopt;
+    Part part = {{}, true};
+    for (std::size_t a = 0; a < 3; ++a) {
+      FT lower = 0, upper = 0;
+      for (int b = 0; b < 3; ++b) {
+        const FT p = to_lattice_[a][std::size_t(b)] * (FT(box.min(b)) - lattice_.origin()[b]);
+        const FT q = to_lattice_[a][std::size_t(b)] * (FT(box.max(b)) - lattice_.origin()[b]);
+        lower += std::min(p, q);
+        upper += std::max(p, q);
+      }
+      part.is_complete = part.is_complete && is_inside(lower, a) && is_inside(upper, a);
+      const FT last = FT(lattice_.size()[a] - 1), slack = 2 * slack_[a]; // of the box, and of points at the border
+      if (upper < -slack || lower > last + slack) return std::nullopt;
+      part.box.lower[a] = std::min(last, std::max(FT(0), lower - slack));
+      part.box.upper[a] = std::max(FT(0), std::min(last, upper + slack));
+      part.box.first[a] = cell(part.box.lower[a], a);
+      part.box.last[a] = cell(part.box.upper[a], a) + std::size_t(degree_);
+    }
+    return part;
+  }
+
+  /// In lattice coordinates.
+  template <int Order>
+  Jet_3<FT, Order> taylor_in_lattice(const Place& place) const {
+    Jet_3<FT, Order> jet;
+    const FT* first = &coefficients_[coefficient_index(place.cell)];
+    for_degree([&](auto n) {
+      internal::contract<n, Order>(first, size_[0], size_[0] * size_[1], place.offset, jet.coefficients());
+    });
+    return jet;
   }
 
   /// Position of a coefficient; the first tap of cell c is coefficient c, as padding shifts both alike.
   std::size_t coefficient_index(const std::array<std::size_t, 3>& c) const {
     return (c[2] * size_[1] + c[1]) * size_[0] + c[0];
-  }
-
-  Interval coefficient_range(const std::array<std::size_t, 3>& first, const std::array<std::size_t, 3>& last) const {
-    FT least = std::numeric_limits<FT>::infinity(), greatest = -least;
-    bool is_finite = true;
-    for (std::size_t k = first[2]; k <= last[2]; ++k)
-      for (std::size_t j = first[1]; j <= last[1]; ++j) {
-        const FT* row = &coefficients_[coefficient_index({0, j, k})];
-        for (std::size_t i = first[0]; i <= last[0]; ++i) {
-          least = std::min(least, row[i]);
-          greatest = std::max(greatest, row[i]);
-          is_finite = is_finite && std::isfinite(row[i]);
-        }
-      }
-    if (!is_finite) return Interval::whole();
-    // Rounding of an evaluation: n steps of Horner's scheme with two operations each and n + 1 taps, per axis.
-    const FT rounding =
-        FT(3 * (3 * degree_ + 1)) * std::numeric_limits<FT>::epsilon() * std::max(std::abs(least), std::abs(greatest));
-    return Interval::widened(double(least) - double(rounding), double(greatest) + double(rounding));
   }
 
   /// Samples to coefficients, along x, then y, then z.
@@ -235,6 +275,7 @@ private:
   std::array<std::size_t, 3> size_{}; // of the coefficients, padding included
   bool is_supported_ = true;
   std::vector<FT> coefficients_;
+  std::optional<internal::Bspline_bounds<FT>> bounds_;
 };
 
 } // namespace equiaffine

@@ -35,6 +35,7 @@ public:
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return function_->first_order_bounds(box); }
   Jet_3<Interval, 1> mean_value_bounds(const CGAL::Bbox_3& box) const { return function_->mean_value_bounds(box); }
   bool has_gradient_bounds() const { return function_->has_gradient_bounds(); }
+  double sample_spacing() const { return function_->sample_spacing(); }
   CGAL::Bbox_3 bbox() const { return function_->bbox(); }
   Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa, double fb) const {
     return function_->intersect_segment(a, b, fa, fb);
@@ -50,6 +51,7 @@ private:
     virtual Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const = 0;
     virtual Jet_3<Interval, 1> mean_value_bounds(const CGAL::Bbox_3& box) const = 0;
     virtual bool has_gradient_bounds() const = 0;
+    virtual double sample_spacing() const = 0;
     virtual CGAL::Bbox_3 bbox() const = 0;
     virtual Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa,
                                                       double fb) const = 0;
@@ -84,6 +86,7 @@ private:
       return internal::tight_first_order_bounds(traits, box);
     }
     bool has_gradient_bounds() const override { return internal::has_gradient_bounds(traits); }
+    double sample_spacing() const override { return internal::sample_spacing(traits); }
     CGAL::Bbox_3 bbox() const override { return traits.bbox(); }
     Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa, double fb) const override {
       using FT = typename Traits::FT;

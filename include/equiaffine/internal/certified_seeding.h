@@ -65,7 +65,7 @@ public:
   /// `size(p)` bounds the circumradius of facets near p, and is at most `largest_size`.
   Certified_seeding_3(const Traits& traits, const Clip_domain_3& domain, Sizing size, double largest_size)
       : traits_(traits), domain_(domain), box_(domain.bbox()), size_(std::move(size)), largest_size_(largest_size),
-        side_(std::max({box_.x_span(), box_.y_span(), box_.z_span()})),
+        side_(std::max({box_.x_span(), box_.y_span(), box_.z_span()})), spacing_(internal::sample_spacing(traits)),
         has_gradient_bounds_(internal::has_gradient_bounds(traits)) {}
 
   /// Seeds keep the distance `spacing` from a vertex that the mesh has already.
@@ -84,7 +84,8 @@ public:
       const bool is_small = 2 * h < largest_size_;
       const bool is_solid =
           is_small && double(undecided) * h * h * h > solid * box_.x_span() * box_.y_span() * box_.z_span();
-      const bool is_hopeless = is_solid || (8 * h < largest_size_ && undecided > maximal_undecided_cells);
+      const bool is_hopeless = is_solid || (8 * h < largest_size_ && undecided > maximal_undecided_cells) ||
+                               (is_small && is_noise(undecided));
       const bool is_last = level_ == maximal_level || (h < largest_size_ && !has_gradient_bounds_) || is_hopeless;
       next.clear();
       for (Cell& cell : cells) {
@@ -170,10 +171,18 @@ private:
     else return false;
   }
 
-  /// An undecided cell is reported and seeded as the one of a sixteenth of the facet size that contains it.
+  /// A spline of smooth data is nearly linear within half of its spacing. Noise, and kinks near the border of a volume
+  /// where extrapolation magnifies them, leave many cells that would be decided only when they are much smaller.
+  bool is_noise(std::ptrdiff_t undecided) const {
+    constexpr std::ptrdiff_t most_cells = 50'000;
+    return spacing_ > 0 && (2 * cell_side() < spacing_ || undecided > most_cells);
+  }
+
+  /// An undecided cell is reported and seeded as the one of a sixteenth of the facet size, a quarter for samples, that
+  /// contains it.
   void give_up(Cell cell) {
     const int level = level_;
-    for (; level_ > 0 && 16 * cell_side() < largest_size_; --level_)
+    for (; level_ > 0 && (spacing_ > 0 ? 4 : 16) * cell_side() < largest_size_; --level_)
       for (auto& x : cell.position) x /= 2;
     given_up_side_ = cell_side();
     if (given_up_.insert(cell.position).second) report(box_of(cell));
@@ -310,7 +319,7 @@ private:
   const Clip_domain_3& domain_;
   const CGAL::Bbox_3 box_;
   Sizing size_;
-  const double largest_size_, side_;
+  const double largest_size_, side_, spacing_;
   int level_ = 0;
   Grid grid_;
   const bool has_gradient_bounds_;

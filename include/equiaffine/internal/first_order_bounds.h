@@ -4,8 +4,13 @@
 
 #include <equiaffine/concepts.h>
 
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace equiaffine::internal {
 
@@ -94,6 +99,21 @@ template <ImplicitFunctionTraits_3 Traits>
 bool has_gradient_bounds(const Traits& traits) {
   if constexpr (requires { traits.has_gradient_bounds(); }) return traits.has_gradient_bounds();
   else return FirstOrderBoundedImplicitFunctionTraits_3<Traits>;
+}
+
+/// The shortest step of the lattice of a sampled function, 0 for others. As above, a member comes first.
+template <ImplicitFunctionTraits_3 Traits>
+double sample_spacing(const Traits& traits) {
+  if constexpr (requires { traits.sample_spacing(); }) {
+    return traits.sample_spacing();
+  } else if constexpr (LatticeImplicitFunctionTraits_3<Traits>) {
+    const auto lattice = traits.lattice();
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& step : lattice.steps()) least = std::min(least, std::sqrt(CGAL::to_double(step.squared_length())));
+    return least;
+  } else {
+    return 0;
+  }
 }
 
 } // namespace equiaffine::internal
