@@ -30,11 +30,20 @@ concept CallableWith = requires(const Function& f, const X& x, const Y& y, const
   f(x, y, z);
 };
 
+// With its checks of every operation a sanitizer would make one function of millions of lines.
+#ifdef __SANITIZE_ADDRESS__
+#define EQUIAFFINE_FLATTEN
+#else
+#define EQUIAFFINE_FLATTEN [[gnu::flatten]]
+#endif
+
 /// f(x, y, z) with everything inlined: what crosses a call goes through memory, which costs more than its arithmetic.
 template <class Result, class Function, class X, class Y, class Z>
-[[gnu::flatten]] Result inlined_call(const Function& f, const X& x, const Y& y, const Z& z) {
+EQUIAFFINE_FLATTEN Result inlined_call(const Function& f, const X& x, const Y& y, const Z& z) {
   return f(x, y, z);
 }
+
+#undef EQUIAFFINE_FLATTEN
 
 /// The expansion of f at (x, y, z): on sparse jets when f takes three arguments of different types, else on full ones.
 template <int Order, class FT, class Function>
