@@ -2,9 +2,9 @@
 // The only translation unit of the library that instantiates CGAL's mesher.
 #include "Angle_improvement_3.h"
 #include "Facet_sizing_field.h"
+#include "Feature_ends_3.h"
 #include "Memoized_function_3.h"
 #include "Surface_criteria_3.h"
-#include "feature_ends.h"
 #include <equiaffine/Implicit_mesh_domain_3.h>
 #include <equiaffine/delaunay_surface.h>
 #include <equiaffine/internal/boundary_curves.h>
@@ -259,7 +259,7 @@ private:
   std::vector<std::pair<Vertex, Vertex>> feature_edges_;
   std::unordered_map<const void*, std::uint32_t> number_; // of the vertices of the mesh
   std::vector<bool> is_on_feature_;                       // per vertex of the mesh
-  std::vector<Kernel_point> lost_;                        // hidden by the balls of others
+  std::vector<Kernel_point> lost_;                        // where something of the surface is not in the mesh
   Mesh result_;
 };
 

@@ -53,10 +53,8 @@ private:
       if (root.has_converged) return root.point;
       return std::nullopt;
     }
-    if (!(fa == fa && fb == fb)) {
-      if (fa == fa) return before_undefined(a, b, fa);
-      if (fb == fb) return before_undefined(b, a, fb);
-    }
+    if (fa == fa && fb != fb) return before_undefined(a, b, fa);
+    if (fb == fb && fa != fa) return before_undefined(b, a, fb);
     if constexpr (BoundedImplicitFunctionTraits_3<Traits>) {
       const Vector_3 d = b - a;
       if (d.squared_length() > FT(certified_length_ * certified_length_) && may_have_two_roots(a, b, d)) {

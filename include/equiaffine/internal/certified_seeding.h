@@ -126,7 +126,8 @@ private:
   }
 
   static Point_3 center(const CGAL::Bbox_3& b) {
-    return Point_3(FT((b.xmin() + b.xmax()) / 2), FT((b.ymin() + b.ymax()) / 2), FT((b.zmin() + b.zmax()) / 2));
+    const auto c = center_of(b);
+    return Point_3(FT(c[0]), FT(c[1]), FT(c[2]));
   }
 
   void subdivide(const Cell& cell, std::vector<Cell>& next) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_MESHER_FEATURE_ENDS_H
-#define EQUIAFFINE_MESHER_FEATURE_ENDS_H
+#ifndef EQUIAFFINE_MESHER_FEATURE_ENDS_3_H
+#define EQUIAFFINE_MESHER_FEATURE_ENDS_3_H
 
 #include <equiaffine/delaunay_surface.h>
 
@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -85,12 +84,13 @@ private:
     return nearest;
   }
 
-  /// The side of the box that p is furthest beyond, along axis 0 to 2, and its upper one; for a ball any.
+  /// Of the box; of a ball any.
   struct Side {
     int axis;
     bool is_upper;
   };
 
+  /// The side that p is furthest beyond.
   Side side_beyond(const Point_3& p) const {
     const CGAL::Bbox_3& box = domain_.bbox();
     Side side{0, false};
