@@ -156,8 +156,14 @@ private:
   }
 
   void add_page_options(CLI::App& command) {
-    add(command, "--color", 1, "NAME", "the attribute that the page shows first, or status or plain");
-    add(command, "--up", 1, "x|y|z", "the axis that points up on the page, by default z");
+    add(command, "--png", 1, "PICTURE.png", "also a picture, which is what the page shows first; needs no display");
+    add(command, "--color", 1, "NAME", "the attribute that page and picture show first, or status or plain");
+    add(command, "--up", 1, "x|y|z", "the axis that points up on them, by default z");
+    add(command, "--size", 2, "WIDTH HEIGHT", "of the picture in pixels, by default 1000 800");
+    add(command, "--range", 2, "LOW HIGH",
+        "the numbers of the end colors of the picture, by default quantiles as on the page;\n"
+        "blue and red about white if LOW is -HIGH");
+    add(command, "--arrows", 1, "VECTOR", "arrows on the picture, such as affine_normal");
   }
 
   void add_threads(CLI::App& command) {
@@ -245,7 +251,7 @@ private:
     CLI::App& command = add_command("view", view_description, view_footer);
     group_ = "Input";
     add(command, "MESH.ply", 1, "", "a mesh as this program writes it, or any other .ply; - reads standard input");
-    add_output(command, "PAGE.html", "the page; - writes to standard output");
+    add_output(command, "PAGE.html", "the page, needed unless there is --png; - writes to standard output");
     add_page_options(command);
   }
 

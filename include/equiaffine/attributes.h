@@ -5,6 +5,7 @@
 #include <equiaffine/Indexed_triangle_mesh_3.h>
 #include <equiaffine/Input_error.h>
 #include <equiaffine/Pack.h>
+#include <equiaffine/affine_gradients.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/internal/parallel_for.h>
 #include <equiaffine/named_parameters.h>
@@ -17,6 +18,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,6 +35,16 @@ struct Attribute_of {
   bool is_basic;
   FT (*get)(const Local_structure_3<FT>&);
 };
+
+/// Those of affine_gradient_norms(), in its order.
+inline constexpr std::array<std::string_view, 3> gradient_names = {
+    "affine_gaussian_curvature_gradient", "affine_mean_curvature_gradient", "pick_invariant_gradient"};
+
+/// A local structure does not know it.
+template <class FT>
+constexpr Attribute_of<FT> gradient_attribute(std::string_view name) {
+  return {name, name, false, [](const Local_structure_3<FT>&) { return FT(std::numeric_limits<double>::quiet_NaN()); }};
+}
 
 /// All attributes in the order of the columns of a file.
 template <class FT>
@@ -71,6 +84,10 @@ inline constexpr auto all_attributes_of = [] {
       Attribute{"metric_yy", "metric", false, [](const auto& s) { return s.affine.metric[3]; }},
       Attribute{"metric_yz", "metric", false, [](const auto& s) { return s.affine.metric[4]; }},
       Attribute{"metric_zz", "metric", false, [](const auto& s) { return s.affine.metric[5]; }},
+      Attribute{"quadric_defect", "quadric_defect", false, [](const auto& s) { return s.affine.quadric_defect; }},
+      gradient_attribute<FT>(gradient_names[0]),
+      gradient_attribute<FT>(gradient_names[1]),
+      gradient_attribute<FT>(gradient_names[2]),
   };
 }();
 
@@ -84,8 +101,24 @@ struct Attribute_selection {
   bool has_status = true;
 };
 
-/// Reads `basic`, `all`, `none`, or a comma-separated list of names of attributes, of their groups (`normal`, `metric`)
-/// and `status`. \throw Input_error for another name.
+namespace internal {
+
+/// `signature` is K, H, J and the norms of their gradients. These are not part of `all`: they take 40 times as long.
+inline bool is_selected_by(const Attribute& attribute, std::string_view name) {
+  const bool is_gradient =
+      std::find(gradient_names.begin(), gradient_names.end(), attribute.name) != gradient_names.end();
+  if (name == "basic") return attribute.is_basic;
+  if (name == "all") return !is_gradient;
+  if (name == "signature")
+    return is_gradient || attribute.name == "affine_gaussian_curvature" || attribute.name == "affine_mean_curvature" ||
+           attribute.name == "pick_invariant";
+  return name == attribute.name || name == attribute.group;
+}
+
+} // namespace internal
+
+/// Reads `basic`, `all`, `none`, or a comma-separated list of names of attributes, of their groups (`normal`, `metric`,
+/// `signature`) and `status`. \throw Input_error for another name.
 inline Attribute_selection select_attributes(std::string_view list) {
   if (list == "none") return {{}, false};
   std::array<bool, all_attributes.size()> is_selected{};
@@ -94,9 +127,7 @@ inline Attribute_selection select_attributes(std::string_view list) {
     const std::string_view name = list.substr(begin, end - begin);
     bool is_known = name == "status";
     for (std::size_t n = 0; n < all_attributes.size(); ++n) {
-      const Attribute& attribute = all_attributes[n];
-      const bool matches =
-          name == attribute.name || name == attribute.group || name == "all" || (name == "basic" && attribute.is_basic);
+      const bool matches = internal::is_selected_by(all_attributes[n], name);
       is_selected[n] = is_selected[n] || matches;
       is_known = is_known || matches;
     }
@@ -190,14 +221,20 @@ template <class Parameters>
 struct Attribute_columns {
   const std::vector<Attribute>& singles;
   std::vector<Attribute_of<Pack<double>>> packs;
+  std::array<std::optional<std::size_t>, 3> gradients; // their columns
   const Parameters& parameters;
 
   Attribute_columns(const Attribute_selection& selection, const Parameters& named)
       : singles(selection.columns), parameters(named) {
     constexpr const auto& table = all_attributes_of<Pack<double>>;
-    for (const Attribute& single : singles)
+    for (const Attribute& single : singles) {
+      for (std::size_t n = 0; n < gradients.size(); ++n)
+        if (single.name == gradient_names[n]) gradients[n] = packs.size();
       packs.push_back(*std::find_if(table.begin(), table.end(), [&](const auto& a) { return a.name == single.name; }));
+    }
   }
+
+  bool has_gradients() const { return gradients[0] || gradients[1] || gradients[2]; }
 };
 
 /// Fills the rows from `first` on, one per point, of which there are at most points_per_block. Lanes that are not
@@ -229,11 +266,17 @@ void compute_block_of_attributes(const Traits& traits, std::span<const typename 
       status = structure.status;
     }
   }
+  for (std::size_t i = 0; i < points.size() && columns.has_gradients(); ++i) {
+    const auto norms = affine_gradient_norms(traits, points[i]);
+    for (std::size_t n = 0; n < norms.size(); ++n)
+      if (columns.gradients[n]) result.columns[*columns.gradients[n]].values[first + i] = norms[n];
+  }
 }
 
 } // namespace internal
 
-/// Attributes of points, one column per scalar, in double. One Taylor expansion of order 4 per point; the same for
+/// Attributes of points, one column per scalar, in double. One Taylor expansion of order 4 per point, 41 with a norm of
+/// a gradient; the same for
 /// CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Points are taken in packs; the numbers are those of
 /// local_structure_at, bit for bit unless the compiler contracts products and sums (-ffp-contract=off).
 /// `sampled_status` is empty or has one entry per point. Named parameter: `estimator`.
