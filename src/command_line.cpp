@@ -143,7 +143,9 @@ private:
         "what to compute: basic (the default) is normal, k1, k2, gaussian_curvature,\n"
         "mean_curvature, conormal, affine_normal, affine_gaussian_curvature,\n"
         "affine_mean_curvature, pick_invariant, status; all adds affine_k1, affine_k2,\n"
-        "direction1, direction2, metric; LIST is some of these words with commas between");
+        "direction1, direction2, metric, quadric_defect; signature is the affine curvatures,\n"
+        "pick_invariant and the norms of their gradients; LIST is some of these words with\n"
+        "commas between");
     add(command, "--estimator", 1, "compact|transformation|direct|direct-z",
         "how conormal, affine_normal, affine_gaussian_curvature and affine_mean_curvature are\n"
         "computed from the derivatives: our own formulas (compact, the default), or those of\n"

@@ -30,6 +30,7 @@ void draw_text(Picture& picture, const std::string& text, std::size_t x, std::si
   vtkNew<vtkImageData> image;
   std::array<int, 2> size{};
   constexpr int dots_per_inch = 72; // a point is a pixel
+  vtkFreeTypeTools::GetInstance()->ScaleToPowerTwoOff();
   if (!vtkFreeTypeTools::GetInstance()->RenderString(style, text, dots_per_inch, image, size.data())) return;
   const int* const extent = image->GetExtent(); // rows from the bottom; the baseline is row 0
   const int left = int(x) - (alignment == Alignment::RIGHT    ? size[0]

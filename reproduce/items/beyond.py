@@ -137,7 +137,7 @@ def parabolic(lab):
 
     matrix = unimodular(SHEAR)
     surfaces = {"blobby": (BLOBBY, BOX),
-                "metaballs": ("exp(-3*((x-0.5)^2+y^2+z^2)) + exp(-3*((x+0.5)^2+(y-0.2)^2+z^2)) - 0.5",
+                "metaballs": ("exp(-3*((x-0.6)^2+y^2+z^2)) + exp(-3*((x+0.6)^2+(y-0.2)^2+z^2)) - 0.5",
                               [-1.4, 1.45, -1.1, 1.2, -1.0, 1.05])}  # fmt: skip
     for name, (formula, box) in surfaces.items():
         surface = lab.mesh(name, "--function", formula, "--box", *box, "--resolution", lab.choose(72, 24),
