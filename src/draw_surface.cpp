@@ -28,12 +28,16 @@ CGAL::Bbox_3 box_of(const std::vector<Kernel::Point_3>& points) {
   return box;
 }
 
-/// The first view of the page.
+/// Arrows are spread over a grid of this many cells per diameter of the surface, and that much longer than a cell.
+constexpr double arrow_cells = 16, arrow_length = 1.5;
+
+/// The first view of the page, with room around the surface for arrows where there are some.
 class Camera {
 public:
   Camera(const std::vector<Kernel::Point_3>& points, const std::array<double, 3>& up_direction, std::size_t width,
-         std::size_t height)
-      : width_(double(width)), height_(double(height)) {
+         std::size_t height, bool has_arrows)
+      : width_(double(width)), height_(double(height)),
+        margin_(has_arrows ? 1 + 2 * arrow_length / arrow_cells : 1.05) {
     const CGAL::Bbox_3 box = box_of(points);
     center_ =
         Kernel::Point_3((box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2, (box.zmin() + box.zmax()) / 2);
@@ -60,12 +64,11 @@ public:
 private:
   /// The least distance from which everything is seen, and a margin.
   void fit(const std::vector<Kernel::Point_3>& points) {
-    constexpr double margin = 1.05;
     double least = 0;
     for (const Kernel::Point_3& p : points) {
       const Vector v = p - center_;
       const double across = std::abs(right_ * v) * height_ / width_, along = std::abs(up_ * v);
-      least = std::max(least, back_ * v + margin * std::max(across, along) / half_view);
+      least = std::max(least, back_ * v + margin_ * std::max(across, along) / half_view);
       radius_ = std::max(radius_, std::sqrt(v.squared_length()));
     }
     distance_ = std::max(least, 1.2 * radius_);
@@ -73,7 +76,7 @@ private:
   }
 
   static inline const double half_view = std::tan(std::numbers::pi / 14); // the tangent of half the angle of view
-  double width_, height_, distance_ = 1, radius_ = 0;
+  double width_, height_, margin_, distance_ = 1, radius_ = 0;
   Kernel::Point_3 center_;
   Vector right_, up_, back_;
 };
@@ -261,8 +264,7 @@ Line_drawing curve_strokes(const Camera& camera, std::span<const Polyline_3<Kern
 /// Arrows at vertices that are spread evenly in space: one in each cell of a grid.
 Line_drawing arrow_strokes(const Camera& camera, const std::vector<Kernel::Point_3>& points,
                            const std::array<const std::vector<double>*, 3>& columns) {
-  constexpr double cells = 16;
-  const double cell = 2 * camera.radius() / cells;
+  const double cell = 2 * camera.radius() / arrow_cells;
   std::set<std::array<long, 3>> taken;
   std::vector<std::pair<Kernel::Point_3, Vector>> arrows;
   std::vector<double> lengths;
@@ -279,7 +281,7 @@ Line_drawing arrow_strokes(const Camera& camera, const std::vector<Kernel::Point
   if (arrows.empty()) return strokes;
   const double usual = std::max(quantile(lengths, 90), std::numeric_limits<double>::min());
   for (const auto& [base, arrow] : arrows) {
-    const double scale = 1.5 * cell / std::max(usual, std::sqrt(arrow.squared_length()));
+    const double scale = arrow_length * cell / std::max(usual, std::sqrt(arrow.squared_length()));
     const Screen_point neck = camera(base + 0.6 * scale * arrow);
     strokes.add(camera(base), neck, 1, 1);
     strokes.add(neck, camera(base + scale * arrow), 3.2, 0.2);
@@ -308,7 +310,8 @@ Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const 
   const CGAL::Bbox_3 box = box_of(mesh.points);
   const Paint paint(attributes, options.color.empty() ? default_color(attributes) : options.color, picture.range,
                     std::hypot(box.x_span(), box.y_span(), box.z_span()));
-  const Camera camera(mesh.points, options.up, width, height - (paint.legend() ? legend_height : 0));
+  const Camera camera(mesh.points, options.up, width, height - (paint.legend() ? legend_height : 0),
+                      !picture.arrows.empty());
   Canvas canvas(width, height);
   draw_triangles(canvas, camera, mesh, vertex_normals(mesh, attributes), paint);
   curve_strokes(camera, curves).draw(canvas);

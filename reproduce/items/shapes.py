@@ -6,7 +6,7 @@ import math
 from ..lab import item
 from ..plot import histograms
 from ..program import determinant, image, image_of_box, read_ply, transformed, words_of
-from ..statistics import Distribution, kolmogorov_smirnov, quantile, scaled_wasserstein
+from ..statistics import kolmogorov_smirnov, quantile, scaled_wasserstein
 from .beyond import BLOBBY, BOX, SHEAR, unimodular
 
 PAIRS = [("affine_gaussian_curvature", "gaussian_curvature", "K", "K_e", 1.0),
@@ -45,14 +45,14 @@ def fig3(lab):
               "<=", 1e-11)
 
 
-def compare(lab, name, before, after, scale, bound, weights=None):
+def compare(lab, name, before, after, scale, bound, are_used=(None, None)):
     """Distances of the distributions of affine and Euclidean curvatures; `scale` is |det| of the map between them."""
     rows, ratios = [], {}
-    weights = weights or [surface.affine_areas() for surface in (before, after)]
     for affine, euclidean, K, K_e, power in PAIRS:
         numbers = {}
         for column, label, factor in ((affine, K, scale**power), (euclidean, K_e, 1.0)):
-            pair = [Distribution(before[column], weights[0]), Distribution([factor * x for x in after[column]], weights[1])]
+            pair = [surface.distribution(column, number, is_used) for surface, number, is_used in zip(
+                (before, after), (1.0, factor), are_used)]
             numbers[column] = kolmogorov_smirnov(*pair), scaled_wasserstein(*pair)
             rows.append([f"{name}: {label}", *numbers[column]])
             low, high = pair[0].quantile(0.05), pair[0].quantile(0.95)
@@ -83,19 +83,19 @@ def write_off(path, points, triangles, flips):
 def compare_distance_fields(lab, name, points, triangles, matrix, words):
     """The distances to a mesh and to its image, each on a grid of its own; only vertices whose error estimates are less
     than half of the number are compared."""
-    surfaces, weights = [], []
+    surfaces, are_used = [], []
     for when, map_of in (("before", [[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0]]), ("after", matrix)):
         stem = f"{name}-{when}"
         write_off(lab.folder / (stem + ".off"), [image(map_of, p) for p in points], triangles, determinant(map_of) < 0)
         surface = lab.mesh(stem, "--distance-to", stem + ".off", *words)
-        trusted = [e < 0.5 * abs(x) and f < 0.5 * abs(y) for x, e, y, f in zip(*(surface[c] for c in (
-            "affine_gaussian_curvature", "affine_gaussian_curvature_error", "affine_mean_curvature",
-            "affine_mean_curvature_error")))]
+        columns = (surface[c] for c in ("affine_gaussian_curvature", "affine_gaussian_curvature_error",
+                                        "affine_mean_curvature", "affine_mean_curvature_error", "status"))
+        trusted = [s == 0 and e < 0.5 * abs(x) and f < 0.5 * abs(y) for x, e, y, f, s in zip(*columns)]
         surfaces.append(surface)
-        weights.append([area if is_trusted else 0.0 for area, is_trusted in zip(surface.affine_areas(), trusted)])
+        are_used.append(trusted)
         lab.say(f"{name}, {when}: {100 * sum(trusted) / len(surface):.0f} % of {len(surface)} vertices have an error "
                 "estimate below half of K and of H.")
-    compare(lab, f"{name}, distance field", *surfaces, abs(determinant(matrix)), 1 / 3, weights)
+    compare(lab, f"{name}, distance field", *surfaces, abs(determinant(matrix)), 1 / 3, are_used)
     return surfaces
 
 
