@@ -62,7 +62,7 @@ class Lab:
 
     @property
     def picture_size(self):
-        return self.choose((760, 620), (160, 120))
+        return self.choose((640, 520), (160, 120))
 
     # Work
 
@@ -97,8 +97,7 @@ class Lab:
         self.entries.append(("text", text))
 
     def table(self, header, rows):
-        self.entries.append(("table", (header, [[cell if isinstance(cell, str) else number(cell) for cell in row]
-                                                for row in rows])))
+        self.entries.append(("table", (header, rows)))
 
     def plot(self, name, svg, caption):
         (self.folder / (name + ".svg")).write_text(svg, encoding="utf-8")

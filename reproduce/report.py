@@ -4,8 +4,10 @@
 import base64
 import html
 import json
+import re
 
 from .lab import number
+from .plot import power_of_ten
 
 STYLE = """
 :root { --ink: #1b2330; --quiet: #5c6778; --line: #d9dee7; --good: #0f7a4f; --bad: #b91c1c; --soft: #f4f6fa; }
@@ -22,7 +24,7 @@ table { border-collapse: collapse; margin: 14px 0; font-size: 14.5px; }
 th, td { padding: 6px 14px 6px 0; text-align: left; vertical-align: top; border-bottom: 1px solid var(--line); }
 th { color: var(--quiet); font-weight: 600; }
 td { font-variant-numeric: tabular-nums; }
-td.number { white-space: nowrap; }
+.number { white-space: nowrap; }
 #summary { width: 100%; }
 #summary td:first-child { white-space: nowrap; font-weight: 600; }
 .mark { font-weight: 700; white-space: nowrap; }
@@ -33,8 +35,7 @@ section { border-top: 2px solid var(--ink); margin-top: 52px; padding-top: 18px;
 section header { display: flex; justify-content: space-between; align-items: baseline; gap: 20px; }
 blockquote { margin: 12px 0; padding: 8px 16px; border-left: 4px solid var(--line); background: var(--soft); max-width: 90ch; }
 blockquote b { color: var(--quiet); font-weight: 600; }
-.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(330px, 1fr)); gap: 18px; margin: 16px 0; }
-.figures.plots { grid-template-columns: repeat(auto-fit, minmax(430px, 1fr)); }
+.figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(420px, 1fr)); gap: 18px; margin: 16px 0; }
 figure { margin: 0; max-width: 560px; break-inside: avoid; }
 figure img, figure svg { width: 100%; height: auto; display: block; border: 1px solid var(--line); border-radius: 8px; }
 figcaption { font-size: 14px; color: var(--quiet); margin-top: 6px; }
@@ -69,31 +70,43 @@ def to_json(items_and_labs):
     return json.dumps(results(items_and_labs), indent=2, ensure_ascii=False) + "\n"
 
 
+def readable(value):
+    """A number or text as HTML, with powers of ten."""
+    text = html.escape(number(value))
+    return re.sub(r"\b(\d[\d.]*)e([+-]\d+)\b", lambda m: times_power(m[1], int(m[2])), text)
+
+
+def times_power(mantissa, exponent):
+    power = power_of_ten(exponent)
+    return f'<span class="number">{power if mantissa == "1" else mantissa + " · " + power}</span>'
+
+
 def mark(passed):
     return f'<span class="mark {"pass" if passed else "fail"}">{"✓ holds" if passed else "✗ does not hold"}</span>'
 
 
-def table(header, rows, css=""):
+def table(header, rows):
+    """The cells of the rows are HTML."""
     head = "".join(f"<th>{html.escape(cell)}</th>" for cell in header)
     body = "".join(
-        "<tr>" + "".join(f"<td>{cell if cell.startswith('<span') else html.escape(cell)}</td>" for cell in row) + "</tr>"
+        "<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>"
         for row in rows
     )
-    return f'<table{css}><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
+    return f'<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
 
 
 def summary(items_and_labs):
     rows = []
     for item, lab in items_and_labs:
         first = next((c for c in lab.checks if not c.passed), lab.checks[0] if lab.checks else None)
-        shown = f"{first.what}: <b>{html.escape(number(first.ours))}</b>" if first and first.ours is not None else ""
+        shown = f"{html.escape(first.what)}: <b>{readable(first.ours)}</b>" if first and first.ours is not None else ""
         reason = first.reason if first and not first.passed else ""
         cells = [
             f'<a href="#{item.name}">{item.name}</a>',
             html.escape(item.title),
-            html.escape(number(first.paper_method)) if first else "–",
-            f"{shown} {html.escape(first.target)}" if first else "–",
-            mark(lab.passed) + (f'<div class="reason">{html.escape(reason)}</div>' if reason else ""),
+            readable(first.paper_method) if first else "–",
+            f"{shown} {readable(first.target)}" if first else "–",
+            mark(lab.passed) + (f'<div class="reason">{readable(reason)}</div>' if reason else ""),
         ]
         rows.append(f'<tr class="{"pass" if lab.passed else "fail"}">' + "".join(f"<td>{c}</td>" for c in cells) + "</tr>")
     head = "".join(f"<th>{h}</th>" for h in ("", "", "paper's method", "ours, and target", ""))
@@ -102,11 +115,11 @@ def summary(items_and_labs):
 
 def checks_table(lab):
     rows = [[
-        check.what,
-        number(check.paper_method),
-        number(check.ours),
-        check.target,
-        mark(check.passed) + (f'<span class="reason"> {html.escape(check.reason)}</span>' if check.reason else ""),
+        html.escape(check.what),
+        readable(check.paper_method),
+        readable(check.ours),
+        f'<span class="number">{readable(check.target)}</span>',
+        mark(check.passed) + (f'<span class="reason"> {readable(check.reason)}</span>' if check.reason else ""),
     ] for check in lab.checks]
     return table(["", "paper's method, measured", "ours", "target", ""], rows)
 
@@ -117,7 +130,7 @@ def figure(folder, kind, name, caption):
     else:
         data = base64.b64encode((folder / name).read_bytes()).decode()
         content = f'<img alt="{html.escape(caption)}" src="data:image/png;base64,{data}">'
-    return f"<figure>{content}<figcaption>{html.escape(caption)}</figcaption></figure>"
+    return f"<figure>{content}<figcaption>{readable(caption)}</figcaption></figure>"
 
 
 def entries(lab):
@@ -134,9 +147,10 @@ def entries(lab):
         if is_figure:
             parts.append(figure(lab.folder, kind, *content))
         elif kind == "text":
-            parts.append(f"<p>{html.escape(content)}</p>")
+            parts.append(f"<p>{readable(content)}</p>")
         else:
-            parts.append(table(*content))
+            header, rows = content
+            parts.append(table(header, [map(readable, row) for row in rows]))
     if open_kind:
         parts.append("</div>")
     return "\n".join(parts)

@@ -279,7 +279,7 @@ Line_drawing arrow_strokes(const Camera& camera, const std::vector<Kernel::Point
   }
   Line_drawing strokes;
   if (arrows.empty()) return strokes;
-  const double usual = std::max(quantile(lengths, 90), std::numeric_limits<double>::min());
+  const double usual = std::max(quantile(lengths, 50), std::numeric_limits<double>::min());
   for (const auto& [base, arrow] : arrows) {
     const double scale = arrow_length * cell / std::max(usual, std::sqrt(arrow.squared_length()));
     const Screen_point neck = camera(base + 0.6 * scale * arrow);

@@ -121,7 +121,7 @@ def signature(lab):
 
 
 @item("parabolic", "Parabolic curves",
-      "Where K_e = 0 the affine metric degenerates; a separate handling “could be extended to surfaces in future work”.")
+      "Where Kₑ = 0 the affine metric degenerates; a separate handling “could be extended to surfaces in future work”.")
 def parabolic(lab):
     def curve_points(name):
         with open(lab.folder / (name + ".obj"), encoding="ascii") as file:
@@ -147,12 +147,12 @@ def parabolic(lab):
         typical = quantile([abs(k) for k in surface["gaussian_curvature"]], 0.5)
         on_curve = lab.evaluate(points, "--function", formula, "--attributes", "gaussian_curvature")
         residual = max(abs(k) for k in on_curve["gaussian_curvature"]) / typical
-        lab.check(f"{name}: greatest |K_e| on the curves, over its median on the surface", residual, "<=", 1e-11)
+        lab.check(f"{name}: greatest |Kₑ| on the curves, over its median on the surface", residual, "<=", 1e-11)
         moved = lab.evaluate([image(matrix, p) for p in points], "--function", formula, "--transform", *words_of(matrix),
                              "--attributes", "gaussian_curvature")
         after = max(abs(k) for k in moved["gaussian_curvature"]) / typical
         lab.check(f"{name}: the same for their images on the image of the surface", after, "<=", 1e-10)
-    lab.pictured("torus", "K_e on the torus and its parabolic circles")
+    lab.pictured("torus", "Kₑ on the torus and its parabolic circles")
     lab.pictured("blobby", "H on the surface of figure 3: it grows without bound towards the black curves")
     lab.pictured("metaballs", "H on two balls that melt: the saddle between them is bounded by two curves")
-    lab.say("The curves are polylines whose points lie on f = 0 and K_e = 0 up to rounding, the option --parabolic-curves.")
+    lab.say("The curves are polylines whose points lie on f = 0 and Kₑ = 0 up to rounding, the option --parabolic-curves.")

@@ -141,7 +141,7 @@ def errata(lab):
     torus = lab.evaluate([(0.5 + 0.2 * math.cos(t), 0.0, 0.2 * math.sin(t)) for t in (0.3, 1, 2, 3)], "--function",
                          "z^2 + (sqrt(x^2+y^2) - 0.5)^2", "--attributes", "gaussian_curvature")
     curved = sum(abs(k) < 1e-12 for k in torus["gaussian_curvature"]) / 4
-    rows.append(["figure 11: share of points where K_e = 0, as on two cones", flat, curved])
+    rows.append(["figure 11: share of points where Kₑ = 0, as on two cones", flat, curved])
 
     merged = {}
     for where, printed, corrected in rows:

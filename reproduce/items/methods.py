@@ -42,9 +42,9 @@ def fig5(lab):
               [[WAYS.get(way, "direct, best axis, ξ₁ as printed"), max(e), quantile(e, 0.99), quantile(e, 0.5)]
                for way, e in errors.items()])
     lab.say("An ellipsoid of axes 3, 1, 0.3, with exact derivatives of order 4, against numbers of 64 bits. In "
-            "double precision and with its misprints corrected the direct method is accurate where the axis is chosen; "
-            "with ξ₁ as printed it is wrong wherever the surface is curved in its own direction, and its error jumps where "
-            "the axis changes. That is what the middle of the figure shows.")
+            "double precision and with its misprint corrected the direct method is accurate where the axis is chosen. With "
+            "ξ₁ as printed it is wrong nearly everywhere, and its error jumps where the axis changes, which would explain "
+            "the middle of the figure.")
 
 
 @item("table1", "Operation counts",
@@ -67,7 +67,7 @@ def table1(lab):
 
 
 @item("fig9", "The sine surface: false discontinuities of H",
-      "Direct and transformation method both show a discontinuity where K_e = 0, but the direct method artificially "
+      "Direct and transformation method both show a discontinuity where Kₑ = 0, but the direct method artificially "
       "includes more.")
 def fig9(lab):
     words = ["--function", "2*z^2 - sin(5*x + 3*y^2 - 1)", "--box", -1.1, 1, -1.1, 1.2, -2, 2,
@@ -135,9 +135,9 @@ def fig11(lab):
                      scaled_wasserstein(before["affine_gaussian_curvature"], after["affine_gaussian_curvature"])])
     before, after = results["compact"]
     euclidean = kolmogorov_smirnov(before["gaussian_curvature"], after["gaussian_curvature"])
-    rows.append(["Euclidean K_e, for comparison", euclidean,
+    rows.append(["Euclidean Kₑ, for comparison", euclidean,
                  scaled_wasserstein(before["gaussian_curvature"], after["gaussian_curvature"])])
-    lab.check("Kolmogorov-Smirnov distance of K before and after, over that of K_e", affine["compact"] / euclidean, "<=",
+    lab.check("Kolmogorov-Smirnov distance of K before and after, over that of Kₑ", affine["compact"] / euclidean, "<=",
               0.01, affine["grid-transformation"] / euclidean)
     lab.table(["K by", "Kolmogorov-Smirnov distance", "Wasserstein distance of asinh(K / median |K|)"], rows)
     bound = before["affine_gaussian_curvature"].quantile(0.9)
@@ -146,8 +146,8 @@ def fig11(lab):
         lab.plot(way, histograms(pair, "K", min(0.0, before["affine_gaussian_curvature"].quantile(0.02)), bound),
                  f"Distribution of K, {title}, weighted by affine area")
     pair = [(label, d["gaussian_curvature"]) for label, d in zip(("before", "after"), results["compact"])]
-    lab.plot("euclidean", histograms(pair, "K_e", before["gaussian_curvature"].quantile(0.02),
-                                     before["gaussian_curvature"].quantile(0.98)), "Distribution of the Euclidean K_e")
+    lab.plot("euclidean", histograms(pair, "Kₑ", before["gaussian_curvature"].quantile(0.02),
+                                     before["gaussian_curvature"].quantile(0.98)), "Distribution of the Euclidean Kₑ")
     for name, caption in (("compact-before", "K on the torus"), ("compact-after", "K on its image")):
         lab.picture(name, caption, "--color", "affine_gaussian_curvature")
     lab.say("The image is sampled afresh, as its own formula on a grid parallel to the axes. The torus of the figure, "

@@ -122,18 +122,19 @@ def table2f(lab):
     lab.check("greatest error of any cell, H of the sphere corrected", worst, "<=", 1e-12)
     printed = max(abs(h + 2 * r**-1.5) for h in at["affine_mean_curvature"]) / r**-1.5
     lab.check("H of the sphere as printed, -2 r^(-3/2): its error relative to r^(-3/2)", printed, ">=", 0.99)
-    lab.table(["surface", "N_e", "K_e", "d", "ν", "ξ", "K", "H"], rows)
+    lab.table(["surface", "Nₑ", "Kₑ", "d", "ν", "ξ", "K", "H"], rows)
     lab.say("The errors of all cells at random points. With H = tr B / 2, as section 2(e) defines it, the sphere has "
             "H = -r^(-3/2); the printed -2 r^(-3/2) is the trace.")
 
 
+# Functions that are not polynomials, so that the third derivatives of f do not vanish on quadrics.
 QUADRICS = {
-    "ellipsoid": "x^2/4 + y^2 + z^2/0.3 - 1",
-    "elliptic paraboloid": "z - x^2 - y^2/3",
-    "hyperbolic paraboloid": "z - x*y",
-    "hyperboloid of one sheet": "x^2 + y^2/2 - z^2 - 1",
-    "hyperboloid of two sheets": "z^2 - x^2 - y^2/2 - 1",
-    "sheared hyperboloid": "x^2 + x*y + 2*y^2 + y*z - z^2 - 1",
+    "ellipsoid": "exp(x^2/4 + y^2 + z^2/0.3) - e",
+    "elliptic paraboloid": "sinh(z - x^2 - y^2/3)",
+    "hyperbolic paraboloid": "atan(z - x*y)",
+    "hyperboloid of one sheet": "sqrt(x^2 + y^2/2) - sqrt(1 + z^2)",
+    "hyperboloid of two sheets": "z - sqrt(1 + x^2 + y^2/2)",
+    "sheared hyperboloid": "log(2 + x^2 + x*y + 2*y^2 + y*z) - log(3 + z^2)",
 }
 OTHERS = {
     "Cayley's ruled cubic": "z - x*y + x^3/3",

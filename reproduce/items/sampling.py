@@ -47,7 +47,7 @@ def fig7(lab):
         words = [*variant[:4], "--resolution", n, "--attributes", "mean_curvature"]
         sampled = lab.evaluate(points, *formula, *words)["mean_curvature"]
         worst[who] = max(abs(h - h0) for h, h0 in zip(sampled, exact))
-    lab.check(f"greatest error of H_e on x⁴ + y⁴ + z⁴ = 1, N = {n}", worst["ours"], "<=", 1e-6, worst["paper"])
+    lab.check(f"greatest error of Hₑ on x⁴ + y⁴ + z⁴ = 1, N = {n}", worst["ours"], "<=", 1e-6, worst["paper"])
     lab.plot("spline", plot([Series("σ₁ as printed", [(t, printed_spline(t)) for t in ts]),
                              Series("B-spline of degree 5: σ₁ / 2", [(t, bspline(5, t)) for t in ts]),
                              Series("B-spline of degree 7, ours", [(t, bspline(7, t)) for t in ts], dashed=True)],

@@ -9,8 +9,8 @@ from ..program import determinant, image, image_of_box, read_ply, transformed, w
 from ..statistics import kolmogorov_smirnov, quantile, scaled_wasserstein
 from .beyond import BLOBBY, BOX, SHEAR, unimodular
 
-PAIRS = [("affine_gaussian_curvature", "gaussian_curvature", "K", "K_e", 1.0),
-         ("affine_mean_curvature", "mean_curvature", "H", "H_e", 0.5)]
+PAIRS = [("affine_gaussian_curvature", "gaussian_curvature", "K", "Kₑ", 1.0),
+         ("affine_mean_curvature", "mean_curvature", "H", "Hₑ", 0.5)]
 
 
 @item("fig3", "The blobby surface",
@@ -41,7 +41,7 @@ def fig3(lab):
         points = [tuple(map(float, line.split()[1:])) for line in file if line.startswith("v ")]
     on_curve = lab.evaluate(points, "--function", BLOBBY, "--attributes", "gaussian_curvature")["gaussian_curvature"]
     typical = quantile([abs(k) for k in surface["gaussian_curvature"]], 0.5)
-    lab.check("greatest |K_e| on the degenerate curve, over its median on the surface", max(map(abs, on_curve)) / typical,
+    lab.check("greatest |Kₑ| on the degenerate curve, over its median on the surface", max(map(abs, on_curve)) / typical,
               "<=", 1e-11)
 
 
@@ -101,7 +101,7 @@ def compare_distance_fields(lab, name, points, triangles, matrix, words):
 
 def draw(lab, name, captions, up):
     """K and H of the surface before and after, on one scale each."""
-    for column, label in (("affine_gaussian_curvature", "K"), ("affine_mean_curvature", "H"), ("mean_curvature", "H_e")):
+    for column, label in (("affine_gaussian_curvature", "K"), ("affine_mean_curvature", "H"), ("mean_curvature", "Hₑ")):
         surface = read_ply(lab.folder / f"{name}-before.ply")
         bound = quantile([abs(x) for x in surface[column]], 0.9)
         for when, caption in captions.items():
