@@ -2,9 +2,10 @@
 #ifndef EQUIAFFINE_SRC_ATTRIBUTE_TASK_H
 #define EQUIAFFINE_SRC_ATTRIBUTE_TASK_H
 
-#include "source.h"
+#include "source_function.h"
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/attributes.h>
+#include <equiaffine/named_parameters.h>
 
 #include <span>
 #include <vector>

@@ -2,6 +2,8 @@
 #include "atomic_file.h"
 #include "attribute_task.h"
 #include "commands.h"
+#include "error_columns.h"
+#include "source.h"
 #include "statistics.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/io/read_points.h>
@@ -46,6 +48,7 @@ void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& 
   progress.begin("computing attributes");
   Vertex_attributes attributes =
       compute_attributes({source.function, options.orientation, points, options.attributes, options.estimator});
+  add_error_columns(source, options.source, points, attributes);
   mark_points_at_infinity(points, attributes);
   progress.begin("writing");
   if (format == Mesh_format::CSV) write_CSV(output.stream(), table, attributes);

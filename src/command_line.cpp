@@ -106,6 +106,8 @@ private:
     add(command, "--distance-to", 1, "MESH",
         "the signed distance, negative inside, to a closed mesh: .off .ply .obj .stl; - reads\n"
         "OFF from standard input");
+    add(command, "--narrow-band", 1, "N",
+        "measure distances up to N voxels only, which is faster; 16 are enough without --smoothing");
   }
 
   void add_box(CLI::App& command) {
@@ -123,8 +125,14 @@ private:
   void add_source(CLI::App& command) {
     add_function_and_mesh(command, "--function, --volume, --distance-to");
     add(command, "--volume", 1, "FILE",
-        "a volume of samples: .nrrd .nhdr .mhd .mha .nii .nii.gz .inr .inr.gz .vti, or a\n"
+        "a volume of samples: .nrrd .nhdr .mhd .mha .nii .nii.gz .inr .inr.gz .vti .raw, or a\n"
         "folder with a DICOM series");
+    add(command, "--dims", 3, "NX NY NZ", "nodes of a .raw, which has no header; x runs fastest");
+    add(command, "--type", 1, "TYPE",
+        "type of the samples of a .raw: uint8 int8 uint16 int16 uint32 int32 uint64 int64\n"
+        "float double");
+    add(command, "--spacing", 3, "DX DY DZ", "steps between the nodes of a .raw, by default 1 1 1");
+    add(command, "--origin", 3, "X Y Z", "place of the first node of a .raw, by default 0 0 0");
     add_box(command);
   }
 
@@ -132,8 +140,17 @@ private:
     add(command, "--transform", 9, "A11 A12 .. A33",
         "take the image of the surface under p -> A p, A given row by row");
     add(command, "--derivatives", 1, "jets|spline",
-        "from the formula (jets, its default), or from a spline of degree 7 through samples\n"
+        "from the formula (jets, its default), or from a spline through samples\n"
         "on the grid (spline, the only way for volumes and distances)");
+    add(command, "--spline-degree", 1, "5|7|9", "the degree of that spline, by default 7");
+    add(command, "--spline-scheme", 1, "quasi-interpolation|interpolation|convolution|paper",
+        "how samples become a spline: by a local filter (quasi-interpolation, the default) or a\n"
+        "recursive one (interpolation), both of order degree + 1; with the samples as\n"
+        "coefficients (convolution, order 2); or this in degree 5 at the nodes, linearly between\n"
+        "them, as Andrade and Lewiner do (paper, with --vertices linear)");
+    add(command, "--smoothing", 1, "S|auto",
+        "smooth the samples first: the standard deviation of the weights in voxels, more than 1\n"
+        "to have an effect, 0 by default, or what suits the noise in the samples (auto)");
     add(command, "--orientation", 1, "gradient|against",
         "normals towards larger f (gradient, the default) or smaller f (against)");
   }
@@ -143,9 +160,10 @@ private:
         "what to compute: basic (the default) is normal, k1, k2, gaussian_curvature,\n"
         "mean_curvature, conormal, affine_normal, affine_gaussian_curvature,\n"
         "affine_mean_curvature, pick_invariant, status; all adds affine_k1, affine_k2,\n"
-        "direction1, direction2, metric, quadric_defect; signature is the affine curvatures,\n"
-        "pick_invariant and the norms of their gradients; LIST is some of these words with\n"
-        "commas between");
+        "direction1, direction2, metric; LIST is some of these words with commas between, also\n"
+        "quadric_defect, signature (affine curvatures, pick_invariant, and the norms of their\n"
+        "gradients), and for a spline affine_gaussian_curvature_error and\n"
+        "affine_mean_curvature_error");
     add(command, "--estimator", 1, "compact|transformation|direct|direct-z",
         "how conormal, affine_normal, affine_gaussian_curvature and affine_mean_curvature are\n"
         "computed from the derivatives: our own formulas (compact, the default), or those of\n"

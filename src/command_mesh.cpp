@@ -2,7 +2,9 @@
 #include "atomic_file.h"
 #include "attribute_task.h"
 #include "commands.h"
+#include "error_columns.h"
 #include "resources.h"
+#include "source.h"
 #include "statistics.h"
 #include "surface_output.h"
 #include <equiaffine/Input_error.h>
@@ -128,6 +130,7 @@ Annotated_surface make_surface(const Traits& function, const Source& source, con
                                            options.estimator, surface.mesh.vertex_status});
   surface.mesh.function_evaluations += surface.mesh.points.size();
   surface.status = count(*surface.attributes.status);
+  add_error_columns(source, options.source, surface.mesh.points, surface.attributes);
   if (!options.attributes.has_status) surface.attributes.status.reset();
   surface.annotation_seconds = stopwatch.seconds();
   if (options.curves && !surface.curves) {
@@ -150,6 +153,7 @@ Statistics make_statistics(const Mesh_options& options, const Annotated_surface&
   statistics.project_seconds = surface.mesh.projection_seconds;
   statistics.annotate_seconds = surface.annotation_seconds;
   statistics.completeness = surface.completeness;
+  statistics.spline = source.spline;
   statistics.function_evaluations = source.function_evaluations + surface.mesh.function_evaluations;
   return statistics;
 }

@@ -2,7 +2,9 @@
 #include "options.h"
 
 #include "command_line.h"
+#include "error_columns.h"
 #include <equiaffine/Input_error.h>
+#include <equiaffine/internal/text_input.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -23,6 +25,15 @@ const std::array<std::pair<const char*, Source_kind>, 3> sources = {{{"--functio
 std::string needed_word(const Command_line& line, const std::string& option, const std::string& advice) {
   if (!line.has(option)) throw Input_error("the option " + option + " is missing; " + advice);
   return line.word(option, {});
+}
+
+/// The parts of a text between separators.
+Words split(const std::string& text, char separator) {
+  Words parts(1);
+  for (const char c : text)
+    if (c == separator) parts.emplace_back();
+    else parts.back() += c;
+  return parts;
 }
 
 std::optional<std::string> optional_word(const Command_line& line, const std::string& option) {
@@ -47,6 +58,44 @@ Source_options read_kind(const Command_line& line) {
   return source;
 }
 
+std::array<double, 3> read_triple(const Command_line& line, const std::string& option, double otherwise) {
+  std::array<double, 3> result = {otherwise, otherwise, otherwise};
+  if (line.has(option))
+    for (std::size_t a = 0; a < 3; ++a) result[a] = parse_finite_number(option, line.options.at(option)[a]);
+  return result;
+}
+
+/// For a volume in a file `.raw`; the options are refused for others.
+std::optional<Raw_layout> read_raw_layout(const Command_line& line, const Source_options& source) {
+  if (line.command == "sample") return std::nullopt; // its --type is that of what it writes
+  const bool is_raw = source.kind == Source_kind::VOLUME && internal::has_extension(source.text, ".raw");
+  for (const char* option : {"--dims", "--spacing", "--origin", "--type"})
+    if (line.has(option) && !is_raw)
+      fail_option(option, "it is for a --volume FILE.raw, which has no header", "leave it out");
+  if (!is_raw) return std::nullopt;
+  for (const char* option : {"--dims", "--type"})
+    if (!line.has(option))
+      throw Input_error(std::string("the option ") + option +
+                        " is missing; a .raw has no header, say for instance --dims 256 256 128 --type int16");
+  Raw_layout layout{};
+  for (std::size_t a = 0; a < 3; ++a) layout.dims[a] = parse_count("--dims", line.options.at("--dims")[a], 2);
+  layout.spacing = read_triple(line, "--spacing", 1);
+  layout.origin = read_triple(line, "--origin", 0);
+  layout.type =
+      parse_choice("--type", line.word("--type", {}),
+                   {"uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64", "float", "double"});
+  return layout;
+}
+
+std::optional<double> read_narrow_band(const Command_line& line, const Source_options& source) {
+  if (!line.has("--narrow-band")) return std::nullopt;
+  if (source.kind != Source_kind::DISTANCE) fail_option("--narrow-band", "it is for --distance-to", "leave it out");
+  const std::string word = line.word("--narrow-band", {});
+  const double band = parse_finite_number("--narrow-band", word);
+  if (!(band >= 1)) fail_option("--narrow-band", "'" + word + "' is less than 1 voxel", "give some 16 voxels");
+  return band;
+}
+
 void check_source(const Command_line& line, const Source_options& source) {
   if (line.has("--set") && source.kind != Source_kind::FUNCTION)
     fail_option("--set", "only a --function has constants", "leave it out");
@@ -60,6 +109,34 @@ void check_source(const Command_line& line, const Source_options& source) {
   if (source.kind == Source_kind::FUNCTION && is_sampled && !source.box)
     throw Input_error(
         "the option --box is missing; say where the --function is to be sampled, such as --box -2 2 -2 2 -2 2");
+}
+
+Spline_options read_spline(const Command_line& line, Derivatives derivatives) {
+  Spline_options spline;
+  if (derivatives == Derivatives::JETS)
+    for (const char* option : {"--spline-degree", "--spline-scheme", "--smoothing"})
+      if (line.has(option))
+        fail_option(option, "it is for splines, and the derivatives are those of the formula",
+                    "add --derivatives spline or leave it out");
+  constexpr std::array schemes = {Spline_scheme::QUASI_INTERPOLATION, Spline_scheme::INTERPOLATION,
+                                  Spline_scheme::CONVOLUTION, Spline_scheme::PAPER};
+  spline.scheme = schemes[parse_choice("--spline-scheme", line.word("--spline-scheme", "quasi-interpolation"),
+                                       {"quasi-interpolation", "interpolation", "convolution", "paper"})];
+  const bool is_paper = spline.scheme == Spline_scheme::PAPER;
+  constexpr std::array degrees = {5, 7, 9};
+  spline.degree =
+      degrees[parse_choice("--spline-degree", line.word("--spline-degree", is_paper ? "5" : "7"), {"5", "7", "9"})];
+  if (is_paper && spline.degree != 5)
+    fail_option("--spline-degree", "the paper's spline has degree 5", "leave it out or use another --spline-scheme");
+  if (const std::string smoothing = line.word("--smoothing", "0"); smoothing == "auto") spline.smoothing.reset();
+  else {
+    spline.smoothing = parse_finite_number("--smoothing", smoothing);
+    constexpr double most = 100; // voxels
+    if (!(*spline.smoothing >= 0 && *spline.smoothing <= most))
+      fail_option("--smoothing", "'" + smoothing + "' is not between 0 and 100 voxels",
+                  "use 0 for none, some 1.5 to 8 for noise, or auto");
+  }
+  return spline;
 }
 
 Source_options read_source(const Command_line& line) {
@@ -76,6 +153,9 @@ Source_options read_source(const Command_line& line) {
   source.derivatives =
       static_cast<Derivatives>(parse_choice("--derivatives", line.word("--derivatives", usual), {"jets", "spline"}));
   check_source(line, source);
+  source.spline = read_spline(line, source.derivatives);
+  source.raw = read_raw_layout(line, source);
+  source.narrow_band = read_narrow_band(line, source);
   return source;
 }
 
@@ -84,9 +164,19 @@ Orientation_of_level_set read_orientation(const Command_line& line) {
       parse_choice("--orientation", line.word("--orientation", "gradient"), {"gradient", "against"}));
 }
 
-Attribute_selection read_attributes(const Command_line& line) {
+/// The attributes of --attributes but for the error estimates, which `source` is told of.
+Attribute_selection read_attributes(const Command_line& line, Source_options& source) {
+  std::string list;
+  for (const std::string& name : split(line.word("--attributes", "basic"), ',')) {
+    const bool is_error = std::find(error_attributes.begin(), error_attributes.end(), name) != error_attributes.end();
+    source.spline.estimates_errors = source.spline.estimates_errors || is_error;
+    if (!is_error) list += (list.empty() ? "" : ",") + name;
+  }
+  if (source.spline.estimates_errors && source.derivatives == Derivatives::JETS)
+    fail_option("--attributes", "errors are estimated for splines, and the derivatives of a formula have none",
+                "add --derivatives spline or leave them out");
   try {
-    return select_attributes(line.word("--attributes", "basic"));
+    return select_attributes(list.empty() && source.spline.estimates_errors ? "status" : list);
   } catch (const Input_error& error) {
     throw Input_error(std::string("--attributes: ") + error.what());
   }
@@ -142,7 +232,7 @@ Picture_options read_picture(const Command_line& line) {
 }
 
 /// Checks that there is a page or picture, and that it will have the attributes it is to show.
-void check_page(const Command_line& line, const Attribute_selection& attributes) {
+void check_page(const Command_line& line, const Attribute_selection& attributes, const Spline_options& spline) {
   for (const char* option : {"--color", "--up"})
     if (line.has(option) && !line.has("--html") && !line.has("--png"))
       fail_option(option, "it is for the page of --html and the picture of --png", "add one of them or leave it out");
@@ -155,7 +245,9 @@ void check_page(const Command_line& line, const Attribute_selection& attributes)
   const std::string color = line.word("--color", "");
   if (color.empty()) return;
   const bool is_computed = std::any_of(attributes.columns.begin(), attributes.columns.end(),
-                                       [&](const Attribute& attribute) { return attribute.name == color; });
+                                       [&](const Attribute& attribute) { return attribute.name == color; }) ||
+                           (spline.estimates_errors && std::find(error_attributes.begin(), error_attributes.end(),
+                                                                 color) != error_attributes.end());
   if (!is_computed && color != "plain" && !(color == "status" && attributes.has_status))
     fail_option("--color", "'" + color + "' is not among the attributes that are computed",
                 "name one of them, such as affine_mean_curvature, or add it to --attributes");
@@ -219,13 +311,23 @@ std::variant<Marching_cubes_options, Delaunay_options> read_method(const Command
       parse_choice("--vertices", line.word("--vertices", "projected"), {"projected", "linear"}))};
 }
 
+/// The expansions of the paper's scheme are those of no function, which other ways to find a surface need.
+void check_scheme(const Mesh_options& options) {
+  if (options.source.spline.scheme != Spline_scheme::PAPER) return;
+  const auto* cubes = std::get_if<Marching_cubes_options>(&options.method);
+  if (!cubes || cubes->vertices != Vertex_position::LINEAR || options.curves)
+    fail_option("--spline-scheme", "paper is for Marching Cubes with linear vertices and without parabolic curves",
+                "add --vertices linear, or use convolution");
+}
+
 Mesh_options read_mesh_options(const Command_line& line) {
   Mesh_options options;
   options.source = read_source(line);
   options.isovalue = parse_finite_number("--isovalue", line.word("--isovalue", "0"));
+  options.source.spline.isovalue = options.isovalue;
   options.orientation = read_orientation(line);
   options.method = read_method(line, options.source);
-  options.attributes = read_attributes(line);
+  options.attributes = read_attributes(line, options.source);
   options.estimator = read_estimator(line);
   options.output = read_output(line);
   options.html = optional_word(line, "--html");
@@ -234,7 +336,8 @@ Mesh_options read_mesh_options(const Command_line& line) {
   options.stats = optional_word(line, "--stats");
   options.page = read_page(line);
   options.picture = read_picture(line);
-  check_page(line, options.attributes);
+  check_page(line, options.attributes, options.source.spline);
+  check_scheme(options);
   std::vector<std::string> outputs = {options.output};
   for (const auto& output : {options.html, options.png, options.curves, options.stats})
     if (output) outputs.push_back(*output);
@@ -243,12 +346,13 @@ Mesh_options read_mesh_options(const Command_line& line) {
 }
 
 Evaluate_options read_evaluate_options(const Command_line& line) {
-  Evaluate_options options{read_source(line),
-                           read_orientation(line),
-                           read_attributes(line),
-                           read_estimator(line),
-                           needed_word(line, "--points", "name the file with the points"),
-                           read_output(line)};
+  Evaluate_options options;
+  options.source = read_source(line);
+  options.orientation = read_orientation(line);
+  options.attributes = read_attributes(line, options.source);
+  options.estimator = read_estimator(line);
+  options.points = needed_word(line, "--points", "name the file with the points");
+  options.output = read_output(line);
   if (options.source.kind == Source_kind::DISTANCE && options.source.text == "-" && options.points == "-")
     throw Input_error("--distance-to and --points both read standard input; name a file for one of them");
   return options;

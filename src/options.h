@@ -3,7 +3,9 @@
 #define EQUIAFFINE_SRC_OPTIONS_H
 
 #include "kernel.h"
+#include "raw_volume.h"
 #include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/Spline_scheme.h>
 #include <equiaffine/attributes.h>
 #include <equiaffine/delaunay_surface.h>
 #include <equiaffine/named_parameters.h>
@@ -26,6 +28,15 @@ enum class Source_kind { FUNCTION, VOLUME, DISTANCE };
 /// Where derivatives come from: the formula, or a spline through samples.
 enum class Derivatives { JETS, SPLINE };
 
+/// How samples become a function.
+struct Spline_options {
+  int degree = 7;
+  Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
+  std::optional<double> smoothing = 0; ///< a scale in voxels; nothing: as the noise needs it
+  std::optional<double> isovalue;      ///< where noise is measured; nothing: everywhere
+  bool estimates_errors = false;       ///< of affine curvatures
+};
+
 /// SOURCE of the command line, with what changes the function itself.
 struct Source_options {
   Source_kind kind = Source_kind::FUNCTION;
@@ -34,6 +45,9 @@ struct Source_options {
   std::optional<CGAL::Bbox_3> box;
   std::optional<std::array<std::size_t, 3>> resolution;
   Derivatives derivatives = Derivatives::JETS;
+  Spline_options spline;
+  std::optional<Raw_layout> raw;     ///< of a volume without a header
+  std::optional<double> narrow_band; ///< voxels beyond which distances are not needed
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
 };
 

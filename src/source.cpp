@@ -6,11 +6,16 @@
 #include "volume_io.h"
 #include <equiaffine/Distance_function_3.h>
 #include <equiaffine/Input_error.h>
+#include <equiaffine/Sample_noise.h>
 #include <equiaffine/sample_on_lattice.h>
+#include <equiaffine/smooth_volume.h>
 
 #include <CGAL/tags.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
 #include <utility>
 
 namespace equiaffine {
@@ -19,9 +24,26 @@ namespace {
 
 using Size = Lattice_3<Kernel>::Size;
 
+/// Throws unless every name that --set gives occurs in the formula, which has no errors.
+void check_constants_are_used(const Source_options& options) {
+  for (const auto& [name, value] : options.constants) {
+    auto others = options.constants;
+    others.erase(name);
+    try {
+      Expression_3(options.text, others);
+    } catch (const Input_error&) {
+      continue; // the name is missed
+    }
+    throw Input_error("--set " + name + ": the formula " + options.text + " has no '" + name +
+                      "'; correct the name or leave it out");
+  }
+}
+
 Formula_traits make_formula(const Source_options& options) {
   // Without a box nothing will be sampled: points are given, and the box is not looked at.
-  return {Expression_3(options.text, options.constants), options.box.value_or(CGAL::Bbox_3(-1, -1, -1, 1, 1, 1))};
+  Expression_3 expression(options.text, options.constants);
+  check_constants_are_used(options);
+  return {std::move(expression), options.box.value_or(CGAL::Bbox_3(-1, -1, -1, 1, 1, 1))};
 }
 
 /// The box of the mesh, widened on all sides by a tenth of its longest side.
@@ -39,22 +61,50 @@ Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size
   const Lattice_3<Kernel> lattice(size, options.box ? *options.box : widened_box(mesh));
   progress.begin("measuring distances", lattice.number_of_nodes());
   try {
-    return signed_distance_volume<CGAL::Parallel_if_available_tag>(mesh, lattice,
-                                                                   [&](std::size_t nodes) { progress.advance(nodes); });
+    double longest_step = 0;
+    for (const auto& step : lattice.steps()) longest_step = std::max(longest_step, std::sqrt(step.squared_length()));
+    const double voxels = options.narrow_band.value_or(std::numeric_limits<double>::infinity());
+    return signed_distance_volume<CGAL::Parallel_if_available_tag>(
+        mesh, lattice, [&](std::size_t nodes) { progress.advance(nodes); }, voxels * longest_step);
   } catch (const Input_error& error) {
     throw Input_error("cannot measure " + describe(options) + ": " + error.what());
   }
 }
 
-Spline_traits make_spline(const Source_options& options, Progress& progress, std::size_t& function_evaluations) {
+/// Interpolation by a recursive filter has every sample take part in all coefficients.
+void check_values(const Volume_3<Kernel>& volume, const Source_options& options) {
+  if (options.spline.scheme != Spline_scheme::INTERPOLATION) return;
+  const auto missing =
+      std::count_if(volume.values.begin(), volume.values.end(), [](double x) { return !std::isfinite(x); });
+  if (missing > 0)
+    throw Input_error("--spline-scheme: interpolation needs a value at every node, and " + describe(options) + " has " +
+                      std::to_string(missing) + " nodes without one; use quasi-interpolation");
+}
+
+struct Fit {
+  Spline_traits function;
+  Spline_statistics statistics;
+  std::optional<Curvature_error_3<Kernel>> errors;
+};
+
+Fit fit_spline(const Source_options& source, Progress& progress) {
   Volume_3<Kernel> volume = [&] {
-    if (options.kind != Source_kind::VOLUME) return sample_source(options, progress);
+    if (source.kind != Source_kind::VOLUME) return sample_source(source, progress);
     progress.begin("reading the volume");
-    return read_volume(options.text);
+    return source.raw ? read_raw_volume(source.text, *source.raw) : read_volume(source.text);
   }();
-  if (options.kind != Source_kind::VOLUME) function_evaluations += volume.values.size();
+  check_values(volume, source);
+  const auto& [degree, scheme, scale, isovalue, estimates_errors] = source.spline;
+  progress.begin("measuring noise");
+  const Sample_noise noise = estimate_noise(volume, isovalue);
+  const double smoothing = scale ? *scale : choose_smoothing(volume, noise, degree, scheme, isovalue);
   progress.begin("fitting a spline");
-  return Spline_traits(std::move(volume));
+  const Spline_statistics statistics = {degree, scheme, smoothing, noise};
+  if (!estimates_errors)
+    return {Spline_traits(smooth_volume(std::move(volume), smoothing), degree, scheme), statistics, {}};
+  Fit fit = {Spline_traits(smooth_volume(volume, smoothing), degree, scheme), statistics, {}};
+  fit.errors.emplace(fit.function, volume, smoothing, noise.deviation);
+  return fit;
 }
 
 } // namespace
@@ -71,15 +121,15 @@ Volume_3<Kernel> sample_source(const Source_options& options, Progress& progress
 }
 
 Source make_source(const Source_options& options, Progress& progress) {
-  std::size_t evaluations = 0;
   const auto transformed = [&](auto traits) -> Source_function {
     if (!options.transformation) return traits;
     return Transformed_function_traits_3(std::move(traits), *options.transformation);
   };
-  Source_function function = options.derivatives == Derivatives::JETS
-                                 ? transformed(make_formula(options))
-                                 : transformed(make_spline(options, progress, evaluations));
-  return {std::move(function), evaluations};
+  if (options.derivatives == Derivatives::JETS) return {transformed(make_formula(options)), 0, {}, {}};
+  Fit fit = fit_spline(options, progress);
+  const std::size_t samples = fit.function.lattice().number_of_nodes();
+  return {transformed(std::move(fit.function)), options.kind == Source_kind::VOLUME ? 0 : samples, fit.statistics,
+          std::move(fit.errors)};
 }
 
 std::string describe(const Source_options& options) {

@@ -5,27 +5,21 @@
 #include "kernel.h"
 #include "options.h"
 #include "progress.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
+#include "source_function.h"
+#include "statistics.h"
+#include <equiaffine/Curvature_error_3.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
-#include <variant>
 
 namespace equiaffine {
 
-using Formula_traits = Analytic_function_traits_3<Kernel, Expression_3>;
-using Spline_traits = Sampled_function_traits_3<Kernel>;
-
-/// SOURCE as a function: four models of ImplicitFunctionTraits_3.
-using Source_function = std::variant<Formula_traits, Spline_traits, Transformed_function_traits_3<Formula_traits>,
-                                     Transformed_function_traits_3<Spline_traits>>;
-
 struct Source {
   Source_function function;
-  std::size_t function_evaluations = 0; ///< that it took so far
+  std::size_t function_evaluations = 0;            ///< that it took so far
+  std::optional<Spline_statistics> spline;         ///< if derivatives are those of a spline
+  std::optional<Curvature_error_3<Kernel>> errors; ///< if estimates were asked for
 };
 
 /// Makes the function, which may mean to read a volume, to measure distances, and to fit a spline. Throws

@@ -13,6 +13,19 @@ std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_st
   return counts;
 }
 
+namespace {
+
+const char* name_of(Spline_scheme scheme) {
+  switch (scheme) {
+  case Spline_scheme::CONVOLUTION: return "convolution";
+  case Spline_scheme::QUASI_INTERPOLATION: return "quasi-interpolation";
+  case Spline_scheme::INTERPOLATION: return "interpolation";
+  default: return "paper";
+  }
+}
+
+} // namespace
+
 std::string to_JSON(const Statistics& s) {
   nlohmann::ordered_json json = {{"equiaffine", EQUIAFFINE_VERSION},
                                  {"source", s.source},
@@ -31,6 +44,12 @@ std::string to_JSON(const Statistics& s) {
                      {"annotate", s.annotate_seconds},
                      {"write", s.write_seconds}};
   json["function_evaluations"] = s.function_evaluations;
+  if (s.spline)
+    json["spline"] = {{"degree", s.spline->degree},
+                      {"scheme", name_of(s.spline->scheme)},
+                      {"smoothing", s.spline->smoothing},
+                      {"noise", s.spline->noise.deviation},
+                      {"quantum", s.spline->noise.quantum}};
   if (s.completeness) {
     json["certified"] = s.completeness->is_certified;
     json["undecided_boxes"] = nlohmann::ordered_json::array();
@@ -60,6 +79,9 @@ std::string summary(const Statistics& s) {
   if (s.max_distance_to_surface == s.max_distance_to_surface) text << "at most " << s.max_distance_to_surface;
   else text << "unknown";
   text << '\n';
+  if (s.spline && s.spline->smoothing > 0)
+    text << "noise in the samples: " << s.spline->noise.deviation << ", smoothed by " << s.spline->smoothing
+         << " voxels\n";
   if (s.completeness) {
     const std::size_t n = s.completeness->undecided_boxes.size();
     if (s.completeness->is_certified) text << "certified: no component is missing\n";

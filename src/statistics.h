@@ -3,6 +3,8 @@
 #define EQUIAFFINE_SRC_STATISTICS_H
 
 #include <equiaffine/Point_status.h>
+#include <equiaffine/Sample_noise.h>
+#include <equiaffine/Spline_scheme.h>
 #include <equiaffine/mesh_topology.h>
 
 #include <CGAL/Bbox_3.h>
@@ -22,6 +24,14 @@ struct Completeness {
   std::vector<CGAL::Bbox_3> undecided_boxes;
 };
 
+/// How samples became a spline, and what they are like.
+struct Spline_statistics {
+  int degree = 0;
+  Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
+  double smoothing = 0;
+  Sample_noise noise = {};
+};
+
 /// What is known about a mesh that was made.
 struct Statistics {
   std::string source;
@@ -33,6 +43,7 @@ struct Statistics {
   double sample_seconds = 0, project_seconds = 0, annotate_seconds = 0, write_seconds = 0;
   std::size_t function_evaluations = 0;
   std::optional<Completeness> completeness; ///< of a mesh by a method that has one
+  std::optional<Spline_statistics> spline;  ///< if derivatives are those of a spline
 };
 
 std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_status> status);

@@ -143,6 +143,24 @@ TEST(Distance_function_3, the_distances_do_not_depend_on_threads_and_every_node_
   EXPECT_EQ(parallel.values, signed_distance_volume<CGAL::Sequential_tag>(cube(0, 2), skew_lattice()).values);
 }
 
+TEST(Distance_function_3, a_narrow_band_has_the_same_values_and_none_outside) {
+  Mesh mesh = cube(0, 2);
+  add_cube(mesh, 2.7, 3.1);
+  const Lattice_3 lattice({61, 40, 50}, Point_3(-3, -2, -2.5),
+                          {Vector_3(0.12, 0.03, 0.02), Vector_3(-0.03, 0.15, 0), Vector_3(0, -0.02, 0.15)});
+  const auto whole = signed_distance_volume(mesh, lattice);
+  for (const double band : {0.05, 0.3, 1.0}) {
+    const auto narrow = signed_distance_volume(
+        mesh, lattice, [](std::size_t) {}, band);
+    std::size_t missing = 0;
+    for (std::size_t n = 0; n < whole.values.size(); ++n)
+      if (std::abs(whole.values[n]) > band) missing += std::isnan(narrow.values[n]);
+      else ASSERT_EQ(narrow.values[n], whole.values[n]);
+    EXPECT_EQ(std::ptrdiff_t(missing),
+              std::count_if(whole.values.begin(), whole.values.end(), [&](double d) { return std::abs(d) > band; }));
+  }
+}
+
 TEST(Distance_function_3, a_mesh_without_faces_is_refused) {
   expect_refusal(Mesh(), "the mesh has no faces", "", ": give a closed mesh of triangles");
 }

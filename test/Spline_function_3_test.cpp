@@ -75,37 +75,37 @@ std::vector<Point_3> points_of(const Lattice_3& lattice) {
 // An upper bound of the sum of |d c / d f_j| over the samples f_j of a line, weighted by |d-th Taylor coefficients| of
 // the B-splines: how much a relative error of the samples and of the weights can grow in one direction.
 template <int Degree>
-double amplification(int d) {
-  constexpr auto line = equiaffine::internal::Line_filter<double, Degree>::quasi_interpolation();
-  std::array<double, Degree + 1> of_coefficient{};
-  double inside = line.weights[0];
-  for (int s = 1; s <= line.radius; ++s) inside += 2 * std::abs(line.weights[std::size_t(s)]);
-  of_coefficient.fill(inside);
-  for (std::size_t i = 0; i < Degree - 1; ++i) { // the Degree - 1 rules of a border reach the first cells
-    double sum = 0;
-    for (const double w : line.border[i]) sum += std::abs(w);
-    of_coefficient[i] = sum;
-  }
+double amplification(int d, Spline_scheme scheme) {
+  constexpr std::size_t nodes = 40, coefficients = nodes + 2 * (Degree / 2);
+  std::vector<double> unit(nodes * nodes), weights(coefficients * nodes);
+  for (std::size_t i = 0; i < nodes; ++i) unit[i * (nodes + 1)] = 1;
+  equiaffine::internal::with_line_filter<double, Degree>(
+      scheme, [&](const auto& filter) { filter.apply(unit.data(), nodes, nodes, weights.data(), nodes); });
   double greatest = 0;
-  for (double t = 0; t <= 1; t += 0.125) {
-    const equiaffine::internal::Bspline_taylor<Degree, 4, double> b(t);
-    double sum = 0;
-    for (int r = 0; r <= Degree; ++r) sum += std::abs(b.rows[d][r]) * of_coefficient[std::size_t(r)];
-    greatest = std::max(greatest, sum);
-  }
+  for (std::size_t cell = 0; cell < nodes - 1; ++cell)
+    for (double t = 0; t <= 1; t += 0.125) {
+      const equiaffine::internal::Bspline_taylor<Degree, 4, double> b(t);
+      double sum = 0;
+      for (std::size_t r = 0; r <= Degree; ++r)
+        for (std::size_t j = 0; j < nodes; ++j) sum += std::abs(b.rows[d][r] * weights[(cell + r) * nodes + j]);
+      greatest = std::max(greatest, sum);
+    }
   return greatest;
 }
 
 // A bound of the rounding of each coefficient: `operations` roundings, each amplified as above along x, y and z, and
 // mapped to space by a matrix whose rows have absolute sums <= `row_sum`.
 template <int Degree>
-std::array<double, 5> rounding_bounds(double greatest_sample, double row_sum) {
+std::array<double, 5> rounding_bounds(double greatest_sample, double row_sum,
+                                      Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION) {
   constexpr int operations = 3 * (2 * (Degree + 1) + 3 * Degree);
+  std::array<double, 5> amplifications;
+  for (int d = 0; d < 5; ++d) amplifications[std::size_t(d)] = amplification<Degree>(d, scheme);
   std::array<double, 5> bounds{};
   for (int n = 0; n < 35; ++n) {
     const auto m = equiaffine::internal::monomials[std::size_t(n)];
-    bounds[std::size_t(m.degree())] += operations * epsilon * greatest_sample * amplification<Degree>(m.i) *
-                                       amplification<Degree>(m.j) * amplification<Degree>(m.k) *
+    bounds[std::size_t(m.degree())] += operations * epsilon * greatest_sample * amplifications[std::size_t(m.i)] *
+                                       amplifications[std::size_t(m.j)] * amplifications[std::size_t(m.k)] *
                                        std::pow(row_sum, m.degree());
   }
   return bounds;
@@ -124,13 +124,14 @@ struct Polynomial {
 };
 
 template <int Degree>
-void expect_reproduction(const Lattice_3& lattice, double row_sum) {
+void expect_reproduction(const Lattice_3& lattice, double row_sum,
+                         Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION) {
   const Polynomial<Degree> f;
   const Volume_3 volume = sample(lattice, f);
   double greatest = 0;
   for (const double value : volume.values) greatest = std::max(greatest, std::abs(value));
-  const auto bounds = rounding_bounds<Degree>(greatest, row_sum);
-  const Spline_function_3 spline(volume, Degree);
+  const auto bounds = rounding_bounds<Degree>(greatest, row_sum, scheme);
+  const Spline_function_3 spline(volume, Degree, scheme);
   for (const Point_3& p : points_of(lattice)) {
     const Jet_3 expected = jet_of(f, p), computed = spline.taylor(p);
     for (std::size_t n = 0; n < 35; ++n)
@@ -206,6 +207,55 @@ TEST(Spline_function_3, quasi_interpolation_has_order_degree_plus_one_and_minus_
   expect_orders(5, Spline_scheme::QUASI_INTERPOLATION, 32, 6, 2);
   expect_orders(7, Spline_scheme::QUASI_INTERPOLATION, 24, 8, 4);
   expect_orders(9, Spline_scheme::QUASI_INTERPOLATION, 12, 10, 6);
+}
+
+TEST(Spline_function_3, interpolation_reproduces_polynomials_up_to_its_degree_and_to_the_border) {
+  expect_reproduction<5>(unit_lattice(6, 7, 11), 1, Spline_scheme::INTERPOLATION);
+  expect_reproduction<7>(unit_lattice(8, 9, 13), 1, Spline_scheme::INTERPOLATION);
+  expect_reproduction<9>(unit_lattice(10, 11, 15), 1, Spline_scheme::INTERPOLATION);
+}
+
+TEST(Spline_function_3, interpolation_has_order_degree_plus_one_and_minus_three_for_fourth_derivatives) {
+  expect_orders(5, Spline_scheme::INTERPOLATION, 32, 6, 2);
+  expect_orders(7, Spline_scheme::INTERPOLATION, 24, 8, 4);
+  expect_orders(9, Spline_scheme::INTERPOLATION, 12, 10, 6);
+}
+
+TEST(Spline_function_3, interpolation_has_the_samples_as_values_at_the_nodes) {
+  const Lattice_3 lattice = skew_lattice(12, 15, 13);
+  const Volume_3 volume = random_volume(lattice);
+  const auto expect_samples = [&](int degree, double bound) {
+    const Spline_function_3 spline(volume, degree, Spline_scheme::INTERPOLATION);
+    for (std::size_t i = 0; i < 12; ++i)
+      for (std::size_t j = 0; j < 15; ++j)
+        for (std::size_t k = 0; k < 13; ++k)
+          ASSERT_NEAR(spline.value(lattice.point(double(i), double(j), double(k))), volume(i, j, k), bound) << degree;
+  };
+  expect_samples(5, rounding_bounds<5>(0.5, 1, Spline_scheme::INTERPOLATION)[0]);
+  expect_samples(7, rounding_bounds<7>(0.5, 1, Spline_scheme::INTERPOLATION)[0]);
+  expect_samples(9, rounding_bounds<9>(0.5, 1, Spline_scheme::INTERPOLATION)[0]);
+}
+
+TEST(Spline_function_3, the_scheme_of_the_paper_interpolates_expansions_by_convolution_at_the_nodes) {
+  const Lattice_3 lattice = skew_lattice(9, 10, 11);
+  const Volume_3 volume = random_volume(lattice);
+  const Spline_function_3 paper(volume, 5, Spline_scheme::PAPER), nodes(volume, 5, Spline_scheme::CONVOLUTION);
+  const auto bounds = rounding_bounds<5>(0.5, 4, Spline_scheme::CONVOLUTION);
+  const auto expect_between = [&](const Point_3& p, const Point_3& q, double t) {
+    const Jet_3 jet = paper.taylor(p + t * (q - p)), jet_p = nodes.taylor(p), jet_q = nodes.taylor(q);
+    for (std::size_t n = 0; n < 35; ++n)
+      EXPECT_NEAR(jet.coefficients()[n], (1 - t) * jet_p.coefficients()[n] + t * jet_q.coefficients()[n],
+                  bounds[std::size_t(equiaffine::internal::monomials[n].degree())]);
+  };
+  expect_between(lattice.point(3, 4, 5), lattice.point(4, 4, 5), 0.3); // on edges of the grid
+  expect_between(lattice.point(7, 0, 10), lattice.point(7, 1, 10), 0.6);
+  expect_between(lattice.point(8, 9, 9), lattice.point(8, 9, 10), 1);
+  const Point_3 middle = lattice.point(2.5, 3.5, 6.5);
+  double sum = 0;
+  for (unsigned corner = 0; corner < 8; ++corner)
+    sum +=
+        nodes.taylor(lattice.point(2 + (corner & 1), 3 + (corner >> 1 & 1), 6 + (corner >> 2))).derivative(2, 1, 1) / 8;
+  EXPECT_NEAR(paper.taylor(middle).derivative(2, 1, 1), sum, 2 * bounds[4]);
 }
 
 TEST(Spline_function_3, convolution_has_order_two) {

@@ -35,7 +35,7 @@ const std::string basic_names = "nx,ny,nz,k1,k2,gaussian_curvature,mean_curvatur
                                 "affine_mean_curvature,pick_invariant";
 const std::string further_names =
     "affine_k1,affine_k2,direction1_x,direction1_y,direction1_z,direction2_x,direction2_y,"
-    "direction2_z,metric_xx,metric_xy,metric_xz,metric_yy,metric_yz,metric_zz,quadric_defect";
+    "direction2_z,metric_xx,metric_xy,metric_xz,metric_yy,metric_yz,metric_zz";
 
 Arguments operator+(Arguments first, const Arguments& second) {
   first.insert(first.end(), second.begin(), second.end());
@@ -407,6 +407,7 @@ TEST_F(Program_command_line, the_signature_is_computed_on_request_alone) {
   const std::string one = run_well(evaluate + Arguments{"pick_invariant_gradient"}, "x,y,z\n1,2,3\n");
   EXPECT_EQ(rows(one).at(0).at("pick_invariant_gradient"), row.at("pick_invariant_gradient"));
   EXPECT_EQ(run_well(evaluate + Arguments{"all"}, "x,y,z\n").find("gradient"), std::string::npos);
+  EXPECT_EQ(run_well(evaluate + Arguments{"quadric_defect"}, "x,y,z\n"), "x,y,z,quadric_defect,status\n");
 }
 
 TEST_F(Program_command_line, the_parabolic_curves_of_a_torus_are_two_closed_ones) {

@@ -24,10 +24,12 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #endif
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -96,9 +98,12 @@ public:
     distance_tree_.accelerate_distance_queries();
   }
 
-  /// Calls `store(i, distance)` for the nodes point(0) .. point(count - 1), {x, y, z} each, which lie `step` apart.
+  /// Calls `store(i, distance)` for the nodes point(0) .. point(count - 1), {x, y, z} each, which lie `step` apart; for
+  /// those farther than `band` from the surface the distance is NaN. Where it is larger by n steps, the next n nodes are
+  /// not looked at, and between them the side does not change.
   template <class Node, class Store>
-  void sample_row(std::size_t count, double step, const Node& point, const Store& store) const {
+  void sample_row(std::size_t count, double step, double band, const Node& point, const Store& store) const {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const double reach = 1.01 * step; // beyond any rounding of the distance
     Distance_kernel::Point_3 nearest;
     double last_distance = 0;
@@ -109,8 +114,13 @@ public:
       nearest = i == 0 ? distance_tree_.closest_point(p) : distance_tree_.closest_point(p, nearest);
       const double distance = std::sqrt(CGAL::squared_distance(p, nearest));
       if (side == CGAL::ON_BOUNDARY || distance + last_distance <= reach) side = side_(Side_kernel::Point_3(x, y, z));
-      store(i, side == CGAL::ON_BOUNDARY ? 0 : side == CGAL::ON_BOUNDED_SIDE ? -distance : distance);
       last_distance = distance;
+      if (distance > band) {
+        const double skipped = std::min((distance - band) / reach, double(count - 1 - i));
+        for (const std::size_t last = i + std::size_t(skipped); i < last; ++i) store(i, nan);
+        last_distance -= skipped * step;
+        store(i, nan);
+      } else store(i, side == CGAL::ON_BOUNDARY ? 0 : side == CGAL::ON_BOUNDED_SIDE ? -distance : distance);
     }
   }
 
@@ -145,13 +155,15 @@ private:
 ///
 /// Signs are exact for the given coordinates, distances correct to a few units in the last place of the coordinates.
 /// The result does not depend on the number of threads. `on_progress(n)` is called after every n nodes, from any
-/// thread.
+/// thread. Nodes farther than `band` from the surface have no value (NaN), which saves most of the time if they are
+/// many; by default there are none.
 ///
 /// \throws Input_error if the mesh has no faces, faces other than triangles, coordinates that are not finite, holes,
 /// degenerate triangles or self-intersections.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class Kernel, class Progress>
 Volume_3<Kernel> signed_distance_volume(const TriangleMesh& mesh, const Lattice_3<Kernel>& lattice,
-                                        const Progress& on_progress) {
+                                        const Progress& on_progress,
+                                        double band = std::numeric_limits<double>::infinity()) {
   internal::Distance_mesh copy;
   CGAL::copy_face_graph(mesh, copy);
   internal::check_bounds_solid(copy);
@@ -167,7 +179,7 @@ Volume_3<Kernel> signed_distance_volume(const TriangleMesh& mesh, const Lattice_
       const auto p = lattice.point(FT(i), FT(j), FT(k));
       return std::array<double, 3>{CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
     };
-    sampler.sample_row(nx, step, node, [&](std::size_t i, double d) { volume.values[row * nx + i] = FT(d); });
+    sampler.sample_row(nx, step, band, node, [&](std::size_t i, double d) { volume.values[row * nx + i] = FT(d); });
     on_progress(nx);
   });
   return volume;

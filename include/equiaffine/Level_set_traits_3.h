@@ -4,6 +4,7 @@
 
 #include <equiaffine/concepts.h>
 #include <equiaffine/internal/first_order_bounds.h>
+#include <equiaffine/internal/rounding.h>
 
 #include <CGAL/number_utils.h>
 
@@ -54,6 +55,7 @@ public:
     base.second_order_bounds(box);
   }
   { return from_base(base_.second_order_bounds(box)); }
+  FT rounding(const Point_3& p) const requires internal::Has_rounding<Base> { return base_.rounding(p); }
   CGAL::Bbox_3 bbox() const { return base_.bbox(); }
   Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
     return sampling_lattice(base_, size);

@@ -81,10 +81,13 @@ struct Local_structure_lanes {
 } // namespace internal
 
 /// Local structure, Euclidean and affine, of the level set of f through a point, from the jet of f there. The point
-/// need not satisfy f = 0. For `point_magnitude` see Monge_chart_3. About 500 floating-point operations.
+/// need not satisfy f = 0. For `point_magnitude` see Monge_chart_3. Where errors of second derivatives of up to
+/// `rounding` could have made it, K_e counts as zero. About 500 floating-point operations.
 template <class FT>
-Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const FT& point_magnitude = FT(0)) {
-  const Monge_chart_3<FT> chart(jet, point_magnitude);
+Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const FT& point_magnitude = FT(0),
+                                      const FT& rounding = FT(0)) {
+  Monge_chart_3<FT> chart(jet, point_magnitude);
+  if (rounding > FT(0)) chart.disregard(jet, rounding);
   const internal::Local_structure_lanes<FT> lanes(jet, chart);
   Local_structure_3<FT> s = lanes.structure;
   if (lanes.is_regular) return s;

@@ -35,8 +35,8 @@ struct Monge_chart_3 {
 
   Mask pivot_is_x, pivot_is_y; ///< which axis plays z; the next two, cyclically, play x and y
   Mask is_steep;               ///< the gradient is not that of a singular point, see the constructor
-  Mask is_curved;              ///< d is not zero within 1000 roundings of the terms of which its entries are sums
-  FT sign;                     ///< of f_z: normals along the gradient are sign (a, b, 1) up to length
+  Mask is_curved; ///< d is not zero within 1000 roundings of the terms of which its entries are sums, see `disregard`
+  FT sign;        ///< of f_z: normals along the gradient are sign (a, b, 1) up to length
   FT a, b;
   std::array<FT, 3> quadratic; ///< of Q
   std::array<FT, 2> mixed;     ///< of L
@@ -58,6 +58,19 @@ struct Monge_chart_3 {
     is_steep = larger(larger(abs(c[1]), abs(c[2])), abs(c[3])) > roundings(4) * second * point_magnitude;
     choose_pivot({c[1], c[2], c[3]}, {abs(c[4]), abs(c[7]), abs(c[9])}, second);
     build(jet);
+  }
+
+  /// Takes d for zero where second derivatives of the jet with errors of up to `error` could produce it. Errors of the
+  /// coefficients of Q are those of a frame with a = b = 0, times 1 + |a| per u and 1 + |b| per v.
+  void disregard(const Jet_3<FT>& jet, const FT& error) {
+    using internal::select;
+    using std::abs;
+    const auto& c = jet.coefficients();
+    const FT pivot = select(pivot_is_x, c[1], select(pivot_is_y, c[2], c[3]));
+    const FT one_u = FT(1) + abs(a), one_v = FT(1) + abs(b), uv = abs(FT(0.5) * error / pivot) * one_u * one_v;
+    const FT doubt =
+        uv * (abs(quadratic[0]) * one_v / one_u + abs(quadratic[2]) * one_u / one_v + FT(2) * (abs(quadratic[1]) + uv));
+    is_curved = is_curved && abs(determinant) > doubt;
   }
 
   /// The second derivatives of the surface as a graph w = g(u, v): the affine fundamental form.

@@ -36,6 +36,7 @@ public:
   Jet_3<FT, 1> first_order(const Point_3& p) const { return spline_->template taylor<1>(p); }
   Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); }
   Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); }
+  FT rounding(const Point_3& p) const { return spline_->rounding(p); }
   CGAL::Bbox_3 bbox() const { return volume_->lattice.bbox(); }
 
   const Lattice_3<Kernel>& lattice() const { return volume_->lattice; }

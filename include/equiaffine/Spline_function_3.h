@@ -4,10 +4,14 @@
 
 #include <equiaffine/Interval.h>
 #include <equiaffine/Jet_3.h>
+#include <equiaffine/Spline_scheme.h>
 #include <equiaffine/Volume_3.h>
 #include <equiaffine/internal/Linear_substitution_3.h>
 #include <equiaffine/internal/bspline_evaluation.h>
+#include <equiaffine/internal/bspline_functionals.h>
+#include <equiaffine/internal/bspline_interpolation.h>
 #include <equiaffine/internal/parallel_for.h>
+#include <equiaffine/internal/separable_filter.h>
 
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/tags.h>
@@ -23,19 +27,12 @@
 
 namespace equiaffine {
 
-/// How samples become spline coefficients. Orders are those of the value for spacing h -> 0; a derivative of order k
-/// has order min(2, n + 1 - k) and n + 1 - k respectively, n the degree.
-enum class Spline_scheme {
-  CONVOLUTION,        ///< coefficients = samples, the paper's choice: smooths; order 2
-  QUASI_INTERPOLATION ///< a local filter of 2 floor(n / 2) + 1 samples per axis: order n + 1, no spreading of kinks
-};
-
 /// The tensor product B-spline of degree 5, 7 or 9 through the samples of a volume, as a function of the points of
 /// space: value, and Taylor expansion to order 4, at any point.
 ///
 /// The support is the whole lattice, borders included, where the scheme keeps its order by extrapolating samples
-/// (internal/bspline.h). Outside, at every point whose samples include one that is not finite, and everywhere if an
-/// axis has no more than `degree` nodes, all numbers are NaN.
+/// (internal/bspline.h). Outside, at every point whose samples include one that is not finite (all samples take part in
+/// interpolation), and everywhere if an axis has no more than `degree` nodes, all numbers are NaN.
 ///
 /// Derivatives are taken in lattice coordinates and mapped by the inverse of the lattice's matrix: any spacing,
 /// rotation, shear and handedness. The rounding error of a k-th derivative is some 1e-15 max|f| / spacing^k, in the
@@ -66,7 +63,10 @@ public:
     }
     if (!is_supported_) return;
     coefficients_.resize(size_[0] * size_[1] * size_[2] + internal::overread);
-    for_degree([&](auto n) { filter<n, ConcurrencyTag>(volume.values); });
+    internal::with_degree(degree_, [&](auto n) { filter<n, ConcurrencyTag>(volume.values); });
+    for (std::size_t a = 0; a < 3; ++a) gains_[a] = Gains(lattice_.size()[a], {degree, scheme});
+    for (const FT& x : volume.values)
+      if (std::isfinite(x)) greatest_sample_ = std::max(greatest_sample_, std::abs(x));
   }
 
   const Lattice& lattice() const { return lattice_; }
@@ -75,20 +75,49 @@ public:
 
   FT value(const Point_3& p) const { return taylor<0>(p).value(); }
 
+  /// An estimate from above of the errors of second derivatives at p that come from rounding: two roundings of every
+  /// term, as if all samples were of the size of the largest. 0 outside the support.
+  FT rounding(const Point_3& p) const {
+    const auto place = locate(p);
+    if (!place) return 0;
+    std::array<std::array<FT, 3>, 3> gain; // [axis][order of the derivative]
+    for (std::size_t a = 0; a < 3; ++a) gain[a] = gains_[a].of_cell(place->cell[a]);
+    FT greatest = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = i; j < 3; ++j) {
+        FT sum = 0;
+        for (std::size_t a = 0; a < 3; ++a)
+          for (std::size_t b = 0; b < 3; ++b) {
+            FT product = std::abs(to_lattice_[a][i] * to_lattice_[b][j]);
+            for (std::size_t c = 0; c < 3; ++c) product *= gain[c][std::size_t(a == c) + std::size_t(b == c)];
+            sum += product;
+          }
+        greatest = std::max(greatest, sum);
+      }
+    return 2 * std::numeric_limits<FT>::epsilon() * greatest_sample_ * greatest;
+  }
+
+  /// The cell of the lattice that contains a point of the support.
+  std::optional<std::array<std::size_t, 3>> cell_of(const Point_3& p) const {
+    const auto place = locate(p);
+    if (!place) return std::nullopt;
+    return place->cell;
+  }
+
+  /// An expansion in lattice coordinates, in those of space.
+  Jet_3<FT> to_space(const Jet_3<FT>& jet) const { return substitution_(jet); }
+
   /// The expansion at p in the coordinates of space, to total order `Order` <= 4; the lower ones cost less.
   template <int Order = internal::maximal_order>
   Jet_3<FT, Order> taylor(const Point_3& p) const {
-    Jet_3<FT, Order> jet;
     const auto place = locate(p);
     if (!place) {
+      Jet_3<FT, Order> jet;
       jet.coefficients().fill(std::numeric_limits<FT>::quiet_NaN());
       return jet;
     }
-    const FT* first = &coefficients_[coefficient_index(place->cell)];
-    for_degree([&](auto n) {
-      internal::contract<n, Order>(first, size_[0], size_[0] * size_[1], place->offset, jet.coefficients());
-    });
-    return substitution_(jet);
+    return substitution_(scheme_ == Spline_scheme::PAPER ? interpolated_expansion<Order>(*place)
+                                                         : expansion<Order>(*place));
   }
 
   /// Contains the values at all points of the box: B-splines are non-negative and sum to one, so a value lies between
@@ -120,12 +149,25 @@ private:
     std::array<FT, 3> offset; // in [0, 1], up to rounding
   };
 
-  template <class F>
-  void for_degree(F f) const {
-    if (degree_ == 5) f(std::integral_constant<int, 5>());
-    else if (degree_ == 7) f(std::integral_constant<int, 7>());
-    else f(std::integral_constant<int, 9>());
-  }
+  /// How much rounding of samples of size 1 can change the value and the first two derivatives along one axis.
+  class Gains {
+  public:
+    Gains() = default;
+    Gains(std::size_t nodes, const internal::Spline_rule<FT>& rule) {
+      const internal::Line_functionals<FT> line(nodes, rule);
+      for (std::size_t cell = 0; cell < nodes - 1; ++cell) {
+        kinds_.push_back(line.kind_of_cell(cell));
+        if (kinds_.back() < gains_.size()) continue;
+        gains_.push_back({line.gain(cell, 0), line.gain(cell, 1), 2 * line.gain(cell, 2)}); // times d!
+      }
+    }
+
+    const std::array<FT, 3>& of_cell(std::size_t cell) const { return gains_[kinds_[cell]]; }
+
+  private:
+    std::vector<std::size_t> kinds_;
+    std::vector<std::array<FT, 3>> gains_;
+  };
 
   static Matrix inverse_matrix(const Lattice& lattice) {
     Matrix inverse;
@@ -166,6 +208,34 @@ private:
     return place;
   }
 
+  /// In lattice coordinates.
+  template <int Order>
+  Jet_3<FT, Order> expansion(const Place& place) const {
+    Jet_3<FT, Order> jet;
+    const FT* first = &coefficients_[coefficient_index(place.cell)];
+    internal::with_degree(degree_, [&](auto n) {
+      internal::contract<n, Order>(first, size_[0], size_[0] * size_[1], place.offset, jet.coefficients());
+    });
+    return jet;
+  }
+
+  /// Linear in each coordinate between the expansions at the corners of the cell.
+  template <int Order>
+  Jet_3<FT, Order> interpolated_expansion(const Place& place) const {
+    Jet_3<FT, Order> sum(FT(0));
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      Place node = place;
+      FT weight = 1;
+      for (std::size_t a = 0; a < 3; ++a) {
+        node.offset[a] = FT(corner >> a & 1);
+        weight *= corner >> a & 1 ? place.offset[a] : 1 - place.offset[a];
+      }
+      const auto jet = expansion<Order>(node);
+      for (std::size_t n = 0; n < jet.size; ++n) sum.coefficients()[n] += weight * jet.coefficients()[n];
+    }
+    return sum;
+  }
+
   /// Position of a coefficient; the first tap of cell c is coefficient c, as padding shifts both alike.
   std::size_t coefficient_index(const std::array<std::size_t, 3>& c) const {
     return (c[2] * size_[1] + c[1]) * size_[0] + c[0];
@@ -193,37 +263,17 @@ private:
   /// Samples to coefficients, along x, then y, then z.
   template <int Degree, class ConcurrencyTag>
   void filter(const std::vector<FT>& samples) {
-    using Filter = internal::Line_filter<FT, Degree>;
-    static constexpr Filter convolution = Filter::convolution();
-    static constexpr Filter quasi_interpolation = Filter::quasi_interpolation();
-    const Filter& line = scheme_ == Spline_scheme::CONVOLUTION ? convolution : quasi_interpolation;
-
-    const auto [nx, ny, nz] = lattice_.size();
-    const std::size_t pad = Filter::padding, row = size_[0], slab = size_[0] * size_[1];
-    FT* const c = coefficients_.data();
-    internal::parallel_for<ConcurrencyTag>(0, ny * nz, [&, nx = nx, ny = ny](std::size_t line_number) {
-      const std::size_t j = line_number % ny, k = line_number / ny;
-      const FT* from = &samples[lattice_.index(0, j, k)];
-      line.apply(from, nx, 1, c + (k + pad) * slab + (j + pad) * row, 1);
+    internal::with_line_filter<FT, Degree>(scheme_, [&](const auto& line) {
+      using Filter = std::decay_t<decltype(line)>;
+      internal::Separable_filter<ConcurrencyTag, FT, Filter>(lattice_.size(), Filter::padding, coefficients_.data())(
+          {&line, &line, &line}, samples.data());
     });
-    internal::parallel_for<ConcurrencyTag>(
-        0, nz, [&, ny = ny](std::size_t k) { filter_in_place(line, c + (k + pad) * slab, ny, row); });
-    internal::parallel_for<ConcurrencyTag>(
-        0, size_[1], [&, nz = nz](std::size_t j) { filter_in_place(line, c + j * row, nz, slab); });
+    const std::size_t slab = size_[0] * size_[1];
     internal::parallel_for<ConcurrencyTag>(0, size_[2], [&](std::size_t k) {
-      for (FT* x = c + k * slab; x != c + (k + 1) * slab; ++x)
+      FT* const first = coefficients_.data() + k * slab;
+      for (FT* x = first; x != first + slab; ++x)
         if (!std::isfinite(*x)) *x = std::numeric_limits<FT>::quiet_NaN(); // an infinity could pass as a value
     });
-  }
-
-  /// Filters the `count` rows that lie `stride` apart, after `padding` empty ones, in the direction across them.
-  template <class Filter>
-  void filter_in_place(const Filter& line, FT* rows, std::size_t count, std::size_t stride) const {
-    const std::size_t width = size_[0];
-    std::vector<FT> samples(count * width);
-    for (std::size_t i = 0; i < count; ++i)
-      std::copy_n(rows + (i + std::size_t(Filter::padding)) * stride, width, &samples[i * width]);
-    line.apply(samples.data(), count, width, rows, stride);
   }
 
   Lattice lattice_;
@@ -235,6 +285,8 @@ private:
   std::array<std::size_t, 3> size_{}; // of the coefficients, padding included
   bool is_supported_ = true;
   std::vector<FT> coefficients_;
+  std::array<Gains, 3> gains_;
+  FT greatest_sample_ = 0;
 };
 
 } // namespace equiaffine

@@ -5,11 +5,14 @@
 #include <equiaffine/concepts.h>
 #include <equiaffine/internal/Linear_substitution_3.h>
 #include <equiaffine/internal/first_order_bounds.h>
+#include <equiaffine/internal/rounding.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/number_utils.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -71,6 +74,18 @@ public:
     base.second_order_bounds(box);
   }
   { return substitution_of_bounds_(base_.second_order_bounds(preimage(box))); }
+
+  /// A second derivative is a sum of the base's, each times two entries of A^-1.
+  FT rounding(const Point_3& p) const requires internal::Has_rounding<Base> {
+    FT greatest(0);
+    for (int column = 0; column < 3; ++column) {
+      using std::abs;
+      FT sum(0);
+      for (int row = 0; row < 3; ++row) sum += abs(inverse_.m(row, column));
+      greatest = std::max(greatest, sum);
+    }
+    return base_.rounding(inverse_(p)) * greatest * greatest;
+  }
 
   /// The box of the image of the base's box.
   CGAL::Bbox_3 bbox() const { return Lattice_3<Kernel_of<Base>>({2, 2, 2}, base_.bbox()).transform(map_).bbox(); }

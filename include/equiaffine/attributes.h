@@ -8,6 +8,7 @@
 #include <equiaffine/affine_gradients.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/internal/parallel_for.h>
+#include <equiaffine/internal/rounding.h>
 #include <equiaffine/named_parameters.h>
 #include <equiaffine/reference_estimators.h>
 
@@ -103,12 +104,13 @@ struct Attribute_selection {
 
 namespace internal {
 
-/// `signature` is K, H, J and the norms of their gradients. These are not part of `all`: they take 40 times as long.
+/// `signature` is K, H, J and the norms of their gradients. These, which take 40 times as long, and the quadric defect
+/// come only by name.
 inline bool is_selected_by(const Attribute& attribute, std::string_view name) {
   const bool is_gradient =
       std::find(gradient_names.begin(), gradient_names.end(), attribute.name) != gradient_names.end();
   if (name == "basic") return attribute.is_basic;
-  if (name == "all") return !is_gradient;
+  if (name == "all") return !is_gradient && attribute.name != "quadric_defect";
   if (name == "signature")
     return is_gradient || attribute.name == "affine_gaussian_curvature" || attribute.name == "affine_mean_curvature" ||
            attribute.name == "pick_invariant";
@@ -152,10 +154,11 @@ auto magnitude(const Point_3& p) {
 
 /// By the estimator of the named parameters. Without it the paper's ones are not even compiled.
 template <class Parameters, class FT>
-Local_structure_3<FT> local_structure_by(const Parameters& parameters, const Jet_3<FT>& jet, const FT& magnitude) {
+Local_structure_3<FT> local_structure_by(const Parameters& parameters, const Jet_3<FT>& jet, const FT& magnitude,
+                                         const FT& rounding) {
   if constexpr (has_parameter<Estimator_tag, Parameters>)
-    return local_structure(jet, magnitude, get_parameter<Estimator_tag>(parameters, Estimator::COMPACT));
-  else return local_structure(jet, magnitude);
+    return local_structure(jet, magnitude, rounding, get_parameter<Estimator_tag>(parameters, Estimator::COMPACT));
+  else return local_structure(jet, magnitude, rounding);
 }
 
 } // namespace internal
@@ -166,7 +169,8 @@ template <ImplicitFunctionTraits_3 Traits, class Parameters = internal::No_param
 Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, const typename Traits::Point_3& p,
                                                           Point_status sampled_status = Point_status::REGULAR,
                                                           const Parameters& parameters = {}) {
-  auto structure = internal::local_structure_by(parameters, traits.taylor(p), internal::magnitude(p));
+  auto structure =
+      internal::local_structure_by(parameters, traits.taylor(p), internal::magnitude(p), internal::rounding(traits, p));
   if (sampled_status == Point_status::UNCONVERGED && structure.status != Point_status::OUTSIDE)
     structure.status = Point_status::UNCONVERGED;
   return structure;
@@ -250,7 +254,10 @@ void compute_block_of_attributes(const Traits& traits, std::span<const typename 
   expand_block(traits, points, jets);
   for (std::size_t n = 0; n < jets.size(); ++n) {
     const Lanes magnitudes = pack_of(points, n, [](const auto& p) { return magnitude(p); });
-    const Local_structure_lanes<Lanes> lanes(jets[n], Monge_chart_3<Lanes>(jets[n], magnitudes));
+    const Lanes roundings = pack_of(points, n, [&](const auto& p) { return rounding(traits, p); });
+    Monge_chart_3<Lanes> chart(jets[n], magnitudes);
+    if constexpr (Has_rounding<Traits>) chart.disregard(jets[n], roundings);
+    const Local_structure_lanes<Lanes> lanes(jets[n], chart);
     const std::size_t row = first + n * Lanes::size, count = std::min(Lanes::size, first + points.size() - row);
     for (std::size_t c = 0; c < columns.packs.size(); ++c) {
       const Lanes values = columns.packs[c].get(lanes.structure);
@@ -260,7 +267,8 @@ void compute_block_of_attributes(const Traits& traits, std::span<const typename 
       Point_status& status = (*result.status)[row + i];
       status = Point_status::REGULAR;
       if (lanes.is_regular[i] && is_compact) continue;
-      const auto structure = local_structure_by(columns.parameters, lane(jets[n], i), magnitudes[i]);
+      const auto structure =
+          local_structure_by(columns.parameters, lane(jets[n], i), double(magnitudes[i]), double(roundings[i]));
       for (std::size_t c = 0; c < columns.singles.size(); ++c)
         result.columns[c].values[row + i] = columns.singles[c].get(structure);
       status = structure.status;
