@@ -113,41 +113,34 @@ def fig9(lab):
 def fig11(lab):
     expression, box = "z^2 + (sqrt(x^2+y^2) - 0.5)^2 - 0.2^2", [-0.76, 0.75, -0.75, 0.76, -0.26, 0.25]
     matrix = [[1.4, -0.2, 0.0], [0.1, 0.7, 0.0], [0.0, 0.0, 1.0]]
-    resolution = ["--resolution", *lab.choose((128, 128, 64), (40, 40, 24))]
+    resolution = ["--resolution", *lab.choose((128, 128, 64), (32, 32, 16))]
     image_words = ["--function", transformed(expression, matrix), "--box", *image_of_box(matrix, box), *resolution]
 
     def distances(name, *words):
         before = lab.mesh(name + "-before", "--function", expression, "--box", *box, *resolution, *words)
         after = lab.mesh(name + "-after", *image_words, *words)
-        pair = []
-        for surface in (before, after):
-            pair.append({n: surface.distribution(n) for n in ("affine_gaussian_curvature", "gaussian_curvature")})
-        return pair
+        return before, after, [surface.distribution("affine_gaussian_curvature") for surface in (before, after)]
 
     results = {way: distances(way, "--estimator", way) for way in ("direct", "transformation", "compact")}
     paper_words = ["--derivatives", "spline", "--spline-scheme", "paper", "--vertices", "linear"]
     for way in ("direct", "transformation"):
         results["grid-" + way] = distances("grid-" + way, *paper_words, "--estimator", way)
     rows, affine = [], {}
-    for way, (before, after) in results.items():
-        affine[way] = kolmogorov_smirnov(before["affine_gaussian_curvature"], after["affine_gaussian_curvature"])
-        rows.append([way.replace("grid-", "the paper's grid derivatives, "), affine[way],
-                     scaled_wasserstein(before["affine_gaussian_curvature"], after["affine_gaussian_curvature"])])
-    before, after = results["compact"]
-    euclidean = kolmogorov_smirnov(before["gaussian_curvature"], after["gaussian_curvature"])
-    rows.append(["Euclidean Kₑ, for comparison", euclidean,
-                 scaled_wasserstein(before["gaussian_curvature"], after["gaussian_curvature"])])
+    for way, (_, _, pair) in results.items():
+        affine[way] = kolmogorov_smirnov(*pair)
+        rows.append([way.replace("grid-", "the paper's grid derivatives, "), affine[way], scaled_wasserstein(*pair)])
+    euclidean_pair = [surface.distribution("gaussian_curvature") for surface in results["compact"][:2]]
+    euclidean = kolmogorov_smirnov(*euclidean_pair)
+    rows.append(["Euclidean Kₑ, for comparison", euclidean, scaled_wasserstein(*euclidean_pair)])
     lab.check("Kolmogorov-Smirnov distance of K before and after, over that of Kₑ", affine["compact"] / euclidean, "<=",
-              0.01, affine["grid-transformation"] / euclidean)
+              lab.choose(0.01, 0.1), affine["grid-transformation"] / euclidean)
     lab.table(["K by", "Kolmogorov-Smirnov distance", "Wasserstein distance of asinh(K / median |K|)"], rows)
-    bound = before["affine_gaussian_curvature"].quantile(0.9)
+    exact = results["compact"][2][0]
     for title, way in (("ours", "compact"), ("the paper's grid derivatives, transformation method", "grid-transformation")):
-        pair = [(label, d["affine_gaussian_curvature"]) for label, d in zip(("before", "after"), results[way])]
-        lab.plot(way, histograms(pair, "K", min(0.0, before["affine_gaussian_curvature"].quantile(0.02)), bound),
-                 f"Distribution of K, {title}, weighted by affine area")
-    pair = [(label, d["gaussian_curvature"]) for label, d in zip(("before", "after"), results["compact"])]
-    lab.plot("euclidean", histograms(pair, "Kₑ", before["gaussian_curvature"].quantile(0.02),
-                                     before["gaussian_curvature"].quantile(0.98)), "Distribution of the Euclidean Kₑ")
+        lab.plot(way, histograms(list(zip(("before", "after"), results[way][2])), "K", min(0.0, exact.quantile(0.02)),
+                                 exact.quantile(0.9)), f"Distribution of K, {title}, weighted by affine area")
+    lab.plot("euclidean", histograms(list(zip(("before", "after"), euclidean_pair)), "Kₑ", euclidean_pair[0].quantile(0.02),
+                                     euclidean_pair[0].quantile(0.98)), "Distribution of the Euclidean Kₑ")
     for name, caption in (("compact-before", "K on the torus"), ("compact-after", "K on its image")):
         lab.picture(name, caption, "--color", "affine_gaussian_curvature")
     lab.say("The image is sampled afresh, as its own formula on a grid parallel to the axes. The torus of the figure, "
