@@ -53,6 +53,7 @@ class Lab:
     folder: object
     is_small: bool
     bunny: object = None
+    is_complete: bool = True
     checks: list = field(default_factory=list)
     entries: list = field(default_factory=list)  # what the report shows, in order: (kind, content)
 

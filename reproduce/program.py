@@ -58,7 +58,7 @@ class Surface:
         is_used = is_used or self.is_regular()
         numbers, gaussian = self[column], self["gaussian_curvature"]
         densities = [abs(k) ** 0.25 for k in gaussian]
-        inside = centers_of_parts(3 if len(self.triangles) < 120_000 else 2)
+        inside = centers_of_parts(3 if len(self.triangles) < 60_000 else 2)
         values, weights = [], []
         for (a, b, c), area in zip(self.triangles, self.triangle_areas()):
             if not (is_used[a] and is_used[b] and is_used[c]):

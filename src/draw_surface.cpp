@@ -304,18 +304,16 @@ std::optional<std::array<const std::vector<double>*, 3>> vector_columns(const Ve
 }
 
 Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                             const Page_options& options, const Picture_options& picture,
-                             std::span<const Polyline_3<Kernel>> curves) {
-  const auto [width, height] = picture.size;
+                             const Surface_view& view, std::span<const Polyline_3<Kernel>> curves) {
+  const auto [width, height] = view.size;
   const CGAL::Bbox_3 box = box_of(mesh.points);
-  const Paint paint(attributes, options.color.empty() ? default_color(attributes) : options.color, picture.range,
+  const Paint paint(attributes, view.color.empty() ? default_color(attributes) : view.color, view.range,
                     std::hypot(box.x_span(), box.y_span(), box.z_span()));
-  const Camera camera(mesh.points, options.up, width, height - (paint.legend() ? legend_height : 0),
-                      !picture.arrows.empty());
+  const Camera camera(mesh.points, view.up, width, height - (paint.legend() ? legend_height : 0), !view.arrows.empty());
   Canvas canvas(width, height);
   draw_triangles(canvas, camera, mesh, vertex_normals(mesh, attributes), paint);
   curve_strokes(camera, curves).draw(canvas);
-  if (const auto columns = vector_columns(attributes, picture.arrows))
+  if (const auto columns = vector_columns(attributes, view.arrows))
     arrow_strokes(camera, mesh.points, *columns).draw(canvas);
   return {canvas.picture(), paint.legend()};
 }

@@ -4,7 +4,6 @@
 
 #include "Canvas.h"
 #include "kernel.h"
-#include "options.h"
 #include <equiaffine/Indexed_triangle_mesh_3.h>
 #include <equiaffine/Polyline_3.h>
 #include <equiaffine/io/color_map.h>
@@ -17,6 +16,15 @@
 #include <vector>
 
 namespace equiaffine {
+
+/// How a surface is shown.
+struct Surface_view {
+  std::string color;                          ///< a column, `status`, `plain`, or empty for the page's choice
+  std::array<double, 3> up = {0, 0, 1};       ///< the direction that points up
+  std::array<std::size_t, 2> size;            ///< in pixels
+  std::optional<std::array<double, 2>> range; ///< the numbers of the end colours, instead of quantiles
+  std::string arrows;                         ///< a vector among the columns, or empty
+};
 
 /// What the colours of a picture mean.
 struct Color_legend {
@@ -38,12 +46,9 @@ inline constexpr std::size_t legend_height = 56;
 std::optional<std::array<const std::vector<double>*, 3>> vector_columns(const Vertex_attributes& attributes,
                                                                         const std::string& name);
 
-/// Draws the surface as the page of write_HTML shows it first: the same view, colours and light. `options.color` is a
-/// column, `status`, `plain`, or empty for the page's choice. Curves are black lines; `picture.arrows` names a vector, or
-/// is empty.
+/// Draws the surface as the page of write_HTML shows it first: the same view, colours and light. Curves are black lines.
 Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                             const Page_options& options, const Picture_options& picture,
-                             std::span<const Polyline_3<Kernel>> curves = {});
+                             const Surface_view& view, std::span<const Polyline_3<Kernel>> curves = {});
 
 } // namespace equiaffine
 

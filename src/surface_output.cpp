@@ -68,7 +68,8 @@ void write_picture([[maybe_unused]] Output_file& file, [[maybe_unused]] const In
                    [[maybe_unused]] const Picture_options& picture,
                    [[maybe_unused]] const std::vector<Polyline_3<Kernel>>& curves) {
 #ifdef EQUIAFFINE_WITH_VTK
-  write_PNG(file.stream(), draw_surface(mesh, attributes, options, picture, curves));
+  const Surface_view view = {options.color, options.up, picture.size, picture.range, picture.arrows};
+  write_PNG(file.stream(), draw_surface(mesh, attributes, view, curves));
 #endif
 }
 

@@ -16,7 +16,7 @@ using namespace equiaffine;
 using Vector = Kernel::Vector_3;
 using Mesh = Indexed_triangle_mesh_3<Kernel>;
 
-constexpr Picture_options small = {{101, 101}, std::nullopt, ""};
+const Surface_view small = {{}, {0, 0, 1}, {101, 101}, {}, {}};
 
 /// A square that faces the eye of the first view.
 Mesh facing_square() {
@@ -50,7 +50,7 @@ void expect_near(const std::array<int, 3>& actual, const std::array<int, 3>& exp
 }
 
 TEST(Program_draw_surface, a_plain_surface_has_the_color_and_light_of_the_page) {
-  const auto drawn = draw_surface(facing_square(), {}, {}, small);
+  const auto drawn = draw_surface(facing_square(), {}, small);
   EXPECT_FALSE(drawn.legend);
   expect_near(middle(drawn.picture, 50), shaded(plain_color()));
   EXPECT_EQ(drawn.picture.rgb[0], 255) << "the background is white";
@@ -59,7 +59,7 @@ TEST(Program_draw_surface, a_plain_surface_has_the_color_and_light_of_the_page) 
 TEST(Program_draw_surface, numbers_have_the_colors_and_the_range_of_the_page) {
   Vertex_attributes attributes;
   attributes.columns = {{"mean_curvature", {-1, -1, 3, 3}}};
-  const auto drawn = draw_surface(facing_square(), attributes, {}, small);
+  const auto drawn = draw_surface(facing_square(), attributes, small);
   ASSERT_TRUE(drawn.legend);
   EXPECT_EQ(drawn.legend->label, "Mean curvature");
   EXPECT_EQ(drawn.legend->range, color_range({-1, -1, 3, 3}));
@@ -70,14 +70,14 @@ TEST(Program_draw_surface, numbers_have_the_colors_and_the_range_of_the_page) {
 TEST(Program_draw_surface, a_range_can_be_given) {
   Vertex_attributes attributes;
   attributes.columns = {{"anything", {5, 5, 5, 5}}};
-  Picture_options options = small;
+  Surface_view options = small;
   options.range = {{-10, 10}};
-  const auto drawn = draw_surface(facing_square(), attributes, {}, options);
+  const auto drawn = draw_surface(facing_square(), attributes, options);
   ASSERT_TRUE(drawn.legend);
   EXPECT_TRUE(drawn.legend->range.is_diverging);
   expect_near(middle(drawn.picture, (101 - legend_height) / 2), shaded(diverging_color(0.5)));
   options.range = {{0, 10}};
-  expect_near(middle(draw_surface(facing_square(), attributes, {}, options).picture, (101 - legend_height) / 2),
+  expect_near(middle(draw_surface(facing_square(), attributes, options).picture, (101 - legend_height) / 2),
               shaded(sequential_color(0.5)));
 }
 
@@ -86,28 +86,27 @@ TEST(Program_draw_surface, what_has_no_number_has_the_color_of_its_status) {
   Vertex_attributes attributes;
   attributes.columns = {{"k1", {nan, nan, nan, nan}}};
   const std::size_t row = (101 - legend_height) / 2;
-  expect_near(middle(draw_surface(facing_square(), attributes, {}, small).picture, row), shaded(undefined_color()));
+  expect_near(middle(draw_surface(facing_square(), attributes, small).picture, row), shaded(undefined_color()));
   attributes.status.emplace(4, Point_status::PARABOLIC);
-  expect_near(middle(draw_surface(facing_square(), attributes, {}, small).picture, row),
+  expect_near(middle(draw_surface(facing_square(), attributes, small).picture, row),
               shaded(status_color(Point_status::PARABOLIC)));
 }
 
 TEST(Program_draw_surface, curves_and_arrows_are_dark_lines_on_it) {
   const Mesh mesh = facing_square();
   const auto is_dark = [](const Surface_picture& drawn) { return middle(drawn.picture, 50)[0] < 30; };
-  EXPECT_FALSE(is_dark(draw_surface(mesh, {}, {}, small)));
+  EXPECT_FALSE(is_dark(draw_surface(mesh, {}, small)));
   const std::vector<Polyline_3<Kernel>> diagonal = {{{mesh.points[0], mesh.points[2]}, false}};
-  EXPECT_TRUE(is_dark(draw_surface(mesh, {}, {}, small, diagonal)));
+  EXPECT_TRUE(is_dark(draw_surface(mesh, {}, small, diagonal)));
 
   const Vector along = mesh.points[2] - mesh.points[0];
   Vertex_attributes attributes;
   for (int n = 0; n < 3; ++n) attributes.columns.push_back({std::string("v_") + "xyz" [n], { along[n], 0, 0, 0 }});
-  Picture_options options = small;
-  Page_options plain;
-  plain.color = "plain";
-  const auto without = draw_surface(mesh, attributes, plain, options).picture.rgb;
+  Surface_view options = small;
+  options.color = "plain";
+  const auto without = draw_surface(mesh, attributes, options).picture.rgb;
   options.arrows = "v";
-  EXPECT_NE(draw_surface(mesh, attributes, plain, options).picture.rgb, without);
+  EXPECT_NE(draw_surface(mesh, attributes, options).picture.rgb, without);
 }
 
 TEST(Program_draw_surface, a_vector_is_three_columns) {

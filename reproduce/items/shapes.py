@@ -64,6 +64,9 @@ def compare(lab, name, before, after, scale, bound, are_used=(None, None)):
     lab.table(["", "Kolmogorov-Smirnov", "Wasserstein, of asinh(x / median |x|)"], rows)
 
 
+IDENTITY = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+
+
 def read_off(path):
     numbers = path.read_text(encoding="ascii").split()
     n_points, n_faces = int(numbers[1]), int(numbers[2])
@@ -80,14 +83,23 @@ def write_off(path, points, triangles, flips):
     path.write_text("\n".join(rows) + "\n", encoding="ascii")
 
 
-def compare_distance_fields(lab, name, points, triangles, matrix, words):
+def cubic_voxels(points, nodes):
+    """The box of `--distance-to` with that many nodes along its longest side, and voxels that are cubes."""
+    lengths = [max(p[axis] for p in points) - min(p[axis] for p in points) for axis in range(3)]
+    lengths = [length + 0.2 * max(lengths) for length in lengths]
+    return [max(16, round(nodes * length / max(lengths))) for length in lengths]
+
+
+def compare_distance_fields(lab, name, points, triangles, matrix, nodes):
     """The distances to a mesh and to its image, each on a grid of its own; only vertices whose error estimates are less
     than half of the number are compared."""
+    nodes = nodes if not lab.is_small else 32
     surfaces, are_used = [], []
-    for when, map_of in (("before", [[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0]]), ("after", matrix)):
+    for when, map_of in (("before", IDENTITY), ("after", matrix)):
         stem = f"{name}-{when}"
-        write_off(lab.folder / (stem + ".off"), [image(map_of, p) for p in points], triangles, determinant(map_of) < 0)
-        surface = lab.mesh(stem, "--distance-to", stem + ".off", *words)
+        moved = [image(map_of, p) for p in points]
+        write_off(lab.folder / (stem + ".off"), moved, triangles, determinant(map_of) < 0)
+        surface = lab.mesh(stem, "--distance-to", stem + ".off", "--resolution", *cubic_voxels(moved, nodes), *SMOOTHED)
         columns = (surface[c] for c in ("affine_gaussian_curvature", "affine_gaussian_curvature_error",
                                         "affine_mean_curvature", "affine_mean_curvature_error", "status"))
         trusted = [s == 0 and e < 0.5 * abs(x) and f < 0.5 * abs(y) for x, e, y, f, s in zip(*columns)]
@@ -109,7 +121,6 @@ def draw(lab, name, captions, up):
                         "--range", -bound, bound, of=f"{name}-{when}")
 
 
-BUNNY_MAP = unimodular([[1.3, 0.2, 0.0], [0.0, 0.8, 0.3], [0.1, 0.0, 1.0]])
 SMOOTHED = ["--smoothing", "6", "--attributes", "normal,mean_curvature,gaussian_curvature,affine_gaussian_curvature,"
             "affine_mean_curvature,affine_gaussian_curvature_error,affine_mean_curvature_error"]
 
@@ -118,11 +129,14 @@ SMOOTHED = ["--smoothing", "6", "--attributes", "normal,mean_curvature,gaussian_
       "On a discretization of the distance to the Stanford bunny on a 129³ grid the estimated affine Gaussian curvatures "
       "correspond.")
 def fig1(lab):
-    if lab.bunny is None:
+    if lab.bunny:
+        points, triangles = read_off(lab.bunny)
+    elif lab.is_small:  # any mesh will do to see that everything runs
+        mesh = lab.mesh("banana", "--function", BANANA, "--box", *BANANA_BOX, "--resolution", 24, "--attributes", "none")
+        points, triangles = mesh.points, mesh.triangles
+    else:
         return lab.fail("the mesh of the bunny", "it is not given: --bunny FILE, or scripts/reproduce, which fetches it")
-    points, triangles = read_off(lab.bunny)
-    compare_distance_fields(lab, "bunny", points, triangles, BUNNY_MAP,
-                            ["--resolution", lab.choose(129, 33), *SMOOTHED])
+    compare_distance_fields(lab, "bunny", points, triangles, unimodular(SHEAR), 129)
     draw(lab, "bunny", {"before": "the bunny", "after": "its image"}, "y")
 
 
@@ -141,7 +155,6 @@ def fig12(lab):
                      *image_of_box(matrix, BANANA_BOX), "--resolution", lab.choose(192, 48))
     compare(lab, "banana, formula", before, after, 1.0, lab.choose(0.01, 0.05))
     draw(lab, "formula", {"before": "the banana", "after": "its image"}, "z")
-    mesh = lab.mesh("banana", "--function", BANANA, "--box", *BANANA_BOX, "--resolution", lab.choose(200, 32),
+    mesh = lab.mesh("banana", "--function", BANANA, "--box", *BANANA_BOX, "--resolution", lab.choose(100, 32),
                     "--attributes", "none")
-    compare_distance_fields(lab, "banana", mesh.points, mesh.triangles, matrix,
-                            ["--resolution", lab.choose(256, 40), *SMOOTHED])
+    compare_distance_fields(lab, "banana", mesh.points, mesh.triangles, matrix, 256)
