@@ -10,7 +10,7 @@ import shlex
 import struct
 import subprocess
 
-from .statistics import Distribution
+from .statistics import Distribution, median
 
 PLY_TYPES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f", "double": "d"}
 
@@ -51,12 +51,15 @@ class Surface:
         """Of the numbers of a column times a factor, weighted by the affine area |K_e|^(1/4) dA. Triangles with a vertex
         that is not regular, or not used, do not count.
 
-        Numbers are interpolated linearly at points in the triangles: at the vertices alone they heap up, for the layers
-        of a grid that is parallel to a symmetry of the surface have equal ones. Triangles that a parabolic curve crosses
-        have infinite numbers inside and count with their corners.
+        Numbers x are interpolated, as x / (m + |x|) which is bounded, at points in the triangles: at the vertices alone
+        they heap up, for the layers of a grid that is parallel to a symmetry of the surface have equal ones. Triangles
+        that a parabolic curve crosses have infinite numbers inside and count with their corners.
         """
         is_used = is_used or self.is_regular()
-        numbers, gaussian = self[column], self["gaussian_curvature"]
+        gaussian = self["gaussian_curvature"]
+        numbers = [factor * x for x in self[column]]
+        unit = median([abs(x) for x in numbers]) or 1.0
+        bounded = [x / (unit + abs(x)) for x in numbers]
         densities = [abs(k) ** 0.25 for k in gaussian]
         inside = centers_of_parts(3 if len(self.triangles) < 60_000 else 2)
         values, weights = [], []
@@ -65,10 +68,11 @@ class Surface:
                 continue
             is_one_sided = (gaussian[a] < 0) == (gaussian[b] < 0) == (gaussian[c] < 0)
             places = inside if is_one_sided else CORNERS
-            x, y, z = (factor * numbers[v] for v in (a, b, c))
+            x, y, z = bounded[a], bounded[b], bounded[c]
             p, q, r = (area / len(places) * densities[v] for v in (a, b, c))
             for u, v, w in places:
-                values.append(u * x + v * y + w * z)
+                place = u * x + v * y + w * z
+                values.append(unit * place / max(1 - abs(place), 2**-53))
                 weights.append(u * p + v * q + w * r)
         return Distribution(values, weights)
 

@@ -57,10 +57,10 @@ def wasserstein(first, second):
 
 
 def scaled_wasserstein(first, second):
-    """The same for asinh(x / m), m the median of |x|: curvatures grow without bound at parabolic curves, where their
+    """The same for x / (m + |x|), m the median of |x|: curvatures grow without bound at parabolic curves, where their
     mean does not exist."""
     unit = Distribution([abs(v) for v in first.values], first.weights).quantile(0.5) or 1.0
-    return wasserstein(first.mapped(lambda x: math.asinh(x / unit)), second.mapped(lambda x: math.asinh(x / unit)))
+    return wasserstein(*(d.mapped(lambda x: x / (unit + abs(x))) for d in (first, second)))
 
 
 def median(values):

@@ -134,7 +134,7 @@ def fig11(lab):
     rows.append(["Euclidean Kₑ, for comparison", euclidean, scaled_wasserstein(*euclidean_pair)])
     lab.check("Kolmogorov-Smirnov distance of K before and after, over that of Kₑ", affine["compact"] / euclidean, "<=",
               lab.choose(0.01, 0.1), affine["grid-transformation"] / euclidean)
-    lab.table(["K by", "Kolmogorov-Smirnov distance", "Wasserstein distance of asinh(K / median |K|)"], rows)
+    lab.table(["K by", "Kolmogorov-Smirnov distance", "Wasserstein distance of K / (m + |K|), m the median of |K|"], rows)
     exact = results["compact"][2][0]
     for title, way in (("ours", "compact"), ("the paper's grid derivatives, transformation method", "grid-transformation")):
         lab.plot(way, histograms(list(zip(("before", "after"), results[way][2])), "K", min(0.0, exact.quantile(0.02)),
