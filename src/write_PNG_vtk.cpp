@@ -47,9 +47,12 @@ void draw_text(Picture& picture, const std::string& text, std::size_t x, std::si
     }
 }
 
-std::string short_number(double value) {
+/// With as many digits as tell the numbers of the bar from one another, three or more.
+std::string short_number(double value, const Color_range& range) {
+  const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
+  const int digits = std::clamp(int(std::ceil(std::log10(largest / (range.upper - range.lower)))) + 3, 3, 15);
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
+  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
   return text.data();
 }
 
@@ -77,10 +80,10 @@ void draw_legend(Picture& picture, const Color_legend& legend) {
   }
   draw_text(picture, legend.label, left, top - 7, Alignment::LEFT);
   const std::size_t baseline = top + bar_height + 14;
-  draw_text(picture, short_number(legend.range.lower), left, baseline, Alignment::LEFT);
+  draw_text(picture, short_number(legend.range.lower, legend.range), left, baseline, Alignment::LEFT);
   const double middle = legend.range.is_diverging ? 0 : number_at(legend, 0.5);
-  draw_text(picture, short_number(middle), left + width / 2, baseline, Alignment::CENTER);
-  draw_text(picture, short_number(legend.range.upper), left + width, baseline, Alignment::RIGHT);
+  draw_text(picture, short_number(middle, legend.range), left + width / 2, baseline, Alignment::CENTER);
+  draw_text(picture, short_number(legend.range.upper, legend.range), left + width, baseline, Alignment::RIGHT);
 }
 
 } // namespace
