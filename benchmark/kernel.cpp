@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From the 34 derivatives of f at a point to co-normal, normal, B, K, H and J: operations, times, accuracy.
-#include "counting_number.h"
+#include "anisotropic_surface.h"
+#include "operation_counts.h"
 #include "reference.h"
 #include "runner.h"
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/analytic_functions.h>
 #include <equiaffine/attributes.h>
-#include <equiaffine/project_to_surface.h>
 #include <equiaffine/reference_estimators.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -51,29 +51,15 @@ std::vector<Jet_3<Lanes>> packed(const std::vector<Jet_3<double>>& jets) {
 }
 
 void table_1() {
-  std::mt19937 random(1);
-  Jet_3<Counting_number> jet;
-  for (Counting_number& c : jet.coefficients())
-    c = Counting_number::variable(std::uniform_real_distribution<double>(-1, 1)(random));
-  const auto count = [&](auto estimate) {
-    Counting_number::reset();
-    estimate();
-    return Counting_number::operations();
-  };
-  const auto f = internal::partial_derivatives(jet);
-  const auto inverse = internal::Simplifying_map_3<Counting_number>(f).inverse;
-  const long map = count([&] { internal::Simplifying_map_3<Counting_number>{f}; });
-  const long mapping = count([&] { internal::mapped_derivatives(f, inverse); });
-  const long transformation = count([&] { transformation_estimate(jet); });
-  const long direct = count([&] { direct_estimate(jet, 2); });
-  const long compact = count([&] { affine_invariants(Monge_chart_3(jet, Counting_number::variable(1))); });
+  const Operation_counts count = operation_counts();
   std::printf("Table 1: floating-point operations per point\n"
               "                                matrices  mapping  formulas   total   direct\n"
               "  Andrade, Lewiner 2012              749     7335      1783    9867    23690\n"
               "  the same methods here      %12ld %8ld %9ld %7ld %8ld\n"
               "  pivot and shear, with J    %12s %8s %9s %7ld\n",
-              map, mapping, transformation - map - mapping, transformation, direct, "", "", "", compact);
-  figure("kernel_operations", double(compact), "flop", "<=321");
+              count.matrices, count.mapping, count.transformation - count.matrices - count.mapping,
+              count.transformation, count.direct, "", "", "", count.compact);
+  figure("kernel_operations", double(count.compact), "flop", "<=321");
 }
 
 void times() {
@@ -163,17 +149,10 @@ void accuracy() {
   figure("kernel_reference_worst_to_limit", worst, "x", "<=1");
   figure("kernel_reference_median_error", errors[errors.size() / 2], "1", "<=1e-14");
 
-  const auto f = [](const auto& x, const auto& y, const auto& z) {
-    using std::sin;
-    return 100 * x * x + y * y + 0.01 * z * z + 0.05 * sin(3 * x * y * z) - 1;
-  };
-  const auto traits = make_analytic_traits<Kernel>(f, CGAL::Bbox_3(-1, -2, -20, 1, 2, 20));
-  std::mt19937 random(3);
-  std::normal_distribution<double> normal;
+  const Anisotropic_surface f;
+  const auto traits = f.traits();
   double anisotropic = 0;
-  for (int n = 0; n < 3000; ++n) {
-    const double u = normal(random), v = normal(random), w = normal(random), r = 1 / std::hypot(u, v, w);
-    const auto p = project_to_surface(traits, Kernel::Point_3(0.1 * u * r, v * r, 10 * w * r), 1.0).point;
+  for (const auto& p : f.points(3000)) {
     const auto t = local_structure(internal::expand<4, Number>(f, Number(p.x()), Number(p.y()), Number(p.z())));
     anisotropic =
         std::max(anisotropic, error_of(local_structure(traits.taylor(p)).affine, double(t.affine.gaussian_curvature),

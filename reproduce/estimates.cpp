@@ -2,14 +2,13 @@
 // What `equiaffine` does not offer, since nobody needs it but this report: the paper's methods in single steps.
 //   equiaffine-estimates operations         floating-point operations of each step, as JSON
 //   equiaffine-estimates SURFACE < CSV      K, H and xi at points by every method and by the formula as printed, as CSV
-#include "counting_number.h"
+#include "operation_counts.h"
 #include <equiaffine/analytic_functions.h>
 #include <equiaffine/reference_estimators.h>
 
 #include <array>
 #include <cstdio>
 #include <iostream>
-#include <random>
 #include <string>
 
 namespace {
@@ -84,24 +83,9 @@ void print_estimates(const F& f) {
 }
 
 void print_operations() {
-  std::mt19937 random(1);
-  Jet_3<Counting_number> jet;
-  for (Counting_number& c : jet.coefficients())
-    c = Counting_number::variable(std::uniform_real_distribution<double>(-1, 1)(random));
-  const auto count = [](auto estimate) {
-    Counting_number::reset();
-    estimate();
-    return Counting_number::operations();
-  };
-  const auto f = internal::partial_derivatives(jet);
-  const auto inverse = internal::Simplifying_map_3<Counting_number>(f).inverse;
-  const long matrices = count([&] { internal::Simplifying_map_3<Counting_number>{f}; });
-  const long mapping = count([&] { internal::mapped_derivatives(f, inverse); });
-  const long transformation = count([&] { transformation_estimate(jet); });
-  const long direct = count([&] { direct_estimate(jet, 2); });
-  const long compact = count([&] { affine_invariants(Monge_chart_3(jet, Counting_number::variable(1))); });
+  const Operation_counts n = operation_counts();
   std::printf("{\"matrices\": %ld, \"mapping\": %ld, \"transformation\": %ld, \"direct\": %ld, \"compact\": %ld}\n",
-              matrices, mapping, transformation, direct, compact);
+              n.matrices, n.mapping, n.transformation, n.direct, n.compact);
 }
 
 } // namespace

@@ -8,6 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <random>
 
 namespace {
@@ -19,6 +22,10 @@ using Function = Analytic_function_traits_3<Kernel, Expression_3>;
 double cosine(const Isosurface_3<Kernel>& a, const Isosurface_3<Kernel>& b, const std::array<std::uint32_t, 3>& t) {
   const auto normal = [&](const auto& p) { return CGAL::cross_product(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]); };
   return normal(a.points) * normal(b.points);
+}
+
+std::size_t unconverged(const Isosurface_3<Kernel>& s) {
+  return std::size_t(std::count(s.vertex_status.begin(), s.vertex_status.end(), Point_status::UNCONVERGED));
 }
 
 // More planes than are projected at once.
@@ -35,6 +42,10 @@ TEST(Vertex_projection, no_triangle_turns_over_in_many_planes_and_threads_change
     const auto one = marching_cubes<CGAL::Sequential_tag>(traits), many = marching_cubes<CGAL::Parallel_tag>(traits);
     ASSERT_EQ(linear.triangles, one.triangles);
     for (const auto& t : linear.triangles) ASSERT_GE(cosine(linear, one, t), 0);
+    for (std::size_t v = 0; v < one.points.size(); ++v) {
+      if (one.vertex_status[v] == Point_status::UNCONVERGED) ASSERT_EQ(one.points[v], linear.points[v]) << v;
+    }
+    EXPECT_GE(unconverged(one), one.repairs.flips_undone);
     EXPECT_EQ(one.points, many.points);
     EXPECT_EQ(one.function_evaluations, many.function_evaluations);
     undone += one.repairs.flips_undone;
@@ -60,6 +71,7 @@ TEST(Vertex_projection, no_triangle_loses_its_area) {
   EXPECT_EQ(surface.triangles.size(), 8u);
   for (const auto& t : surface.triangles) EXPECT_GT(cosine(surface, surface, t), 0);
   EXPECT_GT(surface.repairs.flips_undone, 0u);
+  EXPECT_EQ(unconverged(surface), surface.repairs.flips_undone);
   EXPECT_EQ(surface.repairs.contracted_edges, 0u);
 }
 

@@ -57,14 +57,27 @@ struct Array_grid {
   }
 };
 
+/// Asks for the 64 numbers that are read a page after these: what the processor fetches by itself ends with the page.
+template <class FT>
+void fetch_ahead([[maybe_unused]] const FT* values) {
+#ifdef __GNUC__
+  constexpr std::size_t page = 4096, line = 64;
+  const auto next = reinterpret_cast<std::uintptr_t>(values) + page;
+  for (std::size_t b = 0; b < 64 * sizeof(FT); b += line) __builtin_prefetch(reinterpret_cast<const void*>(next + b));
+#endif
+}
+
 template <class ConcurrencyTag, class FT>
 Node_signs node_signs(const Array_grid<FT>& grid) {
   Node_signs signs(grid.size);
   const std::size_t nx = grid.size[0];
   parallel_for<ConcurrencyTag>(0, grid.size[2], [&](std::size_t k) {
     for (std::size_t j = 0; j < grid.size[1]; ++j)
-      for (std::size_t i = 0; i < nx; i += 64)
-        signs.set(i, j, k, sign_word(grid.at({i, j, k}), std::min<std::size_t>(64, nx - i), grid.isovalue));
+      for (std::size_t i = 0; i < nx; i += 64) {
+        const FT* const values = grid.at({i, j, k});
+        fetch_ahead(values);
+        signs.set(i, j, k, sign_word(values, std::min<std::size_t>(64, nx - i), grid.isovalue));
+      }
   });
   return signs;
 }
