@@ -12,7 +12,7 @@ class Distribution:
         pairs = sorted((v, w) for v, w in zip(values, weights) if math.isfinite(v) and w > 0)
         total = math.fsum(w for _, w in pairs)
         if not total > 0:
-            raise ValueError("a distribution needs a finite number with a weight")
+            raise RuntimeError("no number is left to compare")
         self.values = [v for v, _ in pairs]
         self.weights = [w / total for _, w in pairs]
 
