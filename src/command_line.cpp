@@ -160,8 +160,10 @@ private:
         "what to compute: basic (the default) is normal, k1, k2, gaussian_curvature,\n"
         "mean_curvature, conormal, affine_normal, affine_gaussian_curvature,\n"
         "affine_mean_curvature, pick_invariant, status; all adds affine_k1, affine_k2,\n"
-        "direction1, direction2, metric; LIST is some of these words with commas between, for a\n"
-        "spline also affine_gaussian_curvature_error, affine_mean_curvature_error");
+        "direction1, direction2, metric; LIST is some of these words with commas between, also\n"
+        "quadric_defect, signature (affine curvatures, pick_invariant, and the norms of their\n"
+        "gradients), and for a spline affine_gaussian_curvature_error and\n"
+        "affine_mean_curvature_error");
     add(command, "--estimator", 1, "compact|transformation|direct|direct-z",
         "how conormal, affine_normal, affine_gaussian_curvature and affine_mean_curvature are\n"
         "computed from the derivatives: our own formulas (compact, the default), or those of\n"
@@ -174,8 +176,14 @@ private:
   }
 
   void add_page_options(CLI::App& command) {
-    add(command, "--color", 1, "NAME", "the attribute that the page shows first, or status or plain");
-    add(command, "--up", 1, "x|y|z", "the axis that points up on the page, by default z");
+    add(command, "--png", 1, "PICTURE.png", "also a picture, which is what the page shows first; needs no display");
+    add(command, "--color", 1, "NAME", "the attribute that page and picture show first, or status or plain");
+    add(command, "--up", 1, "x|y|z", "the axis that points up on them, by default z");
+    add(command, "--size", 2, "WIDTH HEIGHT", "of the picture in pixels, by default 1000 800");
+    add(command, "--range", 2, "LOW HIGH",
+        "the numbers of the end colors of the picture, by default quantiles as on the page;\n"
+        "blue and red about white if LOW is -HIGH");
+    add(command, "--arrows", 1, "VECTOR", "arrows on the picture, such as affine_normal");
   }
 
   void add_threads(CLI::App& command) {
@@ -263,7 +271,7 @@ private:
     CLI::App& command = add_command("view", view_description, view_footer);
     group_ = "Input";
     add(command, "MESH.ply", 1, "", "a mesh as this program writes it, or any other .ply; - reads standard input");
-    add_output(command, "PAGE.html", "the page; - writes to standard output");
+    add_output(command, "PAGE.html", "the page, needed unless there is --png; - writes to standard output");
     add_page_options(command);
   }
 

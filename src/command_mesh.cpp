@@ -195,9 +195,10 @@ std::string summary(const Parabolic_curves_3<Kernel>& curves) {
 struct Outputs {
   explicit Outputs(const Mesh_options& options) {
     check_surface_output(options.output);
+    if (options.png) check_picture_output(*options.png);
     if (options.curves) check_curves_output(*options.curves);
     files.emplace_back(options.output);
-    for (const auto& output : {options.html, options.curves, options.stats})
+    for (const auto& output : {options.html, options.png, options.curves, options.stats})
       if (output) files.emplace_back(*output);
   }
 
@@ -205,7 +206,7 @@ struct Outputs {
     return std::any_of(files.begin(), files.end(), [](const Output_file& output) { return output.path() == "-"; });
   }
 
-  std::vector<Output_file> files; // mesh, and if asked for page, curves, statistics
+  std::vector<Output_file> files; // mesh, and if asked for page, picture, curves, statistics
 };
 
 } // namespace
@@ -228,6 +229,9 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   write_surface(*file++, surface.mesh, surface.attributes);
   if (options.html)
     write_page(*file++, surface.mesh, surface.attributes, options.page, make_description(options, statistics));
+  if (options.png)
+    write_picture(*file++, surface.mesh, surface.attributes, options.page, options.picture,
+                  surface.curves ? surface.curves->polylines : std::vector<Polyline_3<Kernel>>());
   if (options.curves) write_curves(*file++, *surface.curves);
   for (Output_file& output : outputs.files) output.close();
   statistics.write_seconds = write_stopwatch.seconds();

@@ -65,12 +65,15 @@ inline constexpr const char* sample_footer =
     R"(Example: equiaffine sample --distance-to bunny.off --resolution 129 --type float -o bunny.nrrd)";
 
 inline constexpr const char* view_description =
-    R"(make a web page from a mesh with attributes
+    R"(make a web page or a picture from a mesh with attributes
 
-Usage: equiaffine view MESH.ply -o PAGE.html [--color NAME] [--up x|y|z]
+Usage: equiaffine view MESH.ply [-o PAGE.html] [--png PICTURE.png] [options]
 )";
 
-inline constexpr const char* view_footer = R"(Example: equiaffine view bunny.ply -o bunny.html --color mean_curvature)";
+inline constexpr const char* view_footer =
+    R"(Examples:
+  equiaffine view bunny.ply -o bunny.html --color mean_curvature
+  equiaffine view blobby.ply --png blobby.png --color affine_mean_curvature --range -2 2 --arrows affine_normal)";
 
 } // namespace equiaffine
 

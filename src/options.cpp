@@ -209,11 +209,39 @@ Page_options read_page(const Command_line& line) {
   return page;
 }
 
-/// Checks that there is a page, and that it will have the attribute --color.
+Picture_options read_picture(const Command_line& line) {
+  Picture_options picture;
+  for (const char* option : {"--size", "--range", "--arrows"})
+    if (line.has(option) && !line.has("--png"))
+      fail_option(option, "it is for the picture of --png", "add --png or leave it out");
+  if (line.has("--size"))
+    for (std::size_t n = 0; n < 2; ++n) {
+      constexpr std::size_t least = 100, most = 10'000; // for a legend, and for memory
+      const std::string& word = line.options.at("--size")[n];
+      picture.size[n] = parse_count("--size", word, least);
+      if (picture.size[n] > most) fail_option("--size", "'" + word + "' is more than 10000", "give fewer pixels");
+    }
+  if (line.has("--range")) {
+    const Words& words = line.options.at("--range");
+    picture.range = {parse_finite_number("--range", words[0]), parse_finite_number("--range", words[1])};
+    if (!((*picture.range)[0] < (*picture.range)[1]))
+      fail_option("--range", "'" + words[0] + "' is not less than '" + words[1] + "'", "give the smaller number first");
+  }
+  picture.arrows = line.word("--arrows", "");
+  return picture;
+}
+
+/// Checks that there is a page or picture, and that it will have the attributes it is to show.
 void check_page(const Command_line& line, const Attribute_selection& attributes, const Spline_options& spline) {
   for (const char* option : {"--color", "--up"})
-    if (line.has(option) && !line.has("--html"))
-      fail_option(option, "it is for the page of --html", "add --html or leave it out");
+    if (line.has(option) && !line.has("--html") && !line.has("--png"))
+      fail_option(option, "it is for the page of --html and the picture of --png", "add one of them or leave it out");
+  const std::string arrows = line.word("--arrows", "");
+  const bool has_arrows = std::count_if(attributes.columns.begin(), attributes.columns.end(),
+                                        [&](const Attribute& attribute) { return attribute.group == arrows; }) == 3;
+  if (!arrows.empty() && !has_arrows)
+    fail_option("--arrows", "'" + arrows + "' is not among the vectors that are computed",
+                "name one of them, such as affine_normal, or add it to --attributes");
   const std::string color = line.word("--color", "");
   if (color.empty()) return;
   const bool is_computed = std::any_of(attributes.columns.begin(), attributes.columns.end(),
@@ -303,13 +331,15 @@ Mesh_options read_mesh_options(const Command_line& line) {
   options.estimator = read_estimator(line);
   options.output = read_output(line);
   options.html = optional_word(line, "--html");
+  options.png = optional_word(line, "--png");
   options.curves = optional_word(line, "--parabolic-curves");
   options.stats = optional_word(line, "--stats");
   options.page = read_page(line);
+  options.picture = read_picture(line);
   check_page(line, options.attributes, options.source.spline);
   check_scheme(options);
   std::vector<std::string> outputs = {options.output};
-  for (const auto& output : {options.html, options.curves, options.stats})
+  for (const auto& output : {options.html, options.png, options.curves, options.stats})
     if (output) outputs.push_back(*output);
   check_outputs(outputs);
   return options;
@@ -335,7 +365,12 @@ Sample_options read_sample_options(const Command_line& line) {
 
 View_options read_view_options(const Command_line& line) {
   if (!line.has("MESH.ply")) throw Input_error("no mesh is given; write 'equiaffine view MESH.ply -o PAGE.html'");
-  return {line.word("MESH.ply", {}), read_output(line), read_page(line)};
+  View_options options{line.word("MESH.ply", {}), optional_word(line, "--output"), optional_word(line, "--png"),
+                       read_page(line), read_picture(line)};
+  if (!options.html && !options.png)
+    throw Input_error("no output is given; name the page, -o PAGE.html, or the picture, --png FILE.png");
+  if (options.html && options.png) check_outputs({*options.html, *options.png});
+  return options;
 }
 
 } // namespace

@@ -57,6 +57,13 @@ struct Page_options {
   std::array<double, 3> up = {0, 0, 1};
 };
 
+/// What only a picture has.
+struct Picture_options {
+  std::array<std::size_t, 2> size = {1000, 800};
+  std::optional<std::array<double, 2>> range; ///< the numbers of the end colours
+  std::string arrows;                         ///< a vector among the attributes, or empty
+};
+
 struct Marching_cubes_options {
   Vertex_position vertices = Vertex_position::PROJECTED;
 };
@@ -75,8 +82,9 @@ struct Mesh_options {
   Attribute_selection attributes;
   Estimator estimator = Estimator::COMPACT;
   std::string output;
-  std::optional<std::string> html, curves, stats;
+  std::optional<std::string> html, png, curves, stats;
   Page_options page;
+  Picture_options picture;
 };
 
 struct Evaluate_options {
@@ -94,8 +102,10 @@ struct Sample_options {
 };
 
 struct View_options {
-  std::string mesh, output;
+  std::string mesh;
+  std::optional<std::string> html, png; ///< one of them at least
   Page_options page;
+  Picture_options picture;
 };
 
 /// A text that was asked for: help or version.

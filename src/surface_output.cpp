@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface_output.h"
 
+#include "write_PNG.h"
 #include "write_VTP.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/internal/text_input.h>
@@ -54,6 +55,22 @@ void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves) {
   if (is_VTP(file.path())) return write_VTP(file.stream(), curves);
 #endif
   write_OBJ(file.stream(), curves);
+}
+
+void check_picture_output(const std::string& path) {
+  if (!has_vtk) throw Input_error("cannot write '" + path + "': this equiaffine was built without VTK; use --html");
+  if (path != "-" && !internal::has_extension(path, ".png"))
+    throw Input_error("cannot write '" + path + "': a picture is a PNG file; give it the extension .png");
+}
+
+void write_picture([[maybe_unused]] Output_file& file, [[maybe_unused]] const Indexed_triangle_mesh_3<Kernel>& mesh,
+                   [[maybe_unused]] const Vertex_attributes& attributes, [[maybe_unused]] const Page_options& options,
+                   [[maybe_unused]] const Picture_options& picture,
+                   [[maybe_unused]] const std::vector<Polyline_3<Kernel>>& curves) {
+#ifdef EQUIAFFINE_WITH_VTK
+  const Surface_view view = {options.color, options.up, picture.size, picture.range, picture.arrows};
+  write_PNG(file.stream(), draw_surface(mesh, attributes, view, curves));
+#endif
 }
 
 void write_page(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,

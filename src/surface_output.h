@@ -26,6 +26,14 @@ void check_curves_output(const std::string& path);
 /// Writes the curves in the format of the path's extension, OBJ for "-", without committing.
 void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves);
 
+/// Throws `Input_error` unless the path ends in .png, or is "-", and pictures can be written.
+void check_picture_output(const std::string& path);
+
+/// Writes the picture, without committing. `options.color` as for `write_page`; the curves are drawn, too.
+void write_picture(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
+                   const Page_options& options, const Picture_options& picture,
+                   const std::vector<Polyline_3<Kernel>>& curves = {});
+
 /// What a page says about its surface, in rows of two cells.
 using Description = std::vector<std::pair<std::string, std::string>>;
 

@@ -348,4 +348,42 @@ TEST(Affine_structure, double_agrees_with_50_digits_on_an_anisotropic_surface) {
   }
 }
 
+TEST(Affine_structure, the_quadric_defect_vanishes_on_quadrics) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int regular = 0;
+  for (int n = 0; n < 100; ++n) {
+    Random_surface f{};
+    std::size_t index = 0;
+    for (int i = 0; i <= 5; ++i)
+      for (int j = 0; i + j <= 5; ++j)
+        for (int k = 0; i + j + k <= 5; ++k, ++index)
+          if (i + j + k <= 2) f.c[index] = unit(random);
+    const auto s = local_structure(expand(f, Vector{unit(random), unit(random), unit(random)}));
+    if (s.status != Point_status::REGULAR || std::abs(s.euclidean.gaussian_curvature) < 0.01) continue;
+    ++regular;
+    EXPECT_LE(s.affine.quadric_defect, 1e-11);
+  }
+  EXPECT_GT(regular, 50);
+}
+
+TEST(Affine_structure, the_quadric_defect_tells_ruled_surfaces_from_quadrics_where_the_Pick_invariant_does_not) {
+  const auto cayley = [](const auto& x, const auto& y, const auto& z) { return z - x * y + x * x * x / 3.0; };
+  const auto s = local_structure(expand(cayley, Vector{0, 0, 0})).affine;
+  EXPECT_NEAR(s.pick_invariant, 0, 1e-15);
+  // At the origin the axes are orthonormal tangents, the second fundamental form is x y, the cubic form -x^3 / 3.
+  EXPECT_NEAR(s.quadric_defect, 2. / 2, 1e-15);
+}
+
+TEST(Affine_structure, the_quadric_defect_has_no_unit_and_no_direction) {
+  for_random_surfaces([](const Random_surface& f, const Vector& p, const Local_structure_3<double>& s, auto&) {
+    const double c = std::cos(0.7), t = std::sin(0.7), size = 3;
+    const Kernel::Aff_transformation_3 map(size * c, -size * t * 0.6, size * t * 0.8, size * t, size * c * 0.6,
+                                           -size * c * 0.8, 0, size * 0.8, size * 0.6);
+    const Transformed_function_traits_3 image(make_analytic_traits<Kernel>(f, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1)), map);
+    const auto moved = local_structure(image.taylor(map(Kernel::Point_3(p[0], p[1], p[2]))));
+    EXPECT_NEAR(moved.affine.quadric_defect, s.affine.quadric_defect, 1e-9 * (1 + s.affine.quadric_defect));
+  });
+}
+
 } // namespace

@@ -354,6 +354,62 @@ TEST_F(Program_command_line, a_page_is_made_with_the_mesh_or_from_it_later) {
   EXPECT_EQ(data(page), data(later));
 }
 
+#ifdef EQUIAFFINE_WITH_VTK
+TEST_F(Program_command_line, a_picture_is_made_with_the_mesh_or_from_it_later_without_a_display) {
+  const Arguments options = {"--color", "k1", "--up", "y", "--size", "120", "150", "--arrows", "affine_normal"};
+  run_well(Arguments{"mesh", "-o", "s.ply", "--png", "s.png", "--resolution", "8"} + sphere + options);
+  EXPECT_EQ(run_well(Arguments{"view", "s.ply", "--png", "later.png"} + options), "wrote later.png\n");
+  const std::string picture = file("s.png");
+  ASSERT_GT(picture.size(), 1000U);
+  EXPECT_EQ(picture.substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_EQ(picture.substr(16, 8), std::string("\0\0\0\x78\0\0\0\x96", 8)) << "120 by 150";
+  EXPECT_EQ(picture, file("later.png"));
+  run_well(Arguments{"view", "s.ply", "--png", "range.png", "--range", "-2", "2"} + options);
+  EXPECT_NE(picture, file("range.png"));
+}
+
+TEST_F(Program_command_line, a_picture_shows_the_parabolic_curves_that_are_computed) {
+  const Arguments torus = {"mesh",
+                           "-o",
+                           "t.off",
+                           "--function",
+                           "(sqrt(x^2+y^2)-0.5)^2 + z^2 - 0.04",
+                           "--box",
+                           "-1",
+                           "1",
+                           "-1",
+                           "1",
+                           "-1",
+                           "1",
+                           "--resolution",
+                           "24",
+                           "--color",
+                           "plain",
+                           "--size",
+                           "100",
+                           "100"};
+  run_well(torus + Arguments{"--png", "without.png"});
+  run_well(torus + Arguments{"--png", "with.png", "--parabolic-curves", "c.obj"});
+  EXPECT_NE(file("without.png"), file("with.png"));
+}
+#endif
+
+TEST_F(Program_command_line, the_signature_is_computed_on_request_alone) {
+  const std::string names = "affine_gaussian_curvature,affine_mean_curvature,pick_invariant";
+  const std::string header = "x,y,z," + names + ",affine_gaussian_curvature_gradient,affine_mean_curvature_gradient," +
+                             "pick_invariant_gradient,status";
+  const Arguments evaluate = {"evaluate", "--function", "x*y*z + x^3", "--points", "-", "-o", "-", "--attributes"};
+  const std::string signature = run_well(evaluate + Arguments{"signature"}, "x,y,z\n1,2,3\n");
+  EXPECT_EQ(signature.substr(0, signature.find('\n')), header);
+  const auto row = rows(signature).at(0);
+  for (const char* name : {"affine_gaussian_curvature", "affine_mean_curvature", "pick_invariant"})
+    EXPECT_GT(std::stod(row.at(std::string(name) + "_gradient")), 0) << name;
+  const std::string one = run_well(evaluate + Arguments{"pick_invariant_gradient"}, "x,y,z\n1,2,3\n");
+  EXPECT_EQ(rows(one).at(0).at("pick_invariant_gradient"), row.at("pick_invariant_gradient"));
+  EXPECT_EQ(run_well(evaluate + Arguments{"all"}, "x,y,z\n").find("gradient"), std::string::npos);
+  EXPECT_EQ(run_well(evaluate + Arguments{"quadric_defect"}, "x,y,z\n"), "x,y,z,quadric_defect,status\n");
+}
+
 TEST_F(Program_command_line, the_parabolic_curves_of_a_torus_are_two_closed_ones) {
   const Arguments torus = {"mesh",
                            "-o",

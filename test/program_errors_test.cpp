@@ -314,7 +314,29 @@ TEST_F(Program_errors, a_page_shows_what_the_mesh_has) {
                {"--color", "'affine_k1'", "mean_curvature"});
   expect_error({"view", "in.ply", "-o", "o.html", "--up", "w"}, {"--up", "'w'", "x or y or z"});
   for (const char* option : {"--color", "--up"})
-    expect_error(mesh_of("x") + box + Arguments{option, "x"}, {option, "page", "--html"});
+    expect_error(mesh_of("x") + box + Arguments{option, "x"}, {option, "page", "--html", "--png"});
+  expect_error({"view", "in.ply"}, {"no output", "-o PAGE.html", "--png"});
+}
+
+TEST_F(Program_errors, a_picture_has_a_size_a_range_and_vectors_that_exist) {
+  const Arguments picture = mesh_of("x") + box;
+  for (const char* option : {"--size", "--range"})
+    expect_error(picture + Arguments{option, "200", "300"}, {option, "picture", "--png"});
+  expect_error(picture + Arguments{"--arrows", "normal"}, {"--arrows", "picture", "--png"});
+#ifdef EQUIAFFINE_WITH_VTK
+  const Arguments png = picture + Arguments{"--png", "p.png"};
+  expect_error(png + Arguments{"--size", "200", "99"}, {"--size", "'99'", "100"});
+  expect_error(png + Arguments{"--size", "20000", "200"}, {"--size", "'20000'", "10000"});
+  expect_error(png + Arguments{"--range", "2", "2"}, {"--range", "'2'", "smaller number first"});
+  expect_error(png + Arguments{"--arrows", "metric"}, {"--arrows", "'metric'", "affine_normal"});
+  expect_error(picture + Arguments{"--png", "p.jpg"}, {"'p.jpg'", ".png"});
+  run_well(Arguments{"mesh", "--function", "x", "--resolution", "3", "-o", "in.ply", "--attributes", "normal"} + box);
+  before_ = names();
+  expect_error({"view", "in.ply", "--png", "p.png", "--arrows", "conormal"}, {"--arrows", "'conormal'", "conormal_x"});
+  expect_error({"view", "in.ply", "-o", "same", "--png", "same"}, {"two outputs", "'same'"});
+#else
+  expect_error(picture + Arguments{"--png", "p.png"}, {"'p.png'", "without VTK", "--html"});
+#endif
 }
 
 TEST(Program_defects, give_status_one_and_one_line) {

@@ -32,11 +32,12 @@ Euclidean_structure_3<FT> no_euclidean_structure() {
 template <class FT>
 Affine_structure_3<FT> no_affine_structure() {
   const FT nan = std::numeric_limits<FT>::quiet_NaN();
-  return {{{nan, nan, nan}, {nan, nan, nan}, nan, nan, nan, {nan, nan, nan, nan}, {nan, nan}},
+  return {{{nan, nan, nan}, {nan, nan, nan}, nan, nan, nan, {nan, nan, nan, nan}, {nan, nan}, {nan, nan, nan, nan}},
           false,
           nan,
           nan,
-          {nan, nan, nan, nan, nan, nan}};
+          {nan, nan, nan, nan, nan, nan},
+          nan};
 }
 
 /// Every coefficient of the jet, and every power of d, takes part in some of these numbers.

@@ -32,6 +32,8 @@ struct Affine_invariants_3 {
   std::array<FT, 4> shape_operator;
   /// rho: xi is, up to length, e_w + rho_u e_u + rho_v e_v in the chart.
   std::array<FT, 2> slope;
+  /// The symmetric coefficients of t, the apolar part of the chart's cubic form: zero everywhere exactly on quadrics.
+  std::array<FT, 4> apolar_cubic;
 };
 
 /// ... with what follows from it.
@@ -42,6 +44,10 @@ struct Affine_structure_3 : Affine_invariants_3<FT> {
   /// xx xy xz yy yz zz of the Berwald-Blaschke metric; as a form on space it vanishes along xi, so that an affine map
   /// carries it along.
   std::array<FT, 6> metric;
+  /// |T| / |II|^2, the lengths of the apolar cubic form and of the second fundamental form in an orthonormal tangent
+  /// basis, whatever the unit of length: zero exactly where t is. J vanishes on other surfaces, too, ruled ones among
+  /// them: where K_e < 0 no affine invariant of this order tells quadrics from all others.
+  FT quadric_defect;
 };
 
 /// The invariants from a chart, in 320 floating-point operations with the chart. Meaningful where chart.is_curved.
@@ -104,6 +110,7 @@ Affine_invariants_3<FT> affine_invariants(const Monge_chart_3<FT>& chart) {
   s.gaussian_curvature = b11 * b22 - b12 * b21;
   s.mean_curvature = (b11 + b22) * FT(0.5);
   s.pick_invariant = FT(1.125) * length * covariant;
+  s.apolar_cubic = {t0, t1, t2, t3};
   return s;
 }
 
@@ -143,6 +150,21 @@ void set_metric(Affine_structure_3<FT>& s, const Monge_chart_3<FT>& chart) {
       s.metric[n++] = factor * (p11 * u[i] * u[j] + p12 * (u[i] * v[j] + v[i] * u[j]) + p22 * v[i] * v[j]);
 }
 
+/// The forms in the orthonormal tangent basis s = x e_u, t = y e_u + z e_v of euclidean_structure().
+template <class FT>
+void set_quadric_defect(Affine_structure_3<FT>& s, const Monge_chart_3<FT>& chart) {
+  using std::sqrt;
+  const FT e = FT(1) + chart.a * chart.a, length = sqrt(FT(e + chart.b * chart.b)), root = sqrt(e);
+  const FT x = FT(1) / root, z = root / length, y = -(chart.a * chart.b) * z / e;
+  const auto& [p11, p12, p22] = chart.quadratic;
+  const auto& [t0, t1, t2, t3] = s.apolar_cubic;
+  const FT q12 = x * (y * p11 + z * p12), q22 = y * y * p11 + FT(2) * y * z * p12 + z * z * p22, q11 = x * x * p11;
+  const FT c0 = x * x * x * t0, c1 = x * x * (y * t0 + z * t1), c2 = x * (y * y * t0 + FT(2) * y * z * t1 + z * z * t2);
+  const FT c3 = y * y * (y * t0 + FT(3) * z * t1) + z * z * (FT(3) * y * t2 + z * t3);
+  const FT cubic = sqrt(FT(c0 * c0 + FT(3) * (c1 * c1 + c2 * c2) + c3 * c3));
+  s.quadric_defect = FT(1.5) * length * cubic / (q11 * q11 + FT(2) * q12 * q12 + q22 * q22);
+}
+
 } // namespace internal
 
 /// The whole structure from a chart. Meaningful where chart.is_curved.
@@ -152,6 +174,7 @@ Affine_structure_3<FT> affine_structure(const Monge_chart_3<FT>& chart) {
   static_cast<Affine_invariants_3<FT>&>(s) = affine_invariants(chart);
   internal::set_principal_curvatures(s, chart.determinant > FT(0));
   internal::set_metric(s, chart);
+  internal::set_quadric_defect(s, chart);
   return s;
 }
 

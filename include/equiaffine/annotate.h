@@ -50,7 +50,8 @@ struct Structure_maps {
         affine_k1(add<FT>(mesh, "affine_k1")),
         affine_k2(add<FT>(mesh, "affine_k2")), metric{add<FT>(mesh, "metric_xx"), add<FT>(mesh, "metric_xy"),
                                                       add<FT>(mesh, "metric_xz"), add<FT>(mesh, "metric_yy"),
-                                                      add<FT>(mesh, "metric_yz"), add<FT>(mesh, "metric_zz")} {}
+                                                      add<FT>(mesh, "metric_yz"), add<FT>(mesh, "metric_zz")},
+        quadric_defect(add<FT>(mesh, "quadric_defect")) {}
 
   void set(Vertex_index v, const Local_structure_3<FT>& s) {
     const auto vector = [](const std::array<FT, 3>& c) { return Vector_3(c[0], c[1], c[2]); };
@@ -70,6 +71,7 @@ struct Structure_maps {
     affine_k1[v] = s.affine.k1;
     affine_k2[v] = s.affine.k2;
     for (std::size_t n = 0; n < metric.size(); ++n) metric[n][v] = s.affine.metric[n];
+    quadric_defect[v] = s.affine.quadric_defect;
   }
 
   Map<Point_status> status;
@@ -78,6 +80,7 @@ struct Structure_maps {
   Map<Vector_3> direction1, direction2, conormal, affine_normal;
   Map<FT> affine_gaussian_curvature, affine_mean_curvature, pick_invariant, affine_k1, affine_k2;
   std::array<Map<FT>, 6> metric;
+  Map<FT> quadric_defect;
 
 private:
   /// The map of that name, made if the mesh has none.
@@ -91,7 +94,7 @@ private:
 
 /// Fills property maps of the vertices of `mesh` with the local structure of the level sets of f through them:
 /// `v:status` (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`, `v:direction1`, `v:direction2` (Vector_3),
-/// and one of FT for every other attribute (see attributes.h), `v:k1` to `v:metric_zz`. A vertex whose `v:status` is
+/// and one of FT for every other attribute of a single point (see attributes.h), `v:k1` to `v:quadric_defect`. A vertex whose `v:status` is
 /// UNCONVERGED before the call keeps it. The same for CGAL::Sequential_tag and CGAL::Parallel_tag. Named parameter:
 /// `estimator`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,

@@ -2,9 +2,10 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_H
 #define EQUIAFFINE_ATTRIBUTES_H
 
+#include <equiaffine/Attribute_selection.h>
 #include <equiaffine/Indexed_triangle_mesh_3.h>
-#include <equiaffine/Input_error.h>
 #include <equiaffine/Pack.h>
+#include <equiaffine/affine_gradients.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/internal/parallel_for.h>
 #include <equiaffine/internal/rounding.h>
@@ -18,99 +19,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace equiaffine {
-
-/// One number of the local structure over FT, as it is named in files: a scalar, or a component of a vector.
-template <class FT>
-struct Attribute_of {
-  std::string_view name;
-  std::string_view group; ///< the vector or form it belongs to; for a scalar its own name
-  bool is_basic;
-  FT (*get)(const Local_structure_3<FT>&);
-};
-
-/// All attributes in the order of the columns of a file.
-template <class FT>
-inline constexpr auto all_attributes_of = [] {
-  using Attribute = Attribute_of<FT>;
-  return std::array{
-      Attribute{"nx", "normal", true, [](const auto& s) { return s.euclidean.normal[0]; }},
-      Attribute{"ny", "normal", true, [](const auto& s) { return s.euclidean.normal[1]; }},
-      Attribute{"nz", "normal", true, [](const auto& s) { return s.euclidean.normal[2]; }},
-      Attribute{"k1", "k1", true, [](const auto& s) { return s.euclidean.k1; }},
-      Attribute{"k2", "k2", true, [](const auto& s) { return s.euclidean.k2; }},
-      Attribute{"gaussian_curvature", "gaussian_curvature", true,
-                [](const auto& s) { return s.euclidean.gaussian_curvature; }},
-      Attribute{"mean_curvature", "mean_curvature", true, [](const auto& s) { return s.euclidean.mean_curvature; }},
-      Attribute{"conormal_x", "conormal", true, [](const auto& s) { return s.affine.conormal[0]; }},
-      Attribute{"conormal_y", "conormal", true, [](const auto& s) { return s.affine.conormal[1]; }},
-      Attribute{"conormal_z", "conormal", true, [](const auto& s) { return s.affine.conormal[2]; }},
-      Attribute{"affine_normal_x", "affine_normal", true, [](const auto& s) { return s.affine.normal[0]; }},
-      Attribute{"affine_normal_y", "affine_normal", true, [](const auto& s) { return s.affine.normal[1]; }},
-      Attribute{"affine_normal_z", "affine_normal", true, [](const auto& s) { return s.affine.normal[2]; }},
-      Attribute{"affine_gaussian_curvature", "affine_gaussian_curvature", true,
-                [](const auto& s) { return s.affine.gaussian_curvature; }},
-      Attribute{"affine_mean_curvature", "affine_mean_curvature", true,
-                [](const auto& s) { return s.affine.mean_curvature; }},
-      Attribute{"pick_invariant", "pick_invariant", true, [](const auto& s) { return s.affine.pick_invariant; }},
-      Attribute{"affine_k1", "affine_k1", false, [](const auto& s) { return s.affine.k1; }},
-      Attribute{"affine_k2", "affine_k2", false, [](const auto& s) { return s.affine.k2; }},
-      Attribute{"direction1_x", "direction1", false, [](const auto& s) { return s.euclidean.direction1[0]; }},
-      Attribute{"direction1_y", "direction1", false, [](const auto& s) { return s.euclidean.direction1[1]; }},
-      Attribute{"direction1_z", "direction1", false, [](const auto& s) { return s.euclidean.direction1[2]; }},
-      Attribute{"direction2_x", "direction2", false, [](const auto& s) { return s.euclidean.direction2[0]; }},
-      Attribute{"direction2_y", "direction2", false, [](const auto& s) { return s.euclidean.direction2[1]; }},
-      Attribute{"direction2_z", "direction2", false, [](const auto& s) { return s.euclidean.direction2[2]; }},
-      Attribute{"metric_xx", "metric", false, [](const auto& s) { return s.affine.metric[0]; }},
-      Attribute{"metric_xy", "metric", false, [](const auto& s) { return s.affine.metric[1]; }},
-      Attribute{"metric_xz", "metric", false, [](const auto& s) { return s.affine.metric[2]; }},
-      Attribute{"metric_yy", "metric", false, [](const auto& s) { return s.affine.metric[3]; }},
-      Attribute{"metric_yz", "metric", false, [](const auto& s) { return s.affine.metric[4]; }},
-      Attribute{"metric_zz", "metric", false, [](const auto& s) { return s.affine.metric[5]; }},
-  };
-}();
-
-using Attribute = Attribute_of<double>;
-inline constexpr auto all_attributes = all_attributes_of<double>;
-
-/// Which attributes to compute, in the order of the table; with at least one of them, or `status` alone, comes the
-/// status.
-struct Attribute_selection {
-  std::vector<Attribute> columns;
-  bool has_status = true;
-};
-
-/// Reads `basic`, `all`, `none`, or a comma-separated list of names of attributes, of their groups (`normal`, `metric`)
-/// and `status`. \throw Input_error for another name.
-inline Attribute_selection select_attributes(std::string_view list) {
-  if (list == "none") return {{}, false};
-  std::array<bool, all_attributes.size()> is_selected{};
-  for (std::size_t begin = 0; begin <= list.size();) {
-    const std::size_t end = std::min(list.find(',', begin), list.size());
-    const std::string_view name = list.substr(begin, end - begin);
-    bool is_known = name == "status";
-    for (std::size_t n = 0; n < all_attributes.size(); ++n) {
-      const Attribute& attribute = all_attributes[n];
-      const bool matches =
-          name == attribute.name || name == attribute.group || name == "all" || (name == "basic" && attribute.is_basic);
-      is_selected[n] = is_selected[n] || matches;
-      is_known = is_known || matches;
-    }
-    if (!is_known)
-      throw Input_error("unknown attribute '" + std::string(name) +
-                        "': use basic, all, none, or a list of names such as normal,affine_mean_curvature,status");
-    begin = end + 1;
-  }
-  Attribute_selection selection;
-  for (std::size_t n = 0; n < all_attributes.size(); ++n)
-    if (is_selected[n]) selection.columns.push_back(all_attributes[n]);
-  return selection;
-}
 
 namespace internal {
 
@@ -193,14 +107,20 @@ template <class Parameters>
 struct Attribute_columns {
   const std::vector<Attribute>& singles;
   std::vector<Attribute_of<Pack<double>>> packs;
+  std::array<std::optional<std::size_t>, 3> gradients; // their columns
   const Parameters& parameters;
 
   Attribute_columns(const Attribute_selection& selection, const Parameters& named)
       : singles(selection.columns), parameters(named) {
     constexpr const auto& table = all_attributes_of<Pack<double>>;
-    for (const Attribute& single : singles)
+    for (const Attribute& single : singles) {
+      for (std::size_t n = 0; n < gradients.size(); ++n)
+        if (single.name == gradient_names[n]) gradients[n] = packs.size();
       packs.push_back(*std::find_if(table.begin(), table.end(), [&](const auto& a) { return a.name == single.name; }));
+    }
   }
+
+  bool has_gradients() const { return gradients[0] || gradients[1] || gradients[2]; }
 };
 
 /// Fills the rows from `first` on, one per point, of which there are at most points_per_block. Lanes that are not
@@ -236,11 +156,17 @@ void compute_block_of_attributes(const Traits& traits, std::span<const typename 
       status = structure.status;
     }
   }
+  for (std::size_t i = 0; i < points.size() && columns.has_gradients(); ++i) {
+    const auto norms = affine_gradient_norms(traits, points[i]);
+    for (std::size_t n = 0; n < norms.size(); ++n)
+      if (columns.gradients[n]) result.columns[*columns.gradients[n]].values[first + i] = norms[n];
+  }
 }
 
 } // namespace internal
 
-/// Attributes of points, one column per scalar, in double. One Taylor expansion of order 4 per point; the same for
+/// Attributes of points, one column per scalar, in double. One Taylor expansion of order 4 per point, 41 with a norm of
+/// a gradient; the same for
 /// CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Points are taken in packs; the numbers are those of
 /// local_structure_at, bit for bit unless the compiler contracts products and sums (-ffp-contract=off).
 /// `sampled_status` is empty or has one entry per point. Named parameter: `estimator`.

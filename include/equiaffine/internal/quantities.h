@@ -18,12 +18,13 @@ struct Quantity {
 };
 
 /// The quantities this library computes, in the order in which they are offered.
-inline constexpr std::array<Quantity, 9> quantities = {{
+inline constexpr std::array<Quantity, 10> quantities = {{
     {"affine_gaussian_curvature", "Affine Gaussian curvature", "K", "Affine", -6},
     {"affine_mean_curvature", "Affine mean curvature", "H", "Affine", -3},
     {"pick_invariant", "Pick invariant", "J", "Affine", -3},
     {"affine_k1", "Affine principal curvature 1", "κ₁", "Affine", -3},
     {"affine_k2", "Affine principal curvature 2", "κ₂", "Affine", -3},
+    {"quadric_defect", "Quadric defect", "|T| / |II|²", "Affine", 0},
     {"gaussian_curvature", "Gaussian curvature", "Kₑ", "Euclidean", -4},
     {"mean_curvature", "Mean curvature", "Hₑ", "Euclidean", -2},
     {"k1", "Principal curvature 1", "k₁", "Euclidean", -2},

@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The report: one page with everything in it, and results.json for programs."""
+
+import base64
+import html
+import json
+import re
+
+from .lab import number
+from .plot import power_of_ten
+
+STYLE = """
+:root { --ink: #1b2330; --quiet: #5c6778; --line: #d9dee7; --good: #0f7a4f; --bad: #b91c1c; --soft: #f4f6fa; }
+* { box-sizing: border-box; }
+body { margin: 0 auto; max-width: 1180px; padding: 40px 28px 80px; color: var(--ink); background: #fff;
+  font: 16px/1.55 system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; }
+h1 { font-size: 31px; line-height: 1.2; margin: 0 0 8px; }
+h2 { font-size: 22px; margin: 0; }
+p { max-width: 78ch; margin: 10px 0; }
+a { color: inherit; }
+code, pre { font: 13px/1.5 ui-monospace, "DejaVu Sans Mono", monospace; }
+.quiet { color: var(--quiet); }
+table { border-collapse: collapse; margin: 14px 0; font-size: 14.5px; }
+th, td { padding: 6px 14px 6px 0; text-align: left; vertical-align: top; border-bottom: 1px solid var(--line); }
+th { color: var(--quiet); font-weight: 600; }
+td { font-variant-numeric: tabular-nums; }
+.number { white-space: nowrap; }
+#summary { width: 100%; }
+#summary td:first-child { white-space: nowrap; font-weight: 600; }
+.mark { font-weight: 700; white-space: nowrap; }
+.pass .mark, .mark.pass { color: var(--good); }
+.fail .mark, .mark.fail { color: var(--bad); }
+.fail td:first-child a, .reason { color: var(--bad); }
+section { border-top: 2px solid var(--ink); margin-top: 52px; padding-top: 18px; }
+section header { display: flex; justify-content: space-between; align-items: baseline; gap: 20px; }
+blockquote { margin: 12px 0; padding: 8px 16px; border-left: 4px solid var(--line); background: var(--soft); max-width: 90ch; }
+blockquote b { color: var(--quiet); font-weight: 600; }
+.figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(420px, 1fr)); gap: 18px; margin: 16px 0; }
+figure { margin: 0; max-width: 560px; break-inside: avoid; }
+figure img, figure svg { width: 100%; height: auto; display: block; border: 1px solid var(--line); border-radius: 8px; }
+figcaption { font-size: 14px; color: var(--quiet); margin-top: 6px; }
+details { margin-top: 12px; }
+summary { cursor: pointer; color: var(--quiet); font-size: 14px; }
+pre { background: var(--soft); padding: 12px 14px; border-radius: 8px; white-space: pre-wrap; overflow-wrap: anywhere; }
+@media print {
+  body { max-width: none; padding: 0; font-size: 11pt; }
+  section { break-before: auto; } h2, blockquote, tr { break-after: avoid; break-inside: avoid; } details { display: none; }
+}
+"""
+
+
+def results(items_and_labs):
+    """One object per item; the texts are for people, `checks` has the numbers."""
+
+    def joined(lab, value):
+        return "; ".join(f"{c.what}: {number(value(c))}" for c in lab.checks if value(c) not in (None, "")) or "–"
+
+    return {"items": [{
+        "name": item.name,
+        "paper": item.paper,
+        "paper_method_measured": joined(lab, lambda c: c.paper_method),
+        "ours": joined(lab, lambda c: c.ours),
+        "target": joined(lab, lambda c: c.target),
+        "pass": lab.passed,
+        "checks": [vars(check) for check in lab.checks],
+    } for item, lab in items_and_labs]}
+
+
+def to_json(items_and_labs):
+    return json.dumps(results(items_and_labs), indent=2, ensure_ascii=False) + "\n"
+
+
+def readable(value):
+    """A number or text as HTML, with powers of ten."""
+    text = html.escape(number(value))
+    return re.sub(r"\b(\d[\d.]*)e([+-]\d+)\b", lambda m: times_power(m[1], int(m[2])), text)
+
+
+def times_power(mantissa, exponent):
+    power = power_of_ten(exponent)
+    return f'<span class="number">{power if mantissa == "1" else mantissa + " · " + power}</span>'
+
+
+def mark(passed):
+    return f'<span class="mark {"pass" if passed else "fail"}">{"✓ holds" if passed else "✗ does not hold"}</span>'
+
+
+def table(header, rows):
+    """The cells of the rows are HTML."""
+    head = "".join(f"<th>{html.escape(cell)}</th>" for cell in header)
+    body = "".join(
+        "<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>"
+        for row in rows
+    )
+    return f'<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
+
+
+def summary(items_and_labs):
+    rows = []
+    for item, lab in items_and_labs:
+        first = next((c for c in lab.checks if not c.passed), lab.checks[0] if lab.checks else None)
+        shown = f"{html.escape(first.what)}: <b>{readable(first.ours)}</b>" if first and first.ours is not None else ""
+        reason = first.reason if first and not first.passed else ""
+        cells = [
+            f'<a href="#{item.name}">{item.name}</a>',
+            html.escape(item.title),
+            readable(first.paper_method) if first else "–",
+            f"{shown} {readable(first.target)}" if first else "–",
+            mark(lab.passed) + (f'<div class="reason">{readable(reason)}</div>' if reason else ""),
+        ]
+        rows.append(f'<tr class="{"pass" if lab.passed else "fail"}">' + "".join(f"<td>{c}</td>" for c in cells) + "</tr>")
+    head = "".join(f"<th>{h}</th>" for h in ("", "", "paper's method", "ours, and target", ""))
+    return f'<table id="summary"><thead><tr>{head}</tr></thead><tbody>{"".join(rows)}</tbody></table>'
+
+
+def checks_table(lab):
+    rows = [[
+        html.escape(check.what),
+        readable(check.paper_method),
+        readable(check.ours),
+        f'<span class="number">{readable(check.target)}</span>',
+        mark(check.passed) + (f'<span class="reason"> {readable(check.reason)}</span>' if check.reason else ""),
+    ] for check in lab.checks]
+    return table(["", "paper's method, measured", "ours", "target", ""], rows)
+
+
+def figure(folder, kind, name, caption):
+    if kind == "plot":
+        content = (folder / name).read_text(encoding="utf-8")
+    else:
+        data = base64.b64encode((folder / name).read_bytes()).decode()
+        content = f'<img alt="{html.escape(caption)}" src="data:image/png;base64,{data}">'
+    return f"<figure>{content}<figcaption>{readable(caption)}</figcaption></figure>"
+
+
+def entries(lab):
+    """Pictures and plots that follow one another share a grid."""
+    parts, open_kind = [], None
+    for kind, content in lab.entries:
+        is_figure = kind in ("picture", "plot")
+        if open_kind and open_kind != kind:
+            parts.append("</div>")
+            open_kind = None
+        if is_figure and not open_kind:
+            parts.append(f'<div class="figures {kind}s">')
+            open_kind = kind
+        if is_figure:
+            parts.append(figure(lab.folder, kind, *content))
+        elif kind == "text":
+            parts.append(f"<p>{readable(content)}</p>")
+        else:
+            header, rows = content
+            parts.append(table(header, [map(readable, row) for row in rows]))
+    if open_kind:
+        parts.append("</div>")
+    return "\n".join(parts)
+
+
+def section(item, lab):
+    commands = "\n".join(lab.program.commands)
+    return f"""<section id="{item.name}">
+<header><h2>{item.name} · {html.escape(item.title)}</h2>{mark(lab.passed)}</header>
+<blockquote><b>The paper.</b> {html.escape(item.paper)}</blockquote>
+{checks_table(lab)}
+{entries(lab)}
+<details><summary>This item alone: <code>scripts/reproduce --item {item.name}</code>. What it runs:</summary>
+<pre>{html.escape(commands)}</pre></details>
+</section>"""
+
+
+def to_html(items_and_labs, facts):
+    passed = sum(lab.passed for _, lab in items_and_labs)
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>The paper, reproduced</title>
+<style>{STYLE}</style>
+</head>
+<body>
+<h1>Affine-invariant curvature estimators, reproduced</h1>
+<p>Every figure and table of M. Andrade, T. Lewiner, <i>Affine-invariant curvature estimators for implicit surfaces</i>,
+Computer Aided Geometric Design 29(2), 2012, made again with equiaffine: what the paper shows or claims, what its method
+gives when it is measured, and what ours gives. An affine map of determinant 1 may shear and stretch a surface; the affine
+normal ξ, the affine Gaussian and mean curvature K and H and the Pick invariant J go along with it unchanged, and the
+Euclidean curvatures do not. Where a map has another determinant, the weights of these quantities are taken into
+account.</p>
+<p><b>{passed} of {len(items_and_labs)} items hold.</b> <span class="quiet">{html.escape(facts)}</span></p>
+{summary(items_and_labs)}
+{"".join(section(item, lab) for item, lab in items_and_labs)}
+</body>
+</html>
+"""
