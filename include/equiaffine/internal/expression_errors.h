@@ -3,7 +3,7 @@
 #define EQUIAFFINE_INTERNAL_EXPRESSION_ERRORS_H
 
 #include <equiaffine/Input_error.h>
-#include <equiaffine/internal/expression_evaluation.h>
+#include <equiaffine/internal/expression_tape.h>
 
 #include <algorithm>
 #include <array>

@@ -2,195 +2,21 @@
 #ifndef EQUIAFFINE_INTERNAL_EXPRESSION_EVALUATION_H
 #define EQUIAFFINE_INTERNAL_EXPRESSION_EVALUATION_H
 
+#include <equiaffine/internal/expression_arithmetic.h>
+#include <equiaffine/internal/expression_tape.h>
 #include <equiaffine/internal/kinks.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <type_traits>
-#include <vector>
 
-/// The instruction list behind `Expression_3` and its evaluation for any number type.
+/// The evaluation of a tape, for blocks of points.
 namespace equiaffine::internal::expression {
-
-enum class Opcode : std::uint8_t {
-  VARIABLE, // only while parsing
-  CONSTANT,
-  ADD_CONSTANT,
-  SUBTRACT_FROM_CONSTANT,
-  MULTIPLY_CONSTANT,
-  DIVIDE_BY_CONSTANT,
-  DIVIDE_CONSTANT,
-  ADD,
-  SUBTRACT,
-  MULTIPLY,
-  DIVIDE,
-  NEGATE,
-  SQUARE,
-  INTEGER_POWER,
-  POWER_CONSTANT,
-  POWER,
-  SQRT,
-  CBRT,
-  EXP,
-  LOG,
-  SIN,
-  COS,
-  TAN,
-  ASIN,
-  ACOS,
-  ATAN,
-  ATAN2,
-  SINH,
-  COSH,
-  TANH,
-  ABS,
-  MIN,
-  MAX,
-  HYPOT,
-  ORDER,          // 1 where a > b, -1 where a < b, else NaN; this and the next two only in tapes of Taylor coefficients
-  WHERE_POSITIVE, // b where a > 0, 0 where a < 0, else NaN
-  WHERE_NEGATIVE  // b where a < 0, 0 where a > 0, else NaN
-};
-
-/// result = opcode(a, b, constant). Operands 0, 1, 2 are x, y, z; operand 3 + s is slot s. A unary instruction has
-/// a == b; `constant` also holds an integer exponent. The result is never the slot of an operand, so that loops over
-/// blocks of points may assume that reads and writes do not overlap.
-struct Instruction {
-  Opcode opcode;
-  std::uint32_t result, a, b;
-  double constant;
-};
-
-inline constexpr std::uint32_t number_of_variables = 3;
-
-struct Tape {
-  std::vector<Instruction> instructions;
-  std::vector<std::uint32_t> results; ///< operands that hold them at the end
-  std::uint32_t number_of_slots = 0;
-};
-
-// Arithmetic with a double. The mixed operators of T are used where they exist and return T: for a Taylor polynomial,
-// scaling is many times cheaper than a product. Built-in types would be promoted, and are converted instead.
-template <class T>
-T plus_constant(const T& a, double c) {
-  if constexpr (!std::is_arithmetic_v<T> && requires {
-                  { a + c } -> std::same_as<T>;
-                })
-    return a + c;
-  else return a + T(c);
-}
-
-template <class T>
-T constant_minus(double c, const T& a) {
-  if constexpr (!std::is_arithmetic_v<T> && requires {
-                  { c - a } -> std::same_as<T>;
-                })
-    return c - a;
-  else return T(c) - a;
-}
-
-template <class T>
-T times_constant(const T& a, double c) {
-  if constexpr (!std::is_arithmetic_v<T> && requires {
-                  { a* c } -> std::same_as<T>;
-                })
-    return a * c;
-  else return a * T(c);
-}
-
-template <class T>
-T over_constant(const T& a, double c) {
-  if constexpr (!std::is_arithmetic_v<T> && requires {
-                  { a / c } -> std::same_as<T>;
-                })
-    return a / c;
-  else return a / T(c);
-}
-
-template <class T>
-T constant_over(double c, const T& a) {
-  if constexpr (!std::is_arithmetic_v<T> && requires {
-                  { c / a } -> std::same_as<T>;
-                })
-    return c / a;
-  else return T(c) / a;
-}
-
-// Functions with a fallback for types that do not have them.
-template <class T>
-T squared(const T& a) {
-  if constexpr (requires {
-                  { square(a) } -> std::convertible_to<T>;
-                })
-    return square(a);
-  else return a * a;
-}
-
-/// Tells whether T has its own pow(T, Exponent). The catch-all loses against it, but wins against a function that would
-/// need the exponent converted, such as pow(T, int) called with 1.5.
-namespace own_power {
-
-struct Absent {};
-
-template <class Base, class Exponent>
-Absent pow(const Base&, const Exponent&);
-
-template <class T, class Exponent>
-concept HasOwnPower = !std::is_arithmetic_v<T> && requires(const T& a, const Exponent& b) {
-  { pow(a, b) } -> std::convertible_to<T>;
-};
-
-} // namespace own_power
-
-template <class T>
-T real_power(const T& a, const T& b) {
-  if constexpr (std::is_arithmetic_v<T>) return std::pow(a, b);
-  else if constexpr (own_power::HasOwnPower<T, T>) return pow(a, b);
-  else return exp(T(b * log(a)));
-}
-
-template <class T>
-T constant_power(const T& a, double c) {
-  if constexpr (own_power::HasOwnPower<T, double>) return pow(a, c);
-  else return real_power(a, T(c));
-}
-
-/// A NaN in either argument gives NaN, unlike std::min, std::fmin and their like, which can hide it. This is the result
-/// for types that are ordered by `<` and have no `min` of their own.
-template <class T>
-T minimum(const T& a, const T& b) {
-  if constexpr (!std::is_arithmetic_v<T> && requires {
-                  { min(a, b) } -> std::convertible_to<T>;
-                })
-    return min(a, b);
-  else return a < b || a != a ? a : b;
-}
-
-/// As minimum().
-template <class T>
-T maximum(const T& a, const T& b) {
-  if constexpr (!std::is_arithmetic_v<T> && requires {
-                  { max(a, b) } -> std::convertible_to<T>;
-                })
-    return max(a, b);
-  else return a > b || a != a ? a : b;
-}
-
-template <class T>
-T hypotenuse(const T& a, const T& b) {
-  if constexpr (std::is_arithmetic_v<T>) return std::hypot(a, b);
-  else if constexpr (requires {
-                       { hypot(a, b) } -> std::convertible_to<T>;
-                     })
-    return hypot(a, b);
-  else return sqrt(T(squared(a) + squared(b)));
-}
 
 /// f of the first `count` elements. A full block has a trip count known at compile time, which is what compilers need
 /// to vectorise at moderate optimisation levels; unrolled, GCC's loops take half the time.
@@ -249,87 +75,29 @@ void execute_choice(const Instruction& instruction, const T* a, const T* b, T* r
 template <std::size_t Block, class T>
 [[gnu::noinline]] void execute_function(const Instruction& instruction, const T* a, const T* b, T* result,
                                         std::size_t count) {
+  using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cbrt, std::cos, std::cosh, std::exp, std::log,
+      std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
   const double c = instruction.constant;
   const auto apply = [&](auto f) { for_each_point<Block>(a, b, result, count, f); };
   switch (instruction.opcode) {
   case Opcode::INTEGER_POWER: return integer_power<Block>(a, result, count, static_cast<unsigned>(c));
   case Opcode::POWER_CONSTANT: return apply([c](const T& u, const T&) -> T { return constant_power(u, c); });
   case Opcode::POWER: return apply([](const T& u, const T& v) -> T { return real_power(u, v); });
-  case Opcode::SQRT:
-    return apply([](const T& u, const T&) -> T {
-      using std::sqrt;
-      return sqrt(u);
-    });
-  case Opcode::CBRT:
-    return apply([](const T& u, const T&) -> T {
-      using std::cbrt;
-      return cbrt(u);
-    });
-  case Opcode::EXP:
-    return apply([](const T& u, const T&) -> T {
-      using std::exp;
-      return exp(u);
-    });
-  case Opcode::LOG:
-    return apply([](const T& u, const T&) -> T {
-      using std::log;
-      return log(u);
-    });
-  case Opcode::SIN:
-    return apply([](const T& u, const T&) -> T {
-      using std::sin;
-      return sin(u);
-    });
-  case Opcode::COS:
-    return apply([](const T& u, const T&) -> T {
-      using std::cos;
-      return cos(u);
-    });
-  case Opcode::TAN:
-    return apply([](const T& u, const T&) -> T {
-      using std::tan;
-      return tan(u);
-    });
-  case Opcode::ASIN:
-    return apply([](const T& u, const T&) -> T {
-      using std::asin;
-      return asin(u);
-    });
-  case Opcode::ACOS:
-    return apply([](const T& u, const T&) -> T {
-      using std::acos;
-      return acos(u);
-    });
-  case Opcode::ATAN:
-    return apply([](const T& u, const T&) -> T {
-      using std::atan;
-      return atan(u);
-    });
-  case Opcode::ATAN2:
-    return apply([](const T& u, const T& v) -> T {
-      using std::atan2;
-      return atan2(u, v);
-    });
-  case Opcode::SINH:
-    return apply([](const T& u, const T&) -> T {
-      using std::sinh;
-      return sinh(u);
-    });
-  case Opcode::COSH:
-    return apply([](const T& u, const T&) -> T {
-      using std::cosh;
-      return cosh(u);
-    });
-  case Opcode::TANH:
-    return apply([](const T& u, const T&) -> T {
-      using std::tanh;
-      return tanh(u);
-    });
-  case Opcode::ABS:
-    return apply([](const T& u, const T&) -> T {
-      using std::abs;
-      return abs(u);
-    });
+  case Opcode::SQRT: return apply([](const T& u, const T&) -> T { return sqrt(u); });
+  case Opcode::CBRT: return apply([](const T& u, const T&) -> T { return cbrt(u); });
+  case Opcode::EXP: return apply([](const T& u, const T&) -> T { return exp(u); });
+  case Opcode::LOG: return apply([](const T& u, const T&) -> T { return log(u); });
+  case Opcode::SIN: return apply([](const T& u, const T&) -> T { return sin(u); });
+  case Opcode::COS: return apply([](const T& u, const T&) -> T { return cos(u); });
+  case Opcode::TAN: return apply([](const T& u, const T&) -> T { return tan(u); });
+  case Opcode::ASIN: return apply([](const T& u, const T&) -> T { return asin(u); });
+  case Opcode::ACOS: return apply([](const T& u, const T&) -> T { return acos(u); });
+  case Opcode::ATAN: return apply([](const T& u, const T&) -> T { return atan(u); });
+  case Opcode::ATAN2: return apply([](const T& u, const T& v) -> T { return atan2(u, v); });
+  case Opcode::SINH: return apply([](const T& u, const T&) -> T { return sinh(u); });
+  case Opcode::COSH: return apply([](const T& u, const T&) -> T { return cosh(u); });
+  case Opcode::TANH: return apply([](const T& u, const T&) -> T { return tanh(u); });
+  case Opcode::ABS: return apply([](const T& u, const T&) -> T { return abs(u); });
   case Opcode::MIN: return apply([](const T& u, const T& v) -> T { return minimum(u, v); });
   case Opcode::MAX: return apply([](const T& u, const T& v) -> T { return maximum(u, v); });
   case Opcode::HYPOT: return apply([](const T& u, const T& v) -> T { return hypotenuse(u, v); });
@@ -376,13 +144,13 @@ public:
   }
 
   /// Runs the tape for `count` <= Block points.
-  void run(const std::array<const T*, number_of_variables>& variables, std::size_t count) {
-    variables_ = variables;
+  void run(const std::array<const T*, number_of_variables>& points, std::size_t count) {
+    points_ = points;
     for (const Instruction& i : tape_.instructions)
       execute<Block>(i, operand(i.a), operand(i.b), slot(i.result), count);
   }
 
-  /// Result n of the last run, in the slots or in its `variables`.
+  /// Result n of the last run, in the slots or in its `points`.
   const T* result(std::size_t n = 0) { return operand(tape_.results[n]); }
 
 private:
@@ -391,10 +159,10 @@ private:
   T* slot(std::uint32_t index) {
     return (large_ ? large_.get() : small_.data()) + (index - number_of_variables) * Block;
   }
-  const T* operand(std::uint32_t index) { return index < number_of_variables ? variables_[index] : slot(index); }
+  const T* operand(std::uint32_t index) { return index < number_of_variables ? points_[index] : slot(index); }
 
   const Tape& tape_;
-  std::array<const T*, number_of_variables> variables_{};
+  std::array<const T*, number_of_variables> points_{};
   std::array<T, capacity> small_;
   std::unique_ptr<T[]> large_;
 };
