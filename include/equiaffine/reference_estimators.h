@@ -31,8 +31,8 @@ Affine_estimate_3<FT> affine_estimate(const Jet_3<FT>& jet, Estimator estimator)
 }
 
 /// As local_structure(jet, point_magnitude, rounding), with co-normal, normal, Gaussian and mean curvature of the affine
-/// structure by the given way. Where that way alone fails, which is where f_z vanishes or nearly so for DIRECT_Z, the status is
-/// PARABOLIC, too.
+/// structure by the given way. Where that way alone fails, which is where f_z vanishes or nearly so for DIRECT_Z, the
+/// status is PARABOLIC, too.
 template <class FT>
 Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const FT& point_magnitude, const FT& rounding,
                                       Estimator estimator) {
