@@ -70,13 +70,13 @@ def compare(lab, name, found, bound, paper=None):
     for _, _, K, K_e, _ in PAIRS:
         for i, kind in enumerate(("Kolmogorov-Smirnov", "Wasserstein")):
             lab.check(f"{name}: {kind} distance of {K} before and after, over that of {K_e}",
-                      found[K][i] / found[K_e][i], "<=",
-                      bound, paper and paper[K][i] / paper[K_e][i])
+                      found[K][i] / found[K_e][i], "<=", bound,
+                      paper and paper[K][i] / paper[K_e][i])
         for label in (K, K_e):
             pair = found[label][2]
             file = f"{name}-{label}".replace(",", "").replace(" ", "-").replace("ₑ", "_e")
-            lab.plot(file, histograms(list(zip(("before", "after"), pair)), label,
-                                                                     pair[0].quantile(0.05), pair[0].quantile(0.95)),
+            low, high = pair[0].quantile(0.05), pair[0].quantile(0.95)
+            lab.plot(file, histograms(list(zip(("before", "after"), pair)), label, low, high),
                      f"{name}: distribution of {label}")
     tabulate(lab, name, found)
 
