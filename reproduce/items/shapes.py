@@ -140,7 +140,7 @@ def draw(lab, name, captions, up):
     """K and H of the surface before and after, on one scale each."""
     for column, label in (("affine_gaussian_curvature", "K"), ("affine_mean_curvature", "H"), ("mean_curvature", "Hₑ")):
         surface = read_ply(lab.folder / f"{name}-before.ply")
-        bound = quantile([abs(x) for x in surface[column]], 0.9)
+        bound = quantile([abs(x) for x in surface[column]], 0.7)
         for when, caption in captions.items():
             lab.picture(f"{name}-{when}-{column}", f"{label}, {caption}", "--color", column, "--up", up,
                         "--range", -bound, bound, of=f"{name}-{when}")
@@ -175,6 +175,8 @@ def fig1(lab):
     are_used = trusted(before), trusted(afresh)
     if sum(are_used[1]) > len(afresh) / 2:
         tabulate(lab, "distances to the moved mesh, measured afresh", distances(before, afresh, 1.0, are_used))
+    lab.say("A scale of 24 voxels cuts off the ears, which are thinner: at smaller ones the facets of the mesh leave "
+            "few vertices whose affine curvatures can be trusted, 3 % at 16 voxels and below.")
     lab.say("The distance to the image is not the image of the distance: smoothing and distances are Euclidean. "
             "Where the last table is, it is of another surface near the same facets, whose affine curvatures, "
             "derivatives of order 4, need not agree better than the Euclidean ones.")
