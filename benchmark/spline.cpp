@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Affine curvatures of sampled functions: accuracy and its order, noise and error estimates, cost beside Teem and ITK,
-// real data. Arguments: the folder of scripts/example-data (build/data), and a file for the plot, in SVG (none).
+// real data. Arguments: the folder of scripts/example-data (build/data), a file for the plot, in SVG (none), and one of
+// cost, noise, figure_10, real_data, accuracy (all).
 #include "measure.h"
 #include "peers/spline_peers.h"
 #include "runner.h"
@@ -407,9 +408,12 @@ void real_data(const std::string& folder) {
 } // namespace
 
 int main(int argc, char** argv) {
-  cost();
-  noise();
-  figure_10();
-  accuracy(argc > 2 ? argv[2] : "");
-  real_data(argc > 1 ? argv[1] : "build/data");
+  const auto argument = [&](int n, const char* otherwise) { return std::string(argc > n ? argv[n] : otherwise); };
+  const std::string part = argument(3, "all");
+  const auto is_asked_for = [&](const char* name) { return part == "all" || part == name; };
+  if (is_asked_for("cost")) cost();
+  if (is_asked_for("noise")) noise();
+  if (is_asked_for("figure_10")) figure_10();
+  if (is_asked_for("real_data")) real_data(argument(1, "build/data"));
+  if (is_asked_for("accuracy")) accuracy(argument(2, ""));
 }

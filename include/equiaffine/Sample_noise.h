@@ -24,17 +24,19 @@ struct Sample_noise {
 
 namespace internal {
 
-/// The median of |x|; 0 of nothing.
-inline double median_magnitude(std::vector<double> values) {
+/// The least number that the given part of the |x| does not exceed; 0 of nothing.
+inline double quantile_of_magnitudes(std::vector<double> values, double part) {
   if (values.empty()) return 0;
   for (double& x : values) x = std::abs(x);
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto place = values.begin() + std::ptrdiff_t(part * double(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
 }
 
-/// A normal variable's median of |x| over its standard deviation.
-inline constexpr double median_over_deviation = 0.67448975019608174;
+inline double median_magnitude(std::vector<double> values) { return quantile_of_magnitudes(std::move(values), 0.5); }
+
+/// The median of |x| and the number that 80 % of them do not exceed, over the standard deviation of a normal variable.
+inline constexpr double median_over_deviation = 0.67448975019608174, most_over_deviation = 1.2815515655446004;
 
 /// Nodes of a volume where noise matters and can be measured: every n-th of those beside the level set, of all if no
 /// level is given or none has it, at least `margin` nodes from the border and with a finite value.
@@ -183,7 +185,7 @@ private:
     std::optional<Weights>& known = weights_[a][lines_[a].kind_of_cell(cell[a])];
     if (!known) {
       const auto rows = lines_[a].of_cell(cell[a]);
-      const auto is_used = [&](std::size_t j) { return std::abs(rows[0][j]) > 1e-9 || std::abs(rows[4][j]) > 1e-9; };
+      const auto is_used = [&](std::size_t j) { return rows[0][j] != 0 || rows[4][j] != 0; };
       std::size_t begin = 0, end = rows[0].size();
       while (begin + 1 < end && !is_used(begin)) ++begin;
       while (end > begin + 1 && !is_used(end - 1)) --end;
@@ -207,10 +209,10 @@ private:
 
 } // namespace internal
 
-/// The scale for smooth_volume with the least estimated error of fourth derivatives, out of 0, 1.5, 2, 2.5, 3, 4, 5, 6 and 8:
-/// noise is known from its deviation, and what smoothing takes away from the function is the sum of what the
-/// derivatives differ from scale to scale, beyond their noise; medians of some hundred cells beside the level set. Scales whose
-/// window does not fit into the volume are left out, and 0 is chosen where there is no spline.
+/// The scale for smooth_volume with the least estimated error of fourth derivatives, out of 0, 1.5, 2, 2.5, 3, 4, 5, 6
+/// and 8: noise is known from its deviation, and what smoothing takes away from the function is what the derivatives
+/// differ from those at the scale before, beyond their noise, in most of some hundred cells beside the level set.
+/// Scales whose window does not fit into the volume are left out, and 0 is chosen where there is no spline.
 template <class Kernel>
 typename Kernel::FT choose_smoothing(const Volume_3<Kernel>& volume, const Sample_noise& noise, int degree,
                                      Spline_scheme scheme, std::optional<typename Kernel::FT> isovalue = std::nullopt) {
@@ -221,7 +223,7 @@ typename Kernel::FT choose_smoothing(const Volume_3<Kernel>& volume, const Sampl
   const auto cells = internal::nodes_to_measure(volume, isovalue, 1, 300);
   if (shortest <= std::size_t(degree) || cells.empty()) return 0;
   std::optional<Probe> last;
-  double bias = 0, least_risk = 0;
+  double least_risk = 0;
   FT best = 0;
   for (const FT scale : {FT(0), FT(1.5), FT(2), FT(2.5), FT(3), FT(4), FT(5), FT(6), FT(8)}) {
     if (2 * std::size_t(4 * scale) + 1 > shortest) break;
@@ -238,8 +240,8 @@ typename Kernel::FT choose_smoothing(const Volume_3<Kernel>& volume, const Sampl
         if (std::isfinite(fine[a] - coarse[a])) differences.push_back(fine[a] - coarse[a]);
     }
     const double of_noise = internal::median_magnitude(std::move(expected));
-    const double found = internal::median_magnitude(std::move(differences)) / internal::median_over_deviation;
-    bias += std::sqrt(std::max(0.0, found * found - 1.5 * of_noise * of_noise)); // medians are uncertain
+    const double found = internal::quantile_of_magnitudes(std::move(differences), 0.8) / internal::most_over_deviation;
+    const double bias = std::sqrt(std::max(0.0, found * found - 1.5 * of_noise * of_noise)); // both are uncertain
     const double risk = std::hypot(internal::median_magnitude(std::move(deviations)), bias);
     if (!last || risk < least_risk) {
       least_risk = risk;
