@@ -21,8 +21,8 @@ Jet_3<FT> expand(const F& f, const std::array<double, 3>& p) {
       f(Jet_3<FT>::variable(0, FT(p[0])), Jet_3<FT>::variable(1, FT(p[1])), Jet_3<FT>::variable(2, FT(p[2]))));
 }
 
-/// The direct method with the axis closest to the gradient and xi_1 as it is printed in section 2(d), with g_xxy in place
-/// of g_xyy in its second term.
+/// The direct method with the axis closest to the gradient and xi_1 as it is printed in section 2(d), with g_xxy in
+/// place of g_xyy in its second term.
 Affine_estimate_3<double> printed_estimate(const Jet_3<double>& jet) {
   using internal::determinant;
   const auto& c = jet.coefficients();

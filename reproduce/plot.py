@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 COLORS = ["#2557c7", "#c2410c", "#0f8a5f", "#7c3aed", "#64748b", "#b4236b"]
-WIDTH, HEIGHT = 560, 340
+WIDTH, HEIGHT = 560, 360
 LEFT, RIGHT, TOP, BOTTOM = 70, 16, 12, 46
 
 
@@ -78,38 +78,37 @@ def drawn(series, color, x_axis, y_axis):
 
 
 def legend(all_series, colors):
-    rows, longest = [], max(len(series.label) for series in all_series)
-    left = WIDTH - RIGHT - 42 - 6.3 * longest
+    """Above the plot, a row for each series."""
+    rows = []
     for i, (series, color) in enumerate(zip(all_series, colors)):
-        y = TOP + 16 + 17 * i
+        y = TOP + 8 + 17 * i
         dashes = ' stroke-dasharray="6 4"' if series.dashed else ""
-        rows.append(f'<line x1="{left}" x2="{left + 26}" y1="{y - 4}" y2="{y - 4}" stroke="{color}" '
-                    f'stroke-width="3"{dashes}/><text x="{left + 33}" y="{y}">{html.escape(series.label)}</text>')
-    box = (f'<rect x="{left - 8}" y="{TOP + 2}" width="{WIDTH - RIGHT - left + 4}" '
-           f'height="{17 * len(all_series) + 6}" fill="#fff" opacity=".85" rx="4"/>')
-    return box + "".join(rows)
+        rows.append(f'<line x1="{LEFT}" x2="{LEFT + 26}" y1="{y - 4}" y2="{y - 4}" stroke="{color}" '
+                    f'stroke-width="3"{dashes}/><text x="{LEFT + 34}" y="{y}">{html.escape(series.label)}</text>')
+    return "".join(rows)
 
 
 def plot(all_series, x_label, y_label, log_x=False, log_y=False):
-    """The series in one plot with axes and a legend."""
+    """The series in one plot with axes, and a legend if they are several."""
+    top = TOP + 17 * len(all_series) + 6 if len(all_series) > 1 else TOP
     x_axis = Axis([x for s in all_series for x, _ in s.points], LEFT, WIDTH - RIGHT, log_x)
-    y_axis = Axis([y for s in all_series for _, y in s.points], HEIGHT - BOTTOM, TOP, log_y)
+    y_axis = Axis([y for s in all_series for _, y in s.points], HEIGHT - BOTTOM, top, log_y)
     colors = [series.color or COLORS[i % len(COLORS)] for i, series in enumerate(all_series)]
     grid, numbers = [], []
     for value, text in x_axis.ticks():
-        grid.append(f'<line x1="{x_axis(value):.1f}" x2="{x_axis(value):.1f}" y1="{TOP}" y2="{HEIGHT - BOTTOM}"/>')
+        grid.append(f'<line x1="{x_axis(value):.1f}" x2="{x_axis(value):.1f}" y1="{top}" y2="{HEIGHT - BOTTOM}"/>')
         numbers.append(f'<text x="{x_axis(value):.1f}" y="{HEIGHT - BOTTOM + 17}" text-anchor="middle">{text}</text>')
     for value, text in y_axis.ticks():
         grid.append(f'<line x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{y_axis(value):.1f}" y2="{y_axis(value):.1f}"/>')
         numbers.append(f'<text x="{LEFT - 7}" y="{y_axis(value) + 4:.1f}" text-anchor="end">{text}</text>')
-    middle = (TOP + HEIGHT - BOTTOM) / 2
+    middle = (top + HEIGHT - BOTTOM) / 2
     return "\n".join([
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" '
         'font-family="system-ui, DejaVu Sans, sans-serif" font-size="12" fill="#1b2330">',
         f'<rect width="{WIDTH}" height="{HEIGHT}" fill="#fff"/>',
         f'<g stroke="#e3e7ee">{"".join(grid)}</g>',
         "".join(drawn(series, color, x_axis, y_axis) for series, color in zip(all_series, colors)),
-        f'<path d="M{LEFT} {TOP}V{HEIGHT - BOTTOM}H{WIDTH - RIGHT}" fill="none" stroke="#5c6778"/>',
+        f'<path d="M{LEFT} {top}V{HEIGHT - BOTTOM}H{WIDTH - RIGHT}" fill="none" stroke="#5c6778"/>',
         "".join(numbers),
         f'<text x="{(LEFT + WIDTH - RIGHT) / 2}" y="{HEIGHT - 8}" text-anchor="middle">{html.escape(x_label)}</text>',
         f'<text transform="translate(15 {middle}) rotate(-90)" text-anchor="middle">{html.escape(y_label)}</text>',

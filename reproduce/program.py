@@ -12,7 +12,8 @@ import subprocess
 
 from .statistics import Distribution, median
 
-PLY_TYPES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f", "double": "d"}
+PLY_TYPES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f",
+             "double": "d"}
 
 
 class Surface:
@@ -44,12 +45,13 @@ class Surface:
         for a, b, c in self.triangles:
             u = [q - p for p, q in zip(points[a], points[b])]
             v = [q - p for p, q in zip(points[a], points[c])]
-            areas.append(math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2)
+            areas.append(math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                                    u[0] * v[1] - u[1] * v[0]) / 2)
         return areas
 
     def distribution(self, column, factor=1.0, is_used=None):
-        """Of the numbers of a column times a factor, weighted by the affine area |K_e|^(1/4) dA. Triangles with a vertex
-        that is not regular, or not used, do not count.
+        """Of the numbers of a column times a factor, weighted by the affine area |K_e|^(1/4) dA. Triangles with a
+        vertex that is not regular, or not used, do not count.
 
         Numbers x are interpolated, as x / (m + |x|) which is bounded, at points in the triangles: at the vertices alone
         they heap up, for the layers of a grid that is parallel to a symmetry of the surface have equal ones. Triangles

@@ -33,7 +33,8 @@ td { font-variant-numeric: tabular-nums; }
 .fail td:first-child a, .reason { color: var(--bad); }
 section { border-top: 2px solid var(--ink); margin-top: 52px; padding-top: 18px; }
 section header { display: flex; justify-content: space-between; align-items: baseline; gap: 20px; }
-blockquote { margin: 12px 0; padding: 8px 16px; border-left: 4px solid var(--line); background: var(--soft); max-width: 90ch; }
+blockquote { margin: 12px 0; padding: 8px 16px; border-left: 4px solid var(--line); background: var(--soft);
+  max-width: 90ch; }
 blockquote b { color: var(--quiet); font-weight: 600; }
 .figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(420px, 1fr)); gap: 18px; margin: 16px 0; }
 figure { margin: 0; max-width: 560px; break-inside: avoid; }
@@ -44,7 +45,9 @@ summary { cursor: pointer; color: var(--quiet); font-size: 14px; }
 pre { background: var(--soft); padding: 12px 14px; border-radius: 8px; white-space: pre-wrap; overflow-wrap: anywhere; }
 @media print {
   body { max-width: none; padding: 0; font-size: 11pt; }
-  section { break-before: auto; } h2, blockquote, tr { break-after: avoid; break-inside: avoid; } details { display: none; }
+  h2, blockquote { break-after: avoid; }
+  blockquote, tr { break-inside: avoid; }
+  details { display: none; }
 }
 """
 
@@ -108,7 +111,8 @@ def summary(items_and_labs):
             f"{shown} {readable(first.target)}" if first else "–",
             mark(lab.passed) + (f'<div class="reason">{readable(reason)}</div>' if reason else ""),
         ]
-        rows.append(f'<tr class="{"pass" if lab.passed else "fail"}">' + "".join(f"<td>{c}</td>" for c in cells) + "</tr>")
+        rows.append(f'<tr '
+                    f'class="{"pass" if lab.passed else "fail"}">' + "".join(f"<td>{c}</td>" for c in cells) + "</tr>")
     head = "".join(f"<th>{h}</th>" for h in ("", "", "paper's method", "ours, and target", ""))
     return f'<table id="summary"><thead><tr>{head}</tr></thead><tbody>{"".join(rows)}</tbody></table>'
 
@@ -182,9 +186,9 @@ def to_html(items_and_labs, facts):
 <h1>Affine-invariant curvature estimators, reproduced</h1>
 <p>Every figure and table of M. Andrade, T. Lewiner, <i>Affine-invariant curvature estimators for implicit surfaces</i>,
 Computer Aided Geometric Design 29(2), 2012, made again with equiaffine: what the paper shows or claims, what its method
-gives when it is measured, and what ours gives. An affine map of determinant 1 may shear and stretch a surface; the affine
-normal ξ, the affine Gaussian and mean curvature K and H and the Pick invariant J go along with it unchanged, and the
-Euclidean curvatures do not. Where a map has another determinant, the weights of these quantities are taken into
+gives when it is measured, and what ours gives. An affine map of determinant 1 may shear and stretch a surface; the
+affine normal ξ, the affine Gaussian and mean curvature K and H and the Pick invariant J go along with it unchanged,
+and the Euclidean curvatures do not. Where a map has another determinant, the weights of these quantities are taken into
 account.</p>
 <p><b>{passed} of {len(items_and_labs)} items hold.</b> <span class="quiet">{html.escape(facts)}</span></p>
 {summary(items_and_labs)}

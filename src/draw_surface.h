@@ -46,7 +46,8 @@ inline constexpr std::size_t legend_height = 56;
 std::optional<std::array<const std::vector<double>*, 3>> vector_columns(const Vertex_attributes& attributes,
                                                                         const std::string& name);
 
-/// Draws the surface as the page of write_HTML shows it first: the same view, colours and light. Curves are black lines.
+/// Draws the surface as the page of write_HTML shows it first: the same view, colours and light. Curves are black
+/// lines.
 Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
                              const Surface_view& view, std::span<const Polyline_3<Kernel>> curves = {});
 

@@ -57,8 +57,8 @@ TEST(Annotate, columns_and_maps_hold_the_same_numbers_for_any_number_of_threads)
   const auto surface = marching_cubes(traits, parameters::number_of_nodes(20));
   Mesh mesh = to_surface_mesh(surface);
   annotate<CGAL::Parallel_tag>(mesh, traits);
-  const auto columns =
-      compute_attributes(traits, std::span(surface.points), select_attributes("all,quadric_defect"), surface.vertex_status);
+  const auto columns = compute_attributes(traits, std::span(surface.points), select_attributes("all,quadric_defect"),
+                                          surface.vertex_status);
   std::size_t scalars = 0;
   for (const auto& column : columns.columns) {
     const auto [map, exists] = mesh.property_map<Vertex_index, double>("v:" + column.name);

@@ -16,8 +16,8 @@ namespace equiaffine {
 namespace internal {
 
 /// The derivatives at 0 of three functions of a number, `f(t)`, by central differences with steps `step`, `step` / 2,
-/// ..., extrapolated to step 0; for each function the entry of the table that differs least from its neighbors (Ridders:
-/// Accurate computation of F'(x) and F'(x) F''(x), 1982). Steps at which a function is not finite do not count.
+/// ..., extrapolated to step 0; for each function the entry of the table that differs least from its neighbors
+/// (Ridders: Accurate computation of F'(x) and F'(x) F''(x), 1982). Steps at which a function is not finite do not count.
 template <class FT, class F>
 std::array<FT, 3> derivatives(F f, FT step) {
   constexpr std::size_t levels = 10;

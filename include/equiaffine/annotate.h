@@ -94,9 +94,9 @@ private:
 
 /// Fills property maps of the vertices of `mesh` with the local structure of the level sets of f through them:
 /// `v:status` (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`, `v:direction1`, `v:direction2` (Vector_3),
-/// and one of FT for every other attribute of a single point (see attributes.h), `v:k1` to `v:quadric_defect`. A vertex whose `v:status` is
-/// UNCONVERGED before the call keeps it. The same for CGAL::Sequential_tag and CGAL::Parallel_tag. Named parameter:
-/// `estimator`.
+/// and one of FT for every other attribute of a single point (see attributes.h), `v:k1` to `v:quadric_defect`. A vertex
+/// whose `v:status` is UNCONVERGED before the call keeps it. The same for CGAL::Sequential_tag and CGAL::Parallel_tag.
+/// Named parameter: `estimator`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           class Parameters = internal::No_parameters>
 void annotate(CGAL::Surface_mesh<typename Traits::Point_3>& mesh, const Traits& traits,

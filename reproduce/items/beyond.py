@@ -57,7 +57,8 @@ def pick(lab):
     changes = [abs(a - b) / max(math.sqrt(scale), abs(b)) for a, b, scale, status in zip(
         after["pick_invariant"], surface["pick_invariant"], scales, surface["status"])
         if status == 0 and math.isfinite(a + b)]
-    lab.check("99 % of the vertices: relative change of J under a map of determinant 1", quantile(changes, 0.99), "<=", 1e-10)
+    lab.check("99 % of the vertices: relative change of J under a map of determinant 1", quantile(changes, 0.99),
+              "<=", 1e-10)
 
     formula = "z - (0.3*x^2 + {}*y^2 + 0.2*x*y + 0.1*sin(2*x + y) + 0.15*x^2*y - 0.1*y^3 + 0.05*x^4)"
     g = lambda c, x, y: (0.3 * x * x + c * y * y + 0.2 * x * y + 0.1 * math.sin(2 * x + y) + 0.15 * x * x * y
@@ -128,7 +129,8 @@ def parabolic(lab):
             return [tuple(map(float, line.split()[1:])) for line in file if line.startswith("v ")]
 
     size = ["--size", *lab.picture_size]
-    lab.mesh("torus", "--function", "(sqrt(x^2+y^2) - 0.5)^2 + z^2 - 0.2^2", "--box", -0.77, 0.75, -0.75, 0.77, -0.26, 0.25,
+    lab.mesh("torus", "--function", "(sqrt(x^2+y^2) - 0.5)^2 + z^2 - 0.2^2", "--box", -0.77, 0.75, -0.75, 0.77, -0.26,
+             0.25,
              "--resolution", lab.choose(64, 24), "--parabolic-curves", "torus.obj", "--png", "torus.png",
              "--color", "gaussian_curvature", *size)
     circles = curve_points("torus")
@@ -148,11 +150,13 @@ def parabolic(lab):
         on_curve = lab.evaluate(points, "--function", formula, "--attributes", "gaussian_curvature")
         residual = max(abs(k) for k in on_curve["gaussian_curvature"]) / typical
         lab.check(f"{name}: greatest |Kₑ| on the curves, over its median on the surface", residual, "<=", 1e-11)
-        moved = lab.evaluate([image(matrix, p) for p in points], "--function", formula, "--transform", *words_of(matrix),
+        moved = lab.evaluate([image(matrix, p) for p in points], "--function", formula, "--transform",
+                             *words_of(matrix),
                              "--attributes", "gaussian_curvature")
         after = max(abs(k) for k in moved["gaussian_curvature"]) / typical
         lab.check(f"{name}: the same for their images on the image of the surface", after, "<=", 1e-10)
     lab.pictured("torus", "Kₑ on the torus and its parabolic circles")
     lab.pictured("blobby", "H on the surface of figure 3: it grows without bound towards the black curves")
     lab.pictured("metaballs", "H on two balls that melt: the saddle between them is bounded by two curves")
-    lab.say("The curves are polylines whose points lie on f = 0 and Kₑ = 0 up to rounding, the option --parabolic-curves.")
+    lab.say("The curves are polylines whose points lie on f = 0 and Kₑ = 0 up to rounding, the option "
+            "--parabolic-curves.")

@@ -151,5 +151,5 @@ def errata(lab):
     lab.check("greatest error of a corrected one", max(c for _, c in merged.values()), "<=", 1e-12)
     lab.table(["where", "printed: least error", "corrected: greatest error"],
               [[where, *errors] for where, errors in merged.items()])
-    lab.say("At functions with random derivatives, compared with the program, whose formulas are other ones (doc/errata.md "
-            "has the corrections).")
+    lab.say("At functions with random derivatives, compared with the program, whose formulas are other ones "
+            "(doc/errata.md has the corrections).")

@@ -17,10 +17,11 @@ WAYS = {
 
 
 @item("fig5", "Affine normals by four methods",
-      "With z always in the role of the graph's direction (left) and with the axis closest to the gradient (middle) the "
-      "affine normal is unstable; the geometric reduction (right) corrects it.")
+      "With z always in the role of the graph's direction (left) and with the axis closest to the gradient (middle) "
+      "the affine normal is unstable; the geometric reduction (right) corrects it.")
 def fig5(lab):
-    surface = lab.mesh("ellipsoid", "--function", "x^2/9 + y^2 + z^2/0.09 = 1", "--box", -3.3, 3.4, -1.2, 1.3, -0.4, 0.41,
+    surface = lab.mesh("ellipsoid", "--function", "x^2/9 + y^2 + z^2/0.09 = 1", "--box", -3.3, 3.4, -1.2, 1.3, -0.4,
+                       0.41,
                        "--resolution", lab.choose(72, 16), "--attributes", "normal,gaussian_curvature")
     estimates = lab.estimates("ellipsoid", points=surface.points)
     vectors = lambda way: list(zip(*(estimates[f"{way}_xi_{axis}"] for axis in "xyz")))
@@ -37,14 +38,15 @@ def fig5(lab):
                     "--range", -17, -9)
     best = max(errors["transformation"])
     paper = ", ".join(f"{number(max(errors[way]))} {WAYS[way]}" for way in ("direct_z", "direct", "transformation"))
-    lab.check("greatest relative error of ξ, no more than by the paper's best way", max(errors["compact"]), "<=", best, paper)
+    lab.check("greatest relative error of ξ, no more than by the paper's best way", max(errors["compact"]), "<=",
+              best, paper)
     lab.table(["way", "greatest error", "99 % of the vertices", "median"],
               [[WAYS.get(way, "direct, best axis, ξ₁ as printed"), max(e), quantile(e, 0.99), quantile(e, 0.5)]
                for way, e in errors.items()])
     lab.say("An ellipsoid of axes 3, 1, 0.3, with exact derivatives of order 4, against numbers of 64 bits. In "
-            "double precision and with its misprint corrected the direct method is accurate where the axis is chosen. With "
-            "ξ₁ as printed it is wrong nearly everywhere, and its error jumps where the axis changes, which would explain "
-            "the middle of the figure.")
+            "double precision and with its misprint corrected the direct method is accurate where the axis is "
+            "chosen. With ξ₁ as printed it is wrong nearly everywhere, and its error jumps where the axis changes, "
+            "which would explain the middle of the figure.")
 
 
 @item("table1", "Operation counts",
@@ -62,8 +64,8 @@ def table1(lab):
                                                        count["transformation"], count["direct"]))],
         ["pivot and shear, with J (ours)", "–", "–", "–", str(count["compact"]), "–"],
     ])
-    lab.say("Counted by running each method on a number that counts: additions, multiplications, divisions and functions, "
-            "one each.")
+    lab.say("Counted by running each method on a number that counts: additions, multiplications, divisions and "
+            "functions, one each.")
 
 
 @item("fig9", "The sine surface: false discontinuities of H",
@@ -102,14 +104,14 @@ def fig9(lab):
               f"direct: {counts['printed']} as printed, {counts['direct']} corrected; transformation: "
               f"{counts['transformation']}")
     lab.table(["way", "edges with a false jump", "of"], [[labels[way], n, len(edges)] for way, n in counts.items()])
-    lab.say("With the same exact derivatives direct, transformation and compact method are the same function: they differ "
-            "by rounding alone, and none of them has a false discontinuity in double precision. The formula for ξ₁ as "
-            "printed has: its error changes where the axis does.")
+    lab.say("With the same exact derivatives direct, transformation and compact method are the same function: they "
+            "differ by rounding alone, and none of them has a false discontinuity in double precision. The formula "
+            "for ξ₁ as printed has: its error changes where the axis does.")
 
 
 @item("fig11", "The torus before and after an affine map",
-      "The distribution of K is better preserved under [[1.4, -0.2, 0], [0.1, 0.7, 0], [0, 0, 1]] with the transformation "
-      "method than with the direct one.")
+      "The distribution of K is better preserved under [[1.4, -0.2, 0], [0.1, 0.7, 0], [0, 0, 1]] with the "
+      "transformation method than with the direct one.")
 def fig11(lab):
     expression, box = "z^2 + (sqrt(x^2+y^2) - 0.5)^2 - 0.2^2", [-0.76, 0.75, -0.75, 0.76, -0.26, 0.25]
     matrix = [[1.4, -0.2, 0.0], [0.1, 0.7, 0.0], [0.0, 0.0, 1.0]]
@@ -134,12 +136,15 @@ def fig11(lab):
     rows.append(["Euclidean Kₑ, for comparison", euclidean, scaled_wasserstein(*euclidean_pair)])
     lab.check("Kolmogorov-Smirnov distance of K before and after, over that of Kₑ", affine["compact"] / euclidean, "<=",
               lab.choose(0.01, 0.1), affine["grid-transformation"] / euclidean)
-    lab.table(["K by", "Kolmogorov-Smirnov distance", "Wasserstein distance of K / (m + |K|), m the median of |K|"], rows)
+    lab.table(["K by", "Kolmogorov-Smirnov distance", "Wasserstein distance of K / (m + |K|), m the median of |K|"],
+              rows)
     exact = results["compact"][2][0]
-    for title, way in (("ours", "compact"), ("the paper's grid derivatives, transformation method", "grid-transformation")):
+    for title, way in (("ours", "compact"), ("the paper's grid derivatives, transformation method",
+                                             "grid-transformation")):
         lab.plot(way, histograms(list(zip(("before", "after"), results[way][2])), "K", min(0.0, exact.quantile(0.02)),
                                  exact.quantile(0.9)), f"Distribution of K, {title}, weighted by affine area")
-    lab.plot("euclidean", histograms(list(zip(("before", "after"), euclidean_pair)), "Kₑ", euclidean_pair[0].quantile(0.02),
+    lab.plot("euclidean", histograms(list(zip(("before", "after"), euclidean_pair)), "Kₑ",
+                                     euclidean_pair[0].quantile(0.02),
                                      euclidean_pair[0].quantile(0.98)), "Distribution of the Euclidean Kₑ")
     for name, caption in (("compact-before", "K on the torus"), ("compact-after", "K on its image")):
         lab.picture(name, caption, "--color", "affine_gaussian_curvature")

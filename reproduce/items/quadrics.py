@@ -71,8 +71,8 @@ def unit_sphere_points(count, seed):
 
 
 @item("table2f", "The fundamental examples of section 2(f)",
-      "A table of the co-normal, the affine normal and the affine curvatures of the paraboloids and of the sphere; for "
-      "the sphere it says H = -2 r^(-3/2).")
+      "A table of the co-normal, the affine normal and the affine curvatures of the paraboloids and of the sphere; "
+      "for the sphere it says H = -2 r^(-3/2).")
 def table2f(lab):
     r, source = 1.7, random.Random(1)
     plane = [(source.uniform(-1, 1), source.uniform(-1, 1)) for _ in range(200)]
@@ -145,12 +145,13 @@ OTHERS = {
 
 
 @item("quadric", "Quadrics, told by the apolar cubic form",
-      "“We plan to extend this work by completing the affine estimators with the Pick invariant.” J = 0 holds on every "
-      "quadric, but also on other surfaces.")
+      "“We plan to extend this work by completing the affine estimators with the Pick invariant.” J = 0 holds on "
+      "every quadric, but also on other surfaces.")
 def quadric(lab):
     rows, defects = [], {}
     for name, expression in {**QUADRICS, **OTHERS}.items():
-        surface = lab.mesh(name.replace(" ", "-").replace("'", ""), "--function", expression, "--box", -1.9, 2, -2, 1.9, -2, 2,
+        surface = lab.mesh(name.replace(" ", "-").replace("'", ""), "--function", expression, "--box", -1.9, 2, -2,
+                           1.9, -2, 2,
                            "--resolution", lab.choose(40, 14),
                            "--attributes", "quadric_defect,pick_invariant,affine_mean_curvature")
         regular = [i for i, is_regular in enumerate(surface.is_regular()) if is_regular]
@@ -163,9 +164,9 @@ def quadric(lab):
     cayley = next(row[4] for row in rows if row[0] == "Cayley's ruled cubic")
     lab.check("greatest |J| on Cayley's surface, which is no quadric: J alone does not tell", cayley, "<=", 1e-12)
     lab.table(["surface", "quadric?", "greatest defect", "median defect", "greatest |J|"], rows)
-    lab.say("The defect is |T| / |II|², the apolar cubic form over the square of the second fundamental form, without a "
-            "unit. By the theorem of Maschke, Pick and Berwald T vanishes exactly on quadrics. It is the attribute "
-            "quadric_defect.")
+    lab.say("The defect is |T| / |II|², the apolar cubic form over the square of the second fundamental form, "
+            "without a unit. By the theorem of Maschke, Pick and Berwald T vanishes exactly on quadrics. It is the "
+            "attribute quadric_defect.")
     lab.picture("Cayleys-ruled-cubic", "Cayley's surface z = x y - x³/3: J = 0 everywhere, and not a quadric",
                 "--color", "quadric_defect")
     lab.picture("torus", "The torus: its defect is largest near the parabolic circles", "--color", "quadric_defect")

@@ -52,9 +52,10 @@ def fig7(lab):
                              Series("B-spline of degree 5: σ₁ / 2", [(t, bspline(5, t)) for t in ts]),
                              Series("B-spline of degree 7, ours", [(t, bspline(7, t)) for t in ts], dashed=True)],
                             "t, in spacings of the grid", ""), "The spline of figure 7 and the one used here")
-    lab.say("As printed, σ₁ is twice the B-spline of degree 5: its values at the integers sum to 2, which the constant c "
-            "makes up for. Convolution with a B-spline adds half the second derivative times the square of the spacing: "
-            "order 2. Here the samples pass a local filter first, which makes the order that of the degree.")
+    lab.say("As printed, σ₁ is twice the B-spline of degree 5: its values at the integers sum to 2, which the "
+            "constant c makes up for. Convolution with a B-spline adds half the second derivative times the square "
+            "of the spacing: order 2. Here the samples pass a local filter first, which makes the order that of the "
+            "degree.")
 
 
 def constants_of_sphere(radius, matrix=None):
@@ -63,8 +64,8 @@ def constants_of_sphere(radius, matrix=None):
 
 
 @item("fig8", "The pattern of the grid on the sphere",
-      "Derivatives by convolution, interpolated along the edges of the grid, reveal a pattern of the grid in K and H, before "
-      "and after [[0.9, 0, 0.9], [0, 2, 0], [1.1, 0, 0.6]].")
+      "Derivatives by convolution, interpolated along the edges of the grid, reveal a pattern of the grid in K and "
+      "H, before and after [[0.9, 0, 0.9], [0, 2, 0], [1.1, 0, 0.6]].")
 def fig8(lab):
     expression, box = "x^2 + y^2 + z^2 - 1", [-1.23, 1.25, -1.25, 1.23, -1.24, 1.25]
     n = lab.choose(64, 24)
@@ -88,9 +89,9 @@ def fig8(lab):
         for name in ("K", "H"):
             lab.check(f"{when}: greatest relative deviation of {name}", worst["ours"][name], "<=", 1e-8,
                       worst["paper"][name])
-    lab.say("The matrix has determinant -0.9: it is not equi-affine, and the exact values behind the colours take that into "
-            "account, K = 1/0.9 and H = -1/√0.9 after it. A polynomial of degree 2 is in the space of the spline that we "
-            "use; figure 10 has functions that are not.")
+    lab.say("The matrix has determinant -0.9: it is not equi-affine, and the exact values behind the colours take "
+            "that into account, K = 1/0.9 and H = -1/√0.9 after it. A polynomial of degree 2 is in the space of the "
+            "spline that we use; figure 10 has functions that are not.")
 
 
 def sizes(lab):
@@ -100,7 +101,8 @@ def sizes(lab):
 def relative_errors(surface, exact):
     """At regular vertices away from parabolic curves, relative to |K| + H² and its root."""
     K_errors, H_errors = [], []
-    columns = (surface[c] for c in ("affine_gaussian_curvature", "affine_mean_curvature", "gaussian_curvature", "status"))
+    columns = (surface[c] for c in ("affine_gaussian_curvature", "affine_mean_curvature", "gaussian_curvature",
+                                    "status"))
     for K, H, gaussian, status, (K0, H0) in zip(*columns, exact):
         if status != 0 or not abs(gaussian) > 0.2 or not math.isfinite(K0 + H0):
             continue
@@ -111,8 +113,9 @@ def relative_errors(surface, exact):
 
 
 @item("fig10", "Convergence on the sphere and beyond",
-      "On the sphere the error of the direct method does not decrease with the grid; that of the transformation method "
-      "goes from 0.6 % (N = 40) to 0.04 % (N = 256) for K and from 0.1 % to 0.0007 % for H, before and after the map.")
+      "On the sphere the error of the direct method does not decrease with the grid; that of the transformation "
+      "method goes from 0.6 % (N = 40) to 0.04 % (N = 256) for K and from 0.1 % to 0.0007 % for H, before and after "
+      "the map.")
 def fig10(lab):
     sphere, box = "x^2 + y^2 + z^2 - 1", [-1.23, 1.25, -1.25, 1.23, -1.24, 1.25]
     surfaces = {
@@ -161,15 +164,20 @@ def fig10(lab):
                       "nodes per axis", "median relative error", log_x=True, log_y=True), name)
     finest = ns[-1]
     for name in ("exp ellipsoid", "torus with a root"):
-        lab.check(f"{name}: order of convergence of K", order(name, "ours"), ">=", 3.8, order(name, "paper, transformation"))
+        lab.check(f"{name}: order of convergence of K", order(name, "ours"), ">=", 3.8, order(name,
+                                                                                              "paper, transformation"))
     for name in ("sphere", "sphere, after the map"):
         lab.check(f"{name}, N = {finest}: median relative error of K", errors[name, "ours", finest][0], "<=", 4e-4,
                   errors[name, "paper, transformation", finest][0])
-    difference = abs(errors["sphere", "paper, direct", finest][0] / errors["sphere", "paper, transformation", finest][0] - 1)
-    lab.check("sphere: relative difference of direct and transformation method in double precision", difference, "<=", 1e-3,
+    difference = abs(errors["sphere", "paper, direct", finest][0] / errors["sphere", "paper, transformation",
+                                                                           finest][0] - 1)
+    lab.check("sphere: relative difference of direct and transformation method in double precision", difference, "<=",
+              1e-3,
               difference)
     printed = lab.estimates("sphere", points=[(0.6, 0.0, 0.8)])
     lab.say("With the same derivatives direct and transformation method give the same numbers: what limits both is the "
-            "estimate of the derivatives. With ξ₁ as printed the direct method does not converge, as the paper says: with "
-            f"exact derivatives it gives K = {printed['printed_K'][0]:.3g} at (0.6, 0, 0.8), where K = 1. The orders are slopes over "
+            "estimate of the derivatives. With ξ₁ as printed the direct method does not converge, as the paper says: "
+            "with "
+            f"exact derivatives it gives K = {printed['printed_K'][0]:.3g} at (0.6, 0, 0.8), where K = 1. The "
+            f"orders are slopes over "
             "the sizes whose error is above that of rounding, 10 ε / h⁴.")
