@@ -42,9 +42,10 @@ TEST(Vertex_projection, no_triangle_turns_over_in_many_planes_and_threads_change
     const auto one = marching_cubes<CGAL::Sequential_tag>(traits), many = marching_cubes<CGAL::Parallel_tag>(traits);
     ASSERT_EQ(linear.triangles, one.triangles);
     for (const auto& t : linear.triangles) ASSERT_GE(cosine(linear, one, t), 0);
-    for (std::size_t v = 0; v < one.points.size(); ++v) {
-      if (one.vertex_status[v] == Point_status::UNCONVERGED) ASSERT_EQ(one.points[v], linear.points[v]) << v;
-    }
+    for (std::size_t v = 0; v < one.points.size(); ++v)
+      if (one.vertex_status[v] == Point_status::UNCONVERGED) {
+        ASSERT_EQ(one.points[v], linear.points[v]) << v;
+      }
     EXPECT_GE(unconverged(one), one.repairs.flips_undone);
     EXPECT_EQ(one.points, many.points);
     EXPECT_EQ(one.function_evaluations, many.function_evaluations);
