@@ -13,6 +13,7 @@
 #include <equiaffine/Sample_noise.h>
 #include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
+#include <equiaffine/analytic_functions.h>
 #include <equiaffine/marching_cubes.h>
 #include <equiaffine/project_to_surface.h>
 #include <equiaffine/sample_on_lattice.h>
@@ -64,16 +65,11 @@ struct Surface {
   Exact function;
 };
 
+/// analytic_functions::Metaballs, as a formula.
 std::string metaballs() {
+  const analytic_functions::Metaballs balls;
   std::string text = "0.4";
-  for (const auto& [x, y, z] : std::vector<std::array<double, 3>>{{-0.55, -0.45, -0.5},
-                                                                  {0.5, -0.55, -0.4},
-                                                                  {-0.45, 0.5, -0.55},
-                                                                  {0.6, 0.45, -0.5},
-                                                                  {-0.5, -0.6, 0.45},
-                                                                  {0.45, -0.5, 0.55},
-                                                                  {-0.6, 0.55, 0.5},
-                                                                  {0.55, 0.6, 0.6}}) {
+  for (const auto& [x, y, z] : balls.centers) {
     std::array<char, 120> ball{};
     std::snprintf(ball.data(), ball.size(), " - exp(-4*((x-(%g))^2 + (y-(%g))^2 + (z-(%g))^2))", x, y, z);
     text += ball.data();
