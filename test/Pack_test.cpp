@@ -8,6 +8,7 @@
 #include <equiaffine/attributes.h>
 
 #include <CGAL/Simple_cartesian.h>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <gtest/gtest.h>
 
@@ -60,6 +61,51 @@ void expect_batch_equals_single(const Traits& traits, std::size_t size = 203) {
 template <class Function>
 void expect_batch_equals_single_for(const Function& f) {
   expect_batch_equals_single(make_analytic_traits<Kernel>(f, box));
+}
+
+using Exact = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+
+// The error of x in units of the last place of the exact value.
+double units_in_the_last_place(double x, const Exact& exact) {
+  return std::abs(double(Exact(x) - exact)) / std::ldexp(1., std::ilogb(double(exact)) - 52);
+}
+
+// Of every size, on both sides of where the C library takes over, and beside multiples of pi / 2.
+std::vector<double> arguments(double range) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<double> result = {0., -0., range, -range, std::nextafter(range, 2 * range)};
+  for (int n = 0; n < 4000; ++n) result.push_back(range * unit(random) * std::exp2(-n % 40));
+  for (int n = -400; n <= 400; ++n) result.push_back(n * std::acos(-1.) / 2); // up to 628
+  while (result.size() % Lanes::size != 0) result.push_back(1);
+  return result;
+}
+
+TEST(Pack, elementary_functions_are_right_to_the_last_place_or_the_one_before) {
+  for (const double x : arguments(internal::exponential_range))
+    EXPECT_LT(units_in_the_last_place(internal::exp_value(x), exp(Exact(x))), 0.6) << x;
+  for (const double x : arguments(internal::circular_range)) {
+    const auto [sine, cosine] = internal::sine_and_cosine(x);
+    if (x != 0) EXPECT_LT(units_in_the_last_place(sine, sin(Exact(x))), 0.9) << x;
+    EXPECT_LT(units_in_the_last_place(cosine, cos(Exact(x))), 0.9) << x;
+  }
+  EXPECT_EQ(internal::sine_and_cosine(0.).first, 0);
+}
+
+TEST(Pack, elementary_functions_of_a_lane_have_the_bits_of_single_numbers) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> x = arguments(internal::exponential_range);
+  x.insert(x.end(), {infinity, -infinity, std::nan(""), 1e300, -1e300, 710., -746., 1e-310});
+  for (std::size_t first = 0; first + Lanes::size <= x.size(); first += Lanes::size) {
+    const Lanes lanes = Lanes::generate([&](std::size_t i) { return x[first + i]; });
+    const Lanes e = exp(lanes), s = sin(lanes), c = cos(lanes);
+    for (std::size_t i = 0; i < Lanes::size; ++i) {
+      const double u = x[first + i];
+      EXPECT_EQ(bits(e[i]), bits(internal::exp_value(u))) << u;
+      EXPECT_EQ(bits(s[i]), bits(internal::sine_and_cosine(u).first)) << u;
+      EXPECT_EQ(bits(c[i]), bits(internal::sine_and_cosine(u).second)) << u;
+    }
+  }
 }
 
 TEST(Pack, attributes_of_a_batch_are_those_of_its_points_bit_for_bit) {

@@ -5,6 +5,7 @@
 
 #include <equiaffine/Jet_3.h>
 #include <equiaffine/Jet_ordering_3.h>
+#include <equiaffine/internal/elementary_functions.h>
 #include <equiaffine/internal/lanes.h>
 
 #include <climits>
@@ -60,8 +61,7 @@ auto real_power(const Jet_3<T, Order, A>& a, const T& value, const T& p) {
 /// exp(a), given its value.
 template <class T, int Order, Monomial_set A>
 auto exponential(const Jet_3<T, Order, A>& a, const T& e) {
-  const T third = e * fraction<1, 6, T>();
-  return compose(a, std::array<T, 5>{e, e, e * T(0.5), third, third * T(0.25)});
+  return compose(a, std::array<T, 5>{T(1), T(1), T(0.5), fraction<1, 6, T>(), fraction<1, 24, T>()}) * e;
 }
 
 } // namespace internal
@@ -84,8 +84,7 @@ auto operator/(const S& s, const Jet_3<T, Order, A>& a) {
 
 template <class T, int Order, Monomial_set A>
 auto exp(const Jet_3<T, Order, A>& a) {
-  using std::exp;
-  return internal::exponential(a, T(exp(a.value())));
+  return internal::exponential(a, internal::exp_value(a.value()));
 }
 
 template <class T, int Order, Monomial_set A>
@@ -155,18 +154,16 @@ auto pow(const S& base, const Jet_3<T, Order, A>& exponent) {
 
 template <class T, int Order, Monomial_set A>
 auto sin(const Jet_3<T, Order, A>& a) {
-  using std::cos;
-  using std::sin;
-  const T s = sin(a.value()), c = cos(a.value());
+  using internal::sine_and_cosine;
+  const auto [s, c] = sine_and_cosine(a.value());
   return compose(
       a, std::array<T, 5>{s, c, s * T(-0.5), c * internal::fraction<-1, 6, T>(), s * internal::fraction<1, 24, T>()});
 }
 
 template <class T, int Order, Monomial_set A>
 auto cos(const Jet_3<T, Order, A>& a) {
-  using std::cos;
-  using std::sin;
-  const T s = sin(a.value()), c = cos(a.value());
+  using internal::sine_and_cosine;
+  const auto [s, c] = sine_and_cosine(a.value());
   return compose(
       a, std::array<T, 5>{c, -s, c * T(-0.5), s * internal::fraction<1, 6, T>(), c * internal::fraction<1, 24, T>()});
 }

@@ -3,14 +3,18 @@
 #define EQUIAFFINE_PACK_H
 
 #include <equiaffine/Jet_functions_3.h>
+#include <equiaffine/internal/elementary_functions.h>
 #include <equiaffine/internal/lanes.h>
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <experimental/simd>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace equiaffine {
 
@@ -56,7 +60,8 @@ struct Pack_mask {
 };
 
 /// As many numbers as one vector register holds under the compiler's flags, to be used as one number: a number type for
-/// Jet_3, Monge_chart_3 and what follows. Every operation is that of T in each lane, functions are those of <cmath>, so
+/// Jet_3, Monge_chart_3 and what follows. Every operation is that of T in each lane, functions are those of <cmath> but
+/// for exp, sin and cos of doubles (internal/elementary_functions.h), so
 /// that, unless the compiler contracts products and sums (-ffp-contract=off), a lane has the bits that T would have.
 template <class T, class Abi = internal::Native_abi<T>>
 struct Pack {
@@ -77,6 +82,11 @@ struct Pack {
     alignas(Simd) T values[size];
     for (std::size_t i = 0; i < size; ++i) values[i] = f(i);
     return Simd(values, std::experimental::vector_aligned);
+  }
+
+  template <class F>
+  [[gnu::noinline]] static Pack lane_by_lane(const Pack& a, F f) {
+    return generate([&](std::size_t i) { return f(a[i]); });
   }
 
   T operator[](std::size_t lane) const { return lanes[lane]; }
@@ -117,10 +127,7 @@ struct Pack {
     return generate([&](std::size_t i) { return std::name(a[i]); });                                                   \
   }
   EQUIAFFINE_PACK_FUNCTION(cbrt)
-  EQUIAFFINE_PACK_FUNCTION(exp)
   EQUIAFFINE_PACK_FUNCTION(log)
-  EQUIAFFINE_PACK_FUNCTION(sin)
-  EQUIAFFINE_PACK_FUNCTION(cos)
   EQUIAFFINE_PACK_FUNCTION(tan)
   EQUIAFFINE_PACK_FUNCTION(asin)
   EQUIAFFINE_PACK_FUNCTION(acos)
@@ -137,6 +144,37 @@ struct Pack {
   EQUIAFFINE_PACK_FUNCTION(atan2)
   EQUIAFFINE_PACK_FUNCTION(hypot)
 #undef EQUIAFFINE_PACK_FUNCTION
+
+  [[gnu::always_inline]] friend Pack exp(const Pack& a) {
+    if constexpr (std::is_same_v<T, double>) {
+      const Pack r = internal::exponential_in_range(a);
+      const Mask in_range = abs(a) <= Pack(internal::exponential_range);
+      return all_of(in_range.lanes) ? r : lane_by_lane(a, [](T u) { return internal::exp_value(u); });
+    } else {
+      return lane_by_lane(a, [](T u) { return std::exp(u); });
+    }
+  }
+  [[gnu::always_inline]] friend std::pair<Pack, Pack> sine_and_cosine(const Pack& a) {
+    if constexpr (std::is_same_v<T, double>)
+      if (const Mask in_range = abs(a) <= Pack(internal::circular_range); all_of(in_range.lanes))
+        return internal::sine_and_cosine_in_range(a);
+    return {lane_by_lane(a, [](T u) { return internal::sine_and_cosine(u).first; }),
+            lane_by_lane(a, [](T u) { return internal::sine_and_cosine(u).second; })};
+  }
+  friend Pack sin(const Pack& a) { return sine_and_cosine(a).first; }
+  friend Pack cos(const Pack& a) { return sine_and_cosine(a).second; }
+
+  /// Lane by lane what internal/elementary_functions.h has for a double.
+  [[gnu::always_inline]] friend Pack scaled_exponential(const Pack& k, const Pack& p) {
+    using Integers = std::experimental::rebind_simd_t<std::int64_t, Simd>;
+    using Table = internal::Exponential_table;
+    const auto bits = std::bit_cast<Integers>(k.lanes);
+    const Integers n = bits & (Table::size - 1);
+    const Simd high([&](auto i) { return internal::exponential_table.high[std::size_t(n[i])]; });
+    const Simd low([&](auto i) { return internal::exponential_table.low[std::size_t(n[i])]; });
+    const Simd e = high + (low + high * p.lanes);
+    return std::bit_cast<Simd>(std::bit_cast<Integers>(e) + ((bits >> std::countr_zero(unsigned(Table::size))) << 52));
+  }
 
   /// a^n as jets of T compute it.
   friend Pack natural_power(const Pack& a, unsigned n) {

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_INTERNAL_EXPRESSION_EVALUATION_H
 #define EQUIAFFINE_INTERNAL_EXPRESSION_EVALUATION_H
 
+#include <equiaffine/internal/elementary_functions.h>
 #include <equiaffine/internal/expression_arithmetic.h>
 #include <equiaffine/internal/expression_tape.h>
 #include <equiaffine/internal/kinks.h>
@@ -23,7 +24,7 @@ namespace equiaffine::internal::expression {
 template <std::size_t Block, class T, class Function>
 void for_each_point(const T* __restrict a, const T* __restrict b, T* __restrict result, std::size_t count, Function f) {
   if (Block == 1 || count == Block) {
-#pragma GCC unroll 4
+#pragma GCC unroll 8
     for (std::size_t i = 0; i < Block; ++i) result[i] = f(a[i], b[i]);
   } else {
     for (std::size_t i = 0; i < count; ++i) result[i] = f(a[i], b[i]);
@@ -75,8 +76,8 @@ void execute_choice(const Instruction& instruction, const T* a, const T* b, T* r
 template <std::size_t Block, class T>
 [[gnu::noinline]] void execute_function(const Instruction& instruction, const T* a, const T* b, T* result,
                                         std::size_t count) {
-  using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cbrt, std::cos, std::cosh, std::exp, std::log,
-      std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
+  using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cbrt, std::cosh, std::log, std::sinh, std::sqrt,
+      std::tan, std::tanh;
   const double c = instruction.constant;
   const auto apply = [&](auto f) { for_each_point<Block>(a, b, result, count, f); };
   switch (instruction.opcode) {
@@ -85,10 +86,10 @@ template <std::size_t Block, class T>
   case Opcode::POWER: return apply([](const T& u, const T& v) -> T { return real_power(u, v); });
   case Opcode::SQRT: return apply([](const T& u, const T&) -> T { return sqrt(u); });
   case Opcode::CBRT: return apply([](const T& u, const T&) -> T { return cbrt(u); });
-  case Opcode::EXP: return apply([](const T& u, const T&) -> T { return exp(u); });
+  case Opcode::EXP: return apply([](const T& u, const T&) -> T { return exp_value(u); });
   case Opcode::LOG: return apply([](const T& u, const T&) -> T { return log(u); });
-  case Opcode::SIN: return apply([](const T& u, const T&) -> T { return sin(u); });
-  case Opcode::COS: return apply([](const T& u, const T&) -> T { return cos(u); });
+  case Opcode::SIN: return apply([](const T& u, const T&) -> T { return sine_and_cosine(u).first; });
+  case Opcode::COS: return apply([](const T& u, const T&) -> T { return sine_and_cosine(u).second; });
   case Opcode::TAN: return apply([](const T& u, const T&) -> T { return tan(u); });
   case Opcode::ASIN: return apply([](const T& u, const T&) -> T { return asin(u); });
   case Opcode::ACOS: return apply([](const T& u, const T&) -> T { return acos(u); });
@@ -146,20 +147,22 @@ public:
   /// Runs the tape for `count` <= Block points.
   void run(const std::array<const T*, number_of_variables>& points, std::size_t count) {
     points_ = points;
+    T* const slots = first();
     for (const Instruction& i : tape_.instructions)
-      execute<Block>(i, operand(i.a), operand(i.b), slot(i.result), count);
+      execute<Block>(i, operand(slots, i.a), operand(slots, i.b), slot(slots, i.result), count);
   }
 
   /// Result n of the last run, in the slots or in its `points`.
-  const T* result(std::size_t n = 0) { return operand(tape_.results[n]); }
+  const T* result(std::size_t n = 0) { return operand(first(), tape_.results[n]); }
 
 private:
   static constexpr std::size_t capacity = std::is_trivially_default_constructible_v<T> ? 32 * Block : 0;
 
-  T* slot(std::uint32_t index) {
-    return (large_ ? large_.get() : small_.data()) + (index - number_of_variables) * Block;
+  T* first() { return large_ ? large_.get() : small_.data(); }
+  static T* slot(T* slots, std::uint32_t index) { return slots + (index - number_of_variables) * Block; }
+  const T* operand(T* slots, std::uint32_t index) const {
+    return index < number_of_variables ? points_[index] : slot(slots, index);
   }
-  const T* operand(std::uint32_t index) { return index < number_of_variables ? points_[index] : slot(index); }
 
   const Tape& tape_;
   std::array<const T*, number_of_variables> points_{};
