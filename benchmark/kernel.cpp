@@ -79,7 +79,7 @@ void times() {
        [&] {
          for (std::size_t n = 0; n < repetitions; ++n) {
            for (std::size_t i = 0; i < jets.size(); ++i)
-             out[i] = affine_invariants(Monge_chart_3<double>(jets[i], 1.0));
+             out[i] = affine_invariants(Monge_chart_3<double>(jets[i]));
            keep(out[0]);
          }
        },
@@ -88,7 +88,7 @@ void times() {
        [&] {
          for (std::size_t n = 0; n < repetitions; ++n) {
            for (std::size_t i = 0; i < packs.size(); ++i)
-             out_packs[i] = affine_invariants(Monge_chart_3<Lanes>(packs[i], Lanes(1)));
+             out_packs[i] = affine_invariants(Monge_chart_3<Lanes>(packs[i]));
            keep(out_packs[0]);
          }
        },

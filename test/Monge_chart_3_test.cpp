@@ -20,7 +20,7 @@ Jet expand(const Function& f, double x, double y, double z) {
 
 template <class Function>
 Point_status status(const Function& f, double x, double y, double z) {
-  return local_structure(expand(f, x, y, z), std::max({std::abs(x), std::abs(y), std::abs(z)})).status;
+  return local_structure(expand(f, x, y, z), {x, y, z}).status;
 }
 
 const auto cone = [](const auto& x, const auto& y, const auto& z) { return x * x + y * y - z * z; };
@@ -86,6 +86,23 @@ TEST(Monge_chart_3, a_vanishing_gradient_is_singular) {
     return u * u + v * v - w * w;
   };
   EXPECT_EQ(status(shifted, 1 + 2e-16, 1, 1), Point_status::SINGULAR);
+}
+
+TEST(Monge_chart_3, a_gradient_is_not_taken_for_zero_because_of_the_units_of_the_axes) {
+  const auto product = [](const auto& x, const auto& y, const auto& z) { return x * y * z; };
+  const auto ellipsoid = [](const auto& x, const auto& y, const auto& z) {
+    return x * x + 1e16 * (y * y) + 1e-16 * (z * z) + x * y * z;
+  };
+  EXPECT_EQ(status(product, 1e-60, 1, 1e60), Point_status::REGULAR);
+  EXPECT_EQ(status(ellipsoid, 1, 1e-8, 1e8), Point_status::REGULAR);
+  EXPECT_EQ(status(ellipsoid, 0, 0, 0), Point_status::SINGULAR);
+  // Rounding hides the node at (1e8, 1, 1e-8), in whatever units.
+  const auto node = [](const auto& x, const auto& y, const auto& z) {
+    const auto u = 1e-8 * x - 1.0, v = y - 1.0, w = 1e8 * z - 1.0;
+    return u * u + v * v - w * w;
+  };
+  EXPECT_EQ(status(node, 1e8 * (1 + 2e-16), 1, 1e-8), Point_status::SINGULAR);
+  EXPECT_NE(status(node, 1e8 * (1 + 3e-15), 1, 1e-8), Point_status::SINGULAR);
 }
 
 TEST(Monge_chart_3, near_a_singular_point_the_cone_is_an_ordinary_parabolic_surface) {

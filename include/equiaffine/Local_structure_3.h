@@ -7,6 +7,7 @@
 #include <equiaffine/euclidean_structure.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 
@@ -81,12 +82,13 @@ struct Local_structure_lanes {
 } // namespace internal
 
 /// Local structure, Euclidean and affine, of the level set of f through a point, from the jet of f there. The point
-/// need not satisfy f = 0. For `point_magnitude` see Monge_chart_3. Where errors of second derivatives of up to
-/// `rounding` could have made it, K_e counts as zero. About 500 floating-point operations.
+/// need not satisfy f = 0. A gradient that one rounding of the coordinates of `point` could have made counts as zero, and
+/// so does K_e where errors of second derivatives of up to `rounding` could have made it. About 500 floating-point operations.
 template <class FT>
-Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const FT& point_magnitude = FT(0),
+Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const std::array<FT, 3>& point = {FT(0), FT(0), FT(0)},
                                       const FT& rounding = FT(0)) {
-  Monge_chart_3<FT> chart(jet, point_magnitude);
+  Monge_chart_3<FT> chart(jet);
+  chart.disregard_rounding_of(point, jet);
   if (rounding > FT(0)) chart.disregard(jet, rounding);
   const internal::Local_structure_lanes<FT> lanes(jet, chart);
   Local_structure_3<FT> s = lanes.structure;

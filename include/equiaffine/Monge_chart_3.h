@@ -34,7 +34,7 @@ struct Monge_chart_3 {
   using Mask = internal::Mask_of<FT>;
 
   Mask pivot_is_x, pivot_is_y; ///< which axis plays z; the next two, cyclically, play x and y
-  Mask is_steep;               ///< the gradient is not that of a singular point, see the constructor
+  Mask is_steep;               ///< the gradient is not that of a singular point, see `disregard_rounding_of`
   Mask is_curved; ///< d is not zero within 1000 roundings of the terms of which its entries are sums, see `disregard`
   FT sign;        ///< of f_z: normals along the gradient are sign (a, b, 1) up to length
   FT a, b;
@@ -46,18 +46,27 @@ struct Monge_chart_3 {
   std::array<FT, 5> quartic;         ///< of R
   FT determinant;                    ///< of the symmetric coefficients of Q: d / 4
 
-  /// `point_magnitude` is the largest absolute coordinate of the point, 0 if unknown: a gradient that one rounding of
-  /// the coordinates could produce at a singular point is taken for zero.
-  explicit Monge_chart_3(const Jet_3<FT>& jet, const FT& point_magnitude = FT(0)) {
+  explicit Monge_chart_3(const Jet_3<FT>& jet) {
     using internal::select;
     using std::abs;
     const auto& c = jet.coefficients();
     const auto larger = [](const FT& x, const FT& y) { return select(x > y, x, y); };
     FT second = abs(c[4]);
     for (std::size_t n = 5; n < 10; ++n) second = larger(abs(c[n]), second);
-    is_steep = larger(larger(abs(c[1]), abs(c[2])), abs(c[3])) > roundings(4) * second * point_magnitude;
+    is_steep = abs(c[1]) > FT(0) || abs(c[2]) > FT(0) || abs(c[3]) > FT(0);
     choose_pivot({c[1], c[2], c[3]}, {abs(c[4]), abs(c[7]), abs(c[9])}, second);
     build(jet);
+  }
+
+  /// Takes the gradient for zero where one rounding of the coordinates of the point could have made it, component by
+  /// component, since the axes can have different units.
+  void disregard_rounding_of(const std::array<FT, 3>& point, const Jet_3<FT>& jet) {
+    using std::abs;
+    const auto& c = jet.coefficients();
+    const FT x = roundings(4) * abs(point[0]), y = roundings(4) * abs(point[1]), z = roundings(4) * abs(point[2]);
+    const FT xy = abs(c[5]), xz = abs(c[6]), yz = abs(c[8]), two(2);
+    is_steep = abs(c[1]) > two * abs(c[4]) * x + xy * y + xz * z || abs(c[2]) > xy * x + two * abs(c[7]) * y + yz * z ||
+               abs(c[3]) > xz * x + yz * y + two * abs(c[9]) * z;
   }
 
   /// Takes d for zero where second derivatives of the jet with errors of up to `error` could produce it. Errors of the

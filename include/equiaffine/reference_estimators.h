@@ -7,6 +7,7 @@
 #include <equiaffine/internal/transformation_estimate.h>
 #include <equiaffine/named_parameters.h>
 
+#include <array>
 #include <cmath>
 
 namespace equiaffine {
@@ -30,13 +31,13 @@ Affine_estimate_3<FT> affine_estimate(const Jet_3<FT>& jet, Estimator estimator)
   }
 }
 
-/// As local_structure(jet, point_magnitude, rounding), with co-normal, normal, Gaussian and mean curvature of the affine
+/// As local_structure(jet, point, rounding), with co-normal, normal, Gaussian and mean curvature of the affine
 /// structure by the given way. Where that way alone fails, which is where f_z vanishes or nearly so for DIRECT_Z, the
 /// status is PARABOLIC, too.
 template <class FT>
-Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const FT& point_magnitude, const FT& rounding,
+Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const std::array<FT, 3>& point, const FT& rounding,
                                       Estimator estimator) {
-  Local_structure_3<FT> s = local_structure(jet, point_magnitude, rounding);
+  Local_structure_3<FT> s = local_structure(jet, point, rounding);
   if (s.status != Point_status::REGULAR || estimator == Estimator::COMPACT) return s;
   const Affine_estimate_3<FT> estimate = affine_estimate(jet, estimator);
   s.affine.conormal = estimate.conormal;
