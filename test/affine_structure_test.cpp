@@ -182,11 +182,13 @@ TEST(Affine_structure, the_size_of_f_does_not_matter) {
   const auto f = [](const auto& x, const auto& y, const auto& z) { return x * x + 2.0 * y * y + z * z * z - x * y; };
   const Jet jet = expand(f, {0.4, -0.3, 0.8});
   const auto s = local_structure(jet);
-  for (double c : {1e-150, 1e-20, 1e20, 1e150}) {
-    const auto t = local_structure(c * jet);
-    ASSERT_EQ(t.status, Point_status::REGULAR) << c;
-    EXPECT_NEAR(t.affine.gaussian_curvature, s.affine.gaussian_curvature, 1e-13 * scale(s));
-  }
+  for (const auto way : {Estimator::COMPACT, Estimator::TRANSFORMATION, Estimator::DIRECT, Estimator::DIRECT_Z})
+    for (double c : {1e-150, 1e-60, 1e-20, 1e20, 1e60, 1e150}) {
+      const auto t = local_structure(c * jet, {0.4, -0.3, 0.8}, 0.0, way);
+      ASSERT_EQ(t.status, Point_status::REGULAR) << c;
+      EXPECT_NEAR(t.affine.gaussian_curvature, s.affine.gaussian_curvature, 1e-13 * scale(s)) << c << ' ' << int(way);
+      EXPECT_NEAR(t.affine.mean_curvature, s.affine.mean_curvature, 1e-13 * std::sqrt(scale(s))) << c;
+    }
 }
 
 TEST(Affine_structure, conormal_and_normal_are_dual_and_the_metric_vanishes_along_the_normal) {

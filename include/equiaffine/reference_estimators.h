@@ -7,15 +7,39 @@
 #include <equiaffine/internal/transformation_estimate.h>
 #include <equiaffine/named_parameters.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace equiaffine {
 
+namespace internal {
+
+/// f times a power of 2 that makes the largest |f_i| about 1: the paper's formulas raise derivatives to the power of 7
+/// and more, which soon leaves the range of FT. The surface does not depend on the factor.
+template <class FT>
+Jet_3<FT> with_gradient_about_one(Jet_3<FT> jet) {
+  using std::abs;
+  using std::frexp;
+  using std::ldexp;
+  const auto& c = jet.coefficients();
+  const FT size = std::max({FT(abs(c[1])), FT(abs(c[2])), FT(abs(c[3]))});
+  if (size > FT(0) && is_finite_number(size)) {
+    int exponent;
+    frexp(size, &exponent);
+    const FT factor = ldexp(FT(1), -std::clamp(exponent, -1000, 1000)); // finite also for subnormal sizes
+    for (FT& x : jet.coefficients()) x = x * factor;
+  }
+  return jet;
+}
+
+} // namespace internal
+
 /// Co-normal, normal and curvatures by the given way. Not finite where they do not exist.
 template <class FT>
-Affine_estimate_3<FT> affine_estimate(const Jet_3<FT>& jet, Estimator estimator) {
+Affine_estimate_3<FT> affine_estimate(const Jet_3<FT>& jet_of_any_size, Estimator estimator) {
   using std::abs;
+  const Jet_3<FT> jet = internal::with_gradient_about_one(jet_of_any_size);
   switch (estimator) {
   case Estimator::TRANSFORMATION: return transformation_estimate(jet);
   case Estimator::DIRECT: {
