@@ -223,6 +223,41 @@ TEST(Local_structure_3, lengths_that_overflow_are_singular_and_not_infinite) {
   EXPECT_EQ(local_structure(expand(sphere, 1e-60, 0, 0)).status, Point_status::REGULAR);
 }
 
+TEST(Local_structure_3, the_unit_of_length_decides_nothing_but_what_a_double_can_hold) {
+  const auto product = [](const auto& x, const auto& y, const auto& z) { return x * y * z; };
+  const auto root = [](const auto& x, const auto& y, const auto& z) {
+    using std::sqrt;
+    return sqrt(x * x + 2.0 * y * y + z * z);
+  };
+  const auto expect_scaled = [](const auto& f, double t) {
+    const auto one = local_structure(expand(f, 1, 1, 1)), s = local_structure(expand(f, t, t, t), {t, t, t});
+    ASSERT_EQ(s.status, Point_status::REGULAR) << t;
+    const auto expect = [&](double actual, double expected) { EXPECT_NEAR(actual / expected, 1, 1e-12) << t; };
+    expect(s.affine.gaussian_curvature, one.affine.gaussian_curvature / (t * t * t));
+    expect(s.affine.mean_curvature, one.affine.mean_curvature / t / std::sqrt(t));
+    expect(s.affine.conormal[1], one.affine.conormal[1] * std::sqrt(t));
+    expect(s.affine.normal[1], one.affine.normal[1] / std::sqrt(t));
+    expect(s.affine.metric[0], one.affine.metric[0] / std::sqrt(t));
+    expect(s.euclidean.k2, one.euclidean.k2 / t);
+    expect(s.euclidean.gaussian_curvature, one.euclidean.gaussian_curvature / (t * t));
+    expect(1 + s.affine.quadric_defect, 1 + one.affine.quadric_defect);
+  };
+  for (const double t : {1e-100, 1e-75, 1e-50, 1e50, 1e75}) {
+    expect_scaled(product, t);
+    expect_scaled(root, t);
+  }
+  EXPECT_EQ(status(product, 1e-104, 1e-104, 1e-104), Point_status::SINGULAR) << "K is 2e311";
+  // So flat that K would be beyond any range, in whatever units.
+  for (const double t : {1e-60, 1., 1e30}) {
+    const auto flat = [&](const auto& x, const auto& y, const auto& z) {
+      return z - 1e-120 / t * (x * x + y * y) - x * x * x / (t * t);
+    };
+    const auto s = local_structure(expand(flat, 0, 0, 0));
+    EXPECT_EQ(s.status, Point_status::PARABOLIC) << t;
+    EXPECT_NEAR(s.euclidean.k1 / (2e-120 / t), 1, 1e-12) << t;
+  }
+}
+
 TEST(Euclidean_structure, k1_is_never_less_than_k2) {
   for (int n = 0; n < 1000; ++n) {
     const double u = 0.1 + n * 0.0061, v = 0.3 + n * 0.37;
