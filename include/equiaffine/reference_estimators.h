@@ -57,7 +57,7 @@ Affine_estimate_3<FT> affine_estimate(const Jet_3<FT>& jet_of_any_size, Estimato
 
 /// As local_structure(jet, point, rounding), with co-normal, normal, Gaussian and mean curvature of the affine
 /// structure by the given way. Where that way alone fails, which is where f_z vanishes or nearly so for DIRECT_Z, the
-/// status is PARABOLIC, too.
+/// point is OUTSIDE what the way can do, and nothing exists.
 template <class FT>
 Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const std::array<FT, 3>& point, const FT& rounding,
                                       Estimator estimator) {
@@ -69,9 +69,7 @@ Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const std::array<FT,
   s.affine.gaussian_curvature = estimate.gaussian_curvature;
   s.affine.mean_curvature = estimate.mean_curvature;
   if (internal::is_finite(s.affine)) return s;
-  s.status = Point_status::PARABOLIC;
-  s.affine = internal::no_affine_structure<FT>();
-  return s;
+  return {Point_status::OUTSIDE, internal::no_euclidean_structure<FT>(), internal::no_affine_structure<FT>()};
 }
 
 } // namespace equiaffine
