@@ -153,8 +153,9 @@ Local_structure_3<FT> irregular_structure(const Jet_3<FT>& jet, const Monge_char
 } // namespace internal
 
 /// Local structure, Euclidean and affine, of the level set of f through a point, from the jet of f there. The point
-/// need not satisfy f = 0. A gradient that one rounding of the coordinates of `point` could have made counts as zero, and
-/// so does K_e where errors of second derivatives of up to `rounding` could have made it. About 500 floating-point operations.
+/// need not satisfy f = 0. A gradient that one rounding of the coordinates of `point` could have made counts as zero,
+/// and so does K_e where errors of second derivatives of up to `rounding` could have made it. About 500 floating-point
+/// operations, three times as many where the point is not regular.
 template <class FT>
 Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const std::array<FT, 3>& point = {FT(0), FT(0), FT(0)},
                                       const FT& rounding = FT(0)) {

@@ -25,11 +25,11 @@ namespace equiaffine {
 /// with forms in (u, v) of degree Q:2, L:1, C:3, D:2, R:4. A form of degree n is given by its symmetric coefficients
 /// s_i: it is the sum of binomial(n, i) s_i u^(n-i) v^i.
 ///
-/// Any axis with f_i != 0 would do but for rounding. In units of the axes that make all f_i equal to 1 second derivatives
-/// are f_ij / (f_i f_j). The shear subtracts those of the pivot from the others, which lose digits where the former are
-/// large: the pivot is the axis whose largest one is smallest. Other units of the axes do not change this choice. With
-/// the axis of the largest |f_i| digits are lost where the surface is long in another direction, and a rotation instead
-/// of the shear would mix the scales of an anisotropic surface.
+/// Any axis with f_i != 0 would do but for rounding. In units of the axes that make all f_i equal to 1 the second
+/// derivatives are f_ij / (f_i f_j). The shear subtracts those of the pivot from the others, which lose digits where
+/// those are large: the pivot is the axis whose largest one is smallest. Other units of the axes do not change this
+/// choice. With the axis of the largest |f_i| digits are lost where the surface is long in another direction, and a
+/// rotation instead of the shear would mix the scales of an anisotropic surface.
 ///
 /// FT is a number or a pack of numbers; nothing here branches on values but the choice of the pivot of a number.
 template <class FT>
@@ -99,8 +99,9 @@ struct Monge_chart_3 {
   std::array<FT, 3> tangent(const FT& u, const FT& v) const { return unpermuted(u, v, -(a * u + b * v)); }
 
 private:
-  /// The axis whose largest |f_ij| / |f_i f_j| is smallest, up to a factor 2 for i = j: of two axes, without the one they
-  /// share. An axis with f_j = 0 does not count. Among equals it is that with the largest |f_i|. Returns all 1 / f_i.
+  /// The axis whose largest |f_ij| / |f_i f_j| is smallest, up to a factor 2 for i = j: of two axes, without the one
+  /// they share. An axis with f_j = 0 does not count. Among equals it is that with the largest |f_i|. Returns all
+  /// 1 / f_i.
   std::array<FT, 3> choose_pivot(const Jet_3<FT>& jet) {
     using internal::select;
     using std::abs;
