@@ -107,7 +107,10 @@ TEST(Monge_chart_3, a_gradient_is_not_taken_for_zero_because_of_the_units_of_the
   const auto ellipsoid = [](const auto& x, const auto& y, const auto& z) {
     return x * x + 1e16 * (y * y) + 1e-16 * (z * z) + x * y * z;
   };
-  EXPECT_EQ(status(product, 1e-60, 1, 1e60), Point_status::REGULAR);
+  const auto far = local_structure(expand(product, 1e-35, 1, 1e35), {1e-35, 1, 1e35});
+  EXPECT_EQ(far.status, Point_status::REGULAR);
+  EXPECT_NEAR(far.affine.gaussian_curvature, 1 / std::sqrt(27), 1e-15);
+  EXPECT_EQ(status(product, 1e-60, 1, 1e60), Point_status::SINGULAR) << "not a wrong number: powers of d underflow";
   EXPECT_EQ(status(ellipsoid, 1, 1e-8, 1e8), Point_status::REGULAR);
   EXPECT_EQ(status(ellipsoid, 0, 0, 0), Point_status::SINGULAR);
   // Rounding hides the node at (1e8, 1, 1e-8), in whatever units.

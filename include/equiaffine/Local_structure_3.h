@@ -60,11 +60,13 @@ Mask_of<FT> is_finite(const Euclidean_structure_3<FT>& s) {
 template <class FT>
 struct Local_structure_lanes {
   Local_structure_3<FT> structure;
+  Mask_of<FT> has_room; ///< d^2 does not underflow: products of as high a degree would, and unlike infinity not be seen
   Mask_of<FT> is_regular;
 
   explicit Local_structure_lanes(const Jet_3<FT>& jet, const Monge_chart_3<FT>& chart)
       : structure{Point_status::REGULAR, euclidean_structure(chart), affine_structure(chart)},
-        is_regular(chart.is_steep && chart.is_curved && is_finite_number(jet.value()) &&
+        has_room(chart.determinant * chart.determinant >= FT(std::numeric_limits<FT>::min())),
+        is_regular(has_room && chart.is_steep && chart.is_curved && is_finite_number(jet.value()) &&
                    is_finite(structure.euclidean) && is_finite(structure.affine)) {}
 };
 
@@ -142,8 +144,8 @@ Local_structure_3<FT> irregular_structure(const Jet_3<FT>& jet, const Monge_char
   const Local_structure_lanes<FT> lanes(natural, natural_chart);
   Local_structure_3<FT> t = lanes.structure;
   units.restore(t);
-  const bool exists = is_finite(t.euclidean) && (!lanes.is_regular || is_finite(t.affine));
-  if (!exists) return s;
+  const bool is_lost = natural_chart.is_curved && !lanes.has_room;
+  if (is_lost || !is_finite(t.euclidean) || (lanes.is_regular && !is_finite(t.affine))) return s;
   if (lanes.is_regular) return t;
   t.status = Point_status::PARABOLIC;
   t.affine = s.affine;
