@@ -20,7 +20,7 @@ Jet expand(const Function& f, double x, double y, double z) {
 
 template <class Function>
 Point_status status(const Function& f, double x, double y, double z) {
-  return local_structure(expand(f, x, y, z), std::max({std::abs(x), std::abs(y), std::abs(z)})).status;
+  return local_structure(expand(f, x, y, z), {x, y, z}).status;
 }
 
 const auto cone = [](const auto& x, const auto& y, const auto& z) { return x * x + y * y - z * z; };
@@ -36,7 +36,6 @@ void expect_forms_to_fifth_order(const Function& f, int pivot) {
     ASSERT_TRUE(chart.is_steep && chart.is_curved);
     EXPECT_EQ(chart.pivot_is_x, pivot == 0);
     EXPECT_EQ(chart.pivot_is_y, pivot == 1);
-    EXPECT_LE(std::max(std::abs(chart.a), std::abs(chart.b)), 64.01);
     const double f_w = jet.coefficient(pivot == 0, pivot == 1, pivot == 2);
     const auto residual = [&](double h) {
       double worst = 0;
@@ -76,6 +75,21 @@ TEST(Monge_chart_3, the_forms_are_those_of_f_to_fifth_order) {
   expect_forms_to_fifth_order(anticyclic, 1);
 }
 
+TEST(Monge_chart_3, the_pivot_has_a_gradient_where_second_derivatives_vanish_or_overflow) {
+  const auto product = [](const auto& x, const auto& y, const auto& z) { return x * y * z; };
+  EXPECT_TRUE(Monge_chart_3<double>(expand(product, 0, 1, 1)).pivot_is_x);
+  EXPECT_TRUE(Monge_chart_3<double>(expand(product, 1, 0, 1)).pivot_is_y);
+  const Monge_chart_3<double> last(expand(product, 1, 1, 0));
+  EXPECT_FALSE(last.pivot_is_x || last.pivot_is_y);
+  EXPECT_TRUE(Monge_chart_3<double>(expand(plane, 1, 2, 3)).pivot_is_y) << "the largest component of the gradient";
+  Jet jet = expand(product, 1, 1, 0);
+  for (std::size_t n = 4; n < 10; ++n) jet.coefficients()[n] = 1e300;
+  jet.coefficients()[1] = 1e-9;
+  jet.coefficients()[2] = 1;
+  jet.coefficients()[3] = 1e-30;
+  EXPECT_TRUE(Monge_chart_3<double>(jet).pivot_is_y);
+}
+
 TEST(Monge_chart_3, a_vanishing_gradient_is_singular) {
   EXPECT_EQ(status(cone, 0, 0, 0), Point_status::SINGULAR);
   EXPECT_EQ(status([](const auto& x, const auto& y, const auto& z) { return x * y * z + 4.0; }, 0, 0, 1),
@@ -86,6 +100,26 @@ TEST(Monge_chart_3, a_vanishing_gradient_is_singular) {
     return u * u + v * v - w * w;
   };
   EXPECT_EQ(status(shifted, 1 + 2e-16, 1, 1), Point_status::SINGULAR);
+}
+
+TEST(Monge_chart_3, a_gradient_is_not_taken_for_zero_because_of_the_units_of_the_axes) {
+  const auto product = [](const auto& x, const auto& y, const auto& z) { return x * y * z; };
+  const auto ellipsoid = [](const auto& x, const auto& y, const auto& z) {
+    return x * x + 1e16 * (y * y) + 1e-16 * (z * z) + x * y * z;
+  };
+  const auto far = local_structure(expand(product, 1e-35, 1, 1e35), {1e-35, 1, 1e35});
+  EXPECT_EQ(far.status, Point_status::REGULAR);
+  EXPECT_NEAR(far.affine.gaussian_curvature, 1 / std::sqrt(27), 1e-15);
+  EXPECT_EQ(status(product, 1e-60, 1, 1e60), Point_status::SINGULAR) << "not a wrong number: powers of d underflow";
+  EXPECT_EQ(status(ellipsoid, 1, 1e-8, 1e8), Point_status::REGULAR);
+  EXPECT_EQ(status(ellipsoid, 0, 0, 0), Point_status::SINGULAR);
+  // Rounding hides the node at (1e8, 1, 1e-8), in whatever units.
+  const auto node = [](const auto& x, const auto& y, const auto& z) {
+    const auto u = 1e-8 * x - 1.0, v = y - 1.0, w = 1e8 * z - 1.0;
+    return u * u + v * v - w * w;
+  };
+  EXPECT_EQ(status(node, 1e8 * (1 + 2e-16), 1, 1e-8), Point_status::SINGULAR);
+  EXPECT_NE(status(node, 1e8 * (1 + 3e-15), 1, 1e-8), Point_status::SINGULAR);
 }
 
 TEST(Monge_chart_3, near_a_singular_point_the_cone_is_an_ordinary_parabolic_surface) {
@@ -190,6 +224,41 @@ TEST(Local_structure_3, lengths_that_overflow_are_singular_and_not_infinite) {
     EXPECT_TRUE(std::isnan(s.euclidean.k1) && std::isnan(s.euclidean.gaussian_curvature)) << r;
   }
   EXPECT_EQ(local_structure(expand(sphere, 1e-60, 0, 0)).status, Point_status::REGULAR);
+}
+
+TEST(Local_structure_3, the_unit_of_length_decides_nothing_but_what_a_double_can_hold) {
+  const auto product = [](const auto& x, const auto& y, const auto& z) { return x * y * z; };
+  const auto root = [](const auto& x, const auto& y, const auto& z) {
+    using std::sqrt;
+    return sqrt(x * x + 2.0 * y * y + z * z);
+  };
+  const auto expect_scaled = [](const auto& f, double t) {
+    const auto one = local_structure(expand(f, 1, 1, 1)), s = local_structure(expand(f, t, t, t), {t, t, t});
+    ASSERT_EQ(s.status, Point_status::REGULAR) << t;
+    const auto expect = [&](double actual, double expected) { EXPECT_NEAR(actual / expected, 1, 1e-12) << t; };
+    expect(s.affine.gaussian_curvature, one.affine.gaussian_curvature / (t * t * t));
+    expect(s.affine.mean_curvature, one.affine.mean_curvature / t / std::sqrt(t));
+    expect(s.affine.conormal[1], one.affine.conormal[1] * std::sqrt(t));
+    expect(s.affine.normal[1], one.affine.normal[1] / std::sqrt(t));
+    expect(s.affine.metric[0], one.affine.metric[0] / std::sqrt(t));
+    expect(s.euclidean.k2, one.euclidean.k2 / t);
+    expect(s.euclidean.gaussian_curvature, one.euclidean.gaussian_curvature / (t * t));
+    expect(1 + s.affine.quadric_defect, 1 + one.affine.quadric_defect);
+  };
+  for (const double t : {1e-100, 1e-75, 1e-50, 1e50, 1e75}) {
+    expect_scaled(product, t);
+    expect_scaled(root, t);
+  }
+  EXPECT_EQ(status(product, 1e-104, 1e-104, 1e-104), Point_status::SINGULAR) << "K is 2e311";
+  // So flat that K would be beyond any range, in whatever units.
+  for (const double t : {1e-60, 1., 1e30}) {
+    const auto flat = [&](const auto& x, const auto& y, const auto& z) {
+      return z - 1e-120 / t * (x * x + y * y) - x * x * x / (t * t);
+    };
+    const auto s = local_structure(expand(flat, 0, 0, 0));
+    EXPECT_EQ(s.status, Point_status::PARABOLIC) << t;
+    EXPECT_NEAR(s.euclidean.k1 / (2e-120 / t), 1, 1e-12) << t;
+  }
 }
 
 TEST(Euclidean_structure, k1_is_never_less_than_k2) {

@@ -182,11 +182,13 @@ TEST(Affine_structure, the_size_of_f_does_not_matter) {
   const auto f = [](const auto& x, const auto& y, const auto& z) { return x * x + 2.0 * y * y + z * z * z - x * y; };
   const Jet jet = expand(f, {0.4, -0.3, 0.8});
   const auto s = local_structure(jet);
-  for (double c : {1e-150, 1e-20, 1e20, 1e150}) {
-    const auto t = local_structure(c * jet);
-    ASSERT_EQ(t.status, Point_status::REGULAR) << c;
-    EXPECT_NEAR(t.affine.gaussian_curvature, s.affine.gaussian_curvature, 1e-13 * scale(s));
-  }
+  for (const auto way : {Estimator::COMPACT, Estimator::TRANSFORMATION, Estimator::DIRECT, Estimator::DIRECT_Z})
+    for (double c : {1e-150, 1e-60, 1e-20, 1e20, 1e60, 1e150}) {
+      const auto t = local_structure(c * jet, {0.4, -0.3, 0.8}, 0.0, way);
+      ASSERT_EQ(t.status, Point_status::REGULAR) << c;
+      EXPECT_NEAR(t.affine.gaussian_curvature, s.affine.gaussian_curvature, 1e-13 * scale(s)) << c << ' ' << int(way);
+      EXPECT_NEAR(t.affine.mean_curvature, s.affine.mean_curvature, 1e-13 * std::sqrt(scale(s))) << c;
+    }
 }
 
 TEST(Affine_structure, conormal_and_normal_are_dual_and_the_metric_vanishes_along_the_normal) {
@@ -345,6 +347,87 @@ TEST(Affine_structure, double_agrees_with_50_digits_on_an_anisotropic_surface) {
     const double S = std::abs(K) + H * H + std::pow(std::abs(double(t.euclidean.gaussian_curvature)), 1.5);
     EXPECT_NEAR(s.affine.gaussian_curvature, K, 1e-12 * S);
     EXPECT_NEAR(s.affine.mean_curvature, H, 1e-12 * std::sqrt(S));
+  }
+}
+
+/// The jet in coordinates that are multiplied by these powers of 2.
+Jet in_units(Jet jet, const std::array<int, 3>& powers) {
+  for (std::size_t n = 0; n < Jet::size; ++n) {
+    const auto m = internal::monomials[n];
+    jet.coefficients()[n] = std::ldexp(jet.coefficients()[n], -(m.i * powers[0] + m.j * powers[1] + m.k * powers[2]));
+  }
+  return jet;
+}
+
+TEST(Affine_structure, other_units_of_the_axes_keep_every_bit) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int n = 0; n < 1000; ++n) {
+    Jet jet;
+    for (double& c : jet.coefficients()) c = unit(random);
+    const auto s = local_structure(jet);
+    for (const int power : {4, 8, 20, 40, -20})
+      for (const auto& powers : {std::array{power, 0, -power}, std::array{-power, 2 * power, -power}}) {
+        const auto t = local_structure(in_units(jet, powers));
+        ASSERT_EQ(t.status, s.status);
+        if (s.status != Point_status::REGULAR) continue;
+        EXPECT_EQ(t.affine.gaussian_curvature, s.affine.gaussian_curvature) << power;
+        EXPECT_EQ(t.affine.mean_curvature, s.affine.mean_curvature) << power;
+        EXPECT_EQ(t.affine.pick_invariant, s.affine.pick_invariant) << power;
+        for (std::size_t i = 0; i < 3; ++i)
+          EXPECT_EQ(std::ldexp(t.affine.normal[i], -powers[i]), s.affine.normal[i]) << power;
+      }
+  }
+}
+
+/// The largest error of K and H against 50 digits, in units of their size and of what a change of the jet by half a
+/// rounding does.
+double loss_of_digits(const Jet& jet, std::mt19937& random) {
+  using Number = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+  Jet_3<Number> exact;
+  std::copy(jet.coefficients().begin(), jet.coefficients().end(), exact.coefficients().begin());
+  const auto expected = affine_invariants(Monge_chart_3<Number>(exact));
+  const double K = double(expected.gaussian_curvature), H = double(expected.mean_curvature);
+  const double S = std::abs(K) + H * H + double(expected.pick_invariant * expected.pick_invariant);
+  const auto error = [&](const auto& s) {
+    return std::max(double(abs(Number(s.gaussian_curvature) - expected.gaussian_curvature)) / S,
+                    double(abs(Number(s.mean_curvature) - expected.mean_curvature)) / std::sqrt(S));
+  };
+  const double epsilon = std::numeric_limits<double>::epsilon();
+  double conditioning = epsilon;
+  for (int n = 0; n < 4; ++n) {
+    Jet_3<Number> changed = exact;
+    for (Number& c : changed.coefficients()) c *= 1 + Number((int(random() % 3) - 1) * epsilon);
+    conditioning = std::max(conditioning, error(affine_invariants(Monge_chart_3<Number>(changed))));
+  }
+  return error(affine_invariants(Monge_chart_3<double>(jet))) / conditioning;
+}
+
+TEST(Affine_structure, double_keeps_its_digits_in_all_units_of_the_axes_and_where_second_derivatives_vanish) {
+  std::mt19937 random(19);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const std::array<std::size_t, 3> pure = {4, 7, 9}; // x^2, y^2, z^2
+  for (int n = 0; n < 1500; ++n) {
+    Jet jet;
+    for (double& c : jet.coefficients()) c = unit(random);
+    if (n % 3 > 0) { // affine to second order along an axis, and steep to others
+      const std::size_t axis = random() % 3;
+      jet.coefficients()[pure[axis]] = 0;
+      if (n % 3 == 1) jet.coefficients()[1 + axis] *= std::pow(10, -8 * std::abs(unit(random)));
+    }
+    const auto power = [&] { return int(40 * unit(random)); };
+    EXPECT_LE(loss_of_digits(in_units(jet, {power(), power(), power()}), random), 300) << n;
+  }
+}
+
+TEST(Affine_structure, surfaces_of_any_anisotropy_keep_their_digits) {
+  std::mt19937 random(29);
+  for (const double s : {1., 10., 30., 100., 1e3, 1e4, 1e5, 1e6}) {
+    const Stretched_surface f{s};
+    for (const Vector& p : f.points(100)) {
+      ASSERT_EQ(local_structure(expand(f, p), p).status, Point_status::REGULAR) << s;
+      EXPECT_LE(loss_of_digits(expand(f, p), random), 30) << s;
+    }
   }
 }
 

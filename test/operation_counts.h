@@ -31,7 +31,7 @@ inline Operation_counts operation_counts() {
   return {count([&] { internal::Simplifying_map_3<Counting_number>{f}; }),
           count([&] { internal::mapped_derivatives(f, inverse); }), count([&] { transformation_estimate(jet); }),
           count([&] { direct_estimate(jet, 2); }),
-          count([&] { affine_invariants(Monge_chart_3(jet, Counting_number::variable(1))); })};
+          count([&] { affine_invariants(Monge_chart_3(jet)); })};
 }
 
 #endif

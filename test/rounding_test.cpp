@@ -39,9 +39,7 @@ Traits sampled(const Function& f, int degree, Spline_scheme scheme) {
 
 template <class Function>
 Point_status status(const Function& function, const Point_3& p) {
-  return local_structure(function.taylor(p), std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())}),
-                         internal::rounding(function, p))
-      .status;
+  return local_structure(function.taylor(p), {p.x(), p.y(), p.z()}, internal::rounding(function, p)).status;
 }
 
 std::vector<Point_3> points_of(const Lattice_3<Kernel>& lattice) {

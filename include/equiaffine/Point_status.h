@@ -14,8 +14,8 @@ namespace equiaffine {
 enum class Point_status : std::uint8_t {
   REGULAR,    ///< every quantity exists
   PARABOLIC,  ///< the affine metric is degenerate (d = 0): only the Euclidean quantities exist
-  SINGULAR,   ///< the gradient vanishes, or f is not four times differentiable: nothing exists
-  OUTSIDE,    ///< outside the domain of f, or of the support of its spline: nothing exists
+  SINGULAR,   ///< the gradient vanishes, f is not four times differentiable, or numbers overflow: nothing exists
+  OUTSIDE,    ///< outside the domain of f, of the support of its spline, or of the chosen `Estimator`: nothing exists
   UNCONVERGED ///< the point could not be moved onto the surface: quantities of the level set through it
 };
 

@@ -50,7 +50,7 @@ struct Affine_structure_3 : Affine_invariants_3<FT> {
   FT quadric_defect;
 };
 
-/// The invariants from a chart, in 320 floating-point operations with the chart. Meaningful where chart.is_curved.
+/// The invariants from a chart, in 318 floating-point operations with the chart. Meaningful where chart.is_curved.
 ///
 /// Writing p for the quadratic form Q, with which indices are raised and traces taken (h = -2 p), and v for a quarter
 /// of the trace of the cubic form, C = t + 3 sym(v p) with t apolar. The direction alpha = -(1/2) p^-1 L, conjugate to

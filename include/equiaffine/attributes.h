@@ -28,19 +28,13 @@ namespace equiaffine {
 
 namespace internal {
 
-template <class Point_3>
-auto magnitude(const Point_3& p) {
-  using std::abs;
-  return std::max({abs(p.x()), abs(p.y()), abs(p.z())});
-}
-
 /// By the estimator of the named parameters. Without it the paper's ones are not even compiled.
 template <class Parameters, class FT>
-Local_structure_3<FT> local_structure_by(const Parameters& parameters, const Jet_3<FT>& jet, const FT& magnitude,
-                                         const FT& rounding) {
+Local_structure_3<FT> local_structure_by(const Parameters& parameters, const Jet_3<FT>& jet,
+                                         const std::array<FT, 3>& point, const FT& rounding) {
   if constexpr (has_parameter<Estimator_tag, Parameters>)
-    return local_structure(jet, magnitude, rounding, get_parameter<Estimator_tag>(parameters, Estimator::COMPACT));
-  else return local_structure(jet, magnitude, rounding);
+    return local_structure(jet, point, rounding, get_parameter<Estimator_tag>(parameters, Estimator::COMPACT));
+  else return local_structure(jet, point, rounding);
 }
 
 } // namespace internal
@@ -51,8 +45,8 @@ template <ImplicitFunctionTraits_3 Traits, class Parameters = internal::No_param
 Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, const typename Traits::Point_3& p,
                                                           Point_status sampled_status = Point_status::REGULAR,
                                                           const Parameters& parameters = {}) {
-  auto structure =
-      internal::local_structure_by(parameters, traits.taylor(p), internal::magnitude(p), internal::rounding(traits, p));
+  const std::array<typename Traits::FT, 3> point = {p.x(), p.y(), p.z()};
+  auto structure = internal::local_structure_by(parameters, traits.taylor(p), point, internal::rounding(traits, p));
   if (sampled_status == Point_status::UNCONVERGED && structure.status != Point_status::OUTSIDE)
     structure.status = Point_status::UNCONVERGED;
   return structure;
@@ -135,9 +129,12 @@ void compute_block_of_attributes(const Traits& traits, std::span<const typename 
   const std::span jets(block.data(), (points.size() + Lanes::size - 1) / Lanes::size);
   expand_block(traits, points, jets);
   for (std::size_t n = 0; n < jets.size(); ++n) {
-    const Lanes magnitudes = pack_of(points, n, [](const auto& p) { return magnitude(p); });
+    const std::array<Lanes, 3> coordinates = {pack_of(points, n, [](const auto& p) { return p.x(); }),
+                                              pack_of(points, n, [](const auto& p) { return p.y(); }),
+                                              pack_of(points, n, [](const auto& p) { return p.z(); })};
     const Lanes roundings = pack_of(points, n, [&](const auto& p) { return rounding(traits, p); });
-    Monge_chart_3<Lanes> chart(jets[n], magnitudes);
+    Monge_chart_3<Lanes> chart(jets[n]);
+    chart.disregard_rounding_of(coordinates, jets[n]);
     if constexpr (Has_rounding<Traits>) chart.disregard(jets[n], roundings);
     const Local_structure_lanes<Lanes> lanes(jets[n], chart);
     const std::size_t row = first + n * Lanes::size, count = std::min(Lanes::size, first + points.size() - row);
@@ -149,8 +146,8 @@ void compute_block_of_attributes(const Traits& traits, std::span<const typename 
       Point_status& status = (*result.status)[row + i];
       status = Point_status::REGULAR;
       if (lanes.is_regular[i] && is_compact) continue;
-      const auto structure =
-          local_structure_by(columns.parameters, lane(jets[n], i), double(magnitudes[i]), double(roundings[i]));
+      const std::array<double, 3> point = {coordinates[0][i], coordinates[1][i], coordinates[2][i]};
+      const auto structure = local_structure_by(columns.parameters, lane(jets[n], i), point, double(roundings[i]));
       for (std::size_t c = 0; c < columns.singles.size(); ++c)
         result.columns[c].values[row + i] = columns.singles[c].get(structure);
       status = structure.status;

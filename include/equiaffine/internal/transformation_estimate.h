@@ -23,17 +23,22 @@ constexpr std::size_t monomial_of(auto... variables) {
   return std::size_t(monomial_index(exponents[0], exponents[1], exponents[2]));
 }
 
-/// monomial_of for four variables, by 27 a + 9 b + 3 c + d.
+/// monomial_of for four variables.
 inline constexpr auto products_of_four = [] {
-  std::array<std::size_t, 81> table{};
-  for (std::size_t n = 0; n < table.size(); ++n) table[n] = monomial_of(n / 27, n / 9 % 3, n / 3 % 3, n % 3);
+  std::array<std::array<std::array<std::array<std::size_t, 3>, 3>, 3>, 3> table{};
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = 0; b < 3; ++b)
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t d = 0; d < 3; ++d) table[a][b][c][d] = monomial_of(a, b, c, d);
   return table;
 }();
 
-/// ... and for three, by 9 a + 3 b + c.
+/// ... and for three.
 inline constexpr auto products_of_three = [] {
-  std::array<std::size_t, 27> table{};
-  for (std::size_t n = 0; n < table.size(); ++n) table[n] = monomial_of(n / 9, n / 3 % 3, n % 3);
+  std::array<std::array<std::array<std::size_t, 3>, 3>, 3> table{};
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = 0; b < 3; ++b)
+      for (std::size_t c = 0; c < 3; ++c) table[a][b][c] = monomial_of(a, b, c);
   return table;
 }();
 
@@ -97,14 +102,19 @@ std::array<FT, maximal_number_of_monomials> mapped_derivatives(const std::array<
       g[monomial_of(i, j)] = second;
       for (std::size_t k = j; k < 3; ++k) {
         FT third(0);
-        for (std::size_t n = 0; n < products_of_three.size(); ++n)
-          third = third + f[products_of_three[n]] * inverse[n / 9][i] * inverse[n / 3 % 3][j] * inverse[n % 3][k];
+        for (std::size_t a = 0; a < 3; ++a)
+          for (std::size_t b = 0; b < 3; ++b)
+            for (std::size_t c = 0; c < 3; ++c)
+              third = third + f[products_of_three[a][b][c]] * inverse[a][i] * inverse[b][j] * inverse[c][k];
         g[monomial_of(i, j, k)] = third;
         for (std::size_t l = k; l < 3; ++l) {
           FT fourth(0);
-          for (std::size_t n = 0; n < products_of_four.size(); ++n)
-            fourth = fourth + f[products_of_four[n]] * inverse[n / 27][i] * inverse[n / 9 % 3][j] *
-                                  inverse[n / 3 % 3][k] * inverse[n % 3][l];
+          for (std::size_t a = 0; a < 3; ++a)
+            for (std::size_t b = 0; b < 3; ++b)
+              for (std::size_t c = 0; c < 3; ++c)
+                for (std::size_t d = 0; d < 3; ++d)
+                  fourth = fourth + f[products_of_four[a][b][c][d]] * inverse[a][i] * inverse[b][j] * inverse[c][k] *
+                                        inverse[d][l];
           g[monomial_of(i, j, k, l)] = fourth;
         }
       }
