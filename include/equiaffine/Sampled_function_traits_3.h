@@ -16,7 +16,8 @@ namespace equiaffine {
 /// A volume as a function: its tensor product spline for values and expansions, its samples for the signs at nodes.
 /// With the convolution scheme, which smooths, the spline's value at a node differs from the sample there.
 ///
-/// Models ImplicitFunctionTraits_3 with bounds, first-order expansions and a lattice. Copies share the immutable data.
+/// Models ImplicitFunctionTraits_3 with first-order bounds and expansions, and a lattice. Copies share the immutable
+/// data.
 template <class Kernel>
 class Sampled_function_traits_3 {
 public:
@@ -36,6 +37,7 @@ public:
   Jet_3<FT, 1> first_order(const Point_3& p) const { return spline_->template taylor<1>(p); }
   Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); }
   Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); }
+  Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return spline_->first_order_bounds(box); }
   FT rounding(const Point_3& p) const { return spline_->rounding(p); }
   CGAL::Bbox_3 bbox() const { return volume_->lattice.bbox(); }
 
@@ -51,7 +53,7 @@ private:
   std::shared_ptr<const Spline_function_3<Kernel>> spline_;
 };
 
-static_assert(BoundedImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
 static_assert(FirstOrderImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
 static_assert(LatticeImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
 
