@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "sample_volume.h"
 #include <equiaffine/Jet_functions_3.h>
 #include <equiaffine/Spline_function_3.h>
 
@@ -29,15 +30,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 template <class Function>
 Volume_3 sample(const Lattice_3& lattice, const Function& f) {
-  Volume_3 volume{lattice, std::vector<double>(lattice.number_of_nodes())};
-  const auto [nx, ny, nz] = lattice.size();
-  for (std::size_t k = 0; k < nz; ++k)
-    for (std::size_t j = 0; j < ny; ++j)
-      for (std::size_t i = 0; i < nx; ++i) {
-        const Point_3 p = lattice.point(double(i), double(j), double(k));
-        volume.values[lattice.index(i, j, k)] = f(p.x(), p.y(), p.z());
-      }
-  return volume;
+  return sample_volume(lattice, f);
 }
 
 template <class Function>

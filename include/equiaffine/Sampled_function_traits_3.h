@@ -4,6 +4,7 @@
 
 #include <equiaffine/Spline_function_3.h>
 #include <equiaffine/concepts.h>
+#include <equiaffine/internal/Spline_rounding_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 
@@ -30,7 +31,8 @@ public:
   explicit Sampled_function_traits_3(Volume_3<Kernel> volume, int degree = 7,
                                      Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION, ConcurrencyTag tag = {})
       : volume_(std::make_shared<const Volume_3<Kernel>>(std::move(volume))),
-        spline_(std::make_shared<const Spline_function_3<Kernel>>(*volume_, degree, scheme, tag)) {}
+        spline_(std::make_shared<const Spline_function_3<Kernel>>(*volume_, degree, scheme, tag)),
+        rounding_(std::make_shared<const internal::Spline_rounding_3<Kernel>>(*volume_, *spline_)) {}
 
   /// NaN, as every coefficient of an expansion, outside the support of the spline.
   FT value(const Point_3& p) const { return spline_->value(p); }
@@ -38,7 +40,11 @@ public:
   Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); }
   Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); }
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return spline_->first_order_bounds(box); }
-  FT rounding(const Point_3& p) const { return spline_->rounding(p); }
+  /// Of second derivatives at p; 0 outside the support of the spline.
+  FT rounding(const Point_3& p) const {
+    const auto cell = spline_->cell_of(p);
+    return cell ? (*rounding_)(*cell) : FT(0);
+  }
   CGAL::Bbox_3 bbox() const { return volume_->lattice.bbox(); }
 
   const Lattice_3<Kernel>& lattice() const { return volume_->lattice; }
@@ -51,6 +57,7 @@ public:
 private:
   std::shared_ptr<const Volume_3<Kernel>> volume_;
   std::shared_ptr<const Spline_function_3<Kernel>> spline_;
+  std::shared_ptr<const internal::Spline_rounding_3<Kernel>> rounding_;
 };
 
 static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);

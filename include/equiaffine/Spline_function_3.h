@@ -9,7 +9,6 @@
 #include <equiaffine/internal/Linear_substitution_3.h>
 #include <equiaffine/internal/bspline_bounds.h>
 #include <equiaffine/internal/bspline_evaluation.h>
-#include <equiaffine/internal/bspline_functionals.h>
 #include <equiaffine/internal/bspline_interpolation.h>
 #include <equiaffine/internal/parallel_for.h>
 #include <equiaffine/internal/separable_filter.h>
@@ -47,6 +46,7 @@ public:
   using FT = typename Kernel::FT;
   using Point_3 = typename Kernel::Point_3;
   using Lattice = Lattice_3<Kernel>;
+  using Matrix = typename internal::Linear_substitution_3<FT>::Matrix;
   static_assert(std::is_floating_point_v<FT>);
 
   /// The coefficients do not depend on the number of threads that compute them.
@@ -66,9 +66,6 @@ public:
     coefficients_.resize(size_[0] * size_[1] * size_[2] + internal::overread);
     internal::with_degree(degree_, [&](auto n) { filter<n, ConcurrencyTag>(volume.values); });
     bounds_.emplace(degree_, size_, slack_);
-    for (std::size_t a = 0; a < 3; ++a) gains_[a] = Gains(lattice_.size()[a], {degree, scheme});
-    for (const FT& x : volume.values)
-      if (std::isfinite(x)) greatest_sample_ = std::max(greatest_sample_, std::abs(x));
   }
 
   const Lattice& lattice() const { return lattice_; }
@@ -77,34 +74,15 @@ public:
 
   FT value(const Point_3& p) const { return taylor<0>(p).value(); }
 
-  /// An estimate from above of the errors of second derivatives at p that come from rounding: two roundings of every
-  /// term, as if all samples were of the size of the largest. 0 outside the support.
-  FT rounding(const Point_3& p) const {
-    const auto place = locate(p);
-    if (!place) return 0;
-    std::array<std::array<FT, 3>, 3> gain; // [axis][order of the derivative]
-    for (std::size_t a = 0; a < 3; ++a) gain[a] = gains_[a].of_cell(place->cell[a]);
-    FT greatest = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = i; j < 3; ++j) {
-        FT sum = 0;
-        for (std::size_t a = 0; a < 3; ++a)
-          for (std::size_t b = 0; b < 3; ++b) {
-            FT product = std::abs(to_lattice_[a][i] * to_lattice_[b][j]);
-            for (std::size_t c = 0; c < 3; ++c) product *= gain[c][std::size_t(a == c) + std::size_t(b == c)];
-            sum += product;
-          }
-        greatest = std::max(greatest, sum);
-      }
-    return 2 * std::numeric_limits<FT>::epsilon() * greatest_sample_ * greatest;
-  }
-
   /// The cell of the lattice that contains a point of the support.
   std::optional<std::array<std::size_t, 3>> cell_of(const Point_3& p) const {
     const auto place = locate(p);
     if (!place) return std::nullopt;
     return place->cell;
   }
+
+  /// The linear part of the map from space to lattice coordinates.
+  const Matrix& to_lattice() const { return to_lattice_; }
 
   /// An expansion in lattice coordinates, in those of space.
   Jet_3<FT> to_space(const Jet_3<FT>& jet) const { return substitution_(jet); }
@@ -150,8 +128,6 @@ public:
   }
 
 private:
-  using Matrix = typename internal::Linear_substitution_3<FT>::Matrix;
-
   struct Place {
     std::array<std::size_t, 3> cell;
     std::array<FT, 3> offset; // in [0, 1], up to rounding
@@ -160,26 +136,6 @@ private:
   struct Part {
     internal::Bspline_box<FT> box;
     bool is_complete = true; // else the box leaves the support
-  };
-
-  /// How much rounding of samples of size 1 can change the value and the first two derivatives along one axis.
-  class Gains {
-  public:
-    Gains() = default;
-    Gains(std::size_t nodes, const internal::Spline_rule<FT>& rule) {
-      const internal::Line_functionals<FT> line(nodes, rule);
-      for (std::size_t cell = 0; cell < nodes - 1; ++cell) {
-        kinds_.push_back(line.kind_of_cell(cell));
-        if (kinds_.back() < gains_.size()) continue;
-        gains_.push_back({line.gain(cell, 0), line.gain(cell, 1), 2 * line.gain(cell, 2)}); // times d!
-      }
-    }
-
-    const std::array<FT, 3>& of_cell(std::size_t cell) const { return gains_[kinds_[cell]]; }
-
-  private:
-    std::vector<std::size_t> kinds_;
-    std::vector<std::array<FT, 3>> gains_;
   };
 
   static Matrix inverse_matrix(const Lattice& lattice) {
@@ -312,8 +268,6 @@ private:
   bool is_supported_ = true;
   std::vector<FT> coefficients_;
   std::optional<internal::Bspline_bounds<FT>> bounds_; // if there is a support
-  std::array<Gains, 3> gains_;
-  FT greatest_sample_ = 0;
 };
 
 } // namespace equiaffine
