@@ -185,6 +185,19 @@ TEST(Spline_function_3, quasi_interpolation_reproduces_polynomials_up_to_its_deg
   expect_reproduction<9>(unit_lattice(10, 11, 15), 1);
 }
 
+TEST(Spline_function_3, quasi_interpolation_errs_at_the_border_as_inside_to_one_more_degree) {
+  for (const int degree : {5, 7}) {
+    const auto power = [=](double x, double, double) { return std::pow((x - 10) / 4, degree + 1); };
+    const Spline_function_3 spline(sample(unit_lattice(21, 10, 10), power), degree);
+    for (const double t : {0.2, 0.6, 1.0}) { // that error has the period of the lattice
+      const auto error = [&](double x) { return spline.value(Point_3(x, 5, 5)) - power(x, 5, 5); };
+      EXPECT_GT(std::abs(error(10 + t)), 1e-8);
+      EXPECT_NEAR(error(t), error(10 + t), 1e-4 * std::abs(error(10 + t))) << degree << ' ' << t;
+      EXPECT_NEAR(error(19 + t), error(10 + t), 1e-4 * std::abs(error(10 + t))) << degree << ' ' << t;
+    }
+  }
+}
+
 TEST(Spline_function_3, derivatives_are_those_in_space_for_a_rotated_anisotropic_left_handed_lattice) {
   ASSERT_LT(skew_lattice(8, 8, 8).determinant(), 0);
   const auto inverse = skew_lattice(8, 8, 8).transformation().inverse();

@@ -93,7 +93,7 @@ private:
   /// Window of the smoothing, reach of the filter and of the spline; a recursive filter has decayed to 0.61^40 = 3e-9.
   static std::size_t sufficient_nodes(const Spline_rule<FT>& rule) {
     const std::size_t decay = rule.scheme == Spline_scheme::INTERPOLATION ? 40 : 0;
-    return 2 * (2 * Smoothing_filter<FT>::radius_of(rule.smoothing) + 2 * std::size_t(rule.degree) + decay) + 2;
+    return 2 * (2 * Smoothing_filter<FT>::radius_of(rule.smoothing) + 2 * std::size_t(rule.degree + 1) + decay) + 2;
   }
 
   std::size_t cells_, nodes_;
