@@ -109,10 +109,10 @@ public:
     return bounds_->value(coefficients_.data(), part->box);
   }
 
-  /// Contains the values and the first derivatives in the same sense. In boxes of up to 9 cells along each axis they are
-  /// as tight as those of the polynomials there: the excess shrinks with the square of the box, down to 2^-12 of a cell.
-  /// If there are points without a value in the box, the bounds of the derivatives are the whole line, and those of the
-  /// value are of the other points; infinity, if none of them has one.
+  /// Contains the values and the first derivatives in the same sense. In boxes of up to 9 cells along each axis they
+  /// are nearly the ranges: the excess shrinks with the square of the box, down to 2^-12 of a cell. If there are points
+  /// without a value in the box, the bounds of the derivatives are the whole line, and those of the value are of the
+  /// other points; infinity, if none of them has one.
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const {
     const auto part = locate(box);
     std::array<Interval, 4> bounds;
