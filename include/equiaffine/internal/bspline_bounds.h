@@ -48,13 +48,13 @@ public:
     for (const FT s : slack) slack_ += 2 * s; // of the point and of the box
   }
 
-  /// Of the value, where there is one. From all coefficients; in the border, where they may be large, on the box alone.
+  /// Of the value, where there is one.
   Interval value(const FT* c, const Box& box) const {
     const Range<FT> range = range_of(c, box);
     if (range.has_nan() && has_no_values(c, box)) return no_values();
     const FT error = error_of_value(range);
     const Interval bound = range.widened(error);
-    if (range.has_nan() || !is_in_border(box) || !box.has_at_most(most_cells)) return bound;
+    if (range.has_nan() || !box.has_at_most(most_cells)) return bound;
     return on_box(c, box, [&](const auto& spline) {
       return Interval::intersection(bound, spline.value(error + spline.relative_error * range.size()));
     });
@@ -127,14 +127,6 @@ private:
     const FT* const first = c + (box.first[2] * size_[1] + box.first[1]) * size_[0] + box.first[0];
     return with_degree(degree_,
                        [&](auto n) { return f(Bspline_on_box<n, FT>(first, size_[0], size_[0] * size_[1], box)); });
-  }
-
-  /// Whether coefficients of extrapolated samples count in the box.
-  bool is_in_border(const Box& box) const {
-    const auto reach = std::size_t(degree_ - 1);
-    for (std::size_t a = 0; a < 3; ++a)
-      if (box.first[a] < reach || box.first[a] + box.cells[a] + 2 * reach > size_[a]) return true;
-    return false;
   }
 
   /// Whether one of the coefficients that count everywhere in the box is NaN.
