@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "sample_volume.h"
 #include <equiaffine/Curvature_error_3.h>
 #include <equiaffine/Sample_noise.h>
 
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 #include <vector>
 
 namespace {
@@ -24,16 +24,11 @@ double radius(const Point_3& p) { return std::sqrt(p.x() * p.x() + p.y() * p.y()
 
 Volume sample(std::size_t n, double deviation) {
   const Lattice_3<Kernel> lattice({n, n, n}, CGAL::Bbox_3(-1.3, -1.2, -1.1, 1.3, 1.2, 1.1));
-  Volume volume{lattice, {}};
-  std::mt19937 random(5);
-  std::normal_distribution<double> normal;
-  for (std::size_t k = 0; k < n; ++k)
-    for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t i = 0; i < n; ++i) {
-        const double r = radius(lattice.point(double(i), double(j), double(k)));
-        volume.values.push_back(std::exp(r * r - 1) - 1 + (deviation > 0 ? deviation * normal(random) : 0));
-      }
-  return volume;
+  const auto f = [](double x, double y, double z) {
+    const double r = radius(Point_3(x, y, z));
+    return std::exp(r * r - 1) - 1;
+  };
+  return sample_volume(lattice, f, deviation);
 }
 
 // How many of the errors the estimates cover, and the median of estimate / error, for K and for H.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "sample_volume.h"
 #include <equiaffine/Sample_noise.h>
 #include <equiaffine/Spline_function_3.h>
 #include <equiaffine/smooth_volume.h>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
 
 namespace {
@@ -24,16 +24,7 @@ double ellipsoid(double x, double y, double z) { return std::exp(x * x + y * y /
 
 Volume sample(std::size_t n, double deviation) {
   const Lattice_3<Kernel> lattice({n, n, n}, CGAL::Bbox_3(-1.25, -1.1, -1, 1.25, 1.1, 1));
-  Volume volume{lattice, {}};
-  std::mt19937 random(11);
-  std::normal_distribution<double> normal;
-  for (std::size_t k = 0; k < n; ++k)
-    for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t i = 0; i < n; ++i) {
-        const auto p = lattice.point(double(i), double(j), double(k));
-        volume.values.push_back(ellipsoid(p.x(), p.y(), p.z()) + (deviation > 0 ? deviation * normal(random) : 0));
-      }
-  return volume;
+  return sample_volume(lattice, ellipsoid, deviation);
 }
 
 } // namespace

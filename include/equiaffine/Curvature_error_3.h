@@ -51,7 +51,7 @@ public:
     const internal::Spline_rule<FT> rule{function.spline().degree(), function.spline().scheme(), smoothing};
     for (std::size_t a = 0; a < 3; ++a)
       if (const std::size_t nodes = volume.lattice.size()[a]; nodes > std::size_t(rule.degree))
-        axes_[a] = Axis(nodes, rule, a == 0 ? noise_deviation : FT(1));
+        factors_[a] = factors(internal::Line_functionals<FT>(nodes, rule), a == 0 ? noise_deviation : FT(1));
   }
 
   Affine_curvature_error<FT> operator()(const Point_3& p) const {
@@ -84,33 +84,23 @@ private:
     FT gaussian, mean;
   };
 
-  /// Along one axis, per kind of cell: the Cholesky factor L of the covariance of the Taylor coefficients.
-  struct Axis {
-    Axis() = default;
-    Axis(std::size_t nodes, const internal::Spline_rule<FT>& rule, FT deviation) {
-      const internal::Line_functionals<FT> line(nodes, rule);
-      for (std::size_t c = 0; c < nodes - 1; ++c) {
-        kind.push_back(line.kind_of_cell(c));
-        if (kind.back() >= factors.size()) factors.push_back(factor(line.of_cell(c), deviation));
+  /// Along one axis: the Cholesky factors L of the covariance of the Taylor coefficients.
+  static internal::Per_kind_of_cell<Factor> factors(const internal::Line_functionals<FT>& line, FT deviation) {
+    return {line.kinds(), [&](std::size_t kind) { return factor(line.rows(kind), deviation); }};
+  }
+
+  static Factor factor(const typename internal::Line_functionals<FT>::Rows& rows, FT deviation) {
+    Factor l{};
+    for (std::size_t d = 0; d < orders; ++d)
+      for (std::size_t p = 0; p <= d; ++p) {
+        FT sum = internal::dot(rows[d], rows[p]);
+        for (std::size_t q = 0; q < p; ++q) sum -= l[d][q] * l[p][q];
+        l[d][p] = p == d ? std::sqrt(std::max(sum, FT(0))) : l[p][p] > 0 ? sum / l[p][p] : FT(0);
       }
-    }
-
-    static Factor factor(const typename internal::Line_functionals<FT>::Rows& rows, FT deviation) {
-      Factor l{};
-      for (std::size_t d = 0; d < orders; ++d)
-        for (std::size_t p = 0; p <= d; ++p) {
-          FT sum = internal::dot(rows[d], rows[p]);
-          for (std::size_t q = 0; q < p; ++q) sum -= l[d][q] * l[p][q];
-          l[d][p] = p == d ? std::sqrt(std::max(sum, FT(0))) : l[p][p] > 0 ? sum / l[p][p] : FT(0);
-        }
-      for (auto& row : l)
-        for (FT& x : row) x *= deviation;
-      return l;
-    }
-
-    std::vector<std::size_t> kind;
-    std::vector<Factor> factors;
-  };
+    for (auto& row : l)
+      for (FT& x : row) x *= deviation;
+    return l;
+  }
 
   /// The error of convolution is much the same for all degrees.
   static Spline_scheme other_scheme(Spline_scheme scheme) {
@@ -126,7 +116,7 @@ private:
   /// column (i, j, k) of its factor.
   Jet_3<FT> disturbance(const std::array<std::size_t, 3>& cell, const std::array<int, 3>& column) const {
     std::array<const Factor*, 3> l;
-    for (std::size_t a = 0; a < 3; ++a) l[a] = &axes_[a].factors[axes_[a].kind[cell[a]]];
+    for (std::size_t a = 0; a < 3; ++a) l[a] = &factors_[a][cell[a]];
     Jet_3<FT> jet(FT(0));
     for (std::size_t n = 0; n < jet.size; ++n) {
       const auto [i, j, k] = internal::monomials[n];
@@ -139,7 +129,7 @@ private:
 
   Sampled_function_traits_3<Kernel> function_;
   Spline_function_3<Kernel> other_;
-  std::array<Axis, 3> axes_;
+  std::array<internal::Per_kind_of_cell<Factor>, 3> factors_;
 };
 
 } // namespace equiaffine

@@ -128,14 +128,15 @@ class Fourth_derivative_probe {
 public:
   using Cell = std::array<std::size_t, 3>;
 
-  Fourth_derivative_probe(const Cell& size, const Spline_rule<FT>& rule)
-      : lines_{Line_functionals<FT>(size[0], rule), Line_functionals<FT>(size[1], rule),
-               Line_functionals<FT>(size[2], rule)} {
-    for (std::size_t a = 0; a < 3; ++a) weights_[a].resize(lines_[a].number_of_kinds());
+  Fourth_derivative_probe(const Cell& size, const Spline_rule<FT>& rule) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Line_functionals<FT> line(size[a], rule);
+      weights_[a] = {line.kinds(), [&](std::size_t kind) { return Weights(line.rows(kind)); }};
+    }
   }
 
-  std::array<double, 3> operator()(const Volume_3<Kernel>& volume, const Cell& cell) {
-    const Weights &x = weights(0, cell), &y = weights(1, cell), &z = weights(2, cell);
+  std::array<double, 3> operator()(const Volume_3<Kernel>& volume, const Cell& cell) const {
+    const Weights &x = weights_[0][cell[0]], &y = weights_[1][cell[1]], &z = weights_[2][cell[2]];
     std::array<double, 3> sum{};
     for (std::size_t k = 0; k < z.value.size(); ++k) {
       double value = 0, along_x = 0, along_y = 0;
@@ -158,10 +159,10 @@ public:
   }
 
   /// The covariance of the derivative along x of this one and of another, for white noise of deviation 1.
-  double covariance(Fourth_derivative_probe& other, const Cell& cell) {
+  double covariance(const Fourth_derivative_probe& other, const Cell& cell) const {
     double result = 1;
     for (std::size_t a = 0; a < 3; ++a) {
-      const Weights &p = weights(a, cell), &q = other.weights(a, cell);
+      const Weights &p = weights_[a][cell[a]], &q = other.weights_[a][cell[a]];
       const std::size_t begin = std::max(first(a, cell), other.first(a, cell));
       double sum = 0;
       for (std::size_t n = begin; n - first(a, cell) < p.value.size() && n - other.first(a, cell) < q.value.size();
@@ -175,36 +176,29 @@ public:
   }
 
 private:
-  /// Of the samples from some first one on.
+  /// Of the samples from some first one on, counted in the cell of that kind whose functionals are known.
   struct Weights {
+    explicit Weights(const typename Line_functionals<FT>::Rows& rows) {
+      const auto is_used = [&](std::size_t j) { return rows[0][j] != 0 || rows[4][j] != 0; };
+      std::size_t end = rows[0].size();
+      while (first + 1 < end && !is_used(first)) ++first;
+      while (end > first + 1 && !is_used(end - 1)) --end;
+      for (std::size_t j = first; j < end; ++j) {
+        value.push_back(double(rows[0][j]));
+        derivative.push_back(double(24 * rows[4][j]));
+      }
+    }
+
     std::size_t first = 0;
     std::vector<double> value, derivative;
   };
 
-  const Weights& weights(std::size_t a, const Cell& cell) {
-    std::optional<Weights>& known = weights_[a][lines_[a].kind_of_cell(cell[a])];
-    if (!known) {
-      const auto rows = lines_[a].of_cell(cell[a]);
-      const auto is_used = [&](std::size_t j) { return rows[0][j] != 0 || rows[4][j] != 0; };
-      std::size_t begin = 0, end = rows[0].size();
-      while (begin + 1 < end && !is_used(begin)) ++begin;
-      while (end > begin + 1 && !is_used(end - 1)) --end;
-      known.emplace(Weights{begin, {}, {}});
-      for (std::size_t j = begin; j < end; ++j) {
-        known->value.push_back(double(rows[0][j]));
-        known->derivative.push_back(double(24 * rows[4][j]));
-      }
-    }
-    return *known;
-  }
-
   /// The first sample that is used along an axis.
-  std::size_t first(std::size_t a, const Cell& cell) {
-    return weights(a, cell).first + cell[a] - lines_[a].kind_of_cell(cell[a]);
+  std::size_t first(std::size_t a, const Cell& cell) const {
+    return weights_[a][cell[a]].first + weights_[a].distance(cell[a]);
   }
 
-  std::array<Line_functionals<FT>, 3> lines_;
-  std::array<std::vector<std::optional<Weights>>, 3> weights_; // per kind of cell, made when needed
+  std::array<Per_kind_of_cell<Weights>, 3> weights_;
 };
 
 } // namespace internal
@@ -226,7 +220,7 @@ typename Kernel::FT choose_smoothing(const Volume_3<Kernel>& volume, const Sampl
   double least_risk = 0;
   FT best = 0;
   for (const FT scale : {FT(0), FT(1.5), FT(2), FT(2.5), FT(3), FT(4), FT(5), FT(6), FT(8)}) {
-    if (2 * std::size_t(4 * scale) + 1 > shortest) break;
+    if (2 * internal::Smoothing_filter<FT>::radius_of(scale) + 1 > shortest) break;
     Probe probe(volume.lattice.size(), {degree, scheme, scale});
     std::vector<double> deviations, differences, expected;
     for (const auto& cell : cells) {

@@ -4,6 +4,7 @@
 
 #include <equiaffine/Spline_function_3.h>
 #include <equiaffine/concepts.h>
+#include <equiaffine/internal/Spline_rounding_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 
@@ -16,7 +17,8 @@ namespace equiaffine {
 /// A volume as a function: its tensor product spline for values and expansions, its samples for the signs at nodes.
 /// With the convolution scheme, which smooths, the spline's value at a node differs from the sample there.
 ///
-/// Models ImplicitFunctionTraits_3 with bounds, first-order expansions and a lattice. Copies share the immutable data.
+/// Models ImplicitFunctionTraits_3 with first-order bounds and expansions, and a lattice. Copies share the immutable
+/// data.
 template <class Kernel>
 class Sampled_function_traits_3 {
 public:
@@ -29,14 +31,20 @@ public:
   explicit Sampled_function_traits_3(Volume_3<Kernel> volume, int degree = 7,
                                      Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION, ConcurrencyTag tag = {})
       : volume_(std::make_shared<const Volume_3<Kernel>>(std::move(volume))),
-        spline_(std::make_shared<const Spline_function_3<Kernel>>(*volume_, degree, scheme, tag)) {}
+        spline_(std::make_shared<const Spline_function_3<Kernel>>(*volume_, degree, scheme, tag)),
+        rounding_(std::make_shared<const internal::Spline_rounding_3<Kernel>>(*volume_, *spline_)) {}
 
   /// NaN, as every coefficient of an expansion, outside the support of the spline.
   FT value(const Point_3& p) const { return spline_->value(p); }
   Jet_3<FT, 1> first_order(const Point_3& p) const { return spline_->template taylor<1>(p); }
   Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); }
   Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); }
-  FT rounding(const Point_3& p) const { return spline_->rounding(p); }
+  Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return spline_->first_order_bounds(box); }
+  /// Of second derivatives at p; 0 outside the support of the spline.
+  FT rounding(const Point_3& p) const {
+    const auto cell = spline_->cell_of(p);
+    return cell ? (*rounding_)(*cell) : FT(0);
+  }
   CGAL::Bbox_3 bbox() const { return volume_->lattice.bbox(); }
 
   const Lattice_3<Kernel>& lattice() const { return volume_->lattice; }
@@ -49,9 +57,10 @@ public:
 private:
   std::shared_ptr<const Volume_3<Kernel>> volume_;
   std::shared_ptr<const Spline_function_3<Kernel>> spline_;
+  std::shared_ptr<const internal::Spline_rounding_3<Kernel>> rounding_;
 };
 
-static_assert(BoundedImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
 static_assert(FirstOrderImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
 static_assert(LatticeImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
 

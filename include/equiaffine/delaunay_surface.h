@@ -33,9 +33,9 @@ template <class Kernel>
 struct Delaunay_surface_3 : Isosurface_3<Kernel> {
   bool is_certified = false; ///< no component of the surface was missed: there are no undecided boxes
   /// Where a part of the surface may have been missed, since neither its absence nor its regularity could be proved:
-  /// around singular points, where the surface touches the border of the box, where f is not defined, or everywhere for a
-  /// function without bounds of its gradient. Also where a part was found and yet got no triangle, or a feature no edge,
-  /// for being too near to others.
+  /// around singular points, where the surface touches the border of the box, beside points where f is not defined, in
+  /// noise that would need too many boxes, or everywhere for a function without bounds of its gradient. Also where a
+  /// part was found and yet got no triangle, or a feature no edge, for being too near to others.
   std::vector<CGAL::Bbox_3> undecided_boxes;
   Parabolic_curves_3<Kernel> parabolic_curves; ///< if the mesh was asked to follow them
 };

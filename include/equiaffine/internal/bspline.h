@@ -41,9 +41,11 @@ constexpr auto bspline_basis_polynomials() {
 /// A local linear map from the samples f_0 .. f_{N-1} of a line to coefficients c_{-m} .. c_{N-1+m}, m = floor(n / 2).
 ///
 /// Inside, c_i = sum_s weights[|s|] f_{i+s}, |s| <= radius. Near a border the missing samples are those of the
-/// polynomial of degree n through the n + 1 samples nearest to that border; as this is linear in them,
-/// c_i = sum_j border[m + i][j] f_j for i < radius, and the mirror image at the other end. Polynomials of degree n are
-/// hence treated at the border as they are inside, which keeps the order of every derivative. The alternatives do not:
+/// polynomial of degree d >= n through the d + 1 samples nearest to that border; as this is linear in them,
+/// c_i = sum_j border[d - n][m + i][j] f_j for i < radius, and the mirror image at the other end. Polynomials of degree
+/// n are hence treated at the border as they are inside, which keeps the order of every derivative. For
+/// quasi-interpolation d is min(n + 2, 9, N - 1): with d = n, where a wave has 24 samples, the errors of affine
+/// curvatures in the border were a thousand times those inside. A larger d magnifies rounding. Others lose the order:
 /// repeating or mirroring samples makes a kink at the border, zeros make a jump, so the value has order 1 or 0 and
 /// fourth derivatives grow as h^-3 or h^-4; giving the domain up as far as the taps reach costs n - 1 cells per axis.
 template <class FT, int Degree>
@@ -51,7 +53,9 @@ struct Line_filter {
   static constexpr int padding = spline_padding(Degree);
   int radius = 0;
   std::array<FT, padding + 1> weights{FT(1)};
-  std::array<std::array<FT, Degree + 1>, 2 * padding> border{};
+  static constexpr int most_further = Degree < 9 ? 2 : 0; ///< most of d - n
+  int further = 0;
+  std::array<std::array<std::array<FT, Degree + most_further + 1>, 2 * padding>, most_further + 1> border{};
 
   /// Coefficients = samples: the spline of a polynomial p is p smoothed by the B-spline; order 2.
   static constexpr Line_filter convolution() {
@@ -79,6 +83,7 @@ struct Line_filter {
       }
     Line_filter filter;
     filter.radius = padding;
+    filter.further = most_further;
     filter.weights = {};
     std::array<FT, padding + 2> difference{FT(1)}; // the right half of delta^2k
     for (int k = 0; k <= padding; ++k) {
@@ -99,15 +104,17 @@ struct Line_filter {
   void apply(const FT* samples, std::size_t count, std::size_t width, FT* coefficients, std::size_t stride) const {
     const auto reach = std::size_t(radius), ends = reach + std::size_t(padding);
     const std::size_t last = count - 1 + 2 * std::size_t(padding);
+    const auto& extrapolated = border[std::min(count - 1 - Degree, std::size_t(further))];
+    const std::size_t used = std::min(count, std::size_t(Degree + further + 1));
     for (std::size_t end = 0; end < ends; ++end) {
       FT* first_row = coefficients + end * stride;
       FT* last_row = coefficients + (last - end) * stride;
       std::fill_n(first_row, width, FT(0));
       std::fill_n(last_row, width, FT(0));
-      for (std::size_t j = 0; j <= Degree; ++j)
+      for (std::size_t j = 0; j < used; ++j)
         for (std::size_t x = 0; x < width; ++x) {
-          first_row[x] += border[end][j] * samples[j * width + x];
-          last_row[x] += border[end][j] * samples[(count - 1 - j) * width + x];
+          first_row[x] += extrapolated[end][j] * samples[j * width + x];
+          last_row[x] += extrapolated[end][j] * samples[(count - 1 - j) * width + x];
         }
     }
     for (std::size_t i = reach; i < count - reach; ++i) {
@@ -121,11 +128,11 @@ struct Line_filter {
   }
 
 private:
-  /// The polynomial through f_0 .. f_n at the integer x: the weight of f_j (Lagrange). Exact: products of integers.
-  static constexpr FT lagrange(int j, int x) {
+  /// The polynomial through f_0 .. f_d at the integer x: the weight of f_j (Lagrange). Exact: products of integers.
+  static constexpr FT lagrange(int d, int j, int x) {
     FT numerator = 1;
     FT denominator = 1;
-    for (int i = 0; i <= Degree; ++i)
+    for (int i = 0; i <= d; ++i)
       if (i != j) {
         numerator *= FT(x - i);
         denominator *= FT(j - i);
@@ -134,12 +141,13 @@ private:
   }
 
   constexpr void fill_border() {
-    for (int i = -padding; i < radius; ++i)
-      for (int j = 0; j <= Degree; ++j) {
-        FT sum = 0;
-        for (int s = -radius; s <= radius; ++s) sum += weights[s < 0 ? -s : s] * lagrange(j, i + s);
-        border[padding + i][j] = sum;
-      }
+    for (int f = 0; f <= further; ++f)
+      for (int i = -padding; i < radius; ++i)
+        for (int j = 0; j <= Degree + f; ++j) {
+          FT sum = 0;
+          for (int s = -radius; s <= radius; ++s) sum += weights[s < 0 ? -s : s] * lagrange(Degree + f, j, i + s);
+          border[f][padding + i][j] = sum;
+        }
   }
 };
 

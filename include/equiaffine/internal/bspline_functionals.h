@@ -23,6 +23,17 @@ struct Spline_rule {
   FT smoothing = 0;
 };
 
+/// The kinds of the cells of a line: near its ends each cell is of its own, those in between are all alike.
+struct Kinds_of_cells {
+  std::size_t cells = 0, kinds = 0;
+
+  std::size_t operator()(std::size_t cell) const {
+    const std::size_t half = kinds / 2;
+    if (cells == kinds || cell < half) return cell;
+    return std::max(half, cell + kinds > cells ? cell + kinds - cells : 0);
+  }
+};
+
 /// What one axis of a tensor product spline makes of the samples of a line: the Taylor coefficients of order 0 .. 4 in
 /// the middle of a cell are linear functions of the samples, whose coefficients these are. They differ between cells
 /// near a border only; long lines have the cells of one that is long enough for both borders.
@@ -53,49 +64,63 @@ public:
     });
   }
 
-  /// Those of a cell, from the samples of a line of `length()` nodes.
-  Rows of_cell(std::size_t cell) const {
-    const std::size_t c = kind_of_cell(cell);
+  /// Those of a kind of cells, from the samples of a line of `length()` nodes, the `kind`-th cell of which is one.
+  Rows rows(std::size_t kind) const {
     Rows rows;
     for (std::size_t d = 0; d < orders; ++d) {
       rows[d].resize(nodes_);
       for (std::size_t r = 0; r < basis_[d].size(); ++r)
-        for (std::size_t j = 0; j < nodes_; ++j) rows[d][j] += basis_[d][r] * coefficients_[(c + r) * nodes_ + j];
+        for (std::size_t j = 0; j < nodes_; ++j) rows[d][j] += basis_[d][r] * coefficients_[(kind + r) * nodes_ + j];
     }
     return rows;
   }
 
   /// The sum of the sizes of all terms of the Taylor coefficient of order d, for samples of size 1: how much it can be
   /// changed by rounding. At least that of the row, in which terms have been cancelled.
-  FT gain(std::size_t cell, std::size_t d) const {
-    const std::size_t c = kind_of_cell(cell);
+  FT gain(std::size_t kind, std::size_t d) const {
     FT sum = 0;
     for (std::size_t r = 0; r < basis_[d].size(); ++r)
-      for (std::size_t j = 0; j < nodes_; ++j) sum += std::abs(basis_[d][r] * coefficients_[(c + r) * nodes_ + j]);
+      for (std::size_t j = 0; j < nodes_; ++j) sum += std::abs(basis_[d][r] * coefficients_[(kind + r) * nodes_ + j]);
     return sum;
   }
 
   std::size_t length() const { return nodes_; }
 
   /// Cells of the same kind have the same functionals.
-  std::size_t number_of_kinds() const { return nodes_ - 1; }
-  std::size_t kind_of_cell(std::size_t cell) const {
-    const std::size_t half = (nodes_ - 1) / 2, kinds = nodes_ - 1;
-    if (cells_ == kinds || cell < half) return cell;
-    return std::max(half, cell + kinds > cells_ ? cell + kinds - cells_ : 0);
-  }
+  Kinds_of_cells kinds() const { return {cells_, nodes_ - 1}; }
 
 private:
   /// Window of the smoothing, reach of the filter and of the spline; a recursive filter has decayed to 0.61^40 = 3e-9.
   static std::size_t sufficient_nodes(const Spline_rule<FT>& rule) {
     const std::size_t decay = rule.scheme == Spline_scheme::INTERPOLATION ? 40 : 0;
-    const auto window = rule.smoothing > 1 ? std::size_t(std::ceil(4 * rule.smoothing)) : 0;
-    return 2 * (2 * window + 2 * std::size_t(rule.degree) + decay) + 2;
+    return 2 * (2 * Smoothing_filter<FT>::radius_of(rule.smoothing) + 2 * std::size_t(rule.degree + 1) + decay) + 2;
   }
 
   std::size_t cells_, nodes_;
   std::vector<FT> coefficients_; // of the line: row i is coefficient i as a function of the samples
   std::array<std::vector<FT>, orders> basis_;
+};
+
+/// Something for every cell of a line, made once per kind.
+template <class T>
+class Per_kind_of_cell {
+public:
+  Per_kind_of_cell() = default;
+
+  /// Of `make(kind)`.
+  template <class Make>
+  Per_kind_of_cell(const Kinds_of_cells& kinds, const Make& make) : kinds_(kinds) {
+    for (std::size_t kind = 0; kind < kinds.kinds; ++kind) things_.push_back(make(kind));
+  }
+
+  const T& operator[](std::size_t cell) const { return things_[kinds_(cell)]; }
+
+  /// Of a cell from the one of its kind that `make` was called for.
+  std::size_t distance(std::size_t cell) const { return cell - kinds_(cell); }
+
+private:
+  Kinds_of_cells kinds_;
+  std::vector<T> things_;
 };
 
 /// The sum of the products of two vectors.

@@ -87,10 +87,10 @@ void with_line_filter(Spline_scheme scheme, F f) {
 
 /// f(n) with a constant n for a degree of 5, 7 or 9.
 template <class F>
-void with_degree(int degree, F f) {
-  if (degree == 5) f(std::integral_constant<int, 5>());
-  else if (degree == 7) f(std::integral_constant<int, 7>());
-  else f(std::integral_constant<int, 9>());
+auto with_degree(int degree, F f) {
+  if (degree == 5) return f(std::integral_constant<int, 5>());
+  if (degree == 7) return f(std::integral_constant<int, 7>());
+  return f(std::integral_constant<int, 9>());
 }
 
 } // namespace equiaffine::internal

@@ -66,7 +66,8 @@ public:
   Certified_seeding_3(const Traits& traits, const Clip_domain_3& domain, Sizing size, double largest_size)
       : traits_(traits), domain_(domain), box_(domain.bbox()), size_(std::move(size)), largest_size_(largest_size),
         side_(std::max({box_.x_span(), box_.y_span(), box_.z_span()})),
-        has_gradient_bounds_(internal::has_gradient_bounds(traits)) {}
+        has_gradient_bounds_(internal::has_gradient_bounds(traits)),
+        has_tight_bounds_(internal::has_tight_bounds(traits)) {}
 
   /// Seeds keep the distance `spacing` from a vertex that the mesh has already.
   void keep_away(const Point_3& vertex, double spacing) {
@@ -153,7 +154,7 @@ private:
     auto jet = first_order_bounds(traits_, box);
     jet.template at<0>() = Interval::intersection(jet.value(), mean_value_bound(traits_, jet, box));
     bool is_decided = has_acute_gradients(traits_, jet, box, box_);
-    if (!is_decided && jet.value().contains(0) && cell_side() <= seeded_size * largest_size_) {
+    if (!is_decided && has_tight_bounds_ && jet.value().contains(0) && cell_side() <= seeded_size * largest_size_) {
       jet = tight_first_order_bounds(traits_, box);
       is_decided = has_acute_gradients(traits_, jet, box, box_);
     }
@@ -314,7 +315,7 @@ private:
   const double largest_size_, side_;
   int level_ = 0;
   Grid grid_;
-  const bool has_gradient_bounds_;
+  const bool has_gradient_bounds_, has_tight_bounds_;
   std::vector<CGAL::Bbox_3> empty_cells_;
   std::set<std::array<std::uint32_t, 3>> given_up_;
   double given_up_side_ = 0;

@@ -89,6 +89,15 @@ Jet_3<Interval, 1> tight_first_order_bounds(const Traits& traits, const CGAL::Bb
   }
 }
 
+/// Whether those are tighter than the others. A model that learns this at run time has a member.
+template <ImplicitFunctionTraits_3 Traits>
+bool has_tight_bounds(const Traits& traits) {
+  if constexpr (requires { traits.has_tight_bounds(); }) return traits.has_tight_bounds();
+  else return requires(const CGAL::Bbox_3& box) {
+      traits.second_order_bounds(box);
+    };
+}
+
 /// Whether it knows something of the gradients. A model that learns this at run time has a member.
 template <ImplicitFunctionTraits_3 Traits>
 bool has_gradient_bounds(const Traits& traits) {

@@ -52,18 +52,18 @@ public:
   static constexpr int padding = 0;
   static constexpr int degree = 7;
 
-  /// The window has at most `count` nodes.
-  Smoothing_filter(FT scale, std::size_t count) {
-    const FT reach = std::sqrt(FT(11)) * scale; // the variance of (1 - u^2)^4 is 1 / 11
-    radius_ = std::min(std::size_t(std::ceil(reach)) - 1, (count - 1) / 2);
+  /// Nodes of the window to each side of its own, in a long line.
+  static std::size_t radius_of(FT scale) { return scale > 1 ? std::size_t(std::ceil(reach_of(scale))) - 1 : 0; }
+
+  /// The window has at most `count` nodes. Precondition: scale > 1.
+  Smoothing_filter(FT scale, std::size_t count) : radius_(std::min(radius_of(scale), (count - 1) / 2)) {
+    const FT reach = reach_of(scale);
     const std::size_t window = 2 * radius_ + 1;
     const FT excess = std::min(reach, FT(radius_ + 1)) - FT(radius_);
     for (std::size_t i = 0; i <= radius_; ++i)
       weights_.push_back(
           local_polynomial_weights(window, FT(i), FT(window - 1 - i) + excess, std::min(degree, int(window) - 1)));
   }
-
-  std::size_t radius() const { return radius_; }
 
   /// Rows of `width` numbers: from `samples + i width` to `result + i stride`, i = 0 .. count - 1.
   void apply(const FT* samples, std::size_t count, std::size_t width, FT* result, std::size_t stride) const {
@@ -81,6 +81,8 @@ public:
   }
 
 private:
+  static FT reach_of(FT scale) { return std::sqrt(FT(11)) * scale; } // the variance of (1 - u^2)^4 is 1 / 11
+
   std::size_t radius_;
   std::vector<std::vector<FT>> weights_; // of node i < radius_; the last ones are those of inner nodes
 };
