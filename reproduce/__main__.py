@@ -2,10 +2,12 @@
 """Runs items and composes the report: python3 -m reproduce --help."""
 
 import argparse
+import os
 import pathlib
 import platform
 import sys
 import time
+import traceback
 
 from .items import ITEMS
 from .lab import Lab
@@ -34,9 +36,11 @@ def run(item, arguments):
     start = time.monotonic()
     try:
         item.work(lab)
-    except RuntimeError as error:  # a command that failed; the other items go on
-        lab.fail("the run", str(error))
-        lab.is_complete = False
+    except RuntimeError as error:  # a command failed, or there is nothing to compare
+        lab.fail(str(error))
+    except Exception as error:  # a defect of the item: the other ones go on
+        traceback.print_exc()
+        lab.fail(f"{type(error).__name__}: {error}")
     seconds = time.monotonic() - start
     print(f"{item.name:10s} {'holds' if lab.passed else 'does not hold'}  {seconds:6.1f} s", flush=True)
     for check in lab.checks:
@@ -50,7 +54,8 @@ def main():
     names = arguments.item or list(ITEMS)
     start = time.monotonic()
     done = [(ITEMS[name], run(ITEMS[name], arguments)) for name in names]
-    facts = f"{time.strftime('%Y-%m-%d')}, {platform.machine()}, {time.monotonic() - start:.0f} seconds."
+    facts = (f"{time.strftime('%Y-%m-%d')}, {platform.machine()}, {os.cpu_count()} processors, "
+             f"{time.monotonic() - start:.0f} seconds.")
     (arguments.folder / "results.json").write_text(to_json(done), encoding="utf-8")
     (arguments.folder / "report.html").write_text(to_html(done, facts), encoding="utf-8")
     print(f"wrote {arguments.folder / 'report.html'}\nwrote {arguments.folder / 'results.json'}")
