@@ -59,6 +59,7 @@ std::string short_number(double value, const Color_range& range) {
 /// The number at place t in [0, 1] of the bar.
 double number_at(const Color_legend& legend, double t) {
   const auto& [lower, upper, knee, is_diverging] = legend.range;
+  if (is_diverging && t == 0.5) return 0; // to rounding
   if (legend.scale == Color_scale::LINEAR) return lower + t * (upper - lower);
   const double low = std::asinh(lower / knee), high = std::asinh(upper / knee);
   return knee * std::sinh(low + t * (high - low));
@@ -79,11 +80,13 @@ void draw_legend(Picture& picture, const Color_legend& legend) {
     }
   }
   draw_text(picture, legend.label, left, top - 7, Alignment::LEFT);
-  const std::size_t baseline = top + bar_height + 14;
-  draw_text(picture, short_number(legend.range.lower, legend.range), left, baseline, Alignment::LEFT);
-  const double middle = legend.range.is_diverging ? 0 : number_at(legend, 0.5);
-  draw_text(picture, short_number(middle, legend.range), left + width / 2, baseline, Alignment::CENTER);
-  draw_text(picture, short_number(legend.range.upper, legend.range), left + width, baseline, Alignment::RIGHT);
+  const std::size_t last = width < 300 ? 2 : 4; // as many numbers as do not touch
+  for (std::size_t i = 0; i <= last; ++i)
+    draw_text(picture, short_number(number_at(legend, double(i) / double(last)), legend.range), left + i * width / last,
+              top + bar_height + 14,
+              i == 0      ? Alignment::LEFT
+              : i == last ? Alignment::RIGHT
+                          : Alignment::CENTER);
 }
 
 } // namespace

@@ -33,6 +33,36 @@ def gaussian_curvature_of_metric(metric, h):
             - det(0, E_v / 2, G_u / 2, E_v / 2, E, F, G_u / 2, F, G)) / (E * G - F * F) ** 2
 
 
+class Graph:
+    """A graph z = g(x, y) that is no quadric, elliptic or hyperbolic according to the sign of c."""
+
+    def __init__(self, c):
+        self.c = c
+        self.formula = f"z - (0.3*x^2 + {c}*y^2 + 0.2*x*y + 0.1*sin(2*x + y) + 0.15*x^2*y - 0.1*y^3 + 0.05*x^4)"
+
+    def point(self, x, y):
+        return x, y, (0.3 * x * x + self.c * y * y + 0.2 * x * y + 0.1 * math.sin(2 * x + y) + 0.15 * x * x * y
+                      - 0.1 * y**3 + 0.05 * x**4)
+
+    def first_form(self, x, y, metric):
+        """E, F and G of a metric, given as xx, xy, xz, yy, yz, zz, for the tangent vectors (1, 0, g_x), (0, 1, g_y)."""
+        p = 0.6 * x + 0.2 * y + 0.2 * math.cos(2 * x + y) + 0.3 * x * y + 0.2 * x**3
+        q = 2 * self.c * y + 0.2 * x + 0.1 * math.cos(2 * x + y) + 0.15 * x * x - 0.3 * y * y
+        xx, xy, xz, yy, yz, zz = metric
+        return xx + 2 * p * xz + p * p * zz, xy + q * xz + p * yz + p * q * zz, yy + 2 * q * yz + q * q * zz
+
+    def gauss_equation(self, lab, x0, y0):
+        """H, J and the Gaussian curvature of the affine metric at a point."""
+        h = 0.01
+        places = [(x0 + i * h, y0 + j * h) for i in range(-3, 4) for j in range(-3, 4)]
+        at = lab.evaluate([self.point(*place) for place in places], "--function", self.formula, "--attributes",
+                          "metric,affine_mean_curvature,pick_invariant")
+        metrics = zip(*(at["metric_" + component] for component in ("xx", "xy", "xz", "yy", "yz", "zz")))
+        forms = [self.first_form(*place, metric) for place, metric in zip(places, metrics)]
+        kappa = gaussian_curvature_of_metric([forms[7 * i : 7 * i + 7] for i in range(7)], h)
+        return at["affine_mean_curvature"][24], at["pick_invariant"][24], kappa
+
+
 @item("pick", "The Pick invariant",
       "“We plan to extend this work by completing the affine estimators with the Pick invariant.”")
 def pick(lab):
@@ -50,30 +80,11 @@ def pick(lab):
     lab.check("99 % of the vertices: relative change of J under a map of determinant 1", quantile(changes, 0.99),
               "<=", 1e-10)
 
-    formula = "z - (0.3*x^2 + {}*y^2 + 0.2*x*y + 0.1*sin(2*x + y) + 0.15*x^2*y - 0.1*y^3 + 0.05*x^4)"
-    g = lambda c, x, y: (0.3 * x * x + c * y * y + 0.2 * x * y + 0.1 * math.sin(2 * x + y) + 0.15 * x * x * y
-                         - 0.1 * y**3 + 0.05 * x**4)
-    slopes = lambda c, x, y: (0.6 * x + 0.2 * y + 0.2 * math.cos(2 * x + y) + 0.3 * x * y + 0.2 * x**3,
-                              2 * c * y + 0.2 * x + 0.1 * math.cos(2 * x + y) + 0.15 * x * x - 0.3 * y * y)
-    rows, h = [], 0.01
+    rows = []
     for kind, c in (("elliptic", 0.4), ("hyperbolic", -0.5)):
-        for x0, y0 in ((0.1, 0.2), (-0.2, 0.1), (0.3, -0.1)):
-            places = [(x0 + i * h, y0 + j * h) for i in range(-3, 4) for j in range(-3, 4)]
-            at = lab.evaluate([(x, y, g(c, x, y)) for x, y in places], "--function", formula.format(c), "--attributes",
-                              "metric,affine_mean_curvature,pick_invariant")
-            forms = []
-            for k, (x, y) in enumerate(places):
-                m = [at["metric_" + n][k] for n in ("xx", "xy", "xz", "yy", "yz", "zz")]
-                p, q = slopes(c, x, y)
-                form = lambda u, v: (m[0] * u[0] * v[0] + m[3] * u[1] * v[1] + m[5] * u[2] * v[2]
-                                     + m[1] * (u[0] * v[1] + u[1] * v[0]) + m[2] * (u[0] * v[2] + u[2] * v[0])
-                                     + m[4] * (u[1] * v[2] + u[2] * v[1]))
-                e, f = (1, 0, p), (0, 1, q)
-                forms.append((form(e, e), form(e, f), form(f, f)))
-            metric = [forms[7 * i : 7 * i + 7] for i in range(7)]
-            kappa = gaussian_curvature_of_metric(metric, h)
-            H, J = at["affine_mean_curvature"][24], at["pick_invariant"][24]
-            rows.append([f"{kind}, ({x0}, {y0})", H, J, H + J, kappa, abs(kappa - H - J) / (abs(H) + abs(J))])
+        for x, y in ((0.1, 0.2), (-0.2, 0.1), (0.3, -0.1)):
+            H, J, kappa = Graph(c).gauss_equation(lab, x, y)
+            rows.append([f"{kind}, ({x}, {y})", H, J, H + J, kappa, abs(kappa - H - J) / (abs(H) + abs(J))])
     lab.check("Gauss equation κ = H + J: greatest relative error, κ by differences of the metric",
               greatest(row[-1] for row in rows), "<=", 1e-6)
     lab.table(["point", "H", "J", "H + J", "κ, Gaussian curvature of the affine metric", "relative difference"], rows)

@@ -21,7 +21,7 @@ def minus(a, b):
 
 
 @item("fig2", "Co-normals and affine normals of an ellipsoid",
-      "The co-normal is co-linear with the Euclidean normal, while the affine normal points towards the centre.")
+      "The co-normal is co-linear with the Euclidean normal, while the affine normal points towards the center.")
 def fig2(lab):
     center = (0.3, -0.2, 0.1)
     words = ["--function", "(x-0.3)^2/2.25 + (y+0.2)^2 + (z-0.1)^2/0.25 = 1", "--box", -1.6, 2.2, -1.5, 1.1, -0.6, 0.8,
@@ -35,10 +35,10 @@ def fig2(lab):
 
     ours = worst(lab.mesh("ellipsoid", *words))
     paper = worst(lab.mesh("transformation", *words, "--estimator", "transformation"))
-    lab.check("greatest distance of the line of an affine normal from the centre", ours[0], "<=", 1e-12, paper[0])
+    lab.check("greatest distance of the line of an affine normal from the center", ours[0], "<=", 1e-12, paper[0])
     lab.check("greatest sine of the angle between co-normal and Euclidean normal", ours[1], "<=", 1e-12, paper[1])
     lab.picture("conormals", "Co-normals", "--color", "plain", "--arrows", "conormal", of="ellipsoid")
-    lab.picture("normals", "Affine normals: the arrows lie on lines through the centre", "--color", "plain",
+    lab.picture("normals", "Affine normals: the arrows lie on lines through the center", "--color", "plain",
                 "--arrows", "affine_normal", of="ellipsoid")
 
 

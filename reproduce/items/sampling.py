@@ -87,7 +87,7 @@ def fig8(lab):
         for name in ("K", "H"):
             lab.check(f"{when}: greatest relative deviation of {name}", worst["ours"][name], "<=", 1e-8,
                       worst["paper"][name])
-    lab.say("The matrix has determinant -0.9: it is not equi-affine, and the exact values behind the colours take "
+    lab.say("The matrix has determinant -0.9: it is not equi-affine, and the exact values behind the colors take "
             "that into account, K = 1/0.9 and H = -1/√0.9 after it. A polynomial of degree 2 is in the space of the "
             "spline that we use; figure 10 has functions that are not.")
 
