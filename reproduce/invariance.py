@@ -6,17 +6,17 @@ import re
 from .plot import histograms
 from .statistics import Distribution, distances
 
-PAIRS = [("affine_gaussian_curvature", "gaussian_curvature", "K", "Kₑ"),
-         ("affine_mean_curvature", "mean_curvature", "H", "Hₑ")]
-CURVATURES = ",".join(column for affine, euclidean, *_ in PAIRS for column in (affine, euclidean))
+COLUMNS = {"K": "affine_gaussian_curvature", "Kₑ": "gaussian_curvature",
+           "H": "affine_mean_curvature", "Hₑ": "mean_curvature"}
+PAIRS = (("K", "Kₑ"), ("H", "Hₑ"))
+CURVATURES = ",".join(COLUMNS.values())
 KINDS = ("Kolmogorov-Smirnov", "Wasserstein")
 
 
 def sampled(lab, name, surface, *words):
-    """The curvatures at the centers of the triangles, by the function that words say, with areas: a sum over them is
-    an integral over the surface up to the square of the triangles' size. Vertices would not do: in the layers of a grid
-    that is parallel to a symmetry of the surface they have equal numbers, which makes steps in the distributions."""
-    return lab.evaluate_many(name, surface.centers(), *words)
+    """The curvatures at a point in each triangle, by the function that words say, with the areas of the triangles: what
+    curvatures are between vertices, beside parabolic curves above all, cannot be interpolated."""
+    return lab.evaluate_many(name, surface.samples(), *words)
 
 
 def distribution(samples, column, is_used=None):
@@ -32,13 +32,12 @@ def used_share(samples, is_used=None):
     return sum(a for a, used in zip(samples["area"], is_used or samples.is_regular()) if used) / sum(samples["area"])
 
 
-def compared(before, after, are_used=(None, None)):
+def compared(before, after, are_used=(None, None), symbols=tuple(COLUMNS)):
     """By the symbols of the curvatures their distances before and after, and their distributions."""
     result = {}
-    for affine, euclidean, *symbols in PAIRS:
-        for column, symbol in zip((affine, euclidean), symbols):
-            pair = [distribution(*each) for each in zip((before, after), (column, column), are_used)]
-            result[symbol] = *distances(*pair), pair
+    for symbol in symbols:
+        pair = [distribution(samples, COLUMNS[symbol], is_used) for samples, is_used in zip((before, after), are_used)]
+        result[symbol] = *distances(*pair), pair
     return result
 
 
@@ -49,7 +48,7 @@ def tabulate(lab, title, found):
 
 def require_invariance(lab, title, found, bound, paper=None):
     """Affine distances are at most `bound` times the Euclidean ones; `paper` is what the paper's method has."""
-    for _, _, symbol, euclidean in PAIRS:
+    for symbol, euclidean in PAIRS:
         for i, kind in enumerate(KINDS):
             ratio = lambda distances: distances[symbol][i] / distances[euclidean][i]
             lab.check(f"{title}: {kind} distance of {symbol} before and after, over that of {euclidean}", ratio(found),

@@ -42,15 +42,19 @@ class Surface:
     def is_regular(self):
         return [status == 0 for status in self["status"]]
 
-    def centers(self):
-        """The centers of the triangles, with the column `area`."""
+    def samples(self):
+        """A point in each triangle, with the column `area`: by the additive sequence of Roberts, whose fractions fill the
+        unit square evenly. Vertices and centers heap up on the layers of a grid that is parallel to a symmetry."""
         x, y, z = (self[axis] for axis in "xyz")
         rows = array.array("d")
-        for a, b, c in self.triangles:
+        for i, (a, b, c) in enumerate(self.triangles):
             ux, uy, uz = x[b] - x[a], y[b] - y[a], z[b] - z[a]
             vx, vy, vz = x[c] - x[a], y[c] - y[a], z[c] - z[a]
             area = math.hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / 2
-            rows.extend((x[a] + (ux + vx) / 3, y[a] + (uy + vy) / 3, z[a] + (uz + vz) / 3, area))
+            s, t = (0.5 + 0.7548776662466927 * i) % 1, (0.5 + 0.5698402909980532 * i) % 1
+            if s + t > 1:
+                s, t = 1 - s, 1 - t
+            rows.extend((x[a] + s * ux + t * vx, y[a] + s * uy + t * vy, z[a] + s * uz + t * vz, area))
         return Surface({name: rows[i::4] for i, name in enumerate(("x", "y", "z", "area"))})
 
 

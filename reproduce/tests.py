@@ -4,6 +4,7 @@
 import json
 import math
 import pathlib
+import struct
 import tempfile
 import unittest
 
@@ -49,14 +50,24 @@ class Maps(unittest.TestCase):
 
 
 class Surfaces(unittest.TestCase):
-    def test_centers_and_areas_survive_a_file(self):
+    def test_points_and_areas_survive_a_file(self):
         columns = {"x": [0.0, 3.0, 0.0], "y": [0.0, 0.0, 4.0], "z": [1.0, 1.0, 1.0]}
         with tempfile.TemporaryDirectory() as folder:
             write_ply(pathlib.Path(folder) / "a.ply", columns, [(0, 1, 2)])
             surface = read_ply(pathlib.Path(folder) / "a.ply")
         self.assertEqual(surface.columns, columns)
-        centers = surface.centers()
-        self.assertEqual([list(centers[name]) for name in ("x", "y", "z", "area")], [[1.0], [4 / 3], [1.0], [6.0]])
+        samples = surface.samples()
+        self.assertEqual([list(samples[name]) for name in ("x", "y", "z", "area")], [[1.5], [2.0], [1.0], [6.0]])
+
+    def test_samples_fill_triangles_evenly(self):
+        columns = {"x": [0.0, 1.0, 0.0], "y": [0.0, 0.0, 1.0], "z": [0.0, 0.0, 0.0]}
+        faces = struct.pack("<Biii", 3, 0, 1, 2) * 1000
+        samples = Surface(columns, faces).samples()
+        mean = lambda values: sum(values) / len(values)
+        self.assertAlmostEqual(mean(samples["x"]), 1 / 3, places=2)
+        self.assertAlmostEqual(mean(samples["y"]), 1 / 3, places=2)
+        self.assertAlmostEqual(mean([x * y for x, y in zip(samples["x"], samples["y"])]), 1 / 12, places=2)
+        self.assertTrue(all(0 <= x and 0 <= y and x + y <= 1 for x, y in zip(samples["x"], samples["y"])))
 
 
 class Report(unittest.TestCase):

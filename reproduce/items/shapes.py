@@ -137,7 +137,7 @@ def fig1(lab):
         points, triangles = mesh.points, mesh.triangles
     else:
         raise RuntimeError("the mesh of the bunny is not given: --bunny FILE, or scripts/reproduce, which fetches it")
-    nodes, smoothing, radius = lab.choose((129, 24, 0.015), (32, 3, 0.04))
+    nodes, smoothing, radius = lab.choose((129, 24, 0.015), (40, 6, 0.08))
     sample_distance(lab, "bunny", points, triangles, nodes)
     surface, before, is_used = compare_field_with_image(lab, "bunny", smoothing, radius)
     draw(lab, "bunny", surface, {"before": "the bunny", "after": "its image"}, "y")
@@ -160,7 +160,7 @@ def fig1(lab):
       "affine ones do.")
 def fig12(lab):
     n, m, voxels, smoothing, radius = lab.choose(((150, 300, 90), (460, 170, 160), 256, 8, 0.015),
-                                                 ((30, 60, 18), (92, 34, 32), 40, 3, 0.04))
+                                                 ((30, 60, 18), (92, 34, 32), 40, 6, 0.08))
     formula = ["--attributes", invariance.CURVATURES, "--function"]
     image_of_formula = transformed(BANANA, SHEAR)
     before = lab.mesh("formula-before", *formula, BANANA, "--box", *BANANA_BOX, "--resolution", *n)
