@@ -4,6 +4,7 @@
 //   equiaffine-estimates splines < NUMBERS  the library's B-splines of degree 5 and 7, as CSV
 //   equiaffine-estimates SURFACE < CSV      K, H and xi at points by every method and by the formula as printed, as CSV
 #include "operation_counts.h"
+#include <equiaffine/Input_error.h>
 #include <equiaffine/analytic_functions.h>
 #include <equiaffine/internal/bspline.h>
 #include <equiaffine/reference_estimators.h>
@@ -74,7 +75,8 @@ void print_estimates(const F& f) {
   std::getline(std::cin, line);
   while (std::getline(std::cin, line)) {
     std::array<double, 3> p{};
-    if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &p[0], &p[1], &p[2]) != 3) continue;
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &p[0], &p[1], &p[2]) != 3)
+      throw Input_error("not a point x,y,z: '" + line + "'");
     const Jet_3<double> jet = expand<double>(f, p);
     std::printf("%.17g,%.17g,%.17g", p[0], p[1], p[2]);
     print(affine_estimate(expand<long double>(f, p), Estimator::COMPACT));
@@ -109,7 +111,7 @@ void print_operations() {
 
 } // namespace
 
-int main(int argc, char* argv[]) {
+int main(int argc, char* argv[]) try {
   const std::string what = argc == 2 ? argv[1] : "";
   if (what == "operations") print_operations();
   else if (what == "splines") print_splines();
@@ -121,4 +123,7 @@ int main(int argc, char* argv[]) {
     std::fprintf(stderr, "usage: equiaffine-estimates operations|splines|ellipsoid|sine|sphere|torus\n");
     return 2;
   }
+} catch (const equiaffine::Input_error& error) {
+  std::fprintf(stderr, "equiaffine-estimates: %s\n", error.what());
+  return 2;
 }

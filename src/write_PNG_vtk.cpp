@@ -51,8 +51,9 @@ void draw_text(Picture& picture, const std::string& text, std::size_t x, std::si
 std::string short_number(double value, const Color_range& range) {
   const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
   const int digits = std::clamp(int(std::ceil(std::log10(largest / (range.upper - range.lower)))) + 3, 3, 15);
+  const bool is_round = digits < 5 && std::abs(value) >= 1e3 && std::abs(value) < 1e5; // no longer than with exponents
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  std::snprintf(text.data(), text.size(), is_round ? "%.*f" : "%.*g", is_round ? 0 : digits, value);
   return text.data();
 }
 
@@ -80,10 +81,14 @@ void draw_legend(Picture& picture, const Color_legend& legend) {
     }
   }
   draw_text(picture, legend.label, left, top - 7, Alignment::LEFT);
-  const std::size_t last = width < 300 ? 2 : 4; // as many numbers as do not touch
+  const auto number = [&](std::size_t i, std::size_t last) {
+    return short_number(number_at(legend, double(i) / double(last)), legend.range);
+  };
+  std::size_t last = 4, longest = 0;
+  for (std::size_t i = 0; i <= last; ++i) longest = std::max(longest, number(i, last).size());
+  if (8 * longest * (last + 1) > width) last = 2; // lest they touch
   for (std::size_t i = 0; i <= last; ++i)
-    draw_text(picture, short_number(number_at(legend, double(i) / double(last)), legend.range), left + i * width / last,
-              top + bar_height + 14,
+    draw_text(picture, number(i, last), left + i * width / last, top + bar_height + 14,
               i == 0      ? Alignment::LEFT
               : i == last ? Alignment::RIGHT
                           : Alignment::CENTER);
