@@ -121,7 +121,7 @@ def summary(items_and_labs):
             html.escape(item.paper), html.escape(check.what), readable(check.paper_method), readable(check.ours),
             f'<span class="number">{readable(check.target)}</span>', verdict(check.passed, check.reason),
         ])
-    return table(["", "the paper shows or claims", "measured here", "its method", "ours", "target", ""], rows,
+    return table(["", "the paper shows or claims", "measured here", "its method gives", "ours", "target", ""], rows,
                  'id="summary"')
 
 

@@ -101,9 +101,9 @@ def some_of(surface):
 def median_errors(surface, exact):
     """Of K and H, relative to |K| + H² and its root, at regular vertices away from parabolic curves."""
     K_errors, H_errors = [], []
-    columns = [each[column] for column in ("affine_gaussian_curvature", "affine_mean_curvature")
-               for each in (surface, exact)]
-    for K, K0, H, H0, gaussian, status in zip(*columns, exact["gaussian_curvature"], exact["status"]):
+    columns = [surface[name] for name in ("affine_gaussian_curvature", "affine_mean_curvature", "gaussian_curvature",
+                                          "status")]
+    for K, H, gaussian, status, (K0, H0) in zip(*columns, exact):
         if status == 0 and abs(gaussian) > 0.2:
             scale = abs(K0) + H0 * H0
             K_errors.append(abs(K - K0) / scale)
@@ -134,7 +134,11 @@ def fig10(lab):
             for n in sizes:
                 words = ["--function", expression, "--box", *where]
                 surface = some_of(lab.mesh("surface", *words, "--resolution", n, *variant, *CURVATURES))
-                exact = lab.evaluate_many("exact", surface, *words, *CURVATURES)
+                if "sphere" in name:  # also where vertices are beside it
+                    exact = [constants_of_sphere(1, MATRIX if "map" in name else None)] * len(surface)
+                else:
+                    at = lab.evaluate_many("exact", surface, *words, *CURVATURES)
+                    exact = zip(at["affine_gaussian_curvature"], at["affine_mean_curvature"])
                 errors[name, who, n] = dict(zip("KH", median_errors(surface, exact)))
 
     def order(name, who, symbol):
