@@ -3,6 +3,7 @@
 
 import base64
 import html
+import itertools
 import json
 import math
 import re
@@ -39,7 +40,9 @@ section header { display: flex; justify-content: space-between; align-items: bas
 blockquote { margin: 12px 0; padding: 8px 16px; border-left: 4px solid var(--line); background: var(--soft);
   max-width: 90ch; }
 blockquote b { color: var(--quiet); font-weight: 600; }
-.figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(420px, 1fr)); gap: 18px; margin: 16px 0; }
+.figures { display: grid; gap: 18px; margin: 16px 0; }
+.two { grid-template-columns: repeat(auto-fill, minmax(420px, 1fr)); }
+.three { grid-template-columns: repeat(auto-fill, minmax(320px, 1fr)); }
 figure { margin: 0; max-width: 560px; break-inside: avoid; }
 figure img, figure svg { width: 100%; height: auto; display: block; border: 1px solid var(--line); border-radius: 8px; }
 figcaption { font-size: 14px; color: var(--quiet); margin-top: 6px; }
@@ -142,25 +145,17 @@ def figure(folder, kind, name, caption):
 
 
 def entries(lab):
-    """Pictures and plots that follow one another share a grid."""
-    parts, open_kind = [], None
-    for kind, content in lab.entries:
-        is_figure = kind in ("picture", "plot")
-        if open_kind and open_kind != kind:
-            parts.append("</div>")
-            open_kind = None
-        if is_figure and not open_kind:
-            parts.append(f'<div class="figures {kind}s">')
-            open_kind = kind
-        if is_figure:
-            parts.append(figure(lab.folder, kind, *content))
+    """Pictures and plots that follow one another share a grid, of three columns where that leaves no gap."""
+    parts = []
+    for kind, group in itertools.groupby(lab.entries, key=lambda entry: entry[0]):
+        contents = [content for _, content in group]
+        if kind in ("picture", "plot"):
+            figures = "".join(figure(lab.folder, kind, *content) for content in contents)
+            parts.append(f'<div class="figures {"three" if len(contents) % 3 == 0 else "two"}">{figures}</div>')
         elif kind == "text":
-            parts.append(f"<p>{readable(content)}</p>")
+            parts += [f"<p>{readable(text)}</p>" for text in contents]
         else:
-            header, rows = content
-            parts.append(table(header, [map(readable, row) for row in rows]))
-    if open_kind:
-        parts.append("</div>")
+            parts += [table(header, [map(readable, row) for row in rows]) for header, rows in contents]
     return "\n".join(parts)
 
 
