@@ -43,8 +43,8 @@ class Surface:
         return [status == 0 for status in self["status"]]
 
     def samples(self):
-        """A point in each triangle, with the column `area`: by the additive sequence of Roberts, whose fractions fill the
-        unit square evenly. Vertices and centers heap up on the layers of a grid that is parallel to a symmetry."""
+        """A point in each triangle, with the column `area`: by the additive sequence of Roberts, whose fractions fill
+        the unit square evenly. Vertices and centers heap up on the layers of a grid that is parallel to a symmetry."""
         x, y, z = (self[axis] for axis in "xyz")
         rows = array.array("d")
         for i, (a, b, c) in enumerate(self.triangles):

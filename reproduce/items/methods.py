@@ -43,10 +43,10 @@ def fig5(lab):
               max(errors["transformation"]), max(errors["transformation"]))
     lab.table(["way", "greatest error", "99 % of the vertices", "median"],
               [[LABELS[way], max(e), quantile(e, 0.99), median(e)] for way, e in errors.items()])
-    lab.say("An ellipsoid of axes 3, 1, 0.3, with exact derivatives of order 4, against numbers of 64 bits; an error of "
-            "1 stands for no normal. In double precision and with its misprint corrected the direct method is accurate "
-            "where the axis is chosen. With ξ₁ as printed it is wrong nearly everywhere, and its error jumps where the "
-            "axis changes, which would explain the middle of the figure.")
+    lab.say("An ellipsoid of axes 3, 1, 0.3, with exact derivatives of order 4, against numbers of 64 bits; an error "
+            "of 1 stands for no normal. In double precision and with its misprint corrected the direct method is "
+            "accurate where the axis is chosen. With ξ₁ as printed it is wrong nearly everywhere, and its error jumps "
+            "where the axis changes, which would explain the middle of the figure.")
 
 
 @item("table1", "Operation counts",
@@ -100,9 +100,9 @@ def fig9(lab):
         lab.pictured(way, f"H, {LABELS[way]}: {counts[way]:,} false jumps. Black: the parabolic curves")
     lab.check("edges with a false jump of H", counts["compact"], "==", 0, counts["printed"])
     lab.table(["way", "edges with a false jump", "of"], [[LABELS[way], n, len(edges)] for way, n in counts.items()])
-    lab.say("The paper's method is here the direct one with ξ₁ as printed, whose error changes where the axis does. With "
-            "the misprint corrected and the same exact derivatives direct, transformation and compact method are the "
-            "same function: they differ by rounding alone, and none of them has a false discontinuity in double "
+    lab.say("The paper's method is here the direct one with ξ₁ as printed, whose error changes where the axis does. "
+            "With the misprint corrected and the same exact derivatives direct, transformation and compact method are "
+            "the same function: they differ by rounding alone, and none of them has a false discontinuity in double "
             "precision.")
 
 

@@ -49,10 +49,10 @@ def fig7(lab):
                              Series("B-spline of degree 7, ours", list(zip(ts, ours["degree_7"])), dashed=True)],
                             "t, in spacings of the grid", "weight of a sample"),
              "The spline of figure 7 and the one used here")
-    lab.say("With |t| for its t, as it has to be read, σ₁ is twice the B-spline of degree 5: its values at the integers "
-            "sum to 2, which the constant c makes up for. Convolution with it adds a quarter of the second derivatives "
-            "times the square of the spacing: order 2. Here the samples pass a local filter first, which makes the "
-            "order that of the degree.")
+    lab.say("With |t| for its t, as it has to be read, σ₁ is twice the B-spline of degree 5: its values at the "
+            "integers sum to 2, which the constant c makes up for. Convolution with it adds a quarter of the second "
+            "derivatives times the square of the spacing: order 2. Here the samples pass a local filter first, which "
+            "makes the order that of the degree.")
 
 
 def constants_of_sphere(radius, matrix=None):

@@ -109,9 +109,9 @@ def compare_field_with_image(lab, name, smoothing, radius):
     invariance.plot_distributions(lab, title, found)
     invariance.tabulate(lab, title, found)
     shares = [invariance.used_share(*each) for each in zip((before, after), masks)]
-    lab.say(f"Samples smoothed over {smoothing} voxels. {100 * shares[0]:.0f} % of the area, {100 * shares[1]:.0f} % of "
-            "that of the image, have error estimates below half of K and of H, and are compared. The image is that of "
-            "the field, meshed afresh: what is measured is the estimator, whatever noise the field has. The paper's "
+    lab.say(f"Samples smoothed over {smoothing} voxels. {100 * shares[0]:.0f} % of the area, {100 * shares[1]:.0f} % "
+            "of that of the image, have error estimates below half of K and of H, and are compared. The image is that "
+            "of the field, meshed afresh: what is measured is the estimator, whatever noise the field has. The paper's "
             "method is measured at the same points, without smoothing, which it does not have.")
     return surface, before, is_used
 
@@ -146,7 +146,7 @@ def fig1(lab):
         lab.mesh("paper-" + when, "--volume", "bunny.nrrd", *PAPER, "--vertices", "linear", *words, "--up", "y",
                  "--png", f"paper-{when}.png", "--color", "affine_gaussian_curvature", "--range", -bound, bound,
                  *lab.size)
-        lab.pictured("paper-" + when, f"K by the paper's method, {when} the map: the facets of the mesh are all it sees")
+        lab.pictured("paper-" + when, f"K by the paper's method, {when} the map: it sees the facets of the mesh")
     lab.say("A scale of 24 voxels cuts off the ears, which are thinner: at smaller ones the facets of the mesh leave "
             "few vertices whose affine curvatures can be trusted, 3 % at 16 voxels and below.")
 
