@@ -145,13 +145,13 @@ def figure(folder, kind, name, caption):
 
 
 def entries(lab):
-    """Pictures and plots that follow one another share a grid, of three columns where that leaves no gap."""
+    """Pictures and plots that follow one another share a grid; many of them come in pairs."""
     parts = []
     for kind, group in itertools.groupby(lab.entries, key=lambda entry: entry[0]):
         contents = [content for _, content in group]
         if kind in ("picture", "plot"):
             figures = "".join(figure(lab.folder, kind, *content) for content in contents)
-            parts.append(f'<div class="figures {"three" if len(contents) % 3 == 0 else "two"}">{figures}</div>')
+            parts.append(f'<div class="figures {"three" if len(contents) in (3, 5) else "two"}">{figures}</div>')
         elif kind == "text":
             parts += [f"<p>{readable(text)}</p>" for text in contents]
         else:

@@ -5,7 +5,7 @@ import math
 
 from ..lab import item
 from ..maps import determinant, image_of_box, transformed
-from ..plot import Series, plot
+from ..plot import COLORS, Series, plot
 from ..program import Surface
 from ..statistics import greatest, median, slope
 
@@ -156,8 +156,8 @@ def fig10(lab):
         lab.table([f"median relative error of {symbol}", "", *(f"N = {n}" for n in sizes), "order"], rows)
     for name in surfaces:
         lab.plot(name.replace(" ", "-"), plot(
-            [Series(f"{symbol}, {who}", [(n, errors[name, who, n][symbol]) for n in sizes], kind="marked",
-                    dashed=who == "paper, direct") for symbol in "KH" for each, who in pairs if each == name],
+            [Series(f"{symbol}, {who}", [(n, errors[name, who, n][symbol]) for n in sizes],
+                    COLORS[list(methods).index(who)], dashed=symbol == "H", kind="marked") for symbol in "KH" for each, who in pairs if each == name],
             "nodes per axis", "median relative error", log_x=True, log_y=True), name)
     finest, best = sizes[-1], "paper, transformation"
     for name, (bound_of_K, bound_of_H) in (("sphere", (4e-4, 7e-6)), ("sphere after the map", (4e-4, 7e-6))):
