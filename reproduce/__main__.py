@@ -33,7 +33,7 @@ def run(item, arguments):
     bunny = arguments.bunny and arguments.bunny.resolve()
     program = Program(arguments.program.resolve(), folder)
     lab = Lab(program, str(arguments.estimates.resolve()), folder, arguments.small, bunny)
-    start = time.monotonic()
+    start, processor_start = time.monotonic(), sum(os.times()[:4])
     try:
         item.work(lab)
     except RuntimeError as error:  # a command failed, or there is nothing to compare
@@ -41,8 +41,9 @@ def run(item, arguments):
     except Exception as error:  # a defect of the item: the other ones go on
         traceback.print_exc()
         lab.fail(f"{type(error).__name__}: {error}")
-    seconds = time.monotonic() - start
-    print(f"{item.name:10s} {'holds' if lab.passed else 'does not hold'}  {seconds:6.1f} s", flush=True)
+    seconds, processor_seconds = time.monotonic() - start, sum(os.times()[:4]) - processor_start
+    print(f"{item.name:10s} {'holds' if lab.passed else 'does not hold'}  {seconds:6.1f} s, of processors "
+          f"{processor_seconds:.1f} s", flush=True)
     for check in lab.checks:
         if not check.passed:
             print(f"           {check.what}: {check.reason}")
