@@ -3,6 +3,7 @@
 
 import re
 
+from .lab import number
 from .plot import histograms
 from .statistics import Distribution, distances
 
@@ -55,10 +56,14 @@ def require_invariance(lab, title, found, bound, paper=None):
                       "<=", bound, paper and ratio(paper))
 
 
+def histogram_of_bounded(pair, symbol):
+    """Before and after, of x / (m + |x|), which shows all of distributions without bounds."""
+    unit = pair[0].median_size()
+    return histograms(zip(("before", "after"), (each.bounded(unit) for each in pair)),
+                      f"{symbol} / (m + |{symbol}|), m = {number(unit)}, the median of |{symbol}| before", -1, 1)
+
+
 def plot_distributions(lab, title, found):
     for symbol, (_, _, pair) in found.items():
-        low, high = pair[0].quantile(0.04), pair[0].quantile(0.96)
-        margin = 0.1 * (high - low)
         lab.plot("-".join(re.findall("[a-zA-Z]+", f"{title} {symbol.replace('ₑ', 'e')}")),
-                 histograms(list(zip(("before", "after"), pair)), symbol, low - margin, high + margin),
-                 f"{title}: distribution of {symbol}")
+                 histogram_of_bounded(pair, symbol), f"{title}: distribution of {symbol}")

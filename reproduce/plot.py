@@ -131,4 +131,4 @@ def histograms(labelled, x_label, low, high, bins=60):
         shares = distribution.histogram(low, high, bins)
         points = [(low + width * k, share / width) for k, share in enumerate(shares)] + [(high, 0.0)]
         all_series.append(Series(label, points, COLORS[i % len(COLORS)], dashed=i % 2 == 1, kind="steps"))
-    return plot(all_series, x_label, "share of the affine area per unit")
+    return plot(all_series, x_label, "density of the affine area")

@@ -48,11 +48,18 @@ class Distribution:
                 return value
         return self.values[-1]
 
+    def median_size(self):
+        return Distribution([abs(v) for v in self.values], self.weights).quantile(0.5) or 1.0
+
+    def bounded(self, unit):
+        """Of x / (unit + |x|), between -1 and 1."""
+        return Distribution([x / (unit + abs(x)) for x in self.values], self.weights)
+
     def histogram(self, low, high, bins):
         """The share of each bin; what lies outside is in none."""
         shares = [0.0] * bins
         for value, weight in zip(self.values, self.weights):
-            if low <= value < high:
+            if low <= value <= high:
                 shares[min(bins - 1, int((value - low) / (high - low) * bins))] += weight
         return shares
 
@@ -61,7 +68,7 @@ def distances(first, second):
     """Of two distributions, by Kolmogorov and Smirnov, the greatest difference of the distribution functions, 0 to 1;
     and by Wasserstein, how far the numbers of one have to move on average to become the other, as x / (m + |x|), m the
     median of |x|: curvatures grow without bound at parabolic curves, where their mean does not exist."""
-    unit = Distribution([abs(v) for v in first.values], first.weights).quantile(0.5) or 1.0
+    unit = first.median_size()
     bounded = lambda x: x / (unit + abs(x))
     events = sorted([*zip(first.values, first.weights), *((v, -w) for v, w in zip(second.values, second.weights))])
     difference = most = moved = 0.0

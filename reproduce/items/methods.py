@@ -6,7 +6,6 @@ import math
 from .. import invariance
 from ..lab import item, number
 from ..maps import image_of_box, transformed
-from ..plot import histograms
 from ..program import write_ply
 from ..statistics import median, quantile
 from ..surfaces import TORUS, TORUS_BOX
@@ -133,14 +132,10 @@ def fig11(lab):
                   lab.choose(0.01, 0.1), paper["K"][i] / ours["Kₑ"][i])
     lab.table(["", invariance.KINDS[0], f"{invariance.KINDS[1]}, of x / (m + |x|), m the median of |x|"],
               [*([f"K, {way}", *each["K"][:2]] for way, each in found.items()), ["Euclidean Kₑ", *ours["Kₑ"][:2]]])
-    low, high = (ours["K"][2][0].quantile(share) for share in (0.08, 0.9))
-    for name, caption, pair in (("ours", "Distribution of K, ours", ours["K"][2]),
-                                ("paper", "Distribution of K, the paper's grid derivatives, transformation method",
-                                 paper["K"][2])):
-        lab.plot(name, histograms(list(zip(sources, pair)), "K", low, high), caption)
-    pair = ours["Kₑ"][2]
-    lab.plot("euclidean", histograms(list(zip(sources, pair)), "Kₑ", pair[0].quantile(0.02), pair[0].quantile(0.98)),
-             "Distribution of the Euclidean Kₑ")
+    for name, caption, symbol, pair in (
+        ("ours", "K, ours", "K", ours["K"][2]), ("euclidean", "the Euclidean Kₑ", "Kₑ", ours["Kₑ"][2]),
+        ("paper", "K, the paper's grid derivatives, transformation method", "K", paper["K"][2])):
+        lab.plot(name, invariance.histogram_of_bounded(pair, symbol), f"Distribution of {caption}")
     bound = quantile([abs(K) for K in meshes["before"]["affine_gaussian_curvature"]], 0.7)
     for when, caption in (("before", "K on the torus"), ("after", "K on its image")):
         lab.mesh("pictured", *sources[when], *attributes, "--parabolic-curves", "curves.obj", "--png", when + ".png",
