@@ -155,10 +155,11 @@ def fig10(lab):
                  f"{order(name, who, symbol):.2f}".replace("nan", "rounding alone")] for name, who in pairs]
         lab.table([f"median relative error of {symbol}", "", *(f"N = {n}" for n in sizes), "order"], rows)
     for name in surfaces:
-        lab.plot(name.replace(" ", "-"), plot(
-            [Series(f"{symbol}, {who}", [(n, errors[name, who, n][symbol]) for n in sizes],
-                    COLORS[list(methods).index(who)], dashed=symbol == "H", kind="marked") for symbol in "KH" for each, who in pairs if each == name],
-            "nodes per axis", "median relative error", log_x=True, log_y=True), name)
+        series = [Series(f"{symbol}, {who}", [(n, errors[name, who, n][symbol]) for n in sizes],
+                         COLORS[list(methods).index(who)], dashed=symbol == "H", kind="marked")
+                  for symbol in "KH" for each, who in pairs if each == name]
+        lab.plot(name.replace(" ", "-"), plot(series, "nodes per axis", "median relative error", log_x=True, log_y=True),
+                 name)
     finest, best = sizes[-1], "paper, transformation"
     for name, (bound_of_K, bound_of_H) in (("sphere", (4e-4, 7e-6)), ("sphere after the map", (4e-4, 7e-6))):
         for symbol, bound in (("K", bound_of_K), ("H", bound_of_H)):
