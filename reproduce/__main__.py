@@ -2,10 +2,12 @@
 """Runs items and composes the report: python3 -m reproduce --help."""
 
 import argparse
+import os
 import pathlib
 import platform
 import sys
 import time
+import traceback
 
 from .items import ITEMS
 from .lab import Lab
@@ -31,14 +33,17 @@ def run(item, arguments):
     bunny = arguments.bunny and arguments.bunny.resolve()
     program = Program(arguments.program.resolve(), folder)
     lab = Lab(program, str(arguments.estimates.resolve()), folder, arguments.small, bunny)
-    start = time.monotonic()
+    start, processor_start = time.monotonic(), sum(os.times()[:4])
     try:
         item.work(lab)
-    except RuntimeError as error:  # a command that failed; the other items go on
-        lab.fail("the run", str(error))
-        lab.is_complete = False
-    seconds = time.monotonic() - start
-    print(f"{item.name:10s} {'holds' if lab.passed else 'does not hold'}  {seconds:6.1f} s", flush=True)
+    except RuntimeError as error:  # a command failed, or there is nothing to compare
+        lab.fail(str(error))
+    except Exception as error:  # a defect of the item: the other ones go on
+        traceback.print_exc()
+        lab.fail(f"{type(error).__name__}: {error}")
+    seconds, processor_seconds = time.monotonic() - start, sum(os.times()[:4]) - processor_start
+    print(f"{item.name:10s} {'holds' if lab.passed else 'does not hold'}  {seconds:6.1f} s, of processors "
+          f"{processor_seconds:.1f} s", flush=True)
     for check in lab.checks:
         if not check.passed:
             print(f"           {check.what}: {check.reason}")
@@ -50,7 +55,8 @@ def main():
     names = arguments.item or list(ITEMS)
     start = time.monotonic()
     done = [(ITEMS[name], run(ITEMS[name], arguments)) for name in names]
-    facts = f"{time.strftime('%Y-%m-%d')}, {platform.machine()}, {time.monotonic() - start:.0f} seconds."
+    facts = (f"{time.strftime('%Y-%m-%d')}, {platform.machine()}, {os.cpu_count()} processors, "
+             f"{time.monotonic() - start:.0f} seconds.")
     (arguments.folder / "results.json").write_text(to_json(done), encoding="utf-8")
     (arguments.folder / "report.html").write_text(to_html(done, facts), encoding="utf-8")
     print(f"wrote {arguments.folder / 'report.html'}\nwrote {arguments.folder / 'results.json'}")

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What `equiaffine` does not offer, since nobody needs it but this report: the paper's methods in single steps.
 //   equiaffine-estimates operations         floating-point operations of each step, as JSON
+//   equiaffine-estimates splines < NUMBERS  the library's B-splines of degree 5 and 7, as CSV
 //   equiaffine-estimates SURFACE < CSV      K, H and xi at points by every method and by the formula as printed, as CSV
 #include "operation_counts.h"
+#include <equiaffine/Input_error.h>
 #include <equiaffine/analytic_functions.h>
+#include <equiaffine/internal/bspline.h>
 #include <equiaffine/reference_estimators.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <string>
@@ -71,7 +75,8 @@ void print_estimates(const F& f) {
   std::getline(std::cin, line);
   while (std::getline(std::cin, line)) {
     std::array<double, 3> p{};
-    if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &p[0], &p[1], &p[2]) != 3) continue;
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &p[0], &p[1], &p[2]) != 3)
+      throw Input_error("not a point x,y,z: '" + line + "'");
     const Jet_3<double> jet = expand<double>(f, p);
     std::printf("%.17g,%.17g,%.17g", p[0], p[1], p[2]);
     print(affine_estimate(expand<long double>(f, p), Estimator::COMPACT));
@@ -82,6 +87,22 @@ void print_estimates(const F& f) {
   }
 }
 
+/// The centered B-spline at t, from the polynomials on cells that the splines of the library are made of.
+template <int Degree>
+double bspline(double t) {
+  static constexpr auto basis = internal::bspline_basis_polynomials<double, Degree, Degree + 1>();
+  const int cell = int(std::floor(t)), r = internal::spline_padding(Degree) - cell;
+  if (r < 0 || r > Degree) return 0;
+  double value = 0;
+  for (int p = Degree; p >= 0; --p) value = value * (t - cell - 0.5) + basis[std::size_t(p)][std::size_t(r)];
+  return value;
+}
+
+void print_splines() {
+  std::printf("t,degree_5,degree_7\n");
+  for (double t = 0; std::cin >> t;) std::printf("%.17g,%.17g,%.17g\n", t, bspline<5>(t), bspline<7>(t));
+}
+
 void print_operations() {
   const Operation_counts n = operation_counts();
   std::printf("{\"matrices\": %ld, \"mapping\": %ld, \"transformation\": %ld, \"direct\": %ld, \"compact\": %ld}\n",
@@ -90,15 +111,19 @@ void print_operations() {
 
 } // namespace
 
-int main(int argc, char* argv[]) {
+int main(int argc, char* argv[]) try {
   const std::string what = argc == 2 ? argv[1] : "";
   if (what == "operations") print_operations();
+  else if (what == "splines") print_splines();
   else if (what == "ellipsoid") print_estimates(analytic_functions::Ellipsoid{.a = 3, .b = 1, .c = 0.3});
   else if (what == "sine") print_estimates(analytic_functions::Sine_surface());
   else if (what == "sphere") print_estimates(analytic_functions::Sphere());
   else if (what == "torus") print_estimates(analytic_functions::Torus());
   else {
-    std::fprintf(stderr, "usage: equiaffine-estimates operations|ellipsoid|sine|sphere|torus\n");
+    std::fprintf(stderr, "usage: equiaffine-estimates operations|splines|ellipsoid|sine|sphere|torus\n");
     return 2;
   }
+} catch (const equiaffine::Input_error& error) {
+  std::fprintf(stderr, "equiaffine-estimates: %s\n", error.what());
+  return 2;
 }

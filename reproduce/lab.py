@@ -2,7 +2,7 @@
 """What an item works with, and what it leaves for the report."""
 
 import json
-import math
+import operator
 import subprocess
 from dataclasses import dataclass, field
 
@@ -62,8 +62,9 @@ class Lab:
         return small if self.is_small else usual
 
     @property
-    def picture_size(self):
-        return self.choose((640, 520), (160, 120))
+    def size(self):
+        """The option for the size of pictures."""
+        return ["--size", *self.choose((640, 520), (160, 120))]
 
     # Work
 
@@ -73,26 +74,31 @@ class Lab:
     def evaluate(self, points, *words):
         return self.program.evaluate(points, *words)
 
-    def estimates(self, *words, points=()):
+    def evaluate_many(self, name, points, *words):
+        return self.program.evaluate_many(name, points, *words)
+
+    def estimates(self, what, points=(), numbers=()):
         """The paper's methods in single steps, see estimates.cpp."""
-        words = [str(word) for word in words]
-        self.program.commands.append("equiaffine-estimates " + " ".join(words))
-        result = subprocess.run([self.estimates_path, *words], input=points_csv(points), capture_output=True, text=True)
+        self.program.commands.append("equiaffine-estimates " + what)
+        text = "".join(f"{t!r}\n" for t in numbers) if numbers else points_csv(points)
+        result = subprocess.run([self.estimates_path, what], input=text, capture_output=True, text=True)
         if result.returncode != 0:
             raise RuntimeError(f"equiaffine-estimates: {result.stderr.strip()}")
-        return json.loads(result.stdout) if words[0] == "operations" else read_csv(result.stdout)
+        return json.loads(result.stdout) if what == "operations" else read_csv(result.stdout)
 
     # Results
 
-    def check(self, what, ours, comparison, bound, paper_method=None, reason=""):
-        """A number that has to be `<=` or `>=` a bound."""
-        passed = ours <= bound if comparison == "<=" else ours >= bound
-        sign = {"<=": "≤", ">=": "≥"}[comparison]
+    def check(self, what, ours, comparison, bound, paper_method=None):
+        """A number that has to be `<=`, `>=` or `==` a bound; a NaN is none of them."""
+        compare, sign = {"<=": (operator.le, "≤"), ">=": (operator.ge, "≥"), "==": (operator.eq, "=")}[comparison]
+        passed = compare(ours, bound)
         self.checks.append(Check(what, ours, f"{sign} {number(bound)}", passed, paper_method,
-                                 "" if passed else reason or f"{number(ours)} is not {sign} {number(bound)}"))
+                                 "" if passed else f"{number(ours)} is not {sign} {number(bound)}"))
 
-    def fail(self, what, reason):
-        self.checks.append(Check(what, None, "", False, None, reason))
+    def fail(self, reason):
+        """The run broke off."""
+        self.checks.append(Check("the run", None, "ends", False, None, reason))
+        self.is_complete = False
 
     def say(self, text):
         self.entries.append(("text", text))
@@ -106,7 +112,7 @@ class Lab:
 
     def picture(self, name, caption, *words, of=None):
         """A picture of the mesh `of`.ply, else of `name`.ply; words are options of `equiaffine view`."""
-        self.program.run("view", (of or name) + ".ply", "--png", name + ".png", "--size", *self.picture_size, *words)
+        self.program.run("view", (of or name) + ".ply", "--png", name + ".png", *self.size, *words)
         self.entries.append(("picture", (name + ".png", caption)))
 
     def pictured(self, name, caption):
@@ -122,8 +128,6 @@ def number(value):
     """For people: few digits, and no exponent where none is needed."""
     if value is None:
         return "–"
-    if isinstance(value, (str, bool, int)):
-        return str(value)
-    if not math.isfinite(value):
-        return str(value)
-    return f"{value:.3g}"
+    if isinstance(value, int):
+        return f"{value:,}"
+    return value if isinstance(value, str) else f"{value:.3g}"

@@ -77,20 +77,26 @@ def drawn(series, color, x_axis, y_axis):
     return text
 
 
+def legend_rows(all_series):
+    """Many series have their legend in two columns."""
+    return len(all_series) if len(all_series) < 4 else (len(all_series) + 1) // 2
+
+
 def legend(all_series, colors):
-    """Above the plot, a row for each series."""
+    """Above the plot."""
     rows = []
     for i, (series, color) in enumerate(zip(all_series, colors)):
-        y = TOP + 8 + 17 * i
+        column, row = divmod(i, legend_rows(all_series))
+        x, y = LEFT + column * (WIDTH - LEFT) // 2, TOP + 8 + 17 * row
         dashes = ' stroke-dasharray="6 4"' if series.dashed else ""
-        rows.append(f'<line x1="{LEFT}" x2="{LEFT + 26}" y1="{y - 4}" y2="{y - 4}" stroke="{color}" '
-                    f'stroke-width="3"{dashes}/><text x="{LEFT + 34}" y="{y}">{html.escape(series.label)}</text>')
+        rows.append(f'<line x1="{x}" x2="{x + 26}" y1="{y - 4}" y2="{y - 4}" stroke="{color}" '
+                    f'stroke-width="3"{dashes}/><text x="{x + 34}" y="{y}">{html.escape(series.label)}</text>')
     return "".join(rows)
 
 
 def plot(all_series, x_label, y_label, log_x=False, log_y=False):
     """The series in one plot with axes, and a legend if they are several."""
-    top = TOP + 17 * len(all_series) + 6 if len(all_series) > 1 else TOP
+    top = TOP + 17 * legend_rows(all_series) + 6 if len(all_series) > 1 else TOP
     x_axis = Axis([x for s in all_series for x, _ in s.points], LEFT, WIDTH - RIGHT, log_x)
     y_axis = Axis([y for s in all_series for _, y in s.points], HEIGHT - BOTTOM, top, log_y)
     colors = [series.color or COLORS[i % len(COLORS)] for i, series in enumerate(all_series)]
@@ -125,4 +131,4 @@ def histograms(labelled, x_label, low, high, bins=60):
         shares = distribution.histogram(low, high, bins)
         points = [(low + width * k, share / width) for k, share in enumerate(shares)] + [(high, 0.0)]
         all_series.append(Series(label, points, COLORS[i % len(COLORS)], dashed=i % 2 == 1, kind="steps"))
-    return plot(all_series, x_label, "share of the affine area per unit")
+    return plot(all_series, x_label, "density of the affine area")

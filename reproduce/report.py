@@ -3,7 +3,9 @@
 
 import base64
 import html
+import itertools
 import json
+import math
 import re
 
 from .lab import number
@@ -25,18 +27,22 @@ th, td { padding: 6px 14px 6px 0; text-align: left; vertical-align: top; border-
 th { color: var(--quiet); font-weight: 600; }
 td { font-variant-numeric: tabular-nums; }
 .number { white-space: nowrap; }
-#summary { width: 100%; }
-#summary td:first-child { white-space: nowrap; font-weight: 600; }
+#summary { font-size: 13px; line-height: 1.4; }
+#summary td:first-child { width: 150px; }
+#summary a { font-weight: 700; font-size: 15px; }
+#summary td:nth-child(2) { width: 310px; color: var(--quiet); }
+#summary td:nth-child(3) { width: 260px; }
 .mark { font-weight: 700; white-space: nowrap; }
-.pass .mark, .mark.pass { color: var(--good); }
-.fail .mark, .mark.fail { color: var(--bad); }
-.fail td:first-child a, .reason { color: var(--bad); }
+.mark.pass { color: var(--good); }
+.mark.fail, .reason { color: var(--bad); }
 section { border-top: 2px solid var(--ink); margin-top: 52px; padding-top: 18px; }
 section header { display: flex; justify-content: space-between; align-items: baseline; gap: 20px; }
 blockquote { margin: 12px 0; padding: 8px 16px; border-left: 4px solid var(--line); background: var(--soft);
   max-width: 90ch; }
 blockquote b { color: var(--quiet); font-weight: 600; }
-.figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(420px, 1fr)); gap: 18px; margin: 16px 0; }
+.figures { display: grid; gap: 18px; margin: 16px 0; }
+.two { grid-template-columns: repeat(auto-fill, minmax(420px, 1fr)); }
+.three { grid-template-columns: repeat(auto-fill, minmax(320px, 1fr)); }
 figure { margin: 0; max-width: 560px; break-inside: avoid; }
 figure img, figure svg { width: 100%; height: auto; display: block; border: 1px solid var(--line); border-radius: 8px; }
 figcaption { font-size: 14px; color: var(--quiet); margin-top: 6px; }
@@ -69,8 +75,17 @@ def results(items_and_labs):
     } for item, lab in items_and_labs]}
 
 
+def valid(value):
+    """JSON has no infinite numbers and no NaN."""
+    if isinstance(value, dict):
+        return {name: valid(each) for name, each in value.items()}
+    if isinstance(value, list):
+        return [valid(each) for each in value]
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value
+
+
 def to_json(items_and_labs):
-    return json.dumps(results(items_and_labs), indent=2, ensure_ascii=False) + "\n"
+    return json.dumps(valid(results(items_and_labs)), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def readable(value):
@@ -88,44 +103,36 @@ def mark(passed):
     return f'<span class="mark {"pass" if passed else "fail"}">{"✓ holds" if passed else "✗ does not hold"}</span>'
 
 
-def table(header, rows):
+def table(header, rows, attributes=""):
     """The cells of the rows are HTML."""
     head = "".join(f"<th>{html.escape(cell)}</th>" for cell in header)
-    body = "".join(
-        "<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>"
-        for row in rows
-    )
-    return f'<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
+    body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
+    return f"<table {attributes}><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def verdict(passed, reason):
+    return mark(passed) + (f'<div class="reason">{readable(reason)}</div>' if reason else "")
 
 
 def summary(items_and_labs):
+    """A row for each item, with the first of its checks that does not hold, else its first one."""
     rows = []
     for item, lab in items_and_labs:
-        first = next((c for c in lab.checks if not c.passed), lab.checks[0] if lab.checks else None)
-        shown = f"{html.escape(first.what)}: <b>{readable(first.ours)}</b>" if first and first.ours is not None else ""
-        reason = first.reason if first and not first.passed else ""
-        cells = [
-            f'<a href="#{item.name}">{item.name}</a>',
-            html.escape(item.title),
-            readable(first.paper_method) if first else "–",
-            f"{shown} {readable(first.target)}" if first else "–",
-            mark(lab.passed) + (f'<div class="reason">{readable(reason)}</div>' if reason else ""),
-        ]
-        rows.append(f'<tr '
-                    f'class="{"pass" if lab.passed else "fail"}">' + "".join(f"<td>{c}</td>" for c in cells) + "</tr>")
-    head = "".join(f"<th>{h}</th>" for h in ("", "", "paper's method", "ours, and target", ""))
-    return f'<table id="summary"><thead><tr>{head}</tr></thead><tbody>{"".join(rows)}</tbody></table>'
+        check = next((c for c in lab.checks if not c.passed), lab.checks[0])
+        rows.append([
+            f'<a href="#{item.name}">{item.name}</a><br><span class="quiet">{html.escape(item.title)}</span>',
+            html.escape(item.paper), html.escape(check.what), readable(check.paper_method), readable(check.ours),
+            f'<span class="number">{readable(check.target)}</span>', verdict(check.passed, check.reason),
+        ])
+    return table(["", "the paper shows or claims", "measured here", "its method gives", "ours", "target", ""], rows,
+                 'id="summary"')
 
 
 def checks_table(lab):
-    rows = [[
-        html.escape(check.what),
-        readable(check.paper_method),
-        readable(check.ours),
-        f'<span class="number">{readable(check.target)}</span>',
-        mark(check.passed) + (f'<span class="reason"> {readable(check.reason)}</span>' if check.reason else ""),
-    ] for check in lab.checks]
-    return table(["", "paper's method, measured", "ours", "target", ""], rows)
+    rows = [[html.escape(check.what), readable(check.paper_method), readable(check.ours),
+             f'<span class="number">{readable(check.target)}</span>', verdict(check.passed, check.reason)]
+            for check in lab.checks]
+    return table(["", "the paper's method, measured", "ours", "target", ""], rows)
 
 
 def figure(folder, kind, name, caption):
@@ -138,25 +145,17 @@ def figure(folder, kind, name, caption):
 
 
 def entries(lab):
-    """Pictures and plots that follow one another share a grid."""
-    parts, open_kind = [], None
-    for kind, content in lab.entries:
-        is_figure = kind in ("picture", "plot")
-        if open_kind and open_kind != kind:
-            parts.append("</div>")
-            open_kind = None
-        if is_figure and not open_kind:
-            parts.append(f'<div class="figures {kind}s">')
-            open_kind = kind
-        if is_figure:
-            parts.append(figure(lab.folder, kind, *content))
+    """Pictures and plots that follow one another share a grid; many of them come in pairs."""
+    parts = []
+    for kind, group in itertools.groupby(lab.entries, key=lambda entry: entry[0]):
+        contents = [content for _, content in group]
+        if kind in ("picture", "plot"):
+            figures = "".join(figure(lab.folder, kind, *content) for content in contents)
+            parts.append(f'<div class="figures {"three" if len(contents) in (3, 5) else "two"}">{figures}</div>')
         elif kind == "text":
-            parts.append(f"<p>{readable(content)}</p>")
+            parts += [f"<p>{readable(text)}</p>" for text in contents]
         else:
-            header, rows = content
-            parts.append(table(header, [map(readable, row) for row in rows]))
-    if open_kind:
-        parts.append("</div>")
+            parts += [table(header, [map(readable, row) for row in rows]) for header, rows in contents]
     return "\n".join(parts)
 
 

@@ -50,11 +50,9 @@ private:
   struct Range {
     std::size_t begin, end;
     Range(double low, double high, std::size_t size) {
-      const auto index = [&](double at) {
-        return std::size_t(std::clamp(std::ceil(at * samples_per_axis - 0.5), 0., double(size)));
-      };
-      begin = index(low);
-      end = std::max(begin, index(high + 1. / samples_per_axis));
+      const auto clamped = [&](double index) { return std::size_t(std::clamp(index, 0., double(size))); };
+      begin = clamped(std::ceil(low * samples_per_axis - 0.5));
+      end = clamped(std::floor(high * samples_per_axis - 0.5) + 1);
     }
   };
   static double center(std::size_t sample) { return (double(sample) + 0.5) / samples_per_axis; }

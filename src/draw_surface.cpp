@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw_surface.h"
 
-#include <equiaffine/internal/quantities.h>
-
 #include <CGAL/Bbox_3.h>
 
 #include <algorithm>
@@ -37,7 +35,7 @@ public:
   Camera(const std::vector<Kernel::Point_3>& points, const std::array<double, 3>& up_direction, std::size_t width,
          std::size_t height, bool has_arrows)
       : width_(double(width)), height_(double(height)),
-        margin_(has_arrows ? 1 + 2 * arrow_length / arrow_cells : 1.05) {
+        margin_(1.05 + (has_arrows ? 2 * arrow_length / arrow_cells : 0)) {
     const CGAL::Bbox_3 box = box_of(points);
     center_ =
         Kernel::Point_3((box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2, (box.zmin() + box.zmax()) / 2);
@@ -81,106 +79,6 @@ private:
   Vector right_, up_, back_;
 };
 
-Light light_of(const CGAL::IO::Color& color) {
-  const auto light = [](unsigned char byte) { return float(std::pow(byte / 255., 2.2)); };
-  return {light(color.red()), light(color.green()), light(color.blue())};
-}
-
-bool is_component(const std::string& name) {
-  return name.size() > 1 && (name.ends_with("_x") || name.ends_with("_y") || name.ends_with("_z") || name == "nx" ||
-                             name == "ny" || name == "nz" || name.starts_with("metric_"));
-}
-
-const Vertex_attributes::Column* find_column(const Vertex_attributes& attributes, const std::string& name) {
-  for (const auto& column : attributes.columns)
-    if (column.name == name) return &column;
-  return nullptr;
-}
-
-/// What the page shows first.
-std::string default_color(const Vertex_attributes& attributes) {
-  for (const internal::Quantity& quantity : internal::quantities)
-    if (find_column(attributes, std::string(quantity.name))) return std::string(quantity.name);
-  for (const auto& column : attributes.columns)
-    if (!is_component(column.name)) return column.name;
-  return attributes.status ? "status" : "plain";
-}
-
-/// The colour of the surface at its vertices and between them.
-class Paint {
-public:
-  Paint(const Vertex_attributes& attributes, const std::string& name, const std::optional<std::array<double, 2>>& range,
-        double diagonal) {
-    if (attributes.status && name != "plain")
-      for (const Point_status status : *attributes.status) codes_.push_back(static_cast<std::uint8_t>(status));
-    if (const auto* column = find_column(attributes, name)) use(*column, range, diagonal);
-  }
-
-  const std::optional<Color_legend>& legend() const { return legend_; }
-
-  /// As on the page: numbers are interpolated between the vertices that have one, and what has most weight wins.
-  Light operator()(const std::array<std::uint32_t, 3>& triangle, const std::array<double, 3>& weights) const {
-    double level = 0, regular = 0;
-    std::array<double, number_of_point_statuses + 1> irregular{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint8_t code = codes_.empty() ? std::uint8_t(0) : codes_[triangle[k]];
-      if (code == 0) {
-        regular += weights[k];
-        if (legend_) level += weights[k] * levels_[triangle[k]];
-      } else irregular[code] += weights[k];
-    }
-    const auto most = std::max_element(irregular.begin(), irregular.end());
-    if (*most > regular) {
-      const auto code = std::size_t(most - irregular.begin());
-      return light_of(code == no_number ? undefined_color() : status_color(static_cast<Point_status>(code)));
-    }
-    if (!legend_) return light_of(plain_color());
-    const double place = std::clamp(level / regular, 0., 1.) * double(table_.size() - 1);
-    const auto below = std::min(std::size_t(place), table_.size() - 2);
-    Light light;
-    for (std::size_t n = 0; n < 3; ++n)
-      light[n] = table_[below][n] + float(place - double(below)) * (table_[below + 1][n] - table_[below][n]);
-    return light;
-  }
-
-private:
-  static constexpr std::uint8_t no_number = number_of_point_statuses;
-
-  void use(const Vertex_attributes::Column& column, const std::optional<std::array<double, 2>>& given,
-           double diagonal) {
-    codes_.resize(column.values.size());
-    std::vector<double> shown;
-    for (std::size_t i = 0; i < codes_.size(); ++i) {
-      if (codes_[i] == 0 && !std::isfinite(column.values[i])) codes_[i] = no_number;
-      if (codes_[i] == 0) shown.push_back(column.values[i]);
-    }
-    Color_range range =
-        color_range(std::move(shown), default_clip_percent, internal::resolution(column.name, diagonal));
-    Color_scale scale = preferred_scale(range);
-    if (given) {
-      const auto [lower, upper] = *given;
-      range = {lower, upper, 1, lower == -upper};
-      scale = Color_scale::LINEAR;
-    }
-    const internal::Quantity* const known = internal::find_quantity(column.name);
-    legend_ = {known ? std::string(known->label) : column.name, range, scale};
-    for (const double value : column.values) {
-      const double t = std::isfinite(value) ? map_position(value, range, scale) : 0;
-      levels_.push_back(range.is_diverging ? (t + 1) / 2 : t);
-    }
-    constexpr int entries = 257;
-    for (int i = 0; i < entries; ++i) {
-      const double t = double(i) / (entries - 1);
-      table_.push_back(light_of(range.is_diverging ? diverging_color(2 * t - 1) : sequential_color(t)));
-    }
-  }
-
-  std::vector<std::uint8_t> codes_; // per vertex: 0 for its number, 1 to 4 for its status, no_number; empty: all 0
-  std::vector<double> levels_;      // per vertex, in [0, 1]
-  std::vector<Light> table_;
-  std::optional<Color_legend> legend_;
-};
-
 /// The attributes nx ny nz, where there are none the means of the faces'.
 std::vector<Vector> vertex_normals(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes) {
   std::vector<Vector> normals(mesh.points.size(), CGAL::NULL_VECTOR);
@@ -211,7 +109,7 @@ Light lit(const Light& base, const Vector& normal, const Vector& view, bool is_f
 }
 
 void draw_triangles(Canvas& canvas, const Camera& camera, const Indexed_triangle_mesh_3<Kernel>& mesh,
-                    const std::vector<Vector>& normals, const Paint& paint) {
+                    const std::vector<Vector>& normals, const Surface_paint& paint) {
   std::vector<Screen_point> seen;
   std::vector<Vector> turned, views;
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -229,7 +127,7 @@ void draw_triangles(Canvas& canvas, const Camera& camera, const Indexed_triangle
   }
 }
 
-/// Dark strokes with a white rim, so that they are seen on any colour.
+/// Dark strokes with a white rim, so that they are seen on any color.
 class Line_drawing {
 public:
   void add(const Screen_point& a, const Screen_point& b, double first, double last) {
@@ -307,8 +205,7 @@ Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const 
                              const Surface_view& view, std::span<const Polyline_3<Kernel>> curves) {
   const auto [width, height] = view.size;
   const CGAL::Bbox_3 box = box_of(mesh.points);
-  const Paint paint(attributes, view.color.empty() ? default_color(attributes) : view.color, view.range,
-                    std::hypot(box.x_span(), box.y_span(), box.z_span()));
+  const Surface_paint paint(attributes, view.color, view.range, std::hypot(box.x_span(), box.y_span(), box.z_span()));
   const Camera camera(mesh.points, view.up, width, height - (paint.legend() ? legend_height : 0), !view.arrows.empty());
   Canvas canvas(width, height);
   draw_triangles(canvas, camera, mesh, vertex_normals(mesh, attributes), paint);

@@ -3,10 +3,10 @@
 #define EQUIAFFINE_SRC_DRAW_SURFACE_H
 
 #include "Canvas.h"
+#include "Surface_paint.h"
 #include "kernel.h"
 #include <equiaffine/Indexed_triangle_mesh_3.h>
 #include <equiaffine/Polyline_3.h>
-#include <equiaffine/io/color_map.h>
 
 #include <array>
 #include <cstddef>
@@ -22,18 +22,11 @@ struct Surface_view {
   std::string color;                          ///< a column, `status`, `plain`, or empty for the page's choice
   std::array<double, 3> up = {0, 0, 1};       ///< the direction that points up
   std::array<std::size_t, 2> size;            ///< in pixels
-  std::optional<std::array<double, 2>> range; ///< the numbers of the end colours, instead of quantiles
+  std::optional<std::array<double, 2>> range; ///< the numbers of the end colors, instead of quantiles
   std::string arrows;                         ///< a vector among the columns, or empty
 };
 
-/// What the colours of a picture mean.
-struct Color_legend {
-  std::string label;
-  Color_range range;
-  Color_scale scale;
-};
-
-/// A picture of a surface and what its colours mean, if they are those of a number.
+/// A picture of a surface and what its colors mean, if they are those of a number.
 struct Surface_picture {
   Picture picture;
   std::optional<Color_legend> legend;
@@ -46,7 +39,7 @@ inline constexpr std::size_t legend_height = 56;
 std::optional<std::array<const std::vector<double>*, 3>> vector_columns(const Vertex_attributes& attributes,
                                                                         const std::string& name);
 
-/// Draws the surface as the page of write_HTML shows it first: the same view, colours and light. Curves are black
+/// Draws the surface as the page of write_HTML shows it first: the same view, colors and light. Curves are black
 /// lines.
 Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
                              const Surface_view& view, std::span<const Polyline_3<Kernel>> curves = {});

@@ -51,14 +51,16 @@ void draw_text(Picture& picture, const std::string& text, std::size_t x, std::si
 std::string short_number(double value, const Color_range& range) {
   const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
   const int digits = std::clamp(int(std::ceil(std::log10(largest / (range.upper - range.lower)))) + 3, 3, 15);
+  const bool is_round = digits < 5 && std::abs(value) >= 1e3 && std::abs(value) < 1e5; // no longer than with exponents
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  std::snprintf(text.data(), text.size(), is_round ? "%.*f" : "%.*g", is_round ? 0 : digits, value);
   return text.data();
 }
 
 /// The number at place t in [0, 1] of the bar.
 double number_at(const Color_legend& legend, double t) {
   const auto& [lower, upper, knee, is_diverging] = legend.range;
+  if (is_diverging && t == 0.5) return 0; // to rounding
   if (legend.scale == Color_scale::LINEAR) return lower + t * (upper - lower);
   const double low = std::asinh(lower / knee), high = std::asinh(upper / knee);
   return knee * std::sinh(low + t * (high - low));
@@ -79,11 +81,17 @@ void draw_legend(Picture& picture, const Color_legend& legend) {
     }
   }
   draw_text(picture, legend.label, left, top - 7, Alignment::LEFT);
-  const std::size_t baseline = top + bar_height + 14;
-  draw_text(picture, short_number(legend.range.lower, legend.range), left, baseline, Alignment::LEFT);
-  const double middle = legend.range.is_diverging ? 0 : number_at(legend, 0.5);
-  draw_text(picture, short_number(middle, legend.range), left + width / 2, baseline, Alignment::CENTER);
-  draw_text(picture, short_number(legend.range.upper, legend.range), left + width, baseline, Alignment::RIGHT);
+  const auto number = [&](std::size_t i, std::size_t last) {
+    return short_number(number_at(legend, double(i) / double(last)), legend.range);
+  };
+  std::size_t last = 4, longest = 0;
+  for (std::size_t i = 0; i <= last; ++i) longest = std::max(longest, number(i, last).size());
+  if (8 * longest * (last + 1) > width) last = 2; // lest they touch
+  for (std::size_t i = 0; i <= last; ++i)
+    draw_text(picture, number(i, last), left + i * width / last, top + bar_height + 14,
+              i == 0      ? Alignment::LEFT
+              : i == last ? Alignment::RIGHT
+                          : Alignment::CENTER);
 }
 
 } // namespace

@@ -47,6 +47,17 @@ TEST(Program_Canvas, a_triangle_covers_its_area) {
   EXPECT_NEAR(dark_area(canvas.picture()), area, 0.002 * area);
 }
 
+TEST(Program_Canvas, a_rectangle_covers_its_pixels_and_no_other) {
+  Canvas canvas(60, 60);
+  const Screen_point a{10, 20, 1}, b{40, 20, 1}, c{40, 50, 1}, d{10, 50, 1};
+  canvas.draw_triangle({a, b, c}, paint(black));
+  canvas.draw_triangle({a, c, d}, paint(black));
+  const Picture picture = canvas.picture();
+  for (std::size_t y = 0; y < 60; ++y)
+    for (std::size_t x = 0; x < 60; ++x)
+      EXPECT_EQ(pixel(picture, x, y)[0], x >= 10 && x < 40 && y >= 20 && y < 50 ? 0 : 255) << x << ' ' << y;
+}
+
 TEST(Program_Canvas, neighbors_leave_no_gap) {
   Canvas canvas(60, 60);
   const Screen_point a{-5, -7.1, 1}, b{71.3, -3.3, 0.7}, c{66.6, 80.8, 1.9}, d{-9.9, 69.7, 1.1};
@@ -86,6 +97,13 @@ TEST(Program_Canvas, a_stroke_has_round_ends_and_its_width) {
   Canvas canvas(100, 60);
   canvas.draw_stroke({20, 30, 1}, {80, 31, 1}, 4, 4, black, 0);
   const double area = 8 * std::hypot(60, 1) + std::numbers::pi * 16;
+  EXPECT_NEAR(dark_area(canvas.picture()), area, 0.01 * area);
+}
+
+TEST(Program_Canvas, a_stroke_goes_from_one_width_to_another) {
+  Canvas canvas(120, 60);
+  canvas.draw_stroke({20, 30, 1}, {80, 30, 1}, 12, 0, black, 0);
+  const double area = 12 * 60 + std::numbers::pi * 12 * 12 / 2; // a triangle and half a disk
   EXPECT_NEAR(dark_area(canvas.picture()), area, 0.01 * area);
 }
 

@@ -61,7 +61,7 @@ TEST(Program_draw_surface, numbers_have_the_colors_and_the_range_of_the_page) {
   attributes.columns = {{"mean_curvature", {-1, -1, 3, 3}}};
   const auto drawn = draw_surface(facing_square(), attributes, small);
   ASSERT_TRUE(drawn.legend);
-  EXPECT_EQ(drawn.legend->label, "Mean curvature");
+  EXPECT_EQ(drawn.legend->label, "Mean curvature, length^-1");
   EXPECT_EQ(drawn.legend->range, color_range({-1, -1, 3, 3}));
   const std::size_t row = (101 - legend_height) / 2; // the middle of the square
   expect_near(middle(drawn.picture, row), shaded(map_color(1, drawn.legend->range)));

@@ -17,7 +17,8 @@ namespace internal {
 
 /// The derivatives at 0 of three functions of a number, `f(t)`, by central differences with steps `step`, `step` / 2,
 /// ..., extrapolated to step 0; for each function the entry of the table that differs least from its neighbors
-/// (Ridders: Accurate computation of F'(x) and F'(x) F''(x), 1982). Steps at which a function is not finite do not count.
+/// (Ridders: Accurate computation of F'(x) and F'(x) F''(x), 1982). Steps at which a function is not finite do not
+/// count.
 template <class FT, class F>
 std::array<FT, 3> derivatives(F f, FT step) {
   constexpr std::size_t levels = 10;
@@ -59,9 +60,9 @@ std::array<FT, 3> derivatives(F f, FT step) {
 /// hyperbolic surfaces, where the metric is indefinite, it also vanishes for gradients along an asymptotic direction.
 /// Units: length^(-15/4), length^(-9/4), length^(-9/4).
 ///
-/// These are derivatives of order 5, taken as differences of invariants of neighboring level sets, which no formula
-/// needs beyond order 4; some 9 digits where the surface bends about as fast as it curves. NaN where p is not regular,
-/// and where no neighborhood of it is, as on the border of a volume. Up to 40 expansions.
+/// These are derivatives of order 5, while expansions have order 4: differences of invariants of neighboring level sets,
+/// with some 9 digits where the invariants change slowly over a tenth of the smaller radius of curvature. NaN where p is
+/// not regular, and where no neighborhood of it is, as on the border of a volume. Up to 40 expansions.
 template <ImplicitFunctionTraits_3 Traits>
 std::array<typename Traits::FT, 3> affine_gradient_norms(const Traits& traits, const typename Traits::Point_3& p) {
   using FT = typename Traits::FT;

@@ -4,21 +4,11 @@
 import math
 
 from ..lab import item
+from ..maps import SHEAR, image_of_points, words_of
 from ..plot import Series, plot
-from ..program import determinant, image, words_of
-from ..statistics import quantile
-
-SHEAR = [[1.0, 2.0, 0.3], [0.0, 0.8, -0.5], [0.2, 0.4, 1.36]]
-
-
-def unimodular(matrix):
-    """The matrix divided by the cube root of its determinant."""
-    root = math.copysign(abs(determinant(matrix)) ** (1 / 3), determinant(matrix))
-    return [[x / root for x in row] for row in matrix]
-
-
-BLOBBY = "(3*x)^4 + (3*y)^4 + (3*z)^4 - 45*x^2 - 45*y^2 - 45*z^2 + 6"
-BOX = [-0.93, 0.95, -0.95, 0.93, -0.94, 0.95]
+from ..program import Surface, read_curve_points
+from ..statistics import greatest, median, median_size, quantile
+from ..surfaces import BLOBBY, BLOBBY_BOX, TORUS, TORUS_BOX
 
 
 def gaussian_curvature_of_metric(metric, h):
@@ -43,79 +33,91 @@ def gaussian_curvature_of_metric(metric, h):
             - det(0, E_v / 2, G_u / 2, E_v / 2, E, F, G_u / 2, F, G)) / (E * G - F * F) ** 2
 
 
+class Graph:
+    """A graph z = g(x, y) that is no quadric, elliptic or hyperbolic according to the sign of c."""
+
+    def __init__(self, c):
+        self.c = c
+        self.formula = f"z - (0.3*x^2 + {c}*y^2 + 0.2*x*y + 0.1*sin(2*x + y) + 0.15*x^2*y - 0.1*y^3 + 0.05*x^4)"
+
+    def point(self, x, y):
+        return x, y, (0.3 * x * x + self.c * y * y + 0.2 * x * y + 0.1 * math.sin(2 * x + y) + 0.15 * x * x * y
+                      - 0.1 * y**3 + 0.05 * x**4)
+
+    def first_form(self, x, y, metric):
+        """E, F and G of a metric, given as xx, xy, xz, yy, yz, zz, for the tangent vectors (1, 0, g_x), (0, 1, g_y)."""
+        p = 0.6 * x + 0.2 * y + 0.2 * math.cos(2 * x + y) + 0.3 * x * y + 0.2 * x**3
+        q = 2 * self.c * y + 0.2 * x + 0.1 * math.cos(2 * x + y) + 0.15 * x * x - 0.3 * y * y
+        xx, xy, xz, yy, yz, zz = metric
+        return xx + 2 * p * xz + p * p * zz, xy + q * xz + p * yz + p * q * zz, yy + 2 * q * yz + q * q * zz
+
+    def gauss_equation(self, lab, x0, y0):
+        """H, J and the Gaussian curvature of the affine metric at a point."""
+        h = 0.01
+        places = [(x0 + i * h, y0 + j * h) for i in range(-3, 4) for j in range(-3, 4)]
+        at = lab.evaluate([self.point(*place) for place in places], "--function", self.formula, "--attributes",
+                          "metric,affine_mean_curvature,pick_invariant")
+        metrics = zip(*(at["metric_" + component] for component in ("xx", "xy", "xz", "yy", "yz", "zz")))
+        forms = [self.first_form(*place, metric) for place, metric in zip(places, metrics)]
+        kappa = gaussian_curvature_of_metric([forms[7 * i : 7 * i + 7] for i in range(7)], h)
+        return at["affine_mean_curvature"][24], at["pick_invariant"][24], kappa
+
+
 @item("pick", "The Pick invariant",
       "“We plan to extend this work by completing the affine estimators with the Pick invariant.”")
 def pick(lab):
-    matrix = unimodular(SHEAR)
-    surface = lab.mesh("blobby", "--function", BLOBBY, "--box", *BOX, "--resolution", lab.choose(72, 20),
-                       "--parabolic-curves", "blobby.obj", "--png", "blobby.png", "--color", "pick_invariant",
-                       "--size", *lab.picture_size)
-    after = lab.evaluate([image(matrix, p) for p in surface.points], "--function", BLOBBY,
-                         "--transform", *words_of(matrix))
-    scales = [abs(K) + H * H + abs(k) ** 1.5 for K, H, k in zip(
+    surface = lab.mesh("blobby", "--function", BLOBBY, "--box", *BLOBBY_BOX, "--resolution", lab.choose(72, 20))
+    bound = quantile([abs(J) for J in surface["pick_invariant"]], 0.75)
+    lab.mesh("pick", "--function", BLOBBY, "--box", *BLOBBY_BOX, "--resolution", lab.choose(72, 20),
+             "--attributes", "normal,gaussian_curvature,pick_invariant", "--parabolic-curves", "curves.obj",
+             "--png", "pick.png", "--color", "pick_invariant", "--range", -bound, bound, *lab.size)
+    after = lab.evaluate_many("after", image_of_points(SHEAR, surface), "--function", BLOBBY, "--transform",
+                              *words_of(SHEAR), "--attributes", "pick_invariant")
+    scales = [math.sqrt(abs(K) + H * H + abs(k) ** 1.5) for K, H, k in zip(
         surface["affine_gaussian_curvature"], surface["affine_mean_curvature"], surface["gaussian_curvature"])]
-    changes = [abs(a - b) / max(math.sqrt(scale), abs(b)) for a, b, scale, status in zip(
-        after["pick_invariant"], surface["pick_invariant"], scales, surface["status"])
-        if status == 0 and math.isfinite(a + b)]
+    changes = [abs(a - b) / max(scale, abs(b)) for a, b, scale, is_regular in zip(
+        after["pick_invariant"], surface["pick_invariant"], scales, surface.is_regular()) if is_regular]
     lab.check("99 % of the vertices: relative change of J under a map of determinant 1", quantile(changes, 0.99),
               "<=", 1e-10)
 
-    formula = "z - (0.3*x^2 + {}*y^2 + 0.2*x*y + 0.1*sin(2*x + y) + 0.15*x^2*y - 0.1*y^3 + 0.05*x^4)"
-    g = lambda c, x, y: (0.3 * x * x + c * y * y + 0.2 * x * y + 0.1 * math.sin(2 * x + y) + 0.15 * x * x * y
-                         - 0.1 * y**3 + 0.05 * x**4)
-    slopes = lambda c, x, y: (0.6 * x + 0.2 * y + 0.2 * math.cos(2 * x + y) + 0.3 * x * y + 0.2 * x**3,
-                              2 * c * y + 0.2 * x + 0.1 * math.cos(2 * x + y) + 0.15 * x * x - 0.3 * y * y)
-    rows, h = [], 0.01
+    rows = []
     for kind, c in (("elliptic", 0.4), ("hyperbolic", -0.5)):
-        for x0, y0 in ((0.1, 0.2), (-0.2, 0.1), (0.3, -0.1)):
-            places = [(x0 + i * h, y0 + j * h) for i in range(-3, 4) for j in range(-3, 4)]
-            at = lab.evaluate([(x, y, g(c, x, y)) for x, y in places], "--function", formula.format(c), "--attributes",
-                              "metric,affine_mean_curvature,pick_invariant")
-            forms = []
-            for k, (x, y) in enumerate(places):
-                m = [at["metric_" + n][k] for n in ("xx", "xy", "xz", "yy", "yz", "zz")]
-                p, q = slopes(c, x, y)
-                form = lambda u, v: (m[0] * u[0] * v[0] + m[3] * u[1] * v[1] + m[5] * u[2] * v[2]
-                                     + m[1] * (u[0] * v[1] + u[1] * v[0]) + m[2] * (u[0] * v[2] + u[2] * v[0])
-                                     + m[4] * (u[1] * v[2] + u[2] * v[1]))
-                e, f = (1, 0, p), (0, 1, q)
-                forms.append((form(e, e), form(e, f), form(f, f)))
-            metric = [forms[7 * i : 7 * i + 7] for i in range(7)]
-            kappa = gaussian_curvature_of_metric(metric, h)
-            H, J = at["affine_mean_curvature"][24], at["pick_invariant"][24]
-            rows.append([f"{kind}, ({x0}, {y0})", H, J, H + J, kappa, abs(kappa - H - J) / (abs(H) + abs(J))])
+        for x, y in ((0.1, 0.2), (-0.2, 0.1), (0.3, -0.1)):
+            H, J, kappa = Graph(c).gauss_equation(lab, x, y)
+            rows.append([f"{kind}, ({x}, {y})", H, J, H + J, kappa, abs(kappa - H - J) / (abs(H) + abs(J))])
     lab.check("Gauss equation κ = H + J: greatest relative error, κ by differences of the metric",
-              max(row[-1] for row in rows), "<=", 1e-6)
+              greatest(row[-1] for row in rows), "<=", 1e-6)
     lab.table(["point", "H", "J", "H + J", "κ, Gaussian curvature of the affine metric", "relative difference"], rows)
-    lab.pictured("blobby", "J on the surface of figure 3")
+    lab.pictured("pick", "J on the surface of figure 3; black: its parabolic curves")
     lab.say("κ knows nothing of H and J: it is made from the metric at 49 neighbouring points by Brioschi's formula.")
 
 
 @item("signature", "The affine signature",
       "“We plan to extend this work by completing the affine estimators with [...] eventually the affine signature.”")
 def signature(lab):
-    matrix = unimodular(SHEAR)
     formula = "x^4 + 1.3*y^4 + 0.8*z^4 + x^2 + 0.7*y^2 + z^2 + 0.3*x*y*z - 1"  # convex: no parabolic curve
-    words = ["--function", formula, "--attributes", "signature,gaussian_curvature"]
+    words = ["--function", formula, "--attributes", "signature"]
     surface = lab.mesh("convex", *words, "--box", -1.03, 1.05, -1.05, 1.03, -1.04, 1.05,
                        "--resolution", lab.choose(56, 14))
-    after = lab.evaluate([image(matrix, p) for p in surface.points], *words, "--transform", *words_of(matrix))
-    names = ["affine_gaussian_curvature", "affine_mean_curvature", "pick_invariant"]
+    after = lab.evaluate_many("after", image_of_points(SHEAR, surface), *words, "--transform", *words_of(SHEAR))
+    invariants = {"affine_gaussian_curvature": "K", "affine_mean_curvature": "H", "pick_invariant": "J"}
+    symbols = {**invariants, **{f"{name}_gradient": f"|grad {symbol}|" for name, symbol in invariants.items()}}
     rows = []
-    for name in [*names, *(n + "_gradient" for n in names)]:
-        unit = quantile([abs(x) for x in surface[name]], 0.5)
+    for name, symbol in symbols.items():
+        unit = median_size(surface[name])
         errors = [abs(a - b) / max(abs(b), unit) for a, b in zip(after[name], surface[name])]
-        is_gradient = name.endswith("_gradient")
-        lab.check(f"greatest change of {name}, relative", max(errors), "<=", 1e-6 if is_gradient else 1e-10)
-        rows.append([name, unit, max(errors), quantile(errors, 0.5)])
+        lab.check(f"greatest relative change of {symbol}", greatest(errors), "<=",
+                  1e-6 if name.endswith("_gradient") else 1e-10)
+        rows.append([symbol, unit, greatest(errors), median(errors)])
     lab.table(["invariant", "median", "greatest change under a map of determinant 1", "median change"], rows)
     step = max(1, len(surface) // 2500)
-    for x, y, label in (("affine_mean_curvature", "affine_mean_curvature_gradient", "|grad H|"),
-                        ("affine_mean_curvature", "pick_invariant", "J")):
+    for x, y in (("affine_mean_curvature", "affine_mean_curvature_gradient"),
+                 ("affine_mean_curvature", "pick_invariant")):
         lab.plot(f"signature-{y}", plot(
             [Series("the surface", list(zip(surface[x], surface[y]))[::step], kind="dots"),
-             Series("its image", list(zip(after[x], after[y]))[step // 2 :: step], kind="dots")], "H", label),
-            f"Two coordinates of the signature, H and {label}, at other points of the surface and of its image")
+             Series("its image", list(zip(after[x], after[y]))[step // 2 :: step], kind="dots")],
+            symbols[x], symbols[y]),
+            f"Two coordinates of the signature, H and {symbols[y]}, at other points of the surface and of its image")
     lab.picture("convex", "|grad H| in the affine metric", "--color", "affine_mean_curvature_gradient")
     lab.say("K, H, J and the norms of their gradients in the Berwald-Blaschke metric, the attributes `signature`. The "
             "gradients are derivatives of order 5: extrapolated differences of invariants of neighbouring level sets.")
@@ -124,37 +126,32 @@ def signature(lab):
 @item("parabolic", "Parabolic curves",
       "Where Kₑ = 0 the affine metric degenerates; a separate handling “could be extended to surfaces in future work”.")
 def parabolic(lab):
-    def curve_points(name):
-        with open(lab.folder / (name + ".obj"), encoding="ascii") as file:
-            return [tuple(map(float, line.split()[1:])) for line in file if line.startswith("v ")]
+    def mesh_with_curves(name, formula, box, n, color):
+        words = ["--function", formula, "--box", *box, "--resolution", n]
+        surface = lab.mesh(name, *words)
+        bound = quantile([abs(x) for x in surface[color]], 0.75)
+        lab.mesh(name, *words, "--parabolic-curves", name + ".obj", "--png", name + ".png", "--color", color,
+                 "--range", -bound, bound, *lab.size)
+        return surface, read_curve_points(lab.folder / (name + ".obj"))
 
-    size = ["--size", *lab.picture_size]
-    lab.mesh("torus", "--function", "(sqrt(x^2+y^2) - 0.5)^2 + z^2 - 0.2^2", "--box", -0.77, 0.75, -0.75, 0.77, -0.26,
-             0.25,
-             "--resolution", lab.choose(64, 24), "--parabolic-curves", "torus.obj", "--png", "torus.png",
-             "--color", "gaussian_curvature", *size)
-    circles = curve_points("torus")
+    _, circles = mesh_with_curves("torus", TORUS, TORUS_BOX, lab.choose(64, 24), "gaussian_curvature")
     misses = [max(abs(math.hypot(x, y) - 0.5), abs(abs(z) - 0.2)) for x, y, z in circles]
-    lab.check("torus: greatest distance of a point from the circles √(x²+y²) = R, z = ±r", max(misses), "<=", 1e-12)
-
-    matrix = unimodular(SHEAR)
-    surfaces = {"blobby": (BLOBBY, BOX),
-                "metaballs": ("exp(-3*((x-0.6)^2+y^2+z^2)) + exp(-3*((x+0.6)^2+(y-0.2)^2+z^2)) - 0.5",
-                              [-1.4, 1.45, -1.1, 1.2, -1.0, 1.05])}  # fmt: skip
-    for name, (formula, box) in surfaces.items():
-        surface = lab.mesh(name, "--function", formula, "--box", *box, "--resolution", lab.choose(72, 24),
-                           "--parabolic-curves", name + ".obj", "--png", name + ".png",
-                           "--color", "affine_mean_curvature", *size)
-        points = curve_points(name)
-        typical = quantile([abs(k) for k in surface["gaussian_curvature"]], 0.5)
-        on_curve = lab.evaluate(points, "--function", formula, "--attributes", "gaussian_curvature")
-        residual = max(abs(k) for k in on_curve["gaussian_curvature"]) / typical
-        lab.check(f"{name}: greatest |Kₑ| on the curves, over its median on the surface", residual, "<=", 1e-11)
-        moved = lab.evaluate([image(matrix, p) for p in points], "--function", formula, "--transform",
-                             *words_of(matrix),
-                             "--attributes", "gaussian_curvature")
-        after = max(abs(k) for k in moved["gaussian_curvature"]) / typical
-        lab.check(f"{name}: the same for their images on the image of the surface", after, "<=", 1e-10)
+    lab.check("torus: greatest distance of a point from the circles √(x²+y²) = R, z = ±r", greatest(misses), "<=",
+              1e-12)
+    metaballs = "exp(-3*((x-0.6)^2+y^2+z^2)) + exp(-3*((x+0.6)^2+(y-0.2)^2+z^2)) - 0.5"
+    for name, formula, box in (("blobby", BLOBBY, BLOBBY_BOX),
+                               ("metaballs", metaballs, [-1.4, 1.45, -1.1, 1.2, -1.0, 1.05])):
+        surface, points = mesh_with_curves(name, formula, box, lab.choose(72, 24), "affine_mean_curvature")
+        on_curve = Surface(dict(zip("xyz", zip(*points))))
+        typical = median_size(surface["gaussian_curvature"])
+        words = ["--function", formula, "--attributes", "gaussian_curvature"]
+        at = lab.evaluate_many(name + "-curve", on_curve, *words)["gaussian_curvature"]
+        lab.check(f"{name}: greatest |Kₑ| on the curves, over its median on the surface",
+                  greatest(map(abs, at)) / typical, "<=", 1e-11)
+        moved = lab.evaluate_many(name + "-image", image_of_points(SHEAR, on_curve), *words, "--transform",
+                                  *words_of(SHEAR))["gaussian_curvature"]
+        lab.check(f"{name}: the same for their images on the image of the surface",
+                  greatest(map(abs, moved)) / typical, "<=", 1e-10)
     lab.pictured("torus", "Kₑ on the torus and its parabolic circles")
     lab.pictured("blobby", "H on the surface of figure 3: it grows without bound towards the black curves")
     lab.pictured("metaballs", "H on two balls that melt: the saddle between them is bounded by two curves")

@@ -6,10 +6,7 @@ import math
 import random
 
 from ..lab import item
-from ..statistics import median
-
-PAPER_METHODS = ["transformation", "direct", "direct-z"]
-
+from ..statistics import greatest, median
 
 def length(v):
     return math.hypot(*v)
@@ -24,7 +21,7 @@ def minus(a, b):
 
 
 @item("fig2", "Co-normals and affine normals of an ellipsoid",
-      "The co-normal is co-linear with the Euclidean normal, while the affine normal points towards the centre.")
+      "The co-normal is co-linear with the Euclidean normal, while the affine normal points towards the center.")
 def fig2(lab):
     center = (0.3, -0.2, 0.1)
     words = ["--function", "(x-0.3)^2/2.25 + (y+0.2)^2 + (z-0.1)^2/0.25 = 1", "--box", -1.6, 2.2, -1.5, 1.1, -0.6, 0.8,
@@ -34,14 +31,14 @@ def fig2(lab):
         misses = [length(cross(xi, minus(p, center))) / length(xi)
                   for xi, p in zip(surface.vectors("affine_normal"), surface.points)]
         angles = [length(cross(nu, n)) / length(nu) for nu, n in zip(surface.vectors("conormal"), surface.vectors("n"))]
-        return max(misses), max(angles)
+        return greatest(misses), greatest(angles)
 
     ours = worst(lab.mesh("ellipsoid", *words))
     paper = worst(lab.mesh("transformation", *words, "--estimator", "transformation"))
-    lab.check("greatest distance of the line of an affine normal from the centre", ours[0], "<=", 1e-12, paper[0])
+    lab.check("greatest distance of the line of an affine normal from the center", ours[0], "<=", 1e-12, paper[0])
     lab.check("greatest sine of the angle between co-normal and Euclidean normal", ours[1], "<=", 1e-12, paper[1])
     lab.picture("conormals", "Co-normals", "--color", "plain", "--arrows", "conormal", of="ellipsoid")
-    lab.picture("normals", "Affine normals: the arrows lie on lines through the centre", "--color", "plain",
+    lab.picture("normals", "Affine normals: the arrows lie on lines through the center", "--color", "plain",
                 "--arrows", "affine_normal", of="ellipsoid")
 
 
@@ -52,9 +49,9 @@ def fig4(lab):
         words = ["--function", expression, "--box", -1, 1, -1, 1, -1, 1, "--resolution", lab.choose(48, 12)]
 
         def worst(surface):
-            deviation = max(length(minus(xi, (0, 0, 1))) for xi in surface.vectors("affine_normal"))
+            deviation = greatest(length(minus(xi, (0, 0, 1))) for xi in surface.vectors("affine_normal"))
             columns = [surface["affine_gaussian_curvature"], surface["affine_mean_curvature"]]
-            return deviation, max(abs(x) for column in columns for x in column)
+            return deviation, greatest(abs(x) for column in columns for x in column)
 
         paper = worst(lab.mesh(name + "-transformation", *words, "--estimator", "transformation"))
         ours = worst(lab.mesh(name, *words))
@@ -116,11 +113,11 @@ def table2f(lab):
         errors = []
         for name, values in expected.items():
             pairs = [(a, b) if isinstance(b, tuple) else ((a,), (b,)) for a, b in zip(computed[name], values)]
-            errors.append(max(length(minus(a, b)) / max(1.0, length(b)) for a, b in pairs))
+            errors.append(greatest(length(minus(a, b)) / max(1.0, length(b)) for a, b in pairs))
         worst = max(worst, *errors)
         rows.append([expression, *errors])
     lab.check("greatest error of any cell, H of the sphere corrected", worst, "<=", 1e-12)
-    printed = max(abs(h + 2 * r**-1.5) for h in at["affine_mean_curvature"]) / r**-1.5
+    printed = min(abs(h + 2 * r**-1.5) for h in at["affine_mean_curvature"]) / r**-1.5
     lab.check("H of the sphere as printed, -2 r^(-3/2): its error relative to r^(-3/2)", printed, ">=", 0.99)
     lab.table(["surface", "Nₑ", "Kₑ", "d", "ν", "ξ", "K", "H"], rows)
     lab.say("The errors of all cells at random points. With H = tr B / 2, as section 2(e) defines it, the sphere has "
@@ -151,22 +148,21 @@ def quadric(lab):
     rows, defects = [], {}
     for name, expression in {**QUADRICS, **OTHERS}.items():
         surface = lab.mesh(name.replace(" ", "-").replace("'", ""), "--function", expression, "--box", -1.9, 2, -2,
-                           1.9, -2, 2,
-                           "--resolution", lab.choose(40, 14),
-                           "--attributes", "quadric_defect,pick_invariant,affine_mean_curvature")
+                           1.9, -2, 2, "--resolution", lab.choose(40, 14),
+                           "--attributes", "quadric_defect,pick_invariant")
         regular = [i for i, is_regular in enumerate(surface.is_regular()) if is_regular]
         defect = [surface["quadric_defect"][i] for i in regular]
-        pick = max(abs(surface["pick_invariant"][i]) for i in regular)
-        defects[name] = (max(defect), median(defect))
-        rows.append([name, "yes" if name in QUADRICS else "no", max(defect), median(defect), pick])
+        pick = greatest(abs(surface["pick_invariant"][i]) for i in regular)
+        defects[name] = greatest(defect), median(defect)
+        rows.append([name, "yes" if name in QUADRICS else "no", *defects[name], pick])
     lab.check("greatest defect on six quadrics", max(defects[n][0] for n in QUADRICS), "<=", 1e-12)
     lab.check("least median of the defect on four other surfaces", min(defects[n][1] for n in OTHERS), ">=", 1e-2)
     cayley = next(row[4] for row in rows if row[0] == "Cayley's ruled cubic")
     lab.check("greatest |J| on Cayley's surface, which is no quadric: J alone does not tell", cayley, "<=", 1e-12)
     lab.table(["surface", "quadric?", "greatest defect", "median defect", "greatest |J|"], rows)
-    lab.say("The defect is |T| / |II|², the apolar cubic form over the square of the second fundamental form, "
-            "without a unit. By the theorem of Maschke, Pick and Berwald T vanishes exactly on quadrics. It is the "
-            "attribute quadric_defect.")
+    lab.say("At the regular vertices. The defect is |T| / |II|², the apolar cubic form over the square of the second "
+            "fundamental form, without a unit. By the theorem of Maschke, Pick and Berwald T vanishes exactly on "
+            "quadrics. It is the attribute quadric_defect.")
     lab.picture("Cayleys-ruled-cubic", "Cayley's surface z = x y - x³/3: J = 0 everywhere, and not a quadric",
                 "--color", "quadric_defect")
     lab.picture("torus", "The torus: its defect is largest near the parabolic circles", "--color", "quadric_defect")

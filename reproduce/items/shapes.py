@@ -3,82 +3,44 @@
 
 import math
 
+from .. import invariance
 from ..lab import item
-from ..plot import histograms
-from ..program import image, image_of_box, read_ply, transformed, words_of
-from ..statistics import kolmogorov_smirnov, quantile, scaled_wasserstein
-from .beyond import BLOBBY, BOX, SHEAR, unimodular
-
-PAIRS = [("affine_gaussian_curvature", "gaussian_curvature", "K", "Kₑ", 1.0),
-         ("affine_mean_curvature", "mean_curvature", "H", "Hₑ", 0.5)]
+from ..maps import SHEAR, image, image_of_box, image_of_points, transformed, words_of
+from ..program import read_curve_points
+from ..statistics import greatest, median_size, quantile
+from ..surfaces import BANANA, BANANA_BOX, BLOBBY, BLOBBY_BOX
 
 
 @item("fig3", "The blobby surface",
       "The affine normal ξ, the curvatures K and H, and in green the degenerate curve.")
 def fig3(lab):
-    words = ["--function", BLOBBY, "--box", *BOX, "--resolution", lab.choose(128, 24)]
-    draw = lambda name, color: ["--parabolic-curves", "curves.obj", "--png", name + ".png", "--color", color,
-                                "--size", *lab.picture_size]
-    lab.mesh("mean", *words, *draw("mean", "affine_mean_curvature"))
-    lab.mesh("normals", *words, *draw("normals", "plain"), "--arrows", "affine_normal")
-    surface = lab.mesh("gaussian", *words, *draw("gaussian", "affine_gaussian_curvature"))
-    lab.pictured("normals", "The affine normal: along the degenerate curve its length is without bound")
-    lab.pictured("gaussian", "K, on a logarithmic scale")
-    lab.pictured("mean", "H, on a logarithmic scale")
-    matrix = unimodular(SHEAR)
-    after = lab.evaluate([image(matrix, p) for p in surface.points], "--function", BLOBBY, "--transform",
-                         *words_of(matrix))
+    words = ["--function", BLOBBY, "--box", *BLOBBY_BOX, "--resolution", lab.choose(128, 24)]
+    curvatures = ["affine_gaussian_curvature", "affine_mean_curvature"]
+    surface = lab.mesh("surface", *words)
+    bounds = [quantile([abs(x) for x in surface[column]], 0.75) for column in curvatures]
+    for name, *options in (("normals", "--color", "plain", "--arrows", "affine_normal"),
+                           ("K", "--color", curvatures[0], "--range", -bounds[0], bounds[0]),
+                           ("H", "--color", curvatures[1], "--range", -bounds[1], bounds[1])):
+        lab.mesh(name, *words, "--parabolic-curves", "curves.obj", "--png", name + ".png", *options, *lab.size)
+    lab.pictured("normals", "The affine normal ξ; it grows without bound towards the black degenerate curves, where "
+                            "long arrows are cut to one length")
+    lab.pictured("K", "K: the sign changes where it passes through infinity, on the degenerate curve, and through zero")
+    lab.pictured("H", "H")
+
+    after = lab.evaluate_many("after", image_of_points(SHEAR, surface), "--function", BLOBBY, "--transform",
+                              *words_of(SHEAR))
     errors = []
-    for i in range(len(surface)):
-        if surface["status"][i] != 0 or after["status"][i] != "regular":
-            continue
-        K, H = surface["affine_gaussian_curvature"][i], surface["affine_mean_curvature"][i]
-        scale = abs(K) + H * H
-        errors.append(max(abs(after["affine_gaussian_curvature"][i] - K) / scale,
-                          abs(after["affine_mean_curvature"][i] - H) / math.sqrt(scale)))
+    for i, is_regular in enumerate(surface.is_regular()):
+        if is_regular:
+            (K, K1), (H, H1) = ((surface[column][i], after[column][i]) for column in curvatures)
+            scale = abs(K) + H * H
+            errors.append(max(abs(K1 - K) / scale, abs(H1 - H) / math.sqrt(scale)))
     lab.check("99 % of the vertices: relative change of K and H under a map of determinant 1", quantile(errors, 0.99),
-              "<=",
-              1e-10)
-    with open(lab.folder / "curves.obj", encoding="ascii") as file:
-        points = [tuple(map(float, line.split()[1:])) for line in file if line.startswith("v ")]
-    on_curve = lab.evaluate(points, "--function", BLOBBY, "--attributes", "gaussian_curvature")["gaussian_curvature"]
-    typical = quantile([abs(k) for k in surface["gaussian_curvature"]], 0.5)
-    lab.check("greatest |Kₑ| on the degenerate curve, over its median on the surface", max(map(abs,
-                                                                                               on_curve)) / typical,
-              "<=", 1e-11)
-
-
-def distances(before, after, scale=1.0, are_used=(None, None)):
-    """Kolmogorov-Smirnov and Wasserstein distance of the distributions before and after a map of |determinant| `scale`,
-    and the distributions, by the names of the curvatures."""
-    result = {}
-    for affine, euclidean, K, K_e, power in PAIRS:
-        for column, label, factor in ((affine, K, scale**power), (euclidean, K_e, 1.0)):
-            pair = [surface.distribution(column, weight, is_used) for surface, weight, is_used in zip(
-                (before, after), (1.0, factor), are_used)]
-            result[label] = kolmogorov_smirnov(*pair), scaled_wasserstein(*pair), pair
-    return result
-
-
-def tabulate(lab, name, found):
-    lab.table([name, "Kolmogorov-Smirnov", "Wasserstein, of x / (m + |x|), m the median of |x|"],
-              [[label, ks, w] for label, (ks, w, _) in found.items()])
-
-
-def compare(lab, name, found, bound, paper=None):
-    """Affine distances have to be below `bound` times the Euclidean ones; `paper` is what the paper's method has."""
-    for _, _, K, K_e, _ in PAIRS:
-        for i, kind in enumerate(("Kolmogorov-Smirnov", "Wasserstein")):
-            lab.check(f"{name}: {kind} distance of {K} before and after, over that of {K_e}",
-                      found[K][i] / found[K_e][i], "<=", bound,
-                      paper and paper[K][i] / paper[K_e][i])
-        for label in (K, K_e):
-            pair = found[label][2]
-            file = f"{name}-{label}".replace(",", "").replace(" ", "-").replace("ₑ", "_e")
-            low, high = pair[0].quantile(0.05), pair[0].quantile(0.95)
-            lab.plot(file, histograms(list(zip(("before", "after"), pair)), label, low, high),
-                     f"{name}: distribution of {label}")
-    tabulate(lab, name, found)
+              "<=", 1e-10)
+    on_curve = lab.evaluate(read_curve_points(lab.folder / "curves.obj"), "--function", BLOBBY,
+                            "--attributes", "gaussian_curvature")["gaussian_curvature"]
+    lab.check("greatest |Kₑ| on the degenerate curve, over its median on the surface",
+              greatest(map(abs, on_curve)) / median_size(surface["gaussian_curvature"]), "<=", 1e-11)
 
 
 def read_off(path):
@@ -103,54 +65,65 @@ def cubic_voxels(points, nodes):
     return [max(16, round(nodes * length / max(lengths))) for length in lengths]
 
 
-def trusted(surface):
-    """Where the error estimates are less than half of K and of H."""
-    columns = (surface[c] for c in ("affine_gaussian_curvature", "affine_gaussian_curvature_error",
-                                    "affine_mean_curvature",
-                                    "affine_mean_curvature_error", "status"))
-    return [s == 0 and e < 0.5 * abs(x) and f < 0.5 * abs(y) for x, e, y, f, s in zip(*columns)]
-
-
-def distance_field(lab, name, points, triangles, nodes):
+def sample_distance(lab, name, points, triangles, nodes):
     """Samples the distance to a mesh, `name`.nrrd."""
     write_off(lab.folder / (name + ".off"), points, triangles)
-    lab.program.run("sample", "--distance-to", name + ".off", "--resolution", *cubic_voxels(points, lab.choose(nodes,
-                                                                                                               32)),
+    lab.program.run("sample", "--distance-to", name + ".off", "--resolution", *cubic_voxels(points, nodes),
                     "-o", name + ".nrrd")
 
 
-def compare_field_with_image(lab, name, matrix, smoothing):
-    """The surface of `name`.nrrd and its image, where the error estimates can be trusted; and by the paper's method."""
-    words = ["--volume", name + ".nrrd"]
-    moved = ["--transform", *words_of(matrix)]
-    smoothed = [*words, "--smoothing", lab.choose(smoothing, 3), *WITH_ERRORS]
-    before, after = lab.mesh(name + "-before", *smoothed), lab.mesh(name + "-after", *smoothed, *moved)
-    are_used = trusted(before), trusted(after)
-    paper = [*words, "--spline-scheme", "paper", "--vertices", "linear", "--estimator", "transformation"]
-    by_paper = distances(lab.mesh("paper-before", *paper), lab.mesh("paper-after", *paper, *moved))
-    compare(lab, f"{name}, distance field", distances(before, after, 1.0, are_used), 1 / 3, by_paper)
-    lab.say(f"Samples smoothed over {lab.choose(smoothing, 3)} voxels; {100 * sum(are_used[0]) / len(before):.0f} % "
-            f"of the "
-            f"{len(before)} vertices have error estimates below half of K and of H, and are compared. The image is "
-            f"that of "
-            "the field, with derivatives in space: what is measured is the estimator, whatever noise the field has.")
+PAPER = ["--spline-scheme", "paper", "--estimator", "transformation", "--attributes", f"normal,{invariance.CURVATURES}"]
+ERRORS = "affine_gaussian_curvature_error,affine_mean_curvature_error"
 
 
-def draw(lab, name, captions, up):
-    """K and H of the surface before and after, on one scale each."""
-    for column, label in (("affine_gaussian_curvature", "K"), ("affine_mean_curvature", "H"), ("mean_curvature", "Hₑ")):
-        surface = read_ply(lab.folder / f"{name}-before.ply")
+def trusted(samples):
+    """Where the error estimates are less than half of K and of H."""
+    columns = (samples[name] for column in ("affine_gaussian_curvature", "affine_mean_curvature")
+               for name in (column, column + "_error"))
+    return [s == 0 and e < 0.5 * abs(K) and f < 0.5 * abs(H) for K, e, H, f, s in zip(*columns, samples["status"])]
+
+
+def field_samples(lab, name, words, method=()):
+    """The surface of a distance field, its curvatures, and where they can be trusted."""
+    surface = lab.mesh(name, *words, *method, "--attributes", f"normal,{invariance.CURVATURES}")
+    samples = invariance.sampled(lab, name + "-samples", surface, *words, "--attributes",
+                                 f"{invariance.CURVATURES},{ERRORS}")
+    return surface, samples, trusted(samples)
+
+
+def compare_field_with_image(lab, name, smoothing, radius):
+    """The surface of `name`.nrrd and its image, where the error estimates can be trusted; and by the paper's method at
+    the same points. Marching Cubes would give the image the images of the vertices, since the grid of the volume goes
+    along; a Delaunay mesh has its own."""
+    volume, map_words = ["--volume", name + ".nrrd"], ["--transform", *words_of(SHEAR)]
+    words = [*volume, "--smoothing", smoothing]
+    surface, before, is_used = field_samples(lab, name + "-before", words)
+    image_surface, after, is_used_after = field_samples(lab, name + "-after", [*words, *map_words],
+                                                        ["--method", "delaunay", "--radius", radius])
+    masks = is_used, is_used_after
+    found = invariance.compared(before, after, masks)
+    by_paper = [invariance.sampled(lab, f"{name}-paper-{when}", mesh, *volume, *PAPER, *moved) for when, mesh, moved in
+                (("before", surface, []), ("after", image_surface, map_words))]
+    title = f"{name}, distance field"
+    invariance.require_invariance(lab, title, found, 1 / 3, invariance.compared(*by_paper, masks))
+    invariance.plot_distributions(lab, title, found)
+    invariance.tabulate(lab, title, found)
+    shares = [invariance.used_share(*each) for each in zip((before, after), masks)]
+    lab.say(f"Samples smoothed over {smoothing} voxels. {100 * shares[0]:.0f} % of the area, {100 * shares[1]:.0f} % "
+            "of that of the image, have error estimates below half of K and of H, and are compared. The image is that "
+            "of the field, meshed afresh: what is measured is the estimator, whatever noise the field has. The paper's "
+            "method is measured at the same points, without smoothing, which it does not have.")
+    return surface, before, is_used
+
+
+def draw(lab, name, surface, captions, up):
+    """K, H and H_e of the surface `name`-before and of `name`-after, on one scale each."""
+    for column, symbol in (("affine_gaussian_curvature", "K"), ("affine_mean_curvature", "H"),
+                           ("mean_curvature", "Hₑ")):
         bound = quantile([abs(x) for x in surface[column]], 0.7)
         for when, caption in captions.items():
-            lab.picture(f"{name}-{when}-{column}", f"{label}, {caption}", "--color", column, "--up", up,
+            lab.picture(f"{name}-{when}-{column}", f"{symbol}, {caption}", "--color", column, "--up", up,
                         "--range", -bound, bound, of=f"{name}-{when}")
-
-
-WITH_ERRORS = [
-    "--attributes",
-    "normal,mean_curvature,gaussian_curvature,affine_gaussian_curvature,affine_mean_curvature,"
-    "affine_gaussian_curvature_error,affine_mean_curvature_error",
-]
 
 
 @item("fig1", "The Stanford bunny and its image",
@@ -163,41 +136,53 @@ def fig1(lab):
         mesh = lab.mesh("mesh", "--function", BANANA, "--box", *BANANA_BOX, "--resolution", 32, "--attributes", "none")
         points, triangles = mesh.points, mesh.triangles
     else:
-        return lab.fail("the mesh of the bunny", "it is not given: --bunny FILE, or scripts/reproduce, which "
-                                                 "fetches it")
-    matrix, smoothing = unimodular(SHEAR), 24
-    distance_field(lab, "bunny", points, triangles, 129)
-    compare_field_with_image(lab, "bunny", matrix, smoothing)
-    draw(lab, "bunny", {"before": "the bunny", "after": "its image"}, "y")
-    distance_field(lab, "moved", [image(matrix, p) for p in points], triangles, 129)
-    before = read_ply(lab.folder / "bunny-before.ply")
-    afresh = lab.mesh("moved", "--volume", "moved.nrrd", "--smoothing", lab.choose(smoothing, 3), *WITH_ERRORS)
-    are_used = trusted(before), trusted(afresh)
-    if sum(are_used[1]) > len(afresh) / 2:
-        tabulate(lab, "distances to the moved mesh, measured afresh", distances(before, afresh, 1.0, are_used))
+        raise RuntimeError("the mesh of the bunny is not given: --bunny FILE, or scripts/reproduce, which fetches it")
+    nodes, smoothing, radius = lab.choose((129, 24, 0.015), (40, 6, 0.08))
+    sample_distance(lab, "bunny", points, triangles, nodes)
+    surface, before, is_used = compare_field_with_image(lab, "bunny", smoothing, radius)
+    draw(lab, "bunny", surface, {"before": "the bunny", "after": "its image"}, "y")
+    bound = quantile([abs(x) for x in surface["affine_gaussian_curvature"]], 0.7)
+    for when, words in (("before", []), ("after", ["--transform", *words_of(SHEAR)])):
+        lab.mesh("paper-" + when, "--volume", "bunny.nrrd", *PAPER, "--vertices", "linear", *words, "--up", "y",
+                 "--png", f"paper-{when}.png", "--color", "affine_gaussian_curvature", "--range", -bound, bound,
+                 *lab.size)
+        lab.pictured("paper-" + when, f"K by the paper's method, {when} the map: it sees the facets of the mesh")
     lab.say("A scale of 24 voxels cuts off the ears, which are thinner: at smaller ones the facets of the mesh leave "
             "few vertices whose affine curvatures can be trusted, 3 % at 16 voxels and below.")
+
+    sample_distance(lab, "moved", [image(SHEAR, p) for p in points], triangles, nodes)
+    _, afresh, is_used_afresh = field_samples(lab, "moved", ["--volume", "moved.nrrd", "--smoothing", smoothing])
+    share = invariance.used_share(afresh, is_used_afresh)
     lab.say("The distance to the image is not the image of the distance: smoothing and distances are Euclidean. "
-            "Where the last table is, it is of another surface near the same facets, whose affine curvatures, "
-            "derivatives of order 4, need not agree better than the Euclidean ones.")
-
-
-BANANA = "(sqrt(x^2+y^2) - 1)^2 + z^2 - 0.09*(1 - (atan2(y,x)/1.2)^2)"
-BANANA_BOX = [0.2, 1.37, -1.19, 1.2, -0.35, 0.36]
+            f"Measured afresh it is the field of another surface near the same facets, {100 * share:.0f} % of which "
+            "have trusted estimates, and whose affine curvatures, derivatives of order 4, need not agree better than "
+            "the Euclidean ones:")
+    invariance.tabulate(lab, "distances to the moved mesh", invariance.compared(before, afresh,
+                                                                                (is_used, is_used_afresh)))
 
 
 @item("fig12", "The banana and its images",
       "On a distance field to a banana on a 256³ grid Euclidean curvatures do not match through affine maps, but "
       "affine ones do.")
 def fig12(lab):
-    matrix = unimodular(SHEAR)
-    n = lab.choose((176, 352, 110), (24, 40, 16))
-    before = lab.mesh("formula-before", "--function", BANANA, "--box", *BANANA_BOX, "--resolution", *n)
-    after = lab.mesh("formula-after", "--function", transformed(BANANA, matrix), "--box",
-                     *image_of_box(matrix, BANANA_BOX), "--resolution", lab.choose(264, 48))
-    compare(lab, "banana, formula", distances(before, after), lab.choose(0.01, 0.3))
-    draw(lab, "formula", {"before": "the banana", "after": "its image"}, "z")
+    n, m, voxels, smoothing, radius = lab.choose(((150, 300, 90), (460, 170, 160), 256, 8, 0.015),
+                                                 ((30, 60, 18), (92, 34, 32), 40, 6, 0.08))
+    formula = ["--attributes", invariance.CURVATURES, "--function"]
+    image_of_formula = transformed(BANANA, SHEAR)
+    before = lab.mesh("formula-before", *formula, BANANA, "--box", *BANANA_BOX, "--resolution", *n)
+    after = lab.mesh("formula-after", *formula, image_of_formula, "--box", *image_of_box(SHEAR, BANANA_BOX),
+                     "--resolution", *m)
+    samples = (invariance.sampled(lab, "samples-before", before, *formula, BANANA),
+               invariance.sampled(lab, "samples-after", after, *formula, image_of_formula))
+    lab.check("banana, formula: share of the area where all curvatures exist", min(map(invariance.used_share, samples)),
+              ">=", 0.99)
+    found = invariance.compared(*samples)
+    invariance.require_invariance(lab, "banana, formula", found, lab.choose(0.01, 0.1))
+    invariance.plot_distributions(lab, "banana, formula", found)
+    invariance.tabulate(lab, "banana, formula", found)
+    draw(lab, "formula", before, {"before": "the banana", "after": "its image"}, "z")
+
     mesh = lab.mesh("mesh", "--function", BANANA, "--box", *BANANA_BOX, "--resolution", lab.choose(100, 32),
                     "--attributes", "none")
-    distance_field(lab, "banana", mesh.points, mesh.triangles, 256)
-    compare_field_with_image(lab, "banana", matrix, 8)
+    sample_distance(lab, "banana", mesh.points, mesh.triangles, voxels)
+    compare_field_with_image(lab, "banana", smoothing, radius)
