@@ -56,6 +56,9 @@ Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z
     if constexpr (is_built_in<FT>) return inlined_call<Jet>(f, sx, sy, sz);
     else return f(sx, sy, sz);
   } else {
+    static_assert(CallableWith<Function, Jet, Jet, Jet>,
+                  "the function takes no jets: write it as a template of the type of its arguments, and call functions "
+                  "as `using std::sin; sin(x)`");
     return f(Jet(sx), Jet(sy), Jet(sz));
   }
 }

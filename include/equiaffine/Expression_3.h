@@ -84,7 +84,8 @@ public:
   }
 
   /// The Taylor polynomial at (x, y, z), for a floating-point type or a Pack. It is that of the call on jets but for
-  /// rounding, computed by a tape of its own that leaves out what the structure of the expression makes zero.
+  /// rounding, computed by a tape of its own that leaves out what the structure of the expression makes zero: what does
+  /// not depend on x, y, z has no derivatives, whatever its value, where jets can have NaN, as of sqrt(x-x).
   template <internal::expression::Ordered T>
   Jet_3<T> taylor(const T& x, const T& y, const T& z) const {
     Jet_3<T> jet;

@@ -30,7 +30,7 @@ using internal::Monomial_set;
 ///
 /// `Support` is the set of monomials whose coefficient can differ from zero, known at compile time. A function written
 /// with `auto` for its intermediate results computes nothing that its structure makes zero; one with a single fixed
-/// type works on full jets.
+/// type works on full jets, and may sum up in a loop, where the type of a sum cannot grow.
 ///
 /// `T` may be any number type with ring operations: float, double, multiprecision, Interval, a SIMD pack. The default
 /// constructor leaves the coefficients uninitialised when that of T does.
@@ -131,22 +131,30 @@ public:
 
   template <class Other>
   Jet_3& operator+=(const Other& other) {
-    return *this = *this + other;
+    return assign(*this + other);
   }
   template <class Other>
   Jet_3& operator-=(const Other& other) {
-    return *this = *this - other;
+    return assign(*this - other);
   }
   template <class Other>
   Jet_3& operator*=(const Other& other) {
-    return *this = *this * other;
+    return assign(*this * other);
   }
   template <class Other>
   Jet_3& operator/=(const Other& other) {
-    return *this = *this / other;
+    return assign(*this / other);
   }
 
 private:
+  template <class Result>
+  Jet_3& assign(const Result& result) {
+    static_assert(std::is_convertible_v<Result, Jet_3>,
+                  "the result has monomials that the left side does not have: name it anew, `auto t = s + y * y`, or "
+                  "give the function one type for all its arguments");
+    return *this = result;
+  }
+
   std::array<T, size> c_;
 };
 

@@ -71,7 +71,10 @@ public:
   }
 
   /// A function of one (a == b) or two arguments.
-  Node function(Opcode opcode, Node a, Node b) { return opcode == Opcode::POWER ? power(a, b) : node(opcode, a, b); }
+  Node function(Opcode opcode, Node a, Node b) {
+    if (a == b && (opcode == Opcode::MIN || opcode == Opcode::MAX)) return a;
+    return opcode == Opcode::POWER ? power(a, b) : node(opcode, a, b);
+  }
 
   /// What an instruction of another tape does, with other operands.
   Node repeat(const Instruction& i, Node a, Node b) {
