@@ -61,8 +61,8 @@ struct Pack_mask {
 
 /// As many numbers as one vector register holds under the compiler's flags, to be used as one number: a number type for
 /// Jet_3, Monge_chart_3 and what follows. Every operation is that of T in each lane, functions are those of <cmath> but
-/// for exp, sin and cos of doubles (internal/elementary_functions.h), so
-/// that, unless the compiler contracts products and sums (-ffp-contract=off), a lane has the bits that T would have.
+/// for exp, sin and cos of doubles (internal/elementary_functions.h), so that, unless the compiler contracts products and
+/// sums (-ffp-contract=off), a lane has the bits that T would have.
 template <class T, class Abi = internal::Native_abi<T>>
 struct Pack {
   using Simd = std::experimental::simd<T, Abi>;
@@ -84,6 +84,7 @@ struct Pack {
     return Simd(values, std::experimental::vector_aligned);
   }
 
+  /// Lane i is f(a[i]).
   template <class F>
   [[gnu::noinline]] static Pack lane_by_lane(const Pack& a, F f) {
     return generate([&](std::size_t i) { return f(a[i]); });
@@ -146,13 +147,10 @@ struct Pack {
 #undef EQUIAFFINE_PACK_FUNCTION
 
   [[gnu::always_inline]] friend Pack exp(const Pack& a) {
-    if constexpr (std::is_same_v<T, double>) {
-      const Pack r = internal::exponential_in_range(a);
-      const Mask in_range = abs(a) <= Pack(internal::exponential_range);
-      return all_of(in_range.lanes) ? r : lane_by_lane(a, [](T u) { return internal::exp_value(u); });
-    } else {
-      return lane_by_lane(a, [](T u) { return std::exp(u); });
-    }
+    if constexpr (std::is_same_v<T, double>)
+      if (const Mask in_range = abs(a) <= Pack(internal::exponential_range); all_of(in_range.lanes))
+        return internal::exponential_in_range(a);
+    return lane_by_lane(a, [](T u) { return internal::exp_value(u); });
   }
   [[gnu::always_inline]] friend std::pair<Pack, Pack> sine_and_cosine(const Pack& a) {
     if constexpr (std::is_same_v<T, double>)
