@@ -74,8 +74,7 @@ public:
   Jet_3<Interval, 1> mean_value_bounds(const CGAL::Bbox_3& box) const {
     return memory_->function_.mean_value_bounds(box);
   }
-  bool has_tight_bounds() const { return memory_->function_.has_tight_bounds(); }
-  bool has_gradient_bounds() const { return memory_->function_.has_gradient_bounds(); }
+  Known_bounds known_bounds() const { return memory_->function_.known_bounds(); }
   CGAL::Bbox_3 bbox() const { return memory_->function_.bbox(); }
 
 private:

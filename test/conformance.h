@@ -192,6 +192,31 @@ TYPED_TEST_P(Conformance, tight_bounds_of_first_order_are_such_and_inside_the_us
   }
 }
 
+TYPED_TEST_P(Conformance, bounds_of_second_order_enclose_the_expansion) {
+  if constexpr (equiaffine::SecondOrderBoundedImplicitFunctionTraits_3<typename TypeParam::Traits>) {
+    using Point_3 = typename TypeParam::Traits::Point_3;
+    const auto traits = TypeParam::make();
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (const auto& p : TypeParam::points()) {
+      const double r = TypeParam::length / 8;
+      const auto bounds =
+          traits.second_order_bounds(CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r));
+      for (int n = 0; n < 20; ++n) {
+        const auto jet =
+            traits.taylor(Point_3(p.x() + r * unit(random), p.y() + r * unit(random), p.z() + r * unit(random)));
+        for (std::size_t c = 0; c < 10; ++c) {
+          const double x = jet.coefficients()[c], rounding = 1e-12 * (1 + std::abs(x));
+          EXPECT_LE(bounds.coefficients()[c].lower(), x + rounding) << "coefficient " << c;
+          EXPECT_GE(bounds.coefficients()[c].upper(), x - rounding) << "coefficient " << c;
+        }
+      }
+    }
+  } else {
+    GTEST_SKIP() << "the model has no bounds of its second derivatives";
+  }
+}
+
 TYPED_TEST_P(Conformance, batches_are_single_calls_bit_for_bit) {
   const equiaffine::Batch_function_traits_3 traits(TypeParam::make());
   const auto points = TypeParam::points();
@@ -239,8 +264,8 @@ REGISTER_TYPED_TEST_SUITE_P(Conformance, value_is_the_constant_coefficient, tayl
                             bounds_enclose_the_values_and_shrink_with_the_box,
                             bounds_of_first_order_enclose_value_and_gradient_and_shrink_with_the_box,
                             tight_bounds_of_first_order_are_such_and_inside_the_usual_ones,
-                            batches_are_single_calls_bit_for_bit, several_threads_get_the_numbers_of_one,
-                            copies_own_their_data);
+                            bounds_of_second_order_enclose_the_expansion, batches_are_single_calls_bit_for_bit,
+                            several_threads_get_the_numbers_of_one, copies_own_their_data);
 
 } // namespace conformance
 

@@ -148,6 +148,8 @@ static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Analytic>);
 static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Level_set_traits_3<Transformed_function_traits_3<Analytic>>>);
 static_assert(!FirstOrderBoundedImplicitFunctionTraits_3<Archetype>);
 static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Sampled>);
+static_assert(SecondOrderBoundedImplicitFunctionTraits_3<Level_set_traits_3<Transformed_function_traits_3<Analytic>>>);
+static_assert(!SecondOrderBoundedImplicitFunctionTraits_3<Sampled>);
 static_assert(BatchImplicitFunctionTraits_3<Batch_function_traits_3<Archetype>>);
 static_assert(!BatchImplicitFunctionTraits_3<Archetype>);
 static_assert(FirstOrderImplicitFunctionTraits_3<Analytic> && !FirstOrderImplicitFunctionTraits_3<Archetype>);

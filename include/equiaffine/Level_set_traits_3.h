@@ -51,10 +51,10 @@ public:
   first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
     return from_base(base_.first_order_bounds(box));
   }
-  Jet_3<Interval, 2> second_order_bounds(const CGAL::Bbox_3& box) const requires requires(const Base& base) {
-    base.second_order_bounds(box);
+  Jet_3<Interval, 2>
+  second_order_bounds(const CGAL::Bbox_3& box) const requires SecondOrderBoundedImplicitFunctionTraits_3<Base> {
+    return from_base(base_.second_order_bounds(box));
   }
-  { return from_base(base_.second_order_bounds(box)); }
   FT rounding(const Point_3& p) const requires internal::Has_rounding<Base> { return base_.rounding(p); }
   CGAL::Bbox_3 bbox() const { return base_.bbox(); }
   Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {

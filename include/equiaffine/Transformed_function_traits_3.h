@@ -70,10 +70,10 @@ public:
   first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
     return substitution_of_bounds_(base_.first_order_bounds(preimage(box)));
   }
-  Jet_3<Interval, 2> second_order_bounds(const CGAL::Bbox_3& box) const requires requires(const Base& base) {
-    base.second_order_bounds(box);
+  Jet_3<Interval, 2>
+  second_order_bounds(const CGAL::Bbox_3& box) const requires SecondOrderBoundedImplicitFunctionTraits_3<Base> {
+    return substitution_of_bounds_(base_.second_order_bounds(preimage(box)));
   }
-  { return substitution_of_bounds_(base_.second_order_bounds(preimage(box))); }
 
   /// A second derivative is a sum of the base's, each times two entries of A^-1.
   FT rounding(const Point_3& p) const requires internal::Has_rounding<Base> {

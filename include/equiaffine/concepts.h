@@ -51,6 +51,15 @@ concept FirstOrderBoundedImplicitFunctionTraits_3 =
     { traits.first_order_bounds(box) } -> std::same_as<Jet_3<Interval, 1>>;
   };
 
+/// ... and its second derivatives, for tighter bounds in small boxes: coefficient n of `second_order_bounds(box)`
+/// contains that of the expansion of order 2 at every p in the box.
+template <class Traits>
+concept SecondOrderBoundedImplicitFunctionTraits_3 =
+  FirstOrderBoundedImplicitFunctionTraits_3<Traits> &&
+  requires(const Traits& traits, const CGAL::Bbox_3& box) {
+    { traits.second_order_bounds(box) } -> std::same_as<Jet_3<Interval, 2>>;
+  };
+
 /// ... that evaluates many points at once; the numbers are those of the single calls, bit for bit.
 template <class Traits>
 concept BatchImplicitFunctionTraits_3 =

@@ -34,8 +34,7 @@ public:
   Interval bounds(const CGAL::Bbox_3& box) const { return function_->bounds(box); }
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return function_->first_order_bounds(box); }
   Jet_3<Interval, 1> mean_value_bounds(const CGAL::Bbox_3& box) const { return function_->mean_value_bounds(box); }
-  bool has_tight_bounds() const { return function_->has_tight_bounds(); }
-  bool has_gradient_bounds() const { return function_->has_gradient_bounds(); }
+  Known_bounds known_bounds() const { return function_->known_bounds(); }
   CGAL::Bbox_3 bbox() const { return function_->bbox(); }
   Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa, double fb) const {
     return function_->intersect_segment(a, b, fa, fb);
@@ -50,8 +49,7 @@ private:
     virtual Interval bounds(const CGAL::Bbox_3& box) const = 0;
     virtual Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const = 0;
     virtual Jet_3<Interval, 1> mean_value_bounds(const CGAL::Bbox_3& box) const = 0;
-    virtual bool has_tight_bounds() const = 0;
-    virtual bool has_gradient_bounds() const = 0;
+    virtual Known_bounds known_bounds() const = 0;
     virtual CGAL::Bbox_3 bbox() const = 0;
     virtual Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa,
                                                       double fb) const = 0;
@@ -85,8 +83,7 @@ private:
     Jet_3<Interval, 1> mean_value_bounds(const CGAL::Bbox_3& box) const override {
       return internal::tight_first_order_bounds(traits, box);
     }
-    bool has_tight_bounds() const override { return internal::has_tight_bounds(traits); }
-    bool has_gradient_bounds() const override { return internal::has_gradient_bounds(traits); }
+    Known_bounds known_bounds() const override { return internal::known_bounds(traits); }
     CGAL::Bbox_3 bbox() const override { return traits.bbox(); }
     Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa, double fb) const override {
       using FT = typename Traits::FT;

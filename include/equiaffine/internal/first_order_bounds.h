@@ -80,7 +80,7 @@ template <ImplicitFunctionTraits_3 Traits>
 Jet_3<Interval, 1> tight_first_order_bounds(const Traits& traits, const CGAL::Bbox_3& box) {
   if constexpr (requires { traits.mean_value_bounds(box); }) {
     return traits.mean_value_bounds(box);
-  } else if constexpr (requires { traits.second_order_bounds(box); }) {
+  } else if constexpr (SecondOrderBoundedImplicitFunctionTraits_3<Traits>) {
     const auto center = center_of(box);
     const auto start = traits.first_order_bounds(box_of_point(center));
     return mean_value_bounds(traits.second_order_bounds(box), start, offset_from_center(box, center));
@@ -89,20 +89,16 @@ Jet_3<Interval, 1> tight_first_order_bounds(const Traits& traits, const CGAL::Bb
   }
 }
 
-/// Whether those are tighter than the others. A model that learns this at run time has a member.
-template <ImplicitFunctionTraits_3 Traits>
-bool has_tight_bounds(const Traits& traits) {
-  if constexpr (requires { traits.has_tight_bounds(); }) return traits.has_tight_bounds();
-  else return requires(const CGAL::Bbox_3& box) {
-      traits.second_order_bounds(box);
-    };
-}
+/// What a function knows of itself in boxes.
+struct Known_bounds {
+  bool have_gradients, are_tight_in_small_boxes;
+};
 
-/// Whether it knows something of the gradients. A model that learns this at run time has a member.
+/// A model that learns it at run time has a member.
 template <ImplicitFunctionTraits_3 Traits>
-bool has_gradient_bounds(const Traits& traits) {
-  if constexpr (requires { traits.has_gradient_bounds(); }) return traits.has_gradient_bounds();
-  else return FirstOrderBoundedImplicitFunctionTraits_3<Traits>;
+Known_bounds known_bounds(const Traits& traits) {
+  if constexpr (requires { traits.known_bounds(); }) return traits.known_bounds();
+  else return {FirstOrderBoundedImplicitFunctionTraits_3<Traits>, SecondOrderBoundedImplicitFunctionTraits_3<Traits>};
 }
 
 } // namespace equiaffine::internal
