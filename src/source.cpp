@@ -8,7 +8,6 @@
 #include <equiaffine/Input_error.h>
 #include <equiaffine/Sample_noise.h>
 #include <equiaffine/sample_on_lattice.h>
-#include <equiaffine/smooth_volume.h>
 
 #include <CGAL/tags.h>
 
@@ -100,9 +99,9 @@ Fit fit_spline(const Source_options& source, Progress& progress) {
   const double smoothing = scale ? *scale : choose_smoothing(volume, noise, degree, scheme, isovalue);
   progress.begin("fitting a spline");
   const Spline_statistics statistics = {degree, scheme, smoothing, noise};
-  if (!estimates_errors)
-    return {Spline_traits(smooth_volume(std::move(volume), smoothing), degree, scheme), statistics, {}};
-  Fit fit = {Spline_traits(smooth_volume(volume, smoothing), degree, scheme), statistics, {}};
+  using Tag = CGAL::Parallel_if_available_tag;
+  if (!estimates_errors) return {Spline_traits(std::move(volume), degree, scheme, Tag(), smoothing), statistics, {}};
+  Fit fit = {Spline_traits(volume, degree, scheme, Tag(), smoothing), statistics, {}};
   fit.errors.emplace(fit.function, volume, smoothing, noise.deviation);
   return fit;
 }

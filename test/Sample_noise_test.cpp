@@ -99,3 +99,27 @@ TEST(Sample_noise, more_noise_needs_a_larger_scale) {
     last = scale;
   }
 }
+
+TEST(Sample_noise, details_of_a_few_voxels_are_not_smoothed_away) {
+  // A wall two voxels thick, bent, in a little noise: no scale resolves fourth derivatives of it.
+  const Lattice_3<Kernel> lattice({48, 48, 48}, CGAL::Bbox_3(0, 0, 0, 47, 47, 47));
+  const auto wall = [](double x, double y, double z) {
+    const double distance = std::sqrt((x - 23.5) * (x - 23.5) + (y - 23.5) * (y - 23.5) + (z - 20) * (z - 20)) - 15;
+    return 4 * std::exp(-distance * distance / 2);
+  };
+  const double isovalue = 4 * std::exp(-0.5);
+  const auto inside = [&](const Volume& v) {
+    return std::count_if(v.values.begin(), v.values.end(), [&](double x) { return x > isovalue; });
+  };
+  for (const double deviation : {0.01, 0.1}) {
+    const Volume volume = sample_volume(lattice, wall, deviation);
+    const double scale = choose_smoothing(volume, estimate_noise(volume, {isovalue}), 7, scheme, {isovalue});
+    const auto left = inside(smooth_volume(volume, scale));
+    EXPECT_NEAR(double(left) / double(inside(volume)), 1, 0.05) << "scale " << scale << " for noise " << deviation;
+  }
+}
+
+TEST(Sample_noise, noise_is_smoothed_away_though_that_moves_the_surface) {
+  const Volume volume = sample(64, 0.1); // by more than a voxel in a fifth of the nodes
+  EXPECT_GE(choose_smoothing(volume, estimate_noise(volume, 0.), 7, scheme, {0.}), 6);
+}

@@ -59,6 +59,15 @@ TEST(Sampled_function_traits_3, the_default_is_quasi_interpolation_of_degree_sev
   EXPECT_EQ(traits.spline().scheme(), equiaffine::Spline_scheme::QUASI_INTERPOLATION);
 }
 
+TEST(Sampled_function_traits_3, samples_are_smoothed_by_a_scale) {
+  const Volume_3 volume = random_volume(12);
+  const Traits smooth(volume, 7, equiaffine::Spline_scheme::QUASI_INTERPOLATION, CGAL::Sequential_tag(), 2);
+  const Traits expected(equiaffine::smooth_volume(volume, 2.));
+  EXPECT_EQ(smooth.sample(5, 6, 7), expected.sample(5, 6, 7));
+  EXPECT_NE(smooth.sample(5, 6, 7), volume(5, 6, 7));
+  EXPECT_EQ(smooth.taylor(inner_point).coefficients(), expected.taylor(inner_point).coefficients());
+}
+
 TEST(Sampled_function_traits_3, copies_outlive_the_original_and_share_its_data) {
   auto original = std::make_unique<Traits>(random_volume(9));
   const double value = original->value(inner_point);

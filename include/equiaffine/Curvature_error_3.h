@@ -58,7 +58,7 @@ public:
     const Spline_function_3<Kernel>& spline = function_.spline();
     const auto cell = spline.cell_of(p);
     const auto jet = spline.taylor(p);
-    if (!cell || local_structure(jet).status != Point_status::REGULAR) {
+    if (!cell || local_structure(jet, {p.x(), p.y(), p.z()}, function_.rounding(p)).status != Point_status::REGULAR) {
       const FT nan = std::numeric_limits<FT>::quiet_NaN();
       return {nan, nan};
     }

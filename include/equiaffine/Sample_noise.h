@@ -3,7 +3,7 @@
 #define EQUIAFFINE_SAMPLE_NOISE_H
 
 #include <equiaffine/Volume_3.h>
-#include <equiaffine/internal/bspline_functionals.h>
+#include <equiaffine/internal/Spline_probe.h>
 
 #include <algorithm>
 #include <array>
@@ -119,129 +119,91 @@ Sample_noise estimate_noise(const Volume_3<Kernel>& volume,
 
 namespace internal {
 
-/// Fourth derivatives along x, y and z, in lattice coordinates, of the spline through smoothed samples, in the middle
-/// of cells, as sums over samples.
+/// A scale of smoothing and what it makes of the cells in which scales are compared.
 template <class Kernel>
-class Fourth_derivative_probe {
-  using FT = typename Kernel::FT;
+struct Smoothing_trial {
+  using Cells = std::vector<std::array<std::size_t, 3>>;
 
-public:
-  using Cell = std::array<std::size_t, 3>;
-
-  Fourth_derivative_probe(const Cell& size, const Spline_rule<FT>& rule) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      const Line_functionals<FT> line(size[a], rule);
-      weights_[a] = {line.kinds(), [&](std::size_t kind) { return Weights(line.rows(kind)); }};
-    }
+  Smoothing_trial(const Volume_3<Kernel>& volume, const Cells& cells, const Spline_rule<typename Kernel::FT>& rule)
+      : probe(volume.lattice.size(), rule) {
+    for (const auto& cell : cells) found.push_back(probe(volume, cell));
   }
 
-  std::array<double, 3> operator()(const Volume_3<Kernel>& volume, const Cell& cell) const {
-    const Weights &x = weights_[0][cell[0]], &y = weights_[1][cell[1]], &z = weights_[2][cell[2]];
-    std::array<double, 3> sum{};
-    for (std::size_t k = 0; k < z.value.size(); ++k) {
-      double value = 0, along_x = 0, along_y = 0;
-      for (std::size_t j = 0; j < y.value.size(); ++j) {
-        const FT* row = &volume.values[volume.lattice.index(first(0, cell), first(1, cell) + j, first(2, cell) + k)];
-        double line = 0, derivative = 0;
-        for (std::size_t i = 0; i < x.value.size(); ++i) {
-          line += x.value[i] * double(row[i]);
-          derivative += x.derivative[i] * double(row[i]);
-        }
-        value += y.value[j] * line;
-        along_x += y.value[j] * derivative;
-        along_y += y.derivative[j] * line;
-      }
-      sum[0] += z.value[k] * along_x;
-      sum[1] += z.value[k] * along_y;
-      sum[2] += z.derivative[k] * value;
+  /// Whether this scale moves the surface that `unsmoothed` has: in more than a fifth of the cells the value changes by
+  /// more than two standard deviations of what noise explains and a tenth of a voxel along the gradient together.
+  bool moves_surface(const Smoothing_trial& unsmoothed, const Volume_3<Kernel>& volume, const Cells& cells,
+                     double deviation) const {
+    std::vector<double> excesses;
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+      const auto& [i, j, k] = cells[n];
+      const double slope = std::hypot(double(volume(i + 1, j, k) - volume(i - 1, j, k)),
+                                      double(volume(i, j + 1, k) - volume(i, j - 1, k)),
+                                      double(volume(i, j, k + 1) - volume(i, j, k - 1))) /
+                           2;
+      const double explained = deviation * std::sqrt(probe.change(unsmoothed.probe, cells[n]).value);
+      const double excess = std::abs(found[n][0] - unsmoothed.found[n][0]) - std::hypot(2 * explained, 0.1 * slope);
+      if (std::isfinite(excess)) excesses.push_back(std::max(excess, 0.0));
     }
-    return sum;
+    return quantile_of_magnitudes(std::move(excesses), 0.8) > 0;
   }
 
-  /// The covariance of the derivative along x of this one and of another, for white noise of deviation 1.
-  double covariance(const Fourth_derivative_probe& other, const Cell& cell) const {
-    double result = 1;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const Weights &p = weights_[a][cell[a]], &q = other.weights_[a][cell[a]];
-      const std::size_t begin = std::max(first(a, cell), other.first(a, cell));
-      double sum = 0;
-      for (std::size_t n = begin; n - first(a, cell) < p.value.size() && n - other.first(a, cell) < q.value.size();
-           ++n) {
-        const std::size_t i = n - first(a, cell), j = n - other.first(a, cell);
-        sum += a == 0 ? p.derivative[i] * q.derivative[j] : p.value[i] * q.value[j];
-      }
-      result *= sum;
+  /// The estimated error of fourth derivatives, by what they differ from those of the scale before, if there is one.
+  double risk(const Smoothing_trial* last, const Cells& cells, double deviation) const {
+    std::vector<double> deviations, differences, expected;
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+      deviations.push_back(deviation * std::sqrt(probe.covariance(probe, cells[n]).derivative));
+      if (!last) continue;
+      expected.push_back(deviation * std::sqrt(probe.change(last->probe, cells[n]).derivative));
+      for (std::size_t a = 1; a < 4; ++a)
+        if (const double d = last->found[n][a] - found[n][a]; std::isfinite(d)) differences.push_back(d);
     }
-    return result;
+    const double of_noise = median_magnitude(std::move(expected));
+    const double change = quantile_of_magnitudes(std::move(differences), 0.8) / most_over_deviation;
+    const double bias = std::sqrt(std::max(0.0, change * change - 1.5 * of_noise * of_noise)); // both are uncertain
+    return std::hypot(median_magnitude(std::move(deviations)), bias);
   }
 
-private:
-  /// Of the samples from some first one on, counted in the cell of that kind whose functionals are known.
-  struct Weights {
-    explicit Weights(const typename Line_functionals<FT>::Rows& rows) {
-      const auto is_used = [&](std::size_t j) { return rows[0][j] != 0 || rows[4][j] != 0; };
-      std::size_t end = rows[0].size();
-      while (first + 1 < end && !is_used(first)) ++first;
-      while (end > first + 1 && !is_used(end - 1)) --end;
-      for (std::size_t j = first; j < end; ++j) {
-        value.push_back(double(rows[0][j]));
-        derivative.push_back(double(24 * rows[4][j]));
-      }
-    }
-
-    std::size_t first = 0;
-    std::vector<double> value, derivative;
-  };
-
-  /// The first sample that is used along an axis.
-  std::size_t first(std::size_t a, const Cell& cell) const {
-    return weights_[a][cell[a]].first + weights_[a].distance(cell[a]);
-  }
-
-  std::array<Per_kind_of_cell<Weights>, 3> weights_;
+  Spline_probe<Kernel> probe;
+  std::vector<std::array<double, 4>> found; // by the probe, in each cell
 };
 
 } // namespace internal
 
 /// The scale for smooth_volume with the least estimated error of fourth derivatives, out of 0, 1.5, 2, 2.5, 3, 4, 5, 6
-/// and 8: noise is known from its deviation, and what smoothing takes away from the function is what the derivatives
-/// differ from those at the scale before, beyond their noise, in most of some hundred cells beside the level set.
+/// and 8, among those that leave the surface where it is.
+///
+/// Noise is known from its deviation, and what smoothing takes away from the function is what the derivatives differ
+/// from those at the scale before, beyond their noise, in most of some hundred cells beside the level set. A scale, and
+/// all larger ones, is left out where in more than a fifth of these cells the value changes by more than hypot(2 s, g):
+/// s is the standard deviation of the change that noise explains (the discrepancy principle: Morozov, On the solution
+/// of functional equations by the method of regularization, 1966), g the slope times a tenth of a voxel, below which
+/// details are interpolated anyway. Fourth derivatives of a scan that has details of a few voxels are wrong at every
+/// scale, the larger ones wear the details away.
+///
 /// Scales whose window does not fit into the volume are left out, and 0 is chosen where there is no spline.
 template <class Kernel>
 typename Kernel::FT choose_smoothing(const Volume_3<Kernel>& volume, const Sample_noise& noise, int degree,
                                      Spline_scheme scheme, std::optional<typename Kernel::FT> isovalue = std::nullopt) {
   using FT = typename Kernel::FT;
-  using Probe = internal::Fourth_derivative_probe<Kernel>;
+  using Trial = internal::Smoothing_trial<Kernel>;
   if (scheme == Spline_scheme::INTERPOLATION) scheme = Spline_scheme::QUASI_INTERPOLATION; // the same but for its reach
   const std::size_t shortest = *std::min_element(volume.lattice.size().begin(), volume.lattice.size().end());
   const auto cells = internal::nodes_to_measure(volume, isovalue, 1, 300);
   if (shortest <= std::size_t(degree) || cells.empty()) return 0;
-  std::optional<Probe> last;
-  double least_risk = 0;
+  const Trial unsmoothed(volume, cells, {degree, scheme, FT(0)});
+  Trial last = unsmoothed;
+  double least_risk = unsmoothed.risk(nullptr, cells, noise.deviation);
   FT best = 0;
-  for (const FT scale : {FT(0), FT(1.5), FT(2), FT(2.5), FT(3), FT(4), FT(5), FT(6), FT(8)}) {
+  for (const FT scale : {FT(1.5), FT(2), FT(2.5), FT(3), FT(4), FT(5), FT(6), FT(8)}) {
     if (2 * internal::Smoothing_filter<FT>::radius_of(scale) + 1 > shortest) break;
-    Probe probe(volume.lattice.size(), {degree, scheme, scale});
-    std::vector<double> deviations, differences, expected;
-    for (const auto& cell : cells) {
-      const double variance = probe.covariance(probe, cell);
-      deviations.push_back(noise.deviation * std::sqrt(variance));
-      if (!last) continue;
-      const double change = variance + last->covariance(*last, cell) - 2 * last->covariance(probe, cell);
-      expected.push_back(noise.deviation * std::sqrt(std::max(change, 0.0)));
-      const auto fine = (*last)(volume, cell), coarse = probe(volume, cell);
-      for (std::size_t a = 0; a < 3; ++a)
-        if (std::isfinite(fine[a] - coarse[a])) differences.push_back(fine[a] - coarse[a]);
-    }
-    const double of_noise = internal::median_magnitude(std::move(expected));
-    const double found = internal::quantile_of_magnitudes(std::move(differences), 0.8) / internal::most_over_deviation;
-    const double bias = std::sqrt(std::max(0.0, found * found - 1.5 * of_noise * of_noise)); // both are uncertain
-    const double risk = std::hypot(internal::median_magnitude(std::move(deviations)), bias);
-    if (!last || risk < least_risk) {
+    Trial trial(volume, cells, {degree, scheme, scale});
+    if (trial.moves_surface(unsmoothed, volume, cells, noise.deviation)) break;
+    const double risk = trial.risk(&last, cells, noise.deviation);
+    if (risk < least_risk) {
       least_risk = risk;
       best = scale;
     }
-    last.emplace(std::move(probe));
+    last = std::move(trial);
   }
   return best;
 }

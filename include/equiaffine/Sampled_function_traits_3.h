@@ -5,6 +5,7 @@
 #include <equiaffine/Spline_function_3.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/internal/Spline_rounding_3.h>
+#include <equiaffine/smooth_volume.h>
 
 #include <CGAL/Simple_cartesian.h>
 
@@ -26,13 +27,16 @@ public:
   using Point_3 = typename Kernel::Point_3;
   using Vector_3 = typename Kernel::Vector_3;
 
-  /// Degree and scheme as for Spline_function_3.
+  /// Degree and scheme as for Spline_function_3, of the samples smoothed by a scale as for smooth_volume.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Sampled_function_traits_3(Volume_3<Kernel> volume, int degree = 7,
-                                     Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION, ConcurrencyTag tag = {})
-      : volume_(std::make_shared<const Volume_3<Kernel>>(std::move(volume))),
-        spline_(std::make_shared<const Spline_function_3<Kernel>>(*volume_, degree, scheme, tag)),
-        rounding_(std::make_shared<const internal::Spline_rounding_3<Kernel>>(*volume_, *spline_)) {}
+                                     Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION, ConcurrencyTag tag = {},
+                                     const FT& smoothing = FT(0)) {
+    const internal::Sample_format<FT> format(volume.values);
+    volume_ = std::make_shared<const Volume_3<Kernel>>(smooth_volume<ConcurrencyTag>(std::move(volume), smoothing));
+    spline_ = std::make_shared<const Spline_function_3<Kernel>>(*volume_, degree, scheme, tag);
+    rounding_ = std::make_shared<const internal::Spline_rounding_3<Kernel>>(*spline_, smoothing, format);
+  }
 
   /// NaN, as every coefficient of an expansion, outside the support of the spline.
   FT value(const Point_3& p) const { return spline_->value(p); }
@@ -40,7 +44,7 @@ public:
   Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); }
   Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); }
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return spline_->first_order_bounds(box); }
-  /// Of second derivatives at p; 0 outside the support of the spline.
+  /// Of second derivatives at p, that of the samples included if all are floats; 0 outside the support of the spline.
   FT rounding(const Point_3& p) const {
     const auto cell = spline_->cell_of(p);
     return cell ? (*rounding_)(*cell) : FT(0);

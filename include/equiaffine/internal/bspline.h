@@ -42,8 +42,8 @@ constexpr auto bspline_basis_polynomials() {
 ///
 /// Inside, c_i = sum_s weights[|s|] f_{i+s}, |s| <= radius. Near a border the missing samples are those of the
 /// polynomial of degree d >= n through the d + 1 samples nearest to that border; as this is linear in them,
-/// c_i = sum_j border[d - n][m + i][j] f_j for i < radius, and the mirror image at the other end. Polynomials of degree
-/// n are hence treated at the border as they are inside, which keeps the order of every derivative. For
+/// c_i = sum_j border[m + i][j] f_j for i < radius, and the mirror image at the other end. Polynomials of degree n
+/// are hence treated at the border as they are inside, which keeps the order of every derivative. For
 /// quasi-interpolation d is min(n + 2, 9, N - 1): with d = n, where a wave has 24 samples, the errors of affine
 /// curvatures in the border were a thousand times those inside. A larger d magnifies rounding. Others lose the order:
 /// repeating or mirroring samples makes a kink at the border, zeros make a jump, so the value has order 1 or 0 and
@@ -53,14 +53,15 @@ struct Line_filter {
   static constexpr int padding = spline_padding(Degree);
   int radius = 0;
   std::array<FT, padding + 1> weights{FT(1)};
-  static constexpr int most_further = Degree < 9 ? 2 : 0; ///< most of d - n
-  int further = 0;
-  std::array<std::array<std::array<FT, Degree + most_further + 1>, 2 * padding>, most_further + 1> border{};
+  static constexpr int greatest_extrapolation = Degree < 9 ? Degree + 2 : Degree;
+  using Border = std::array<std::array<FT, greatest_extrapolation + 1>, 2 * padding>;
+  int extrapolation = Degree; ///< d in lines of more than d nodes
+  Border border{};            ///< for this d
 
   /// Coefficients = samples: the spline of a polynomial p is p smoothed by the B-spline; order 2.
   static constexpr Line_filter convolution() {
     Line_filter filter;
-    filter.fill_border();
+    filter.border = filter.border_of(filter.extrapolation);
     return filter;
   }
 
@@ -83,7 +84,7 @@ struct Line_filter {
       }
     Line_filter filter;
     filter.radius = padding;
-    filter.further = most_further;
+    filter.extrapolation = greatest_extrapolation;
     filter.weights = {};
     std::array<FT, padding + 2> difference{FT(1)}; // the right half of delta^2k
     for (int k = 0; k <= padding; ++k) {
@@ -95,7 +96,7 @@ struct Line_filter {
         left = centre;
       }
     }
-    filter.fill_border();
+    filter.border = filter.border_of(filter.extrapolation);
     return filter;
   }
 
@@ -104,8 +105,8 @@ struct Line_filter {
   void apply(const FT* samples, std::size_t count, std::size_t width, FT* coefficients, std::size_t stride) const {
     const auto reach = std::size_t(radius), ends = reach + std::size_t(padding);
     const std::size_t last = count - 1 + 2 * std::size_t(padding);
-    const auto& extrapolated = border[std::min(count - 1 - Degree, std::size_t(further))];
-    const std::size_t used = std::min(count, std::size_t(Degree + further + 1));
+    const std::size_t used = std::min(count, std::size_t(extrapolation) + 1);
+    const Border extrapolated = count == used ? border_of(int(count) - 1) : border;
     for (std::size_t end = 0; end < ends; ++end) {
       FT* first_row = coefficients + end * stride;
       FT* last_row = coefficients + (last - end) * stride;
@@ -140,14 +141,16 @@ private:
     return numerator / denominator;
   }
 
-  constexpr void fill_border() {
-    for (int f = 0; f <= further; ++f)
-      for (int i = -padding; i < radius; ++i)
-        for (int j = 0; j <= Degree + f; ++j) {
-          FT sum = 0;
-          for (int s = -radius; s <= radius; ++s) sum += weights[s < 0 ? -s : s] * lagrange(Degree + f, j, i + s);
-          border[f][padding + i][j] = sum;
-        }
+  /// The weights of the samples in the coefficients at a border, by the polynomial of degree d.
+  constexpr Border border_of(int d) const {
+    Border result{};
+    for (int i = -padding; i < radius; ++i)
+      for (int j = 0; j <= d; ++j) {
+        FT sum = 0;
+        for (int s = -radius; s <= radius; ++s) sum += weights[s < 0 ? -s : s] * lagrange(d, j, i + s);
+        result[padding + i][j] = sum;
+      }
+    return result;
   }
 };
 

@@ -50,7 +50,7 @@ public:
 
   /// Of the value, where there is one.
   Interval value(const FT* c, const Box& box) const {
-    const Range<FT> range = range_of(c, box);
+    const Range<FT> range = range_of(c, box.first, count_of(box));
     if (range.has_nan() && has_no_values(c, box)) return no_values();
     const FT error = error_of_value(range);
     const Interval bound = range.widened(error);
@@ -64,7 +64,7 @@ public:
   std::array<Interval, 4> first_order(const FT* c, const Box& box) const {
     std::array<Interval, 4> bounds;
     bounds.fill(Interval::whole());
-    const Range<FT> range = range_of(c, box);
+    const Range<FT> range = range_of(c, box.first, count_of(box));
     const FT error = error_of_value(range), error_of_derivative = FT(2 * degree_) * error;
     bounds[0] = range.has_nan() && has_no_values(c, box) ? no_values() : range.widened(error);
     if (range.has_nan()) return bounds;
@@ -82,19 +82,36 @@ public:
   }
 
   /// Whether there are points without a value in the box.
-  bool has_nan(const FT* c, const Box& box) const { return range_of(c, box).has_nan(); }
+  bool has_nan(const FT* c, const Box& box) const { return range_of(c, box.first, count_of(box)).has_nan(); }
 
 private:
+  using Size = std::array<std::size_t, 3>;
+
   static constexpr std::size_t most_cells = Bspline_on_box<5, FT>::most_cells;
 
-  /// Of the coefficients that count somewhere in the box.
-  Range<FT> range_of(const FT* c, const Box& box) const {
-    std::array<std::size_t, 3> count = box.cells;
+  /// Along each axis, of the coefficients that count somewhere in the box.
+  Size count_of(const Box& box) const {
+    Size count = box.cells;
     for (std::size_t& n : count) n += std::size_t(degree_);
+    return count;
+  }
+
+  /// Of the numbers made of coefficients, of which `number(at, p)` makes one from at(p), or a pack of them: of each of
+  /// `count` along the axes from the one at `first` on.
+  template <class F>
+  Range<FT> range_of(const FT* c, const Size& first, const Size& count, const F& number) const {
     Range<FT> range;
-    for_rows(c, box.first, count,
-             [&](const FT* row) { range.add(count[0], [row](const auto& at) { return at(row); }); });
+    for (std::size_t k = 0; k < count[2]; ++k)
+      for (std::size_t j = 0; j < count[1]; ++j) {
+        const FT* const row = c + ((first[2] + k) * size_[1] + first[1] + j) * size_[0] + first[0];
+        range.add(count[0], [&](const auto& at) { return number(at, row); });
+      }
     return range;
+  }
+
+  /// Of the coefficients themselves.
+  Range<FT> range_of(const FT* c, const Size& first, const Size& count) const {
+    return range_of(c, first, count, [](const auto& at, const FT* p) { return at(p); });
   }
 
   /// Rounding, also of the place: coefficients differ by a slope at most.
@@ -102,24 +119,12 @@ private:
     return range.is_empty() ? FT(0) : relative_error_ * range.size() + slack_ * (range.greatest() - range.least());
   }
 
-  template <class F>
-  void for_rows(const FT* c, const std::array<std::size_t, 3>& first, const std::array<std::size_t, 3>& count,
-                const F& f) const {
-    for (std::size_t k = 0; k < count[2]; ++k)
-      for (std::size_t j = 0; j < count[1]; ++j)
-        f(c + ((first[2] + k) * size_[1] + first[1] + j) * size_[0] + first[0]);
-  }
-
-  /// Along the axis a.
+  /// Of the differences along the axis a.
   Range<FT> differences(const FT* c, const Box& box, std::size_t a) const {
     const std::size_t stride = a == 0 ? 1 : a == 1 ? size_[0] : size_[0] * size_[1];
-    std::array<std::size_t, 3> count = box.cells;
-    for (std::size_t& n : count) n += std::size_t(degree_);
+    Size count = count_of(box);
     --count[a];
-    Range<FT> range;
-    for_rows(c, box.first, count,
-             [&](const FT* row) { range.add(count[0], [&](const auto& at) { return at(row + stride) - at(row); }); });
-    return range;
+    return range_of(c, box.first, count, [stride](const auto& at, const FT* p) { return at(p + stride) - at(p); });
   }
 
   template <class F>
@@ -131,21 +136,17 @@ private:
 
   /// Whether one of the coefficients that count everywhere in the box is NaN.
   bool has_no_values(const FT* c, const Box& box) const {
-    Box common = box;
+    Size first, count;
     for (std::size_t a = 0; a < 3; ++a) {
       if (box.cells[a] > std::size_t(degree_) + 1) return false;
-      common.first[a] = box.first[a] + box.cells[a] - 1;
+      first[a] = box.first[a] + box.cells[a] - 1;
+      count[a] = std::size_t(degree_) + 2 - box.cells[a];
     }
-    std::array<std::size_t, 3> count;
-    for (std::size_t a = 0; a < 3; ++a) count[a] = std::size_t(degree_) + 2 - box.cells[a];
-    Range<FT> range;
-    for_rows(c, common.first, count,
-             [&](const FT* row) { range.add(count[0], [row](const auto& at) { return at(row); }); });
-    return range.has_nan();
+    return range_of(c, first, count).has_nan();
   }
 
   int degree_;
-  std::array<std::size_t, 3> size_;
+  Size size_;
   FT relative_error_, slack_ = 0;
 };
 
