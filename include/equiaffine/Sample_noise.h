@@ -129,22 +129,21 @@ struct Smoothing_trial {
     for (const auto& cell : cells) found.push_back(probe(volume, cell));
   }
 
-  /// Whether this scale moves the surface that `unsmoothed` has: in more than a fifth of the cells the value changes by
+  /// Whether this scale moves the surface that `unsmoothed` has: in more than a tenth of the cells the value changes by
   /// more than two standard deviations of what noise explains and a tenth of a voxel along the gradient together.
   bool moves_surface(const Smoothing_trial& unsmoothed, const Volume_3<Kernel>& volume, const Cells& cells,
                      double deviation) const {
     std::vector<double> excesses;
     for (std::size_t n = 0; n < cells.size(); ++n) {
       const auto& [i, j, k] = cells[n];
-      const double slope = std::hypot(double(volume(i + 1, j, k) - volume(i - 1, j, k)),
-                                      double(volume(i, j + 1, k) - volume(i, j - 1, k)),
-                                      double(volume(i, j, k + 1) - volume(i, j, k - 1))) /
-                           2;
+      const double slope = 0.5 * std::hypot(double(volume(i + 1, j, k) - volume(i - 1, j, k)),
+                                            double(volume(i, j + 1, k) - volume(i, j - 1, k)),
+                                            double(volume(i, j, k + 1) - volume(i, j, k - 1)));
       const double explained = deviation * std::sqrt(probe.change(unsmoothed.probe, cells[n]).value);
       const double excess = std::abs(found[n][0] - unsmoothed.found[n][0]) - std::hypot(2 * explained, 0.1 * slope);
       if (std::isfinite(excess)) excesses.push_back(std::max(excess, 0.0));
     }
-    return quantile_of_magnitudes(std::move(excesses), 0.8) > 0;
+    return quantile_of_magnitudes(std::move(excesses), 0.9) > 0;
   }
 
   /// The estimated error of fourth derivatives, by what they differ from those of the scale before, if there is one.
@@ -174,7 +173,7 @@ struct Smoothing_trial {
 ///
 /// Noise is known from its deviation, and what smoothing takes away from the function is what the derivatives differ
 /// from those at the scale before, beyond their noise, in most of some hundred cells beside the level set. A scale, and
-/// all larger ones, is left out where in more than a fifth of these cells the value changes by more than hypot(2 s, g):
+/// all larger ones, is left out where in more than a tenth of these cells the value changes by more than hypot(2 s, g):
 /// s is the standard deviation of the change that noise explains (the discrepancy principle: Morozov, On the solution
 /// of functional equations by the method of regularization, 1966), g the slope times a tenth of a voxel, below which
 /// details are interpolated anyway. Fourth derivatives of a scan that has details of a few voxels are wrong at every
