@@ -99,7 +99,7 @@ def code(name, first, taylor):
             f"[[maybe_unused]] const T& z, std::array<T, 35>& result) {{\n" + functions + text + "\n}\n")
 
 
-functions = {name: ([], [sympy.simplify(coefficient(f, *m)) for m in monomials()]) for name, f in FUNCTIONS.items()}
+functions = {name: ([], [coefficient(f, *m) for m in monomials()]) for name, f in FUNCTIONS.items()}
 functions |= {"torus": torus(), "metaballs": metaballs()}
 with open("benchmark/hand_derived.h", "w") as out:
     out.write("// SPDX-License-Identifier: GPL-3.0-or-later\n"

@@ -20,6 +20,7 @@
 #include <chrono>
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace {
@@ -194,6 +195,16 @@ void accuracy() {
   figure("kernel_stretched_worst_error", stretched, "1", "<=1e-13");
 }
 
+/// Of programs with one function, see the folder `user`.
+void compilation() {
+  for (const std::string name : {"local_structure", "attributes"}) {
+    std::vector<double> times;
+    const std::string command = EQUIAFFINE_COMPILER " -c -o /dev/null " EQUIAFFINE_USER_SOURCES "/" + name + ".cpp";
+    for (int n = 0; n < 3; ++n) times.push_back(processor_seconds_of(command));
+    figure("kernel_compile_" + name, median(times), "s", "<=10");
+  }
+}
+
 } // namespace
 
 int main() {
@@ -201,4 +212,5 @@ int main() {
   times();
   threads();
   accuracy();
+  compilation();
 }

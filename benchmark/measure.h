@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <functional>
+#include <limits>
 #include <malloc.h>
 #include <string>
 #include <sys/resource.h>
@@ -65,6 +67,19 @@ inline double peak_megabytes(const std::function<void()>& f) {
   rusage usage{};
   wait4(child, &status, 0, &usage);
   return double(usage.ru_maxrss) / 1024;
+}
+
+/// Processor seconds of a command of the shell and of what it starts; NaN if it fails.
+inline double processor_seconds_of(const std::string& command) {
+  const auto seconds_of_children = [] {
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  };
+  const double begin = seconds_of_children();
+  if (std::system(command.c_str()) != 0) return std::numeric_limits<double>::quiet_NaN();
+  return seconds_of_children() - begin;
 }
 
 /// One line per figure: its name, value and unit, and the target whether met or not.

@@ -555,6 +555,7 @@ TEST(Expression_3, an_unknown_name_is_told_with_a_remedy) {
       "use one of sqrt cbrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh abs min max hypot pow";
   expect_error("sqr(x)", 1, "unknown function 'sqr'", "did you mean 'sqrt'? Otherwise " + all);
   expect_error("1+ln(x)", 3, "unknown function 'ln'", "did you mean 'log'? Otherwise " + all);
+  expect_error("log10(x)", 1, "unknown function 'log10'", "did you mean 'log(...)/log(10)'? Otherwise " + all);
   expect_error("frobnicate(x)", 1, "unknown function 'frobnicate'", all);
   expect_error("X", 1, "unknown name 'X'",
                "did you mean 'x'? Otherwise define it with --set X=VALUE (in a program: in the map of constants) "
@@ -562,6 +563,22 @@ TEST(Expression_3, an_unknown_name_is_told_with_a_remedy) {
   const auto error = error_of("x + radios", {{"radius", 1.0}});
   ASSERT_TRUE(error);
   EXPECT_NE(std::string(error->what()).find("did you mean 'radius'?"), std::string::npos) << error->what();
+}
+
+TEST(Expression_3, signs_of_other_alphabets_are_told_with_what_to_write) {
+  expect_error("x\u00b2 + y", 2, "unexpected '\u00b2'", "write ^2");
+  expect_error("2*\u03c0*x", 3, "unexpected '\u03c0'", "write pi");
+  expect_error("x \u2212 1", 3, "unexpected '\u2212'", "write -");
+}
+
+TEST(Expression_3, has_no_angle_at_the_origin) {
+  const Expression_3 f("y + x^2 + z^2 + atan2(0, x)");
+  EXPECT_TRUE(std::isnan(f(0., 0., 0.)));
+  EXPECT_TRUE(std::isnan(f.taylor(0., 0., 0.).value()));
+  EXPECT_TRUE(std::isnan(f.taylor(0., 1., 0.).value()));
+  EXPECT_EQ(f.taylor(1., 0., 0.).value(), 1.);
+  expect_error("x + atan2(0, 0)", 5, "result of 'atan2' that is not a finite number",
+               "check the constants it is applied to");
 }
 
 TEST(Expression_3, parentheses_must_match) {
@@ -605,7 +622,7 @@ TEST(Expression_3, characters_outside_the_language_are_refused) {
   const std::string advice = "use names, numbers, ( ) , = and + - * / ^ only";
   expect_error("x % 2", 3, "unexpected '%'", advice);
   expect_error("[x]", 1, "unexpected '['", advice);
-  expect_error("x \xE2\x88\x92 1", 3, "unexpected character that is not ASCII, byte 0xE2", advice);
+  expect_error("x \xE2\x88\x91 1", 3, "unexpected character that is not ASCII, byte 0xE2", advice);
   expect_error("x\x01", 2, "unexpected control character byte 0x01", advice);
   expect_error(std::string("x\0y", 3), 2, "unexpected control character byte 0x00", advice);
   expect_error("1,5*x", 2, "unexpected ','", "it separates the arguments of a function; decimals have a point");

@@ -112,14 +112,10 @@ public:
   /// Calls `f(std::integral_constant<int, n>)` for every monomial n of the support, unrolled.
   template <class F>
   EQUIAFFINE_INLINE static constexpr void for_each_monomial(F f) {
-    [&]<std::size_t... N>(std::index_sequence<N...>) EQUIAFFINE_INLINE {
-      (
-          [&]() EQUIAFFINE_INLINE {
-            if constexpr (internal::contains(Support, int(N))) f(std::integral_constant<int, int(N)>());
-          }(),
-          ...);
+    [&]<std::size_t... Rank>(std::index_sequence<Rank...>) EQUIAFFINE_INLINE {
+      (f(std::integral_constant<int, internal::member(Support, Rank)>()), ...);
     }
-    (std::make_index_sequence<std::size_t(internal::number_of_monomials(Order))>());
+    (std::make_index_sequence<size>());
   }
 
   Jet_3 operator-() const {

@@ -125,7 +125,7 @@ struct Pack {
 
 #define EQUIAFFINE_PACK_FUNCTION(name)                                                                                 \
   friend Pack name(const Pack& a) {                                                                                    \
-    return generate([&](std::size_t i) { return std::name(a[i]); });                                                   \
+    return lane_by_lane(a, [](T u) { return std::name(u); });                                                          \
   }
   EQUIAFFINE_PACK_FUNCTION(cbrt)
   EQUIAFFINE_PACK_FUNCTION(log)

@@ -2,8 +2,11 @@
 #ifndef EQUIAFFINE_INTERNAL_EXPRESSION_ARITHMETIC_H
 #define EQUIAFFINE_INTERNAL_EXPRESSION_ARITHMETIC_H
 
+#include <equiaffine/internal/lanes.h>
+
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <type_traits>
 
 /// What the instructions of an expression compute for any number type.
@@ -114,6 +117,15 @@ T maximum(const T& a, const T& b) {
                 })
     return max(a, b);
   else return a > b || a != a ? a : b;
+}
+
+/// The angle of (x, y): NaN at the origin, where the C library has a convention, but no derivative exists.
+template <class T>
+T angle(const T& y, const T& x) {
+  using std::atan2;
+  const T result = atan2(y, x);
+  if constexpr (is_built_in<T>) return select(y == T(0) && x == T(0), T(std::numeric_limits<T>::quiet_NaN()), result);
+  else return result;
 }
 
 template <class T>

@@ -56,6 +56,16 @@ inline constexpr std::array<std::string_view, number_of_variables> variables = {
 inline constexpr std::array known_constants = {std::pair<std::string_view, double>("pi", std::numbers::pi),
                                                std::pair<std::string_view, double>("e", std::numbers::e)};
 
+/// Signs of other alphabets, and what to write for them.
+inline constexpr std::array foreign_signs = {std::pair<std::string_view, std::string_view>("\u00b2", "^2"),
+                                             std::pair<std::string_view, std::string_view>("\u00b3", "^3"),
+                                             std::pair<std::string_view, std::string_view>("\u2074", "^4"),
+                                             std::pair<std::string_view, std::string_view>("\u03c0", "pi"),
+                                             std::pair<std::string_view, std::string_view>("\u00b7", "*"),
+                                             std::pair<std::string_view, std::string_view>("\u00d7", "*"),
+                                             std::pair<std::string_view, std::string_view>("\u2212", "-"),
+                                             std::pair<std::string_view, std::string_view>("\u221a", "sqrt(...)")};
+
 inline const Function* find_function(std::string_view name) {
   for (const Function& f : functions)
     if (f.name == name) return &f;
@@ -161,6 +171,8 @@ inline std::string near_name(std::string_view name, const std::map<std::string, 
   for (const auto& [known, value] : known_constants) consider(known, known);
   for (const Function& f : functions) consider(f.name, f.name);
   for (const auto& [known, value] : constants) consider(known, known);
+  consider("log10", "log(...)/log(10)");
+  consider("log2", "log(...)/log(2)");
   return std::string(nearest);
 }
 

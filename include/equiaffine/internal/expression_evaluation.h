@@ -76,8 +76,8 @@ void execute_choice(const Instruction& instruction, const T* a, const T* b, T* r
 template <std::size_t Block, class T>
 [[gnu::noinline]] void execute_function(const Instruction& instruction, const T* a, const T* b, T* result,
                                         std::size_t count) {
-  using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cbrt, std::cosh, std::log, std::sinh, std::sqrt,
-      std::tan, std::tanh;
+  using std::abs, std::acos, std::asin, std::atan, std::cbrt, std::cosh, std::log, std::sinh, std::sqrt, std::tan,
+      std::tanh;
   const double c = instruction.constant;
   const auto apply = [&](auto f) { for_each_point<Block>(a, b, result, count, f); };
   switch (instruction.opcode) {
@@ -94,7 +94,7 @@ template <std::size_t Block, class T>
   case Opcode::ASIN: return apply([](const T& u, const T&) -> T { return asin(u); });
   case Opcode::ACOS: return apply([](const T& u, const T&) -> T { return acos(u); });
   case Opcode::ATAN: return apply([](const T& u, const T&) -> T { return atan(u); });
-  case Opcode::ATAN2: return apply([](const T& u, const T& v) -> T { return atan2(u, v); });
+  case Opcode::ATAN2: return apply([](const T& u, const T& v) -> T { return angle(u, v); });
   case Opcode::SINH: return apply([](const T& u, const T&) -> T { return sinh(u); });
   case Opcode::COSH: return apply([](const T& u, const T&) -> T { return cosh(u); });
   case Opcode::TANH: return apply([](const T& u, const T&) -> T { return tanh(u); });

@@ -211,6 +211,9 @@ private:
   }
 
   [[noreturn]] void fail_character() const {
+    for (const auto& [sign, spelling] : foreign_signs)
+      if (text_.substr(position_, sign.size()) == sign)
+        fail(position_, concatenated({"unexpected '", sign, "'"}), concatenated({"write ", spelling}));
     fail(position_, concatenated({"unexpected ", character(text_[position_])}),
          "use names, numbers, ( ) , = and + - * / ^ only");
   }

@@ -61,9 +61,21 @@ constexpr bool contains(Monomial_set set, int n) { return (set >> n & 1) != 0; }
 /// Position of monomial n among the members of a set that contains it.
 constexpr int rank(Monomial_set set, int n) { return std::popcount(set & ((Monomial_set(1) << n) - 1)); }
 
+/// The member of a set at the given position, the inverse of rank().
+constexpr int member(Monomial_set set, std::size_t position) {
+  for (; position > 0; --position) set &= set - 1;
+  return std::countr_zero(set);
+}
+
 constexpr int product_of_monomials(int a, int b) {
   const Monomial_3 p = monomials[std::size_t(a)], q = monomials[std::size_t(b)];
   return p.degree() + q.degree() > maximal_order ? -1 : monomial_index(p.i + q.i, p.j + q.j, p.k + q.k);
+}
+
+/// The monomial whose product with `divisor` is `target`, or -1.
+constexpr int quotient_of_monomials(int target, int divisor) {
+  const Monomial_3 p = monomials[std::size_t(target)], q = monomials[std::size_t(divisor)];
+  return p.i < q.i || p.j < q.j || p.k < q.k ? -1 : monomial_index(p.i - q.i, p.j - q.j, p.k - q.k);
 }
 
 constexpr Monomial_set product_of_sets(Monomial_set a, Monomial_set b, int order) {
@@ -90,10 +102,9 @@ struct Factor_pairs {
 
   template <class Visitor>
   static constexpr void visit(Visitor visitor) {
-    for (int a = 0; a < maximal_number_of_monomials; ++a)
-      for (int b = 0; contains(A, a) && b < maximal_number_of_monomials; ++b)
-        if (contains(B, b) && product_of_monomials(a, b) == Target)
-          visitor(Pair{std::size_t(rank(A, a)), std::size_t(rank(B, b))});
+    for (int a = 0; a <= Target; ++a)
+      if (const int b = quotient_of_monomials(Target, a); contains(A, a) && b >= 0 && contains(B, b))
+        visitor(Pair{std::size_t(rank(A, a)), std::size_t(rank(B, b))});
   }
 
   static constexpr std::size_t size = [] {
