@@ -29,16 +29,16 @@ TEST(Annotate, property_maps_hold_the_local_structure_of_their_vertices) {
   annotate(mesh, traits);
   ASSERT_TRUE(mesh.is_valid(false));
   const auto scalar = [&](const std::string& name) {
-    const auto [map, exists] = mesh.property_map<Vertex_index, double>("v:" + name);
-    EXPECT_TRUE(exists) << name;
+    const auto [map, is_new] = mesh.add_property_map<Vertex_index, double>("v:" + name);
+    EXPECT_FALSE(is_new) << name;
     return map;
   };
   const auto vector = [&](const std::string& name) {
-    const auto [map, exists] = mesh.property_map<Vertex_index, Kernel::Vector_3>("v:" + name);
-    EXPECT_TRUE(exists) << name;
+    const auto [map, is_new] = mesh.add_property_map<Vertex_index, Kernel::Vector_3>("v:" + name);
+    EXPECT_FALSE(is_new) << name;
     return map;
   };
-  const auto status = mesh.property_map<Vertex_index, Point_status>("v:status").first;
+  const auto status = mesh.add_property_map<Vertex_index, Point_status>("v:status").first;
   for (const Vertex_index v : mesh.vertices()) {
     const auto s = local_structure_at(traits, mesh.point(v));
     ASSERT_EQ(status[v], s.status);
@@ -61,8 +61,8 @@ TEST(Annotate, columns_and_maps_hold_the_same_numbers_for_any_number_of_threads)
                                           surface.vertex_status);
   std::size_t scalars = 0;
   for (const auto& column : columns.columns) {
-    const auto [map, exists] = mesh.property_map<Vertex_index, double>("v:" + column.name);
-    if (!exists) continue; // a component of a vector
+    const auto [map, is_new] = mesh.add_property_map<Vertex_index, double>("v:" + column.name);
+    if (is_new) continue; // a component of a vector
     ++scalars;
     for (std::size_t i = 0; i < surface.points.size(); ++i) ASSERT_EQ(column.values[i], map[Vertex_index(unsigned(i))]);
   }
