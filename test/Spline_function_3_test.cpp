@@ -74,7 +74,8 @@ double amplification(int d, Spline_scheme scheme) {
   std::vector<double> unit(nodes * nodes), weights(coefficients * nodes);
   for (std::size_t i = 0; i < nodes; ++i) unit[i * (nodes + 1)] = 1;
   equiaffine::internal::with_line_filter<double, Degree>(
-      scheme, [&](const auto& filter) { filter.apply(unit.data(), nodes, nodes, weights.data(), nodes); });
+      scheme, equiaffine::internal::greatest_border_degree,
+      [&](const auto& filter) { filter.apply(unit.data(), nodes, nodes, weights.data(), nodes); });
   double greatest = 0;
   for (std::size_t cell = 0; cell < nodes - 1; ++cell)
     for (double t = 0; t <= 1; t += 0.125) {
@@ -196,6 +197,26 @@ TEST(Spline_function_3, quasi_interpolation_errs_at_the_border_as_inside_to_one_
       EXPECT_NEAR(error(19 + t), error(10 + t), 1e-4 * std::abs(error(10 + t))) << degree << ' ' << t;
     }
   }
+}
+
+TEST(Spline_function_3, smooth_samples_are_extended_by_two_more_degrees_noise_and_edges_are_not) {
+  const Lattice_3 lattice = unit_lattice(30, 31, 32);
+  const auto wave = [](double x, double y, double z) { return std::sin(x / 4) + std::cos(y / 5 + z / 4); };
+  const auto ball = [](double x, double y, double z) { return double(std::hypot(x - 20, y - 20, z - 20) < 19); };
+  for (const int degree : {5, 7, 9}) {
+    const auto border_degree = [&](const Volume_3& volume, Spline_scheme scheme) {
+      return Spline_function_3(volume, degree, scheme).border_degree();
+    };
+    constexpr auto scheme = Spline_scheme::QUASI_INTERPOLATION;
+    EXPECT_EQ(border_degree(sample(lattice, wave), scheme), std::min(degree + 2, 9));
+    EXPECT_EQ(border_degree(sample_volume(lattice, wave, 1e-3), scheme), degree);
+    EXPECT_EQ(border_degree(sample(lattice, ball), scheme), degree);
+    EXPECT_EQ(border_degree(sample(lattice, wave), Spline_scheme::CONVOLUTION), degree);
+  }
+  auto masked = sample(lattice, wave);
+  for (std::size_t n = 0; n < masked.values.size(); n += 97)
+    masked.values[n] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(Spline_function_3(masked).border_degree(), 9) << "lines without a number have no vote";
 }
 
 TEST(Spline_function_3, derivatives_are_those_in_space_for_a_rotated_anisotropic_left_handed_lattice) {

@@ -48,7 +48,8 @@ public:
       : function_(function),
         other_(smooth_volume<ConcurrencyTag>(volume, FT(1.2) * smoothing), function.spline().degree() == 9 ? 7 : 9,
                other_scheme(function.spline().scheme()), tag) {
-    const internal::Spline_rule<FT> rule{function.spline().degree(), function.spline().scheme(), smoothing};
+    const internal::Spline_rule<FT> rule{function.spline().degree(), function.spline().scheme(),
+                                         function.spline().border_degree(), smoothing};
     for (std::size_t a = 0; a < 3; ++a)
       if (const std::size_t nodes = volume.lattice.size()[a]; nodes > std::size_t(rule.degree))
         factors_[a] = factors(internal::Line_functionals<FT>(nodes, rule), a == 0 ? noise_deviation : FT(1));

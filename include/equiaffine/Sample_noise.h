@@ -4,6 +4,7 @@
 
 #include <equiaffine/Volume_3.h>
 #include <equiaffine/internal/Spline_probe.h>
+#include <equiaffine/internal/border_degree.h>
 
 #include <algorithm>
 #include <array>
@@ -189,13 +190,14 @@ typename Kernel::FT choose_smoothing(const Volume_3<Kernel>& volume, const Sampl
   const std::size_t shortest = *std::min_element(volume.lattice.size().begin(), volume.lattice.size().end());
   const auto cells = internal::nodes_to_measure(volume, isovalue, 1, 300);
   if (shortest <= std::size_t(degree) || cells.empty()) return 0;
-  const Trial unsmoothed(volume, cells, {degree, scheme, FT(0)});
+  const int border_degree = internal::border_degree(volume.values, volume.lattice.size(), degree, scheme);
+  const Trial unsmoothed(volume, cells, {degree, scheme, border_degree, FT(0)});
   Trial last = unsmoothed;
   double least_risk = unsmoothed.risk(nullptr, cells, noise.deviation);
   FT best = 0;
   for (const FT scale : {FT(1.5), FT(2), FT(2.5), FT(3), FT(4), FT(5), FT(6), FT(8)}) {
     if (2 * internal::Smoothing_filter<FT>::radius_of(scale) + 1 > shortest) break;
-    Trial trial(volume, cells, {degree, scheme, scale});
+    Trial trial(volume, cells, {degree, scheme, border_degree, scale});
     if (trial.moves_surface(unsmoothed, volume, cells, noise.deviation)) break;
     const double risk = trial.risk(&last, cells, noise.deviation);
     if (risk < least_risk) {

@@ -7,6 +7,7 @@
 #include <equiaffine/Spline_scheme.h>
 #include <equiaffine/Volume_3.h>
 #include <equiaffine/internal/Linear_substitution_3.h>
+#include <equiaffine/internal/border_degree.h>
 #include <equiaffine/internal/bspline_bounds.h>
 #include <equiaffine/internal/bspline_evaluation.h>
 #include <equiaffine/internal/bspline_interpolation.h>
@@ -30,9 +31,10 @@ namespace equiaffine {
 /// The tensor product B-spline of degree 5, 7 or 9 through the samples of a volume, as a function of the points of
 /// space: value, and Taylor expansion to order 4, at any point.
 ///
-/// The support is the whole lattice, borders included, where the scheme keeps its order by extrapolating samples
-/// (internal/bspline.h). Outside, at every point whose samples include one that is not finite (all samples take part in
-/// interpolation), and everywhere if an axis has no more than `degree` nodes, all numbers are NaN.
+/// The support is the whole lattice, borders included, where the scheme keeps its order by extrapolating samples, by
+/// polynomials of degree n or, if the samples are smooth enough, n + 2 (internal/border_degree.h). Outside, at every
+/// point whose samples include one that is not finite (all samples take part in interpolation), and everywhere if an
+/// axis has no more than `degree` nodes, all numbers are NaN.
 ///
 /// Derivatives are taken in lattice coordinates and mapped by the inverse of the lattice's matrix: any spacing,
 /// rotation, shear and handedness. The rounding error of a k-th derivative is some 1e-15 max|f| / spacing^k, in the
@@ -63,6 +65,7 @@ public:
       is_supported_ = is_supported_ && lattice_.size()[a] > std::size_t(degree);
     }
     if (!is_supported_) return;
+    border_degree_ = internal::border_degree(volume.values, lattice_.size(), degree, scheme);
     coefficients_.resize(size_[0] * size_[1] * size_[2] + internal::overread);
     internal::with_degree(degree_, [&](auto n) { filter<n, ConcurrencyTag>(volume.values); });
     bounds_.emplace(degree_, size_, slack_);
@@ -71,6 +74,8 @@ public:
   const Lattice& lattice() const { return lattice_; }
   int degree() const { return degree_; }
   Spline_scheme scheme() const { return scheme_; }
+  /// Of the polynomials that extend the samples beyond the border.
+  int border_degree() const { return border_degree_; }
 
   FT value(const Point_3& p) const { return taylor<0>(p).value(); }
 
@@ -245,7 +250,7 @@ private:
   /// Samples to coefficients, along x, then y, then z.
   template <int Degree, class ConcurrencyTag>
   void filter(const std::vector<FT>& samples) {
-    internal::with_line_filter<FT, Degree>(scheme_, [&](const auto& line) {
+    internal::with_line_filter<FT, Degree>(scheme_, border_degree_, [&](const auto& line) {
       using Filter = std::decay_t<decltype(line)>;
       internal::Separable_filter<ConcurrencyTag, FT, Filter>(lattice_.size(), Filter::padding, coefficients_.data())(
           {&line, &line, &line}, samples.data());
@@ -259,7 +264,7 @@ private:
   }
 
   Lattice lattice_;
-  int degree_;
+  int degree_, border_degree_ = degree_;
   Spline_scheme scheme_;
   Matrix to_lattice_;
   internal::Linear_substitution_3<FT> substitution_;

@@ -44,7 +44,7 @@ public:
     for (std::size_t a = 0; a < 3; ++a) {
       const std::size_t nodes = spline.lattice().size()[a];
       if (nodes <= std::size_t(spline.degree())) return;
-      const Line_functionals<FT> line(nodes, {spline.degree(), spline.scheme(), smoothing});
+      const Line_functionals<FT> line(nodes, {spline.degree(), spline.scheme(), spline.border_degree(), smoothing});
       gains_[a] = {line.kinds(), [&](std::size_t kind) { return gains(line, kind); }};
     }
   }

@@ -38,30 +38,33 @@ constexpr auto bspline_basis_polynomials() {
   return basis;
 }
 
+/// Of the polynomials that extend samples beyond a border.
+inline constexpr int greatest_border_degree = 9;
+
 /// A local linear map from the samples f_0 .. f_{N-1} of a line to coefficients c_{-m} .. c_{N-1+m}, m = floor(n / 2).
 ///
 /// Inside, c_i = sum_s weights[|s|] f_{i+s}, |s| <= radius. Near a border the missing samples are those of the
 /// polynomial of degree d >= n through the d + 1 samples nearest to that border; as this is linear in them,
 /// c_i = sum_j border[m + i][j] f_j for i < radius, and the mirror image at the other end. Polynomials of degree n
 /// are hence treated at the border as they are inside, which keeps the order of every derivative. For
-/// quasi-interpolation d is min(n + 2, 9, N - 1): with d = n, where a wave has 24 samples, the errors of affine
-/// curvatures in the border were a thousand times those inside. A larger d magnifies rounding. Others lose the order:
-/// repeating or mirroring samples makes a kink at the border, zeros make a jump, so the value has order 1 or 0 and
-/// fourth derivatives grow as h^-3 or h^-4; giving the domain up as far as the taps reach costs n - 1 cells per axis.
+/// quasi-interpolation d may be min(n + 2, 9, N - 1): with d = n, where a wave has 24 samples, the errors of affine
+/// curvatures in the border are a thousand times those inside. A larger d magnifies noise (border_degree.h chooses).
+/// Others lose the order: repeating or mirroring samples makes a kink at the border, zeros make a jump, so the value has
+/// order 1 or 0 and fourth derivatives grow as h^-3 or h^-4; giving the domain up as far as the taps reach costs n - 1
+/// cells per axis.
 template <class FT, int Degree>
 struct Line_filter {
   static constexpr int padding = spline_padding(Degree);
   int radius = 0;
   std::array<FT, padding + 1> weights{FT(1)};
-  static constexpr int greatest_extrapolation = Degree < 9 ? Degree + 2 : Degree;
-  using Border = std::array<std::array<FT, greatest_extrapolation + 1>, 2 * padding>;
-  int extrapolation = Degree; ///< d in lines of more than d nodes
+  using Border = std::array<std::array<FT, greatest_border_degree + 1>, 2 * padding>;
+  int border_degree = Degree; ///< d in lines of more than d nodes
   Border border{};            ///< for this d
 
   /// Coefficients = samples: the spline of a polynomial p is p smoothed by the B-spline; order 2.
   static constexpr Line_filter convolution() {
     Line_filter filter;
-    filter.border = filter.border_of(filter.extrapolation);
+    filter.border = filter.border_of(Degree);
     return filter;
   }
 
@@ -71,7 +74,7 @@ struct Line_filter {
   /// is the operator (sinh(D/2) / (D/2))^(n+1). In terms of the central difference delta = 2 sinh(D/2) the inverse is
   /// (arcsinh(delta/2) / (delta/2))^(n+1), an even power series in delta that is cut after delta^(2m): the next term
   /// annihilates polynomials of degree n. Then delta^2 f_i = f_{i-1} - 2 f_i + f_{i+1}.
-  static constexpr Line_filter quasi_interpolation() {
+  static constexpr Line_filter quasi_interpolation(int border_degree) {
     std::array<FT, padding + 1> series{FT(1)}; // in delta^2
     std::array<FT, padding + 1> arcsinh{FT(1)};
     for (int k = 1; k <= padding; ++k) // arcsinh(x)/x = sum_k a_k x^2k, a_k / a_{k-1} = -(2k-1)^2 / (2k (2k+1))
@@ -84,7 +87,7 @@ struct Line_filter {
       }
     Line_filter filter;
     filter.radius = padding;
-    filter.extrapolation = greatest_extrapolation;
+    filter.border_degree = border_degree;
     filter.weights = {};
     std::array<FT, padding + 2> difference{FT(1)}; // the right half of delta^2k
     for (int k = 0; k <= padding; ++k) {
@@ -96,7 +99,7 @@ struct Line_filter {
         left = centre;
       }
     }
-    filter.border = filter.border_of(filter.extrapolation);
+    filter.border = filter.border_of(border_degree);
     return filter;
   }
 
@@ -105,7 +108,7 @@ struct Line_filter {
   void apply(const FT* samples, std::size_t count, std::size_t width, FT* coefficients, std::size_t stride) const {
     const auto reach = std::size_t(radius), ends = reach + std::size_t(padding);
     const std::size_t last = count - 1 + 2 * std::size_t(padding);
-    const std::size_t used = std::min(count, std::size_t(extrapolation) + 1);
+    const std::size_t used = std::min(count, std::size_t(border_degree) + 1);
     const Border extrapolated = count == used ? border_of(int(count) - 1) : border;
     for (std::size_t end = 0; end < ends; ++end) {
       FT* first_row = coefficients + end * stride;

@@ -20,7 +20,8 @@ template <class FT>
 struct Spline_rule {
   int degree;
   Spline_scheme scheme;
-  FT smoothing = 0;
+  int border_degree; ///< see border_degree.h
+  FT smoothing;
 };
 
 /// The kinds of the cells of a line: near its ends each cell is of its own, those in between are all alike.
@@ -56,7 +57,7 @@ public:
     }
     coefficients_.resize((nodes_ + 2 * padding) * nodes_);
     with_degree(rule.degree, [&](auto n) {
-      with_line_filter<FT, n>(rule.scheme, [&](const auto& filter) {
+      with_line_filter<FT, n>(rule.scheme, rule.border_degree, [&](const auto& filter) {
         filter.apply(unit.data(), nodes_, nodes_, coefficients_.data(), nodes_);
       });
       const Bspline_taylor<n, 4, FT> basis(FT(0.5));

@@ -5,6 +5,7 @@
 #include <equiaffine/Spline_scheme.h>
 #include <equiaffine/internal/bspline.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <type_traits>
@@ -76,13 +77,16 @@ private:
   }
 };
 
-/// f(filter) for the filter of a scheme.
+/// f(filter) for the filter of a scheme. Only quasi-interpolation has a choice of the degree at the border.
 template <class FT, int Degree, class F>
-void with_line_filter(Spline_scheme scheme, F f) {
-  static constexpr auto convolution = Line_filter<FT, Degree>::convolution();
-  static constexpr auto quasi_interpolation = Line_filter<FT, Degree>::quasi_interpolation();
+void with_line_filter(Spline_scheme scheme, int border_degree, F f) {
+  using Filter = Line_filter<FT, Degree>;
+  static constexpr auto convolution = Filter::convolution();
+  static constexpr auto lesser = Filter::quasi_interpolation(Degree);
+  static constexpr auto greater = Filter::quasi_interpolation(std::min(Degree + 2, greatest_border_degree));
   if (scheme == Spline_scheme::INTERPOLATION) f(Interpolation_filter<FT, Degree>());
-  else f(scheme == Spline_scheme::QUASI_INTERPOLATION ? quasi_interpolation : convolution);
+  else if (scheme != Spline_scheme::QUASI_INTERPOLATION) f(convolution);
+  else f(border_degree > Degree ? greater : lesser);
 }
 
 /// f(n) with a constant n for a degree of 5, 7 or 9.
