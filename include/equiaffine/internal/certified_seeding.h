@@ -88,7 +88,7 @@ public:
         } else if (!cell.is_decided() && is_small && is_unbounded(box)) {
           report(box);
         } else if (cell.is_decided() && h <= seeded_size * size_(center(box))) {
-          make_seeds(box, std::min(Packing::packing * size_(center(box)), coarsening * h));
+          make_seeds(box, Packing::packing * std::min(size_(center(box)), coarsening * h));
         } else {
           subdivide(cell, next);
         }
