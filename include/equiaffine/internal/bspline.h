@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 
 // Centred cardinal B-splines of odd degree n in one variable: their polynomials on a cell, and the local filters that
 // turn samples at the integers into spline coefficients. Lengths are in steps of the grid.
@@ -109,7 +110,9 @@ struct Line_filter {
     const auto reach = std::size_t(radius), ends = reach + std::size_t(padding);
     const std::size_t last = count - 1 + 2 * std::size_t(padding);
     const std::size_t used = std::min(count, std::size_t(border_degree) + 1);
-    const Border extrapolated = count == used ? border_of(int(count) - 1) : border;
+    std::optional<Border> of_short_line;
+    if (count <= std::size_t(border_degree)) of_short_line = border_of(int(count) - 1);
+    const Border& extrapolated = of_short_line ? *of_short_line : border;
     for (std::size_t end = 0; end < ends; ++end) {
       FT* first_row = coefficients + end * stride;
       FT* last_row = coefficients + (last - end) * stride;
