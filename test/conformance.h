@@ -57,28 +57,41 @@ bool same_bits(const T& a, const T& b) {
   return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
+/// The cube with half the side r around p.
+template <class Point_3>
+CGAL::Bbox_3 cube(const Point_3& p, double r) {
+  return CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r);
+}
+
+template <class Point_3>
+Point_3 random_point_in_cube(const Point_3& p, double r, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  return Point_3(p.x() + r * unit(random), p.y() + r * unit(random), p.z() + r * unit(random));
+}
+
+/// The expansion at q, which is not rounded outwards, lies in the bounds up to a relative error.
+template <class Jet, class Bounds, class Point_3>
+void expect_enclosed(const Jet& jet, const Bounds& bounds, double relative_error, const Point_3& q) {
+  for (std::size_t c = 0; c < bounds.coefficients().size(); ++c) {
+    const double rounding = relative_error * (1 + std::abs(jet.coefficients()[c]));
+    EXPECT_GE(jet.coefficients()[c], bounds.coefficients()[c].lower() - rounding) << "coefficient " << c << " at " << q;
+    EXPECT_LE(jet.coefficients()[c], bounds.coefficients()[c].upper() + rounding) << "coefficient " << c << " at " << q;
+  }
+}
+
 /// `bounds_on(traits, box)` encloses values and gradients at points of the box, and shrinks with it.
 template <class Model, class Bounds>
 void expect_bounds_of_first_order(const Bounds& bounds_on) {
-  using Point_3 = typename Model::Traits::Point_3;
   const auto traits = Model::make();
   std::mt19937 random(2);
-  std::uniform_real_distribution<double> unit(-1, 1);
   for (const auto& p : Model::points()) {
     std::array<double, 4> last_width;
     last_width.fill(std::numeric_limits<double>::infinity());
     for (double r = Model::length / 2; r > Model::length / 100; r /= 2) {
-      const auto bounds =
-          bounds_on(traits, CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r));
+      const auto bounds = bounds_on(traits, cube(p, r));
       for (int n = 0; n < 50; ++n) {
-        const Point_3 q(p.x() + r * unit(random), p.y() + r * unit(random), p.z() + r * unit(random));
-        const auto jet = equiaffine::first_order(traits, q);
-        for (std::size_t c = 0; c < 4; ++c) {
-          // The expansion is not rounded outwards.
-          const double rounding = 1e-13 * (1 + std::abs(jet.coefficients()[c]));
-          EXPECT_GE(jet.coefficients()[c], bounds.coefficients()[c].lower() - rounding) << q;
-          EXPECT_LE(jet.coefficients()[c], bounds.coefficients()[c].upper() + rounding) << q;
-        }
+        const auto q = random_point_in_cube(p, r, random);
+        expect_enclosed(equiaffine::first_order(traits, q), bounds, 1e-13, q);
       }
       for (std::size_t c = 0; c < 4; ++c) {
         const double width = bounds.coefficients()[c].upper() - bounds.coefficients()[c].lower();
@@ -141,17 +154,14 @@ TYPED_TEST_P(Conformance, the_box_contains_the_points) {
 
 TYPED_TEST_P(Conformance, bounds_enclose_the_values_and_shrink_with_the_box) {
   if constexpr (equiaffine::BoundedImplicitFunctionTraits_3<typename TypeParam::Traits>) {
-    using Point_3 = typename TypeParam::Traits::Point_3;
     const auto traits = TypeParam::make();
     std::mt19937 random(1);
-    std::uniform_real_distribution<double> unit(-1, 1);
     for (const auto& p : TypeParam::points()) {
       double last_width = std::numeric_limits<double>::infinity();
       for (double r = TypeParam::length / 2; r > TypeParam::length / 100; r /= 2) {
-        const auto bounds =
-            traits.bounds(CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r));
+        const auto bounds = traits.bounds(cube(p, r));
         for (int n = 0; n < 50; ++n) {
-          const Point_3 q(p.x() + r * unit(random), p.y() + r * unit(random), p.z() + r * unit(random));
+          const auto q = random_point_in_cube(p, r, random);
           const double value = traits.value(q);
           if (std::isfinite(value)) {
             EXPECT_TRUE(bounds.contains(value)) << q;
@@ -194,22 +204,14 @@ TYPED_TEST_P(Conformance, tight_bounds_of_first_order_are_such_and_inside_the_us
 
 TYPED_TEST_P(Conformance, bounds_of_second_order_enclose_the_expansion) {
   if constexpr (equiaffine::SecondOrderBoundedImplicitFunctionTraits_3<typename TypeParam::Traits>) {
-    using Point_3 = typename TypeParam::Traits::Point_3;
     const auto traits = TypeParam::make();
     std::mt19937 random(1);
-    std::uniform_real_distribution<double> unit(-1, 1);
     for (const auto& p : TypeParam::points()) {
       const double r = TypeParam::length / 8;
-      const auto bounds =
-          traits.second_order_bounds(CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r));
+      const auto bounds = traits.second_order_bounds(cube(p, r));
       for (int n = 0; n < 20; ++n) {
-        const auto jet =
-            traits.taylor(Point_3(p.x() + r * unit(random), p.y() + r * unit(random), p.z() + r * unit(random)));
-        for (std::size_t c = 0; c < 10; ++c) {
-          const double x = jet.coefficients()[c], rounding = 1e-12 * (1 + std::abs(x));
-          EXPECT_LE(bounds.coefficients()[c].lower(), x + rounding) << "coefficient " << c;
-          EXPECT_GE(bounds.coefficients()[c].upper(), x - rounding) << "coefficient " << c;
-        }
+        const auto q = random_point_in_cube(p, r, random);
+        expect_enclosed(traits.taylor(q), bounds, 1e-12, q);
       }
     }
   } else {
