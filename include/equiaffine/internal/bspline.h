@@ -50,9 +50,9 @@ inline constexpr int greatest_border_degree = 9;
 /// are hence treated at the border as they are inside, which keeps the order of every derivative. For
 /// quasi-interpolation d may be min(n + 2, 9, N - 1): with d = n, where a wave has 24 samples, the errors of affine
 /// curvatures in the border are a thousand times those inside. A larger d magnifies noise (border_degree.h chooses).
-/// Others lose the order: repeating or mirroring samples makes a kink at the border, zeros make a jump, so the value has
-/// order 1 or 0 and fourth derivatives grow as h^-3 or h^-4; giving the domain up as far as the taps reach costs n - 1
-/// cells per axis.
+/// Others lose the order: repeating or mirroring samples makes a kink at the border, zeros make a jump, so the value
+/// has order 1 or 0 and fourth derivatives grow as h^-3 or h^-4; giving the domain up as far as the taps reach costs
+/// n - 1 cells per axis.
 template <class FT, int Degree>
 struct Line_filter {
   static constexpr int padding = spline_padding(Degree);
