@@ -222,7 +222,7 @@ TEST(Interval, odd_powers_of_a_box_around_zero_are_as_tight_as_the_cubes_of_its_
 
 TEST(Interval, extreme_exponents_are_defined) {
   EXPECT_TRUE(pow(Interval(2), INT_MIN).contains(0));
-  EXPECT_LE(pow(Interval(2), INT_MIN).upper(), std::numeric_limits<double>::min());
+  EXPECT_LE(pow(Interval(2), INT_MIN).upper(), 2 * std::numeric_limits<double>::min());
   EXPECT_EQ(pow(Interval(2), INT_MAX).upper(), infinity);
   EXPECT_TRUE(encloses(pow(Interval(-1), INT_MIN), Exact(1)));
   EXPECT_TRUE(encloses(pow(Interval(-1), INT_MAX), Exact(-1)));
@@ -261,6 +261,7 @@ TEST(Interval, a_bound_that_overflows_keeps_the_other) {
 TEST(Interval, nan_is_the_whole_line) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(Interval(nan), Interval::whole());
+  EXPECT_EQ(Interval(std::numeric_limits<long double>::quiet_NaN()), Interval::whole());
   EXPECT_EQ(Interval(nan, 1), Interval::whole());
   EXPECT_EQ(Interval(0, nan), Interval::whole());
   EXPECT_EQ(Interval(2, 1), Interval::whole());
@@ -437,6 +438,19 @@ TEST(Interval, across_a_kink_the_gradient_is_bounded_and_higher_derivatives_are_
   EXPECT_TRUE(encloses(max(x, y).coefficient(0, 1, 0), Interval(0, 1)));
   EXPECT_EQ(max(x, y).coefficient(1, 1, 0), Interval::whole());
   EXPECT_LE(max(x, y + 5).coefficient(1, 0, 0).upper(), 0.001);
+}
+
+TEST(Interval, across_the_cut_of_the_angle_the_gradient_is_not_bounded) {
+  const auto gradient = [](const Interval& x, const Interval& y) {
+    const auto angle = atan2(Interval_jet::variable(1, y), Interval_jet::variable(0, x));
+    return std::array<Interval, 2>{angle.coefficient(1, 0, 0), angle.coefficient(0, 1, 0)};
+  };
+  for (const Interval& y : {Interval(-0.1, 0.1), Interval(0, 0.1), Interval(-0.1, 0)}) {
+    EXPECT_EQ(gradient(Interval(-2, -1), y)[0], Interval::whole());
+    EXPECT_EQ(gradient(Interval(-2, -1), y)[1], Interval::whole());
+    EXPECT_LT(abs(gradient(Interval(1, 2), y)[1]).upper(), infinity);
+  }
+  EXPECT_LT(abs(gradient(Interval(-2, -1), Interval(0.5, 1))[0]).upper(), infinity);
 }
 
 TEST(Interval, a_jet_of_intervals_times_itself_has_a_square_as_its_value) {

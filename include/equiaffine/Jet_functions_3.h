@@ -242,15 +242,15 @@ auto atan(const Jet_3<T, Order, A>& a) {
 /// an arctangent at zero in every quadrant.
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto atan2(const Jet_3<T, Order, A>& y, const Jet_3<T, Order, B>& x) {
-  using std::abs;
-  using std::atan2;
+  using std::abs, std::atan2, internal::factor_for_jump;
   const T scale = T(1) / (abs(x.value()) + abs(y.value()));
   const auto c = x * scale;
   const auto s = y * scale;
   auto across = c.value() * s - s.value() * c;
   across.template at<0>() = T(0);
-  return compose(across / (c.value() * c + s.value() * s),
-                 std::array<T, 5>{atan2(y.value(), x.value()), T(1), T(0), T(-1) / T(3), T(0)});
+  return compose(
+      across / (c.value() * c + s.value() * s),
+      std::array<T, 5>{atan2(y.value(), x.value()), factor_for_jump(y.value(), x.value()), T(0), T(-1) / T(3), T(0)});
 }
 
 namespace internal {
