@@ -30,14 +30,18 @@ public:
 
   /// Whether a seed is nearer than the smaller one of both spacings, and on a sheet of the same orientation: the two
   /// sides of a thin part are sampled each for itself.
-  bool is_crowded(const Seed& candidate) const {
+  bool is_crowded(const Seed& candidate) {
+    if (latest_ < seeds_.size() && is_near(seeds_[latest_], candidate)) return true;
     for (const int level : levels_) {
       const auto cell = cell_of(candidate.point, level);
       for (std::int64_t k = -1; k <= 1; ++k)
         for (std::int64_t j = -1; j <= 1; ++j)
           for (std::int64_t i = -1; i <= 1; ++i)
             for (auto s = heads_[bucket({cell[0] + i, cell[1] + j, cell[2] + k}, level)]; s != none; s = next_[s])
-              if (is_near(seeds_[s], candidate)) return true;
+              if (is_near(seeds_[s], candidate)) {
+                latest_ = s;
+                return true;
+              }
     }
     return false;
   }
@@ -104,6 +108,7 @@ private:
   }
 
   std::vector<Seed> seeds_;
+  std::uint32_t latest_ = none; // that a candidate was near: the next candidate is often beside that one
   std::vector<int> levels_;
   std::vector<std::uint32_t> heads_ = std::vector<std::uint32_t>(1024, none), next_;
 };

@@ -26,7 +26,7 @@ namespace equiaffine::internal {
 template <class Point_3>
 struct Seeding_3 {
   std::vector<Point_3> seeds;                ///< on the surface, on every component that was found
-  std::vector<Point_3> scaffold;             ///< in the middle of large boxes without surface
+  std::vector<Point_3> scaffold;             ///< in the middle of large boxes without surface, and far outside
   std::vector<CGAL::Bbox_3> undecided_boxes; ///< where a part of the surface may have been missed
 };
 
@@ -45,9 +45,8 @@ class Certified_seeding_3 {
 
   struct Cell {
     std::array<std::uint32_t, 3> position;
-    /// Of a decided cell, or of one that contains it: the difference of values at two of its points per side.
-    double slope = infinity;
-    bool is_decided() const { return slope < infinity; }
+    double slope = infinity; ///< bound of the sum of the absolute values of the partial derivatives
+    bool is_decided = false; ///< the gradients form acute angles
   };
 
 public:
@@ -55,7 +54,7 @@ public:
   static constexpr int maximal_level = 24;
   /// Children of undecided cells of one level, much smaller than facets, that are worth a try: a singular point makes
   /// few at each level, a singular curve twice as many each time.
-  static constexpr std::ptrdiff_t maximal_undecided_cells = 200'000;
+  static constexpr double maximal_undecided_cells = 200'000;
 
   /// `size(p)` bounds the circumradius of facets near p, and is at most `largest_size`.
   Certified_seeding_3(const Traits& traits, const Clip_domain_3& domain, Sizing size, double largest_size)
@@ -68,26 +67,26 @@ public:
 
   Seeding_3<Point_3> operator()() {
     packing_.spread();
-    std::vector<Cell> cells = {{{0, 0, 0}}}, next;
+    std::vector<Cell> cells = {Cell{{0, 0, 0}}}, next;
     for (level_ = 0; !cells.empty(); ++level_) {
       const double h = cell_side();
-      const auto undecided = std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return !c.is_decided(); });
-      const bool is_small = 2 * h < largest_size_;
-      const bool is_solid =
-          is_small && double(undecided) * h * h * h > solid * box_.x_span() * box_.y_span() * box_.z_span();
-      const bool is_hopeless = is_solid || (8 * h < largest_size_ && undecided > maximal_undecided_cells);
-      const bool is_last = level_ == maximal_level || (h < largest_size_ && !known_.have_gradients) || is_hopeless;
+      const auto undecided =
+          double(std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return !c.is_decided; }));
+      const bool is_last =
+          level_ == maximal_level || (h < largest_size_ && !known_.have_gradients) || is_hopeless(undecided, h);
+      const bool is_urgent = is_last || is_hopeless(8 * undecided, h / 2); // the next level may be the last
+      tight_cells_ = settled_tight_cells_ = 0;
       next.clear();
       for (Cell& cell : cells) {
         const CGAL::Bbox_3 box = box_of(cell);
         if (domain_.excludes(box)) continue;
-        if (is_empty(cell, box)) {
+        if (is_empty(cell, box, is_urgent)) {
           if (h >= 4 * largest_size_) empty_cells_.push_back(box);
-        } else if (!cell.is_decided() && is_last) {
+        } else if (!cell.is_decided && is_last) {
           give_up(cell);
-        } else if (!cell.is_decided() && is_small && is_unbounded(box)) {
+        } else if (!cell.is_decided && 2 * h < largest_size_ && is_unbounded(box)) {
           report(box);
-        } else if (cell.is_decided() && h <= seeded_size * size_(center(box))) {
+        } else if (cell.is_decided && h <= seeded_size * size_(center(box))) {
           make_seeds(box, Packing::packing * std::min(size_(center(box)), coarsening * h));
         } else {
           subdivide(cell, next);
@@ -107,7 +106,18 @@ private:
   static constexpr double seeded_size = 4;  // side of the cells that are seeded / bound of circumradii
   static constexpr double coarsening = 1.4; // a cell that had to be small has seeds at this distance in sides
 
+  /// Tight bounds cost about three times as much as others. After so many cells of a level they are worth it as long as
+  /// they settle a third.
+  static constexpr std::size_t least_tight_cells = 64;
+
   double cell_side() const { return std::ldexp(side_, -level_); }
+
+  /// Whether so many undecided cells of side h, smaller than facets, are not worth another try.
+  bool is_hopeless(double undecided, double h) const {
+    const bool is_solid =
+        2 * h < largest_size_ && undecided * h * h * h > solid * box_.x_span() * box_.y_span() * box_.z_span();
+    return is_solid || (8 * h < largest_size_ && undecided > maximal_undecided_cells);
+  }
 
   CGAL::Bbox_3 box_of(const Cell& cell) const {
     const double h = cell_side();
@@ -124,7 +134,7 @@ private:
   void subdivide(const Cell& cell, std::vector<Cell>& next) const {
     const double h = cell_side() / 2;
     for (std::uint32_t c = 0; c < 8; ++c) {
-      Cell child = {{}, cell.slope};
+      Cell child = {{}, cell.slope, cell.is_decided};
       bool is_in_box = true;
       for (std::uint32_t a = 0; a < 3; ++a) {
         child.position[a] = 2 * cell.position[a] + (c >> a & 1);
@@ -134,27 +144,45 @@ private:
     }
   }
 
-  /// Whether there is no surface in a cell, which is decided here if it can be.
-  bool is_empty(Cell& cell, const CGAL::Bbox_3& box) {
-    if (cell.is_decided()) {
-      return std::abs(CGAL::to_double(traits_.value(center(box)))) > cell.slope * cell_side();
-    }
+  /// Whether there is no surface in a cell, which is decided here if it can be; if urgent, at any cost.
+  bool is_empty(Cell& cell, const CGAL::Bbox_3& box, bool is_urgent) {
+    const double value = known_.have_gradients ? std::abs(CGAL::to_double(traits_.value(center(box)))) : 0;
+    if (is_far(cell, box, value)) return true;
+    if (cell.is_decided) return false;
     if constexpr (BoundedImplicitFunctionTraits_3<Traits>)
       if (!traits_.bounds(box).contains(0)) return true;
     auto jet = first_order_bounds(traits_, box);
-    jet.template at<0>() = Interval::intersection(jet.value(), mean_value_bound(traits_, jet, box));
-    bool is_decided = has_acute_gradients(traits_, jet, box, box_);
-    if (!is_decided && known_.are_tight_in_small_boxes && jet.value().contains(0) &&
-        cell_side() <= seeded_size * largest_size_) {
-      jet = tight_first_order_bounds(traits_, box);
-      is_decided = has_acute_gradients(traits_, jet, box, box_);
-    }
-    if (is_decided) {
-      double sum = 0;
-      for (std::size_t a = 1; a < 4; ++a) sum += abs(jet.coefficients()[a]).upper();
-      cell.slope = 0.501 * sum; // from the center half a side along each axis, and some rounding
-    }
-    return !jet.value().contains(0);
+    learn(cell, box, jet);
+    if (!jet.value().contains(0) || is_far(cell, box, value)) return true;
+    if (cell.is_decided || !known_.are_tight_in_small_boxes || cell_side() > seeded_size * largest_size_) return false;
+    if (!is_urgent && tight_cells_ >= least_tight_cells && 3 * settled_tight_cells_ < tight_cells_) return false;
+    jet = tight_first_order_bounds(traits_, box);
+    learn(cell, box, jet);
+    const bool is_empty = !jet.value().contains(0) || is_far(cell, box, value);
+    ++tight_cells_;
+    settled_tight_cells_ += is_empty || cell.is_decided;
+    return is_empty;
+  }
+
+  /// What bounds of f and its gradient in the cell tell.
+  void learn(Cell& cell, const CGAL::Bbox_3& box, const Jet_3<Interval, 1>& jet) const {
+    cell.is_decided = has_acute_gradients(traits_, jet, box, box_);
+    Interval sum(0);
+    for (std::size_t a = 1; a < 4; ++a) sum += abs(jet.coefficients()[a]);
+    cell.slope = std::min(cell.slope, sum.upper());
+  }
+
+  /// Whether f has a value at the center of a cell, here without its sign, that is too large for a zero in it. What
+  /// seems so is proved: bounds of rounding errors take longer.
+  bool is_far(const Cell& cell, const CGAL::Bbox_3& box, double value) const {
+    const auto offset = offset_from_center(box, center_of(box));
+    double reach = 0;
+    for (const Interval& x : offset) reach = std::max(reach, abs(x).upper());
+    if (!(value > cell.slope * reach)) return false;
+    if constexpr (BoundedImplicitFunctionTraits_3<Traits>)
+      return !(traits_.bounds(box_of_point(center_of(box))) + Interval(-1, 1) * Interval(cell.slope) * Interval(reach))
+                  .contains(0);
+    else return false;
   }
 
   /// At a pole, or where f is not defined, which no subdivision removes.
@@ -193,7 +221,13 @@ private:
     return false;
   }
 
+  /// With points on both sides of it a surface is no part of the convex hull, even if it is a plane.
   void make_scaffold() {
+    for (const double x : {box_.xmin(), box_.xmax()})
+      for (const double y : {box_.ymin(), box_.ymax()})
+        for (const double z : {box_.zmin(), box_.zmax()})
+          result_.scaffold.push_back(center(box_) +
+                                     FT(2 + packing_.random()) * (Point_3(FT(x), FT(y), FT(z)) - center(box_)));
     constexpr std::size_t enough = 1000;
     const double fraction = double(enough) / double(std::max(empty_cells_.size(), enough));
     for (const CGAL::Bbox_3& b : empty_cells_) {
@@ -209,6 +243,7 @@ private:
   Sizing size_;
   const double largest_size_, side_;
   int level_ = 0;
+  std::size_t tight_cells_ = 0, settled_tight_cells_ = 0; // of the level: that tight bounds were tried on, and settled
   const Known_bounds known_;
   Packing packing_;
   std::vector<CGAL::Bbox_3> empty_cells_;

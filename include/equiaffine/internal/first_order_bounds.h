@@ -40,21 +40,6 @@ inline CGAL::Bbox_3 box_of_point(const std::array<double, 3>& p) {
   return CGAL::Bbox_3(p[0], p[1], p[2], p[0], p[1], p[2]);
 }
 
-/// A bound of f on a box from those of its gradient there and its value at the center (mean value form; Moore, Kearfott,
-/// Cloud: Introduction to Interval Analysis, 2009, section 6.4).
-template <ImplicitFunctionTraits_3 Traits>
-Interval mean_value_bound(const Traits& traits, const Jet_3<Interval, 1>& jet, const CGAL::Bbox_3& box) {
-  if constexpr (BoundedImplicitFunctionTraits_3<Traits>) {
-    const auto center = center_of(box);
-    const auto offset = offset_from_center(box, center);
-    Interval sum = traits.bounds(box_of_point(center));
-    for (std::size_t a = 0; a < 3; ++a) sum += jet.coefficients()[1 + a] * offset[a];
-    return sum;
-  } else {
-    return Interval::whole();
-  }
-}
-
 /// Bounds on a box from those of second order and the expansion at a point, where `offset` is the box less the point,
 /// in mean value form.
 inline Jet_3<Interval, 1> mean_value_bounds(const Jet_3<Interval, 2>& jet, const Jet_3<Interval, 1>& start,
