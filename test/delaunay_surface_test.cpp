@@ -183,6 +183,32 @@ TEST(Delaunay_surface, what_has_no_gradient_anywhere_ends_in_undecided_boxes) {
   EXPECT_FALSE(surface.undecided_boxes.empty());
 }
 
+TEST(Delaunay_surface, strips_between_faces_of_the_box_much_narrower_than_facets_are_whole) {
+  for (const double thickness : {0.1, 0.02, 0.004}) {
+    const CGAL::Bbox_3 slice(-2, -2, -thickness / 2, 2, 2, thickness / 2);
+    const auto surface = delaunay_surface(make_analytic_traits<Kernel>(functions::Sphere(), slice), {30, 0.11, 0});
+    const auto t = topology(surface);
+    EXPECT_TRUE(t.is_manifold) << thickness;
+    EXPECT_EQ(t.components, 1u) << thickness;
+    EXPECT_EQ(t.euler_characteristic, 0) << thickness;
+    EXPECT_GT(t.boundary_edges, 0u) << thickness;
+    EXPECT_TRUE(surface.is_certified) << thickness;
+  }
+}
+
+TEST(Delaunay_surface, a_plane_beside_an_edge_of_the_box_is_meshed_at_any_size) {
+  const CGAL::Bbox_3 box(0, 0, -1, 1, 1, 1);
+  for (const char* text : {"x+y-0.2", "x+y-0.02"})
+    for (const double radius : {0.4, 0.2, 0.1, 0.05}) {
+      const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box), {30, radius, 0});
+      const auto t = topology(surface);
+      EXPECT_TRUE(t.is_manifold) << text << radius;
+      EXPECT_EQ(t.components, 1u) << text << radius;
+      EXPECT_EQ(t.euler_characteristic, 1) << text << radius;
+      EXPECT_TRUE(surface.is_certified) << text << radius;
+    }
+}
+
 TEST(Delaunay_surface, components_at_any_face_and_edge_of_the_box_are_found) {
   const auto expect_two = [](const char* text, const CGAL::Bbox_3& box, double radius) {
     const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box), {30, radius, 0});
@@ -197,7 +223,7 @@ TEST(Delaunay_surface, components_at_any_face_and_edge_of_the_box_are_found) {
 }
 
 TEST(Delaunay_surface, what_is_lost_is_not_certified) {
-  const CGAL::Bbox_3 slice(-2, -2, -0.02, 2, 2, 0.02); // much thinner than the facets
+  const CGAL::Bbox_3 slice(-2, -2, -0.0005, 2, 2, 0.0005); // less than a fiftieth of the facets' radius thick
   const auto surface = delaunay_surface(make_analytic_traits<Kernel>(functions::Sphere(), slice));
   EXPECT_FALSE(surface.is_certified);
   EXPECT_FALSE(surface.undecided_boxes.empty());

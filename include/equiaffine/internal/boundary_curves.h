@@ -51,7 +51,10 @@ public:
 
   std::vector<Curve> operator()() {
     for (int axis = 0; axis < 3; ++axis)
-      for (const bool is_upper : {false, true}) search({axis, is_upper}, {0, 1}, {0, 1});
+      for (const bool is_upper : {false, true}) {
+        if (!domain_.is_ball()) traced_ = Grid(); // curves on other faces are others, however near
+        search({axis, is_upper}, {0, 1}, {0, 1});
+      }
     return std::move(curves_);
   }
 
