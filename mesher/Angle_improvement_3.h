@@ -21,8 +21,8 @@
 
 namespace equiaffine::internal {
 
-/// Refinement has to stop beside features. A few triangles with smaller angles are left there; this moves their vertices
-/// on the surface, as far as the other criteria hold, until all triangles around them have the angle.
+/// Refinement has to stop beside features. A few triangles with smaller angles are left there; this moves their
+/// vertices on the surface, as far as the other criteria hold, until all triangles around them have the angle.
 template <class Function>
 class Angle_improvement_3 {
   using Surface = Delaunay_surface_3<Any_function_3::Kernel>;

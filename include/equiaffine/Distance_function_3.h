@@ -99,8 +99,8 @@ public:
   }
 
   /// Calls `store(i, distance)` for the nodes point(0) .. point(count - 1), {x, y, z} each, which lie `step` apart; for
-  /// those farther than `band` from the surface the distance is NaN. Where it is larger by n steps, the next n nodes are
-  /// not looked at, and between them the side does not change.
+  /// those farther than `band` from the surface the distance is NaN. Where it is larger by n steps, the next n nodes
+  /// are not looked at, and between them the side does not change.
   template <class Node, class Store>
   void sample_row(std::size_t count, double step, double band, const Node& point, const Store& store) const {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();

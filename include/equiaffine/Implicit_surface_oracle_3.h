@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// For programs that use CGAL's package 3D Surface Mesh Generation, which is deprecated since CGAL 6: new ones are better
-// off with delaunay_surface.h, or with Implicit_mesh_domain_3.h and CGAL::make_mesh_3. No other header includes this one,
-// and it includes none of that package.
+// For programs that use CGAL's package 3D Surface Mesh Generation, which is deprecated since CGAL 6: new ones are
+// better off with delaunay_surface.h, or with Implicit_mesh_domain_3.h and CGAL::make_mesh_3. No other header includes
+// this one, and it includes none of that package.
 #ifndef EQUIAFFINE_IMPLICIT_SURFACE_ORACLE_3_H
 #define EQUIAFFINE_IMPLICIT_SURFACE_ORACLE_3_H
 

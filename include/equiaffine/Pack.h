@@ -61,8 +61,8 @@ struct Pack_mask {
 
 /// As many numbers as one vector register holds under the compiler's flags, to be used as one number: a number type for
 /// Jet_3, Monge_chart_3 and what follows. Every operation is that of T in each lane, functions are those of <cmath> but
-/// for exp, sin and cos of doubles (internal/elementary_functions.h), so that, unless the compiler contracts products and
-/// sums (-ffp-contract=off), a lane has the bits that T would have.
+/// for exp, sin and cos of doubles (internal/elementary_functions.h), so that, unless the compiler contracts products
+/// and sums (-ffp-contract=off), a lane has the bits that T would have.
 template <class T, class Abi = internal::Native_abi<T>>
 struct Pack {
   using Simd = std::experimental::simd<T, Abi>;

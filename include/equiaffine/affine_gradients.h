@@ -60,9 +60,9 @@ std::array<FT, 3> derivatives(F f, FT step) {
 /// hyperbolic surfaces, where the metric is indefinite, it also vanishes for gradients along an asymptotic direction.
 /// Units: length^(-15/4), length^(-9/4), length^(-9/4).
 ///
-/// These are derivatives of order 5, while expansions have order 4: differences of invariants of neighboring level sets,
-/// with some 9 digits where the invariants change slowly over a tenth of the smaller radius of curvature. NaN where p is
-/// not regular, and where no neighborhood of it is, as on the border of a volume. Up to 40 expansions.
+/// These are derivatives of order 5, while expansions have order 4: differences of invariants of neighboring level
+/// sets, with some 9 digits where the invariants change slowly over a tenth of the smaller radius of curvature. NaN
+/// where p is not regular, and where no neighborhood of it is, as on the border of a volume. Up to 40 expansions.
 template <ImplicitFunctionTraits_3 Traits>
 std::array<typename Traits::FT, 3> affine_gradient_norms(const Traits& traits, const typename Traits::Point_3& p) {
   using FT = typename Traits::FT;

@@ -77,20 +77,20 @@ std::vector<Feature_curve_3> given_features(const Any_function_3& function, cons
 } // namespace internal
 
 /// The zero set of a function, by Delaunay refinement (Boissonnat, Oudot: Provably good sampling and meshing of
-/// surfaces, 2005): a triangle mesh with vertices on the surface, angles of at least `criteria.angle`, and normals along
-/// the gradient. Link with equiaffine::mesher.
+/// surfaces, 2005): a triangle mesh with vertices on the surface, angles of at least `criteria.angle`, and normals
+/// along the gradient. Link with equiaffine::mesher.
 ///
 /// The refinement is that of CGAL's 3D Mesh Generation. It starts from points on every component of the surface, which
 /// a subdivision of the domain into boxes finds with the interval bounds of the function: when `is_certified`, none was
 /// missed, however small. A closed regular surface gives a closed oriented 2-manifold.
 ///
 /// Features are made of edges of the mesh: the curves where the surface meets the border of the clip domain,
-/// `feature_curves`, and the parabolic curves, with their crossings and their ends on the border, if they are asked for.
-/// Where features are nearer to each other than the radius, or meet in sharp corners, edges are shorter, and angles at
-/// the corners smaller. Of features nearer than a fiftieth of that, segments may be no edges, which takes the certificate
-/// away, and the mesh need not be manifold there. Features much smaller than the radius may be missed. Nodes of the
-/// surface, as the apex of a cone, are vertices; near other singular points the mesh ends in facets of radius/8, whatever
-/// their angles, and so it does where f ceases to be defined.
+/// `feature_curves`, and the parabolic curves, with their crossings and their ends on the border, if they are asked
+/// for. Where features are nearer to each other than the radius, or meet in sharp corners, edges are shorter, and
+/// angles at the corners smaller. Of features nearer than a fiftieth of that, segments may be no edges, which takes the
+/// certificate away, and the mesh need not be manifold there. Features much smaller than the radius may be missed.
+/// Nodes of the surface, as the apex of a cone, are vertices; near other singular points the mesh ends in facets of
+/// radius/8, whatever their angles, and so it does where f ceases to be defined.
 ///
 /// Named parameters: `clip` (the box of the function), `facet_sizing` (UNIFORM), `feature_curves` (none),
 /// `parabolic_features` (no).

@@ -138,10 +138,10 @@ Surface_point_3<Kernel> chandrupatla(const Traits& traits, const Bracket_3<Kerne
 
 } // namespace internal
 
-/// A zero of f on the segment ab, at whose ends f has the values fa and fb of different signs (0 counts as positive): by
-/// Newton's method where the model has derivatives that cost less than `taylor`, else by Chandrupatla's, both from the
-/// linear interpolation and kept within the bracket. The result is accurate to a few roundings of the coordinates. A
-/// sign change without a zero, at a pole or a jump, is told by |f| getting neither smaller than at both ends nor
+/// A zero of f on the segment ab, at whose ends f has the values fa and fb of different signs (0 counts as positive):
+/// by Newton's method where the model has derivatives that cost less than `taylor`, else by Chandrupatla's, both from
+/// the linear interpolation and kept within the bracket. The result is accurate to a few roundings of the coordinates.
+/// A sign change without a zero, at a pole or a jump, is told by |f| getting neither smaller than at both ends nor
 /// negligible: not converged. A model with a member of this name is asked instead.
 template <ImplicitFunctionTraits_3 Traits>
 Surface_point_3<Kernel_of<Traits>> intersect_segment(const Traits& traits, const typename Traits::Point_3& a,

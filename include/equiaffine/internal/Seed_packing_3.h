@@ -22,8 +22,8 @@
 
 namespace equiaffine::internal {
 
-/// Points of a surface that are about `packing * size(p)` apart, nearer where a smaller distance is asked for; from where
-/// one is asked for they go as far as the surface does.
+/// Points of a surface that are about `packing * size(p)` apart, nearer where a smaller distance is asked for; from
+/// where one is asked for they go as far as the surface does.
 template <ImplicitFunctionTraits_3 Traits, class Sizing>
 class Seed_packing_3 {
   using Point_3 = typename Traits::Point_3;

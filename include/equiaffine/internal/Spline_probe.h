@@ -12,8 +12,8 @@
 
 namespace equiaffine::internal {
 
-/// The value and the fourth derivatives along x, y and z, in lattice coordinates, of the spline through smoothed samples,
-/// in the middle of cells, as sums over samples.
+/// The value and the fourth derivatives along x, y and z, in lattice coordinates, of the spline through smoothed
+/// samples, in the middle of cells, as sums over samples.
 template <class Kernel>
 class Spline_probe {
   using FT = typename Kernel::FT;

@@ -71,8 +71,8 @@ public:
   }
 
 private:
-  /// How much errors of size 1, of all terms or of all samples, can change the value and the first two derivatives along
-  /// one axis.
+  /// How much errors of size 1, of all terms or of all samples, can change the value and the first two derivatives
+  /// along one axis.
   struct Gains {
     std::array<FT, 3> terms, samples;
   };

@@ -28,8 +28,8 @@ FT error_of_prediction(const FT* samples, std::ptrdiff_t stride, int d) {
 
 /// The degree of the polynomials that extend size[0] x size[1] x size[2] samples beyond the border for a spline of
 /// degree n (see Line_filter): the greater of the two where it predicts the ends of most lines better from the samples
-/// next to them than the lesser one does. It does not for noise, nor for edges of a scan, and magnifies both more. Lines
-/// that are polynomials up to rounding say nothing. Time: that of a border of n + 4 samples.
+/// next to them than the lesser one does. It does not for noise, nor for edges of a scan, and magnifies both more.
+/// Lines that are polynomials up to rounding say nothing. Time: that of a border of n + 4 samples.
 template <class FT>
 int border_degree(const std::vector<FT>& samples, const std::array<std::size_t, 3>& size, int degree,
                   Spline_scheme scheme) {

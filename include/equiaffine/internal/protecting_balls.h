@@ -29,8 +29,8 @@ struct Protecting_ball_3 {
 
 /// Covers curves and corners with balls. In the regular triangulation of such balls the segments between neighbors on a
 /// curve are edges if the balls of neighbors overlap and no others do (Cheng, Dey, Ramos: Delaunay refinement for
-/// piecewise smooth complexes, 2010). Where curves are near each other, or meet in a sharp corner, balls are smaller and
-/// the more.
+/// piecewise smooth complexes, 2010). Where curves are near each other, or meet in a sharp corner, balls are smaller
+/// and the more.
 template <class Kernel>
 class Protecting_balls_3 {
   using Point_3 = typename Kernel::Point_3;

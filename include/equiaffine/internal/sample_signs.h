@@ -20,10 +20,10 @@ namespace equiaffine::internal {
 
 /// The signs of a function at the nodes of a lattice. Values are computed in batches and not kept.
 ///
-/// With SkipsEmptySpace, blocks of nodes are halved along all long axes until the function's bounds on the block and one
-/// node around it have one sign or the block is small. The margin makes every cell that has a node in a skipped block
-/// free of the surface, also if the function has no value at some nodes there, of which its bounds know nothing. A
-/// function that has its values at the nodes already has nothing to skip.
+/// With SkipsEmptySpace, blocks of nodes are halved along all long axes until the function's bounds on the block and
+/// one node around it have one sign or the block is small. The margin makes every cell that has a node in a skipped
+/// block free of the surface, also if the function has no value at some nodes there, of which its bounds know nothing.
+/// A function that has its values at the nodes already has nothing to skip.
 template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
 class Sign_sampler {
   using FT = typename Traits::FT;
