@@ -6,12 +6,12 @@
 #include <equiaffine/Jet_3.h>
 #include <equiaffine/Jet_ordering_3.h>
 #include <equiaffine/internal/elementary_functions.h>
+#include <equiaffine/internal/kinks.h>
 #include <equiaffine/internal/lanes.h>
-
-#include <climits>
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace equiaffine {
@@ -135,7 +135,8 @@ template <class T, int Order, Monomial_set A, JetScalar<T> S>
 auto pow(const Jet_3<T, Order, A>& a, const S& exponent) requires(!std::is_integral_v<S>) {
   using std::pow;
   if constexpr (std::is_floating_point_v<S>)
-    if (std::abs(exponent) <= S(SHRT_MAX) && exponent == std::trunc(exponent)) return pow(a, int(exponent));
+    if (std::abs(exponent) <= S(std::numeric_limits<short>::max()) && exponent == std::trunc(exponent))
+      return pow(a, int(exponent));
   return internal::real_power(a, T(pow(a.value(), T(exponent))), T(exponent));
 }
 
