@@ -34,6 +34,7 @@ class Boundary_curves_3 {
   using Point_3 = typename Traits::Point_3;
   using Vector_3 = typename Traits::Vector_3;
   using Grid = Seed_grid_3<Point_3, Vector_3>;
+  using Seed = typename Grid::Seed;
 
   /// A face of the box, or of the cube whose central projection the sphere is; (u, v) in [0, 1]^2.
   struct Face {
@@ -52,7 +53,7 @@ public:
   std::vector<Curve> operator()() {
     for (int axis = 0; axis < 3; ++axis)
       for (const bool is_upper : {false, true}) {
-        if (!domain_.is_ball()) traced_ = Grid(); // curves on other faces are others, however near
+        if (!domain_.is_ball()) on_face_ = Grid(); // curves on other faces are others, however near
         search({axis, is_upper}, {0, 1}, {0, 1});
       }
     return std::move(curves_);
@@ -111,8 +112,21 @@ private:
       const auto root = intersect_segment(traits_, p[n], p[m], value[n], value[m]);
       if (!root.has_converged) continue;
       const auto start = project(root.point, face.axis);
-      if (start && !traced_.is_crowded({*start, gradient(*start), pitch_})) trace(*start, face.axis);
+      if (start && !is_traced(*start, face.axis)) trace(*start, face.axis);
     }
+  }
+
+  /// A curve that runs in an edge of the box lies in two faces.
+  bool is_traced(const Point_3& p, int axis) {
+    const Seed seed{p, gradient(p), pitch_};
+    if (on_face_.is_crowded(seed)) return true;
+    if (domain_.is_ball()) return false;
+    const Vector_3 t = tangent(p, axis);
+    for (int b = 0; b < 3; ++b) {
+      const double distance = std::min(std::abs(p[b] - box_.min(b)), std::abs(p[b] - box_.max(b)));
+      if (b != axis && distance < 1e-6 * step_ && std::abs(t[b]) < 1e-6) return traced_.is_crowded(seed);
+    }
+    return false;
   }
 
   bool is_empty(const CGAL::Bbox_3& b, double margin) const {
@@ -137,7 +151,10 @@ private:
     } else {
       curve.points.push_back(start);
     }
-    for (const Point_3& p : curve.points) traced_.insert({p, gradient(p), pitch_});
+    for (const Point_3& p : curve.points) {
+      traced_.insert({p, gradient(p), pitch_});
+      on_face_.insert({p, gradient(p), pitch_});
+    }
     if (!curve.is_closed) drop_neighbors_of_ends(curve.points);
     if (curve.is_closed || !is_short(curve.points.front(), curve.points.back())) curves_.push_back(std::move(curve));
   }
@@ -159,6 +176,15 @@ private:
     for (double h = step_; h > step_ / 100 && t == t;) {
       const Point_3 guess = p + h * t;
       const auto q = project(guess, axis);
+      if (!q && !domain_.contains(guess) && !domain_.is_ball()) { // outside, f may have no value
+        for (int b = 0; b < 3; ++b) {
+          if (b == axis || (guess[b] >= box_.min(b) && guess[b] <= box_.max(b))) continue;
+          if (const auto end = end_on_edge(p, guess, axis, b)) {
+            points.push_back(*end);
+            return false;
+          }
+        }
+      }
       const Vector_3 next = q ? direction * tangent(*q, axis) : t;
       if (!q || !(CGAL::squared_distance(*q, guess) < h * h / 16) || !(next * t > smallest_cosine)) {
         h /= 2;
@@ -243,7 +269,7 @@ private:
   const Clip_domain_3& domain_;
   const CGAL::Bbox_3 box_;
   const double pitch_, step_;
-  Grid traced_;
+  Grid traced_, on_face_; // on all faces, on this one
   std::vector<Point_3> corners_;
   std::vector<Curve> curves_;
 };
