@@ -5,7 +5,9 @@
 #include "Feature_ends_3.h"
 #include "Memoized_function_3.h"
 #include "Surface_criteria_3.h"
+#include "orient_triangles.h"
 #include <equiaffine/Implicit_mesh_domain_3.h>
+#include <equiaffine/Local_structure_3.h>
 #include <equiaffine/delaunay_surface.h>
 #include <equiaffine/internal/boundary_curves.h>
 #include <equiaffine/internal/curve_step.h>
@@ -83,6 +85,7 @@ public:
       Angle_improvement_3 improve_angles(function_, domain_.domain(), criteria_, size_);
       improve_angles(result_, is_on_feature_);
     }
+    if (result_.is_certified && !topology_.is_manifold) report_where_not_manifold();
     report_what_is_lost();
     result_.function_evaluations = memory_.evaluations();
     result_.sampling_seconds = timer.time();
@@ -187,6 +190,10 @@ private:
     const Silent_warnings silence;
     refine_facets(complex_, domain_, criteria, manifoldness);
     read_mesh();
+    topology_ = mesh_topology(result_.triangles, result_.points.size());
+    if (topology_.is_manifold) return;
+    orient_triangles(result_.triangles); // at a crease gradients say nothing
+    topology_ = mesh_topology(result_.triangles, result_.points.size());
   }
 
   /// A seed or vertex of a feature without a triangle, or two neighbors on a feature without an edge: a part of the
@@ -215,9 +222,21 @@ private:
 
   /// Seldom needed: on a surface that is sampled densely enough every Delaunay facet has its place (Boissonnat, Oudot).
   void refine_until_manifold() {
-    const auto topology = mesh_topology(result_.triangles, result_.points.size());
-    if (topology.is_manifold) return;
-    refine(topology.boundary_edges > 0 ? Manifoldness::MANIFOLD_WITH_BOUNDARY : Manifoldness::MANIFOLD);
+    if (topology_.is_manifold) return;
+    refine(topology_.boundary_edges > 0 ? Manifoldness::MANIFOLD_WITH_BOUNDARY : Manifoldness::MANIFOLD);
+  }
+
+  /// Where parts of the surface, or features, are too near to each other for the radius.
+  void report_where_not_manifold() {
+    const Corner_lists lists(result_.triangles, result_.points.size());
+    Link link;
+    for (std::size_t v = 0; v < result_.points.size(); ++v) {
+      link.reset(std::uint32_t(v));
+      for (std::size_t i = lists.first[v]; i < lists.first[v + 1]; ++i)
+        link.add(result_.triangles[lists.corners[i] / 3], lists.corners[i] % 3);
+      const Point_3& p = result_.points[v];
+      if (!link.count_edges(topology_)) lost_.emplace_back(p.x(), p.y(), p.z());
+    }
   }
 
   void read_mesh() {
@@ -255,6 +274,7 @@ private:
   Facet_sizing_field size_;
   const std::vector<Feature_curve_3>& features_;
   Complex complex_;
+  Mesh_topology topology_;
   bool has_features_ = false;
   std::vector<std::pair<Vertex, Vertex>> feature_edges_;
   std::unordered_map<const void*, std::uint32_t> number_; // of the vertices of the mesh
@@ -268,6 +288,21 @@ private:
 Mesh mesh_surface(const Any_function_3& function, const Clip_domain_3& domain, const Delaunay_criteria& criteria,
                   Facet_sizing sizing, const std::vector<Feature_curve_3>& features) {
   return Surface_mesher(function, domain, criteria, sizing, features)();
+}
+
+void report_straddling_triangles(Mesh& mesh, const Any_function_3& function, double radius) {
+  constexpr double negligible = 1e-8; // beside the principal curvatures, or much less beside that of a facet's ball
+  std::vector<int> sign;
+  for (const Point_3& p : mesh.points) {
+    const auto e = local_structure(function.taylor(p)).euclidean;
+    const double least = negligible * (e.k1 * e.k1 + e.k2 * e.k2 + negligible / (radius * radius));
+    sign.push_back((e.gaussian_curvature > least) - (e.gaussian_curvature < -least));
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    if (std::min({sign[a], sign[b], sign[c]}) >= 0 || std::max({sign[a], sign[b], sign[c]}) <= 0) continue;
+    mesh.undecided_boxes.push_back(mesh.points[a].bbox() + mesh.points[b].bbox() + mesh.points[c].bbox());
+    mesh.is_certified = false;
+  }
 }
 
 } // namespace equiaffine::internal

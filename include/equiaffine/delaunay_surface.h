@@ -35,7 +35,8 @@ struct Delaunay_surface_3 : Isosurface_3<Kernel> {
   /// Where a part of the surface may have been missed, since neither its absence nor its regularity could be proved:
   /// around singular points, where the surface touches the border of the box, beside points where f is not defined, in
   /// noise that would need too many boxes, or everywhere for a function without bounds of its gradient. Also where a
-  /// part was found and yet got no triangle, or a feature no edge, for being too near to others.
+  /// part was found and yet got no triangle, or a feature no edge, for being too near to others, where the mesh is not
+  /// a manifold, and where a triangle straddles a parabolic curve that is a feature.
   std::vector<CGAL::Bbox_3> undecided_boxes;
   Parabolic_curves_3<Kernel> parabolic_curves; ///< if the mesh was asked to follow them
 };
@@ -53,6 +54,10 @@ struct Feature_curve_3 {
 Delaunay_surface_3<Any_function_3::Kernel> mesh_surface(const Any_function_3& function, const Clip_domain_3& domain,
                                                         const Delaunay_criteria& criteria, Facet_sizing sizing,
                                                         const std::vector<Feature_curve_3>& features);
+
+/// Compiled there, too: triangles with points on both sides of a parabolic curve take the certificate away.
+void report_straddling_triangles(Delaunay_surface_3<Any_function_3::Kernel>& mesh, const Any_function_3& function,
+                                 double radius);
 
 /// A copy with the points of another kernel.
 template <class Kernel, class Other>
@@ -122,6 +127,7 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Del
     mesh.function_evaluations += evaluations;
     mesh.sampling_seconds += seconds;
     mesh.parabolic_curves = std::move(parabolic);
+    internal::report_straddling_triangles(mesh, function, criteria.radius);
   }
   if constexpr (std::is_same_v<Surface, decltype(mesh)>) {
     return mesh;
