@@ -36,7 +36,7 @@ struct Annotated_surface {
   std::optional<Parabolic_curves_3<Kernel>> curves; ///< if they were asked for
 };
 
-/// `place` is where it was looked for, `refinement` what may find more.
+/// `place` is where it was looked for, `refinement` what may find more, if anything.
 template <class Traits>
 [[noreturn]] void fail_without_surface(const Traits& function, double isovalue, const std::string& place,
                                        const std::string& refinement) {
@@ -57,10 +57,15 @@ template <class Traits>
     if (value > greatest) greatest = value;
   }
   std::ostringstream text;
-  text << "no surface f = " << isovalue << " in the " << place << ": at the nodes of a grid f ";
+  const bool is_there = !refinement.empty() && least < isovalue && greatest > isovalue;
+  text << (is_there ? "no part of the surface f = " : "no surface f = ") << isovalue << (is_there ? " was found" : "")
+       << " in the " << place << ": at the nodes of a grid f ";
   if (least <= greatest) text << "lies between " << least << " and " << greatest;
   else text << "is undefined";
-  text << "; choose another --isovalue or box" << refinement;
+  text << "; choose ";
+  if (is_there) text << refinement;
+  else text << "another --isovalue or box";
+  if (!is_there && least <= greatest && !refinement.empty()) text << ", or " << refinement;
   throw Input_error(text.str());
 }
 
@@ -71,7 +76,7 @@ void sample(const Traits& function, const Mesh_options& options, const Marching_
       function, parameters::vertex_position(method.vertices)
                     .number_of_nodes(options.source.resolution.value_or(default_resolution(options.source.kind))));
   if (surface.mesh.triangles.empty())
-    fail_without_surface(function.base(), options.isovalue, "box", ", or a finer --resolution");
+    fail_without_surface(function.base(), options.isovalue, "box", "a finer --resolution");
 }
 
 /// The mesher computes polynomials of degree 6 in lengths, which must not over- or underflow.
@@ -86,6 +91,18 @@ void check_box_of_delaunay_surface(const CGAL::Bbox_3& box, double diagonal) {
   throw Input_error(text.str());
 }
 
+/// Facets of a few units in the last place have no shape.
+void check_radius_of_delaunay_surface(const CGAL::Bbox_3& box, double radius) {
+  double farthest = 0;
+  for (int a = 0; a < 3; ++a) farthest = std::max({farthest, std::abs(box.min(a)), std::abs(box.max(a))});
+  const double least = 1024 * std::numeric_limits<double>::epsilon() * farthest;
+  if (radius >= least) return;
+  std::ostringstream text;
+  text << "a radius of " << radius << " is too small beside coordinates to " << farthest << ", which takes " << least
+       << ": choose a larger --radius, or an origin nearer to the box";
+  throw Input_error(text.str());
+}
+
 template <class Traits>
 void sample(const Traits& function, const Mesh_options& options, const Delaunay_options& method,
             Annotated_surface& surface) {
@@ -96,13 +113,14 @@ void sample(const Traits& function, const Mesh_options& options, const Delaunay_
   criteria.radius = criteria.radius == 0 ? diagonal / 50 : std::min(criteria.radius, diagonal); // of no larger ball
   if (criteria.distance == 0) criteria.distance = criteria.radius / 10;
   check_memory_of_delaunay_surface(diagonal, criteria.radius, criteria.distance);
+  check_radius_of_delaunay_surface(box, criteria.radius);
   const Clip_domain_3 domain = method.clips_to_ball ? Clip_domain_3::ball_in(box) : Clip_domain_3(box);
   const auto parameters = parameters::clip(domain).facet_sizing(method.sizing);
   auto mesh = options.curves ? delaunay_surface(function, criteria, parameters.parabolic_features())
                              : delaunay_surface(function, criteria, parameters);
   if (mesh.triangles.empty())
     fail_without_surface(function.base(), options.isovalue, method.clips_to_ball ? "ball" : "box",
-                         mesh.is_certified ? "" : ", or a smaller --radius");
+                         mesh.is_certified ? "" : "a smaller --radius");
   surface.completeness = {mesh.is_certified, std::move(mesh.undecided_boxes)};
   if (options.curves) surface.curves = std::move(mesh.parabolic_curves);
   surface.mesh = std::move(mesh);

@@ -80,8 +80,8 @@ TEST(Certified_seeding, seeds_keep_away_from_vertices_of_features) {
   }
 }
 
-// Two thin shells: cells of the one that comes first in the order of cells need the tightest bounds for long, and settle
-// little for the other.
+// Two thin shells: cells of the one that comes first in the order of cells need the tightest bounds for long, and
+// settle little for the other.
 TEST(Certified_seeding, an_image_in_a_mirror_is_decided_as_well) {
   for (const char* small : {"(x+1.2)^2+(y+1.2)^2+(z+1.2)^2", "(x-1.2)^2+(y-1.2)^2+(z-1.2)^2"}) {
     const std::string u = "(25*(" + std::string(small) + "))", v = "(x^2+y^2+z^2)";

@@ -222,6 +222,44 @@ TEST(Delaunay_surface, components_at_any_face_and_edge_of_the_box_are_found) {
   expect_two("min(-1e-6+(x-.313)^2+(y-.217)^2+z, (x+.5)^2+(y+.5)^2+(z-.05)^2-.0004)", slab, 0.03);
 }
 
+TEST(Delaunay_surface, triangles_beside_creases_are_oriented_as_their_neighbors_are) {
+  const CGAL::Bbox_3 box(-2, -2, -2, 2, 2, 2);
+  for (const char* text : {"min((x-.5)^2+y^2+z^2-1, (x+.5)^2+y^2+z^2-1)", "max((x-.5)^2+y^2+z^2-1, (x+.5)^2+y^2+z^2-1)",
+                           "abs(x)+abs(y)+abs(z)-1"}) {
+    const auto traits = make_analytic_traits<Kernel>(Expression_3(text), box);
+    const auto surface = delaunay_surface(traits);
+    const auto t = topology(surface);
+    EXPECT_TRUE(t.is_manifold) << text;
+    EXPECT_EQ(t.euler_characteristic, 2) << text;
+    double volume = 0; // outwards is where f is positive
+    for (const auto& [a, b, c] : surface.triangles)
+      volume += CGAL::volume(Point_3(0, 0, 0), surface.points[a], surface.points[b], surface.points[c]);
+    EXPECT_GT(volume, 0.5) << text;
+  }
+}
+
+TEST(Delaunay_surface, what_is_not_a_manifold_is_not_certified) {
+  const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1); // strips nearer to each other than the facets are large
+  const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3("z-.9999-1e-3*sin(1e2*y)"), box));
+  EXPECT_TRUE(topology(surface).is_manifold || !surface.is_certified);
+  EXPECT_TRUE(surface.is_certified || !surface.undecided_boxes.empty());
+}
+
+TEST(Delaunay_surface, what_straddles_a_parabolic_curve_is_not_certified) {
+  const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
+  const auto traits = make_analytic_traits<Kernel>(Expression_3("z-sin(3*x)*sin(2.5*y)/2"), box);
+  const auto coarse = delaunay_surface(traits, {30, 0.5, 0}, parameters::parabolic_features());
+  EXPECT_FALSE(coarse.is_certified);
+  EXPECT_FALSE(coarse.undecided_boxes.empty());
+  EXPECT_TRUE(delaunay_surface(traits, {30, 0.1, 0}, parameters::parabolic_features()).is_certified);
+}
+
+TEST(Delaunay_surface, a_surface_that_touches_the_box_in_an_edge_ends) {
+  const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
+  for (const char* text : {"x+y-2", "x^2+y^2-2", "x-y"})
+    EXPECT_FALSE(delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box)).is_certified) << text;
+}
+
 TEST(Delaunay_surface, what_is_lost_is_not_certified) {
   const CGAL::Bbox_3 slice(-2, -2, -0.0005, 2, 2, 0.0005); // less than a fiftieth of the facets' radius thick
   const auto surface = delaunay_surface(make_analytic_traits<Kernel>(functions::Sphere(), slice));
@@ -374,6 +412,24 @@ TEST(Delaunay_surface, a_volume_is_meshed_like_its_function) {
   EXPECT_EQ(topology(surface).components, 1u);
   EXPECT_TRUE(surface.is_certified);
   expect_vertices_on_surface(volume, surface, Clip_domain_3(torus.box()).diagonal());
+}
+
+TEST(Delaunay_surface, a_volume_without_values_outside_is_meshed_to_its_border) {
+  for (const char* text : {"z-0.3", "z-0.3-0.2*x", "sin(3*x)*cos(3*y)+sin(3*y)*cos(3*z)+sin(3*z)*cos(3*x)"}) {
+    const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+    const Sampled_function_traits_3<Kernel> volume(sample_on_lattice(traits, sampling_lattice(traits, {30, 30, 30})));
+    const auto surface = delaunay_surface(volume), reference = delaunay_surface(traits);
+    EXPECT_TRUE(topology(surface).is_manifold) << text;
+    EXPECT_EQ(topology(surface).components, topology(reference).components) << text;
+    EXPECT_EQ(topology(surface).euler_characteristic, topology(reference).euler_characteristic) << text;
+    EXPECT_TRUE(surface.is_certified) << text;
+    EXPECT_GE(smallest_angle(surface, std::vector<bool>(surface.points.size(), false)), 29.9) << text;
+    const auto is_boundary = is_on_boundary(surface);
+    for (std::size_t v = 0; v < surface.points.size(); ++v) {
+      const Point_3& p = surface.points[v];
+      EXPECT_EQ(is_boundary[v], std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())}) == 1) << p;
+    }
+  }
 }
 
 TEST(Delaunay_surface, a_tiny_sphere_is_found_wherever_it_is) {

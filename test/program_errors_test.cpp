@@ -193,13 +193,25 @@ TEST_F(Program_errors, criteria_of_a_Delaunay_mesh_can_be_satisfied) {
   }
 }
 
+TEST_F(Program_errors, a_surface_without_triangles_is_told_from_none) {
+  expect_error(
+      mesh_of("y^2 + z^2 - 0.2") + Arguments{"--method", "delaunay", "--box", "0", "1000", "-.5", ".5", "-.5", ".5"},
+      {"no part of the surface f = 0 was found in the box", "between -0.2 and 0.3; choose a smaller --radius"});
+}
+
+TEST_F(Program_errors, facets_that_coordinates_cannot_tell_apart_are_refused) {
+  expect_error(mesh_of("x - 1e17") +
+                   Arguments{"--method", "delaunay", "--box", "1e17", "100000000000000016", "-1", "1", "-1", "1"},
+               {"a radius of 0.32", "too small beside coordinates to 1e+17", "choose a larger --radius"});
+}
+
 TEST_F(Program_errors, a_surface_outside_the_box_is_none) {
   const Arguments delaunay = {"--method", "delaunay"};
   expect_error(mesh_of("x^2 + y^2 + z^2 + 1") + box + delaunay,
                {"no surface f = 0 in the box", "between 1 and 13", "choose another --isovalue or box"});
   expect_error(mesh_of("x^2 + y^2 + z^2 - 10") + box + delaunay + Arguments{"--clip", "ball", "--stats", "o.json"},
                {"no surface f = 0 in the ball", "between -10 and 2"});
-  expect_error(mesh_of("log(-1 - x^2)") + box + delaunay, {"undefined", "a smaller --radius"});
+  expect_error(mesh_of("log(-1 - x^2)") + box + delaunay, {"undefined", "choose another --isovalue or box"});
   expect_error(mesh_of("x^2 + y^2 + z^2 + 1") + box, {"no surface f = 0", "between 1 and 13"});
   expect_error(mesh_of("x") + box + Arguments{"--isovalue", "3", "--html", "o.html", "--stats", "o.json"},
                {"no surface f = 3"});
