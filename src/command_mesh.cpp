@@ -79,11 +79,16 @@ void sample(const Traits& function, const Mesh_options& options, const Marching_
     fail_without_surface(function.base(), options.isovalue, "box", "a finer --resolution");
 }
 
+double greatest_coordinate(const CGAL::Bbox_3& box) {
+  double greatest = 0;
+  for (int a = 0; a < 3; ++a) greatest = std::max({greatest, std::abs(box.min(a)), std::abs(box.max(a))});
+  return greatest;
+}
+
 /// The mesher computes polynomials of degree 6 in lengths, which must not over- or underflow.
 void check_box_of_delaunay_surface(const CGAL::Bbox_3& box, double diagonal) {
   constexpr double least = 1e-40, greatest = 1e40;
-  double farthest = diagonal;
-  for (int a = 0; a < 3; ++a) farthest = std::max({farthest, std::abs(box.min(a)), std::abs(box.max(a))});
+  const double farthest = std::max(diagonal, greatest_coordinate(box));
   if (diagonal >= least && farthest <= greatest) return;
   std::ostringstream text;
   text << "the box of the function has the diagonal " << diagonal << ", and coordinates to " << farthest
@@ -93,8 +98,7 @@ void check_box_of_delaunay_surface(const CGAL::Bbox_3& box, double diagonal) {
 
 /// Facets of a few units in the last place have no shape.
 void check_radius_of_delaunay_surface(const CGAL::Bbox_3& box, double radius) {
-  double farthest = 0;
-  for (int a = 0; a < 3; ++a) farthest = std::max({farthest, std::abs(box.min(a)), std::abs(box.max(a))});
+  const double farthest = greatest_coordinate(box);
   const double least = 1024 * std::numeric_limits<double>::epsilon() * farthest;
   if (radius >= least) return;
   std::ostringstream text;
