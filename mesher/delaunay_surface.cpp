@@ -230,12 +230,13 @@ private:
   void report_where_not_manifold() {
     const Corner_lists lists(result_.triangles, result_.points.size());
     Link link;
+    Mesh_topology counted;
     for (std::size_t v = 0; v < result_.points.size(); ++v) {
       link.reset(std::uint32_t(v));
       for (std::size_t i = lists.first[v]; i < lists.first[v + 1]; ++i)
         link.add(result_.triangles[lists.corners[i] / 3], lists.corners[i] % 3);
       const Point_3& p = result_.points[v];
-      if (!link.count_edges(topology_)) lost_.emplace_back(p.x(), p.y(), p.z());
+      if (!link.count_edges(counted)) lost_.emplace_back(p.x(), p.y(), p.z());
     }
   }
 

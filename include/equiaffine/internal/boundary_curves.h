@@ -152,8 +152,9 @@ private:
       curve.points.push_back(start);
     }
     for (const Point_3& p : curve.points) {
-      traced_.insert({p, gradient(p), pitch_});
-      on_face_.insert({p, gradient(p), pitch_});
+      const Seed seed{p, gradient(p), pitch_};
+      traced_.insert(seed);
+      on_face_.insert(seed);
     }
     if (!curve.is_closed) drop_neighbors_of_ends(curve.points);
     if (curve.is_closed || !is_short(curve.points.front(), curve.points.back())) curves_.push_back(std::move(curve));
