@@ -3,9 +3,9 @@
 #define EQUIAFFINE_MESHER_ANGLE_IMPROVEMENT_3_H
 
 #include "Facet_sizing_field.h"
-#include <equiaffine/delaunay_surface.h>
-#include <equiaffine/internal/curve_step.h>
-#include <equiaffine/project_to_surface.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/surface/curve_step.h>
+#include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/squared_distance_3.h>

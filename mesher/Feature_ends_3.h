@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_MESHER_FEATURE_ENDS_3_H
 #define EQUIAFFINE_MESHER_FEATURE_ENDS_3_H
 
-#include <equiaffine/delaunay_surface.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
 
 #include <CGAL/squared_distance_3.h>
 

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_MESHER_MEMOIZED_FUNCTION_3_H
 #define EQUIAFFINE_MESHER_MEMOIZED_FUNCTION_3_H
 
-#include <equiaffine/internal/Any_function_3.h>
+#include <equiaffine/delaunay/Any_function_3.h>
 
 #include <bit>
 #include <cstddef>

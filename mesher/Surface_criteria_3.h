@@ -3,8 +3,8 @@
 #define EQUIAFFINE_MESHER_SURFACE_CRITERIA_3_H
 
 #include "Facet_sizing_field.h"
-#include <equiaffine/delaunay_surface.h>
-#include <equiaffine/internal/cgal_compatibility.h>
+#include <equiaffine/delaunay/cgal_compatibility.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
 
 #include <CGAL/Weighted_point_3.h>
 

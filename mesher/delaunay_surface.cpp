@@ -5,15 +5,15 @@
 #include "Feature_ends_3.h"
 #include "Memoized_function_3.h"
 #include "Surface_criteria_3.h"
+#include "boundary_curves.h"
 #include "orient_triangles.h"
-#include <equiaffine/Implicit_mesh_domain_3.h>
-#include <equiaffine/Local_structure_3.h>
-#include <equiaffine/delaunay_surface.h>
-#include <equiaffine/internal/boundary_curves.h>
-#include <equiaffine/internal/curve_step.h>
-#include <equiaffine/internal/protecting_balls.h>
-#include <equiaffine/internal/singular_points.h>
-#include <equiaffine/mesh_topology.h>
+#include "protecting_balls.h"
+#include "singular_points.h"
+#include <equiaffine/delaunay/Implicit_mesh_domain_3.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/surface/curve_step.h>
+#include <equiaffine/surface/mesh_topology.h>
 
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_triangulation_3.h>

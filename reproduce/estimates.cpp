@@ -3,11 +3,11 @@
 //   equiaffine-estimates operations         floating-point operations of each step, as JSON
 //   equiaffine-estimates splines < NUMBERS  the library's B-splines of degree 5 and 7, as CSV
 //   equiaffine-estimates SURFACE < CSV      K, H and xi at points by every method and by the formula as printed, as CSV
-#include "operation_counts.h"
+#include "support/operation_counts.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/analytic_functions.h>
-#include <equiaffine/internal/bspline.h>
-#include <equiaffine/reference_estimators.h>
+#include <equiaffine/geometry/reference_estimators.h>
+#include <equiaffine/volume/bspline.h>
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "atomic_file.h"
-#include "program.h"
+#include "commands/program.h"
+#include "system/atomic_file.h"
 
 #include <CGAL/assertions.h>
 #include <CGAL/assertions_behaviour.h>

@@ -1,27 +1,2 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_INPUT_ERROR_H
-#define EQUIAFFINE_INPUT_ERROR_H
-
-#include <stdexcept>
-#include <string>
-#include <utility>
-
-namespace equiaffine {
-
-/// The one exception of the library: a text or a file that cannot be used.
-/// `what()` is one line that says what is wrong, where, and what to do about it.
-/// `excerpt()` is empty or shows the place: the offending text and, below it, a caret.
-class Input_error : public std::runtime_error {
-public:
-  explicit Input_error(const std::string& what, std::string excerpt = {})
-      : std::runtime_error(what), excerpt_(std::move(excerpt)) {}
-
-  const std::string& excerpt() const { return excerpt_; }
-
-private:
-  std::string excerpt_;
-};
-
-} // namespace equiaffine
-
-#endif
+#include <equiaffine/base/Input_error.h> // IWYU pragma: export

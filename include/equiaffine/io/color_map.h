@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_IO_COLOR_MAP_H
 #define EQUIAFFINE_IO_COLOR_MAP_H
 
-#include <equiaffine/Point_status.h>
+#include <equiaffine/geometry/Point_status.h>
 
 #include <CGAL/IO/Color.h>
 #include <CGAL/assertions.h>

@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_IO_READ_OFF_H
 #define EQUIAFFINE_IO_READ_OFF_H
 
-#include <equiaffine/Indexed_triangle_mesh_3.h>
-#include <equiaffine/Input_error.h>
-#include <equiaffine/internal/text_input.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/io/text_input.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <array>
 #include <cstddef>

@@ -4,12 +4,12 @@
 
 // Points from CSV, PLY and OFF with all that came with them, and back to CSV with more columns.
 
-#include <equiaffine/Indexed_triangle_mesh_3.h>
-#include <equiaffine/Input_error.h>
-#include <equiaffine/internal/text_input.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/io/read_OFF.h>
 #include <equiaffine/io/read_PLY.h>
+#include <equiaffine/io/text_input.h>
 #include <equiaffine/io/write_CSV.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_IO_WRITE_CSV_H
 #define EQUIAFFINE_IO_WRITE_CSV_H
 
-#include <equiaffine/Indexed_triangle_mesh_3.h>
-#include <equiaffine/internal/buffered_output.h>
+#include <equiaffine/io/internal/buffered_output.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/number_utils.h>

@@ -2,16 +2,16 @@
 #ifndef EQUIAFFINE_IO_WRITE_HTML_H
 #define EQUIAFFINE_IO_WRITE_HTML_H
 
-#include <equiaffine/Indexed_triangle_mesh_3.h>
-#include <equiaffine/internal/base64.h>
-#include <equiaffine/internal/quantities.h>
-#include <equiaffine/internal/viewer_control.h>
-#include <equiaffine/internal/viewer_data.h>
-#include <equiaffine/internal/viewer_graphics.h>
-#include <equiaffine/internal/viewer_page.h>
-#include <equiaffine/internal/viewer_panel.h>
-#include <equiaffine/internal/viewer_scene.h>
+#include <equiaffine/attributes/quantities.h>
 #include <equiaffine/io/color_map.h>
+#include <equiaffine/io/internal/base64.h>
+#include <equiaffine/io/internal/viewer_control.h>
+#include <equiaffine/io/internal/viewer_data.h>
+#include <equiaffine/io/internal/viewer_graphics.h>
+#include <equiaffine/io/internal/viewer_page.h>
+#include <equiaffine/io/internal/viewer_panel.h>
+#include <equiaffine/io/internal/viewer_scene.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>

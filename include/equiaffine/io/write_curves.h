@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_IO_WRITE_CURVES_H
 #define EQUIAFFINE_IO_WRITE_CURVES_H
 
-#include <equiaffine/internal/buffered_output.h>
-#include <equiaffine/parabolic_curves.h>
+#include <equiaffine/io/internal/buffered_output.h>
+#include <equiaffine/surface/parabolic_curves.h>
 
 #include <CGAL/number_utils.h>
 

@@ -6,10 +6,10 @@
 // numbers that do not exist. All functions write to a stream (opened as binary for PLY and STL); errors are in its
 // state.
 
-#include <equiaffine/Indexed_triangle_mesh_3.h>
-#include <equiaffine/internal/buffered_output.h>
-#include <equiaffine/internal/text_input.h>
+#include <equiaffine/io/internal/buffered_output.h>
+#include <equiaffine/io/text_input.h>
 #include <equiaffine/io/write_CSV.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/number_utils.h>

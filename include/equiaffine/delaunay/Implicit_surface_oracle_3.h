@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// For programs that use CGAL's package 3D Surface Mesh Generation, which is deprecated since CGAL 6: new ones are
+// better off with delaunay_surface.h, or with Implicit_mesh_domain_3.h and CGAL::make_mesh_3. No other header includes
+// this one, and it includes none of that package.
+#ifndef EQUIAFFINE_DELAUNAY_IMPLICIT_SURFACE_ORACLE_3_H
+#define EQUIAFFINE_DELAUNAY_IMPLICIT_SURFACE_ORACLE_3_H
+
+#include <equiaffine/delaunay/Implicit_mesh_domain_3.h>
+
+#include <CGAL/Object.h>
+
+#include <iterator>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+/// Model of CGAL's SurfaceMeshTraits_3 for CGAL::make_surface_mesh, whose surface is the zero set of an
+/// `Implicit_mesh_domain_3`. It takes the place of CGAL::Implicit_surface_3 and its traits:
+///
+///     const Domain surface(traits, clip_domain, facet_size);
+///     CGAL::make_surface_mesh(complex, surface, Implicit_surface_oracle_3<Domain>(), criteria, CGAL::Manifold_tag());
+///
+/// Vertices are exact to rounding, there are initial points on every component that is closed within the clip domain,
+/// and parts of the surface outside of it do no harm. Stateless.
+template <class Domain>
+class Implicit_surface_oracle_3 {
+public:
+  using Surface_3 = Domain;
+  using Point_3 = typename Domain::Point_3;
+  using Segment_3 = typename Domain::Segment_3;
+  using Ray_3 = typename Domain::Ray_3;
+  using Line_3 = typename Domain::Line_3;
+  using Intersection_point = Point_3;
+
+  struct Intersect_3 {
+    /// `query` is a Segment_3, Ray_3 or Line_3; gives an Intersection_point or nothing.
+    template <class Query>
+    CGAL::Object operator()(const Surface_3& surface, const Query& query) const {
+      const auto intersection = surface.construct_intersection_object()(query);
+      if (std::get<2>(intersection) == 0) return CGAL::Object();
+      return CGAL::make_object(Intersection_point(std::get<0>(intersection)));
+    }
+  };
+
+  struct Construct_initial_points {
+    /// Writes points; their number is that which certainty and the facet size need, at least, and `n` is ignored.
+    template <class OutputIterator>
+    OutputIterator operator()(const Surface_3& surface, OutputIterator out, int = 0) const {
+      std::vector<std::pair<Point_3, typename Surface_3::Index>> points;
+      surface.construct_initial_points_object()(std::back_inserter(points));
+      for (const auto& [p, index] : points) *out++ = p;
+      return out;
+    }
+  };
+
+  Intersect_3 intersect_3_object() const { return {}; }
+  Construct_initial_points construct_initial_points_object() const { return {}; }
+};
+
+} // namespace equiaffine
+
+#endif

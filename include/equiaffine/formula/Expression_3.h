@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FORMULA_EXPRESSION_3_H
+#define EQUIAFFINE_FORMULA_EXPRESSION_3_H
+
+#include <equiaffine/formula/internal/expression_parser.h>
+#include <equiaffine/formula/internal/expression_taylor.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace equiaffine {
+
+/// A function of x, y, z given as text at run time, callable on any number type.
+///
+///     const Expression_3 f("(x^2 + y^2 + z^2 + R^2 - r^2)^2 = 4*R^2*(x^2 + y^2)", {{"R", 2.0}, {"r", 0.5}});
+///     const double value = f(2.5, 0.0, 0.0);                                       // 0: a point of the torus
+///     using Jet = Jet_3<double>;
+///     const Jet taylor = f(Jet::variable(0, 2.5), Jet::variable(1, 0.0), Jet::variable(2, 0.0));
+///
+/// Grammar (white space is free; `[]` optional, `{}` repeated, quotes around characters):
+///
+///     equation = sum ["=" sum]                          lhs = rhs is the function lhs - rhs
+///     sum      = product {("+" | "-") product}
+///     product  = factor {("*" | "/") factor}
+///     factor   = {"+" | "-"} power                      -x^2 is -(x^2)
+///     power    = primary ["^" factor]                   2^3^2 is 2^(3^2), 2^-1 is 1/2
+///     primary  = number | name | function "(" sum {"," sum} ")" | "(" sum ")"
+///
+/// Numbers are written as 2, .5 or 1e-3, whatever the locale. Names are x, y, z, pi, e and those of `constants`.
+/// Functions of one argument: sqrt cbrt exp log (natural) sin cos tan asin acos atan sinh cosh tanh abs; of two:
+/// atan2(y, x) hypot pow; of two or more: min max. Angles are in radians. Nesting is limited to 1000 levels.
+///
+/// Numbers, constants and what is computed from them alone are rounded to double for every number type, so that all
+/// types evaluate the same function. For double, operators and functions are those of the language and of <cmath>,
+/// except that an integer exponent (up to 2^30 in magnitude) means repeated multiplication and `^0.5` means sqrt, and
+/// that min and max are NaN when an argument is. Domain errors (log(-1), 0/0) give what T gives: NaN for double.
+///
+/// A number type T is regular, constructible from double and has + - * / and unary -; the functions above are found by
+/// argument-dependent lookup. Those with substitutes: hypot, min and max (`<` and `!=` decide), pow (exp(b * log(a)),
+/// and products for integer exponents). Used where they exist: square(T), pow(T, double), pow(T, int), and the four
+/// operators with a double on either side.
+///
+/// Equal subexpressions are evaluated once. Evaluation costs one instruction per remaining operation, and no memory on
+/// the heap when T is trivially default constructible and at most 16 intermediate results are alive at once. Calls from
+/// several threads are safe.
+class Expression_3 {
+public:
+  /// Parses n characters in O(n log n). Throws Input_error, with the column in what() and a caret under it in
+  /// excerpt(), for a text outside the grammar and for a constant subexpression that is not finite; also for an entry
+  /// of `constants` that is not finite or whose name is not an identifier or has a meaning already.
+  explicit Expression_3(std::string_view text, const std::map<std::string, double>& constants = {}) : text_(text) {
+    internal::expression::check_constants(constants);
+    tape_ = internal::expression::Parser(text_, constants).parse();
+  }
+
+  /// The value at (x, y, z).
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    internal::expression::Slots<1, T> slots(tape_);
+    slots.run({&x, &y, &z}, 1);
+    return *slots.result();
+  }
+
+  /// out[i] = value at (x[i], y[i], z[i]), bit for bit that of the single call. The spans have equal sizes; `out` may
+  /// be one of the others but must not overlap them otherwise.
+  template <class T>
+  void operator()(std::span<const T> x, std::span<const T> y, std::span<const T> z, std::span<T> out) const {
+    CGAL_precondition(x.size() == out.size() && y.size() == out.size() && z.size() == out.size());
+    constexpr std::size_t block = internal::expression::block_size<T>;
+    internal::expression::Slots<block, T> slots(tape_);
+    for (std::size_t first = 0; first < out.size(); first += block) {
+      const std::size_t count = std::min(block, out.size() - first);
+      slots.run({&x[first], &y[first], &z[first]}, count);
+      std::copy_n(slots.result(), count, &out[first]);
+    }
+  }
+
+  /// The Taylor polynomial at (x, y, z), for a floating-point type or a Pack. It is that of the call on jets but for
+  /// rounding, computed by a tape of its own that leaves out what the structure of the expression makes zero: what does
+  /// not depend on x, y, z has no derivatives, whatever its value, where jets can have NaN, as of sqrt(x-x).
+  template <internal::expression::Ordered T>
+  Jet_3<T> taylor(const T& x, const T& y, const T& z) const {
+    Jet_3<T> jet;
+    taylor_blocks<1>(taylor_->get(tape_), std::span(&x, 1), std::span(&y, 1), std::span(&z, 1), std::span(&jet, 1));
+    return jet;
+  }
+
+  /// out[i] = Taylor polynomial at (x[i], y[i], z[i]), bit for bit that of the single call. The spans have equal sizes.
+  template <internal::expression::Ordered T>
+  void taylor(std::span<const T> x, std::span<const T> y, std::span<const T> z, std::span<Jet_3<T>> out) const {
+    CGAL_precondition(x.size() == out.size() && y.size() == out.size() && z.size() == out.size());
+    taylor_blocks<internal::expression::block_size<T>>(taylor_->get(tape_), x, y, z, out);
+  }
+
+  /// The text it was made from.
+  const std::string& text() const { return text_; }
+
+  /// Operations per evaluation, after sharing equal subexpressions and folding constants; 0 for a lone variable.
+  std::size_t number_of_instructions() const { return tape_.instructions.size(); }
+
+private:
+  template <std::size_t Block, class T>
+  static void taylor_blocks(const internal::expression::Tape& tape, std::span<const T> x, std::span<const T> y,
+                            std::span<const T> z, std::span<Jet_3<T>> out) {
+    internal::expression::Slots<Block, T> slots(tape);
+    for (std::size_t first = 0; first < out.size(); first += Block) {
+      const std::size_t count = std::min(Block, out.size() - first);
+      slots.run({&x[first], &y[first], &z[first]}, count);
+      for (std::size_t n = 0; n < Jet_3<T>::size; ++n) {
+        const T* const coefficients = slots.result(n);
+        for (std::size_t i = 0; i < count; ++i) out[first + i].coefficients()[n] = coefficients[i];
+      }
+    }
+  }
+
+  /// Made when it is needed first: most expressions never need it.
+  class Taylor_tape {
+  public:
+    const internal::expression::Tape& get(const internal::expression::Tape& values) {
+      std::call_once(is_made_, [&] { tape_ = internal::expression::taylor_tape(values); });
+      return tape_;
+    }
+
+  private:
+    std::once_flag is_made_;
+    internal::expression::Tape tape_;
+  };
+
+  std::string text_;
+  internal::expression::Tape tape_;
+  std::shared_ptr<Taylor_tape> taylor_ = std::make_shared<Taylor_tape>(); ///< copies are equal and share it
+};
+
+} // namespace equiaffine
+
+#endif

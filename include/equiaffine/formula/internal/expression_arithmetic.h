@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_ARITHMETIC_H
+#define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_ARITHMETIC_H
+
+#include <equiaffine/number/lanes.h>
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <type_traits>
+
+/// What the instructions of an expression compute for any number type.
+namespace equiaffine::internal::expression {
+
+// Arithmetic with a double. The mixed operators of T are used where they exist and return T: for a Taylor polynomial,
+// scaling is many times cheaper than a product. Built-in types would be promoted, and are converted instead.
+template <class T>
+T plus_constant(const T& a, double c) {
+  if constexpr (!std::is_arithmetic_v<T> && requires {
+                  { a + c } -> std::same_as<T>;
+                })
+    return a + c;
+  else return a + T(c);
+}
+
+template <class T>
+T constant_minus(double c, const T& a) {
+  if constexpr (!std::is_arithmetic_v<T> && requires {
+                  { c - a } -> std::same_as<T>;
+                })
+    return c - a;
+  else return T(c) - a;
+}
+
+template <class T>
+T times_constant(const T& a, double c) {
+  if constexpr (!std::is_arithmetic_v<T> && requires {
+                  { a* c } -> std::same_as<T>;
+                })
+    return a * c;
+  else return a * T(c);
+}
+
+template <class T>
+T over_constant(const T& a, double c) {
+  if constexpr (!std::is_arithmetic_v<T> && requires {
+                  { a / c } -> std::same_as<T>;
+                })
+    return a / c;
+  else return a / T(c);
+}
+
+template <class T>
+T constant_over(double c, const T& a) {
+  if constexpr (!std::is_arithmetic_v<T> && requires {
+                  { c / a } -> std::same_as<T>;
+                })
+    return c / a;
+  else return T(c) / a;
+}
+
+// Functions with a fallback for types that do not have them.
+template <class T>
+T squared(const T& a) {
+  if constexpr (requires {
+                  { square(a) } -> std::convertible_to<T>;
+                })
+    return square(a);
+  else return a * a;
+}
+
+/// Tells whether T has its own pow(T, Exponent). The catch-all loses against it, but wins against a function that would
+/// need the exponent converted, such as pow(T, int) called with 1.5.
+namespace own_power {
+
+struct Absent {};
+
+template <class Base, class Exponent>
+Absent pow(const Base&, const Exponent&);
+
+template <class T, class Exponent>
+concept HasOwnPower = !std::is_arithmetic_v<T> && requires(const T& a, const Exponent& b) {
+  { pow(a, b) } -> std::convertible_to<T>;
+};
+
+} // namespace own_power
+
+template <class T>
+T real_power(const T& a, const T& b) {
+  if constexpr (std::is_arithmetic_v<T>) return std::pow(a, b);
+  else if constexpr (own_power::HasOwnPower<T, T>) return pow(a, b);
+  else return exp(T(b * log(a)));
+}
+
+template <class T>
+T constant_power(const T& a, double c) {
+  if constexpr (own_power::HasOwnPower<T, double>) return pow(a, c);
+  else return real_power(a, T(c));
+}
+
+/// A NaN in either argument gives NaN, unlike std::min, std::fmin and their like, which can hide it. This is the result
+/// for types that are ordered by `<` and have no `min` of their own.
+template <class T>
+T minimum(const T& a, const T& b) {
+  if constexpr (!std::is_arithmetic_v<T> && requires {
+                  { min(a, b) } -> std::convertible_to<T>;
+                })
+    return min(a, b);
+  else return a < b || a != a ? a : b;
+}
+
+/// As minimum().
+template <class T>
+T maximum(const T& a, const T& b) {
+  if constexpr (!std::is_arithmetic_v<T> && requires {
+                  { max(a, b) } -> std::convertible_to<T>;
+                })
+    return max(a, b);
+  else return a > b || a != a ? a : b;
+}
+
+/// The angle of (x, y): NaN at the origin, where the C library has a convention, but no derivative exists.
+template <class T>
+T angle(const T& y, const T& x) {
+  using std::atan2;
+  const T result = atan2(y, x);
+  if constexpr (is_built_in<T>) return select(y == T(0) && x == T(0), T(std::numeric_limits<T>::quiet_NaN()), result);
+  else return result;
+}
+
+template <class T>
+T hypotenuse(const T& a, const T& b) {
+  if constexpr (std::is_arithmetic_v<T>) return std::hypot(a, b);
+  else if constexpr (requires {
+                       { hypot(a, b) } -> std::convertible_to<T>;
+                     })
+    return hypot(a, b);
+  else return sqrt(T(squared(a) + squared(b)));
+}
+
+} // namespace equiaffine::internal::expression
+
+#endif

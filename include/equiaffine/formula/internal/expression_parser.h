@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_PARSER_H
+#define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_PARSER_H
+
+#include <equiaffine/formula/internal/expression_errors.h>
+#include <equiaffine/formula/internal/expression_tape_builder.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace equiaffine::internal::expression {
+
+/// Recursive descent over the grammar in Expression_3.h, one function per rule.
+class Parser {
+public:
+  using Constants = std::map<std::string, double>;
+
+  Parser(std::string_view text, const Constants& constants) : text_(text), constants_(constants) {}
+
+  Tape parse() {
+    if (peek() == '\0' && at_end())
+      fail(0, "nothing to evaluate", "write a function of x, y, z such as x^2 + y^2 + z^2 - 1");
+    Node root = sum();
+    if (peek() == '=') {
+      equation_sign_ = position_++;
+      root = builder_.subtract(root, sum());
+      check_finite(root, "=", equation_sign_);
+    }
+    if (peek() != '\0' || !at_end()) fail_after_operand();
+    return builder_.tape({&root, 1});
+  }
+
+private:
+  using Node = Tape_builder::Node;
+  static constexpr std::size_t NONE = std::string_view::npos;
+
+  Node sum() {
+    Node left = product();
+    for (char sign = peek(); sign == '+' || sign == '-'; sign = peek()) {
+      const std::size_t column = position_++;
+      const Node right = product();
+      left = sign == '+' ? builder_.add(left, right) : builder_.subtract(left, right);
+      check_finite(left, text_.substr(column, 1), column);
+    }
+    return left;
+  }
+
+  Node product() {
+    Node left = factor();
+    for (char sign = peek(); sign == '*' || sign == '/'; sign = peek()) {
+      const std::size_t column = position_++;
+      if (text_.substr(column, 2) == "**") fail(column, "unknown operator '**'", "use ^ for powers");
+      const Node right = factor();
+      left = sign == '*' ? builder_.multiply(left, right) : builder_.divide(left, right);
+      check_finite(left, text_.substr(column, 1), column);
+    }
+    return left;
+  }
+
+  /// Every nesting of parentheses, arguments and exponents passes here, so this bounds the depth of the stack.
+  Node factor() {
+    bool is_negative = false;
+    for (char sign = peek(); sign == '+' || sign == '-'; sign = peek()) {
+      is_negative ^= sign == '-';
+      ++position_;
+    }
+    if (++depth_ > maximal_depth)
+      fail(position_, "too deep nesting",
+           concatenated({"at most ", std::to_string(maximal_depth), " levels are possible"}));
+    const Node result = power();
+    --depth_;
+    return is_negative ? builder_.negate(result) : result;
+  }
+
+  Node power() {
+    const Node base = primary();
+    if (peek() != '^') return base;
+    const std::size_t column = position_++;
+    const Node result = builder_.power(base, factor());
+    check_finite(result, "^", column);
+    return result;
+  }
+
+  Node primary() {
+    const char c = peek();
+    if (is_digit(c) || c == '.') return number();
+    if (is_letter(c)) return name();
+    if (c != '(') fail_before_operand();
+    const std::size_t opening = position_++;
+    const Node result = sum();
+    close(opening);
+    return result;
+  }
+
+  Node number() {
+    double value = 0;
+    const char* const first = text_.data() + position_;
+    const auto [last, error] = std::from_chars(first, text_.data() + text_.size(), value);
+    if (error == std::errc::invalid_argument) fail(position_, "a point without digits", "write a number such as 0.5");
+    token_ = text_.substr(position_, static_cast<std::size_t>(last - first));
+    if (error == std::errc::result_out_of_range)
+      fail(position_, concatenated({"number ", in_quotes(token_), " out of range"}),
+           "magnitudes from 1e-307 to 1e308 are possible");
+    position_ += token_.size();
+    return builder_.constant(value);
+  }
+
+  Node name() {
+    const std::size_t start = position_;
+    while (!at_end() && (is_letter(text_[position_]) || is_digit(text_[position_]))) ++position_;
+    token_ = text_.substr(start, position_ - start);
+    if (const Function* const function = find_function(token_)) return call(*function, start);
+    for (Node axis = 0; axis < number_of_variables; ++axis)
+      if (token_ == variables[axis]) return axis;
+    for (const auto& [known, value] : known_constants)
+      if (token_ == known) return builder_.constant(value);
+    const auto found = constants_.find(std::string(token_));
+    if (found == constants_.end()) fail_unknown(start);
+    return builder_.constant(found->second);
+  }
+
+  Node call(const Function& function, std::size_t start) {
+    const std::string name = in_quotes(function.name);
+    if (peek() != '(')
+      fail(start, concatenated({"function ", name, " without arguments"}),
+           concatenated({"write ", function.name, "(...)"}));
+    const std::size_t opening = position_++;
+    std::vector<Node> arguments;
+    if (peek() != ')') {
+      arguments.push_back(sum());
+      while (peek() == ',') {
+        ++position_;
+        arguments.push_back(sum());
+      }
+    }
+    close(opening);
+    if (arguments.size() < function.minimal_arguments || arguments.size() > function.maximal_arguments)
+      fail(start, concatenated({"wrong number of arguments of ", name}),
+           concatenated({"it takes ", arity(function), ", not ", std::to_string(arguments.size())}));
+    Node result = builder_.function(function.opcode, arguments[0], arguments[arguments.size() > 1 ? 1 : 0]);
+    for (std::size_t i = 2; i < arguments.size(); ++i)
+      result = builder_.function(function.opcode, result, arguments[i]);
+    check_finite(result, function.name, start);
+    return result;
+  }
+
+  void close(std::size_t opening) {
+    const char c = peek();
+    if (c == '\0' && at_end()) fail(opening, "'(' that is never closed", "add ')'");
+    if (c != ')') fail_after_operand();
+    token_ = ")";
+    ++position_;
+  }
+
+  void check_finite(Node node, std::string_view operation, std::size_t column) const {
+    if (const auto value = builder_.value(node); value && !std::isfinite(*value))
+      fail(column, concatenated({"result of ", in_quotes(operation), " that is not a finite number"}),
+           "check the constants it is applied to");
+  }
+
+  [[noreturn]] void fail(std::size_t position, std::string_view problem, std::string_view advice) const {
+    throw_error_at(text_, position, problem, advice);
+  }
+
+  [[noreturn]] void fail_unknown(std::size_t start) {
+    const std::string name = in_quotes(token_);
+    const std::string near = near_name(token_, constants_);
+    const std::string question = near.empty() ? "" : concatenated({"did you mean ", in_quotes(near), "? Otherwise "});
+    if (peek() == '(')
+      fail(start, concatenated({"unknown function ", name}), concatenated({question, "use one of ", function_names()}));
+    fail(start, concatenated({"unknown name ", name}),
+         concatenated({question, "define it with --set ", shortened(token_),
+                       "=VALUE (in a program: in the map of constants) or use x, y, z"}));
+  }
+
+  [[noreturn]] void fail_before_operand() {
+    const char c = peek();
+    if (c == '=' && equation_sign_ != NONE) fail(position_, "second '='", "an equation is lhs = rhs");
+    if (at_end()) fail(position_, "unexpected end", "a number, a name or '(' is missing");
+    if (std::string_view("*/^,=)").find(c) != NONE)
+      fail(position_, concatenated({"unexpected ", character(c)}), "a number, a name or '(' is missing before it");
+    fail_character();
+  }
+
+  [[noreturn]] void fail_after_operand() {
+    const char c = peek();
+    if (is_digit(c) || c == '.' || is_letter(c) || c == '(') fail_missing_operator();
+    if (c == ')') fail(position_, "')' that closes nothing", "remove it or add '('");
+    if (c == ',') fail(position_, "unexpected ','", "it separates the arguments of a function; decimals have a point");
+    if (c == '=' && equation_sign_ != NONE) fail(position_, "second '='", "an equation is lhs = rhs");
+    if (c == '=') fail(position_, "'=' inside parentheses", "an equation is lhs = rhs");
+    fail_character();
+  }
+
+  [[noreturn]] void fail_missing_operator() {
+    std::size_t end = position_ + 1;
+    while (end < text_.size() && text_[position_] != '(' &&
+           (is_letter(text_[end]) || is_digit(text_[end]) || text_[end] == '.'))
+      ++end;
+    const std::string_view next = text_.substr(position_, end - position_);
+    const std::string left = token_ == ")" ? "(...)" : shortened(token_);
+    const std::string right = next == "(" ? "(...)" : shortened(next);
+    fail(position_, concatenated({"missing operator between ", in_quotes(token_), " and ", in_quotes(next)}),
+         concatenated({"for a product write ", left, "*", right}));
+  }
+
+  [[noreturn]] void fail_character() const {
+    for (const auto& [sign, spelling] : foreign_signs)
+      if (text_.substr(position_, sign.size()) == sign)
+        fail(position_, concatenated({"unexpected '", sign, "'"}), concatenated({"write ", spelling}));
+    fail(position_, concatenated({"unexpected ", character(text_[position_])}),
+         "use names, numbers, ( ) , = and + - * / ^ only");
+  }
+
+  bool at_end() const { return position_ == text_.size(); }
+
+  /// The next character after white space, '\0' at the end.
+  char peek() {
+    while (!at_end() && is_space(text_[position_])) ++position_;
+    return at_end() ? '\0' : text_[position_];
+  }
+
+  static constexpr int maximal_depth = 1000;
+
+  std::string_view text_;
+  const Constants& constants_;
+  Tape_builder builder_;
+  std::size_t position_ = 0;
+  std::size_t equation_sign_ = NONE;
+  std::string_view token_; ///< the last number, name or closing parenthesis
+  int depth_ = 0;
+};
+
+} // namespace equiaffine::internal::expression
+
+#endif

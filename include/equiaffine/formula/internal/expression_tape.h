@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAPE_H
+#define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAPE_H
+
+#include <cstdint>
+#include <vector>
+
+/// The instruction list behind `Expression_3`.
+namespace equiaffine::internal::expression {
+
+enum class Opcode : std::uint8_t {
+  VARIABLE, // only while parsing
+  CONSTANT,
+  ADD_CONSTANT,
+  SUBTRACT_FROM_CONSTANT,
+  MULTIPLY_CONSTANT,
+  DIVIDE_BY_CONSTANT,
+  DIVIDE_CONSTANT,
+  ADD,
+  SUBTRACT,
+  MULTIPLY,
+  DIVIDE,
+  NEGATE,
+  SQUARE,
+  INTEGER_POWER,
+  POWER_CONSTANT,
+  POWER,
+  SQRT,
+  CBRT,
+  EXP,
+  LOG,
+  SIN,
+  COS,
+  TAN,
+  ASIN,
+  ACOS,
+  ATAN,
+  ATAN2,
+  SINH,
+  COSH,
+  TANH,
+  ABS,
+  MIN,
+  MAX,
+  HYPOT,
+  ORDER,          // 1 where a > b, -1 where a < b, else NaN; this and the next two only in tapes of Taylor coefficients
+  WHERE_POSITIVE, // b where a > 0, 0 where a < 0, else NaN
+  WHERE_NEGATIVE  // b where a < 0, 0 where a > 0, else NaN
+};
+
+/// result = opcode(a, b, constant). Operands 0, 1, 2 are x, y, z; operand 3 + s is slot s. A unary instruction has
+/// a == b; `constant` also holds an integer exponent. The result is never the slot of an operand, so that loops over
+/// blocks of points may assume that reads and writes do not overlap.
+struct Instruction {
+  Opcode opcode;
+  std::uint32_t result, a, b;
+  double constant;
+};
+
+inline constexpr std::uint32_t number_of_variables = 3;
+
+struct Tape {
+  std::vector<Instruction> instructions;
+  std::vector<std::uint32_t> results; ///< operands that hold them at the end
+  std::uint32_t number_of_slots = 0;
+};
+
+} // namespace equiaffine::internal::expression
+
+#endif

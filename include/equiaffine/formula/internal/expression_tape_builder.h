@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAPE_BUILDER_H
+#define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAPE_BUILDER_H
+
+#include <equiaffine/formula/internal/expression_evaluation.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal::expression {
+
+/// Builds a tape bottom-up. Equal subexpressions become one node and constant ones one number. Only identities that
+/// hold bit for bit in IEEE arithmetic are applied (up to the sign of a NaN), so the tape computes what the text says.
+class Tape_builder {
+public:
+  using Node = std::uint32_t; ///< nodes 0, 1, 2 are x, y, z; operands precede the nodes that use them
+
+  Tape_builder() : nodes_(number_of_variables, Instruction{Opcode::VARIABLE, 0, 0, 0, 0}) {}
+
+  Node constant(double value) { return intern({Opcode::CONSTANT, 0, 0, 0, value}); }
+
+  std::optional<double> value(Node a) const {
+    return nodes_[a].opcode == Opcode::CONSTANT ? std::optional(nodes_[a].constant) : std::nullopt;
+  }
+
+  Node add(Node a, Node b) {
+    if (value(a)) std::swap(a, b);
+    return value(b) ? add_constant(a, *value(b)) : commutative(Opcode::ADD, a, b);
+  }
+
+  Node subtract(Node a, Node b) {
+    if (value(b)) return add_constant(a, -*value(b));
+    return value(a) ? node(Opcode::SUBTRACT_FROM_CONSTANT, b, b, *value(a)) : node(Opcode::SUBTRACT, a, b);
+  }
+
+  Node multiply(Node a, Node b) {
+    if (a == b) return node(Opcode::SQUARE, a, a);
+    if (value(a)) std::swap(a, b);
+    return value(b) ? multiply_constant(a, *value(b)) : commutative(Opcode::MULTIPLY, a, b);
+  }
+
+  Node divide(Node a, Node b) {
+    if (const auto c = value(b)) {
+      int exponent = 0;
+      const bool is_power_of_two = std::abs(std::frexp(*c, &exponent)) == 0.5 && std::isfinite(1 / *c);
+      return is_power_of_two ? multiply_constant(a, 1 / *c) : node(Opcode::DIVIDE_BY_CONSTANT, a, a, *c);
+    }
+    return value(a) ? node(Opcode::DIVIDE_CONSTANT, b, b, *value(a)) : node(Opcode::DIVIDE, a, b);
+  }
+
+  Node negate(Node a) { return nodes_[a].opcode == Opcode::NEGATE ? nodes_[a].a : node(Opcode::NEGATE, a, a); }
+
+  Node power(Node a, Node b) {
+    if (const auto c = value(b)) {
+      constexpr double largest_exponent = 1 << 30;
+      if (std::abs(*c) <= largest_exponent && *c == std::trunc(*c)) return integer_power(a, static_cast<int>(*c));
+      return *c == 0.5 ? node(Opcode::SQRT, a, a) : node(Opcode::POWER_CONSTANT, a, a, *c);
+    }
+    return value(a) == std::numbers::e ? node(Opcode::EXP, b, b) : node(Opcode::POWER, a, b);
+  }
+
+  /// A function of one (a == b) or two arguments.
+  Node function(Opcode opcode, Node a, Node b) {
+    if (a == b && (opcode == Opcode::MIN || opcode == Opcode::MAX)) return a;
+    return opcode == Opcode::POWER ? power(a, b) : node(opcode, a, b);
+  }
+
+  /// What an instruction of another tape does, with other operands.
+  Node repeat(const Instruction& i, Node a, Node b) {
+    return i.opcode == Opcode::CONSTANT ? constant(i.constant) : node(i.opcode, a, b, i.constant);
+  }
+
+  /// The tape that computes `roots`, without what they do not need, in as few slots as the order of the nodes allows.
+  Tape tape(std::span<const Node> roots) const {
+    const std::vector<Node> last_reader = last_readers(roots);
+    std::vector<std::uint32_t> place(nodes_.size()), free_places;
+    for (std::uint32_t v = 0; v < number_of_variables; ++v) place[v] = v;
+    Tape tape;
+    for (Node n = number_of_variables; n < nodes_.size(); ++n) {
+      if (last_reader[n] == NONE) continue;
+      Instruction i = nodes_[n];
+      if (free_places.empty()) free_places.push_back(number_of_variables + tape.number_of_slots++);
+      i.result = place[n] = free_places.back();
+      free_places.pop_back();
+      if (i.opcode != Opcode::CONSTANT) {
+        const auto release = [&](Node operand) {
+          if (operand >= number_of_variables && last_reader[operand] == n) free_places.push_back(place[operand]);
+        };
+        release(i.a);
+        if (i.b != i.a) release(i.b);
+        i.a = place[i.a];
+        i.b = place[i.b];
+      }
+      tape.instructions.push_back(i);
+    }
+    for (const Node root : roots) tape.results.push_back(place[root]);
+    return tape;
+  }
+
+private:
+  using Key = std::tuple<Opcode, Node, Node, std::uint64_t>;
+  static constexpr Node NONE = std::numeric_limits<Node>::max(), END = NONE - 1;
+
+  Node intern(const Instruction& i) {
+    const Key key(i.opcode, i.a, i.b, std::bit_cast<std::uint64_t>(i.constant));
+    const auto [position, is_new] = known_.try_emplace(key, static_cast<Node>(nodes_.size()));
+    if (is_new) nodes_.push_back(i);
+    return position->second;
+  }
+
+  Node node(Opcode opcode, Node a, Node b, double c = 0) {
+    const Instruction instruction{opcode, 0, a, b, c};
+    if (!value(a) || !value(b)) return intern(instruction);
+    const double u = *value(a), v = *value(b);
+    double result = 0;
+    execute<1>(instruction, &u, &v, &result, 1);
+    return constant(result);
+  }
+
+  Node commutative(Opcode opcode, Node a, Node b) { return node(opcode, std::min(a, b), std::max(a, b)); }
+
+  /// -0 is the neutral element: x + 0 is +0 for x = -0.
+  Node add_constant(Node a, double c) { return c == 0 && std::signbit(c) ? a : node(Opcode::ADD_CONSTANT, a, a, c); }
+
+  Node multiply_constant(Node a, double c) { return c == 1 ? a : node(Opcode::MULTIPLY_CONSTANT, a, a, c); }
+
+  Node integer_power(Node a, int n) {
+    if (n < 0) return divide(constant(1), integer_power(a, -n));
+    if (n == 0) return constant(1);
+    if (n == 1) return a;
+    return n == 2 ? node(Opcode::SQUARE, a, a) : node(Opcode::INTEGER_POWER, a, a, n);
+  }
+
+  /// For each node the last one that reads it, END for the roots, NONE for what the roots do not need.
+  std::vector<Node> last_readers(std::span<const Node> roots) const {
+    std::vector<Node> last_reader(nodes_.size(), NONE);
+    for (const Node root : roots) last_reader[root] = END;
+    for (Node n = static_cast<Node>(nodes_.size()) - 1; n >= number_of_variables; --n)
+      if (last_reader[n] != NONE && nodes_[n].opcode != Opcode::CONSTANT)
+        for (const Node operand : {nodes_[n].a, nodes_[n].b})
+          if (last_reader[operand] == NONE) last_reader[operand] = n;
+    return last_reader;
+  }
+
+  std::vector<Instruction> nodes_;
+  std::map<Key, Node> known_;
+};
+
+} // namespace equiaffine::internal::expression
+
+#endif

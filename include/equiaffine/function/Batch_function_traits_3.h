@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FUNCTION_BATCH_FUNCTION_TRAITS_3_H
+#define EQUIAFFINE_FUNCTION_BATCH_FUNCTION_TRAITS_3_H
+
+#include <equiaffine/function/concepts.h>
+
+#include <CGAL/assertions.h>
+
+#include <cstddef>
+#include <span>
+#include <utility>
+
+namespace equiaffine {
+
+/// Makes any model of ImplicitFunctionTraits_3 a model of BatchImplicitFunctionTraits_3: the batch members of the base
+/// where it has them, else a loop over its single ones. Everything else the base offers stays available.
+template <ImplicitFunctionTraits_3 Traits>
+class Batch_function_traits_3 : public Traits {
+public:
+  using typename Traits::FT;
+  using typename Traits::Point_3;
+
+  explicit Batch_function_traits_3(Traits traits) : Traits(std::move(traits)) {}
+
+  /// values[i] = value(points[i]); the spans have the same size.
+  void values(std::span<const Point_3> points, std::span<FT> values) const {
+    CGAL_precondition(points.size() == values.size());
+    if constexpr (BatchImplicitFunctionTraits_3<Traits>) Traits::values(points, values);
+    else
+      for (std::size_t i = 0; i < points.size(); ++i) values[i] = Traits::value(points[i]);
+  }
+
+  /// jets[i] = taylor(points[i]); the spans have the same size.
+  void taylors(std::span<const Point_3> points, std::span<Jet_3<FT>> jets) const {
+    CGAL_precondition(points.size() == jets.size());
+    if constexpr (BatchImplicitFunctionTraits_3<Traits>) Traits::taylors(points, jets);
+    else
+      for (std::size_t i = 0; i < points.size(); ++i) jets[i] = Traits::taylor(points[i]);
+  }
+};
+
+} // namespace equiaffine
+
+#endif

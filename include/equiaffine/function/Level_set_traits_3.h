@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FUNCTION_LEVEL_SET_TRAITS_3_H
+#define EQUIAFFINE_FUNCTION_LEVEL_SET_TRAITS_3_H
+
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/function/first_order_bounds.h>
+#include <equiaffine/function/rounding.h>
+
+#include <CGAL/number_utils.h>
+
+#include <cstddef>
+#include <span>
+#include <utility>
+
+namespace equiaffine {
+
+/// On which side of a level set its normals point.
+enum class Orientation_of_level_set {
+  ALONG_GRADIENT,  ///< towards larger values, the default
+  AGAINST_GRADIENT ///< towards smaller values, for volumes that are bright inside
+};
+
+/// The function f - v, or v - f against the gradient, whose zero set is the level set f = v with the chosen
+/// orientation. Models every refinement that the base models, batches apart. Reversing the orientation changes the sign
+/// of nu, xi, H, J, H_e and of the metric; K and K_e stay.
+template <ImplicitFunctionTraits_3 Base>
+class Level_set_traits_3 {
+public:
+  using FT = typename Base::FT;
+  using Point_3 = typename Base::Point_3;
+  using Vector_3 = typename Base::Vector_3;
+
+  Level_set_traits_3(Base base, const FT& isovalue,
+                     Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT)
+      : base_(std::move(base)), isovalue_(isovalue),
+        is_reversed_(orientation == Orientation_of_level_set::AGAINST_GRADIENT) {}
+
+  FT value(const Point_3& p) const { return shifted(base_.value(p)); }
+  Jet_3<FT, 1> first_order(const Point_3& p) const { return shifted(equiaffine::first_order(base_, p)); }
+  Jet_3<FT> taylor(const Point_3& p) const { return shifted(base_.taylor(p)); }
+  void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
+                    std::span<Jet_3<Pack<FT>>> jets) const requires PackImplicitFunctionTraits_3<Base> {
+    base_.taylor_packs(x, y, z, jets);
+    for (auto& jet : jets) jet = shifted(jet);
+  }
+  Interval bounds(const CGAL::Bbox_3& box) const requires BoundedImplicitFunctionTraits_3<Base> {
+    const Interval b = base_.bounds(box) - Interval(CGAL::to_double(isovalue_));
+    return is_reversed_ ? -b : b;
+  }
+  Jet_3<Interval, 1>
+  first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
+    return from_base(base_.first_order_bounds(box));
+  }
+  Jet_3<Interval, 2>
+  second_order_bounds(const CGAL::Bbox_3& box) const requires SecondOrderBoundedImplicitFunctionTraits_3<Base> {
+    return from_base(base_.second_order_bounds(box));
+  }
+  FT rounding(const Point_3& p) const requires internal::Has_rounding<Base> { return base_.rounding(p); }
+  CGAL::Bbox_3 bbox() const { return base_.bbox(); }
+  Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
+    return sampling_lattice(base_, size);
+  }
+
+  auto lattice() const requires LatticeImplicitFunctionTraits_3<Base> { return base_.lattice(); }
+  FT sample(std::size_t i, std::size_t j, std::size_t k) const requires LatticeImplicitFunctionTraits_3<Base> {
+    return shifted(base_.sample(i, j, k));
+  }
+
+  const Base& base() const { return base_; }
+
+private:
+  FT shifted(const FT& value) const { return is_reversed_ ? isovalue_ - value : value - isovalue_; }
+
+  template <class Number, int Order>
+  Jet_3<Number, Order> shifted(Jet_3<Number, Order> jet) const {
+    if (is_reversed_) jet = -jet;
+    jet.template at<0>() = is_reversed_ ? isovalue_ + jet.value() : jet.value() - isovalue_;
+    return jet;
+  }
+
+  template <int Order>
+  Jet_3<Interval, Order> from_base(Jet_3<Interval, Order> jet) const {
+    jet.template at<0>() = jet.value() - Interval(CGAL::to_double(isovalue_));
+    return is_reversed_ ? -jet : jet;
+  }
+
+  Base base_;
+  FT isovalue_;
+  bool is_reversed_;
+};
+
+} // namespace equiaffine
+
+#endif

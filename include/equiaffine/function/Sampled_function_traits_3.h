@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FUNCTION_SAMPLED_FUNCTION_TRAITS_3_H
+#define EQUIAFFINE_FUNCTION_SAMPLED_FUNCTION_TRAITS_3_H
+
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/volume/Spline_function_3.h>
+#include <equiaffine/volume/Spline_rounding_3.h>
+#include <equiaffine/volume/smooth_volume.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace equiaffine {
+
+/// A volume as a function: its tensor product spline for values and expansions, its samples for the signs at nodes.
+/// With the convolution scheme, which smooths, the spline's value at a node differs from the sample there.
+///
+/// Models ImplicitFunctionTraits_3 with first-order bounds and expansions, and a lattice. Copies share the immutable
+/// data.
+template <class Kernel>
+class Sampled_function_traits_3 {
+public:
+  using FT = typename Kernel::FT;
+  using Point_3 = typename Kernel::Point_3;
+  using Vector_3 = typename Kernel::Vector_3;
+
+  /// Degree and scheme as for Spline_function_3, of the samples smoothed by a scale as for smooth_volume.
+  template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+  explicit Sampled_function_traits_3(Volume_3<Kernel> volume, int degree = 7,
+                                     Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION, ConcurrencyTag tag = {},
+                                     const FT& smoothing = FT(0)) {
+    const internal::Sample_format<FT> format(volume.values);
+    volume_ = std::make_shared<const Volume_3<Kernel>>(smooth_volume<ConcurrencyTag>(std::move(volume), smoothing));
+    spline_ = std::make_shared<const Spline_function_3<Kernel>>(*volume_, degree, scheme, tag);
+    rounding_ = std::make_shared<const internal::Spline_rounding_3<Kernel>>(*spline_, smoothing, format);
+  }
+
+  /// NaN, as every coefficient of an expansion, outside the support of the spline.
+  FT value(const Point_3& p) const { return spline_->value(p); }
+  Jet_3<FT, 1> first_order(const Point_3& p) const { return spline_->template taylor<1>(p); }
+  Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); }
+  Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); }
+  Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return spline_->first_order_bounds(box); }
+  /// Of second derivatives at p, that of the samples included if all are floats; 0 outside the support of the spline.
+  FT rounding(const Point_3& p) const {
+    const auto cell = spline_->cell_of(p);
+    return cell ? (*rounding_)(*cell) : FT(0);
+  }
+  CGAL::Bbox_3 bbox() const { return volume_->lattice.bbox(); }
+
+  const Lattice_3<Kernel>& lattice() const { return volume_->lattice; }
+
+  /// The sample at node (i, j, k).
+  FT sample(std::size_t i, std::size_t j, std::size_t k) const { return (*volume_)(i, j, k); }
+
+  const Spline_function_3<Kernel>& spline() const { return *spline_; }
+
+private:
+  std::shared_ptr<const Volume_3<Kernel>> volume_;
+  std::shared_ptr<const Spline_function_3<Kernel>> spline_;
+  std::shared_ptr<const internal::Spline_rounding_3<Kernel>> rounding_;
+};
+
+static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+static_assert(FirstOrderImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+static_assert(LatticeImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FUNCTION_TRANSFORMED_FUNCTION_TRAITS_3_H
+#define EQUIAFFINE_FUNCTION_TRANSFORMED_FUNCTION_TRAITS_3_H
+
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/function/first_order_bounds.h>
+#include <equiaffine/function/rounding.h>
+#include <equiaffine/number/Linear_substitution_3.h>
+
+#include <CGAL/Aff_transformation_3.h>
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+/// The function f o A^-1, whose level sets are the images under A of those of f. A is any invertible affine map; models
+/// every refinement that the base models, batches apart.
+///
+/// With a = |det A| the affine curvatures change by K' = K / a, H' = H / sqrt(a), J' = J / sqrt(a), the co-normal by
+/// nu' = sqrt(a) A^-T nu and the affine normal by xi' = A xi / sqrt(a).
+template <ImplicitFunctionTraits_3 Base>
+class Transformed_function_traits_3 {
+public:
+  using FT = typename Base::FT;
+  using Point_3 = typename Base::Point_3;
+  using Vector_3 = typename Base::Vector_3;
+  using Aff_transformation_3 = CGAL::Aff_transformation_3<Kernel_of<Base>>;
+
+  /// \pre the linear part of `map` has a nonzero determinant.
+  Transformed_function_traits_3(Base base, const Aff_transformation_3& map)
+      : base_(std::move(base)), map_(map), inverse_(map.inverse()),
+        substitution_(linear_part(inverse_, [](const FT& m) { return m; })),
+        substitution_of_bounds_(linear_part(inverse_, [](const FT& m) { return Interval(CGAL::to_double(m)); })) {}
+
+  FT value(const Point_3& p) const { return base_.value(inverse_(p)); }
+  Jet_3<FT, 1> first_order(const Point_3& p) const {
+    return substitution_(equiaffine::first_order(base_, inverse_(p)));
+  }
+  Jet_3<FT> taylor(const Point_3& p) const { return substitution_(base_.taylor(inverse_(p))); }
+
+  void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
+                    std::span<Jet_3<Pack<FT>>> jets) const requires PackImplicitFunctionTraits_3<Base> {
+    std::array<std::vector<Pack<FT>>, 3> preimages;
+    for (auto& axis : preimages) axis.resize(jets.size());
+    for (std::size_t n = 0; n < jets.size(); ++n) {
+      std::array<std::array<FT, Pack<FT>::size>, 3> lanes;
+      for (std::size_t i = 0; i < Pack<FT>::size; ++i) {
+        const Point_3 p = inverse_(Point_3(x[n][i], y[n][i], z[n][i]));
+        for (int axis = 0; axis < 3; ++axis) lanes[std::size_t(axis)][i] = p[axis];
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        preimages[axis][n] = Pack<FT>::generate([&](std::size_t i) { return lanes[axis][i]; });
+    }
+    base_.taylor_packs(preimages[0], preimages[1], preimages[2], jets);
+    for (auto& jet : jets) jet = substitution_(jet);
+  }
+
+  /// Bounds over the box of the preimage of `box`.
+  Interval bounds(const CGAL::Bbox_3& box) const requires BoundedImplicitFunctionTraits_3<Base> {
+    return base_.bounds(preimage(box));
+  }
+  Jet_3<Interval, 1>
+  first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
+    return substitution_of_bounds_(base_.first_order_bounds(preimage(box)));
+  }
+  Jet_3<Interval, 2>
+  second_order_bounds(const CGAL::Bbox_3& box) const requires SecondOrderBoundedImplicitFunctionTraits_3<Base> {
+    return substitution_of_bounds_(base_.second_order_bounds(preimage(box)));
+  }
+
+  /// A second derivative is a sum of the base's, each times two entries of A^-1.
+  FT rounding(const Point_3& p) const requires internal::Has_rounding<Base> {
+    FT greatest(0);
+    for (int column = 0; column < 3; ++column) {
+      using std::abs;
+      FT sum(0);
+      for (int row = 0; row < 3; ++row) sum += abs(inverse_.m(row, column));
+      greatest = std::max(greatest, sum);
+    }
+    return base_.rounding(inverse_(p)) * greatest * greatest;
+  }
+
+  /// The box of the image of the base's box.
+  CGAL::Bbox_3 bbox() const { return Lattice_3<Kernel_of<Base>>({2, 2, 2}, base_.bbox()).transform(map_).bbox(); }
+
+  /// The image of the lattice with which the base would be sampled: the image of the base's box, nothing around it.
+  Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
+    return sampling_lattice(base_, size).transform(map_);
+  }
+
+  /// The image of the base's lattice.
+  auto lattice() const requires LatticeImplicitFunctionTraits_3<Base> { return base_.lattice().transform(map_); }
+  FT sample(std::size_t i, std::size_t j, std::size_t k) const requires LatticeImplicitFunctionTraits_3<Base> {
+    return base_.sample(i, j, k);
+  }
+
+  const Base& base() const { return base_; }
+  const Aff_transformation_3& transformation() const { return map_; }
+
+private:
+  /// The box of the preimage of a box.
+  CGAL::Bbox_3 preimage(const CGAL::Bbox_3& box) const {
+    const std::array<Interval, 3> side = {Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()),
+                                          Interval(box.zmin(), box.zmax())};
+    std::array<Interval, 3> image;
+    for (int row = 0; row < 3; ++row) {
+      image[std::size_t(row)] = Interval(CGAL::to_double(inverse_.m(row, 3)));
+      for (int column = 0; column < 3; ++column)
+        image[std::size_t(row)] += Interval(CGAL::to_double(inverse_.m(row, column))) * side[std::size_t(column)];
+    }
+    return CGAL::Bbox_3(image[0].lower(), image[1].lower(), image[2].lower(), image[0].upper(), image[1].upper(),
+                        image[2].upper());
+  }
+
+  template <class Convert>
+  static auto linear_part(const Aff_transformation_3& map, const Convert& convert) {
+    std::array<std::array<decltype(convert(FT())), 3>, 3> matrix;
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column)
+        matrix[std::size_t(row)][std::size_t(column)] = convert(map.m(row, column));
+    return matrix;
+  }
+
+  Base base_;
+  Aff_transformation_3 map_, inverse_;
+  internal::Linear_substitution_3<FT> substitution_;
+  internal::Linear_substitution_3<Interval> substitution_of_bounds_;
+};
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The contract between functions and everything that is done with their level sets. The doc folder has a page for each
+// concept with its semantics; test/conformance.h checks them for every model.
+#ifndef EQUIAFFINE_FUNCTION_CONCEPTS_H
+#define EQUIAFFINE_FUNCTION_CONCEPTS_H
+
+#include <equiaffine/number/Interval.h>
+#include <equiaffine/number/Jet_3.h>
+#include <equiaffine/number/Pack.h>
+#include <equiaffine/volume/Lattice_3.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/Kernel_traits.h>
+
+#include <concepts>
+#include <cstddef>
+#include <span>
+
+namespace equiaffine {
+
+// clang-format off
+
+/// A function f on a box of space with its Taylor expansions of total order 4. All members may be called from several
+/// threads at once. A point where f is undefined has the value NaN; one where f is not four times differentiable has
+/// some coefficient that is not finite.
+template <class Traits>
+concept ImplicitFunctionTraits_3 =
+  std::copy_constructible<Traits> &&
+  requires(const Traits& traits, const typename Traits::Point_3& p) {
+    typename Traits::FT;
+    typename Traits::Vector_3;
+    { traits.value(p) } -> std::convertible_to<typename Traits::FT>;
+    { traits.taylor(p) } -> std::same_as<Jet_3<typename Traits::FT>>;
+    { traits.bbox() } -> std::convertible_to<CGAL::Bbox_3>;
+  };
+
+/// ... that bounds its values on a box: `bounds(box)` contains f(p) for every p in the box.
+template <class Traits>
+concept BoundedImplicitFunctionTraits_3 =
+  ImplicitFunctionTraits_3<Traits> &&
+  requires(const Traits& traits, const CGAL::Bbox_3& box) {
+    { traits.bounds(box) } -> std::same_as<Interval>;
+  };
+
+/// ... that also bounds its gradient: coefficient n of `first_order_bounds(box)` contains that of `first_order(p)` for
+/// every p in the box.
+template <class Traits>
+concept FirstOrderBoundedImplicitFunctionTraits_3 =
+  BoundedImplicitFunctionTraits_3<Traits> &&
+  requires(const Traits& traits, const CGAL::Bbox_3& box) {
+    { traits.first_order_bounds(box) } -> std::same_as<Jet_3<Interval, 1>>;
+  };
+
+/// ... and its second derivatives, for tighter bounds in small boxes: coefficient n of `second_order_bounds(box)`
+/// contains that of the expansion of order 2 at every p in the box.
+template <class Traits>
+concept SecondOrderBoundedImplicitFunctionTraits_3 =
+  FirstOrderBoundedImplicitFunctionTraits_3<Traits> &&
+  requires(const Traits& traits, const CGAL::Bbox_3& box) {
+    { traits.second_order_bounds(box) } -> std::same_as<Jet_3<Interval, 2>>;
+  };
+
+/// ... that evaluates many points at once; the numbers are those of the single calls, bit for bit.
+template <class Traits>
+concept BatchImplicitFunctionTraits_3 =
+  ImplicitFunctionTraits_3<Traits> &&
+  requires(const Traits& traits, std::span<const typename Traits::Point_3> points,
+           std::span<typename Traits::FT> values, std::span<Jet_3<typename Traits::FT>> jets) {
+    traits.values(points, values);
+    traits.taylors(points, jets);
+  };
+
+/// ... that expands at the points of packs at once: lane i of x[n], y[n], z[n] is a point, lane i of jets[n] its
+/// expansion, bit for bit unless the compiler contracts products and sums. May throw Lanes_disagree.
+template <class Traits>
+concept PackImplicitFunctionTraits_3 =
+  ImplicitFunctionTraits_3<Traits> &&
+  requires(const Traits& traits, std::span<const Pack<typename Traits::FT>> x,
+           std::span<Jet_3<Pack<typename Traits::FT>>> jets) {
+    traits.taylor_packs(x, x, x, jets);
+  };
+
+/// ... with a cheaper expansion of order 1, for root finding.
+template <class Traits>
+concept FirstOrderImplicitFunctionTraits_3 =
+  ImplicitFunctionTraits_3<Traits> &&
+  requires(const Traits& traits, const typename Traits::Point_3& p) {
+    { traits.first_order(p) } -> std::same_as<Jet_3<typename Traits::FT, 1>>;
+  };
+
+/// ... that was sampled at the nodes of a lattice and knows the samples.
+template <class Traits>
+concept LatticeImplicitFunctionTraits_3 =
+  ImplicitFunctionTraits_3<Traits> &&
+  requires(const Traits& traits, std::size_t i) {
+    { traits.lattice() }
+      -> std::convertible_to<Lattice_3<typename CGAL::Kernel_traits<typename Traits::Point_3>::Kernel>>;
+    { traits.sample(i, i, i) } -> std::convertible_to<typename Traits::FT>;
+  };
+
+// clang-format on
+
+/// The kernel of a traits class.
+template <ImplicitFunctionTraits_3 Traits>
+using Kernel_of = typename CGAL::Kernel_traits<typename Traits::Point_3>::Kernel;
+
+/// The expansion of order 1, by the cheapest way the model has.
+template <ImplicitFunctionTraits_3 Traits>
+Jet_3<typename Traits::FT, 1> first_order(const Traits& traits, const typename Traits::Point_3& p) {
+  if constexpr (FirstOrderImplicitFunctionTraits_3<Traits>) {
+    return traits.first_order(p);
+  } else {
+    const auto jet = traits.taylor(p);
+    Jet_3<typename Traits::FT, 1> result;
+    for (std::size_t n = 0; n < 4; ++n) result.coefficients()[n] = jet.coefficients()[n];
+    return result;
+  }
+}
+
+/// The lattice of the given size on which to sample a function: the one the model chooses by a member
+/// `lattice(size)`, else the axis-parallel one of its box.
+template <ImplicitFunctionTraits_3 Traits>
+Lattice_3<Kernel_of<Traits>> sampling_lattice(const Traits& traits,
+                                              const typename Lattice_3<Kernel_of<Traits>>::Size& size) {
+  if constexpr (requires { traits.lattice(size); }) return traits.lattice(size);
+  else return Lattice_3<Kernel_of<Traits>>(size, traits.bbox());
+}
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FUNCTION_SAMPLE_ON_LATTICE_H
+#define EQUIAFFINE_FUNCTION_SAMPLE_ON_LATTICE_H
+
+#include <equiaffine/base/parallel_for.h>
+#include <equiaffine/function/Batch_function_traits_3.h>
+#include <equiaffine/volume/Volume_3.h>
+
+#include <CGAL/tags.h>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace equiaffine {
+
+/// The values of a function at the nodes of a lattice, NaN where it is undefined. `on_progress(n)` is called after
+/// every n nodes, from any thread. The same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit.
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Progress>
+Volume_3<Kernel_of<Traits>> sample_on_lattice(const Traits& traits, const Lattice_3<Kernel_of<Traits>>& lattice,
+                                              const Progress& on_progress) {
+  using FT = typename Traits::FT;
+  const Batch_function_traits_3<Traits> batch(traits);
+  const auto [nx, ny, nz] = lattice.size();
+  Volume_3<Kernel_of<Traits>> volume{lattice, std::vector<FT>(lattice.number_of_nodes())};
+  internal::parallel_for<ConcurrencyTag>(0, ny * nz, [&, nx = nx, ny = ny](std::size_t row) {
+    std::vector<typename Traits::Point_3> points;
+    points.reserve(nx);
+    for (std::size_t i = 0; i < nx; ++i)
+      points.push_back(lattice.point(FT(double(i)), FT(double(row % ny)), FT(double(row / ny))));
+    batch.values(points, std::span(volume.values).subspan(row * nx, nx));
+    on_progress(nx);
+  });
+  return volume;
+}
+
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits>
+Volume_3<Kernel_of<Traits>> sample_on_lattice(const Traits& traits, const Lattice_3<Kernel_of<Traits>>& lattice) {
+  return sample_on_lattice<ConcurrencyTag>(traits, lattice, [](std::size_t) {});
+}
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_GEOMETRY_MONGE_CHART_3_H
+#define EQUIAFFINE_GEOMETRY_MONGE_CHART_3_H
+
+#include <equiaffine/number/Jet_3.h>
+#include <equiaffine/number/lanes.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace equiaffine {
+
+/// The level set of f through a point in a frame of determinant 1 that suits it, made from the jet of f there.
+///
+/// The coordinates are permuted cyclically to (x, y, z) so that z suits best as the direction of a graph (the pivot).
+/// With a = f_x / f_z, b = f_y / f_z the vectors e_u = (1, 0, -a), e_v = (0, 1, -b) are tangent, and the gradient of
+/// f / f_z in the frame (e_u, e_v, e_w) with e_w = (0, 0, 1) is (0, 0, 1). There
+///
+///     f / f_z = w + Q + w L + e w^2 + C + w D + R + terms that do not matter,
+///
+/// with forms in (u, v) of degree Q:2, L:1, C:3, D:2, R:4. A form of degree n is given by its symmetric coefficients
+/// s_i: it is the sum of binomial(n, i) s_i u^(n-i) v^i.
+///
+/// Any axis with f_i != 0 would do but for rounding. In units of the axes that make all f_i equal to 1 the second
+/// derivatives are f_ij / (f_i f_j). The shear subtracts those of the pivot from the others, which lose digits where
+/// those are large: the pivot is the axis whose largest one is smallest. Other units of the axes do not change this
+/// choice. With the axis of the largest |f_i| digits are lost where the surface is long in another direction, and a
+/// rotation instead of the shear would mix the scales of an anisotropic surface.
+///
+/// FT is a number or a pack of numbers; nothing here branches on values but the choice of the pivot of a number.
+template <class FT>
+struct Monge_chart_3 {
+  using Mask = internal::Mask_of<FT>;
+
+  Mask pivot_is_x, pivot_is_y; ///< which axis plays z; the next two, cyclically, play x and y
+  Mask is_steep;               ///< the gradient is not that of a singular point, see `disregard_rounding_of`
+  Mask is_curved; ///< d is not zero within 1000 roundings of the terms of which its entries are sums, see `disregard`
+  FT sign;        ///< of f_z: normals along the gradient are sign (a, b, 1) up to length
+  FT a, b;
+  std::array<FT, 3> quadratic; ///< of Q
+  std::array<FT, 2> mixed;     ///< of L
+  FT e;
+  std::array<FT, 4> cubic;           ///< of C
+  std::array<FT, 3> mixed_quadratic; ///< of D
+  std::array<FT, 5> quartic;         ///< of R
+  FT determinant;                    ///< of the symmetric coefficients of Q: d / 4
+
+  explicit Monge_chart_3(const Jet_3<FT>& jet) {
+    using std::abs;
+    const auto& c = jet.coefficients();
+    is_steep = abs(c[1]) > FT(0) || abs(c[2]) > FT(0) || abs(c[3]) > FT(0);
+    build(jet, choose_pivot(jet));
+  }
+
+  /// Takes the gradient for zero where one rounding of the coordinates of the point could have made it, component by
+  /// component, since the axes can have different units.
+  void disregard_rounding_of(const std::array<FT, 3>& point, const Jet_3<FT>& jet) {
+    using std::abs;
+    const auto& c = jet.coefficients();
+    const FT x = roundings(4) * abs(point[0]), y = roundings(4) * abs(point[1]), z = roundings(4) * abs(point[2]);
+    const FT xy = abs(c[5]), xz = abs(c[6]), yz = abs(c[8]), two(2);
+    is_steep = abs(c[1]) > two * abs(c[4]) * x + xy * y + xz * z || abs(c[2]) > xy * x + two * abs(c[7]) * y + yz * z ||
+               abs(c[3]) > xz * x + yz * y + two * abs(c[9]) * z;
+  }
+
+  /// Takes d for zero where second derivatives of the jet with errors of up to `error` could produce it. Errors of the
+  /// coefficients of Q are those of a frame with a = b = 0, times 1 + |a| per u and 1 + |b| per v.
+  void disregard(const Jet_3<FT>& jet, const FT& error) {
+    using internal::select;
+    using std::abs;
+    const auto& c = jet.coefficients();
+    const FT pivot = select(pivot_is_x, c[1], select(pivot_is_y, c[2], c[3]));
+    const FT one_u = FT(1) + abs(a), one_v = FT(1) + abs(b), uv = abs(FT(0.5) * error / pivot) * one_u * one_v;
+    const FT doubt =
+        uv * (abs(quadratic[0]) * one_v / one_u + abs(quadratic[2]) * one_u / one_v + FT(2) * (abs(quadratic[1]) + uv));
+    is_curved = is_curved && abs(determinant) > doubt;
+  }
+
+  /// The second derivatives of the surface as a graph w = g(u, v): the affine fundamental form.
+  FT h_uu() const { return FT(-2) * quadratic[0]; }
+  FT h_uv() const { return FT(-2) * quadratic[1]; }
+  FT h_vv() const { return FT(-2) * quadratic[2]; }
+
+  /// det of the affine fundamental form.
+  FT d() const { return FT(4) * determinant; }
+
+  /// A vector or covector given in the permuted coordinates, in the original ones.
+  std::array<FT, 3> unpermuted(const FT& x, const FT& y, const FT& z) const {
+    using internal::select;
+    return {select(pivot_is_x, z, select(pivot_is_y, y, x)), select(pivot_is_x, x, select(pivot_is_y, z, y)),
+            select(pivot_is_x, y, select(pivot_is_y, x, z))};
+  }
+
+  /// The vector with components (u, v) in the tangent basis, in the original coordinates.
+  std::array<FT, 3> tangent(const FT& u, const FT& v) const { return unpermuted(u, v, -(a * u + b * v)); }
+
+private:
+  /// The axis whose largest |f_ij| / |f_i f_j| is smallest, up to a factor 2 for i = j: of two axes, without the one
+  /// they share. An axis with f_j = 0 does not count. Among equals it is that with the largest |f_i|. Returns all
+  /// 1 / f_i.
+  std::array<FT, 3> choose_pivot(const Jet_3<FT>& jet) {
+    using internal::select;
+    using std::abs;
+    const auto& c = jet.coefficients();
+    const std::array<FT, 3> size = {abs(c[1]), abs(c[2]), abs(c[3])};
+    const std::array<FT, 3> reciprocals = {FT(1) / c[1], FT(1) / c[2], FT(1) / c[3]};
+    std::array<Mask, 3> counts;
+    std::array<FT, 3> r;
+    for (std::size_t i = 0; i < 3; ++i) {
+      counts[i] = size[i] >= FT(std::numeric_limits<FT>::min());
+      r[i] = select(counts[i], reciprocals[i], FT(0));
+    }
+    const auto larger = [](const FT& x, const FT& y) { return select(x > y, x, y); };
+    const auto curvature = [&](std::size_t n, std::size_t i, std::size_t j) { return FT(abs(c[n] * r[i] * r[j])); };
+    const FT xy = curvature(5, 0, 1), xz = curvature(6, 0, 2), yz = curvature(8, 1, 2);
+    const FT never(std::numeric_limits<FT>::infinity());
+    const FT xx = select(counts[0], curvature(4, 0, 0), never);
+    const FT yy = select(counts[1], curvature(7, 1, 1), never);
+    const FT zz = select(counts[2], curvature(9, 2, 2), never);
+    const FT x = larger(xx, xz), y = larger(yy, yz); // both have xy
+    const Mask x_beats_y = x < y || (x == y && size[0] > size[1]);
+    const FT it = larger(select(x_beats_y, xx, yy), xy), z = larger(zz, select(x_beats_y, yz, xz));
+    const Mask it_beats_z = it < z || (it == z && select(x_beats_y, size[0], size[1]) > size[2]);
+    pivot_is_x = x_beats_y && it_beats_z;
+    pivot_is_y = !x_beats_y && it_beats_z;
+    return reciprocals;
+  }
+
+  static FT roundings(int n) { return FT(n) * FT(std::numeric_limits<FT>::epsilon()); }
+
+  /// Number of the monomial that plays x^i y^j z^k when axis `pivot` plays z.
+  static constexpr int played_by(int pivot, int i, int j, int k) {
+    return pivot == 2 ? Jet_3<FT>::index(i, j, k) : pivot == 1 ? Jet_3<FT>::index(j, k, i) : Jet_3<FT>::index(k, i, j);
+  }
+
+  /// The coefficient that plays x^I y^J z^K, when it is known which axis plays z, or (Pivot == 3) lane by lane.
+  template <int Pivot, int I, int J, int K>
+  EQUIAFFINE_INLINE FT f(const Jet_3<FT>& jet) const {
+    using internal::select;
+    if constexpr (Pivot < 3) return jet.template at<played_by(Pivot, I, J, K)>();
+    else return select(pivot_is_x, f<0, I, J, K>(jet), select(pivot_is_y, f<1, I, J, K>(jet), f<2, I, J, K>(jet)));
+  }
+
+  void build(const Jet_3<FT>& jet, const std::array<FT, 3>& reciprocals) {
+    using internal::select;
+    const FT r = select(pivot_is_x, reciprocals[0], select(pivot_is_y, reciprocals[1], reciprocals[2]));
+    if constexpr (!std::is_same_v<Mask, bool>) expand<3>(jet, r);
+    else if (pivot_is_x) expand<0>(jet, r);
+    else if (pivot_is_y) expand<1>(jet, r);
+    else expand<2>(jet, r);
+  }
+
+  /// Synthetic division of each homogeneous part by z - (w - a u - b v): the remainder is its part without w, the next
+  /// one the coefficient of w. `r` is 1 / f_z.
+  template <int P>
+  void expand(const Jet_3<FT>& jet, const FT& r) {
+    using internal::fraction;
+    using internal::select;
+    const FT r2 = r * FT(0.5), r4 = r * FT(0.25);
+    const FT r3 = r * fraction<1, 3, FT>(), r6 = r * fraction<1, 6, FT>();
+    sign = select(r > FT(0), FT(1), FT(-1));
+    a = f<P, 1, 0, 0>(jet) * r;
+    b = f<P, 0, 1, 0>(jet) * r;
+
+    const FT xx = f<P, 2, 0, 0>(jet), xy = f<P, 1, 1, 0>(jet), yy = f<P, 0, 2, 0>(jet);
+    const FT xz = f<P, 1, 0, 1>(jet), yz = f<P, 0, 1, 1>(jet), zz = f<P, 0, 0, 2>(jet);
+    const FT azz = a * zz, bzz = b * zz;
+    const Form<1> q1 = {xz - azz, yz - bzz};
+    Form<2> q2 = {xx, xy, yy};
+    reduce(q2, q1);
+    quadratic = {r * q2[0], r2 * q2[1], r * q2[2]};
+    mixed = {r * (q1[0] - azz), r * (q1[1] - bzz)};
+    e = r * zz;
+
+    const Form<0> c0 = {f<P, 0, 0, 3>(jet)};
+    Form<1> c1 = {f<P, 1, 0, 2>(jet), f<P, 0, 1, 2>(jet)}, d1;
+    Form<2> c2 = {f<P, 2, 0, 1>(jet), f<P, 1, 1, 1>(jet), f<P, 0, 2, 1>(jet)}, d2;
+    Form<3> c3 = {f<P, 3, 0, 0>(jet), f<P, 2, 1, 0>(jet), f<P, 1, 2, 0>(jet), f<P, 0, 3, 0>(jet)};
+    reduce(c1, c0);
+    reduce(c2, c1);
+    reduce(c3, c2);
+    d1 = c1;
+    reduce(d1, c0);
+    d2 = c2;
+    reduce(d2, d1);
+    cubic = {r * c3[0], r3 * c3[1], r3 * c3[2], r * c3[3]};
+    mixed_quadratic = {r * d2[0], r2 * d2[1], r * d2[2]};
+
+    const Form<0> s0 = {f<P, 0, 0, 4>(jet)};
+    Form<1> s1 = {f<P, 1, 0, 3>(jet), f<P, 0, 1, 3>(jet)};
+    Form<2> s2 = {f<P, 2, 0, 2>(jet), f<P, 1, 1, 2>(jet), f<P, 0, 2, 2>(jet)};
+    Form<3> s3 = {f<P, 3, 0, 1>(jet), f<P, 2, 1, 1>(jet), f<P, 1, 2, 1>(jet), f<P, 0, 3, 1>(jet)};
+    Form<4> s4 = {f<P, 4, 0, 0>(jet), f<P, 3, 1, 0>(jet), f<P, 2, 2, 0>(jet), f<P, 1, 3, 0>(jet), f<P, 0, 4, 0>(jet)};
+    reduce(s1, s0);
+    reduce(s2, s1);
+    reduce(s3, s2);
+    reduce(s4, s3);
+    quartic = {r * s4[0], r4 * s4[1], r6 * s4[2], r4 * s4[3], r * s4[4]};
+
+    determinant = quadratic[0] * quadratic[2] - quadratic[1] * quadratic[1];
+    // The terms of which the coefficients of Q are sums (Andrade, Lewiner 2012, equation (2)).
+    using std::abs;
+    const FT u = abs(xz) + abs(azz), v = abs(yz) + abs(bzz);
+    const FT uu = r * (abs(xx) + abs(a) * u), vv = r * (abs(yy) + abs(b) * v);
+    const FT uv = r2 * (abs(xy) + abs(a) * v + abs(b) * u);
+    is_curved = abs(determinant) > roundings(1000) * (uu * vv + uv * uv);
+  }
+
+  template <std::size_t Degree>
+  using Form = std::array<FT, Degree + 1>;
+
+  /// Subtracts (a u + b v) times another form. In place: copies of arrays of packs would go through memory.
+  template <std::size_t N>
+  EQUIAFFINE_INLINE void reduce(std::array<FT, N + 1>& form, const std::array<FT, N>& other) const {
+    [&]<std::size_t... I>(std::index_sequence<I...>) EQUIAFFINE_INLINE {
+      ((form[I] -= a * other[I], form[I + 1] -= b * other[I]), ...);
+    }
+    (std::make_index_sequence<N>());
+  }
+};
+
+} // namespace equiaffine
+
+#endif

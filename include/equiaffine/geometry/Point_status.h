@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_GEOMETRY_POINT_STATUS_H
+#define EQUIAFFINE_GEOMETRY_POINT_STATUS_H
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace equiaffine {
+
+/// What is known about the local structure at a point of a level set. The numbers are those of the
+/// attribute `status` in files.
+enum class Point_status : std::uint8_t {
+  REGULAR,    ///< every quantity exists
+  PARABOLIC,  ///< the affine metric is degenerate (d = 0): only the Euclidean quantities exist
+  SINGULAR,   ///< the gradient vanishes, f is not four times differentiable, or numbers overflow: nothing exists
+  OUTSIDE,    ///< outside the domain of f, of the support of its spline, or of the chosen `Estimator`: nothing exists
+  UNCONVERGED ///< the point could not be moved onto the surface: quantities of the level set through it
+};
+
+inline constexpr std::size_t number_of_point_statuses = 5;
+
+/// The word for a status in text files and statistics.
+constexpr std::string_view to_string(Point_status status) {
+  constexpr std::array<std::string_view, number_of_point_statuses> words = {"regular", "parabolic", "singular",
+                                                                            "outside", "unconverged"};
+  return words[static_cast<std::size_t>(status)];
+}
+
+} // namespace equiaffine
+
+#endif

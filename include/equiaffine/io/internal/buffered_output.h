@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_INTERNAL_BUFFERED_OUTPUT_H
+#define EQUIAFFINE_IO_INTERNAL_BUFFERED_OUTPUT_H
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+namespace equiaffine::internal {
+
+/// Text and little-endian binary numbers for a stream, collected into large blocks. Text does not depend on the
+/// stream's format or on any locale. The last block is written by `flush()`.
+class Buffered_output {
+public:
+  explicit Buffered_output(std::ostream& stream) : stream_(stream) { buffer_.reserve(2 * block_size); }
+
+  Buffered_output& operator<<(std::string_view text) {
+    buffer_.append(text);
+    if (buffer_.size() >= block_size) flush();
+    return *this;
+  }
+
+  Buffered_output& operator<<(char character) { return *this << std::string_view(&character, 1); }
+
+  /// 17 significant digits, which give every double back; `nan` and zero have no sign.
+  Buffered_output& operator<<(double number) {
+    if (std::isnan(number)) return *this << "nan";
+    std::array<char, 32> digits;
+    const auto end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), number + 0., std::chars_format::general, 17);
+    return *this << std::string_view(digits.data(), end.ptr);
+  }
+
+  Buffered_output& operator<<(std::size_t number) {
+    std::array<char, 24> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+    return *this << std::string_view(digits.data(), end.ptr);
+  }
+
+  template <class Number>
+  void write_binary(Number number) {
+    auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(number);
+    if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
+    *this << std::string_view(bytes.data(), bytes.size());
+  }
+
+  void flush() {
+    stream_.write(buffer_.data(), std::streamsize(buffer_.size()));
+    buffer_.clear();
+  }
+
+private:
+  static constexpr std::size_t block_size = std::size_t(1) << 16;
+
+  std::ostream& stream_;
+  std::string buffer_;
+};
+
+} // namespace equiaffine::internal
+
+#endif

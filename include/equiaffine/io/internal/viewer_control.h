@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_INTERNAL_VIEWER_CONTROL_H
+#define EQUIAFFINE_IO_INTERNAL_VIEWER_CONTROL_H
+
+#include <string_view>
+
+/// \file
+/// The page's script, last part: pointer, keyboard, the address, and the start.
+
+namespace equiaffine::internal {
+
+inline constexpr std::string_view viewer_control = R"js(
+let isTouched = false;  // until then the whole surface is kept in sight
+function touched() {
+  isTouched = true;
+  byId('hint').style.opacity = 0;
+}
+
+// Moves the camera's numbers to `goal` within a quarter of a second.
+let flight = 0;
+function flyTo(goal) {
+  const begin = performance.now(), from = {target: camera.target, distance: camera.distance}, current = ++flight;
+  const step = now => {
+    if (current !== flight) return;
+    const t = Math.min(1, Math.max(0, (now - begin) / 250)), s = t * t * (3 - 2 * t);
+    camera.target = add(from.target, add(goal.target, from.target, -1), s);
+    camera.distance = from.distance + s * (goal.distance - from.distance);
+    redraw();
+    if (t < 1) requestAnimationFrame(step);
+  };
+  requestAnimationFrame(step);
+}
+
+function resetView() {
+  ++flight;
+  firstView();
+  fitDistance(aspect());
+  redraw();
+}
+
+// Pointers: one turns (with the right button or shift it moves), two move, zoom and tap like fingers do.
+const pointers = new Map();
+let drag = null;
+function placeOf(event) {
+  const box = canvas.getBoundingClientRect();
+  return [2 * (event.clientX - box.left) / box.width - 1, 1 - 2 * (event.clientY - box.top) / box.height];
+}
+canvas.addEventListener('pointerdown', event => {
+  canvas.setPointerCapture(event.pointerId);
+  canvas.focus({preventScroll: true});
+  pointers.set(event.pointerId, placeOf(event));
+  const isPan = event.button !== 0 || event.shiftKey;
+  drag = {isPan, isClick: pointers.size === 1 && !isPan, x: event.clientX, y: event.clientY};
+  ++flight;
+});
+canvas.addEventListener('pointermove', event => {
+  const before = pointers.get(event.pointerId);
+  if (!before) return;
+  const now = placeOf(event), dx = now[0] - before[0], dy = now[1] - before[1];
+  if (Math.hypot(event.clientX - drag.x, event.clientY - drag.y) > 4) drag.isClick = false;
+  if (drag.isClick) return;
+  touched();
+  if (pointers.size === 2) {
+    const other = [...pointers].find(([id]) => id !== event.pointerId)[1];
+    const spread = place => Math.hypot((place[0] - other[0]) * aspect(), place[1] - other[1]);
+    zoom(spread(before) / Math.max(spread(now), 1e-3), (now[0] + other[0]) / 2, (now[1] + other[1]) / 2, aspect());
+    pan(dx / 2, dy / 2, aspect());
+  } else if (drag.isPan) {
+    pan(dx, dy, aspect());
+  } else {
+    orbit(dx * 1.8 * Math.min(1.6, aspect()), -dy * 1.8);
+  }
+  pointers.set(event.pointerId, now);
+  redraw();
+});
+function release(event) {
+  if (pointers.delete(event.pointerId) && drag?.isClick && event.type === 'pointerup') {
+    touched();
+    pick(cast(...placeOf(event), aspect())?.vertex ?? null);
+  }
+  if (drag) drag.isClick = false;
+}
+canvas.addEventListener('pointerup', release);
+canvas.addEventListener('pointercancel', release);
+canvas.addEventListener('contextmenu', event => event.preventDefault());
+canvas.addEventListener('dblclick', event => {
+  const hit = cast(...placeOf(event), aspect());
+  if (!hit) return;
+  const depth = dot(camera.back, add(eye(), hit.point, -1));
+  flyTo({target: hit.point, distance: Math.min(camera.distance, 0.7 * depth)});
+});
+const eye = () => add(camera.target, camera.back, camera.distance);
+canvas.addEventListener('wheel', event => {
+  event.preventDefault();
+  touched();
+  ++flight;
+  const lines = event.deltaMode === 1 ? 24 : event.deltaMode === 2 ? 400 : 1;
+  zoom(Math.exp(Math.max(-1, Math.min(1, event.deltaY * lines * 0.0014))), ...placeOf(event), aspect());
+  redraw();
+}, {passive: false});
+
+function setQuantity(quantity) {
+  choice.quantity = quantity;
+  update();
+}
+function stepQuantity(step) {
+  const n = quantities.length;
+  setQuantity(quantities[(quantities.indexOf(choice.quantity) + step + n) % n]);
+}
+function setClip(percent) {
+  const distance = step => Math.abs(step - percent);
+  choice.clip = clipSteps.reduce((best, step) => distance(step) < distance(best) ? step : best);
+}
+function setUp(letter) {
+  camera.axis = ['x', 'y', 'z'].map(axis => Number(axis === letter));
+  showUp();
+}
+function showUp() {
+  [...byId('up').children].forEach((button, k) => button.setAttribute('aria-pressed', camera.axis[k] === 1));
+}
+function savePicture() {
+  drawNow();
+  canvas.toBlob(blob => {
+    const anchor = document.createElement('a');
+    anchor.href = URL.createObjectURL(blob);
+    anchor.download = document.title.replace(/[^\p{L}\p{N}]+/gu, '-') + '.png';
+    anchor.click();
+    setTimeout(() => URL.revokeObjectURL(anchor.href), 1000);
+  });
+}
+function toggle(name) {
+  choice[name] = !choice[name];
+  if (name === 'hasMarks') update();
+  else updateColors();
+}
+// Until then the scale is the one that suits the quantity.
+function chooseScale(isLog) {
+  choice.isLog = isLog;
+  choice.isScaleChosen = true;
+  updateColors();
+}
+function toggleHelp() {
+  const isHidden = byId('help').hidden = !byId('help').hidden;
+  byId('help-toggle').setAttribute('aria-expanded', !isHidden);
+}
+const togglePanel = () => showPanel(document.body.classList.contains('no-panel'));
+function nextVectors() {
+  setVectors(vectors[vectors.indexOf(choice.vectors) + 1] ?? null);
+  updateColors();
+}
+function lookAlong(k, sign) {
+  ++flight;
+  camera.target = [0, 0, 0];
+  lookFrom([0, 1, 2].map(i => i === k ? sign : 0));
+  fitDistance(aspect());
+  redraw();
+}
+
+const keys = {
+  ArrowLeft: () => orbit(-0.1, 0), ArrowRight: () => orbit(0.1, 0),
+  ArrowUp: () => orbit(0, -0.1), ArrowDown: () => orbit(0, 0.1),
+  '+': () => zoom(0.85, 0, 0, aspect()), '=': () => zoom(0.85, 0, 0, aspect()),
+  '-': () => zoom(1 / 0.85, 0, 0, aspect()),
+  r: resetView, e: () => toggle('edges'), i: () => toggle('isolines'), l: () => chooseScale(!choice.isLog),
+  v: nextVectors, n: () => stepQuantity(1), p: () => stepQuantity(-1), s: savePicture, h: togglePanel, '?': toggleHelp,
+  x: () => lookAlong(0, 1), y: () => lookAlong(1, 1), z: () => lookAlong(2, 1),
+  X: () => lookAlong(0, -1), Y: () => lookAlong(1, -1), Z: () => lookAlong(2, -1), Escape: () => pick(null),
+};
+document.addEventListener('keydown', event => {
+  const isTyping = /^(SELECT|TEXTAREA)$/.test(event.target.tagName) || event.target.type === 'range';
+  if (!scene || isTyping || event.ctrlKey || event.metaKey || event.altKey || !Object.hasOwn(keys, event.key)) return;
+  event.preventDefault();
+  keys[event.key]();
+  redraw();
+});
+
+const on = (id, type, act) => byId(id).addEventListener(type, act);
+on('quantity', 'change', event => setQuantity(quantities.find(quantity => quantity.name === event.target.value)));
+on('clip', 'input', event => { choice.clip = clipSteps[event.target.value]; updateColors(); });
+on('scale-linear', 'click', () => chooseScale(false));
+on('scale-log', 'click', () => chooseScale(true));
+on('edges', 'change', () => toggle('edges'));
+on('isolines', 'change', () => toggle('isolines'));
+on('marks', 'change', () => toggle('hasMarks'));
+on('vectors', 'change', event => { setVectors(vectors.find(v => v.name === event.target.value) ?? null); redraw(); });
+on('reset', 'click', resetView);
+on('save', 'click', savePicture);
+on('link', 'click', event => copyText(location.href.split('#')[0] + fragment(), event.target));
+on('help-toggle', 'click', toggleHelp);
+on('panel-toggle', 'click', togglePanel);
+on('picked-copy', 'click', event => copyText(
+    numbersOf(choice.picked).map(([{name}, value, digits]) => `${name}\t${value.toPrecision(digits)}`).join('\n'),
+    event.target));
+for (const button of byId('up').children)
+  button.addEventListener('click', () => { setUp(button.textContent); resetView(); });
+
+// The address says what is shown. Words it does not know are ignored.
+function fragment() {
+  const list = (values, digits) => values.map(value => Number(value.toPrecision(digits))).join(',');
+  const parts = {
+    color: encodeURIComponent(choice.quantity.name), clip: choice.clip,
+    scale: choice.isScaleChosen ? (choice.isLog ? 'log' : 'linear') : 'auto',
+    view: list([...camera.back, ...camera.up], 5), target: list(add(facts.center, camera.target), 9),
+    zoom: list([4 * radius / camera.distance], 5), edges: Number(choice.edges),
+    isolines: Number(choice.isolines), marks: Number(choice.hasMarks),
+    vectors: encodeURIComponent(choice.vectors?.name ?? ''), pick: choice.picked ?? '',
+    panel: Number(!document.body.classList.contains('no-panel')),
+  };
+  return '#' + Object.entries(parts).map(([name, value]) => name + '=' + value).join('&');
+}
+
+function followAddress() {
+  const asked = new URLSearchParams(location.hash.slice(1));
+  const isOn = (name, otherwise) => asked.has(name) ? asked.get(name) === '1' : otherwise;
+  const numbers = name => asked.has(name) ? asked.get(name).split(',').map(Number) : [];
+  const isFine = (values, ...sizes) => sizes.includes(values.length) && values.every(Number.isFinite);
+  if (/^(dark|light)$/.test(asked.get('theme') ?? '')) document.documentElement.dataset.theme = asked.get('theme');
+  showPanel(isOn('panel', true));
+  resize();
+  if (/^[xyz]$/.test(asked.get('up') ?? '')) setUp(asked.get('up'));
+  firstView();
+  const view = numbers('view'), target = numbers('target'), zoomed = Number(asked.get('zoom'));
+  if (isFine(view, 3, 6) && Math.hypot(...view.slice(0, 3)) > 0)
+    lookFrom(view.slice(0, 3), view.length === 6 ? view.slice(3) : camera.axis);
+  fitDistance(aspect());
+  if (isFine(target, 3)) camera.target = add(target, facts.center, -1);
+  if (zoomed > 0) camera.distance = 4 * radius / zoomed;
+  choice.isScaleChosen = /^(linear|log)$/.test(asked.get('scale') ?? '');
+  choice.isLog = asked.get('scale') === 'log';
+  if (Number(asked.get('clip') ?? NaN) >= 0) setClip(Number(asked.get('clip')));
+  choice.edges = isOn('edges', false);
+  choice.isolines = isOn('isolines', false);
+  choice.hasMarks = isOn('marks', true);
+  setVectors(vectors.find(vector => vector.name === asked.get('vectors')) ?? null);
+  const vertex = Number(asked.get('pick') || 'none');
+  choice.picked = Number.isInteger(vertex) && vertex >= 0 && vertex < mesh.size ? vertex : null;
+  const named = name => quantities.find(quantity => quantity.name === name);
+  setQuantity(named(asked.get('color')) ?? named(facts.color) ?? quantities[0]);
+}
+
+function resize() {
+  const pixels = Math.min(window.devicePixelRatio || 1, 3);
+  const width = Math.max(1, Math.round(canvas.clientWidth * pixels));
+  const height = Math.max(1, Math.round(canvas.clientHeight * pixels));
+  if (canvas.width === width && canvas.height === height) return;
+  [canvas.width, canvas.height] = [width, height];
+  if (!shown) return;
+  if (!isTouched && !/[#&]zoom=/.test(location.hash)) fitDistance(aspect());
+  drawNow();
+}
+
+function fillSelects() {
+  let group = null;
+  for (const {name, label, symbol, group: title} of quantities) {
+    if (group?.label !== (title || 'Other'))
+      byId('quantity').append(group = Object.assign(document.createElement('optgroup'), {label: title || 'Other'}));
+    group.append(new Option(symbol ? `${label} ${symbol}` : label, name));
+  }
+  byId('vectors').append(new Option('none', ''), ...vectors.map(({label, name}) => new Option(label, name)));
+  byId('vectors-row').hidden = !vectors.length;
+  byId('clip').max = clipSteps.length - 1;
+}
+
+function start() {
+  const say = text => { byId('message').hidden = false; byId('message').textContent = text; };
+  try {
+    scene = createScene(canvas);
+  } catch (error) {
+    return say('The graphics of this browser refused to draw:\n' + error.message);
+  }
+  if (!scene) {
+    document.body.classList.add('no-panel', 'no-scene');
+    return say('This page needs WebGL 2, which this browser does not offer.\nPlease open it in a current browser '
+               + 'or switch on hardware acceleration.');
+  }
+  canvas.addEventListener('webglcontextlost', () => say('The graphics driver stopped. Reload the page to go on.'));
+  fillSelects();
+  showUp();
+  followAddress();
+  byId('message').hidden = mesh.size > 0;
+  if (!mesh.size) say('This surface has no points.');
+  new ResizeObserver(resize).observe(canvas);
+  new ResizeObserver(drawScale).observe(byId('histogram'));
+  window.addEventListener('hashchange', followAddress);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { drawScale(); redraw(); });
+}
+start();
+)js";
+
+} // namespace equiaffine::internal
+
+#endif

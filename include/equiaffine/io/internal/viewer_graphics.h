@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_INTERNAL_VIEWER_GRAPHICS_H
+#define EQUIAFFINE_IO_INTERNAL_VIEWER_GRAPHICS_H
+
+#include <string_view>
+
+/// \file
+/// The page's script, second part: camera, shaders, drawing, and the ray that finds the vertex under the pointer.
+
+namespace equiaffine::internal {
+
+inline constexpr std::string_view viewer_graphics = R"js(
+const add = (a, b, s = 1) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const unit = a => { const n = Math.hypot(...a); return [a[0] / n, a[1] / n, a[2] / n]; };
+const positionOf = i => Array.from(mesh.positions.subarray(3 * i, 3 * i + 3));
+function rotated(v, axis, angle) {
+  const c = Math.cos(angle), along = (1 - c) * dot(axis, v);
+  return add(add(v.map(x => c * x), cross(axis, v), Math.sin(angle)), axis, along);
+}
+
+const tanHalfView = Math.tan(Math.PI / 14);
+let radius = 0;
+for (let i = 0; i < mesh.size; ++i)
+  radius = Math.max(radius, Math.hypot(mesh.positions[3 * i], mesh.positions[3 * i + 1], mesh.positions[3 * i + 2]));
+if (!(radius > 0)) radius = 1;
+
+// Looks at `target` from `distance` along `back`; right, up, back are orthonormal; dragging turns around `axis`.
+// Positions are relative to the centre.
+const camera = {
+  target: [0, 0, 0], right: [1, 0, 0], up: [0, 1, 0], back: [0, 0, 1], distance: 4 * radius, axis: unit(facts.up),
+};
+
+function lookFrom(back, up = camera.axis) {
+  let right = cross(up, back);
+  if (Math.hypot(...right) < 1e-6 * Math.hypot(...up) * Math.hypot(...back))
+    right = cross(Math.abs(back[1]) < Math.abs(back[2]) ? [0, 1, 0] : [0, 0, 1], back);
+  camera.back = unit(back);
+  camera.right = unit(right);
+  camera.up = cross(camera.back, camera.right);
+}
+
+function firstView() {
+  const axis = camera.axis, front = unit(cross(Math.abs(axis[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0], axis));
+  camera.target = [0, 0, 0];
+  lookFrom(add(add(front, cross(axis, front), 0.5), axis, 0.62));
+}
+
+// The least distance from which everything is seen, and a margin.
+function fitDistance(aspect) {
+  const {positions} = mesh, {right, up, back, target} = camera;
+  const wide = 1 / (tanHalfView * aspect), high = 1 / tanHalfView;
+  let least = 0;
+  for (let i = 0; i < positions.length; i += 3) {
+    const x = positions[i] - target[0], y = positions[i + 1] - target[1], z = positions[i + 2] - target[2];
+    const across = Math.abs(right[0] * x + right[1] * y + right[2] * z) * wide;
+    const along = Math.abs(up[0] * x + up[1] * y + up[2] * z) * high;
+    least = Math.max(least, back[0] * x + back[1] * y + back[2] * z + Math.max(across, along));
+  }
+  camera.distance = 1.1 * Math.max(least, 1.2 * radius);
+}
+
+function orbit(dx, dy) {
+  const spin = dot(camera.up, camera.axis) < 0 ? dx : -dx;
+  const right = rotated(camera.right, camera.axis, spin);
+  const back = rotated(rotated(camera.back, camera.axis, spin), right, -dy);
+  camera.right = unit(right);
+  camera.back = unit(add(back, camera.right, -dot(back, camera.right)));
+  camera.up = cross(camera.back, camera.right);
+}
+
+// (x, y) in [-1, 1] x [-1, 1] is a place of the stage; what is there on the plane of the target stays there.
+function zoom(factor, x, y, aspect) {
+  const before = camera.distance;
+  camera.distance = Math.min(50 * radius, Math.max(1e-4 * radius, before * factor));
+  const moved = tanHalfView * (before - camera.distance);
+  camera.target = add(add(camera.target, camera.right, x * aspect * moved), camera.up, y * moved);
+}
+
+function pan(dx, dy, aspect) {
+  const reach = tanHalfView * camera.distance;
+  camera.target = add(add(camera.target, camera.right, -dx * aspect * reach), camera.up, -dy * reach);
+}
+
+// The first triangle hit by the ray through (x, y): the point and the vertex nearest to it, or null.
+function cast(x, y, aspect) {
+  const eye = add(camera.target, camera.back, camera.distance);
+  const forward = camera.back.map(v => -v);
+  const direction = add(add(forward, camera.right, x * aspect * tanHalfView), camera.up, y * tanHalfView);
+  const [dx, dy, dz] = direction, [ex, ey, ez] = eye, {positions: p, triangles} = mesh;
+  let nearest = Infinity, hit = null;
+  for (let t = 0; t < triangles.length; t += 3) {
+    const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
+    const ux = p[b] - p[a], uy = p[b + 1] - p[a + 1], uz = p[b + 2] - p[a + 2];
+    const vx = p[c] - p[a], vy = p[c + 1] - p[a + 1], vz = p[c + 2] - p[a + 2];
+    const hx = dy * vz - dz * vy, hy = dz * vx - dx * vz, hz = dx * vy - dy * vx;
+    const determinant = ux * hx + uy * hy + uz * hz;
+    if (determinant === 0) continue;
+    const sx = ex - p[a], sy = ey - p[a + 1], sz = ez - p[a + 2];
+    const u = (sx * hx + sy * hy + sz * hz) / determinant;
+    if (u < 0 || u > 1) continue;
+    const qx = sy * uz - sz * uy, qy = sz * ux - sx * uz, qz = sx * uy - sy * ux;
+    const v = (dx * qx + dy * qy + dz * qz) / determinant;
+    if (v < 0 || u + v > 1) continue;
+    const far = (vx * qx + vy * qy + vz * qz) / determinant;
+    if (far <= 0 || far >= nearest) continue;
+    nearest = far;
+    hit = t + (u > v ? (u > 1 - u - v ? 1 : 0) : (v > 1 - u - v ? 2 : 0));
+  }
+  return hit === null ? null : {point: add(eye, direction, nearest), vertex: triangles[hit]};
+}
+
+const placing = `#version 300 es
+precision highp float;
+uniform mat3 turn; uniform vec3 target;
+uniform vec4 lens;  // horizontal and vertical scale, depth scale and shift
+uniform float viewDistance;
+vec3 seen(vec3 p) { vec3 q = turn * (p - target); q.z -= viewDistance; return q; }
+vec4 projected(vec3 q) { return vec4(lens.x * q.x, lens.y * q.y, lens.z * q.z + lens.w, -q.z); }
+`;
+
+const surfaceVertex = placing + `
+layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal;
+layout(location = 2) in float level; layout(location = 3) in uint code;
+out vec3 vPosition, vNormal; out vec2 vLevel; out vec4 vStatus; out float vUndefined;
+void main() {
+  vPosition = seen(position);
+  vNormal = turn * normal;
+  vLevel = code == 0u ? vec2(level, 1) : vec2(0);  // only vertices with a number take part in the interpolation
+  vStatus = vec4(equal(uvec4(code), uvec4(1u, 2u, 3u, 4u)));
+  vUndefined = float(code == 5u);
+  gl_Position = projected(vPosition);
+}`;
+
+const surfaceFragment = `#version 300 es
+precision highp float;
+in vec3 vPosition, vNormal; in vec2 vLevel; in vec4 vStatus; in float vUndefined;
+uniform sampler2D map; uniform bool isMapped; uniform vec3 plain, undefinedColor, statusColors[4];
+uniform float isolines[24]; uniform int isolineCount;
+out vec4 color;
+void main() {
+  float level = vLevel.x / max(vLevel.y, 1e-6), entries = float(textureSize(map, 0).x);
+  float slope = fwidth(level);
+  vec3 base = isMapped ? texture(map, vec2((0.5 + level * (entries - 1.0)) / entries, 0.5)).rgb : plain;
+  float line = 0.0, most = vLevel.y;
+  for (int i = 0; i < isolineCount; ++i)
+    if (slope > 1e-6) line = max(line, 1.0 - smoothstep(0.5, 1.3, abs(level - isolines[i]) / slope));
+  for (int i = 0; i < 4; ++i) if (vStatus[i] > most) { most = vStatus[i]; base = statusColors[i]; line = 0.0; }
+  if (vUndefined > most) { base = undefinedColor; line = 0.0; }
+  vec3 n = normalize(vNormal), view = normalize(-vPosition), light = normalize(vec3(-0.35, 0.5, 1.0));
+  float side = gl_FrontFacing ? 1.0 : -1.0;
+  float diffuse = 0.5 + 0.5 * side * dot(n, light);
+  float shade = (0.36 + 0.67 * diffuse * diffuse) * (gl_FrontFacing ? 1.0 : 0.5);
+  float glint = 0.03 * pow(max(dot(side * n, normalize(light + view)), 0.0), 40.0);
+  vec3 linear = pow(mix(base, vec3(0.05), 0.75 * line), vec3(2.2)) * shade + glint;
+  color = vec4(pow(linear, vec3(1.0 / 2.2)), 1);
+}`;
+
+const edgeVertex = placing + `
+layout(location = 0) in vec3 position;
+void main() { gl_Position = projected(seen(position)); }`;
+const edgeFragment = `#version 300 es
+precision highp float;
+out vec4 color;
+void main() { color = vec4(0.0, 0.0, 0.0, 0.3); }`;
+
+const markVertex = placing + `
+layout(location = 0) in vec3 position; layout(location = 3) in uint code;
+uniform float size; uniform vec3 statusColors[4];
+flat out vec3 vColor;
+void main() {
+  vColor = code >= 1u && code <= 4u ? statusColors[code - 1u] : vec3(0);
+  gl_Position = projected(seen(position));
+  gl_Position.z -= 1e-3 * gl_Position.w;
+  gl_PointSize = size;
+}`;
+const markFragment = `#version 300 es
+precision highp float;
+flat in vec3 vColor;
+uniform bool isRing; uniform float opacity, size;
+out vec4 color;
+void main() {
+  float r = length(gl_PointCoord - 0.5) * size, rim = 0.5 * size;
+  float inside = 1.0 - smoothstep(rim - 1.0, rim, r);
+  float dark = isRing ? smoothstep(0.48, 0.56, r / rim) * (1.0 - smoothstep(0.78, 0.86, r / rim)) : 0.0;
+  float hole = isRing ? smoothstep(0.30, 0.40, r / rim) : 1.0;
+  color = isRing ? vec4(mix(vec3(1), vec3(0.05), dark), inside * hole * opacity) : vec4(vColor, inside);
+  color.rgb *= color.a;
+}`;
+
+const needleVertex = placing + `
+layout(location = 0) in vec3 base; layout(location = 1) in vec3 span;
+uniform vec2 viewport; uniform float width;
+out float vAcross;
+void main() {
+  float along = float(gl_VertexID / 2), side = float(gl_VertexID % 2) * 2.0 - 1.0;
+  vec4 a = projected(seen(base)), b = projected(seen(base + span)), c = along > 0.5 ? b : a;
+  vec2 way = (b.xy / b.w - a.xy / a.w) * viewport;
+  vec2 across = length(way) > 0.0 ? normalize(vec2(-way.y, way.x)) : vec2(1, 0);
+  gl_Position = c + vec4(side * width * across / viewport * c.w, -5e-4 * c.w, 0);
+  vAcross = side * width;
+}`;
+const needleFragment = `#version 300 es
+precision highp float;
+in float vAcross;
+uniform float width; uniform bool isDark;
+out vec4 color;
+void main() {
+  float r = abs(vAcross) / width, core = 1.0 - smoothstep(0.35, 0.60, r), edge = 1.0 - smoothstep(0.7, 1.0, r);
+  color = vec4(vec3(isDark ? 0.1 + 0.9 * core : 1.0 - 0.9 * core), edge);
+  color.rgb *= color.a;
+}`;
+
+function uniqueEdges() {
+  const {triangles, size} = mesh, starts = new Uint32Array(size + 1), ends = new Uint32Array(triangles.length);
+  const each = use => {
+    for (let t = 0; t < triangles.length; ++t) {
+      const a = triangles[t], b = triangles[t % 3 === 2 ? t - 2 : t + 1];
+      use(Math.min(a, b), Math.max(a, b));
+    }
+  };
+  each(a => ++starts[a + 1]);
+  for (let i = 0; i < size; ++i) starts[i + 1] += starts[i];
+  const next = starts.slice(), edges = new Uint32Array(2 * triangles.length);
+  each((a, b) => { ends[next[a]++] = b; });
+  let count = 0;
+  for (let a = 0; a < size; ++a) {
+    const around = ends.subarray(starts[a], starts[a + 1]).sort();
+    for (let k = 0; k < around.length; ++k)
+      if (k === 0 || around[k] !== around[k - 1]) { edges[count++] = a; edges[count++] = around[k]; }
+  }
+  return edges.slice(0, count);
+}
+
+// Needles at vertices spread evenly in space: at most one in each cell of a grid.
+function needles(vector, cells = 22) {
+  const [vx, vy, vz] = vector.parts.map(part => part.values()), cell = 2 * radius / cells;
+  const chosen = new Map();
+  for (let i = 0; i < mesh.size; ++i) {
+    if (!isFinite(vx[i] + vy[i] + vz[i])) continue;
+    const [a, b, c] = [0, 1, 2].map(k => Math.floor((mesh.positions[3 * i + k] + radius) / cell));
+    const key = (c * 64 + b) * 64 + a;
+    if (!chosen.has(key)) chosen.set(key, i);
+  }
+  const indices = [...chosen.values()], lengths = indices.map(i => Math.hypot(vx[i], vy[i], vz[i]));
+  const longest = indices.length ? quantile(lengths.slice().sort((a, b) => a - b), 90) || 1 : 1;
+  const result = new Float32Array(6 * indices.length);
+  indices.forEach((i, k) => {
+    const scale = 1.4 * cell / Math.max(longest, lengths[k]) * (vector.isLine ? 0.6 : 1);
+    const span = [vx[i] * scale, vy[i] * scale, vz[i] * scale];
+    result.set([...(vector.isLine ? add(positionOf(i), span, -0.5) : positionOf(i)), ...span], 6 * k);
+  });
+  return result;
+}
+)js";
+
+} // namespace equiaffine::internal
+
+#endif

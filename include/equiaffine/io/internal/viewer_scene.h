@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_INTERNAL_VIEWER_SCENE_H
+#define EQUIAFFINE_IO_INTERNAL_VIEWER_SCENE_H
+
+#include <string_view>
+
+/// \file
+/// The page's script, third part: the WebGL 2 objects and the drawing of one picture.
+
+namespace equiaffine::internal {
+
+inline constexpr std::string_view viewer_scene = R"js(
+const bytesOfColor = text => [1, 3, 5].map(i => parseInt(text.slice(i, i + 2), 16));
+const channels = text => bytesOfColor(text).map(byte => byte / 255);
+
+// Returns null without WebGL 2.
+function createScene(canvas) {
+  const gl = canvas.getContext('webgl2', {antialias: true, alpha: true, powerPreference: 'high-performance'});
+  if (!gl) return null;
+
+  function program(...sources) {
+    const result = gl.createProgram();
+    sources.forEach((source, i) => {
+      const shader = gl.createShader(i ? gl.FRAGMENT_SHADER : gl.VERTEX_SHADER);
+      gl.shaderSource(shader, source);
+      gl.compileShader(shader);
+      gl.attachShader(result, shader);
+    });
+    gl.linkProgram(result);
+    if (!gl.getProgramParameter(result, gl.LINK_STATUS))
+      throw new Error(gl.getProgramInfoLog(result) + gl.getAttachedShaders(result).map(s => gl.getShaderInfoLog(s)));
+    const places = new Map();
+    const at = name => {
+      if (!places.has(name)) places.set(name, gl.getUniformLocation(result, name));
+      return places.get(name);
+    };
+    return {use: () => gl.useProgram(result), at};
+  }
+
+  const buffers = {}, arrays = {};
+  function fill(name, data, target = gl.ARRAY_BUFFER) {
+    gl.bindVertexArray(null);
+    gl.bindBuffer(target, buffers[name] ??= gl.createBuffer());
+    gl.bufferData(target, data, gl.STATIC_DRAW);
+  }
+  // attributes: [place, buffer, components, type, stride, offset, divisor]
+  function bind(name, attributes, indexBuffer) {
+    gl.bindVertexArray(arrays[name] = gl.createVertexArray());
+    for (const [place, buffer, components, type, stride = 0, offset = 0, divisor = 0] of attributes) {
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffers[buffer]);
+      gl.enableVertexAttribArray(place);
+      if (type === gl.UNSIGNED_BYTE) gl.vertexAttribIPointer(place, components, type, stride, offset);
+      else gl.vertexAttribPointer(place, components, type, type === gl.SHORT, stride, offset);
+      gl.vertexAttribDivisor(place, divisor);
+    }
+    if (indexBuffer) gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers[indexBuffer]);
+    gl.bindVertexArray(null);
+  }
+
+  const surface = program(surfaceVertex, surfaceFragment), edge = program(edgeVertex, edgeFragment);
+  const mark = program(markVertex, markFragment), needle = program(needleVertex, needleFragment);
+  fill('position', mesh.positions);
+  fill('normal', vertexNormals());
+  fill('level', new Float32Array(mesh.size));
+  fill('code', new Uint8Array(mesh.size));
+  fill('triangles', mesh.triangles, gl.ELEMENT_ARRAY_BUFFER);
+  fill('marked', new Uint32Array(0), gl.ELEMENT_ARRAY_BUFFER);
+  fill('needles', new Float32Array(0));
+  const position = [0, 'position', 3, gl.FLOAT], code = [3, 'code', 1, gl.UNSIGNED_BYTE];
+  bind('surface', [position, [1, 'normal', 3, gl.SHORT, 8], [2, 'level', 1, gl.FLOAT], code], 'triangles');
+  bind('marks', [position, code], 'marked');
+  bind('needles', [[0, 'needles', 3, gl.FLOAT, 24, 0, 1], [1, 'needles', 3, gl.FLOAT, 24, 12, 1]]);
+  const colors = {statuses: facts.statuses.slice(1).flatMap(s => channels(s.color)), isMapped: false, isolines: []};
+  let needleCount = 0, markedCount = 0, edgeCount = 0;
+
+  gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+  const setMap = table => gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, table.length, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE,
+      new Uint8Array(table.flatMap(text => [...bytesOfColor(text), 255])));
+  setMap([facts.plain]);
+
+  function place(program, aspect) {
+    const {right, up, back, target, distance} = camera;
+    const center = Math.hypot(...target), far = distance + center + 1.5 * radius;
+    const near = Math.max(distance - center - 1.5 * radius, 0.004 * distance);
+    program.use();
+    gl.uniformMatrix3fv(program.at('turn'), true, [...right, ...up, ...back]);
+    gl.uniform3fv(program.at('target'), target);
+    gl.uniform4f(program.at('lens'), 1 / (tanHalfView * aspect), 1 / tanHalfView, -(far + near) / (far - near),
+                 -2 * far * near / (far - near));
+    gl.uniform1f(program.at('viewDistance'), distance);
+  }
+
+  function drawSurface() {
+    gl.uniform1i(surface.at('isMapped'), colors.isMapped);
+    gl.uniform3fv(surface.at('plain'), channels(facts.plain));
+    gl.uniform3fv(surface.at('undefinedColor'), channels(facts.undefined));
+    gl.uniform3fv(surface.at('statusColors'), colors.statuses);
+    gl.uniform1i(surface.at('isolineCount'), colors.isolines.length);
+    if (colors.isolines.length) gl.uniform1fv(surface.at('isolines'), colors.isolines);
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1, 1);
+    gl.bindVertexArray(arrays.surface);
+    gl.drawElements(gl.TRIANGLES, mesh.triangles.length, gl.UNSIGNED_INT, 0);
+    gl.disable(gl.POLYGON_OFFSET_FILL);
+  }
+
+  function drawMarks(size, isRing, opacity, count, first) {
+    gl.uniform1f(mark.at('size'), size);
+    gl.uniform1i(mark.at('isRing'), isRing);
+    gl.uniform1f(mark.at('opacity'), opacity);
+    gl.uniform3fv(mark.at('statusColors'), colors.statuses);
+    gl.bindVertexArray(arrays.marks);
+    if (isRing) gl.drawArrays(gl.POINTS, first, 1);
+    else gl.drawElements(gl.POINTS, count, gl.UNSIGNED_INT, 0);
+  }
+
+  return {
+    // levels in [0, 1] along `table`, or a plain surface without a table; isolines are levels.
+    setColors(levels, codes, table) {
+      fill('level', levels);
+      fill('code', codes);
+      colors.isMapped = Boolean(table);
+      if (table) setMap(table);
+      const marked = [];
+      codes.forEach((value, i) => { if (value >= 1 && value <= 4) marked.push(i); });
+      markedCount = marked.length <= 3000 ? marked.length : 0;  // more of them are seen without dots
+      fill('marked', new Uint32Array(marked.slice(0, markedCount)), gl.ELEMENT_ARRAY_BUFFER);
+    },
+    setIsolines(levels) { colors.isolines = levels.slice(0, 24); },
+    setNeedles(data) {
+      needleCount = data.length / 6;
+      fill('needles', data);
+    },
+
+    draw({edges, picked, pixels, isDark}) {
+      const width = canvas.width, height = canvas.height, aspect = width / height;
+      gl.viewport(0, 0, width, height);
+      gl.clearColor(0, 0, 0, 0);
+      gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+      gl.enable(gl.DEPTH_TEST);
+      gl.depthFunc(gl.LEQUAL);
+      gl.disable(gl.BLEND);
+      place(surface, aspect);
+      drawSurface();
+      gl.enable(gl.BLEND);
+      gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+      if (edges) {
+        if (!arrays.edges) {
+          const indices = uniqueEdges();
+          edgeCount = indices.length;
+          fill('edges', indices, gl.ELEMENT_ARRAY_BUFFER);
+          bind('edges', [position], 'edges');
+        }
+        place(edge, aspect);
+        gl.bindVertexArray(arrays.edges);
+        gl.drawElements(gl.LINES, edgeCount, gl.UNSIGNED_INT, 0);
+      }
+      gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+      if (needleCount) {
+        place(needle, aspect);
+        gl.uniform2f(needle.at('viewport'), width, height);
+        gl.uniform1f(needle.at('width'), 3.8 * pixels);
+        gl.uniform1i(needle.at('isDark'), isDark);
+        gl.bindVertexArray(arrays.needles);
+        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, needleCount);
+      }
+      if (markedCount || picked !== null) place(mark, aspect);
+      if (markedCount) drawMarks(5 * pixels, false, 1, markedCount, 0);
+      if (picked !== null) {
+        gl.disable(gl.DEPTH_TEST);
+        drawMarks(20 * pixels, true, 0.35, 1, picked);
+        gl.enable(gl.DEPTH_TEST);
+        drawMarks(20 * pixels, true, 1, 1, picked);
+      }
+    },
+  };
+}
+)js";
+
+} // namespace equiaffine::internal
+
+#endif

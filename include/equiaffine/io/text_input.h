@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_TEXT_INPUT_H
+#define EQUIAFFINE_IO_TEXT_INPUT_H
+
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <istream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace equiaffine::internal {
+
+inline std::string read_all(std::istream& stream) {
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Whether `path` ends with `extension`, which is in lower case, in lower or upper case.
+inline bool has_extension(std::string_view path, std::string_view extension) {
+  return path.size() >= extension.size() &&
+         std::equal(extension.begin(), extension.end(), path.end() - std::ptrdiff_t(extension.size()),
+                    [](char a, unsigned char b) { return a == char(std::tolower(b)); });
+}
+
+/// Opens a file with something in it as binary; throws `Input_error` that says why it is none.
+inline std::ifstream open_input(const std::string& path) {
+  const auto fail = [&](const std::string& reason) { throw Input_error("cannot read '" + path + "': " + reason); };
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) fail("there is no such file; check the path");
+  if (std::filesystem::is_directory(status)) fail("it is a folder; name a file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) fail("permission denied; make it readable");
+  if (file.peek() == std::ifstream::traits_type::eof()) fail("it is empty; check the path");
+  return file;
+}
+
+inline std::string_view trim(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\r\n") + 1 - begin);
+}
+
+/// The whole text as a number, blanks around it and a leading '+' allowed; independent of any locale.
+template <class Number>
+std::optional<Number> parse_number(std::string_view text) {
+  text = trim(text);
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+/// Takes the first line off `text`, without its end; counts it in `line_number`.
+inline std::string_view take_line(std::string_view& text, std::size_t& line_number) {
+  const std::size_t end = text.find('\n');
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  ++line_number;
+  return line;
+}
+
+/// Takes the first word off `text`; empty if there is none.
+inline std::string_view take_word(std::string_view& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos) {
+    text = {};
+    return {};
+  }
+  const std::size_t end = text.find_first_of(" \t\r\n", begin);
+  const std::string_view word = text.substr(begin, end == std::string_view::npos ? end : end - begin);
+  text.remove_prefix(begin + word.size());
+  return word;
+}
+
+/// Appends a face as a fan of triangles around its first vertex.
+template <class Kernel>
+void add_face(Indexed_triangle_mesh_3<Kernel>& mesh, const std::vector<std::uint32_t>& face) {
+  for (std::size_t i = 2; i < face.size(); ++i) mesh.triangles.push_back({face[0], face[i - 1], face[i]});
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_NUMBERING_H
+#define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_NUMBERING_H
+
+#include <equiaffine/marching_cubes/internal/node_signs.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// The edge of a grid that begins at a node.
+struct Grid_edge {
+  std::array<std::size_t, 3> node;
+  std::size_t axis;
+};
+
+/// The numbers of the vertices and triangles of a surface in a grid. The vertices of a row of nodes are those on its
+/// edges along i, then j, then k, each in the order of i: the number of a vertex is that of its row and kind plus the
+/// number of crossed edges before it, so no vertex is ever looked up. The inner vertices of cells come last, layer
+/// after layer. Triangles are ordered like their cells.
+///
+/// Memory: 16 bytes per row of nodes.
+class Isosurface_numbering {
+public:
+  using Word = Node_signs::Word;
+  using Index = std::uint32_t;
+  using Node = std::array<std::size_t, 3>;
+
+  struct Row {
+    std::array<Index, 3> first{}; ///< vertex on an edge along each axis; counts before `scan`
+    Index triangles = 0;
+  };
+  /// Cells between two planes of nodes.
+  struct Layer {
+    std::size_t first_triangle = 0, first_inner_vertex = 0, inner_vertices = 0;
+  };
+
+  explicit Isosurface_numbering(const Node_signs& signs)
+      : signs_(signs), rows_(signs.size()[1] * signs.size()[2] + 1), layers_(signs.size()[2]) {}
+
+  Row& row(std::size_t j, std::size_t k) { return rows_[k * signs_.size()[1] + j]; }
+  const Row& row(std::size_t j, std::size_t k) const { return rows_[k * signs_.size()[1] + j]; }
+  Layer& layer(std::size_t k) { return layers_[k]; }
+
+  /// Makes numbers of the counts in rows and layers.
+  void scan() {
+    const std::size_t ny = signs_.size()[1];
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      if (r % ny == 0 && r / ny < layers_.size()) layers_[r / ny].first_triangle = number_of_triangles_;
+      for (Index& first : rows_[r].first) {
+        const Index n = first;
+        first = Index(number_of_vertices_);
+        number_of_vertices_ += n;
+      }
+      number_of_triangles_ += rows_[r].triangles;
+    }
+    for (Layer& layer : layers_) {
+      layer.first_inner_vertex = number_of_vertices_;
+      number_of_vertices_ += layer.inner_vertices;
+    }
+    CGAL_precondition(number_of_vertices_ <= std::numeric_limits<Index>::max());
+  }
+
+  std::size_t number_of_planes() const { return layers_.size(); }
+  std::size_t number_of_vertices() const { return number_of_vertices_; }
+  std::size_t number_of_edge_vertices() const { return layers_.front().first_inner_vertex; }
+  std::size_t number_of_triangles() const { return number_of_triangles_; }
+
+  bool has_vertices(std::size_t j, std::size_t k) const {
+    const Row* const r = &row(j, k);
+    return r[0].first[0] != r[1].first[0];
+  }
+  /// On edges that begin in a plane.
+  Index_range vertices_of_plane(std::size_t k) const { return {row(0, k).first[0], row(0, k + 1).first[0]}; }
+  Index_range inner_vertices_of_layer(std::size_t k) const {
+    const Layer& layer = layers_[k];
+    return {layer.first_inner_vertex, layer.first_inner_vertex + layer.inner_vertices};
+  }
+  Index_range triangles_of_layer(std::size_t k) const {
+    return {layers_[k].first_triangle, k + 1 < layers_.size() ? layers_[k + 1].first_triangle : number_of_triangles_};
+  }
+
+  /// Calls visit(triangle) for all triangles in the rows of cells at a row of nodes.
+  template <class Visit>
+  void for_each_triangle_around(std::size_t j, std::size_t k, const Visit& visit) const {
+    for (std::size_t q = k > 0 ? k - 1 : 0; q <= k; ++q) {
+      std::size_t t = layers_[q].first_triangle;
+      for (std::size_t p = 0; p <= j; ++p) {
+        const std::size_t end = t + row(p, q).triangles;
+        if (p + 1 >= j)
+          for (std::size_t u = t; u < end; ++u) visit(u);
+        t = end;
+      }
+    }
+  }
+
+  /// The same for many rows, those j in rows[k]: every triangle once, ascending.
+  std::vector<std::size_t> triangles_around(const std::vector<std::vector<std::size_t>>& rows) const {
+    std::vector<std::size_t> result;
+    if (std::all_of(rows.begin(), rows.end(), [](const auto& js) { return js.empty(); })) return result;
+    const std::size_t ny = signs_.size()[1];
+    std::vector<bool> is_around(rows_.size());
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      for (const std::size_t j : rows[k])
+        for (std::size_t q = k > 0 ? k - 1 : 0; q <= k; ++q)
+          for (std::size_t p = j > 0 ? j - 1 : 0; p <= j; ++p) is_around[q * ny + p] = true;
+    std::size_t t = 0;
+    for (std::size_t r = 0; r < rows_.size(); t += rows_[r].triangles, ++r)
+      if (is_around[r])
+        for (std::size_t n = 0; n < rows_[r].triangles; ++n) result.push_back(t + n);
+    return result;
+  }
+
+  /// Calls visit(range) for ranges of triangles that hold all with a vertex from `vertex` on.
+  template <class Visit>
+  void for_each_part_with_vertices_from(std::size_t vertex, const Visit& visit) const {
+    for (std::size_t k = 0; k + 1 < layers_.size(); ++k) {
+      const Index_range inner = inner_vertices_of_layer(k);
+      const bool has_inner = inner.first < inner.end && inner.end > vertex;
+      if (has_inner || vertices_of_plane(k + 1).end > vertex) visit(triangles_of_layer(k));
+    }
+  }
+
+  /// The edge on which a vertex lies; nothing for an inner vertex.
+  std::optional<Grid_edge> edge_of(std::size_t vertex) const {
+    if (vertex >= number_of_edge_vertices()) return std::nullopt;
+    const auto after = std::upper_bound(rows_.begin(), rows_.end(), vertex,
+                                        [](std::size_t v, const Row& r) { return v < r.first[0]; });
+    const std::size_t r = std::size_t(after - rows_.begin()) - 1, j = r % signs_.size()[1], k = r / signs_.size()[1];
+    const auto& first = rows_[r].first;
+    const std::size_t axis = vertex >= first[2] ? 2 : vertex >= first[1] ? 1 : 0;
+    std::size_t before = vertex - first[axis];
+    const Node_signs::Edge_row<true> edges(signs_, j, k);
+    for (std::size_t w = 0;; ++w) {
+      Word crossed = edges.crossed(w)[axis];
+      const auto n = std::size_t(std::popcount(crossed));
+      if (before >= n) {
+        before -= n;
+        continue;
+      }
+      for (; before > 0; --before) crossed &= crossed - 1;
+      return Grid_edge{{64 * w + std::size_t(std::countr_zero(crossed)), j, k}, axis};
+    }
+  }
+
+  /// The number of the first vertex on an edge along `axis` from i on in a row.
+  Index vertex_from(std::size_t i, std::size_t j, std::size_t k, std::size_t axis) const {
+    Index vertex = row(j, k).first[axis];
+    const Node_signs::Edge_row<true> edges(signs_, j, k);
+    for (std::size_t w = 0; 64 * w < i; ++w)
+      vertex += Index(std::popcount(Node_signs::within(edges.crossed(w)[axis], w, i)));
+    return vertex;
+  }
+
+private:
+  const Node_signs& signs_;
+  std::vector<Row> rows_; // and one behind the last
+  std::vector<Layer> layers_;
+  std::size_t number_of_vertices_ = 0, number_of_triangles_ = 0;
+};
+
+} // namespace equiaffine::internal
+
+#endif

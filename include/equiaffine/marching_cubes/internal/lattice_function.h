@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_LATTICE_FUNCTION_H
+#define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LATTICE_FUNCTION_H
+
+#include <equiaffine/function/Batch_function_traits_3.h>
+#include <equiaffine/marching_cubes/internal/inner_vertex.h>
+#include <equiaffine/marching_cubes/internal/isosurface_numbering.h>
+#include <equiaffine/volume/Lattice_3.h>
+
+#include <array>
+#include <cstddef>
+
+namespace equiaffine::internal {
+
+/// A function at the nodes of a lattice: samples where there are some, else evaluated.
+template <class Traits>
+class Lattice_function {
+public:
+  using FT = typename Traits::FT;
+  using Kernel = Kernel_of<Traits>;
+  using Point_3 = typename Traits::Point_3;
+  using Node = std::array<std::size_t, 3>;
+  using Offset = std::array<FT, 3>; ///< in a cell, in steps of the lattice
+  static constexpr bool has_samples = LatticeImplicitFunctionTraits_3<Traits>;
+
+  struct Edge {
+    std::array<Point_3, 2> ends;
+    std::array<FT, 2> values;
+
+    Point_3 linear_intersection() const { return ends[0] + linear_zero(values[0], values[1]) * (ends[1] - ends[0]); }
+    bool ends_at(const Point_3& p) const { return coincide(p, ends[0]) || coincide(p, ends[1]); }
+  };
+
+  Lattice_function(const Traits& traits, const Lattice_3<Kernel>& lattice) : traits_(traits), lattice_(lattice) {}
+
+  const Batch_function_traits_3<Traits>& traits() const { return traits_; }
+  const Lattice_3<Kernel>& lattice() const { return lattice_; }
+
+  Point_3 point(const Node& n) const { return lattice_.point(number(n[0]), number(n[1]), number(n[2])); }
+  Point_3 point(const Node& cell, const Offset& offset) const {
+    return lattice_.point(number(cell[0]) + offset[0], number(cell[1]) + offset[1], number(cell[2]) + offset[2]);
+  }
+
+  /// At a node, which lies at p.
+  FT value(const Node& n, const Point_3& p) const {
+    if constexpr (has_samples) return traits_.sample(n[0], n[1], n[2]);
+    else return traits_.value(p);
+  }
+
+  Edge edge(const Grid_edge& e) const {
+    const auto& [i, j, k] = e.node;
+    const Node end = {i + (e.axis == 0), j + (e.axis == 1), k + (e.axis == 2)};
+    const std::array<Point_3, 2> ends = {point(e.node), point(end)};
+    return {ends, {value(e.node, ends[0]), value(end, ends[1])}};
+  }
+
+  std::array<FT, 8> cell_values(const Node& cell) const {
+    std::array<FT, 8> f;
+    for (std::size_t c = 0; c < 8; ++c) {
+      const Node node = {cell[0] + (c & 1), cell[1] + (c >> 1 & 1), cell[2] + (c >> 2)};
+      f[c] = value(node, point(node));
+    }
+    return f;
+  }
+
+  /// What it costs to know the values at n nodes.
+  static constexpr std::size_t evaluations(std::size_t n) { return has_samples ? 0 : n; }
+
+private:
+  static bool coincide(const Point_3& p, const Point_3& q) {
+    return p.x() == q.x() && p.y() == q.y() && p.z() == q.z();
+  }
+  static FT number(std::size_t n) { return FT(double(std::ptrdiff_t(n))); } // signed: one instruction
+
+  const Batch_function_traits_3<Traits> traits_;
+  const Lattice_3<Kernel> lattice_;
+};
+
+} // namespace equiaffine::internal
+
+#endif

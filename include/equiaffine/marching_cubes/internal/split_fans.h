@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_SPLIT_FANS_H
+#define EQUIAFFINE_MARCHING_CUBES_INTERNAL_SPLIT_FANS_H
+
+#include <equiaffine/base/disjoint_sets.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// Gives every fan of triangles a vertex of its own where several fans meet in one vertex, as parts of a surface do
+/// beside nodes without a value. `copy_vertex(v)` appends a copy of vertex v. No edge has more than two triangles.
+template <class Triangles, class CopyVertex>
+void split_fans(Triangles& triangles, std::size_t number_of_vertices, const CopyVertex& copy_vertex) {
+  if (triangles.empty()) return;
+  struct Half_edge {
+    std::uint32_t first, second;             // vertices, the smaller one first
+    std::size_t first_corner, second_corner; // 3 t + m for corner m of triangle t
+    bool operator<(const Half_edge& other) const {
+      return first != other.first ? first < other.first : second < other.second;
+    }
+  };
+  std::vector<Half_edge> edges;
+  for (std::size_t c = 0; c < 3 * triangles.size(); ++c) {
+    const std::size_t d = c % 3 == 2 ? c - 2 : c + 1;
+    const std::uint32_t a = triangles[c / 3][c % 3], b = triangles[d / 3][d % 3];
+    edges.push_back(a < b ? Half_edge{a, b, c, d} : Half_edge{b, a, d, c});
+  }
+  std::sort(edges.begin(), edges.end());
+
+  Disjoint_sets<std::size_t> fans(3 * triangles.size()); // of corners
+  for (std::size_t n = 1; n < edges.size(); ++n) {
+    if (edges[n - 1] < edges[n]) continue;
+    fans.unite(edges[n].first_corner, edges[n - 1].first_corner);
+    fans.unite(edges[n].second_corner, edges[n - 1].second_corner);
+  }
+
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> vertex_of_fan(3 * triangles.size(), none);
+  std::vector<bool> is_taken(number_of_vertices, false);
+  for (std::size_t c = 0; c < 3 * triangles.size(); ++c) {
+    std::uint32_t& corner = triangles[c / 3][c % 3];
+    std::uint32_t& vertex = vertex_of_fan[fans.find(c)];
+    if (vertex == none) {
+      vertex = is_taken[corner] ? std::uint32_t(number_of_vertices++) : corner;
+      if (vertex == corner) is_taken[corner] = true;
+      else copy_vertex(corner);
+    }
+    corner = vertex;
+  }
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_NUMBER_PACK_H
+#define EQUIAFFINE_NUMBER_PACK_H
+
+#include <equiaffine/number/elementary_functions.h>
+#include <equiaffine/number/internal/Jet_functions_3.h>
+#include <equiaffine/number/lanes.h>
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <experimental/simd>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace equiaffine {
+
+/// Thrown where one decision is asked of lanes that do not agree: their points have to be taken one by one.
+struct Lanes_disagree : std::exception {
+  const char* what() const noexcept override { return "the lanes of a pack disagree"; }
+};
+
+namespace internal {
+
+/// Translation units that are compiled for different processors have different packs, never two of one name.
+template <class T>
+using Native_abi = std::experimental::simd_abi::native<T>;
+
+} // namespace internal
+
+/// A truth value per lane.
+template <class T, class Abi = internal::Native_abi<T>>
+struct Pack_mask {
+  using Simd_mask = std::experimental::simd_mask<T, Abi>;
+  Simd_mask lanes;
+
+  Pack_mask() = default;
+  Pack_mask(bool value) : lanes(value) {}
+  Pack_mask(const Simd_mask& values) : lanes(values) {}
+
+  bool operator[](std::size_t lane) const { return lanes[lane]; }
+
+  /// What all lanes say, so that code that branches serves packs where they agree. \throw Lanes_disagree
+  explicit operator bool() const {
+    if (all_of(lanes)) return true;
+    if (any_of(lanes)) throw Lanes_disagree();
+    return false;
+  }
+
+  [[gnu::always_inline]] friend Pack_mask operator!(const Pack_mask& a) { return !a.lanes; }
+  [[gnu::always_inline]] friend Pack_mask operator&&(const Pack_mask& a, const Pack_mask& b) {
+    return a.lanes && b.lanes;
+  }
+  [[gnu::always_inline]] friend Pack_mask operator||(const Pack_mask& a, const Pack_mask& b) {
+    return a.lanes || b.lanes;
+  }
+};
+
+/// As many numbers as one vector register holds under the compiler's flags, to be used as one number: a number type for
+/// Jet_3, Monge_chart_3 and what follows. Every operation is that of T in each lane, functions are those of <cmath> but
+/// for exp, sin and cos of doubles (internal/elementary_functions.h), so that, unless the compiler contracts products
+/// and sums (-ffp-contract=off), a lane has the bits that T would have.
+template <class T, class Abi = internal::Native_abi<T>>
+struct Pack {
+  using Simd = std::experimental::simd<T, Abi>;
+  using Mask = Pack_mask<T, Abi>;
+  static constexpr std::size_t size = Simd::size();
+
+  Simd lanes;
+
+  Pack() = default; // leaves the lanes uninitialised: zeroing them costs factors in jets
+  template <class Number>
+  Pack(const Number& value) requires(std::is_arithmetic_v<Number>) : lanes(static_cast<T>(value)) {}
+  Pack(const Simd& values) : lanes(values) {}
+
+  /// Lane i is f(i).
+  template <class F>
+  static Pack generate(F f) {
+    alignas(Simd) T values[size];
+    for (std::size_t i = 0; i < size; ++i) values[i] = f(i);
+    return Simd(values, std::experimental::vector_aligned);
+  }
+
+  /// Lane i is f(a[i]).
+  template <class F>
+  [[gnu::noinline]] static Pack lane_by_lane(const Pack& a, F f) {
+    return generate([&](std::size_t i) { return f(a[i]); });
+  }
+
+  T operator[](std::size_t lane) const { return lanes[lane]; }
+
+  [[gnu::always_inline]] Pack operator-() const { return -lanes; }
+  Pack operator+() const { return *this; }
+  Pack& operator+=(const Pack& b) { return *this = *this + b; }
+  Pack& operator-=(const Pack& b) { return *this = *this - b; }
+  Pack& operator*=(const Pack& b) { return *this = *this * b; }
+  Pack& operator/=(const Pack& b) { return *this = *this / b; }
+
+  [[gnu::always_inline]] friend Pack operator+(const Pack& a, const Pack& b) { return a.lanes + b.lanes; }
+  [[gnu::always_inline]] friend Pack operator-(const Pack& a, const Pack& b) { return a.lanes - b.lanes; }
+  [[gnu::always_inline]] friend Pack operator*(const Pack& a, const Pack& b) { return a.lanes * b.lanes; }
+  [[gnu::always_inline]] friend Pack operator/(const Pack& a, const Pack& b) { return a.lanes / b.lanes; }
+
+  [[gnu::always_inline]] friend Mask operator<(const Pack& a, const Pack& b) { return a.lanes < b.lanes; }
+  [[gnu::always_inline]] friend Mask operator>(const Pack& a, const Pack& b) { return a.lanes > b.lanes; }
+  [[gnu::always_inline]] friend Mask operator<=(const Pack& a, const Pack& b) { return a.lanes <= b.lanes; }
+  [[gnu::always_inline]] friend Mask operator>=(const Pack& a, const Pack& b) { return a.lanes >= b.lanes; }
+  [[gnu::always_inline]] friend Mask operator==(const Pack& a, const Pack& b) { return a.lanes == b.lanes; }
+  [[gnu::always_inline]] friend Mask operator!=(const Pack& a, const Pack& b) { return a.lanes != b.lanes; }
+
+  [[gnu::always_inline]] friend Pack select(const Mask& condition, const Pack& yes, const Pack& no) {
+    Simd r = no.lanes;
+    where(condition.lanes, r) = yes.lanes;
+    return r;
+  }
+
+  [[gnu::always_inline]] friend Pack abs(const Pack& a) { return std::experimental::abs(a.lanes); }
+  [[gnu::always_inline]] friend Pack sqrt(const Pack& a) { return std::experimental::sqrt(a.lanes); }
+  /// A NaN in either argument gives NaN.
+  friend Pack min(const Pack& a, const Pack& b) { return select(a < b || a != a, a, b); }
+  friend Pack max(const Pack& a, const Pack& b) { return select(a > b || a != a, a, b); }
+
+#define EQUIAFFINE_PACK_FUNCTION(name)                                                                                 \
+  friend Pack name(const Pack& a) {                                                                                    \
+    return lane_by_lane(a, [](T u) { return std::name(u); });                                                          \
+  }
+  EQUIAFFINE_PACK_FUNCTION(cbrt)
+  EQUIAFFINE_PACK_FUNCTION(log)
+  EQUIAFFINE_PACK_FUNCTION(tan)
+  EQUIAFFINE_PACK_FUNCTION(asin)
+  EQUIAFFINE_PACK_FUNCTION(acos)
+  EQUIAFFINE_PACK_FUNCTION(atan)
+  EQUIAFFINE_PACK_FUNCTION(sinh)
+  EQUIAFFINE_PACK_FUNCTION(cosh)
+  EQUIAFFINE_PACK_FUNCTION(tanh)
+#undef EQUIAFFINE_PACK_FUNCTION
+#define EQUIAFFINE_PACK_FUNCTION(name)                                                                                 \
+  friend Pack name(const Pack& a, const Pack& b) {                                                                     \
+    return generate([&](std::size_t i) { return std::name(a[i], b[i]); });                                             \
+  }
+  EQUIAFFINE_PACK_FUNCTION(pow)
+  EQUIAFFINE_PACK_FUNCTION(atan2)
+  EQUIAFFINE_PACK_FUNCTION(hypot)
+#undef EQUIAFFINE_PACK_FUNCTION
+
+  [[gnu::always_inline]] friend Pack exp(const Pack& a) {
+    if constexpr (std::is_same_v<T, double>)
+      if (const Mask in_range = abs(a) <= Pack(internal::exponential_range); all_of(in_range.lanes))
+        return internal::exponential_in_range(a);
+    return lane_by_lane(a, [](T u) { return internal::exp_value(u); });
+  }
+  [[gnu::always_inline]] friend std::pair<Pack, Pack> sine_and_cosine(const Pack& a) {
+    if constexpr (std::is_same_v<T, double>)
+      if (const Mask in_range = abs(a) <= Pack(internal::circular_range); all_of(in_range.lanes))
+        return internal::sine_and_cosine_in_range(a);
+    return {lane_by_lane(a, [](T u) { return internal::sine_and_cosine(u).first; }),
+            lane_by_lane(a, [](T u) { return internal::sine_and_cosine(u).second; })};
+  }
+  friend Pack sin(const Pack& a) { return sine_and_cosine(a).first; }
+  friend Pack cos(const Pack& a) { return sine_and_cosine(a).second; }
+
+  /// Lane by lane what internal/elementary_functions.h has for a double.
+  [[gnu::always_inline]] friend Pack scaled_exponential(const Pack& k, const Pack& p) {
+    using Integers = std::experimental::rebind_simd_t<std::int64_t, Simd>;
+    using Table = internal::Exponential_table;
+    const auto bits = std::bit_cast<Integers>(k.lanes);
+    const Integers n = bits & (Table::size - 1);
+    const Simd high([&](auto i) { return internal::exponential_table.high[std::size_t(n[i])]; });
+    const Simd low([&](auto i) { return internal::exponential_table.low[std::size_t(n[i])]; });
+    const Simd e = high + (low + high * p.lanes);
+    return std::bit_cast<Simd>(std::bit_cast<Integers>(e) + ((bits >> std::countr_zero(unsigned(Table::size))) << 52));
+  }
+
+  /// a^n as jets of T compute it.
+  friend Pack natural_power(const Pack& a, unsigned n) {
+    return generate([&](std::size_t i) { return internal::natural_power(a[i], n); });
+  }
+
+  /// As for an ordered number, see internal/kinks.h.
+  friend Pack branch_or_kink(const Pack& u, const Pack& v, const Pack& a, const Pack& b, int degree) {
+    const Pack at_kink = degree == 0 ? select(u == v, a, u + v) : Pack(std::numeric_limits<T>::quiet_NaN());
+    return select(u > v, a, select(v > u, b, at_kink));
+  }
+};
+
+} // namespace equiaffine
+
+/// Those of a lane; they convert to a pack.
+template <class T, class Abi>
+struct std::numeric_limits<equiaffine::Pack<T, Abi>> : std::numeric_limits<T> {};
+
+#endif

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Elementary functions of intervals. Included by Interval.h.
+#ifndef EQUIAFFINE_NUMBER_INTERNAL_INTERVAL_FUNCTIONS_H
+#define EQUIAFFINE_NUMBER_INTERNAL_INTERVAL_FUNCTIONS_H
+
+#include <equiaffine/number/Interval.h>
+#include <equiaffine/number/elementary_functions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace equiaffine {
+
+/// How far a computed function may be from the true value, in units in the last place.
+inline constexpr int function_error_ulps = 8;
+
+namespace internal {
+
+template <class F>
+Interval increasing(F f, const Interval& a) {
+  return Interval::widened(f(a.lower()), f(a.upper()), function_error_ulps);
+}
+
+/// The part of a between two numbers; the whole line if there is none.
+inline Interval clamped(const Interval& a, double lower, double upper) {
+  return Interval(std::max(a.lower(), lower), std::min(a.upper(), upper));
+}
+
+/// Whether a contains offset + period n for an integer n; errs on the side of true.
+inline bool contains_multiple(const Interval& a, double offset, double period) {
+  const Interval n = (a - Interval::widened(offset, offset)) / Interval::widened(period, period);
+  return std::floor(n.upper()) >= std::ceil(n.lower());
+}
+
+} // namespace internal
+
+/// The hook of internal/kinks.h, found by argument-dependent lookup.
+inline Interval branch_or_kink(const Interval& u, const Interval& v, const Interval& a, const Interval& b, int degree) {
+  if (u.lower() > v.upper()) return a;
+  if (v.lower() > u.upper()) return b;
+  if (degree == 0) return Interval(std::max(u.lower(), v.lower()), std::max(u.upper(), v.upper()));
+  return degree == 1 ? Interval::hull(a, b) : Interval::whole();
+}
+
+inline Interval abs(const Interval& a) {
+  const double p = std::abs(a.lower()), q = std::abs(a.upper());
+  return Interval(a.contains(0) ? 0 : std::min(p, q), std::max(p, q));
+}
+
+inline Interval max(const Interval& a, const Interval& b) { return branch_or_kink(a, b, a, b, 0); }
+inline Interval min(const Interval& a, const Interval& b) { return -max(-a, -b); }
+
+inline Interval sqrt(const Interval& a) {
+  if (a.upper() < 0) return Interval::whole();
+  const Interval r = Interval::widened(std::sqrt(std::max(a.lower(), 0.0)), std::sqrt(a.upper()));
+  return Interval(std::max(r.lower(), 0.0), r.upper());
+}
+
+inline Interval cbrt(const Interval& a) {
+  return internal::increasing([](double u) { return std::cbrt(u); }, a);
+}
+
+inline Interval exp(const Interval& a) {
+  const Interval r = internal::increasing([](double u) { return internal::exp_value(u); }, a);
+  return Interval(std::max(r.lower(), 0.0), r.upper());
+}
+
+inline Interval log(const Interval& a) {
+  if (a.upper() <= 0) return Interval::whole();
+  return internal::increasing([](double u) { return std::log(u); }, Interval(std::max(a.lower(), 0.0), a.upper()));
+}
+
+/// a^n, monotone in a or, for even n, in |a|. It also is the hook for the powers in Jet_functions_3.h, where repeated
+/// squaring would take the factors for independent.
+inline Interval natural_power(const Interval& a, unsigned n) {
+  if (n == 0) return Interval(1);
+  if (n == 1) return a;
+  if (n == 2) return square(a);
+  if (n % 2 == 1) return internal::increasing([n](double u) { return std::pow(u, n); }, a);
+  const Interval m = abs(a);
+  const Interval r = internal::increasing([n](double u) { return std::pow(u, n); }, m);
+  return Interval(std::max(r.lower(), 0.0), r.upper());
+}
+
+/// Integer power.
+inline Interval pow(const Interval& a, int n) {
+  return n < 0 ? Interval(1) / natural_power(a, 0u - unsigned(n)) : natural_power(a, unsigned(n));
+}
+
+/// Real power: of the part of a that is not negative, and of the rest where b contains a whole number.
+inline Interval pow(const Interval& a, const Interval& b) {
+  const double n = std::floor(b.upper()); // the largest whole number that b can contain
+  const bool is_whole = b.lower() == n && b.upper() == n && std::abs(n) <= std::numeric_limits<int>::max();
+  if (is_whole) return pow(a, int(n));
+  return a.lower() < 0 && b.lower() <= n ? Interval::whole() : exp(b * log(a));
+}
+
+namespace internal {
+
+/// Bounds of a sine wave f, whose maxima lie at maximum + 2 pi n.
+template <class F>
+Interval sine_wave(F f, const Interval& a, double maximum) {
+  using std::numbers::pi;
+  constexpr double largest = 1e8; // beyond, whole periods are not told apart with certainty
+  if (!(std::abs(a.lower()) < largest && std::abs(a.upper()) < largest)) return Interval(-1, 1);
+  const double p = f(a.lower()), q = f(a.upper());
+  const Interval r = clamped(Interval::widened(std::min(p, q), std::max(p, q), function_error_ulps), -1, 1);
+  return Interval(contains_multiple(a, maximum - pi, 2 * pi) ? -1 : r.lower(),
+                  contains_multiple(a, maximum, 2 * pi) ? 1 : r.upper());
+}
+
+} // namespace internal
+
+inline Interval sin(const Interval& a) {
+  return internal::sine_wave([](double u) { return std::sin(u); }, a, std::numbers::pi / 2);
+}
+
+inline Interval cos(const Interval& a) {
+  return internal::sine_wave([](double u) { return std::cos(u); }, a, 0);
+}
+
+inline Interval tan(const Interval& a) {
+  using std::numbers::pi;
+  if (internal::contains_multiple(a, pi / 2, pi)) return Interval::whole();
+  return internal::increasing([](double u) { return std::tan(u); }, a);
+}
+
+inline Interval asin(const Interval& a) {
+  if (a.lower() > 1 || a.upper() < -1) return Interval::whole();
+  return internal::increasing([](double u) { return std::asin(u); }, internal::clamped(a, -1, 1));
+}
+
+inline Interval acos(const Interval& a) {
+  if (a.lower() > 1 || a.upper() < -1) return Interval::whole();
+  return -internal::increasing([](double u) { return -std::acos(u); }, internal::clamped(a, -1, 1));
+}
+
+inline Interval atan(const Interval& a) {
+  return internal::increasing([](double u) { return std::atan(u); }, a);
+}
+
+/// The other hook of internal/kinks.h.
+inline Interval factor_for_jump(const Interval& y, const Interval& x) {
+  return x.lower() <= 0 && y.contains(0) ? Interval::whole() : Interval(1);
+}
+
+/// The angle of (x, y): the whole range where the box contains the origin or meets the cut along the negative x-axis.
+inline Interval atan2(const Interval& y, const Interval& x) {
+  using std::numbers::pi;
+  if (x.lower() <= 0 && y.contains(0)) return Interval::widened(-pi, pi, function_error_ulps);
+  const double angles[4] = {std::atan2(y.lower(), x.lower()), std::atan2(y.lower(), x.upper()),
+                            std::atan2(y.upper(), x.lower()), std::atan2(y.upper(), x.upper())};
+  return Interval::widened(*std::min_element(angles, angles + 4), *std::max_element(angles, angles + 4),
+                           function_error_ulps);
+}
+
+inline Interval sinh(const Interval& a) {
+  return internal::increasing([](double u) { return std::sinh(u); }, a);
+}
+
+inline Interval cosh(const Interval& a) {
+  const Interval m = abs(a);
+  const Interval r = internal::increasing([](double u) { return std::cosh(u); }, m);
+  return Interval(std::max(r.lower(), 1.0), r.upper());
+}
+
+inline Interval tanh(const Interval& a) {
+  return internal::clamped(internal::increasing([](double u) { return std::tanh(u); }, a), -1, 1);
+}
+
+inline Interval hypot(const Interval& x, const Interval& y) {
+  const Interval p = abs(x), q = abs(y);
+  const Interval r =
+      Interval::widened(std::hypot(p.lower(), q.lower()), std::hypot(p.upper(), q.upper()), function_error_ulps);
+  return Interval(std::max(r.lower(), 0.0), r.upper());
+}
+
+} // namespace equiaffine
+
+#endif

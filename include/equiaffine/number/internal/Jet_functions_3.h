@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Functions of jets: division, powers, elementary functions. Included by Jet_3.h.
+#ifndef EQUIAFFINE_NUMBER_INTERNAL_JET_FUNCTIONS_3_H
+#define EQUIAFFINE_NUMBER_INTERNAL_JET_FUNCTIONS_3_H
+
+#include <equiaffine/number/Jet_3.h>
+#include <equiaffine/number/elementary_functions.h>
+#include <equiaffine/number/internal/Jet_ordering_3.h>
+#include <equiaffine/number/kinks.h>
+#include <equiaffine/number/lanes.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+namespace equiaffine {
+
+/// phi(a) for a univariate function phi with Taylor coefficients t[k] = phi^(k)(a_0) / k! at the value a_0 of the jet.
+/// With the homogeneous parts n1, n2, n3 of a - a_0 the powers need 111 products for a full jet, fewer than one product
+/// of two full jets (210): no power is formed beyond total order 4.
+template <class T, int Order, Monomial_set A>
+auto compose(const Jet_3<T, Order, A>& a, const std::array<T, 5>& t) {
+  const auto n1 = internal::part<1>(a);
+  const auto n2 = internal::part<2>(a);
+  const auto n3 = internal::part<3>(a);
+  const auto nilpotent = n1 + n2 + n3 + internal::part<4>(a);
+  const auto n11 = square(n1);
+  const auto sum = t[1] * nilpotent + t[2] * n11 + n1 * (T(T(2) * t[2]) * (n2 + n3) + t[3] * n11) +
+                   n2 * (t[2] * n2 + T(T(3) * t[3]) * n11) + t[4] * square(n11);
+  return Jet_3<T, Order, internal::closure(A & ~Monomial_set(1), Order)>(Jet_3<T, Order, 1>(t[0]) + sum);
+}
+
+namespace internal {
+
+/// x^n by repeated squaring, which loses up to n / 2 units in the last place, unless the C library does better.
+template <class T>
+T natural_power(T x, unsigned n) {
+  if constexpr (std::is_floating_point_v<T>)
+    if (n > 8) return std::pow(x, T(n));
+  T r(1);
+  for (bool first = true; n > 0; n >>= 1) {
+    if (n & 1) {
+      r = first ? x : r * x;
+      first = false;
+    }
+    if (n > 1) x = x * x;
+  }
+  return r;
+}
+
+/// a^p, given its value. Powers and logarithms are composed from a / a_0, which is near 1 at any scale of a: powers of
+/// a_0 itself would overflow.
+template <class T, int Order, Monomial_set A>
+auto real_power(const Jet_3<T, Order, A>& a, const T& value, const T& p) {
+  std::array<T, 5> t = {value, T(0), T(0), T(0), T(0)}; // (p choose k) value
+  for (int k = 1; k < 5; ++k) t[std::size_t(k)] = t[std::size_t(k - 1)] * (p - T(k - 1)) / T(k);
+  return compose(a * T(T(1) / a.value()), t);
+}
+
+/// exp(a), given its value.
+template <class T, int Order, Monomial_set A>
+auto exponential(const Jet_3<T, Order, A>& a, const T& e) {
+  return compose(a, std::array<T, 5>{T(1), T(1), T(0.5), fraction<1, 6, T>(), fraction<1, 24, T>()}) * e;
+}
+
+} // namespace internal
+
+template <class T, int Order, Monomial_set A>
+auto reciprocal(const Jet_3<T, Order, A>& a) {
+  const T r = T(1) / a.value();
+  return compose(a * r, std::array<T, 5>{r, -r, r, -r, r});
+}
+
+template <class T, int Order, Monomial_set A, Monomial_set B>
+auto operator/(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
+  return a * reciprocal(b);
+}
+
+template <class T, int Order, Monomial_set A, JetScalar<T> S>
+auto operator/(const S& s, const Jet_3<T, Order, A>& a) {
+  return T(s) * reciprocal(a);
+}
+
+template <class T, int Order, Monomial_set A>
+auto exp(const Jet_3<T, Order, A>& a) {
+  return internal::exponential(a, internal::exp_value(a.value()));
+}
+
+template <class T, int Order, Monomial_set A>
+auto log(const Jet_3<T, Order, A>& a) {
+  using std::log;
+  const T l = log(a.value());
+  const T one = T(1) + T(0) * l; // NaN where l is not finite: there 1 / a_0 alone could be
+  return compose(a * T(T(1) / a.value()),
+                 std::array<T, 5>{l, one, one * T(-0.5), one * internal::fraction<1, 3, T>(), one * T(-0.25)});
+}
+
+/// The root s from a = s^2, degree by degree: 2 s_0 s_n = a_n - (the products of lower parts).
+template <class T, int Order, Monomial_set A>
+auto sqrt(const Jet_3<T, Order, A>& a) {
+  using std::sqrt;
+  const T s0 = sqrt(a.value()), half = T(0.5) / s0;
+  const auto s1 = internal::part<1>(a) * half;
+  const auto s1_twice = s1 + s1;
+  const auto s2 = (internal::part<2>(a) - square(s1)) * half;
+  const auto s3 = (internal::part<3>(a) - s1_twice * s2) * half;
+  const auto s4 = (internal::part<4>(a) - (s1_twice * s3 + square(s2))) * half;
+  return Jet_3<T, Order, internal::closure(A & ~Monomial_set(1), Order)>(Jet_3<T, Order, 1>(s0) + s1 + s2 + s3 + s4);
+}
+
+template <class T, int Order, Monomial_set A>
+auto cbrt(const Jet_3<T, Order, A>& a) {
+  using std::cbrt;
+  return internal::real_power(a, T(cbrt(a.value())), T(T(1) / T(3)));
+}
+
+/// Integer power; also at zero for n >= 0.
+template <class T, int Order, Monomial_set A>
+auto pow(const Jet_3<T, Order, A>& a, int n) -> decltype(compose(a, std::array<T, 5>())) {
+  using internal::natural_power;
+  if (n < 0) return internal::real_power(a, T(T(1) / natural_power(a.value(), 0u - unsigned(n))), T(n));
+  if (n == 2) return square(a);
+  std::array<T, 5> t;
+  T binomial(1); // (n choose k)
+  for (int k = 0; k < 5; ++k) {
+    t[std::size_t(k)] = k > n ? T(0) : T(binomial * natural_power(a.value(), unsigned(n - k)));
+    binomial = binomial * (T(n) - T(k)) / T(k + 1);
+  }
+  return compose(a, t);
+}
+
+/// Real power; with a whole number as exponent the integer power.
+template <class T, int Order, Monomial_set A, JetScalar<T> S>
+auto pow(const Jet_3<T, Order, A>& a, const S& exponent) requires(!std::is_integral_v<S>) {
+  using std::pow;
+  if constexpr (std::is_floating_point_v<S>)
+    if (std::abs(exponent) <= S(std::numeric_limits<short>::max()) && exponent == std::trunc(exponent))
+      return pow(a, int(exponent));
+  return internal::real_power(a, T(pow(a.value(), T(exponent))), T(exponent));
+}
+
+template <class T, int Order, Monomial_set A, Monomial_set B>
+auto pow(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
+  using std::pow;
+  return internal::exponential(b * log(a), T(pow(a.value(), b.value())));
+}
+
+template <class T, int Order, Monomial_set A, JetScalar<T> S>
+auto pow(const S& base, const Jet_3<T, Order, A>& exponent) {
+  using std::log;
+  using std::pow;
+  return internal::exponential(exponent * T(log(T(base))), T(pow(T(base), exponent.value())));
+}
+
+template <class T, int Order, Monomial_set A>
+auto sin(const Jet_3<T, Order, A>& a) {
+  using internal::sine_and_cosine;
+  const auto [s, c] = sine_and_cosine(a.value());
+  return compose(
+      a, std::array<T, 5>{s, c, s * T(-0.5), c * internal::fraction<-1, 6, T>(), s * internal::fraction<1, 24, T>()});
+}
+
+template <class T, int Order, Monomial_set A>
+auto cos(const Jet_3<T, Order, A>& a) {
+  using internal::sine_and_cosine;
+  const auto [s, c] = sine_and_cosine(a.value());
+  return compose(
+      a, std::array<T, 5>{c, -s, c * T(-0.5), s * internal::fraction<1, 6, T>(), c * internal::fraction<1, 24, T>()});
+}
+
+template <class T, int Order, Monomial_set A>
+auto tan(const Jet_3<T, Order, A>& a) {
+  using std::tan;
+  const T t = tan(a.value()), t2 = t * t, d = T(1) + t2;
+  return compose(a, std::array<T, 5>{t, d, t * d, d * (T(1) + T(3) * t2) / T(3), t * d * (T(2) + T(3) * t2) / T(3)});
+}
+
+template <class T, int Order, Monomial_set A>
+auto sinh(const Jet_3<T, Order, A>& a) {
+  using std::cosh;
+  using std::sinh;
+  const T s = sinh(a.value()), c = cosh(a.value());
+  return compose(
+      a, std::array<T, 5>{s, c, s * T(0.5), c * internal::fraction<1, 6, T>(), s * internal::fraction<1, 24, T>()});
+}
+
+template <class T, int Order, Monomial_set A>
+auto cosh(const Jet_3<T, Order, A>& a) {
+  using std::cosh;
+  using std::sinh;
+  const T s = sinh(a.value()), c = cosh(a.value());
+  return compose(
+      a, std::array<T, 5>{c, s, c * T(0.5), s * internal::fraction<1, 6, T>(), c * internal::fraction<1, 24, T>()});
+}
+
+/// tanh' = 1 / cosh^2: 1 - tanh^2 would lose all digits for large arguments.
+template <class T, int Order, Monomial_set A>
+auto tanh(const Jet_3<T, Order, A>& a) {
+  using std::cosh;
+  using std::tanh;
+  const T t = tanh(a.value()), t2 = t * t, r = T(1) / cosh(a.value()), d = r * r;
+  return compose(a, std::array<T, 5>{t, d, -t * d, d * (T(3) * t2 - T(1)) / T(3), t * d * (T(2) - T(3) * t2) / T(3)});
+}
+
+namespace internal {
+
+/// Taylor coefficients 1 to 4 of asin at u; the value is left at zero.
+template <class T>
+std::array<T, 5> asin_derivatives(const T& u) {
+  using std::sqrt;
+  const T g2 = T(1) / ((T(1) - u) * (T(1) + u)), g = sqrt(g2), g3 = g * g2, u2 = u * u;
+  return {T(0), g, u * g3 / T(2), g2 * g3 * (T(1) + T(2) * u2) / T(6), g2 * g2 * g3 * u * (T(3) + T(2) * u2) / T(8)};
+}
+
+} // namespace internal
+
+template <class T, int Order, Monomial_set A>
+auto asin(const Jet_3<T, Order, A>& a) {
+  using std::asin;
+  auto t = internal::asin_derivatives(a.value());
+  t[0] = asin(a.value());
+  return compose(a, t);
+}
+
+template <class T, int Order, Monomial_set A>
+auto acos(const Jet_3<T, Order, A>& a) {
+  using std::acos;
+  auto t = internal::asin_derivatives(a.value());
+  for (T& coefficient : t) coefficient = -coefficient;
+  t[0] = acos(a.value());
+  return compose(a, t);
+}
+
+template <class T, int Order, Monomial_set A>
+auto atan(const Jet_3<T, Order, A>& a) {
+  using std::atan;
+  const T u = a.value(), g = T(1) / (T(1) + u * u), h = u * g, g2 = g * g, h2 = h * h;
+  return compose(a, std::array<T, 5>{atan(u), g, -g * h, g * (h2 - g2 / T(3)), g * h * (g2 - h2)});
+}
+
+/// The angle of (x, y), in (-pi, pi]: the angle of the direction (x_0, y_0) plus the angle relative to it, which is
+/// an arctangent at zero in every quadrant.
+template <class T, int Order, Monomial_set A, Monomial_set B>
+auto atan2(const Jet_3<T, Order, A>& y, const Jet_3<T, Order, B>& x) {
+  using std::abs, std::atan2, internal::factor_for_jump;
+  const T scale = T(1) / (abs(x.value()) + abs(y.value()));
+  const auto c = x * scale;
+  const auto s = y * scale;
+  auto across = c.value() * s - s.value() * c;
+  across.template at<0>() = T(0);
+  return compose(
+      across / (c.value() * c + s.value() * s),
+      std::array<T, 5>{atan2(y.value(), x.value()), factor_for_jump(y.value(), x.value()), T(0), T(-1) / T(3), T(0)});
+}
+
+namespace internal {
+
+/// The length of a vector of jets, given its value r, without overflow or underflow of the squares: the sum below
+/// is 1 plus a nilpotent part.
+template <class T, class... Jets>
+auto length(const T& r, const Jets&... x) {
+  const T s = T(1) / r;
+  return compose((square(x * s) + ...), std::array<T, 5>{r, r / T(2), -r / T(8), r / T(16), r * T(-5) / T(128)});
+}
+
+} // namespace internal
+
+/// sqrt(x^2 + y^2). At the origin the value is right and the derivatives are NaN (Interval: the whole line).
+template <class T, int Order, Monomial_set A, Monomial_set B>
+auto hypot(const Jet_3<T, Order, A>& x, const Jet_3<T, Order, B>& y) {
+  using std::hypot;
+  return internal::length(T(hypot(x.value(), y.value())), x, y);
+}
+
+/// sqrt(x^2 + y^2 + z^2), as for two.
+template <class T, int Order, Monomial_set A, Monomial_set B, Monomial_set C>
+auto hypot(const Jet_3<T, Order, A>& x, const Jet_3<T, Order, B>& y, const Jet_3<T, Order, C>& z) {
+  using std::hypot;
+  return internal::length(T(hypot(T(hypot(x.value(), y.value())), z.value())), x, y, z);
+}
+
+// Functions of a jet and a number.
+#define EQUIAFFINE_MIXED_JET_FUNCTION(name)                                                                            \
+  template <class T, int Order, Monomial_set A, JetScalar<T> S>                                                        \
+  auto name(const Jet_3<T, Order, A>& a, const S& s) {                                                                 \
+    return name(a, Jet_3<T, Order, 1>(T(s)));                                                                          \
+  }                                                                                                                    \
+  template <class T, int Order, Monomial_set A, JetScalar<T> S>                                                        \
+  auto name(const S& s, const Jet_3<T, Order, A>& a) {                                                                 \
+    return name(Jet_3<T, Order, 1>(T(s)), a);                                                                          \
+  }
+EQUIAFFINE_MIXED_JET_FUNCTION(max)
+EQUIAFFINE_MIXED_JET_FUNCTION(min)
+EQUIAFFINE_MIXED_JET_FUNCTION(hypot)
+EQUIAFFINE_MIXED_JET_FUNCTION(atan2)
+#undef EQUIAFFINE_MIXED_JET_FUNCTION
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SURFACE_CLIP_DOMAIN_3_H
+#define EQUIAFFINE_SURFACE_CLIP_DOMAIN_3_H
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+namespace equiaffine {
+
+/// A closed box or ball: a surface is looked for inside and cut off at its border.
+class Clip_domain_3 {
+public:
+  /// \pre the box has an interior
+  explicit Clip_domain_3(const CGAL::Bbox_3& box) : box_(box) { check(); }
+
+  /// A ball of positive radius.
+  Clip_domain_3(const std::array<double, 3>& center, double radius)
+      : box_(center[0] - radius, center[1] - radius, center[2] - radius, center[0] + radius, center[1] + radius,
+             center[2] + radius),
+        center_(center), radius_(radius) {
+    check();
+  }
+
+  /// The largest ball about the centre of a box that the box contains.
+  static Clip_domain_3 ball_in(const CGAL::Bbox_3& box) {
+    double radius = (box.max(0) - box.min(0)) / 2;
+    std::array<double, 3> center;
+    for (int a = 0; a < 3; ++a) {
+      radius = std::min(radius, (box.max(a) - box.min(a)) / 2);
+      center[std::size_t(a)] = (box.max(a) + box.min(a)) / 2;
+    }
+    return Clip_domain_3(center, radius);
+  }
+
+  bool is_ball() const { return radius_ > 0; }
+  const std::array<double, 3>& center() const { return center_; } ///< of the ball
+  double radius() const { return radius_; }                       ///< of the ball, 0 for a box
+  const CGAL::Bbox_3& bbox() const { return box_; }
+  double diagonal() const { return std::hypot(box_.x_span(), box_.y_span(), box_.z_span()); }
+
+  template <class Point_3>
+  bool contains(const Point_3& p) const {
+    double squared_distance = 0;
+    for (int a = 0; a < 3; ++a) {
+      if (!(p[a] >= box_.min(a) && p[a] <= box_.max(a))) return false;
+      squared_distance += (p[a] - center_[std::size_t(a)]) * (p[a] - center_[std::size_t(a)]);
+    }
+    return !is_ball() || squared_distance <= radius_ * radius_;
+  }
+
+  /// Whether a box has no point in the domain.
+  bool excludes(const CGAL::Bbox_3& box) const {
+    double squared_distance = 0;
+    for (int a = 0; a < 3; ++a) {
+      if (box.max(a) < box_.min(a) || box.min(a) > box_.max(a)) return true;
+      const double c = center_[std::size_t(a)], d = std::max({box.min(a) - c, c - box.max(a), 0.0});
+      squared_distance += d * d;
+    }
+    return is_ball() && squared_distance > radius_ * radius_;
+  }
+
+  /// The part of the line p + t d inside the domain, as first and last t, within the given ones.
+  template <class Point_3, class Vector_3>
+  std::optional<std::pair<double, double>> clip(const Point_3& p, const Vector_3& d, double first, double last) const {
+    for (int a = 0; a < 3; ++a) {
+      if (d[a] == 0) {
+        if (p[a] < box_.min(a) || p[a] > box_.max(a)) return std::nullopt;
+        continue;
+      }
+      const double s = (box_.min(a) - p[a]) / d[a], t = (box_.max(a) - p[a]) / d[a];
+      first = std::max(first, std::min(s, t));
+      last = std::min(last, std::max(s, t));
+    }
+    if (is_ball()) {
+      double dd = 0, qd = 0, qq = 0; // of q = p - center
+      for (int a = 0; a < 3; ++a) {
+        const double q = p[a] - center_[std::size_t(a)];
+        dd += d[a] * d[a];
+        qd += q * d[a];
+        qq += q * q;
+      }
+      const double discriminant = qd * qd - dd * (qq - radius_ * radius_);
+      if (!(discriminant > 0)) return std::nullopt;
+      first = std::max(first, (-qd - std::sqrt(discriminant)) / dd);
+      last = std::min(last, (-qd + std::sqrt(discriminant)) / dd);
+    }
+    if (!(first < last)) return std::nullopt;
+    return std::pair(first, last);
+  }
+
+private:
+  void check() const {
+    CGAL_precondition(box_.x_span() > 0 && box_.y_span() > 0 && box_.z_span() > 0);
+    CGAL_precondition(std::isfinite(diagonal()));
+  }
+
+  CGAL::Bbox_3 box_;
+  std::array<double, 3> center_{};
+  double radius_ = 0;
+};
+
+} // namespace equiaffine
+
+#endif

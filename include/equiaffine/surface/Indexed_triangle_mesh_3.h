@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SURFACE_INDEXED_TRIANGLE_MESH_3_H
+#define EQUIAFFINE_SURFACE_INDEXED_TRIANGLE_MESH_3_H
+
+#include <equiaffine/geometry/Point_status.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace equiaffine {
+
+/// A triangle mesh as plain arrays: `triangles[t]` holds three indices into `points`, counterclockwise seen from the
+/// side to which the surface's normals point.
+template <class Kernel>
+struct Indexed_triangle_mesh_3 {
+  std::vector<typename Kernel::Point_3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Numbers attached to points, one column per scalar in the order of the file, and the status, if it was asked for. A
+/// number that does not exist is NaN.
+struct Vertex_attributes {
+  struct Column {
+    std::string name;
+    std::vector<double> values;
+  };
+  std::vector<Column> columns;
+  std::optional<std::vector<Point_status>> status;
+
+  /// Whether every column and the status, if there is one, have `size` entries.
+  bool has_length(std::size_t size) const {
+    return (!status || status->size() == size) &&
+           std::all_of(columns.begin(), columns.end(), [&](const Column& c) { return c.values.size() == size; });
+  }
+};
+
+} // namespace equiaffine
+
+#endif

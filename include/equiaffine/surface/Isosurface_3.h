@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SURFACE_ISOSURFACE_3_H
+#define EQUIAFFINE_SURFACE_ISOSURFACE_3_H
+
+#include <equiaffine/geometry/Point_status.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/surface/Isosurface_repairs.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace equiaffine {
+
+/// What a sampler makes of the zero set of a function: a mesh and what is known about it.
+template <class Kernel>
+struct Isosurface_3 : Indexed_triangle_mesh_3<Kernel> {
+  /// Per point: REGULAR, or UNCONVERGED where it could not be put on the surface and stays at the linear intersection.
+  std::vector<Point_status> vertex_status;
+  Isosurface_repairs repairs;
+  std::size_t function_evaluations = 0; ///< of f, with or without derivatives
+  double sampling_seconds = 0, projection_seconds = 0;
+};
+
+} // namespace equiaffine
+
+#endif

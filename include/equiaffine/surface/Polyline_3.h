@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SURFACE_POLYLINE_3_H
+#define EQUIAFFINE_SURFACE_POLYLINE_3_H
+
+#include <vector>
+
+namespace equiaffine {
+
+/// A closed polyline does not repeat its first point.
+template <class Kernel>
+struct Polyline_3 {
+  std::vector<typename Kernel::Point_3> points;
+  bool is_closed = false;
+};
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SURFACE_CURVE_STEP_H
+#define EQUIAFFINE_SURFACE_CURVE_STEP_H
+
+#include <algorithm>
+#include <cmath>
+
+namespace equiaffine::internal {
+
+/// Of a jet of any order.
+template <class Vector_3, class Jet>
+Vector_3 gradient_of(const Jet& jet) {
+  return Vector_3(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]);
+}
+
+/// The step of least length to f = g = 0 by Newton's method; not finite where the gradients are parallel.
+template <class Vector_3, class Jet_f, class Jet_g>
+Vector_3 step_to_curve(const Jet_f& f, const Jet_g& g) {
+  const auto scale_of = [](const auto& jet) { // so that no product of four gradients over- or underflows
+    const auto& c = jet.coefficients();
+    using std::abs;
+    return std::max({abs(c[1]), abs(c[2]), abs(c[3])});
+  };
+  const auto s = scale_of(f), t = scale_of(g);
+  const Vector_3 u = gradient_of<Vector_3>(f) / s, v = gradient_of<Vector_3>(g) / t;
+  const auto a = f.value() / s, b = g.value() / t;
+  const auto uu = u * u, uv = u * v, vv = v * v, determinant = uu * vv - uv * uv;
+  return (uv * b - vv * a) / determinant * u + (uv * a - uu * b) / determinant * v;
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_VOLUME_LATTICE_3_H
+#define EQUIAFFINE_VOLUME_LATTICE_3_H
+
+#include <CGAL/Aff_transformation_3.h>
+#include <CGAL/Bbox_3.h>
+#include <CGAL/assertions.h>
+#include <CGAL/determinant.h>
+
+#include <array>
+#include <cstddef>
+
+namespace equiaffine {
+
+/// A grid of nx x ny x nz nodes in space: node (i, j, k) lies at origin + i e0 + j e1 + k e2. The steps e0, e1, e2 may
+/// have any lengths and directions, left-handed ones included; the precondition is a determinant that is not zero.
+/// Nodes are stored with i fastest. Lengths are those of the user's coordinates.
+template <class Kernel>
+class Lattice_3 {
+public:
+  using FT = typename Kernel::FT;
+  using Point_3 = typename Kernel::Point_3;
+  using Vector_3 = typename Kernel::Vector_3;
+  using Aff_transformation_3 = typename Kernel::Aff_transformation_3;
+  using Size = std::array<std::size_t, 3>;
+
+  Lattice_3(const Size& size, const Point_3& origin, const std::array<Vector_3, 3>& steps)
+      : size_(size), origin_(origin), steps_(steps) {
+    CGAL_precondition(size[0] >= 2 && size[1] >= 2 && size[2] >= 2);
+    CGAL_precondition(determinant() != FT(0));
+  }
+
+  /// The axis-parallel lattice whose corner nodes are the corners of `box`.
+  Lattice_3(const Size& size, const CGAL::Bbox_3& box)
+      : Lattice_3(size, Point_3(box.xmin(), box.ymin(), box.zmin()),
+                  {Vector_3((box.xmax() - box.xmin()) / double(size[0] - 1), 0, 0),
+                   Vector_3(0, (box.ymax() - box.ymin()) / double(size[1] - 1), 0),
+                   Vector_3(0, 0, (box.zmax() - box.zmin()) / double(size[2] - 1))}) {}
+
+  const Size& size() const { return size_; }
+  std::size_t number_of_nodes() const { return size_[0] * size_[1] * size_[2]; }
+  std::size_t index(std::size_t i, std::size_t j, std::size_t k) const { return (k * size_[1] + j) * size_[0] + i; }
+
+  const Point_3& origin() const { return origin_; }
+  const std::array<Vector_3, 3>& steps() const { return steps_; }
+
+  /// The point with lattice coordinates (u, v, w); nodes have integer ones.
+  Point_3 point(const FT& u, const FT& v, const FT& w) const {
+    return origin_ + (u * steps_[0] + v * steps_[1] + w * steps_[2]);
+  }
+
+  /// Volume of a cell, negative for a left-handed lattice.
+  FT determinant() const {
+    return CGAL::determinant(steps_[0].x(), steps_[0].y(), steps_[0].z(), steps_[1].x(), steps_[1].y(), steps_[1].z(),
+                             steps_[2].x(), steps_[2].y(), steps_[2].z());
+  }
+
+  /// The map from lattice coordinates to space.
+  Aff_transformation_3 transformation() const {
+    const auto& e = steps_;
+    return Aff_transformation_3(e[0].x(), e[1].x(), e[2].x(), origin_.x(), e[0].y(), e[1].y(), e[2].y(), origin_.y(),
+                                e[0].z(), e[1].z(), e[2].z(), origin_.z());
+  }
+
+  /// The image of the lattice under an affine map.
+  Lattice_3 transform(const Aff_transformation_3& map) const {
+    return Lattice_3(size_, map(origin_), {map(steps_[0]), map(steps_[1]), map(steps_[2])});
+  }
+
+  /// The box of the eight corner nodes.
+  CGAL::Bbox_3 bbox() const {
+    CGAL::Bbox_3 box = origin_.bbox();
+    for (int corner = 1; corner < 8; ++corner)
+      box += point(corner & 1 ? FT(size_[0] - 1) : FT(0), corner & 2 ? FT(size_[1] - 1) : FT(0),
+                   corner & 4 ? FT(size_[2] - 1) : FT(0))
+                 .bbox();
+    return box;
+  }
+
+private:
+  Size size_;
+  Point_3 origin_;
+  std::array<Vector_3, 3> steps_;
+};
+
+} // namespace equiaffine
+
+#endif

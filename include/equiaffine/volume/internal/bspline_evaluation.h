@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_EVALUATION_H
+#define EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_EVALUATION_H
+
+#include <equiaffine/number/monomials_3.h>
+#include <equiaffine/volume/bspline.h>
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <utility>
+
+namespace equiaffine::internal {
+
+/// As many numbers as one register of the target holds, by the vector extension that g++ and clang share.
+template <class FT>
+struct Spline_pack {
+#if defined(__AVX512F__)
+  static constexpr int bytes = 64;
+#elif defined(__AVX__)
+  static constexpr int bytes = 32;
+#else
+  static constexpr int bytes = 16;
+#endif
+  static constexpr int lanes = bytes / int(sizeof(FT));
+  typedef FT type __attribute__((vector_size(bytes)));
+
+  static type load(const FT* from) {
+    type pack;
+    std::memcpy(&pack, from, sizeof pack);
+    return pack;
+  }
+  static void store(const type& pack, FT* to) { std::memcpy(to, &pack, sizeof pack); }
+
+  /// The least multiple of `lanes` that is >= n.
+  static constexpr int round_up(int n) { return (n + lanes - 1) / lanes * lanes; }
+};
+
+/// How far beyond the last coefficient an evaluation may read (and ignore what it finds): one pack of any target.
+inline constexpr std::size_t overread = 16;
+
+/// f(0), ..., f(N - 1) with constant arguments, so that arrays indexed by them live in registers.
+template <int N, class F>
+void unrolled(F f) {
+  [&]<int... I>(std::integer_sequence<int, I...>) { (f(std::integral_constant<int, I>()), ...); }
+  (std::make_integer_sequence<int, N>());
+}
+
+/// The Taylor coefficients at t in [0, 1] of the n + 1 B-splines of a cell; row d: the d-th derivatives / d!.
+template <int Degree, int Order, class FT>
+struct Bspline_taylor {
+  static constexpr int width = Spline_pack<FT>::round_up(Degree + 1);
+  FT rows[Order + 1][width];
+
+  explicit Bspline_taylor(FT t) {
+    static constexpr auto basis = bspline_basis_polynomials<FT, Degree, width>();
+    const FT s = t - FT(0.5);
+    for (int r = 0; r < width;
+         r += Spline_pack<FT>::lanes) { // Horner's scheme with its derivatives, a B-spline per lane
+      typename Spline_pack<FT>::type b[Order + 1] = {};
+      b[0] = Spline_pack<FT>::load(&basis[Degree][r]);
+      unrolled<Degree>([&](auto step) {
+        unrolled<Order>([&](auto e) { b[Order - e] = b[Order - e] * s + b[Order - e - 1]; });
+        b[0] = b[0] * s + Spline_pack<FT>::load(&basis[Degree - 1 - step][r]);
+      });
+      unrolled<Order + 1>([&](auto d) { Spline_pack<FT>::store(b[d], rows[d] + r); });
+    }
+  }
+};
+
+/// Taylor coefficients of total order <= `Order` of the tensor product spline, in index space, at the offset t in
+/// [0, 1]^3 of a cell whose first tap is `*c`; taps are 1, `row` and `slab` apart along x, y and z.
+///
+/// Separable: first z for every derivative order k, then y for j + k <= Order, both with x in the lanes, so that the
+/// coefficients are read once and whole rows at a time; then x for i + j + k <= Order, with i in the lanes.
+template <int Degree, int Order, class FT>
+void contract(const FT* c, std::size_t row, std::size_t slab, const std::array<FT, 3>& t,
+              std::array<FT, std::size_t(number_of_monomials(Order))>& taylor) {
+  using Lanes = Spline_pack<FT>;
+  constexpr int taps = Degree + 1, width = Lanes::round_up(taps), orders = Order + 1;
+  const Bspline_taylor<Degree, Order, FT> bx(t[0]), by(t[1]), bz(t[2]);
+
+  FT lines[orders][orders][width]; // [k][j][x]
+  for (int x = 0; x < width; x += Lanes::lanes) {
+    typename Lanes::type along_z[orders][taps];
+    for (int y = 0; y < taps; ++y) {
+      typename Lanes::type sum[orders] = {};
+      for (int z = 0; z < taps; ++z) {
+        const auto pack = Lanes::load(c + std::size_t(z) * slab + std::size_t(y) * row + x);
+        unrolled<orders>([&](auto k) { sum[k] += bz.rows[k][z] * pack; });
+      }
+      unrolled<orders>([&](auto k) { along_z[k][y] = sum[k]; });
+    }
+    unrolled<orders>([&](auto k) {
+      typename Lanes::type sum[orders - k] = {};
+      for (int y = 0; y < taps; ++y) unrolled<orders - k>([&](auto j) { sum[j] += by.rows[j][y] * along_z[k][y]; });
+      unrolled<orders - k>([&](auto j) { Lanes::store(sum[j], lines[k][j] + x); });
+    });
+  }
+
+  FT transposed[taps][Lanes::round_up(orders)] = {}; // [x][i]
+  for (int x = 0; x < taps; ++x)
+    for (int i = 0; i < orders; ++i) transposed[x][i] = bx.rows[i][x];
+  unrolled<orders>([&](auto k) {
+    unrolled<orders - k>([&](auto j) {
+      constexpr int count = orders - k - j, packs = Lanes::round_up(count) / Lanes::lanes;
+      typename Lanes::type sum[packs] = {};
+      for (int x = 0; x < taps; ++x)
+        unrolled<packs>([&](auto p) { sum[p] += lines[k][j][x] * Lanes::load(transposed[x] + p * Lanes::lanes); });
+      unrolled<count>(
+          [&](auto i) { taylor[std::size_t(monomial_index(i, j, k))] = sum[i / Lanes::lanes][i % Lanes::lanes]; });
+    });
+  });
+}
+
+} // namespace equiaffine::internal
+
+#endif

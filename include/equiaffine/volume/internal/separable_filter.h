@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_VOLUME_INTERNAL_SEPARABLE_FILTER_H
+#define EQUIAFFINE_VOLUME_INTERNAL_SEPARABLE_FILTER_H
+
+#include <equiaffine/base/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// Applies filters of lines (Line_filter::apply says what they do) along x, y and z to size[0] x size[1] x size[2]
+/// samples. The result, `to`, has `padding` more nodes at each end of each axis.
+template <class ConcurrencyTag, class FT, class Filter>
+class Separable_filter {
+public:
+  using Size = std::array<std::size_t, 3>;
+
+  Separable_filter(const Size& size, std::size_t padding, FT* to)
+      : size_(size), row_(size[0] + 2 * padding), slab_(row_ * (size[1] + 2 * padding)), padding_(padding), to_(to) {}
+
+  void operator()(const std::array<const Filter*, 3>& filters, const FT* samples) const {
+    const auto [nx, ny, nz] = size_;
+    parallel_for<ConcurrencyTag>(0, ny * nz, [&, nx = nx, ny = ny](std::size_t line) {
+      const std::size_t j = line % ny, k = line / ny;
+      filters[0]->apply(samples + line * nx, nx, 1, to_ + (k + padding_) * slab_ + (j + padding_) * row_, 1);
+    });
+    parallel_for<ConcurrencyTag>(
+        0, nz, [&, ny = ny](std::size_t k) { in_place(*filters[1], to_ + (k + padding_) * slab_, ny, row_); });
+    parallel_for<ConcurrencyTag>(0, ny + 2 * padding_,
+                                 [&, nz = nz](std::size_t j) { in_place(*filters[2], to_ + j * row_, nz, slab_); });
+  }
+
+private:
+  /// The `count` rows that lie `stride` apart, after `padding` empty ones, in the direction across them.
+  void in_place(const Filter& filter, FT* rows, std::size_t count, std::size_t stride) const {
+    std::vector<FT> samples(count * row_);
+    for (std::size_t i = 0; i < count; ++i) std::copy_n(rows + (i + padding_) * stride, row_, &samples[i * row_]);
+    filter.apply(samples.data(), count, row_, rows, stride);
+  }
+
+  Size size_;
+  std::size_t row_, slab_, padding_;
+  FT* to_;
+};
+
+} // namespace equiaffine::internal
+
+#endif

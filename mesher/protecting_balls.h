@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_MESHER_PROTECTING_BALLS_H
+#define EQUIAFFINE_MESHER_PROTECTING_BALLS_H
+
+#include <equiaffine/surface/Polyline_3.h>
+
+#include <CGAL/Kernel/global_functions_3.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// A vertex of the mesh on a feature, and a ball that no other vertex may enter.
+template <class Kernel>
+struct Protecting_ball_3 {
+  typename Kernel::Point_3 center;
+  int dimension; ///< of the feature: 1 on a curve, 0 for a corner
+  double radius = 0;
+};
+
+/// Covers curves and corners with balls. In the regular triangulation of such balls the segments between neighbors on a
+/// curve are edges if the balls of neighbors overlap and no others do (Cheng, Dey, Ramos: Delaunay refinement for
+/// piecewise smooth complexes, 2010). Where curves are near each other, or meet in a sharp corner, balls are smaller
+/// and the more.
+template <class Kernel>
+class Protecting_balls_3 {
+  using Point_3 = typename Kernel::Point_3;
+
+public:
+  using Ball = Protecting_ball_3<Kernel>;
+  using Projection = std::function<std::optional<Point_3>(const Point_3&)>;
+
+  struct Segment {
+    std::size_t first, second; ///< balls
+    std::size_t curve;
+  };
+
+  /// Balls along a polyline of short segments, at distances of at most `size(p)`. `project(p)` is a point of the curve
+  /// near a point of the polyline, `project_end(p)` near an end, or nothing.
+  template <class Sizing>
+  void cover(const Polyline_3<Kernel>& curve, const Sizing& size, Projection project, const Projection& project_end) {
+    std::vector<Point_3> points = curve.points;
+    if (curve.is_closed) points.push_back(points.front());
+    std::vector<double> length = {0}; // along the polyline, in sizes
+    for (std::size_t n = 1; n < points.size(); ++n)
+      length.push_back(length.back() +
+                       distance(points[n - 1], points[n]) / size(CGAL::midpoint(points[n - 1], points[n])));
+    const auto pieces = std::max(3.0, std::ceil(length.back()));
+    std::vector<std::size_t> chain;
+    const auto append_end = [&](const Point_3& p) {
+      if (const auto end = project_end(p)) chain.push_back(corner(*end));
+    };
+    if (!curve.is_closed) append_end(points.front());
+    for (std::size_t k = curve.is_closed ? 0 : 1, n = 1; double(k) < pieces; ++k) {
+      const double at = length.back() * double(k) / pieces;
+      while (length[n] < at) ++n;
+      const double t = (at - length[n - 1]) / (length[n] - length[n - 1]);
+      if (const auto p = project(points[n - 1] + t * (points[n] - points[n - 1]))) chain.push_back(add(*p, 1));
+    }
+    if (!curve.is_closed) append_end(points.back());
+    for (std::size_t n = 1; n < chain.size(); ++n) join(chain[n - 1], chain[n]);
+    if (curve.is_closed && chain.size() > 2) join(chain.back(), chain.front());
+    projections_.push_back(std::move(project));
+  }
+
+  /// Sizes the balls, and adds some where neighbors would not overlap.
+  void complete() {
+    constexpr int rounds = 6; // each of which halves the distances that are left
+    for (int round = 0; round == 0 || (round < rounds && fill_gaps()); ++round) {
+      set_radii();
+      separate();
+      for (const int dimension : {0, 1}) // corners first: what meets there needs the smaller balls
+        for (const Segment& s : segments_) {
+          if (balls_[s.first].dimension == dimension) widen(s.first, s);
+          if (balls_[s.second].dimension == dimension) widen(s.second, s);
+        }
+    }
+  }
+
+  const std::vector<Ball>& balls() const { return balls_; }
+  const std::vector<Segment>& segments() const { return segments_; } ///< between neighbors on curves
+
+private:
+  static double distance(const Point_3& p, const Point_3& q) { return std::sqrt(CGAL::squared_distance(p, q)); }
+  double distance(std::size_t n, std::size_t m) const { return distance(balls_[n].center, balls_[m].center); }
+  bool overlap(const Segment& s) const {
+    return balls_[s.first].radius + balls_[s.second].radius > distance(s.first, s.second);
+  }
+
+  std::size_t add(const Point_3& p, int dimension) {
+    balls_.push_back({p, dimension});
+    neighbors_.emplace_back();
+    return balls_.size() - 1;
+  }
+
+  std::size_t corner(const Point_3& p) {
+    const auto known =
+        std::find_if(corners_.begin(), corners_.end(), [&](std::size_t n) { return balls_[n].center == p; });
+    if (known != corners_.end()) return *known;
+    corners_.push_back(add(p, 0));
+    return corners_.back();
+  }
+
+  void join(std::size_t a, std::size_t b) {
+    neighbors_[a].push_back(b);
+    neighbors_[b].push_back(a);
+    segments_.push_back({a, b, projections_.size()});
+  }
+
+  bool are_neighbors(std::size_t a, std::size_t b) const {
+    return std::find(neighbors_[a].begin(), neighbors_[a].end(), b) != neighbors_[a].end();
+  }
+
+  void set_radii() {
+    constexpr double overlap = 0.52; // radius / distance of neighbors
+    for (std::size_t n = 0; n < balls_.size(); ++n) {
+      double longest = 0;
+      for (const std::size_t m : neighbors_[n]) longest = std::max(longest, distance(n, m));
+      if (longest > 0) balls_[n].radius = std::min(overlap * longest, most_of_distance * nearest_neighbor(n));
+    }
+  }
+
+  double nearest_neighbor(std::size_t n) const {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const std::size_t m : neighbors_[n]) shortest = std::min(shortest, distance(n, m));
+    return shortest;
+  }
+
+  /// Reduces balls that overlap though they are no neighbors.
+  void separate() {
+    std::vector<std::size_t> order(balls_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return balls_[a].center.x() < balls_[b].center.x(); });
+    double largest = 0;
+    for (const Ball& ball : balls_) largest = std::max(largest, ball.radius);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (std::size_t j = i + 1; j < order.size(); ++j) {
+        Ball &a = balls_[order[i]], &b = balls_[order[j]];
+        if (b.center.x() - a.center.x() > 2 * largest) break;
+        if (are_neighbors(order[i], order[j])) continue;
+        const double scale = gap * distance(a.center, b.center) / (a.radius + b.radius);
+        if (scale >= gap) continue;
+        a.radius *= scale;
+        b.radius *= scale;
+      }
+  }
+
+  /// Enlarges ball n of a segment whose balls do not overlap, as far as all others let it.
+  void widen(std::size_t n, const Segment& s) {
+    if (overlap(s)) return;
+    const std::size_t other = s.first + s.second - n;
+    double radius = std::min(1.04 * distance(n, other) - balls_[other].radius, most_of_distance * nearest_neighbor(n));
+    for (std::size_t m = 0; m < balls_.size(); ++m)
+      if (m != n && !are_neighbors(n, m)) radius = std::min(radius, gap * (distance(n, m) - balls_[m].radius));
+    balls_[n].radius = std::max(balls_[n].radius, radius);
+  }
+
+  /// Whether a ball was added.
+  bool fill_gaps() {
+    const std::size_t size = segments_.size();
+    bool is_added = false;
+    for (std::size_t s = 0; s < size; ++s) {
+      const auto [a, b, curve] = segments_[s];
+      if (overlap(segments_[s])) continue;
+      const double length = distance(a, b);
+      const auto p = projections_[curve](CGAL::midpoint(balls_[a].center, balls_[b].center));
+      if (!p || !(std::max(distance(*p, balls_[a].center), distance(*p, balls_[b].center)) < length)) continue;
+      const std::size_t n = add(*p, 1);
+      std::replace(neighbors_[a].begin(), neighbors_[a].end(), b, n);
+      std::replace(neighbors_[b].begin(), neighbors_[b].end(), a, n);
+      neighbors_[n] = {a, b};
+      segments_[s].second = n;
+      segments_.push_back({n, b, curve});
+      is_added = true;
+    }
+    return is_added;
+  }
+
+  static constexpr double most_of_distance = 0.9; // of the nearest neighbor, which no ball contains
+  static constexpr double gap = 0.98;             // between balls that are no neighbors
+
+  std::vector<Ball> balls_;
+  std::vector<std::vector<std::size_t>> neighbors_; // along curves, per ball
+  std::vector<std::size_t> corners_;
+  std::vector<Segment> segments_;
+  std::vector<Projection> projections_; // of curves
+};
+
+} // namespace equiaffine::internal
+
+#endif

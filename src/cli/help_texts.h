@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_CLI_HELP_TEXTS_H
+#define EQUIAFFINE_SRC_CLI_HELP_TEXTS_H
+
+namespace equiaffine {
+
+// What stands above and below the list of options in the help of the program and of its commands. The first line of a
+// command's description is what the program's help says of it.
+
+inline constexpr const char* program_description =
+    R"(equiaffine - affine curvatures of implicit surfaces
+
+A function f on space comes from a formula, a volume of samples, or the distance to a mesh. Its level
+sets f = V are meshed, and every vertex gets its Euclidean and equi-affine differential invariants.
+
+Usage: equiaffine COMMAND [options]      equiaffine COMMAND --help      equiaffine --version
+)";
+
+inline constexpr const char* program_footer =
+    R"(Example: equiaffine mesh --function "x^2 + y^2/4 + z^2 = 1" --box -3 3 -3 3 -3 3 -o out.ply --html out.html
+
+Exit status: 0; 2 for an error in what was asked or given, with one line on standard error that says what to do;
+1 for a defect of the program. An output appears complete or not at all.)";
+
+inline constexpr const char* mesh_description =
+    R"(mesh a level set and compute the invariants at its vertices
+
+Usage: equiaffine mesh SOURCE [options] -o OUT [--html PAGE.html] [--stats FILE.json]
+)";
+
+inline constexpr const char* mesh_footer =
+    R"help(Examples:
+  equiaffine mesh --function "(x^2+y^2+z^2+R^2-r^2)^2 = 4*R^2*(x^2+y^2)" --set R=2 r=.5 \
+      --box -3 3 -3 3 -1 1 --resolution 128 -o torus.ply --html torus.html
+  equiaffine mesh --volume skull.nrrd --isovalue 2.9 --orientation against -o skull.ply
+  equiaffine mesh --distance-to bunny.off --attributes all -o bunny.ply \
+      --html bunny.html --color pick_invariant --up y
+
+All lengths are in the unit of the source; under p -> s p curvatures scale as: k1, k2, mean_curvature by s^-1,
+gaussian_curvature by s^-2, affine_gaussian_curvature by s^-3, affine_mean_curvature and pick_invariant by s^-1.5.
+A number that does not exist is nan, and the status of the vertex says why.)help";
+
+inline constexpr const char* evaluate_description =
+    R"(compute the invariants at given points, each on the level set through it
+
+Usage: equiaffine evaluate SOURCE --points IN.{csv,ply,off} -o OUT.{csv,ply} [options]
+)";
+
+inline constexpr const char* evaluate_footer =
+    R"(Rows keep their number and order and what else they hold; columns of the same name are replaced. A .ply keeps the
+columns that are numbers.
+
+Examples:
+  equiaffine evaluate --function "x*y*z" --points points.csv -o result.csv
+  echo "x,y,z
+  1,2,3" | equiaffine evaluate --function "x*y*z" --attributes normal,affine_mean_curvature --points - -o -)";
+
+inline constexpr const char* sample_description =
+    R"(write a function or a distance as a volume
+
+Usage: equiaffine sample (--function EXPR | --distance-to MESH) [options] -o VOLUME
+)";
+
+inline constexpr const char* sample_footer =
+    R"(Example: equiaffine sample --distance-to bunny.off --resolution 129 --type float -o bunny.nrrd)";
+
+inline constexpr const char* view_description =
+    R"(make a web page or a picture from a mesh with attributes
+
+Usage: equiaffine view MESH.ply [-o PAGE.html] [--png PICTURE.png] [options]
+)";
+
+inline constexpr const char* view_footer =
+    R"(Examples:
+  equiaffine view bunny.ply -o bunny.html --color mean_curvature
+  equiaffine view blobby.ply --png blobby.png --color affine_mean_curvature --range -2 2 --arrows affine_normal)";
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/option_values.h"
+
+#include <equiaffine/Input_error.h>
+
+#include <CGAL/determinant.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <system_error>
+
+namespace equiaffine {
+
+namespace {
+
+constexpr const char* axis_names = "XYZ";
+
+/// The whole word as a number, whatever the locale.
+template <class Number>
+std::optional<Number> parse_number(std::string_view word) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  Number number{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return number;
+}
+
+/// Insertions, deletions, replacements and swaps of neighbours that make one word of the other.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t(0));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      row[j + 1] = std::min({last[j + 1] + 1, row[j] + 1, last[j] + (a[i] == b[j] ? 0 : 1)});
+      if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j])
+        row[j + 1] = std::min(row[j + 1], before_last[j - 1] + 1);
+    }
+    before_last = last;
+    last = row;
+  }
+  return last.back();
+}
+
+} // namespace
+
+void fail_option(const std::string& option, const std::string& reason, const std::string& advice) {
+  throw Input_error(option + ": " + reason + "; " + advice);
+}
+
+double parse_finite_number(const std::string& option, const std::string& word) {
+  const std::optional<double> number = parse_number<double>(word);
+  if (!number) fail_option(option, "'" + word + "' is not a number", "write it like 2, -.5 or 1e-3");
+  if (!std::isfinite(*number)) fail_option(option, "'" + word + "' is not a finite number", "give a finite one");
+  return *number;
+}
+
+std::size_t parse_count(const std::string& option, const std::string& word, std::size_t minimum) {
+  const std::optional<std::size_t> number = parse_number<std::size_t>(word);
+  if (!number || *number < minimum)
+    fail_option(option, "'" + word + "' is not a whole number from " + std::to_string(minimum) + " on",
+                "give one, such as " + std::to_string(minimum < 2 ? 2 : 64));
+  return *number;
+}
+
+std::array<std::size_t, 3> parse_resolution(const std::string& option, const Words& words) {
+  if (words.size() != 1 && words.size() != 3)
+    fail_option(option, std::to_string(words.size()) + " numbers are given", "give one, N, or three, NX NY NZ");
+  std::array<std::size_t, 3> resolution{};
+  for (std::size_t a = 0; a < 3; ++a) resolution[a] = parse_count(option, words[words.size() == 3 ? a : 0], 2);
+  return resolution;
+}
+
+CGAL::Bbox_3 parse_box(const std::string& option, const Words& words) {
+  std::array<double, 6> bounds{};
+  for (std::size_t i = 0; i < 6; ++i) bounds[i] = parse_finite_number(option, words[i]);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::string axis(1, axis_names[a]);
+    if (!(bounds[2 * a] < bounds[2 * a + 1]))
+      fail_option(option,
+                  "the box is empty, " + axis + "MIN " + words[2 * a] + " is not below " + axis + "MAX " +
+                      words[2 * a + 1],
+                  "give XMIN XMAX YMIN YMAX ZMIN ZMAX");
+    if (!std::isfinite(bounds[2 * a + 1] - bounds[2 * a]))
+      fail_option(option, "the box is too large", "its sides must be finite numbers");
+  }
+  return {bounds[0], bounds[2], bounds[4], bounds[1], bounds[3], bounds[5]};
+}
+
+CGAL::Aff_transformation_3<Kernel> parse_transformation(const std::string& option, const Words& words) {
+  std::array<double, 9> m{}, n{};
+  for (std::size_t i = 0; i < 9; ++i) m[i] = parse_finite_number(option, words[i]);
+  for (std::size_t row = 0; row < 3; ++row) {
+    const double norm = std::hypot(m[3 * row], m[3 * row + 1], m[3 * row + 2]);
+    for (std::size_t i = 3 * row; i < 3 * row + 3; ++i) n[i] = norm > 0 ? m[i] / norm : 0;
+  }
+  // With rows of length one the determinant is the volume they span: below rounding they lie in a plane.
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  if (!(std::abs(CGAL::determinant(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8])) > rounding))
+    fail_option(option, "the matrix is singular", "give nine numbers, row by row, of a matrix with an inverse");
+  return {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]};
+}
+
+std::pair<std::string, double> parse_constant(const std::string& option, const std::string& word) {
+  const std::size_t equals = word.find('=');
+  if (equals == std::string::npos || equals == 0)
+    fail_option(option, "'" + word + "' is not of the form name=value", "write it like R=2");
+  return {word.substr(0, equals), parse_finite_number(option + " " + word, word.substr(equals + 1))};
+}
+
+std::size_t parse_choice(const std::string& option, const std::string& word,
+                         std::initializer_list<std::string_view> choices) {
+  const auto choice = std::find(choices.begin(), choices.end(), word);
+  if (choice == choices.end()) {
+    std::string list;
+    for (const std::string_view c : choices) list.append(list.empty() ? "" : " or ").append(c);
+    fail_option(option, "'" + word + "' is not known", "use " + list);
+  }
+  return std::size_t(choice - choices.begin());
+}
+
+std::string suggestion(const std::string& word, const Words& candidates) {
+  const std::string* best = nullptr;
+  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates)
+    if (const std::size_t distance = edit_distance(word, candidate); distance < least) {
+      least = distance;
+      best = &candidate;
+    }
+  return best ? ", did you mean '" + *best + "'?" : "";
+}
+
+} // namespace equiaffine

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "attributes/attribute_task.h"
+#include "attributes/error_columns.h"
+#include "commands/commands.h"
+#include "output/statistics.h"
+#include "source/source.h"
+#include "system/atomic_file.h"
+#include <equiaffine/Input_error.h>
+#include <equiaffine/io/read_points.h>
+#include <equiaffine/io/write_mesh.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace equiaffine {
+
+namespace {
+
+Mesh_format output_format(const std::string& path) {
+  if (path == "-") return Mesh_format::CSV;
+  const std::optional<Mesh_format> format = mesh_format(path);
+  if (format != Mesh_format::CSV && format != Mesh_format::PLY)
+    throw Input_error("cannot write '" + path + "': its extension is not that of a table of points; use .csv or .ply");
+  return *format;
+}
+
+/// A point that is nowhere is outside, whatever the function makes of its coordinates.
+void mark_points_at_infinity(const std::vector<Kernel::Point_3>& points, Vertex_attributes& attributes) {
+  if (!attributes.status) return;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Kernel::Point_3& p = points[i];
+    if (std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z())) continue;
+    (*attributes.status)[i] = Point_status::OUTSIDE;
+    for (auto& column : attributes.columns) column.values[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+} // namespace
+
+void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& progress) {
+  const Mesh_format format = output_format(options.output);
+  Output_file output(options.output);
+  progress.begin("reading the points");
+  const Point_table_3<Kernel> table = read_points<Kernel>(options.points);
+  const std::vector<Kernel::Point_3>& points = table.mesh.points;
+  const Source source = make_source(options.source, progress);
+  progress.begin("computing attributes");
+  Vertex_attributes attributes =
+      compute_attributes({source.function, options.orientation, points, options.attributes, options.estimator});
+  add_error_columns(source, options.source, points, attributes);
+  mark_points_at_infinity(points, attributes);
+  progress.begin("writing");
+  if (format == Mesh_format::CSV) write_CSV(output.stream(), table, attributes);
+  else write_PLY(output.stream(), table.mesh, merge_attributes(table.attributes, attributes));
+  progress.end();
+  output.commit();
+  if (options.output == "-") return;
+  out << points.size() << " points";
+  if (attributes.status) {
+    const auto counts = count(*attributes.status);
+    for (std::size_t i = 0; i < counts.size(); ++i)
+      if (counts[i] > 0) out << ", " << counts[i] << ' ' << to_string(Point_status(i));
+  }
+  out << "\nwrote " << options.output << '\n';
+}
+
+} // namespace equiaffine

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "attributes/attribute_task.h"
+#include "attributes/error_columns.h"
+#include "commands/commands.h"
+#include "output/statistics.h"
+#include "output/surface_output.h"
+#include "source/source.h"
+#include "system/atomic_file.h"
+#include "system/resources.h"
+#include <equiaffine/Input_error.h>
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/delaunay_surface.h>
+#include <equiaffine/function/sample_on_lattice.h>
+#include <equiaffine/marching_cubes.h>
+#include <equiaffine/parabolic_curves.h>
+#include <equiaffine/surface/distance_to_surface.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace equiaffine {
+
+namespace {
+
+struct Annotated_surface {
+  Isosurface_3<Kernel> mesh;
+  Vertex_attributes attributes;
+  std::array<std::size_t, number_of_point_statuses> status{};
+  std::optional<Completeness> completeness;
+  double max_distance = 0, annotation_seconds = 0;
+  std::optional<Parabolic_curves_3<Kernel>> curves; ///< if they were asked for
+};
+
+/// `place` is where it was looked for, `refinement` what may find more, if anything.
+template <class Traits>
+[[noreturn]] void fail_without_surface(const Traits& function, double isovalue, const std::string& place,
+                                       const std::string& refinement) {
+  const auto samples = [&] {
+    if constexpr (LatticeImplicitFunctionTraits_3<Traits>) {
+      Volume_3<Kernel> volume{function.lattice(), {}};
+      const auto [nx, ny, nz] = volume.lattice.size();
+      for (std::size_t k = 0; k < nz; ++k)
+        for (std::size_t j = 0; j < ny; ++j)
+          for (std::size_t i = 0; i < nx; ++i) volume.values.push_back(function.sample(i, j, k));
+      return volume;
+    } else
+      return sample_on_lattice<CGAL::Parallel_if_available_tag>(function, sampling_lattice(function, {33, 33, 33}));
+  }();
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (const double value : samples.values) {
+    if (value < least) least = value; // not std::min: values may be NaN
+    if (value > greatest) greatest = value;
+  }
+  std::ostringstream text;
+  const bool is_there = !refinement.empty() && least < isovalue && greatest > isovalue;
+  text << (is_there ? "no part of the surface f = " : "no surface f = ") << isovalue << (is_there ? " was found" : "")
+       << " in the " << place << ": at the nodes of a grid f ";
+  if (least <= greatest) text << "lies between " << least << " and " << greatest;
+  else text << "is undefined";
+  text << "; choose ";
+  if (is_there) text << refinement;
+  else text << "another --isovalue or box";
+  if (!is_there && least <= greatest && !refinement.empty()) text << ", or " << refinement;
+  throw Input_error(text.str());
+}
+
+template <class Traits>
+void sample(const Traits& function, const Mesh_options& options, const Marching_cubes_options& method,
+            Annotated_surface& surface) {
+  surface.mesh = marching_cubes<CGAL::Parallel_if_available_tag>(
+      function, parameters::vertex_position(method.vertices)
+                    .number_of_nodes(options.source.resolution.value_or(default_resolution(options.source.kind))));
+  if (surface.mesh.triangles.empty())
+    fail_without_surface(function.base(), options.isovalue, "box", "a finer --resolution");
+}
+
+double greatest_coordinate(const CGAL::Bbox_3& box) {
+  double greatest = 0;
+  for (int a = 0; a < 3; ++a) greatest = std::max({greatest, std::abs(box.min(a)), std::abs(box.max(a))});
+  return greatest;
+}
+
+/// The mesher computes polynomials of degree 6 in lengths, which must not over- or underflow.
+void check_box_of_delaunay_surface(const CGAL::Bbox_3& box, double diagonal) {
+  constexpr double least = 1e-40, greatest = 1e40;
+  const double farthest = std::max(diagonal, greatest_coordinate(box));
+  if (diagonal >= least && farthest <= greatest) return;
+  std::ostringstream text;
+  text << "the box of the function has the diagonal " << diagonal << ", and coordinates to " << farthest
+       << "; --method delaunay works with numbers from " << least << " to " << greatest << ": choose another unit";
+  throw Input_error(text.str());
+}
+
+/// Facets of a few units in the last place have no shape.
+void check_radius_of_delaunay_surface(const CGAL::Bbox_3& box, double radius) {
+  const double farthest = greatest_coordinate(box);
+  const double least = 1024 * std::numeric_limits<double>::epsilon() * farthest;
+  if (radius >= least) return;
+  std::ostringstream text;
+  text << "a radius of " << radius << " is too small beside coordinates to " << farthest << ", which takes " << least
+       << ": choose a larger --radius, or an origin nearer to the box";
+  throw Input_error(text.str());
+}
+
+template <class Traits>
+void sample(const Traits& function, const Mesh_options& options, const Delaunay_options& method,
+            Annotated_surface& surface) {
+  const CGAL::Bbox_3 box = function.bbox();
+  const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
+  check_box_of_delaunay_surface(box, diagonal);
+  Delaunay_criteria criteria = method.criteria;
+  criteria.radius = criteria.radius == 0 ? diagonal / 50 : std::min(criteria.radius, diagonal); // of no larger ball
+  if (criteria.distance == 0) criteria.distance = criteria.radius / 10;
+  check_memory_of_delaunay_surface(diagonal, criteria.radius, criteria.distance);
+  check_radius_of_delaunay_surface(box, criteria.radius);
+  const Clip_domain_3 domain = method.clips_to_ball ? Clip_domain_3::ball_in(box) : Clip_domain_3(box);
+  const auto parameters = parameters::clip(domain).facet_sizing(method.sizing);
+  auto mesh = options.curves ? delaunay_surface(function, criteria, parameters.parabolic_features())
+                             : delaunay_surface(function, criteria, parameters);
+  if (mesh.triangles.empty())
+    fail_without_surface(function.base(), options.isovalue, method.clips_to_ball ? "ball" : "box",
+                         mesh.is_certified ? "" : "a smaller --radius");
+  surface.completeness = {mesh.is_certified, std::move(mesh.undecided_boxes)};
+  if (options.curves) surface.curves = std::move(mesh.parabolic_curves);
+  surface.mesh = std::move(mesh);
+}
+
+/// `function` is the alternative of `source`.
+template <class Traits>
+Annotated_surface make_surface(const Traits& function, const Source& source, const Mesh_options& options,
+                               Progress& progress) {
+  // The mesh is that of f, so that the orientation changes nothing but the side to which it is turned.
+  const Level_set_traits_3<Traits> extracted(function, options.isovalue);
+  const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
+  Annotated_surface surface;
+  progress.begin("extracting the surface");
+  std::visit([&](const auto& method) { sample(extracted, options, method, surface); }, options.method);
+  if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
+    for (auto& triangle : surface.mesh.triangles) std::swap(triangle[1], triangle[2]);
+  const Stopwatch stopwatch;
+  progress.begin("computing attributes");
+  surface.max_distance = max_distance_to_surface<CGAL::Parallel_if_available_tag>(level_set, surface.mesh.points);
+  surface.mesh.function_evaluations += surface.mesh.points.size();
+  Attribute_selection selection = options.attributes;
+  selection.has_status = true; // also if it is not written: the statistics count it
+  surface.attributes = compute_attributes({source.function, options.orientation, surface.mesh.points, selection,
+                                           options.estimator, surface.mesh.vertex_status});
+  surface.mesh.function_evaluations += surface.mesh.points.size();
+  surface.status = count(*surface.attributes.status);
+  add_error_columns(source, options.source, surface.mesh.points, surface.attributes);
+  if (!options.attributes.has_status) surface.attributes.status.reset();
+  surface.annotation_seconds = stopwatch.seconds();
+  if (options.curves && !surface.curves) {
+    progress.begin("finding parabolic curves");
+    surface.curves = parabolic_curves<CGAL::Parallel_if_available_tag>(surface.mesh, level_set);
+  }
+  return surface;
+}
+
+Statistics make_statistics(const Mesh_options& options, const Annotated_surface& surface, const Source& source) {
+  Statistics statistics;
+  statistics.source = describe(options.source);
+  statistics.isovalue = options.isovalue;
+  statistics.vertices = surface.mesh.points.size();
+  statistics.faces = surface.mesh.triangles.size();
+  statistics.topology = mesh_topology(surface.mesh.triangles, surface.mesh.points.size());
+  statistics.status = surface.status;
+  statistics.max_distance_to_surface = surface.max_distance;
+  statistics.sample_seconds = surface.mesh.sampling_seconds;
+  statistics.project_seconds = surface.mesh.projection_seconds;
+  statistics.annotate_seconds = surface.annotation_seconds;
+  statistics.completeness = surface.completeness;
+  statistics.spline = source.spline;
+  statistics.function_evaluations = source.function_evaluations + surface.mesh.function_evaluations;
+  return statistics;
+}
+
+std::string text_of(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+Description make_description(const Mesh_options& options, const Statistics& statistics) {
+  Description description = {{"Level set f =", text_of(options.isovalue)}, {"of", statistics.source}};
+  for (const auto& [name, value] : options.source.constants)
+    description.emplace_back("with " + name + " =", text_of(value));
+  if (const auto& map = options.source.transformation) {
+    std::string rows;
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column)
+        rows += text_of(map->m(row, column)) + (column < 2 ? " " : row < 2 ? "; " : "");
+    description.emplace_back("transformed by", rows);
+  }
+  if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
+    description.emplace_back("Normals", "against the gradient");
+  description.emplace_back("Vertices", std::to_string(statistics.vertices));
+  description.emplace_back("Triangles", std::to_string(statistics.faces));
+  description.emplace_back("Components", std::to_string(statistics.topology.components));
+  description.emplace_back("Euler characteristic", std::to_string(statistics.topology.euler_characteristic));
+  return description;
+}
+
+std::string summary(const Parabolic_curves_3<Kernel>& curves) {
+  const std::size_t n = curves.polylines.size();
+  std::string text = std::to_string(n) + (n == 1 ? " parabolic curve" : " parabolic curves");
+  if (curves.unconverged_points > 0) text += ", " + std::to_string(curves.unconverged_points) + " points unconverged";
+  return text + '\n';
+}
+
+/// The outputs of the command. Making them finds out whether they can be written.
+struct Outputs {
+  explicit Outputs(const Mesh_options& options) {
+    check_surface_output(options.output);
+    if (options.png) check_picture_output(*options.png);
+    if (options.curves) check_curves_output(*options.curves);
+    files.emplace_back(options.output);
+    for (const auto& output : {options.html, options.png, options.curves, options.stats})
+      if (output) files.emplace_back(*output);
+  }
+
+  bool use_standard_output() const {
+    return std::any_of(files.begin(), files.end(), [](const Output_file& output) { return output.path() == "-"; });
+  }
+
+  std::vector<Output_file> files; // mesh, and if asked for page, picture, curves, statistics
+};
+
+} // namespace
+
+void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress) {
+  Outputs outputs(options);
+  if (options.source.derivatives == Derivatives::JETS && std::holds_alternative<Marching_cubes_options>(options.method))
+    check_memory_of_surface(options.source.resolution.value_or(default_resolution(options.source.kind)));
+  const Stopwatch source_stopwatch;
+  const Source source = make_source(options.source, progress);
+  const double source_seconds = source_stopwatch.seconds();
+  const Annotated_surface surface = std::visit(
+      [&](const auto& function) { return make_surface(function, source, options, progress); }, source.function);
+
+  const Stopwatch write_stopwatch;
+  progress.begin("writing");
+  Statistics statistics = make_statistics(options, surface, source);
+  statistics.sample_seconds += source_seconds;
+  auto file = outputs.files.begin();
+  write_surface(*file++, surface.mesh, surface.attributes);
+  if (options.html)
+    write_page(*file++, surface.mesh, surface.attributes, options.page, make_description(options, statistics));
+  if (options.png)
+    write_picture(*file++, surface.mesh, surface.attributes, options.page, options.picture,
+                  surface.curves ? surface.curves->polylines : std::vector<Polyline_3<Kernel>>());
+  if (options.curves) write_curves(*file++, *surface.curves);
+  for (Output_file& output : outputs.files) output.close();
+  statistics.write_seconds = write_stopwatch.seconds();
+  if (options.stats) file->stream() << to_JSON(statistics);
+  progress.end();
+  commit_all(outputs.files);
+  if (!outputs.use_standard_output()) {
+    out << summary(statistics);
+    if (options.curves) out << summary(*surface.curves);
+    for (const Output_file& output : outputs.files) out << "wrote " << output.path() << '\n';
+  }
+}
+
+} // namespace equiaffine

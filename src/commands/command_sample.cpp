@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/commands.h"
+#include "source/source.h"
+#include "system/atomic_file.h"
+#include "volume/volume_io.h"
+
+namespace equiaffine {
+
+void run_sample(const Sample_options& options, std::ostream& out, Progress& progress) {
+  check_volume_output(options.output);
+  Output_file output(options.output);
+  const Volume_3<Kernel> volume = sample_source(options.source, progress);
+  progress.begin("writing");
+  write_volume(output, volume, options.as_float);
+  progress.end();
+  output.commit();
+  const auto [nx, ny, nz] = volume.lattice.size();
+  out << nx << " x " << ny << " x " << nz << " nodes\nwrote " << options.output << '\n';
+}
+
+} // namespace equiaffine

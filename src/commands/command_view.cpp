@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/commands.h"
+#include "output/surface_output.h"
+#include "picture/draw_surface.h"
+#include "system/atomic_file.h"
+#include <equiaffine/Input_error.h>
+#include <equiaffine/io/read_PLY.h>
+#include <equiaffine/io/text_input.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <vector>
+
+namespace equiaffine {
+
+namespace {
+
+Annotated_mesh_3<Kernel> read_mesh(const std::string& path) {
+  if (path == "-") return read_PLY<Kernel>(std::cin, "standard input");
+  std::ifstream file = internal::open_input(path);
+  return read_PLY<Kernel>(file, path);
+}
+
+void check_color(const std::string& color, const Vertex_attributes& attributes) {
+  const bool is_column = std::any_of(attributes.columns.begin(), attributes.columns.end(),
+                                     [&](const auto& column) { return column.name == color; });
+  if (color.empty() || color == "plain" || (color == "status" && attributes.status) || is_column) return;
+  std::string names;
+  for (const auto& column : attributes.columns) names += column.name + ' ';
+  throw Input_error("--color: the mesh has no attribute '" + color + "'; use one of " + names + "or plain");
+}
+
+void check_arrows(const std::string& arrows, const Vertex_attributes& attributes) {
+  if (!arrows.empty() && !vector_columns(attributes, arrows))
+    throw Input_error("--arrows: the mesh has no vector '" + arrows + "'; it needs columns " + arrows + "_x, " +
+                      arrows + "_y and " + arrows + "_z");
+}
+
+} // namespace
+
+void run_view(const View_options& options, std::ostream& out) {
+  if (options.png) check_picture_output(*options.png);
+  std::vector<Output_file> outputs;
+  for (const auto& path : {options.html, options.png})
+    if (path) outputs.emplace_back(*path);
+  const Annotated_mesh_3<Kernel> surface = read_mesh(options.mesh);
+  if (surface.mesh.triangles.empty())
+    throw Input_error("cannot show '" + options.mesh + "': it has no faces; give a mesh");
+  check_color(options.page.color, surface.attributes);
+  check_arrows(options.picture.arrows, surface.attributes);
+  if (options.html)
+    write_page(outputs.front(), surface.mesh, surface.attributes, options.page,
+               {{"File", options.mesh},
+                {"Vertices", std::to_string(surface.mesh.points.size())},
+                {"Triangles", std::to_string(surface.mesh.triangles.size())}});
+  if (options.png) write_picture(outputs.back(), surface.mesh, surface.attributes, options.page, options.picture);
+  for (Output_file& output : outputs) output.close();
+  commit_all(outputs);
+  if (options.html == "-" || options.png == "-") return;
+  for (const Output_file& output : outputs) out << "wrote " << output.path() << '\n';
+}
+
+} // namespace equiaffine

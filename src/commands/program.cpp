@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/program.h"
+
+#include "commands/commands.h"
+#include "request/options.h"
+#include "system/progress.h"
+#include <equiaffine/Input_error.h>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#endif
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <new>
+
+namespace equiaffine {
+
+namespace {
+
+#ifdef CGAL_LINKED_WITH_TBB
+auto limit_threads(std::size_t threads) {
+  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+}
+#else
+std::unique_ptr<int> limit_threads(std::size_t) { return nullptr; } // there is one
+#endif
+
+void run_command(const Options& options, const Streams& streams) {
+  const auto limit = options.threads ? limit_threads(*options.threads) : nullptr;
+  Progress progress(streams.error, streams.error_is_terminal);
+  struct Runner {
+    std::ostream& out;
+    Progress& progress;
+    void operator()(const Information& information) const { out << information.text; }
+    void operator()(const Mesh_options& o) const { run_mesh(o, out, progress); }
+    void operator()(const Evaluate_options& o) const { run_evaluate(o, out, progress); }
+    void operator()(const Sample_options& o) const { run_sample(o, out, progress); }
+    void operator()(const View_options& o) const { run_view(o, out); }
+  };
+  std::visit(Runner{streams.out, progress}, options.command);
+}
+
+/// In one line, whatever the text.
+void report(std::ostream& stream, const std::string& kind, std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  stream << "equiaffine: " << kind << ": " << text << '\n';
+}
+
+} // namespace
+
+int run(const std::vector<std::string>& arguments, const Streams& streams) {
+  constexpr int success = 0, defect = 1, error_of_user = 2;
+  try {
+    run_command(parse_options(arguments), streams);
+    streams.out.flush();
+    return success;
+  } catch (const Input_error& error) {
+    report(streams.error, "error", error.what());
+    if (!error.excerpt().empty()) streams.error << error.excerpt() << (error.excerpt().ends_with('\n') ? "" : "\n");
+    return error_of_user;
+  } catch (const std::bad_alloc&) {
+    report(streams.error, "error",
+           "the memory of this computer is not enough; use a smaller --resolution or input, or a larger --radius");
+    return error_of_user;
+  } catch (const std::exception& error) {
+    report(streams.error, "internal error", error.what());
+    return defect;
+  }
+}
+
+} // namespace equiaffine

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_OUTPUT_STATISTICS_H
+#define EQUIAFFINE_SRC_OUTPUT_STATISTICS_H
+
+#include <equiaffine/geometry/Point_status.h>
+#include <equiaffine/mesh_topology.h>
+#include <equiaffine/volume/Sample_noise.h>
+#include <equiaffine/volume/Spline_scheme.h>
+
+#include <CGAL/Bbox_3.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace equiaffine {
+
+/// What a method that looks for all components of a surface says of its search.
+struct Completeness {
+  bool is_certified = false;
+  std::vector<CGAL::Bbox_3> undecided_boxes;
+};
+
+/// How samples became a spline, and what they are like.
+struct Spline_statistics {
+  int degree = 0;
+  Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
+  double smoothing = 0;
+  Sample_noise noise = {};
+};
+
+/// What is known about a mesh that was made.
+struct Statistics {
+  std::string source;
+  double isovalue = 0;
+  std::size_t vertices = 0, faces = 0;
+  Mesh_topology topology;
+  std::array<std::size_t, number_of_point_statuses> status{};
+  double max_distance_to_surface = 0; ///< in the unit of the coordinates; NaN if f is defined at no vertex
+  double sample_seconds = 0, project_seconds = 0, annotate_seconds = 0, write_seconds = 0;
+  std::size_t function_evaluations = 0;
+  std::optional<Completeness> completeness; ///< of a mesh by a method that has one
+  std::optional<Spline_statistics> spline;  ///< if derivatives are those of a spline
+};
+
+std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_status> status);
+
+/// One object, see `equiaffine mesh --help`. A distance that is not a finite number is null.
+std::string to_JSON(const Statistics& statistics);
+
+/// A few lines for people.
+std::string summary(const Statistics& statistics);
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "output/surface_output.h"
+
+#include "output/write_VTP.h"
+#include "picture/write_PNG.h"
+#include <equiaffine/Input_error.h>
+#include <equiaffine/io/text_input.h>
+#include <equiaffine/io/write_HTML.h>
+#include <equiaffine/io/write_curves.h>
+#include <equiaffine/io/write_mesh.h>
+
+#include <optional>
+
+namespace equiaffine {
+
+namespace {
+
+#ifdef EQUIAFFINE_WITH_VTK
+constexpr bool has_vtk = true;
+constexpr const char *surface_extensions = ".ply .off .obj .stl .vtp .csv", *curves_extensions = ".obj .vtp";
+#else
+constexpr bool has_vtk = false;
+constexpr const char *surface_extensions = ".ply .off .obj .stl .csv", *curves_extensions = ".obj";
+#endif
+
+bool is_VTP(const std::string& path) { return internal::has_extension(path, ".vtp"); }
+
+void check_output(const std::string& path, bool is_known, const std::string& known_extensions) {
+  if (path == "-" || is_known || (has_vtk && is_VTP(path))) return;
+  throw Input_error("cannot write '" + path +
+                    "': " + (is_VTP(path) ? "this equiaffine was built without VTK" : "its extension is not known") +
+                    "; use one of " + known_extensions);
+}
+
+} // namespace
+
+void check_surface_output(const std::string& path) {
+  check_output(path, mesh_format(path).has_value(), surface_extensions);
+}
+
+void check_curves_output(const std::string& path) {
+  check_output(path, internal::has_extension(path, ".obj"), curves_extensions);
+}
+
+void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh,
+                   const Vertex_attributes& attributes) {
+#ifdef EQUIAFFINE_WITH_VTK
+  if (is_VTP(file.path())) return write_VTP(file.stream(), mesh, attributes);
+#endif
+  write_mesh(file.stream(), mesh_format(file.path()).value_or(Mesh_format::OFF), mesh, attributes);
+}
+
+void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves) {
+#ifdef EQUIAFFINE_WITH_VTK
+  if (is_VTP(file.path())) return write_VTP(file.stream(), curves);
+#endif
+  write_OBJ(file.stream(), curves);
+}
+
+void check_picture_output(const std::string& path) {
+  if (!has_vtk) throw Input_error("cannot write '" + path + "': this equiaffine was built without VTK; use --html");
+  if (path != "-" && !internal::has_extension(path, ".png"))
+    throw Input_error("cannot write '" + path + "': a picture is a PNG file; give it the extension .png");
+}
+
+void write_picture([[maybe_unused]] Output_file& file, [[maybe_unused]] const Indexed_triangle_mesh_3<Kernel>& mesh,
+                   [[maybe_unused]] const Vertex_attributes& attributes, [[maybe_unused]] const Page_options& options,
+                   [[maybe_unused]] const Picture_options& picture,
+                   [[maybe_unused]] const std::vector<Polyline_3<Kernel>>& curves) {
+#ifdef EQUIAFFINE_WITH_VTK
+  const Surface_view view = {options.color, options.up, picture.size, picture.range, picture.arrows};
+  write_PNG(file.stream(), draw_surface(mesh, attributes, view, curves));
+#endif
+}
+
+void write_page(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
+                const Page_options& options, const Description& description) {
+  Html_options page;
+  page.color = attributes.columns.empty() && !attributes.status ? "plain" : options.color;
+  page.up = options.up;
+  page.description = description;
+  write_HTML(file.stream(), mesh, attributes, page);
+}
+
+} // namespace equiaffine

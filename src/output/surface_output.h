@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_OUTPUT_SURFACE_OUTPUT_H
+#define EQUIAFFINE_SRC_OUTPUT_SURFACE_OUTPUT_H
+
+#include "request/options.h"
+#include "system/atomic_file.h"
+#include "system/kernel.h"
+#include <equiaffine/parabolic_curves.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+/// Throws `Input_error` unless `write_surface` knows the extension of the path, or it is "-".
+void check_surface_output(const std::string& path);
+
+/// Writes the mesh in the format of the path's extension, OFF for "-", without committing.
+void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes);
+
+/// Throws `Input_error` unless `write_curves` knows the extension of the path, or it is "-".
+void check_curves_output(const std::string& path);
+
+/// Writes the curves in the format of the path's extension, OBJ for "-", without committing.
+void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves);
+
+/// Throws `Input_error` unless the path ends in .png, or is "-", and pictures can be written.
+void check_picture_output(const std::string& path);
+
+/// Writes the picture, without committing. `options.color` as for `write_page`; the curves are drawn, too.
+void write_picture(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
+                   const Page_options& options, const Picture_options& picture,
+                   const std::vector<Polyline_3<Kernel>>& curves = {});
+
+/// What a page says about its surface, in rows of two cells.
+using Description = std::vector<std::pair<std::string, std::string>>;
+
+/// Writes the page, without committing. `options.color` is a column, `status`, `plain`, or empty.
+void write_page(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
+                const Page_options& options, const Description& description);
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "picture/Surface_paint.h"
+
+#include <equiaffine/attributes/quantities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace equiaffine {
+
+namespace {
+
+Light light_of(const CGAL::IO::Color& color) {
+  const auto light = [](unsigned char byte) { return float(std::pow(byte / 255., 2.2)); };
+  return {light(color.red()), light(color.green()), light(color.blue())};
+}
+
+bool is_component(const std::string& name) {
+  return name.size() > 1 && (name.ends_with("_x") || name.ends_with("_y") || name.ends_with("_z") || name == "nx" ||
+                             name == "ny" || name == "nz" || name.starts_with("metric_"));
+}
+
+/// What the page shows first.
+std::string default_color(const Vertex_attributes& attributes) {
+  for (const internal::Quantity& quantity : internal::quantities)
+    if (find_column(attributes, std::string(quantity.name))) return std::string(quantity.name);
+  for (const auto& column : attributes.columns)
+    if (!is_component(column.name)) return column.name;
+  return attributes.status ? "status" : "plain";
+}
+
+std::string label_of(const std::string& name) {
+  const internal::Quantity* const quantity = internal::find_quantity(name);
+  if (quantity == nullptr) return name;
+  const std::string label(quantity->label);
+  if (quantity->weight == 0) return label;
+  return label + (quantity->weight % 2 == 0 ? ", length^" + std::to_string(quantity->weight / 2)
+                                            : ", length^(" + std::to_string(quantity->weight) + "/2)");
+}
+
+} // namespace
+
+const Vertex_attributes::Column* find_column(const Vertex_attributes& attributes, const std::string& name) {
+  for (const auto& column : attributes.columns)
+    if (column.name == name) return &column;
+  return nullptr;
+}
+
+Surface_paint::Surface_paint(const Vertex_attributes& attributes, const std::string& name,
+                             const std::optional<std::array<double, 2>>& range, double diagonal) {
+  if (attributes.status && name != "plain")
+    for (const Point_status status : *attributes.status) codes_.push_back(static_cast<std::uint8_t>(status));
+  if (const auto* column = find_column(attributes, name.empty() ? default_color(attributes) : name))
+    use(*column, range, diagonal);
+}
+
+Light Surface_paint::operator()(const std::array<std::uint32_t, 3>& triangle,
+                                const std::array<double, 3>& weights) const {
+  double level = 0, regular = 0;
+  std::array<double, number_of_point_statuses + 1> irregular{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint8_t code = codes_.empty() ? std::uint8_t(0) : codes_[triangle[k]];
+    if (code == 0) {
+      regular += weights[k];
+      if (legend_) level += weights[k] * levels_[triangle[k]];
+    } else irregular[code] += weights[k];
+  }
+  const auto most = std::max_element(irregular.begin(), irregular.end());
+  if (*most > regular) {
+    const auto code = std::size_t(most - irregular.begin());
+    return light_of(code == no_number ? undefined_color() : status_color(static_cast<Point_status>(code)));
+  }
+  if (!legend_) return light_of(plain_color());
+  const double place = std::clamp(level / regular, 0., 1.) * double(table_.size() - 1);
+  const auto below = std::min(std::size_t(place), table_.size() - 2);
+  Light light;
+  for (std::size_t n = 0; n < 3; ++n)
+    light[n] = table_[below][n] + float(place - double(below)) * (table_[below + 1][n] - table_[below][n]);
+  return light;
+}
+
+void Surface_paint::use(const Vertex_attributes::Column& column, const std::optional<std::array<double, 2>>& given,
+                        double diagonal) {
+  codes_.resize(column.values.size());
+  std::vector<double> shown;
+  for (std::size_t i = 0; i < codes_.size(); ++i) {
+    if (codes_[i] == 0 && !std::isfinite(column.values[i])) codes_[i] = no_number;
+    if (codes_[i] == 0) shown.push_back(column.values[i]);
+  }
+  Color_range range = color_range(std::move(shown), default_clip_percent, internal::resolution(column.name, diagonal));
+  Color_scale scale = preferred_scale(range);
+  if (given) {
+    const auto [lower, upper] = *given;
+    range = {lower, upper, 1, lower == -upper};
+    scale = Color_scale::LINEAR;
+  }
+  legend_ = {label_of(column.name), range, scale};
+  for (const double value : column.values) {
+    const double t = std::isfinite(value) ? map_position(value, range, scale) : 0;
+    levels_.push_back(range.is_diverging ? (t + 1) / 2 : t);
+  }
+  constexpr int entries = 257;
+  for (int i = 0; i < entries; ++i) {
+    const double t = double(i) / (entries - 1);
+    table_.push_back(light_of(range.is_diverging ? diverging_color(2 * t - 1) : sequential_color(t)));
+  }
+}
+
+} // namespace equiaffine

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_PICTURE_SURFACE_PAINT_H
+#define EQUIAFFINE_SRC_PICTURE_SURFACE_PAINT_H
+
+#include "picture/Canvas.h"
+#include <equiaffine/geometry/Point_status.h>
+#include <equiaffine/io/color_map.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace equiaffine {
+
+/// What the colors of a picture mean.
+struct Color_legend {
+  std::string label; ///< with the unit, if it is known
+  Color_range range;
+  Color_scale scale;
+};
+
+/// The column of that name, or null.
+const Vertex_attributes::Column* find_column(const Vertex_attributes& attributes, const std::string& name);
+
+/// The color of a surface at its vertices and between them.
+class Surface_paint {
+public:
+  /// `name` is a column, `status`, `plain`, or empty for what the page shows first; `range` has the numbers of the end
+  /// colors, in place of quantiles; `diagonal` is that of the box of the surface.
+  Surface_paint(const Vertex_attributes& attributes, const std::string& name,
+                const std::optional<std::array<double, 2>>& range, double diagonal);
+
+  /// If the colors are those of a number.
+  const std::optional<Color_legend>& legend() const { return legend_; }
+
+  /// As on the page: numbers are interpolated between the vertices that have one, and what has most weight wins.
+  Light operator()(const std::array<std::uint32_t, 3>& triangle, const std::array<double, 3>& weights) const;
+
+private:
+  static constexpr std::uint8_t no_number = number_of_point_statuses;
+
+  void use(const Vertex_attributes::Column& column, const std::optional<std::array<double, 2>>& range, double diagonal);
+
+  std::vector<std::uint8_t> codes_; // per vertex: 0 for its number, 1 to 4 for its status, no_number; empty: all 0
+  std::vector<double> levels_;      // per vertex, in [0, 1]
+  std::vector<Light> table_;
+  std::optional<Color_legend> legend_;
+};
+
+} // namespace equiaffine
+
+#endif

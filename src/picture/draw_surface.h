@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_PICTURE_DRAW_SURFACE_H
+#define EQUIAFFINE_SRC_PICTURE_DRAW_SURFACE_H
+
+#include "picture/Canvas.h"
+#include "picture/Surface_paint.h"
+#include "system/kernel.h"
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/surface/Polyline_3.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace equiaffine {
+
+/// How a surface is shown.
+struct Surface_view {
+  std::string color;                          ///< a column, `status`, `plain`, or empty for the page's choice
+  std::array<double, 3> up = {0, 0, 1};       ///< the direction that points up
+  std::array<std::size_t, 2> size;            ///< in pixels
+  std::optional<std::array<double, 2>> range; ///< the numbers of the end colors, instead of quantiles
+  std::string arrows;                         ///< a vector among the columns, or empty
+};
+
+/// A picture of a surface and what its colors mean, if they are those of a number.
+struct Surface_picture {
+  Picture picture;
+  std::optional<Color_legend> legend;
+};
+
+/// The rows at the bottom of a picture that are left free for its legend, if it has one.
+inline constexpr std::size_t legend_height = 56;
+
+/// The columns NAME_x, NAME_y, NAME_z, or nx, ny, nz for the name `normal`; nothing if one of them is missing.
+std::optional<std::array<const std::vector<double>*, 3>> vector_columns(const Vertex_attributes& attributes,
+                                                                        const std::string& name);
+
+/// Draws the surface as the page of write_HTML shows it first: the same view, colors and light. Curves are black
+/// lines.
+Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
+                             const Surface_view& view, std::span<const Polyline_3<Kernel>> curves = {});
+
+} // namespace equiaffine
+
+#endif

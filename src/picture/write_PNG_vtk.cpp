@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "picture/write_PNG.h"
+
+#include <vtkFreeTypeTools.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace equiaffine {
+
+namespace {
+
+enum class Alignment { LEFT, CENTER, RIGHT };
+
+/// Writes dark text of 13 pixels whose baseline is at row `y`.
+void draw_text(Picture& picture, const std::string& text, std::size_t x, std::size_t y, Alignment alignment) {
+  vtkNew<vtkTextProperty> style;
+  style->SetFontSize(13);
+  style->SetColor(0.1, 0.1, 0.1);
+  vtkNew<vtkImageData> image;
+  std::array<int, 2> size{};
+  constexpr int dots_per_inch = 72; // a point is a pixel
+  vtkFreeTypeTools::GetInstance()->ScaleToPowerTwoOff();
+  if (!vtkFreeTypeTools::GetInstance()->RenderString(style, text, dots_per_inch, image, size.data())) return;
+  const int* const extent = image->GetExtent(); // rows from the bottom; the baseline is row 0
+  const int left = int(x) - (alignment == Alignment::RIGHT    ? size[0]
+                             : alignment == Alignment::CENTER ? size[0] / 2
+                                                              : 0);
+  for (int row = extent[2]; row <= extent[3]; ++row)
+    for (int column = extent[0]; column <= extent[1]; ++column) {
+      const int to_x = left + column, to_y = int(y) - row;
+      if (to_x < 0 || to_y < 0 || to_x >= int(picture.width) || to_y >= int(picture.height)) continue;
+      const auto* const pixel = static_cast<const unsigned char*>(image->GetScalarPointer(column, row, 0));
+      unsigned char* const to = &picture.rgb[3 * (std::size_t(to_y) * picture.width + std::size_t(to_x))];
+      for (std::size_t n = 0; n < 3; ++n)
+        to[n] = static_cast<unsigned char>((pixel[n] * pixel[3] + to[n] * (255 - pixel[3])) / 255);
+    }
+}
+
+/// With as many digits as tell the numbers of the bar from one another, three or more.
+std::string short_number(double value, const Color_range& range) {
+  const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
+  const int digits = std::clamp(int(std::ceil(std::log10(largest / (range.upper - range.lower)))) + 3, 3, 15);
+  const bool is_round = digits < 5 && std::abs(value) >= 1e3 && std::abs(value) < 1e5; // no longer than with exponents
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), is_round ? "%.*f" : "%.*g", is_round ? 0 : digits, value);
+  return text.data();
+}
+
+/// The number at place t in [0, 1] of the bar.
+double number_at(const Color_legend& legend, double t) {
+  const auto& [lower, upper, knee, is_diverging] = legend.range;
+  if (is_diverging && t == 0.5) return 0; // to rounding
+  if (legend.scale == Color_scale::LINEAR) return lower + t * (upper - lower);
+  const double low = std::asinh(lower / knee), high = std::asinh(upper / knee);
+  return knee * std::sinh(low + t * (high - low));
+}
+
+void draw_legend(Picture& picture, const Color_legend& legend) {
+  constexpr std::size_t margin = 16, bar_height = 10;
+  const std::size_t left = margin, width = std::min<std::size_t>(300, picture.width - 2 * margin);
+  const std::size_t top = picture.height - margin - 20;
+  for (std::size_t i = 0; i < width; ++i) {
+    const double t = double(i) / double(width - 1);
+    const CGAL::IO::Color color = legend.range.is_diverging ? diverging_color(2 * t - 1) : sequential_color(t);
+    for (std::size_t row = top; row < top + bar_height; ++row) {
+      unsigned char* const to = &picture.rgb[3 * (row * picture.width + left + i)];
+      to[0] = color.red();
+      to[1] = color.green();
+      to[2] = color.blue();
+    }
+  }
+  draw_text(picture, legend.label, left, top - 7, Alignment::LEFT);
+  const auto number = [&](std::size_t i, std::size_t last) {
+    return short_number(number_at(legend, double(i) / double(last)), legend.range);
+  };
+  std::size_t last = 4, longest = 0;
+  for (std::size_t i = 0; i <= last; ++i) longest = std::max(longest, number(i, last).size());
+  if (8 * longest * (last + 1) > width) last = 2; // lest they touch
+  for (std::size_t i = 0; i <= last; ++i)
+    draw_text(picture, number(i, last), left + i * width / last, top + bar_height + 14,
+              i == 0      ? Alignment::LEFT
+              : i == last ? Alignment::RIGHT
+                          : Alignment::CENTER);
+}
+
+} // namespace
+
+void write_PNG(std::ostream& stream, const Surface_picture& surface) {
+  Picture picture = surface.picture;
+  if (surface.legend) draw_legend(picture, *surface.legend);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(int(picture.width), int(picture.height), 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  for (std::size_t row = 0; row < picture.height; ++row) // VTK's rows go up
+    std::copy_n(&picture.rgb[3 * row * picture.width], 3 * picture.width,
+                static_cast<unsigned char*>(image->GetScalarPointer(0, int(picture.height - 1 - row), 0)));
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(image);
+  writer->WriteToMemoryOn();
+  writer->Write();
+  vtkUnsignedCharArray& bytes = *writer->GetResult();
+  stream.write(reinterpret_cast<const char*>(bytes.GetPointer(0)), std::streamsize(bytes.GetNumberOfValues()));
+}
+
+} // namespace equiaffine

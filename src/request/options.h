@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_REQUEST_OPTIONS_H
+#define EQUIAFFINE_SRC_REQUEST_OPTIONS_H
+
+#include "system/kernel.h"
+#include "volume/raw_volume.h"
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/attributes.h>
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/delaunay_surface.h>
+#include <equiaffine/volume/Spline_scheme.h>
+
+#include <CGAL/Aff_transformation_3.h>
+#include <CGAL/Bbox_3.h>
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace equiaffine {
+
+enum class Source_kind { FUNCTION, VOLUME, DISTANCE };
+
+/// Where derivatives come from: the formula, or a spline through samples.
+enum class Derivatives { JETS, SPLINE };
+
+/// How samples become a function.
+struct Spline_options {
+  int degree = 7;
+  Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
+  std::optional<double> smoothing = 0; ///< a scale in voxels; nothing: as the noise needs it
+  std::optional<double> isovalue;      ///< where noise is measured; nothing: everywhere
+  bool estimates_errors = false;       ///< of affine curvatures
+};
+
+/// SOURCE of the command line, with what changes the function itself.
+struct Source_options {
+  Source_kind kind = Source_kind::FUNCTION;
+  std::string text; ///< the expression, or the path of the volume or mesh
+  std::map<std::string, double> constants;
+  std::optional<CGAL::Bbox_3> box;
+  std::optional<std::array<std::size_t, 3>> resolution;
+  Derivatives derivatives = Derivatives::JETS;
+  Spline_options spline;
+  std::optional<Raw_layout> raw;     ///< of a volume without a header
+  std::optional<double> narrow_band; ///< voxels beyond which distances are not needed
+  std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
+};
+
+/// What a page shows first.
+struct Page_options {
+  std::string color; ///< an attribute, `status`, `plain`, or empty
+  std::array<double, 3> up = {0, 0, 1};
+};
+
+/// What only a picture has.
+struct Picture_options {
+  std::array<std::size_t, 2> size = {1000, 800};
+  std::optional<std::array<double, 2>> range; ///< the numbers of the end colours
+  std::string arrows;                         ///< a vector among the attributes, or empty
+};
+
+struct Marching_cubes_options {
+  Vertex_position vertices = Vertex_position::PROJECTED;
+};
+
+struct Delaunay_options {
+  Delaunay_criteria criteria; ///< a length of 0 stands for its default
+  Facet_sizing sizing = Facet_sizing::UNIFORM;
+  bool clips_to_ball = false; ///< the largest one in the box
+};
+
+struct Mesh_options {
+  Source_options source;
+  double isovalue = 0;
+  Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
+  std::variant<Marching_cubes_options, Delaunay_options> method;
+  Attribute_selection attributes;
+  Estimator estimator = Estimator::COMPACT;
+  std::string output;
+  std::optional<std::string> html, png, curves, stats;
+  Page_options page;
+  Picture_options picture;
+};
+
+struct Evaluate_options {
+  Source_options source;
+  Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
+  Attribute_selection attributes;
+  Estimator estimator = Estimator::COMPACT;
+  std::string points, output;
+};
+
+struct Sample_options {
+  Source_options source;
+  bool as_float = false;
+  std::string output;
+};
+
+struct View_options {
+  std::string mesh;
+  std::optional<std::string> html, png; ///< one of them at least
+  Page_options page;
+  Picture_options picture;
+};
+
+/// A text that was asked for: help or version.
+struct Information {
+  std::string text;
+};
+
+struct Options {
+  std::variant<Information, Mesh_options, Evaluate_options, Sample_options, View_options> command;
+  std::optional<std::size_t> threads;
+};
+
+/// Reads the command line, without the program's name. Throws `Input_error` for everything that cannot be meant.
+Options parse_options(const std::vector<std::string>& arguments);
+
+/// The nodes per axis that hold for a source if none are given.
+std::array<std::size_t, 3> default_resolution(Source_kind kind);
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "source/source.h"
+
+#include "source/read_triangle_mesh.h"
+#include "system/resources.h"
+#include "volume/volume_io.h"
+#include <equiaffine/Input_error.h>
+#include <equiaffine/function/sample_on_lattice.h>
+#include <equiaffine/volume/Sample_noise.h>
+#include <equiaffine/volume/signed_distance_volume.h>
+
+#include <CGAL/tags.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace equiaffine {
+
+namespace {
+
+using Size = Lattice_3<Kernel>::Size;
+
+/// Throws unless every name that --set gives occurs in the formula, which has no errors.
+void check_constants_are_used(const Source_options& options) {
+  for (const auto& [name, value] : options.constants) {
+    auto others = options.constants;
+    others.erase(name);
+    try {
+      Expression_3(options.text, others);
+    } catch (const Input_error&) {
+      continue; // the name is missed
+    }
+    throw Input_error("--set " + name + ": the formula " + options.text + " has no '" + name +
+                      "'; correct the name or leave it out");
+  }
+}
+
+Formula_traits make_formula(const Source_options& options) {
+  // Without a box nothing will be sampled: points are given, and the box is not looked at.
+  Expression_3 expression(options.text, options.constants);
+  check_constants_are_used(options);
+  return {std::move(expression), options.box.value_or(CGAL::Bbox_3(-1, -1, -1, 1, 1, 1))};
+}
+
+/// The box of the mesh, widened on all sides by a tenth of its longest side.
+CGAL::Bbox_3 widened_box(const CGAL::Surface_mesh<Kernel::Point_3>& mesh) {
+  CGAL::Bbox_3 box;
+  for (const Kernel::Point_3& p : mesh.points()) box += p.bbox();
+  const double margin = std::max({box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()}) / 10;
+  return {box.xmin() - margin, box.ymin() - margin, box.zmin() - margin,
+          box.xmax() + margin, box.ymax() + margin, box.zmax() + margin};
+}
+
+Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size, Progress& progress) {
+  progress.begin("reading the mesh");
+  const CGAL::Surface_mesh<Kernel::Point_3> mesh = read_triangle_mesh(options.text);
+  const Lattice_3<Kernel> lattice(size, options.box ? *options.box : widened_box(mesh));
+  progress.begin("measuring distances", lattice.number_of_nodes());
+  try {
+    double longest_step = 0;
+    for (const auto& step : lattice.steps()) longest_step = std::max(longest_step, std::sqrt(step.squared_length()));
+    const double voxels = options.narrow_band.value_or(std::numeric_limits<double>::infinity());
+    return signed_distance_volume<CGAL::Parallel_if_available_tag>(
+        mesh, lattice, [&](std::size_t nodes) { progress.advance(nodes); }, voxels * longest_step);
+  } catch (const Input_error& error) {
+    throw Input_error("cannot measure " + describe(options) + ": " + error.what());
+  }
+}
+
+/// Interpolation by a recursive filter has every sample take part in all coefficients.
+void check_values(const Volume_3<Kernel>& volume, const Source_options& options) {
+  if (options.spline.scheme != Spline_scheme::INTERPOLATION) return;
+  const auto missing =
+      std::count_if(volume.values.begin(), volume.values.end(), [](double x) { return !std::isfinite(x); });
+  if (missing > 0)
+    throw Input_error("--spline-scheme: interpolation needs a value at every node, and " + describe(options) + " has " +
+                      std::to_string(missing) + " nodes without one; use quasi-interpolation");
+}
+
+struct Fit {
+  Spline_traits function;
+  Spline_statistics statistics;
+  std::optional<Curvature_error_3<Kernel>> errors;
+};
+
+Fit fit_spline(const Source_options& source, Progress& progress) {
+  Volume_3<Kernel> volume = [&] {
+    if (source.kind != Source_kind::VOLUME) return sample_source(source, progress);
+    progress.begin("reading the volume");
+    return source.raw ? read_raw_volume(source.text, *source.raw) : read_volume(source.text);
+  }();
+  check_values(volume, source);
+  const auto& [degree, scheme, scale, isovalue, estimates_errors] = source.spline;
+  progress.begin("measuring noise");
+  const Sample_noise noise = estimate_noise(volume, isovalue);
+  const double smoothing = scale ? *scale : choose_smoothing(volume, noise, degree, scheme, isovalue);
+  progress.begin("fitting a spline");
+  const Spline_statistics statistics = {degree, scheme, smoothing, noise};
+  using Tag = CGAL::Parallel_if_available_tag;
+  if (!estimates_errors) return {Spline_traits(std::move(volume), degree, scheme, Tag(), smoothing), statistics, {}};
+  Fit fit = {Spline_traits(volume, degree, scheme, Tag(), smoothing), statistics, {}};
+  fit.errors.emplace(fit.function, volume, smoothing, noise.deviation);
+  return fit;
+}
+
+} // namespace
+
+Volume_3<Kernel> sample_source(const Source_options& options, Progress& progress) {
+  const Size size = options.resolution.value_or(default_resolution(options.kind));
+  check_memory_of_volume(size);
+  if (options.kind == Source_kind::DISTANCE) return sample_distance(options, size, progress);
+  const Formula_traits formula = make_formula(options);
+  const Lattice_3<Kernel> lattice(size, formula.bbox());
+  progress.begin("sampling the formula", lattice.number_of_nodes());
+  return sample_on_lattice<CGAL::Parallel_if_available_tag>(formula, lattice,
+                                                            [&](std::size_t nodes) { progress.advance(nodes); });
+}
+
+Source make_source(const Source_options& options, Progress& progress) {
+  const auto transformed = [&](auto traits) -> Source_function {
+    if (!options.transformation) return traits;
+    return Transformed_function_traits_3(std::move(traits), *options.transformation);
+  };
+  if (options.derivatives == Derivatives::JETS) return {transformed(make_formula(options)), 0, {}, {}};
+  Fit fit = fit_spline(options, progress);
+  const std::size_t samples = fit.function.lattice().number_of_nodes();
+  return {transformed(std::move(fit.function)), options.kind == Source_kind::VOLUME ? 0 : samples, fit.statistics,
+          std::move(fit.errors)};
+}
+
+std::string describe(const Source_options& options) {
+  switch (options.kind) {
+  case Source_kind::FUNCTION: return "the formula " + options.text;
+  case Source_kind::VOLUME: return "the volume '" + options.text + "'";
+  default: return "the distance to " + (options.text == "-" ? "standard input" : "'" + options.text + "'");
+  }
+}
+
+} // namespace equiaffine

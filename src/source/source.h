@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_SOURCE_SOURCE_H
+#define EQUIAFFINE_SRC_SOURCE_SOURCE_H
+
+#include "output/statistics.h"
+#include "request/options.h"
+#include "source/source_function.h"
+#include "system/kernel.h"
+#include "system/progress.h"
+#include <equiaffine/attributes/Curvature_error_3.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace equiaffine {
+
+struct Source {
+  Source_function function;
+  std::size_t function_evaluations = 0;            ///< that it took so far
+  std::optional<Spline_statistics> spline;         ///< if derivatives are those of a spline
+  std::optional<Curvature_error_3<Kernel>> errors; ///< if estimates were asked for
+};
+
+/// Makes the function, which may mean to read a volume, to measure distances, and to fit a spline. Throws
+/// `Input_error`.
+Source make_source(const Source_options& options, Progress& progress);
+
+/// The samples of a source that is not a volume.
+Volume_3<Kernel> sample_source(const Source_options& options, Progress& progress);
+
+/// "the formula x^2 + y^2 = 1", "the volume 'skull.nrrd'", "the distance to 'bunny.off'"
+std::string describe(const Source_options& options);
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_SOURCE_SOURCE_FUNCTION_H
+#define EQUIAFFINE_SRC_SOURCE_SOURCE_FUNCTION_H
+
+#include "system/kernel.h"
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/Expression_3.h>
+#include <equiaffine/Sampled_function_traits_3.h>
+#include <equiaffine/Transformed_function_traits_3.h>
+
+#include <variant>
+
+namespace equiaffine {
+
+using Formula_traits = Analytic_function_traits_3<Kernel, Expression_3>;
+using Spline_traits = Sampled_function_traits_3<Kernel>;
+
+/// SOURCE of the command line as a function: four models of ImplicitFunctionTraits_3.
+using Source_function = std::variant<Formula_traits, Spline_traits, Transformed_function_traits_3<Formula_traits>,
+                                     Transformed_function_traits_3<Spline_traits>>;
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "system/atomic_file.h"
+
+#include <equiaffine/Input_error.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+#include <mutex>
+#include <set>
+#include <system_error>
+#include <thread>
+#include <unistd.h>
+
+namespace equiaffine {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const std::string& path, const std::string& reason, const std::string& advice) {
+  throw Input_error("cannot write " + (path == "-" ? "standard output" : "'" + path + "'") + ": " + reason + "; " +
+                    advice);
+}
+
+/// The temporary folders that exist. It is never destroyed, because a signal may come at any time.
+struct Existing_folders {
+  std::mutex mutex;
+  std::set<fs::path> paths;
+};
+
+Existing_folders& existing_folders() {
+  static auto& folders = *new Existing_folders;
+  return folders;
+}
+
+/// Waits for one of the signals and ends the process. The mutex stays locked: whoever wants to make, or thinks that it
+/// has to remove, a folder waits for the end.
+void end_at(const sigset_t& signals) {
+  int signal = 0;
+  ::sigwait(&signals, &signal);
+  Existing_folders& existing = existing_folders();
+  existing.mutex.lock();
+  std::error_code ignored;
+  for (const fs::path& path : existing.paths) fs::remove_all(path, ignored);
+  if (::isatty(STDERR_FILENO)) std::cerr << std::endl; // the line that shows the progress ends here
+  ::_exit(128 + signal);
+}
+
+std::string message(int error_number) { return std::generic_category().message(error_number); }
+
+} // namespace
+
+Output_file::Temporary_folder::Temporary_folder(const fs::path& parent) {
+  Existing_folders& existing = existing_folders();
+  const std::lock_guard lock(existing.mutex);
+  std::string name = (parent / ".equiaffine-XXXXXX").string();
+  if (!::mkdtemp(name.data())) throw std::system_error(errno, std::generic_category());
+  path = name;
+  existing.paths.insert(path);
+}
+
+Output_file::Temporary_folder::~Temporary_folder() {
+  Existing_folders& existing = existing_folders();
+  const std::lock_guard lock(existing.mutex);
+  std::error_code ignored;
+  fs::remove_all(path, ignored);
+  existing.paths.erase(path);
+}
+
+Output_file::Output_file(const std::string& path) : path_(path), target_(path), has_to_be_copied_(path == "-") {
+  if (path.empty()) throw Input_error("cannot write the output: its name is empty; name a file");
+  std::error_code error;
+  if (!is_standard_output()) {
+    const fs::file_status status = fs::status(path, error);
+    if (fs::is_directory(status)) fail(path, "it is a folder", "name a file");
+    if (fs::exists(status)) {
+      if (::access(path.c_str(), W_OK) != 0) fail(path, message(errno), "choose another file");
+      has_to_be_copied_ = !fs::is_regular_file(status);
+      target_ = fs::canonical(path);
+    } else if (!target_.has_filename()) fail(path, "it names a folder", "name a file");
+  }
+  const fs::path parent = has_to_be_copied_           ? fs::temp_directory_path()
+                          : target_.has_parent_path() ? target_.parent_path()
+                                                      : fs::path(".");
+  if (!fs::is_directory(parent, error))
+    fail(path, "the folder '" + parent.string() + "' does not exist", "create it or choose another one");
+  try {
+    folder_ = std::make_unique<Temporary_folder>(parent);
+  } catch (const std::system_error& e) {
+    fail(path, "no file can be made in '" + parent.string() + "' (" + message(e.code().value()) + ")",
+         "choose another folder");
+  }
+}
+
+fs::path Output_file::temporary_path() const {
+  return folder_->path / (is_standard_output() ? fs::path("standard_output") : target_.filename());
+}
+
+std::ostream& Output_file::stream() {
+  if (!stream_.is_open()) {
+    stream_.open(temporary_path(), std::ios::binary);
+    if (!stream_) fail(path_, message(errno), "choose another file");
+  }
+  return stream_;
+}
+
+void Output_file::close() {
+  if (!stream_.is_open()) return;
+  stream_.close();
+  if (!stream_) fail(path_, "not everything could be stored", "make room on the disk or choose another one");
+}
+
+void Output_file::commit() {
+  close();
+  if (has_to_be_copied_) copy_to_target();
+  else rename_to_target();
+  folder_.reset();
+}
+
+void Output_file::copy_to_target() {
+  std::ifstream source(temporary_path(), std::ios::binary);
+  std::ofstream device;
+  if (!is_standard_output()) device.open(target_, std::ios::binary);
+  std::ostream& sink = is_standard_output() ? std::cout : device;
+  if (source.peek() != std::ifstream::traits_type::eof()) sink << source.rdbuf();
+  sink.flush();
+  if (!sink) fail(path_, "not everything was accepted", "make sure that the receiver is ready");
+}
+
+void Output_file::rename_to_target() {
+  std::error_code error;
+  const auto replace = [&error](const fs::path& from, const fs::path& to) {
+    if (const fs::file_status old = fs::status(to, error); fs::exists(old))
+      fs::permissions(from, old.permissions(), error);
+    fs::rename(from, to, error);
+    return !error;
+  };
+  bool is_replaced = true;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_->path))
+    if (entry.path() != temporary_path())
+      is_replaced = is_replaced && replace(entry.path(), target_.parent_path() / entry.path().filename());
+  if (!is_replaced || !replace(temporary_path(), target_)) fail(path_, error.message(), "choose another file");
+}
+
+void commit_all(std::span<Output_file> files) {
+  for (Output_file& file : files) file.close();
+  for (const bool copied : {true, false})
+    for (Output_file& file : files)
+      if (file.has_to_be_copied() == copied) file.commit();
+}
+
+void remove_temporary_folders_when_interrupted() {
+  sigset_t signals;
+  ::sigemptyset(&signals);
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
+    struct sigaction action;
+    if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) ::sigaddset(&signals, signal);
+  }
+  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr); // in all threads to come, so that one of them can wait for these
+  std::thread(end_at, signals).detach();
+}
+
+} // namespace equiaffine

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_SYSTEM_KERNEL_H
+#define EQUIAFFINE_SRC_SYSTEM_KERNEL_H
+
+#include <CGAL/Simple_cartesian.h>
+
+namespace equiaffine {
+
+/// The one kernel of the program.
+using Kernel = CGAL::Simple_cartesian<double>;
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "system/resources.h"
+
+#include <equiaffine/Input_error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <unistd.h>
+
+namespace equiaffine {
+
+namespace {
+
+std::string gigabytes(double bytes) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g GB", bytes / 1e9);
+  return text.data();
+}
+
+/// `reason` is what needs the memory, `purpose` what it is for.
+void check_memory(double needed, const std::string& reason, const std::string& purpose, const std::string& advice) {
+  const double pages = double(::sysconf(_SC_PHYS_PAGES)), page_size = double(::sysconf(_SC_PAGE_SIZE));
+  if (pages > 0 && page_size > 0 && needed > pages * page_size)
+    throw Input_error(reason + " need about " + gigabytes(needed) + " of memory for " + purpose +
+                      ", and this computer has " + gigabytes(pages * page_size) + "; " + advice);
+}
+
+void check_memory(double needed, const std::array<std::size_t, 3>& n, const std::string& purpose) {
+  check_memory(needed,
+               "--resolution: " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " + std::to_string(n[2]) +
+                   " nodes",
+               purpose, "use a smaller one");
+}
+
+} // namespace
+
+void check_memory_of_volume(const std::array<std::size_t, 3>& resolution) {
+  constexpr double bytes_per_node = 16; // sample and coefficient
+  double nodes = 1;
+  for (const std::size_t n : resolution) nodes *= double(n);
+  check_memory(bytes_per_node * nodes, resolution, "the samples");
+}
+
+void check_memory_of_surface(const std::array<std::size_t, 3>& resolution) {
+  // The sphere in a cube of n^3 nodes has 3 pi / 2 n^2 vertices: each axis sees two discs of diameter n. A vertex has
+  // coordinates (24 bytes), its grid edge (40), two triangles (24) and the basic attributes (129).
+  constexpr double vertices_per_node = 3.14159265 / 2, bytes_per_vertex = 217, bytes_per_node = 42;
+  const auto [nx, ny, nz] = resolution;
+  const double sides = double(nx) * double(ny) + double(ny) * double(nz) + double(nz) * double(nx);
+  check_memory(vertices_per_node * bytes_per_vertex * sides + bytes_per_node * double(nx) * double(ny), resolution,
+               "the surface");
+}
+
+void check_memory_of_delaunay_surface(double diagonal, double radius, double distance) {
+  // A ball of radius r about a point of the sphere of diameter d rises r^2 / d above the plane of its triangle. A
+  // square of side r has 2/3 vertices, each with 7 tetrahedra of the triangulation, 2 triangles and its attributes.
+  // The surface may be much smaller than the sphere: what is refused cannot have been meant.
+  constexpr double vertices_per_square = 2.0 / 3, bytes_per_vertex = 1500, part_of_sphere = 1e-4;
+  const double diameter = diagonal / std::sqrt(3.0), area = std::numbers::pi * diameter * diameter;
+  const double squared_radius = std::min(radius * radius, distance * diameter);
+  std::ostringstream reason;
+  reason << "--radius and --distance: triangles within " << radius << " and " << distance;
+  check_memory(part_of_sphere * bytes_per_vertex * vertices_per_square * area / squared_radius, reason.str(),
+               "a ten-thousandth of the sphere in the box", "use larger ones");
+}
+
+} // namespace equiaffine

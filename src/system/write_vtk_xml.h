@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_SYSTEM_WRITE_VTK_XML_H
+#define EQUIAFFINE_SRC_SYSTEM_WRITE_VTK_XML_H
+
+#include <vtkNew.h>
+
+#include <ostream>
+#include <string>
+
+namespace equiaffine {
+
+/// Writes a VTK data set with one of VTK's XML writers. The file is made in memory: VTK does not survive a disk that
+/// fills up. Arrays are written inline, as base64: appended ones are lost on readers with a recent expat.
+template <class Writer, class Data>
+void write_vtk_xml(std::ostream& stream, Data& data) {
+  vtkNew<Writer> writer;
+  writer->SetWriteToOutputString(true);
+  writer->SetDataModeToBinary();
+  writer->SetInputData(&data);
+  writer->Write();
+  const std::string text = writer->GetOutputString();
+  stream.write(text.data(), std::streamsize(text.size()));
+}
+
+} // namespace equiaffine
+
+#endif

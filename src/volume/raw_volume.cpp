@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/raw_volume.h"
+
+#include "volume/volume_formats.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+namespace equiaffine {
+
+namespace {
+
+/// f(T()) for the type of a number.
+template <class F>
+auto with_type(std::size_t type, const F& f) {
+  switch (type) {
+  case 0: return f(std::uint8_t());
+  case 1: return f(std::int8_t());
+  case 2: return f(std::uint16_t());
+  case 3: return f(std::int16_t());
+  case 4: return f(std::uint32_t());
+  case 5: return f(std::int32_t());
+  case 6: return f(std::uint64_t());
+  case 7: return f(std::int64_t());
+  case 8: return f(float());
+  default: return f(double());
+  }
+}
+
+} // namespace
+
+Volume_3<Kernel> read_raw_volume(const std::string& path, const Raw_layout& layout) {
+  const auto& [dx, dy, dz] = layout.spacing;
+  const auto& [x, y, z] = layout.origin;
+  const Lattice_3<Kernel> lattice =
+      make_lattice(path, layout.dims, Kernel::Point_3(x, y, z),
+                   {Kernel::Vector_3(dx, 0, 0), Kernel::Vector_3(0, dy, 0), Kernel::Vector_3(0, 0, dz)});
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) fail_to_read_volume(path, "there is no such file", "check the path");
+  const std::size_t width = with_type(layout.type, [](auto number) { return sizeof number; });
+  const double expected = double(layout.dims[0]) * double(layout.dims[1]) * double(layout.dims[2]) * double(width);
+  if (double(size) != expected)
+    fail_to_read_volume(path,
+                        "it has " + std::to_string(size) + " bytes, and " + std::to_string(layout.dims[0]) + " x " +
+                            std::to_string(layout.dims[1]) + " x " + std::to_string(layout.dims[2]) + " samples of " +
+                            std::string(raw_types[layout.type]) + " have " + std::to_string(std::uint64_t(expected)),
+                        "correct --dims or --type");
+  std::ifstream file(path, std::ios::binary);
+  Volume_3<Kernel> volume{lattice, std::vector<double>(lattice.number_of_nodes())};
+  with_type(layout.type, [&](auto number) {
+    using T = decltype(number);
+    std::vector<T> row(layout.dims[0]);
+    for (std::size_t n = 0; n < volume.values.size() && file; n += row.size()) {
+      file.read(reinterpret_cast<char*>(row.data()), std::streamsize(row.size() * sizeof(T)));
+      for (std::size_t i = 0; i < row.size(); ++i) volume.values[n + i] = double(row[i]);
+    }
+    return 0;
+  });
+  if (!file) fail_to_read_volume(path, "it cannot be read", "check its permissions");
+  return volume;
+}
+
+} // namespace equiaffine

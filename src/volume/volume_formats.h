@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_VOLUME_VOLUME_FORMATS_H
+#define EQUIAFFINE_SRC_VOLUME_VOLUME_FORMATS_H
+
+// The pieces of volume_io.h: one reader and one writer per library. They are defined where the program is built with
+// that library.
+
+#include "system/kernel.h"
+#include <equiaffine/Volume_3.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <ostream>
+#include <string>
+
+namespace equiaffine {
+
+enum class Volume_format { NRRD, META, NIFTI, INR, VTI };
+
+Volume_3<Kernel> read_itk_volume(const std::string& path, Volume_format format);
+Volume_3<Kernel> read_dicom_series(const std::string& folder);
+Volume_3<Kernel> read_inr_volume(const std::string& path);
+Volume_3<Kernel> read_vti_volume(const std::string& path);
+
+void write_itk_volume(const std::string& path, Volume_format format, const Volume_3<Kernel>& volume, bool as_float);
+void write_vti_volume(std::ostream& stream, const Volume_3<Kernel>& volume, bool as_float);
+
+/// Throws `Input_error`: "cannot read the volume 'path': reason; advice".
+[[noreturn]] void fail_to_read_volume(const std::string& path, const std::string& reason, const std::string& advice);
+
+/// The same for a file that ends before its data, or whose data are damaged.
+[[noreturn]] void fail_to_read_volume_data(const std::string& path);
+
+/// The lattice of a file; throws `Input_error` for what a file may hold and a lattice may not.
+Lattice_3<Kernel> make_lattice(const std::string& path, const Lattice_3<Kernel>::Size& size,
+                               const Kernel::Point_3& origin, const std::array<Kernel::Vector_3, 3>& steps);
+
+/// Collects what is written to the process's standard error during its life: the libraries that read volumes report
+/// there, and one of them only there.
+class Captured_standard_error {
+public:
+  Captured_standard_error();
+  ~Captured_standard_error();
+  Captured_standard_error(const Captured_standard_error&) = delete;
+  Captured_standard_error& operator=(const Captured_standard_error&) = delete;
+
+  std::string text() const;
+
+private:
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  int saved_;
+};
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/volume_io.h"
+
+#include "volume/volume_formats.h"
+#include <equiaffine/Input_error.h>
+#include <equiaffine/io/text_input.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <new>
+#include <optional>
+#include <string_view>
+#include <unistd.h>
+
+namespace equiaffine {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Extension {
+  std::string_view text;
+  Volume_format format;
+  bool is_written;
+};
+
+constexpr std::array extensions = {
+    Extension{".nrrd", Volume_format::NRRD, true}, Extension{".nhdr", Volume_format::NRRD, false},
+    Extension{".mhd", Volume_format::META, true},  Extension{".mha", Volume_format::META, true},
+    Extension{".nii", Volume_format::NIFTI, true}, Extension{".nii.gz", Volume_format::NIFTI, true},
+    Extension{".inr", Volume_format::INR, false},  Extension{".inr.gz", Volume_format::INR, false},
+    Extension{".vti", Volume_format::VTI, true}};
+
+std::optional<Extension> find_extension(const std::string& path) {
+  for (const Extension& extension : extensions)
+    if (internal::has_extension(path, extension.text)) return extension;
+  return std::nullopt;
+}
+
+#ifdef EQUIAFFINE_WITH_ITK
+constexpr bool has_itk = true;
+#else
+constexpr bool has_itk = false;
+#endif
+#ifdef EQUIAFFINE_WITH_VTK
+constexpr bool has_vtk = true;
+#else
+constexpr bool has_vtk = false;
+#endif
+
+/// The library that reads and writes a format, if this program was built without it; otherwise nothing.
+std::string_view missing_library(Volume_format format) {
+  if (format == Volume_format::INR) return {};
+  if (format == Volume_format::VTI) return has_vtk ? "" : "VTK";
+  return has_itk ? "" : "ITK";
+}
+
+/// Those that this program reads, or writes.
+std::string known_extensions(bool written_only) {
+  std::string list;
+  for (const Extension& extension : extensions)
+    if (missing_library(extension.format).empty() && (extension.is_written || !written_only))
+      list.append(list.empty() ? "" : " ").append(extension.text);
+  return list;
+}
+
+std::string built_without(std::string_view library) {
+  return "this equiaffine was built without " + std::string(library);
+}
+
+[[noreturn]] void fail_to_read_volume_without(std::string_view library, const std::string& path) {
+  fail_to_read_volume(path, built_without(library), "convert it to one of " + known_extensions(false));
+}
+
+std::string advice_for_writing() {
+  const std::string list = known_extensions(true);
+  return list.empty() ? "build it with ITK (.nrrd .mhd .mha .nii) or VTK (.vti)" : "use one of " + list;
+}
+
+Extension find_written_extension(const std::string& path) {
+  const std::optional<Extension> extension = find_extension(path);
+  if (!extension || !extension->is_written)
+    throw Input_error("cannot write the volume '" + path + "': " +
+                      (extension ? std::string(extension->text) + " is only read" : "its extension is not known") +
+                      "; " + advice_for_writing());
+  if (const auto library = missing_library(extension->format); !library.empty())
+    throw Input_error("cannot write the volume '" + path + "': " + built_without(library) + "; " +
+                      advice_for_writing());
+  return *extension;
+}
+
+} // namespace
+
+void fail_to_read_volume(const std::string& path, const std::string& reason, const std::string& advice) {
+  throw Input_error("cannot read the volume '" + path + "': " + reason + "; " + advice);
+}
+
+void fail_to_read_volume_data(const std::string& path) {
+  fail_to_read_volume(path, "the data are damaged or end before the size stated in the header",
+                      "get the complete file again");
+}
+
+Lattice_3<Kernel> make_lattice(const std::string& path, const Lattice_3<Kernel>::Size& size,
+                               const Kernel::Point_3& origin, const std::array<Kernel::Vector_3, 3>& steps) {
+  const std::string size_text =
+      std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]);
+  if (*std::min_element(size.begin(), size.end()) < 2)
+    fail_to_read_volume(path, "it has " + size_text + " nodes",
+                        "a volume needs at least 2 nodes along each of its axes");
+  const double determinant = CGAL::determinant(steps[0], steps[1], steps[2]);
+  const bool is_finite =
+      std::isfinite(determinant) && std::isfinite(origin.x()) && std::isfinite(origin.y()) && std::isfinite(origin.z());
+  if (!is_finite || determinant == 0)
+    fail_to_read_volume(path, "its origin, spacings and directions do not span a grid in space", "correct its header");
+  return Lattice_3<Kernel>(size, origin, steps);
+}
+
+Captured_standard_error::Captured_standard_error() : file_(std::tmpfile(), std::fclose) {
+  if (!file_) throw Input_error("cannot make a temporary file; make room in the folder for temporary files");
+  std::fflush(stderr);
+  saved_ = ::dup(STDERR_FILENO);
+  ::dup2(::fileno(file_.get()), STDERR_FILENO);
+}
+
+Captured_standard_error::~Captured_standard_error() {
+  std::fflush(stderr);
+  ::dup2(saved_, STDERR_FILENO);
+  ::close(saved_);
+}
+
+std::string Captured_standard_error::text() const {
+  std::fflush(stderr);
+  std::string text;
+  std::rewind(file_.get());
+  for (int c; (c = std::fgetc(file_.get())) != EOF;) text += char(c);
+  return text;
+}
+
+Volume_3<Kernel> read_volume(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) fail_to_read_volume(path, "there is no such file", "check the path");
+  if (fs::is_directory(status)) {
+    if constexpr (has_itk) return read_dicom_series(path);
+    else fail_to_read_volume_without("ITK", path);
+  }
+  const std::optional<Extension> extension = find_extension(path);
+  if (!extension)
+    fail_to_read_volume(path, "its extension is not known",
+                        "use one of " + known_extensions(false) + " or a folder with a DICOM series");
+  if (const auto library = missing_library(extension->format); !library.empty())
+    fail_to_read_volume_without(library, path);
+  if (::access(path.c_str(), R_OK) != 0) fail_to_read_volume(path, "permission denied", "make it readable");
+  if (fs::is_regular_file(status) && fs::file_size(path, error) == 0)
+    fail_to_read_volume(path, "it is empty", "get the complete file again");
+  try {
+    if constexpr (has_vtk)
+      if (extension->format == Volume_format::VTI) return read_vti_volume(path);
+    if constexpr (has_itk)
+      if (extension->format != Volume_format::INR) return read_itk_volume(path, extension->format);
+    return read_inr_volume(path);
+  } catch (const std::bad_alloc&) {
+    fail_to_read_volume(path, "it does not fit into memory", "check its header or crop it");
+  }
+}
+
+void check_volume_output(const std::string& path) { find_written_extension(path); }
+
+void write_volume(Output_file& file, const Volume_3<Kernel>& volume, bool as_float) {
+  const Volume_format format = find_written_extension(file.path()).format;
+  try {
+    if constexpr (has_vtk)
+      if (format == Volume_format::VTI) write_vti_volume(file.stream(), volume, as_float);
+    if constexpr (has_itk)
+      if (format != Volume_format::VTI) write_itk_volume(file.temporary_path().string(), format, volume, as_float);
+  } catch (const Input_error& error) {
+    throw Input_error("cannot write the volume '" + file.path() + "': " + error.what());
+  }
+}
+
+void write_volume(const std::string& path, const Volume_3<Kernel>& volume, bool as_float) {
+  check_volume_output(path);
+  Output_file file(path);
+  write_volume(file, volume, as_float);
+  file.commit();
+}
+
+} // namespace equiaffine

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_VOLUME_VOLUME_IO_H
+#define EQUIAFFINE_SRC_VOLUME_VOLUME_IO_H
+
+#include "system/atomic_file.h"
+#include "system/kernel.h"
+#include <equiaffine/Volume_3.h>
+
+#include <string>
+
+namespace equiaffine {
+
+/// Reads a volume of scalars: `.nrrd .nhdr .mhd .mha .nii .nii.gz` or a folder with one DICOM series through ITK,
+/// `.inr .inr.gz` through CGAL, `.vti` through VTK. Every pixel type becomes double. Node (i, j, k) lies at
+/// origin + directions * spacings * (i, j, k): for ITK's formats in ITK's physical frame (millimetres; x to the left,
+/// y to the back, z up), for `.inr` at (TX + VX i, TY + VY j, TZ + VZ k), as in `CGAL::Image_3`.
+/// Throws `Input_error` for everything that is not a complete volume with two nodes or more per axis.
+Volume_3<Kernel> read_volume(const std::string& path);
+
+/// Throws `Input_error` unless this program, with the libraries that it was built with, writes the extension of `path`.
+void check_volume_output(const std::string& path);
+
+/// Writes `.nrrd .mhd .mha .nii .nii.gz` through ITK or `.vti` through VTK, as float or double, without committing
+/// `file`. NIfTI holds its geometry in single precision and only perpendicular steps: where it would move a node by
+/// more than a thousandth of the shortest step, it is refused by an `Input_error`. The other formats hold any lattice.
+/// What ITK wrote is read back once, because it does not notice a full disk.
+void write_volume(Output_file& file, const Volume_3<Kernel>& volume, bool as_float);
+
+/// The same, committed.
+void write_volume(const std::string& path, const Volume_3<Kernel>& volume, bool as_float);
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/volume_formats.h"
+#include <equiaffine/Input_error.h>
+
+#include <itkGDCMImageIO.h>
+#include <itkGDCMSeriesFileNames.h>
+#include <itkImage.h>
+#include <itkImageSeriesReader.h>
+#include <itkMetaDataObject.h>
+#include <itkMetaImageIO.h>
+#include <itkNiftiImageIO.h>
+#include <itkNrrdImageIO.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <type_traits>
+#include <vector>
+
+namespace equiaffine {
+
+namespace {
+
+using Point_3 = Kernel::Point_3;
+using Vector_3 = Kernel::Vector_3;
+
+/// How far a written node may lie from where it belongs, in shortest steps.
+constexpr double largest_shift_in_cells = 1e-3;
+
+/// How far the distance of two DICOM slices may be from the mean one, relative to it: places are rounded decimals.
+constexpr double largest_deviation_of_slices = 1e-2;
+
+constexpr std::int32_t nifti_header_size = 348;
+
+constexpr const char* could_not_be_stored =
+    "not everything could be stored; make room on the disk or choose another one";
+
+double length_of(const Vector_3& v) { return std::hypot(v.x(), v.y(), v.z()); }
+
+itk::ImageIOBase::Pointer make_image_io(Volume_format format) {
+  switch (format) {
+  case Volume_format::NRRD: return itk::NrrdImageIO::New().GetPointer();
+  case Volume_format::META: {
+    const itk::MetaImageIO::Pointer io = itk::MetaImageIO::New();
+    io->SetDoublePrecision(17);
+    return io.GetPointer();
+  }
+  default: return itk::NiftiImageIO::New().GetPointer();
+  }
+}
+
+/// What an ITK exception says, without the places in ITK and the libraries below it where it was found: the last line,
+/// after "): " and after "[library] function: ". MetaImage gives the last error of the system, which is none of this
+/// file: nothing remains of it.
+std::string reason_of(const itk::ExceptionObject& exception) {
+  std::string text = exception.GetDescription();
+  text.erase(text.find_last_not_of(" .\n") + 1);
+  text.erase(0, text.rfind('\n') + 1);
+  if (const std::size_t end = text.rfind("): "); end != std::string::npos) text.erase(0, end + 3);
+  if (text.starts_with('[')) text.erase(0, text.find(": ") + 2);
+  return text.starts_with("Reason: ") ? "" : " (" + text + ')';
+}
+
+void check_scalars(const std::string& path, const itk::ImageIOBase& io) {
+  if (io.GetNumberOfComponents() != 1)
+    fail_to_read_volume(path, "it has " + std::to_string(io.GetNumberOfComponents()) + " numbers per node",
+                        "extract one of them to a file first");
+  const unsigned dimension = io.GetNumberOfDimensions();
+  bool is_volume = dimension >= 3;
+  for (unsigned axis = 3; axis < dimension; ++axis) is_volume = is_volume && io.GetDimensions(axis) == 1;
+  if (!is_volume)
+    fail_to_read_volume(path, "it has " + std::to_string(dimension) + " axes",
+                        dimension < 3 ? "a volume needs 3" : "extract one volume to a file first");
+}
+
+Lattice_3<Kernel> lattice_of(const std::string& path, const itk::ImageIOBase& io) {
+  Lattice_3<Kernel>::Size size;
+  std::array<Vector_3, 3> steps;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const std::vector<double> direction = io.GetDirection(axis);
+    size[axis] = io.GetDimensions(axis);
+    steps[axis] = io.GetSpacing(axis) * Vector_3(direction[0], direction[1], direction[2]);
+  }
+  return make_lattice(path, size, Point_3(io.GetOrigin(0), io.GetOrigin(1), io.GetOrigin(2)), steps);
+}
+
+itk::ImageIORegion whole_region(const itk::ImageIOBase& io) {
+  itk::ImageIORegion region(io.GetNumberOfDimensions());
+  for (unsigned axis = 0; axis < io.GetNumberOfDimensions(); ++axis) region.SetSize(axis, io.GetDimensions(axis));
+  return region;
+}
+
+template <class Word>
+std::vector<double> read_words(itk::ImageIOBase& io) {
+  std::vector<Word> words(std::size_t(io.GetImageSizeInPixels()));
+  io.Read(words.data());
+  if constexpr (std::is_same_v<Word, double>) return words;
+  else return {words.begin(), words.end()};
+}
+
+std::vector<double> read_values(const std::string& path, itk::ImageIOBase& io) {
+  using Word = itk::IOComponentEnum;
+  switch (io.GetComponentType()) {
+  case Word::UCHAR: return read_words<unsigned char>(io);
+  case Word::CHAR: return read_words<signed char>(io);
+  case Word::USHORT: return read_words<unsigned short>(io);
+  case Word::SHORT: return read_words<short>(io);
+  case Word::UINT: return read_words<unsigned>(io);
+  case Word::INT: return read_words<int>(io);
+  case Word::ULONG: return read_words<unsigned long>(io);
+  case Word::LONG: return read_words<long>(io);
+  case Word::ULONGLONG: return read_words<unsigned long long>(io);
+  case Word::LONGLONG: return read_words<long long>(io);
+  case Word::FLOAT: return read_words<float>(io);
+  case Word::DOUBLE: return read_words<double>(io);
+  default: fail_to_read_volume(path, "its type of numbers is not supported", "convert it to float or double");
+  }
+}
+
+/// A number in the header of a NIfTI-1 file, which begins with its own length in the byte order of the file.
+template <class Number>
+Number nifti_field(const std::vector<char>& header, std::size_t position) {
+  std::array<char, sizeof(Number)> bytes;
+  std::copy_n(header.begin() + std::ptrdiff_t(position), bytes.size(), bytes.begin());
+  if (std::int32_t length; std::memcpy(&length, header.data(), sizeof length), length != nifti_header_size)
+    std::reverse(bytes.begin(), bytes.end());
+  return std::bit_cast<Number>(bytes);
+}
+
+/// ITK's NIfTI reader says nothing when a file ends early, so its length is compared with its header (`bitpix` at byte
+/// 72, `vox_offset` at byte 108). zlib reads plain files as they are.
+void check_nifti_length(const std::string& path, std::size_t number_of_nodes) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
+  std::vector<char> bytes(std::size_t(1) << 20);
+  if (!file || gzread(file.get(), bytes.data(), nifti_header_size) != nifti_header_size) fail_to_read_volume_data(path);
+  const double expected = double(nifti_field<float>(bytes, 108)) +
+                          double(nifti_field<std::int16_t>(bytes, 72)) / 8 * double(number_of_nodes);
+  double length = nifti_header_size;
+  int count = 0;
+  while ((count = gzread(file.get(), bytes.data(), unsigned(bytes.size()))) > 0) length += count;
+  int error = Z_OK;
+  gzerror(file.get(), &error);
+  if (error != Z_OK || !(length >= expected)) fail_to_read_volume_data(path);
+}
+
+/// Fails if the header of a MetaImage names a file with the data that does not exist. `LOCAL` and `LIST` are no names,
+/// and one with a % stands for several files.
+void check_data_file(const std::string& path, itk::ImageIOBase& io) {
+  auto* const meta = dynamic_cast<itk::MetaImageIO*>(&io);
+  if (!meta) return;
+  const std::filesystem::path name = meta->GetMetaImagePointer()->ElementDataFileName();
+  if (!name.has_extension() || name.string().find('%') != std::string::npos) return;
+  std::error_code error;
+  if (!std::filesystem::exists(std::filesystem::path(path).parent_path() / name, error))
+    fail_to_read_volume(path, "the file with its data, '" + name.string() + "', is missing",
+                        "put it beside the header");
+}
+
+} // namespace
+
+Volume_3<Kernel> read_itk_volume(const std::string& path, Volume_format format) {
+  const Captured_standard_error standard_error;
+  const itk::ImageIOBase::Pointer io = make_image_io(format);
+  io->SetFileName(path);
+  try {
+    io->ReadImageInformation();
+  } catch (const itk::ExceptionObject& exception) {
+    fail_to_read_volume(path, "its header is not understood" + reason_of(exception),
+                        "check that the extension is right and the file complete");
+  }
+  check_data_file(path, *io);
+  check_scalars(path, *io);
+  const Lattice_3<Kernel> lattice = lattice_of(path, *io);
+  if (format == Volume_format::NIFTI) check_nifti_length(path, lattice.number_of_nodes());
+  io->SetIORegion(whole_region(*io));
+  try {
+    Volume_3<Kernel> volume{lattice, read_values(path, *io)};
+    // ITK 5.2 reports MetaImage data that end early or do not decompress on standard error only.
+    const std::string report = standard_error.text();
+    if (report.find("not read completely") != std::string::npos ||
+        report.find("Uncompress failed") != std::string::npos)
+      fail_to_read_volume_data(path);
+    return volume;
+  } catch (const itk::ExceptionObject&) {
+    fail_to_read_volume_data(path);
+  }
+}
+
+Volume_3<Kernel> read_dicom_series(const std::string& folder) {
+  using Image = itk::Image<double, 3>;
+  const Captured_standard_error standard_error;
+  try {
+    const itk::GDCMSeriesFileNames::Pointer names = itk::GDCMSeriesFileNames::New();
+    names->SetUseSeriesDetails(true);
+    names->SetDirectory(folder);
+    const std::size_t count = names->GetSeriesUIDs().size();
+    if (count != 1)
+      fail_to_read_volume(folder, "the folder holds " + std::to_string(count) + " DICOM series",
+                          count == 0 ? "name a folder with DICOM files or a volume file"
+                                     : "move the files of one series to a folder of their own");
+    const itk::ImageSeriesReader<Image>::Pointer reader = itk::ImageSeriesReader<Image>::New();
+    const itk::GDCMImageIO::Pointer io = itk::GDCMImageIO::New();
+    reader->SetImageIO(io);
+    reader->SetFileNames(names->GetInputFileNames());
+    reader->ForceOrthogonalDirectionOff();
+    reader->Update();
+    check_scalars(folder, *io);
+    const Image& image = *reader->GetOutput();
+    double deviation = 0;
+    itk::ExposeMetaData(image.GetMetaDataDictionary(), "ITK_non_uniform_sampling_deviation", deviation);
+    if (deviation > largest_deviation_of_slices * image.GetSpacing()[2])
+      fail_to_read_volume(folder, "its slices are not evenly spaced", "add the missing ones or resample it first");
+    std::array<Vector_3, 3> steps;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      steps[axis] = image.GetSpacing()[axis] * Vector_3(image.GetDirection()(0, axis), image.GetDirection()(1, axis),
+                                                        image.GetDirection()(2, axis));
+    const auto size = image.GetLargestPossibleRegion().GetSize();
+    const auto origin = image.GetOrigin();
+    return {make_lattice(folder, {size[0], size[1], size[2]}, Point_3(origin[0], origin[1], origin[2]), steps),
+            {image.GetBufferPointer(), image.GetBufferPointer() + size[0] * size[1] * size[2]}};
+  } catch (const itk::ExceptionObject& exception) {
+    fail_to_read_volume(folder, "a file of the series is not understood" + reason_of(exception),
+                        "get the complete series again or convert it");
+  }
+}
+
+namespace {
+
+/// What was written is read back, for two reasons. ITK does not notice a disk that fills up under MetaImage or NIfTI.
+/// And formats differ in the lattices they hold (NIfTI: perpendicular steps, single precision).
+void check_written(const std::string& path, Volume_format format, const Lattice_3<Kernel>& lattice) {
+  const Lattice_3<Kernel> stored = [&] {
+    try {
+      return read_itk_volume(path, format).lattice;
+    } catch (const Input_error&) {
+      throw Input_error(could_not_be_stored);
+    }
+  }();
+  double distance = 0, shortest_step = std::numeric_limits<double>::infinity();
+  for (int corner = 0; corner < 8; ++corner) {
+    const double u = corner & 1 ? double(lattice.size()[0] - 1) : 0, v = corner & 2 ? double(lattice.size()[1] - 1) : 0,
+                 w = corner & 4 ? double(lattice.size()[2] - 1) : 0;
+    distance = std::max(distance, length_of(stored.point(u, v, w) - lattice.point(u, v, w)));
+  }
+  for (const Vector_3& step : lattice.steps()) shortest_step = std::min(shortest_step, length_of(step));
+  if (stored.size() != lattice.size() || !(distance <= largest_shift_in_cells * shortest_step))
+    throw Input_error("the format cannot hold this grid, its nodes would move by up to " + std::to_string(distance) +
+                      "; write .nrrd or .mha");
+}
+
+void write_through_itk(const std::string& path, Volume_format format, const Volume_3<Kernel>& volume, bool as_float) {
+  const Captured_standard_error standard_error;
+  const Lattice_3<Kernel>& lattice = volume.lattice;
+  const itk::ImageIOBase::Pointer io = make_image_io(format);
+  io->SetNumberOfDimensions(3);
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const Vector_3& step = lattice.steps()[axis];
+    const double spacing = length_of(step);
+    io->SetDimensions(axis, lattice.size()[axis]);
+    io->SetOrigin(axis, lattice.origin()[int(axis)]);
+    io->SetSpacing(axis, spacing);
+    io->SetDirection(axis, std::vector<double>{step.x() / spacing, step.y() / spacing, step.z() / spacing});
+  }
+  io->SetPixelType(itk::IOPixelEnum::SCALAR);
+  io->SetNumberOfComponents(1);
+  io->SetComponentType(as_float ? itk::IOComponentEnum::FLOAT : itk::IOComponentEnum::DOUBLE);
+  io->SetIORegion(whole_region(*io));
+  io->SetFileName(path);
+  try {
+    if (as_float) io->Write(std::vector<float>(volume.values.begin(), volume.values.end()).data());
+    else io->Write(volume.values.data());
+  } catch (const itk::ExceptionObject&) {
+    throw Input_error(could_not_be_stored);
+  }
+}
+
+} // namespace
+
+void write_itk_volume(const std::string& path, Volume_format format, const Volume_3<Kernel>& volume, bool as_float) {
+  write_through_itk(path, format, volume, as_float);
+  check_written(path, format, volume.lattice);
+}
+
+} // namespace equiaffine

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "system/write_vtk_xml.h"
+#include "volume/volume_formats.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkMatrix3x3.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLImageDataWriter.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+namespace {
+
+/// Whether a VTK object has met an error: VTK reports it as an event.
+class Error_flag {
+public:
+  explicit Error_flag(vtkObject& object) {
+    callback_->SetClientData(&is_raised_);
+    callback_->SetCallback([](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
+    object.AddObserver(vtkCommand::ErrorEvent, callback_);
+    object.AddObserver(vtkCommand::WarningEvent, callback_);
+  }
+  Error_flag(const Error_flag&) = delete;
+  Error_flag& operator=(const Error_flag&) = delete;
+
+  bool is_raised() const { return is_raised_; }
+
+private:
+  bool is_raised_ = false;
+  vtkNew<vtkCallbackCommand> callback_;
+};
+
+vtkDataArray& scalars_of(const std::string& path, vtkImageData& image) {
+  vtkPointData* const data = image.GetPointData();
+  if (!data->GetScalars() && data->GetNumberOfArrays() > 1)
+    fail_to_read_volume(path, "none of its point arrays is marked as its scalars", "write it with one array");
+  vtkDataArray* const array = data->GetScalars() ? data->GetScalars() : data->GetArray(0);
+  if (!array) fail_to_read_volume(path, "it has no numbers at its points", "convert its cell data to point data first");
+  if (array->GetNumberOfComponents() != 1)
+    fail_to_read_volume(path, "it has " + std::to_string(array->GetNumberOfComponents()) + " numbers per node",
+                        "extract one of them to a file first");
+  return *array;
+}
+
+Lattice_3<Kernel> lattice_of(const std::string& path, vtkImageData& image) {
+  Lattice_3<Kernel>::Size size;
+  std::array<Kernel::Vector_3, 3> steps;
+  const int* const extent = image.GetExtent();
+  const vtkMatrix3x3* const m = image.GetDirectionMatrix();
+  Kernel::Point_3 origin(image.GetOrigin()[0], image.GetOrigin()[1], image.GetOrigin()[2]);
+  for (int axis = 0; axis < 3; ++axis) {
+    size[std::size_t(axis)] = std::size_t(image.GetDimensions()[axis]);
+    const Kernel::Vector_3 direction(m->GetElement(0, axis), m->GetElement(1, axis), m->GetElement(2, axis));
+    const Kernel::Vector_3 step = image.GetSpacing()[axis] * direction;
+    steps[std::size_t(axis)] = step;
+    origin = origin + extent[2 * axis] * step;
+  }
+  return make_lattice(path, size, origin, steps);
+}
+
+template <class Array>
+void set_scalars(vtkImageData& image, const std::vector<double>& values) {
+  vtkNew<Array> array;
+  array->SetName("f");
+  array->SetNumberOfValues(vtkIdType(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  image.GetPointData()->SetScalars(array);
+}
+
+} // namespace
+
+Volume_3<Kernel> read_vti_volume(const std::string& path) {
+  vtkNew<vtkXMLImageDataReader> reader;
+  const Error_flag errors(*reader);
+  {
+    const Captured_standard_error standard_error;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+  }
+  vtkImageData& image = *reader->GetOutput();
+  if (errors.is_raised() || reader->GetErrorCode() != vtkErrorCode::NoError) fail_to_read_volume_data(path);
+  const Lattice_3<Kernel> lattice = lattice_of(path, image);
+  vtkDataArray& array = scalars_of(path, image);
+  if (std::size_t(array.GetNumberOfTuples()) != lattice.number_of_nodes()) fail_to_read_volume_data(path);
+  std::vector<double> values(lattice.number_of_nodes());
+  for (std::size_t node = 0; node < values.size(); ++node) values[node] = array.GetComponent(vtkIdType(node), 0);
+  return {lattice, std::move(values)};
+}
+
+void write_vti_volume(std::ostream& stream, const Volume_3<Kernel>& volume, bool as_float) {
+  const Lattice_3<Kernel>& lattice = volume.lattice;
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(int(lattice.size()[0]), int(lattice.size()[1]), int(lattice.size()[2]));
+  image->SetOrigin(lattice.origin().x(), lattice.origin().y(), lattice.origin().z());
+  vtkNew<vtkMatrix3x3> direction;
+  std::array<double, 3> spacing;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Kernel::Vector_3& step = lattice.steps()[std::size_t(axis)];
+    const double length = std::hypot(step.x(), step.y(), step.z());
+    for (int row = 0; row < 3; ++row) direction->SetElement(row, axis, step[row] / length);
+    spacing[std::size_t(axis)] = length;
+  }
+  image->SetDirectionMatrix(direction);
+  image->SetSpacing(spacing.data());
+  if (as_float) set_scalars<vtkFloatArray>(*image, volume.values);
+  else set_scalars<vtkDoubleArray>(*image, volume.values);
+
+  write_vtk_xml<vtkXMLImageDataWriter>(stream, *image);
+}
+
+} // namespace equiaffine

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The conformance suite for every model of the library, and the archetype; models and non-models of every concept.
+#include "support/conformance.h"
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/Expression_3.h>
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/Sampled_function_traits_3.h>
+#include <equiaffine/Transformed_function_traits_3.h>
+#include <equiaffine/delaunay_surface.h>
+#include <equiaffine/marching_cubes.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+namespace {
+
+using namespace equiaffine;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point_3 = Kernel::Point_3;
+
+const CGAL::Bbox_3 unit_box(-1, -1, -1, 1, 1, 1);
+
+std::vector<Point_3> inner_points() {
+  return {Point_3(0.1, 0.2, 0.3), Point_3(-0.45, 0.31, 0.62), Point_3(0.7, -0.13, -0.28), Point_3(0.02, -0.5, 0.41)};
+}
+
+// exp(x) sin(2 y) + x z^2 / (2 + x y) - 0.3, so that every derivative is there
+struct Auto_function {
+  auto operator()(const auto& x, const auto& y, const auto& z) const {
+    using std::exp;
+    using std::sin;
+    return exp(x) * sin(2.0 * y) + x * z * z / (2.0 + x * y) - 0.3;
+  }
+};
+
+struct Fixed_type_function {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    return Auto_function()(x, y, z);
+  }
+};
+
+template <class Function>
+struct Analytic_model {
+  using Traits = Analytic_function_traits_3<Kernel, Function>;
+  static Traits make() { return Traits(Function(), unit_box); }
+  static std::vector<Point_3> points() { return inner_points(); }
+  static constexpr double length = 0.5;
+};
+
+struct Expression_model {
+  using Traits = Analytic_function_traits_3<Kernel, Expression_3>;
+  static Traits make() { return Traits(Expression_3("exp(x)*sin(2*y) + x*z^2/(2+x*y) = c", {{"c", 0.3}}), unit_box); }
+  static std::vector<Point_3> points() { return inner_points(); }
+  static constexpr double length = 0.5;
+};
+
+template <int Degree>
+struct Sampled_model {
+  using Traits = Sampled_function_traits_3<Kernel>;
+  static Traits make() {
+    const Lattice_3<Kernel> lattice({24, 20, 22}, unit_box);
+    Volume_3<Kernel> volume{lattice, {}};
+    for (std::size_t k = 0; k < 22; ++k)
+      for (std::size_t j = 0; j < 20; ++j)
+        for (std::size_t i = 0; i < 24; ++i) {
+          const Point_3 p = lattice.point(double(i), double(j), double(k));
+          volume.values.push_back(Auto_function()(p.x(), p.y(), p.z()));
+        }
+    return Traits(volume, Degree);
+  }
+  static std::vector<Point_3> points() { return inner_points(); }
+  static constexpr double length = 0.1; // of a voxel, beyond which the spline is another polynomial
+};
+
+template <class Base>
+struct Transformed_model {
+  using Traits = Transformed_function_traits_3<typename Base::Traits>;
+  static Kernel::Aff_transformation_3 map() {
+    return Kernel::Aff_transformation_3(0.9, 0, 0.9, 0.5, 0, 2, 0.1, -1, 1.1, 0, 0.6, 2); // det < 0
+  }
+  static Traits make() { return Traits(Base::make(), map()); }
+  static std::vector<Point_3> points() {
+    std::vector<Point_3> images;
+    for (const Point_3& p : Base::points()) images.push_back(map()(p));
+    return images;
+  }
+  static constexpr double length = Base::length / 2;
+};
+
+template <class Base>
+struct Level_set_model : Base {
+  using Traits = Level_set_traits_3<typename Base::Traits>;
+  static Traits make() { return Traits(Base::make(), 0.25, Orientation_of_level_set::AGAINST_GRADIENT); }
+};
+
+template <class Base>
+struct Batch_model : Base {
+  using Traits = Batch_function_traits_3<typename Base::Traits>;
+  static Traits make() { return Traits(Base::make()); }
+};
+
+// The least that a model has to have.
+class Archetype {
+public:
+  using FT = double;
+  using Point_3 = ::Point_3;
+  using Vector_3 = Kernel::Vector_3;
+  Archetype(const Archetype&) = default;
+  Archetype& operator=(const Archetype&) = delete;
+  static Archetype make() { return Archetype(); }
+  FT value(const Point_3& p) const { return Auto_function()(p.x(), p.y(), p.z()); }
+  Jet_3<FT> taylor(const Point_3& p) const { return internal::expand<4, FT>(Auto_function(), p.x(), p.y(), p.z()); }
+  CGAL::Bbox_3 bbox() const { return unit_box; }
+
+private:
+  Archetype() = default;
+};
+
+struct Archetype_model {
+  using Traits = Archetype;
+  static Traits make() { return Archetype::make(); }
+  static std::vector<Point_3> points() { return inner_points(); }
+  static constexpr double length = 0.5;
+};
+
+using Sparse = Analytic_model<Auto_function>;
+using Models = ::testing::Types<Archetype_model, Sparse, Analytic_model<Fixed_type_function>, Expression_model,
+                                Sampled_model<5>, Sampled_model<7>, Transformed_model<Sparse>,
+                                Transformed_model<Sampled_model<7>>, Level_set_model<Sparse>,
+                                Level_set_model<Transformed_model<Sampled_model<5>>>, Batch_model<Sparse>>;
+
+} // namespace
+
+namespace conformance {
+INSTANTIATE_TYPED_TEST_SUITE_P(Models, Conformance, Models);
+}
+
+namespace {
+
+using Analytic = Sparse::Traits;
+using Sampled = Sampled_model<7>::Traits;
+
+static_assert(ImplicitFunctionTraits_3<Archetype> && ImplicitFunctionTraits_3<Analytic> &&
+              ImplicitFunctionTraits_3<Sampled>);
+static_assert(BoundedImplicitFunctionTraits_3<Analytic> && BoundedImplicitFunctionTraits_3<Sampled>);
+static_assert(!BoundedImplicitFunctionTraits_3<Archetype>);
+static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Analytic>);
+static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Level_set_traits_3<Transformed_function_traits_3<Analytic>>>);
+static_assert(!FirstOrderBoundedImplicitFunctionTraits_3<Archetype>);
+static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Sampled>);
+static_assert(SecondOrderBoundedImplicitFunctionTraits_3<Level_set_traits_3<Transformed_function_traits_3<Analytic>>>);
+static_assert(!SecondOrderBoundedImplicitFunctionTraits_3<Sampled>);
+static_assert(BatchImplicitFunctionTraits_3<Batch_function_traits_3<Archetype>>);
+static_assert(!BatchImplicitFunctionTraits_3<Archetype>);
+static_assert(FirstOrderImplicitFunctionTraits_3<Analytic> && !FirstOrderImplicitFunctionTraits_3<Archetype>);
+static_assert(LatticeImplicitFunctionTraits_3<Sampled> && !LatticeImplicitFunctionTraits_3<Analytic>);
+static_assert(LatticeImplicitFunctionTraits_3<Transformed_function_traits_3<Sampled>>);
+static_assert(LatticeImplicitFunctionTraits_3<Level_set_traits_3<Sampled>>);
+static_assert(!LatticeImplicitFunctionTraits_3<Transformed_function_traits_3<Analytic>>);
+
+struct Without_value : Archetype {
+  double value(const Point_3& p) const = delete;
+};
+struct With_low_order : Archetype {
+  Jet_3<double, 2> taylor(const Point_3&) const;
+};
+struct Without_box : Archetype {
+  void bbox() const;
+};
+struct Not_const : Archetype {
+  double value(const Point_3& p);
+};
+struct With_wide_bounds : Archetype {
+  double bounds(const CGAL::Bbox_3&) const;
+};
+static_assert(!ImplicitFunctionTraits_3<int> && !ImplicitFunctionTraits_3<Auto_function>);
+static_assert(!ImplicitFunctionTraits_3<Without_value> && !ImplicitFunctionTraits_3<With_low_order>);
+static_assert(!ImplicitFunctionTraits_3<Without_box> && !ImplicitFunctionTraits_3<Not_const>);
+static_assert(!BoundedImplicitFunctionTraits_3<With_wide_bounds>);
+
+TEST(Concepts, the_archetype_is_enough_for_marching_cubes) {
+  EXPECT_GT(marching_cubes(Archetype::make(), parameters::number_of_nodes(8)).triangles.size(), 0u);
+}
+
+TEST(Concepts, the_archetype_is_enough_for_delaunay_surface) {
+  const auto surface = delaunay_surface(Archetype::make(), {30, 0.2, 0.1});
+  EXPECT_GT(surface.triangles.size(), 0u);
+  EXPECT_FALSE(surface.is_certified);
+  EXPECT_EQ(surface.undecided_boxes.size(), 1u);
+}
+
+} // namespace

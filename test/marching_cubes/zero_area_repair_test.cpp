@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/marching_cubes/internal/zero_area_repair.h>
+#include <equiaffine/mesh_topology.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+using Points = std::vector<std::array<double, 3>>;
+
+struct Result {
+  Mesh_topology topology; ///< of what is left
+  std::size_t triangles = 0;
+  Isosurface_repairs repairs;
+};
+
+/// Vertices are moved in directions of their own, in early rounds all in the same.
+Result repaired(Triangles triangles, Points points, int early_rounds = 0) {
+  std::vector<std::size_t> part(triangles.size());
+  std::iota(part.begin(), part.end(), std::size_t(0));
+  const auto at = [&](std::size_t v) { return points[v]; };
+  const auto nudge = [&](std::size_t v, int round) {
+    for (std::size_t a = 0; a < 3; ++a)
+      points[v][a] += 1e-7 * std::sin(round < early_rounds ? 1.0 : double(1 + 3 * v + a));
+  };
+  const std::span all(triangles);
+  const internal::Zero_area_repair repair(all, part, at, nudge);
+  std::erase_if(triangles, [](const auto& t) { return t[0] == t[1]; });
+  std::map<std::uint32_t, std::uint32_t> number;
+  for (auto& t : triangles)
+    for (auto& v : t) v = number.try_emplace(v, std::uint32_t(number.size())).first->second;
+  return {mesh_topology(triangles, number.size()), triangles.size(), repair.repairs()};
+}
+
+void expect_unchanged(const Result& r, std::size_t triangles, std::ptrdiff_t euler_characteristic) {
+  EXPECT_EQ(r.triangles, triangles);
+  EXPECT_TRUE(r.topology.is_manifold);
+  EXPECT_EQ(r.topology.components, 1u);
+  EXPECT_EQ(r.topology.euler_characteristic, euler_characteristic);
+  EXPECT_EQ(r.repairs.contracted_edges, 0u);
+  EXPECT_EQ(r.repairs.dropped_components, 0u);
+  EXPECT_GT(r.repairs.moved_vertices, 0u);
+  EXPECT_EQ(r.repairs.zero_area_left, 0u);
+}
+
+const Triangles antiprism = {{0, 1, 2}, {3, 5, 4}, {0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}, {2, 5, 0}, {0, 5, 3}};
+
+TEST(Zero_area_repair, an_edge_without_length_is_contracted) {
+  const auto r = repaired(antiprism, {{0, 0, 0}, {0, 0, 0}, {1, 2, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}});
+  EXPECT_EQ(r.triangles, 6u);
+  EXPECT_TRUE(r.topology.is_manifold);
+  EXPECT_EQ(r.topology.euler_characteristic, 2);
+  EXPECT_EQ(r.repairs.contracted_edges, 1u);
+  EXPECT_EQ(r.repairs.moved_vertices, 0u);
+}
+
+TEST(Zero_area_repair, a_strip_is_not_pinched_between_two_boundaries) {
+  // 0 and 1 lie on different boundaries and have two triangles in common.
+  const Triangles strip = {{0, 5, 3}, {0, 3, 1}, {0, 1, 2}, {0, 2, 4}, {2, 1, 6}, {1, 3, 7}};
+  expect_unchanged(
+      repaired(strip, {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, -1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, 1, 0}, {1, -1, 0}}), 6,
+      1);
+}
+
+TEST(Zero_area_repair, a_triangle_without_neighbors_stays) {
+  expect_unchanged(repaired({{0, 1, 2}}, {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}}), 1, 1);
+}
+
+TEST(Zero_area_repair, a_hole_of_three_edges_stays) {
+  const Triangles annulus = {{0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}, {2, 5, 0}, {0, 5, 3}};
+  expect_unchanged(repaired(annulus, {{0, 0, 0}, {0, 0, 0}, {1, 2, 0}, {-3, -1, 0}, {4, -1, 0}, {1, 5, 0}}), 6, 0);
+}
+
+TEST(Zero_area_repair, a_tetrahedron_keeps_its_triangles) {
+  expect_unchanged(repaired({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}),
+                   4, 2);
+}
+
+TEST(Zero_area_repair, what_is_flat_after_a_move_is_moved_again) {
+  const Triangles tetrahedron = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  expect_unchanged(repaired(tetrahedron, {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 2), 4, 2);
+  const auto r = repaired(tetrahedron, {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 100);
+  EXPECT_EQ(r.repairs.zero_area_left, 2u);
+}
+
+TEST(Zero_area_repair, a_closed_component_without_area_is_dropped) {
+  const auto r = repaired(antiprism, Points(6, {1, 2, 3}));
+  EXPECT_EQ(r.triangles, 0u);
+  EXPECT_EQ(r.repairs.dropped_components, 1u);
+  EXPECT_EQ(r.repairs.moved_vertices, 0u);
+}
+
+TEST(Zero_area_repair, a_component_with_boundary_stays) {
+  const auto r = repaired({{0, 1, 2}, {2, 1, 3}}, Points(4, {1, 2, 3}));
+  EXPECT_EQ(r.triangles, 1u);
+  EXPECT_EQ(r.repairs.dropped_components, 0u);
+  EXPECT_EQ(r.repairs.zero_area_left, 0u);
+}
+
+// The second search meets but triangles that the first one has seen.
+TEST(Zero_area_repair, a_component_with_area_between_two_flat_triangles_stays) {
+  expect_unchanged(repaired(antiprism, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 2, 1}}), 8, 2);
+}
+
+} // namespace

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/Expression_3.h>
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/Transformed_function_traits_3.h>
+#include <equiaffine/analytic_functions.h>
+#include <equiaffine/attributes.h>
+#include <equiaffine/number/Pack.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Lanes = Pack<double>;
+const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
+const Kernel::Aff_transformation_3 shear(0.9, 0, 0.9, 0.1, 0, 2, 0, 0, 1.1, 0, 0.6, 0);
+
+std::uint64_t bits(double x) { return std::isnan(x) ? 0 : std::bit_cast<std::uint64_t>(x); }
+
+// Random points, and between them points on the axes and the origin, where functions have kinks and gradients vanish.
+std::vector<Kernel::Point_3> points(std::size_t size) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<Kernel::Point_3> result;
+  for (std::size_t n = 0; n < size; ++n) {
+    double c[3] = {unit(random), unit(random), unit(random)};
+    if (n % 7 == 0) c[n % 3] = 0;
+    if (n % 11 == 0) c[n % 2] = c[2] = 0;
+    result.emplace_back(c[0], c[1], c[2]);
+  }
+  return result;
+}
+
+template <class Tag = CGAL::Sequential_tag, class Traits>
+void expect_batch_equals_single(const Traits& traits, std::size_t size = 203) {
+  const auto selection = select_attributes("all");
+  const auto p = points(size);
+  const auto batch = compute_attributes<Tag>(traits, p, selection);
+  ASSERT_EQ(batch.status->size(), size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto single = local_structure_at(traits, p[i]);
+    ASSERT_EQ((*batch.status)[i], single.status) << i;
+    for (std::size_t n = 0; n < selection.columns.size(); ++n)
+      ASSERT_EQ(bits(batch.columns[n].values[i]), bits(selection.columns[n].get(single)))
+          << selection.columns[n].name << " at point " << i;
+  }
+}
+
+template <class Function>
+void expect_batch_equals_single_for(const Function& f) {
+  expect_batch_equals_single(make_analytic_traits<Kernel>(f, box));
+}
+
+using Exact = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+
+// The error of x in units of the last place of the exact value.
+double units_in_the_last_place(double x, const Exact& exact) {
+  return std::abs(double(Exact(x) - exact)) / std::ldexp(1., std::ilogb(double(exact)) - 52);
+}
+
+// Of every size, on both sides of where the C library takes over, and beside multiples of pi / 2.
+std::vector<double> arguments(double range) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<double> result = {0., -0., range, -range, std::nextafter(range, 2 * range)};
+  for (int n = 0; n < 4000; ++n) result.push_back(range * unit(random) * std::exp2(-n % 40));
+  for (int n = -400; n <= 400; ++n) result.push_back(n * std::acos(-1.) / 2); // up to 628
+  while (result.size() % Lanes::size != 0) result.push_back(1);
+  return result;
+}
+
+TEST(Pack, elementary_functions_are_right_to_the_last_place_or_the_one_before) {
+  for (const double x : arguments(internal::exponential_range))
+    EXPECT_LT(units_in_the_last_place(internal::exp_value(x), exp(Exact(x))), 0.6) << x;
+  for (const double x : arguments(internal::circular_range)) {
+    const auto [sine, cosine] = internal::sine_and_cosine(x);
+    if (x != 0) {
+      EXPECT_LT(units_in_the_last_place(sine, sin(Exact(x))), 0.9) << x;
+    }
+    EXPECT_LT(units_in_the_last_place(cosine, cos(Exact(x))), 0.9) << x;
+  }
+  EXPECT_EQ(internal::sine_and_cosine(0.).first, 0);
+}
+
+TEST(Pack, elementary_functions_of_a_lane_have_the_bits_of_single_numbers) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> x = arguments(internal::exponential_range);
+  x.insert(x.end(), {infinity, -infinity, std::nan(""), 1e300, -1e300, 710., -746., 1e-310});
+  for (std::size_t first = 0; first + Lanes::size <= x.size(); first += Lanes::size) {
+    const Lanes lanes = Lanes::generate([&](std::size_t i) { return x[first + i]; });
+    const Lanes e = exp(lanes), s = sin(lanes), c = cos(lanes);
+    for (std::size_t i = 0; i < Lanes::size; ++i) {
+      const double u = x[first + i];
+      EXPECT_EQ(bits(e[i]), bits(internal::exp_value(u))) << u;
+      EXPECT_EQ(bits(s[i]), bits(internal::sine_and_cosine(u).first)) << u;
+      EXPECT_EQ(bits(c[i]), bits(internal::sine_and_cosine(u).second)) << u;
+    }
+  }
+}
+
+TEST(Pack, attributes_of_a_batch_are_those_of_its_points_bit_for_bit) {
+  using namespace analytic_functions;
+  expect_batch_equals_single_for(Torus());
+  expect_batch_equals_single_for(Metaballs());
+  expect_batch_equals_single_for(Gyroid());
+  expect_batch_equals_single_for(Cayley_cubic());
+  expect_batch_equals_single_for(Barth_sextic());
+  expect_batch_equals_single_for(Expression_3("abs(x)^1.5 + max(y, z) * pow(2, x) + atan2(y, 2 + z) - min(x, y*z, 1) + "
+                                              "hypot(y, z)^9 + log(x) + cbrt(y) + x^12 + tanh(x*y) + acos(z/2)"));
+}
+
+TEST(Pack, any_number_of_points_is_a_batch) {
+  const auto traits = make_analytic_traits<Kernel>(analytic_functions::Gyroid(), box);
+  for (std::size_t size = 0; size <= 2 * Lanes::size + 1; ++size) expect_batch_equals_single(traits, size);
+}
+
+TEST(Pack, threads_and_adaptors_change_no_bit) {
+  const auto base = make_analytic_traits<Kernel>(analytic_functions::Torus(), box);
+  const Level_set_traits_3 level_set(base, 0.25, Orientation_of_level_set::AGAINST_GRADIENT);
+  expect_batch_equals_single(level_set);
+  expect_batch_equals_single<CGAL::Parallel_if_available_tag>(level_set, 5003);
+  expect_batch_equals_single(Transformed_function_traits_3(base, shear));
+}
+
+// Continuous nowhere on the plane x = 0.
+struct Branching {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    using std::exp;
+    if (x < 0.0) return x * x + y * y * y + z;
+    return y * z + exp(x);
+  }
+};
+
+TEST(Pack, a_function_that_branches_is_evaluated_point_by_point_where_lanes_disagree) {
+  expect_batch_equals_single_for(Branching());
+}
+
+TEST(Pack, masks_choose_lane_by_lane_and_decide_only_when_unanimous) {
+  const Lanes ascending = Lanes::generate([](std::size_t i) { return double(i); });
+  const auto first = ascending < Lanes(1);
+  const Lanes chosen = select(first, Lanes(5), -ascending);
+  for (std::size_t i = 0; i < Lanes::size; ++i) EXPECT_EQ(chosen[i], i == 0 ? 5 : -double(i));
+  EXPECT_TRUE(bool(ascending >= Lanes(0)));
+  EXPECT_FALSE(bool(ascending < Lanes(0)));
+  EXPECT_THROW(static_cast<void>(bool(first)), Lanes_disagree);
+  const Lanes nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(max(ascending, nan)[0]) && std::isnan(min(nan, ascending)[0]));
+}
+
+} // namespace

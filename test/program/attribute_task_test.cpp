@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "attributes/attribute_task.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <random>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+
+std::uint64_t bits(double x) { return std::isnan(x) ? 0 : std::bit_cast<std::uint64_t>(x); }
+
+void expect_equal(const Vertex_attributes& actual, const Vertex_attributes& expected, std::size_t first = 0) {
+  for (std::size_t c = 0; c < expected.columns.size(); ++c)
+    for (std::size_t i = 0; i < actual.columns[c].values.size(); ++i)
+      ASSERT_EQ(bits(actual.columns[c].values[i]), bits(expected.columns[c].values[first + i]))
+          << expected.columns[c].name << " of point " << first + i;
+  for (std::size_t i = 0; i < actual.status->size(); ++i)
+    ASSERT_EQ((*actual.status)[i], (*expected.status)[first + i]) << "point " << first + i;
+}
+
+// Random points and such with kinks, singular and outside.
+std::vector<Kernel::Point_3> points() {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<Kernel::Point_3> result;
+  for (int n = 0; n < 1003; ++n)
+    result.emplace_back(n % 13 == 0 ? 0 : unit(random), n % 17 == 0 ? 0 : unit(random), n % 19 == 0 ? 3 : unit(random));
+  return result;
+}
+
+const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
+const char* const formula = "exp(x*y) + abs(x)*sin(3*z) + sqrt(1.5 - y^2*z) + log(z + 2) - max(x, y)^3 + z^7";
+
+void expect_same_on_all_instruction_sets(const Source_function& function) {
+  const auto p = points();
+  const Attribute_selection selection = select_attributes("all");
+  const Attribute_task task{function, Orientation_of_level_set::AGAINST_GRADIENT, p, selection};
+  const Vertex_attributes expected = compute_attributes(task, Instruction_set::BASELINE);
+  ASSERT_EQ(expected.status->size(), p.size());
+  for (const Instruction_set set : instruction_sets()) {
+    SCOPED_TRACE(int(set));
+    expect_equal(compute_attributes(task, set), expected);
+    for (std::size_t i = 0; i < 20; ++i) {
+      Attribute_task single = task;
+      single.points = std::span(p).subspan(i, 1);
+      expect_equal(compute_attributes(single, set), expected, i);
+    }
+  }
+}
+
+TEST(Program_attribute_task, a_formula_has_the_same_attributes_on_all_instruction_sets_bit_for_bit) {
+  const Formula_traits traits(Expression_3(formula), box);
+  expect_same_on_all_instruction_sets(traits);
+  const CGAL::Aff_transformation_3<Kernel> map(0.9, 0, 0.9, 0.1, 0, 2, 0, 0, 1.1, 0, 0.6, 0);
+  expect_same_on_all_instruction_sets(Transformed_function_traits_3(traits, map));
+}
+
+TEST(Program_attribute_task, samples_have_the_same_attributes_on_all_instruction_sets_bit_for_bit) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  Volume_3<Kernel> volume{Lattice_3<Kernel>({12, 11, 13}, box), {}};
+  for (std::size_t n = 0; n < volume.lattice.number_of_nodes(); ++n) volume.values.push_back(unit(random));
+  expect_same_on_all_instruction_sets(Spline_traits(std::move(volume)));
+}
+
+TEST(Program_attribute_task, the_first_instruction_set_is_that_of_any_processor) {
+  const auto sets = instruction_sets();
+  EXPECT_EQ(sets.front(), Instruction_set::BASELINE);
+  EXPECT_TRUE(std::is_sorted(sets.begin(), sets.end()));
+}
+
+#ifdef EQUIAFFINE_OBJECTS_FOR_PROCESSORS
+/// What a command prints.
+std::string output_of(const std::string& command) {
+  std::string text;
+  FILE* const pipe = ::popen(command.c_str(), "r");
+  for (int c; pipe && (c = std::fgetc(pipe)) != EOF;) text += char(c);
+  return ::pclose(pipe) == 0 ? text : "failed: " + command;
+}
+
+// Else the linker could take an inline function that is compiled for AVX-512 for the whole program.
+TEST(Program_attribute_task, objects_for_some_processors_share_nothing_but_their_entry) {
+  const std::string names = EQUIAFFINE_OBJECTS_FOR_PROCESSORS;
+  for (std::size_t begin = 0; begin < names.size();) {
+    const std::size_t end = std::min(names.find(' ', begin), names.size());
+    const std::string defined = output_of("nm --extern-only --defined-only " + names.substr(begin, end - begin));
+    EXPECT_EQ(std::count(defined.begin(), defined.end(), '\n'), 1) << defined;
+    EXPECT_NE(defined.find(" T equiaffine_attributes_avx"), std::string::npos) << defined;
+    begin = end + 1;
+  }
+}
+#endif
+
+} // namespace

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "picture/draw_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using Vector = Kernel::Vector_3;
+using Mesh = Indexed_triangle_mesh_3<Kernel>;
+
+const Surface_view small = {{}, {0, 0, 1}, {101, 101}, {}, {}};
+
+/// A square that faces the eye of the first view.
+Mesh facing_square() {
+  const Vector back = Vector(0.5, -1, 0.62) / std::sqrt(0.25 + 1 + 0.62 * 0.62);
+  const Vector across = cross_product(Vector(0, 0, 1), back), right = across / std::sqrt(across.squared_length());
+  const Vector up = cross_product(back, right);
+  Mesh mesh;
+  for (const auto& [x, y] : {std::array{-1., -1.}, {1., -1.}, {1., 1.}, {-1., 1.}})
+    mesh.points.push_back(CGAL::ORIGIN + x * right + y * up);
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+std::array<int, 3> middle(const Picture& picture, std::size_t row) {
+  const unsigned char* const first = &picture.rgb[3 * (row * picture.width + picture.width / 2)];
+  return {first[0], first[1], first[2]};
+}
+
+/// What the shader of the page makes of a colour that faces the eye.
+std::array<int, 3> shaded(const CGAL::IO::Color& color) {
+  const double cosine = 1 / std::sqrt(0.35 * 0.35 + 0.5 * 0.5 + 1), diffuse = 0.5 + 0.5 * cosine;
+  const double shade = 0.36 + 0.67 * diffuse * diffuse, glint = 0.03 * std::pow((1 + cosine) / 2, 20);
+  const auto channel = [&](unsigned char byte) {
+    return int(std::lround(255 * std::pow(std::pow(byte / 255., 2.2) * shade + glint, 1 / 2.2)));
+  };
+  return {channel(color.red()), channel(color.green()), channel(color.blue())};
+}
+
+void expect_near(const std::array<int, 3>& actual, const std::array<int, 3>& expected) {
+  for (std::size_t n = 0; n < 3; ++n) EXPECT_LE(std::abs(actual[n] - expected[n]), 2) << "channel " << n;
+}
+
+TEST(Program_draw_surface, a_plain_surface_has_the_color_and_light_of_the_page) {
+  const auto drawn = draw_surface(facing_square(), {}, small);
+  EXPECT_FALSE(drawn.legend);
+  expect_near(middle(drawn.picture, 50), shaded(plain_color()));
+  EXPECT_EQ(drawn.picture.rgb[0], 255) << "the background is white";
+}
+
+TEST(Program_draw_surface, numbers_have_the_colors_and_the_range_of_the_page) {
+  Vertex_attributes attributes;
+  attributes.columns = {{"mean_curvature", {-1, -1, 3, 3}}};
+  const auto drawn = draw_surface(facing_square(), attributes, small);
+  ASSERT_TRUE(drawn.legend);
+  EXPECT_EQ(drawn.legend->label, "Mean curvature, length^-1");
+  EXPECT_EQ(drawn.legend->range, color_range({-1, -1, 3, 3}));
+  const std::size_t row = (101 - legend_height) / 2; // the middle of the square
+  expect_near(middle(drawn.picture, row), shaded(map_color(1, drawn.legend->range)));
+}
+
+TEST(Program_draw_surface, a_range_can_be_given) {
+  Vertex_attributes attributes;
+  attributes.columns = {{"anything", {5, 5, 5, 5}}};
+  Surface_view options = small;
+  options.range = {{-10, 10}};
+  const auto drawn = draw_surface(facing_square(), attributes, options);
+  ASSERT_TRUE(drawn.legend);
+  EXPECT_TRUE(drawn.legend->range.is_diverging);
+  expect_near(middle(drawn.picture, (101 - legend_height) / 2), shaded(diverging_color(0.5)));
+  options.range = {{0, 10}};
+  expect_near(middle(draw_surface(facing_square(), attributes, options).picture, (101 - legend_height) / 2),
+              shaded(sequential_color(0.5)));
+}
+
+TEST(Program_draw_surface, what_has_no_number_has_the_color_of_its_status) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Vertex_attributes attributes;
+  attributes.columns = {{"k1", {nan, nan, nan, nan}}};
+  const std::size_t row = (101 - legend_height) / 2;
+  expect_near(middle(draw_surface(facing_square(), attributes, small).picture, row), shaded(undefined_color()));
+  attributes.status.emplace(4, Point_status::PARABOLIC);
+  expect_near(middle(draw_surface(facing_square(), attributes, small).picture, row),
+              shaded(status_color(Point_status::PARABOLIC)));
+}
+
+TEST(Program_draw_surface, curves_and_arrows_are_dark_lines_on_it) {
+  const Mesh mesh = facing_square();
+  const auto is_dark = [](const Surface_picture& drawn) { return middle(drawn.picture, 50)[0] < 30; };
+  EXPECT_FALSE(is_dark(draw_surface(mesh, {}, small)));
+  const std::vector<Polyline_3<Kernel>> diagonal = {{{mesh.points[0], mesh.points[2]}, false}};
+  EXPECT_TRUE(is_dark(draw_surface(mesh, {}, small, diagonal)));
+
+  const Vector along = mesh.points[2] - mesh.points[0];
+  Vertex_attributes attributes;
+  for (int n = 0; n < 3; ++n) attributes.columns.push_back({std::string("v_") + "xyz" [n], { along[n], 0, 0, 0 }});
+  Surface_view options = small;
+  options.color = "plain";
+  const auto without = draw_surface(mesh, attributes, options).picture.rgb;
+  options.arrows = "v";
+  EXPECT_NE(draw_surface(mesh, attributes, options).picture.rgb, without);
+}
+
+TEST(Program_draw_surface, a_vector_is_three_columns) {
+  Vertex_attributes attributes;
+  for (const char* name : {"nx", "ny", "nz", "a_x", "a_z"}) attributes.columns.push_back({name, {0}});
+  EXPECT_TRUE(vector_columns(attributes, "normal"));
+  EXPECT_FALSE(vector_columns(attributes, "a"));
+}
+
+} // namespace

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/program.h"
+#include "support/run_program.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+#include <streambuf>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine::test;
+using Arguments = std::vector<std::string>;
+
+const Arguments box = {"--box", "-2", "2", "-2", "2", "-2", "2"};
+
+Arguments operator+(Arguments first, const Arguments& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+Arguments mesh_of(const std::string& expression) {
+  return Arguments{"mesh", "--function", expression, "-o", "out.ply"};
+}
+
+/// Everything that a user can do wrong: status 2, one line that names the thing, and nothing is written.
+class Program_errors : public Program_test {
+protected:
+  Program_errors() {
+    write_file(folder_ / "out.ply", "old");
+    before_ = names();
+  }
+
+  /// `words` are in the line on standard error, which `excerpt` follows.
+  void expect_error(const Arguments& arguments, const Arguments& words, const std::string& excerpt = {}) {
+    const Result result = run(arguments);
+    const std::size_t end = result.error.find('\n');
+    const std::string line = result.error.substr(0, end);
+    EXPECT_EQ(result.status, 2) << line;
+    EXPECT_EQ(result.out, "");
+    EXPECT_TRUE(line.starts_with("equiaffine: error: ")) << result.error;
+    ASSERT_NE(end, std::string::npos);
+    EXPECT_EQ(result.error.substr(end + 1), excerpt);
+    for (const std::string& word : words) EXPECT_NE(line.find(word), std::string::npos) << word << " in " << line;
+    EXPECT_EQ(file("out.ply"), "old");
+    EXPECT_EQ(names(), before_);
+  }
+
+  void add_input(const std::string& name, const std::string& text) {
+    write_file(folder_ / name, text);
+    before_ = names();
+  }
+
+  Arguments before_;
+};
+
+} // namespace
+
+TEST_F(Program_errors, no_command_is_told_in_one_line) {
+  expect_error({}, {"no command is given; use mesh, evaluate, sample or view", "see 'equiaffine --help'"});
+}
+
+TEST_F(Program_errors, an_unknown_command_or_option_is_named_and_the_nearest_suggested) {
+  expect_error({"mehs"}, {"'mehs'", "did you mean 'mesh'?", "equiaffine --help"});
+  expect_error(mesh_of("x") + box + Arguments{"--resolutoin", "64"},
+               {"'--resolutoin'", "did you mean '--resolution'?", "equiaffine mesh --help"});
+  expect_error(mesh_of("x") + box + Arguments{"--isovalu=1"}, {"'--isovalu=1'", "did you mean '--isovalue'?"});
+  expect_error({"--isovalue", "1", "mesh"}, {"'--isovalue'", "before the command"});
+  expect_error(mesh_of("x") + box + Arguments{"stray"}, {"'stray' is not expected"});
+  expect_error({"sample", "--volume", "v.nrrd"}, {"unknown option '--volume'"});
+}
+
+TEST_F(Program_errors, an_unknown_name_in_a_formula_is_shown_with_a_caret) {
+  expect_error(mesh_of("x + foo") + box, {"foo"}, "x + foo\n    ^\n");
+}
+
+TEST_F(Program_errors, an_unbalanced_parenthesis_is_shown_with_a_caret) {
+  const Result result = run(mesh_of("sin(x") + box);
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.error.find("sin(x\n"), std::string::npos) << result.error;
+  EXPECT_NE(result.error.find('^'), std::string::npos);
+  EXPECT_EQ(file("out.ply"), "old");
+}
+
+TEST_F(Program_errors, a_box_is_finite_and_not_empty) {
+  expect_error(mesh_of("x") + Arguments{"--box", "2", "-2", "-2", "2", "-2", "2"},
+               {"--box", "empty", "XMIN 2", "XMAX -2"});
+  expect_error(mesh_of("x") + Arguments{"--box", "-2", "2", "1", "1", "-2", "2"}, {"--box", "empty", "YMIN 1"});
+  expect_error(mesh_of("x") + Arguments{"--box", "nan", "2", "-2", "2", "-2", "2"},
+               {"--box", "'nan'", "not a finite number"});
+  expect_error(mesh_of("x") + Arguments{"--box", "-inf", "2", "-2", "2", "-2", "2"},
+               {"--box", "'-inf'", "not a finite number"});
+  expect_error(mesh_of("x") + Arguments{"--box", "-1e308", "1e308", "-2", "2", "-2", "2"}, {"--box", "too large"});
+  expect_error(mesh_of("x") + Arguments{"--box", "-2", "two", "-2", "2", "-2", "2"},
+               {"--box", "'two' is not a number"});
+  expect_error({"mesh", "--function", "x", "--box", "-2", "2", "-2", "2", "-2", "-o", "out.ply"},
+               {"--box", "a value is missing before -o"});
+  expect_error(mesh_of("x") + Arguments{"--box", "-2", "2", "-2"},
+               {"--box", "it needs XMIN XMAX", "equiaffine mesh --help"});
+  expect_error({"mesh", "--function"}, {"--function", "it needs EXPR"});
+  expect_error(mesh_of("x") + box + box, {"--box", "more than once"});
+  expect_error(mesh_of("x"), {"--box is missing"});
+}
+
+TEST_F(Program_errors, a_resolution_is_between_two_and_what_fits_into_memory) {
+  for (const char* bad : {"1", "0", "-5", "2.5", "1e3", "many", "99999999999999999999"})
+    expect_error(mesh_of("x") + box + Arguments{"--resolution", bad},
+                 {"--resolution", std::string("'").append(bad).append("'")});
+  expect_error(mesh_of("x") + box + Arguments{"--resolution", "1000000"},
+               {"--resolution", "1000000 x", "GB of memory"});
+  expect_error(mesh_of("x") + box + Arguments{"--resolution", "1000000", "--derivatives", "spline"}, {"GB of memory"});
+  expect_error({"sample", "--function", "x", "--resolution", "1000000", "-o", "v.vti"}, {"--box is missing"});
+  expect_error(Arguments{"sample", "--function", "x", "--resolution", "1000000", "-o", "v.vti"} + box,
+               {"GB of memory"});
+  expect_error(mesh_of("x") + box + Arguments{"--resolution", "64", "64"}, {"--resolution", "2 numbers"});
+}
+
+TEST_F(Program_errors, a_source_is_given_once_with_what_belongs_to_it) {
+  expect_error({"mesh", "-o", "out.ply"}, {"no source is given"});
+  expect_error(mesh_of("x") + Arguments{"--volume", "v.nrrd"}, {"--function and --volume"});
+  expect_error(mesh_of("x") + Arguments{"--function", "y"}, {"--function", "more than once"});
+  expect_error({"mesh", "--volume", "v.nrrd", "-o", "out.ply", "--resolution", "64"},
+               {"--resolution", "--volume has its own"});
+  expect_error(Arguments{"mesh", "--volume", "v.nrrd", "-o", "out.ply"} + box, {"--box", "--volume has its own"});
+  expect_error({"mesh", "--volume", "v.nrrd", "-o", "out.ply", "--set", "a=1"}, {"--set"});
+  expect_error({"mesh", "--volume", "v.nrrd", "-o", "out.ply", "--derivatives", "jets"}, {"--derivatives", "jets"});
+  expect_error(mesh_of("--box") + box, {"--function", "a value is missing before --box"});
+  expect_error({"evaluate", "--function", "x", "--derivatives", "spline", "--points", "p.csv", "-o", "o.csv"},
+               {"--box is missing"});
+}
+
+TEST_F(Program_errors, constants_are_numbers_with_names) {
+  expect_error(mesh_of("a*x") + box + Arguments{"--set", "a"}, {"--set", "'a'", "name=value"});
+  expect_error(mesh_of("a*x") + box + Arguments{"--set", "a=b"}, {"--set a=b", "'b' is not a number"});
+  expect_error(mesh_of("a*x") + box + Arguments{"--set", "a=1", "a=2"}, {"--set a=2", "has a value already"});
+  expect_error(mesh_of("a*x") + box + Arguments{"--set", "a=inf"}, {"'inf' is not a finite number"});
+}
+
+TEST_F(Program_errors, a_transform_has_an_inverse) {
+  expect_error(mesh_of("x") + box + Arguments{"--transform", "1", "2", "3", "4", "5", "6", "7", "8", "9"},
+               {"--transform", "singular"});
+  expect_error(mesh_of("x") + box + Arguments{"--transform", ".1", ".2", ".3", ".3", ".6", ".9", "0", "0", "1"},
+               {"singular"});
+  expect_error(mesh_of("x") + box + Arguments{"--transform", "0", "0", "0", "0", "1", "0", "0", "0", "1"},
+               {"singular"});
+  expect_error(mesh_of("x") + box + Arguments{"--transform", "1", "2"}, {"--transform", "it needs A11"});
+}
+
+TEST_F(Program_errors, words_to_choose_from_are_listed) {
+  expect_error(mesh_of("x") + box + Arguments{"--method", "cubes"}, {"--method", "'cubes'", "marching-cubes"});
+  const Arguments delaunay = mesh_of("x") + box + Arguments{"--method", "delaunay"};
+  expect_error(mesh_of("x") + box + Arguments{"--method", "delauney"}, {"--method", "marching-cubes or delaunay"});
+  expect_error(delaunay + Arguments{"--sizing", "small"}, {"--sizing", "'small'", "uniform or euclidean or affine"});
+  expect_error(delaunay + Arguments{"--clip", "cube"}, {"--clip", "'cube'", "box or ball"});
+  expect_error(mesh_of("x") + box + Arguments{"--vertices", "linar"}, {"--vertices", "'linar'", "projected or linear"});
+  expect_error(mesh_of("x") + box + Arguments{"--orientation", "up"}, {"--orientation", "gradient or against"});
+  expect_error(mesh_of("x") + box + Arguments{"--derivatives", "exact"}, {"--derivatives", "jets or spline"});
+  expect_error(mesh_of("x") + box + Arguments{"--estimator", "best"},
+               {"--estimator", "compact or transformation or direct or direct-z"});
+  expect_error(mesh_of("x") + box + Arguments{"--attributes", "k1,kk"}, {"--attributes", "'kk'"});
+  expect_error(mesh_of("x") + box + Arguments{"--threads", "0"}, {"--threads", "'0'"});
+  expect_error(mesh_of("x") + box + Arguments{"--threads", "1000000000"}, {"--threads", "'1000000000'", "1024"});
+  expect_error(mesh_of("x") + box + Arguments{"--isovalue", "high"}, {"--isovalue", "'high'"});
+  expect_error(mesh_of("x") + box + Arguments{"--color", "k1"}, {"--color", "--html"});
+  expect_error(mesh_of("x") + box + Arguments{"--html", "o.html", "--color", "affine_k1"}, {"--color", "'affine_k1'"});
+}
+
+TEST_F(Program_errors, an_option_of_the_other_method_is_refused) {
+  for (const char* option : {"--angle", "--radius", "--distance", "--sizing", "--clip"})
+    expect_error(mesh_of("x") + box + Arguments{option, "1"},
+                 {option, "it is for --method delaunay; add --method delaunay or leave it out"});
+  const Arguments delaunay = mesh_of("x") + box + Arguments{"--method", "delaunay"};
+  expect_error(delaunay + Arguments{"--vertices", "linear"}, {"--vertices", "it is for --method marching-cubes"});
+  expect_error(delaunay + Arguments{"--resolution", "64"}, {"--resolution", "needs no grid for a formula", "--radius"});
+}
+
+TEST_F(Program_errors, criteria_of_a_Delaunay_mesh_can_be_satisfied) {
+  const Arguments delaunay = mesh_of("x") + box + Arguments{"--method", "delaunay"};
+  for (const char* option : {"--radius", "--distance"}) {
+    for (const char* bad : {"0", "-1", "nan", "wide"})
+      expect_error(delaunay + Arguments{option, bad}, {option, std::string("'").append(bad).append("'")});
+    expect_error(delaunay + Arguments{option, "1e-14"}, {option, "1e-14", "GB of memory", "use larger ones"});
+  }
+  for (const char* bad : {"30.1", "-1", "inf"}) expect_error(delaunay + Arguments{"--angle", bad}, {"--angle", bad});
+  for (const char* side : {"1e50", "1e-50"}) {
+    const std::string low = std::string("-") + side;
+    expect_error(mesh_of("x") + Arguments{"--method", "delaunay", "--box", low, side, low, side, low, side},
+                 {"diagonal", "choose another unit"});
+  }
+}
+
+TEST_F(Program_errors, a_surface_without_triangles_is_told_from_none) {
+  expect_error(
+      mesh_of("y^2 + z^2 - 0.2") + Arguments{"--method", "delaunay", "--box", "0", "1000", "-.5", ".5", "-.5", ".5"},
+      {"no part of the surface f = 0 was found in the box", "between -0.2 and 0.3; choose a smaller --radius"});
+}
+
+TEST_F(Program_errors, facets_that_coordinates_cannot_tell_apart_are_refused) {
+  expect_error(mesh_of("x - 1e17") +
+                   Arguments{"--method", "delaunay", "--box", "1e17", "100000000000000016", "-1", "1", "-1", "1"},
+               {"a radius of 0.32", "too small beside coordinates to 1e+17", "choose a larger --radius"});
+}
+
+TEST_F(Program_errors, a_surface_outside_the_box_is_none) {
+  const Arguments delaunay = {"--method", "delaunay"};
+  expect_error(mesh_of("x^2 + y^2 + z^2 + 1") + box + delaunay,
+               {"no surface f = 0 in the box", "between 1 and 13", "choose another --isovalue or box"});
+  expect_error(mesh_of("x^2 + y^2 + z^2 - 10") + box + delaunay + Arguments{"--clip", "ball", "--stats", "o.json"},
+               {"no surface f = 0 in the ball", "between -10 and 2"});
+  expect_error(mesh_of("log(-1 - x^2)") + box + delaunay, {"undefined", "choose another --isovalue or box"});
+  expect_error(mesh_of("x^2 + y^2 + z^2 + 1") + box, {"no surface f = 0", "between 1 and 13"});
+  expect_error(mesh_of("x") + box + Arguments{"--isovalue", "3", "--html", "o.html", "--stats", "o.json"},
+               {"no surface f = 3"});
+  expect_error(mesh_of("log(-1 - x^2)") + box, {"undefined"});
+}
+
+TEST_F(Program_errors, an_output_that_cannot_be_written_is_found_out) {
+  expect_error(Arguments{"mesh", "--function", "x", "-o", "no/such/out.ply"} + box,
+               {"'no/such/out.ply'", "does not exist"});
+  expect_error(mesh_of("x") + box + Arguments{"--html", "no/page.html"}, {"no/page.html"});
+  expect_error(mesh_of("x") + box + Arguments{"--stats", "."}, {"'.'", "folder"});
+  expect_error(Arguments{"mesh", "--function", "x", "-o", "out.xyz"} + box, {"'out.xyz'", ".ply .off"});
+  expect_error(Arguments{"mesh", "--function", "x"} + box, {"--output is missing"});
+  expect_error(mesh_of("x") + box + Arguments{"--html", "out.ply"}, {"two outputs", "'out.ply'"});
+  expect_error(mesh_of("x") + box + Arguments{"--html", "./out.ply"}, {"two outputs", "'./out.ply'"});
+  expect_error(mesh_of("x") + box + Arguments{"--html", "new.html", "--stats", "../work/new.html"},
+               {"two outputs", "'../work/new.html'"});
+  expect_error(mesh_of("x") + box + Arguments{"--parabolic-curves", "out.ply"}, {"'out.ply'"});
+  expect_error(mesh_of("x") + box + Arguments{"--parabolic-curves", "curves.csv"}, {"'curves.csv'", "use one of .obj"});
+  expect_error(Arguments{"sample", "--function", "x", "-o", "v.xyz"} + box, {"v.xyz", ".nrrd"});
+  expect_error({"evaluate", "--function", "x", "--points", "p.csv", "-o", "o.off"}, {"o.off", ".csv or .ply"});
+  const Result full = run(Arguments{"mesh", "--function", "x", "-o", "-"} + box, "", "/dev/full");
+  EXPECT_EQ(full.status, 2);
+  EXPECT_TRUE(full.error.starts_with("equiaffine: error: cannot write standard output")) << full.error;
+}
+
+TEST_F(Program_errors, an_output_that_refuses_its_bytes_leaves_the_others_as_they_were) {
+  expect_error(mesh_of("x") + box + Arguments{"--resolution", "4", "--stats", "/dev/full"}, {"'/dev/full'"});
+}
+
+TEST_F(Program_errors, a_file_to_read_holds_something) {
+  for (const char* name : {"e.csv", "e.ply", "e.off"}) {
+    add_input(name, "");
+    expect_error({"evaluate", "--function", "x", "--points", name, "-o", "o.csv"}, {name, "it is empty"});
+  }
+  expect_error({"view", "e.ply", "-o", "o.html"}, {"'e.ply'", "it is empty"});
+  expect_error({"mesh", "--distance-to", "e.off", "-o", "out.ply"}, {"'e.off'", "it is empty"});
+  expect_error({"mesh", "--distance-to", "-", "-o", "out.ply"}, {"standard input", "it is empty"});
+  expect_error({"mesh", "--distance-to", "..", "-o", "out.ply"}, {"'..'", "it is a folder"});
+  expect_error({"evaluate", "--function", "x", "--points", "..", "-o", "o.csv"}, {"'..'", "it is a folder"});
+  expect_error({"view", "..", "-o", "o.html"}, {"'..'", "it is a folder"});
+  expect_error({"evaluate", "--distance-to", "-", "--points", "-", "-o", "o.csv"},
+               {"--distance-to and --points", "standard input"});
+}
+
+TEST_F(Program_errors, a_missing_file_is_named) {
+  expect_error({"mesh", "--volume", "no.nrrd", "-o", "out.ply"}, {"no.nrrd", "no such file"});
+  expect_error({"mesh", "--distance-to", "no.off", "-o", "out.ply"}, {"no.off", "no such file"});
+  expect_error({"evaluate", "--function", "x", "--points", "no.csv", "-o", "o.csv"}, {"no.csv", "no such file"});
+  expect_error({"view", "no.ply", "-o", "o.html"}, {"no.ply", "no such file"});
+  expect_error({"view", "-o", "o.html"}, {"no mesh is given"});
+}
+
+TEST_F(Program_errors, points_are_a_table_with_a_header) {
+  add_input("p.csv", "a,y,z\n1,2,3\n");
+  expect_error({"evaluate", "--function", "x", "--points", "p.csv", "-o", "o.csv"}, {"p.csv", "'x'"});
+  add_input("p.csv", "x,y,z\n1,2,three\n");
+  expect_error({"evaluate", "--function", "x", "--points", "p.csv", "-o", "o.csv"},
+               {"p.csv", "line 2", "'z'", "'three'"});
+}
+
+TEST_F(Program_errors, a_mesh_to_measure_from_is_closed) {
+  add_input("open.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n");
+  expect_error({"mesh", "--distance-to", "open.off", "-o", "out.ply"}, {"'open.off'", "not closed", "3 border edges"});
+  add_input("short.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n");
+  expect_error({"mesh", "--distance-to", "short.off", "-o", "out.ply"}, {"short.off"});
+  add_input("text.stl", "this is no mesh");
+  expect_error({"mesh", "--distance-to", "text.stl", "-o", "out.ply"}, {"text.stl"});
+}
+
+#ifdef EQUIAFFINE_WITH_ITK
+TEST_F(Program_errors, a_volume_is_complete) {
+  run_well(Arguments{"sample", "--function", "x", "--resolution", "9", "-o", "v.nrrd"} + box);
+  std::filesystem::resize_file(folder_ / "v.nrrd", std::filesystem::file_size(folder_ / "v.nrrd") / 2);
+  before_ = names();
+  expect_error({"mesh", "--volume", "v.nrrd", "-o", "out.ply"}, {"v.nrrd", "end"});
+}
+
+TEST_F(Program_errors, a_volume_in_two_files_has_both) {
+  run_well(Arguments{"sample", "--function", "x", "--resolution", "9", "-o", "v.mhd"} + box);
+  std::filesystem::remove(folder_ / "v.raw");
+  before_ = names();
+  expect_error({"mesh", "--volume", "v.mhd", "-o", "out.ply"}, {"'v.mhd'", "'v.raw', is missing"});
+}
+
+TEST_F(Program_errors, a_header_that_ends_early_is_not_explained_by_another_error) {
+  add_input("h.mha", "ObjectType = Image\nNDims = 3\n");
+  const Result result = run({"mesh", "--volume", "h.mha", "-o", "out.ply"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.error, "equiaffine: error: cannot read the volume 'h.mha': its header is not understood; check that "
+                          "the extension is right and the file complete\n");
+  add_input("e.mhd", "");
+  expect_error({"mesh", "--volume", "e.mhd", "-o", "out.ply"}, {"'e.mhd'", "it is empty"});
+}
+#else
+TEST_F(Program_errors, a_format_that_this_program_does_not_write_is_refused_before_sampling) {
+  expect_error(Arguments{"sample", "--function", "x + foo", "-o", "v.nrrd"} + box, {"'v.nrrd'", "without ITK"});
+}
+#endif
+
+#ifndef EQUIAFFINE_WITH_VTK
+TEST_F(Program_errors, a_VTK_format_is_refused_before_sampling) {
+  expect_error(Arguments{"sample", "--function", "x + foo", "-o", "v.vti"} + box, {"'v.vti'", "without VTK"});
+  expect_error(mesh_of("x + foo") + box + Arguments{"--parabolic-curves", "c.vtp"}, {"'c.vtp'", "without VTK", ".obj"});
+}
+#endif
+
+TEST_F(Program_errors, a_page_shows_what_the_mesh_has) {
+  run_well(Arguments{"mesh", "--function", "x", "--resolution", "3", "-o", "in.ply"} + box);
+  before_ = names();
+  expect_error({"view", "in.ply", "-o", "o.html", "--color", "affine_k1"},
+               {"--color", "'affine_k1'", "mean_curvature"});
+  expect_error({"view", "in.ply", "-o", "o.html", "--up", "w"}, {"--up", "'w'", "x or y or z"});
+  for (const char* option : {"--color", "--up"})
+    expect_error(mesh_of("x") + box + Arguments{option, "x"}, {option, "page", "--html", "--png"});
+  expect_error({"view", "in.ply"}, {"no output", "-o PAGE.html", "--png"});
+}
+
+TEST_F(Program_errors, a_picture_has_a_size_a_range_and_vectors_that_exist) {
+  const Arguments picture = mesh_of("x") + box;
+  for (const char* option : {"--size", "--range"})
+    expect_error(picture + Arguments{option, "200", "300"}, {option, "picture", "--png"});
+  expect_error(picture + Arguments{"--arrows", "normal"}, {"--arrows", "picture", "--png"});
+#ifdef EQUIAFFINE_WITH_VTK
+  const Arguments png = picture + Arguments{"--png", "p.png"};
+  expect_error(png + Arguments{"--size", "200", "99"}, {"--size", "'99'", "100"});
+  expect_error(png + Arguments{"--size", "20000", "200"}, {"--size", "'20000'", "10000"});
+  expect_error(png + Arguments{"--range", "2", "2"}, {"--range", "'2'", "smaller number first"});
+  expect_error(png + Arguments{"--arrows", "metric"}, {"--arrows", "'metric'", "affine_normal"});
+  expect_error(picture + Arguments{"--png", "p.jpg"}, {"'p.jpg'", ".png"});
+  run_well(Arguments{"mesh", "--function", "x", "--resolution", "3", "-o", "in.ply", "--attributes", "normal"} + box);
+  before_ = names();
+  expect_error({"view", "in.ply", "--png", "p.png", "--arrows", "conormal"}, {"--arrows", "'conormal'", "conormal_x"});
+  expect_error({"view", "in.ply", "-o", "same", "--png", "same"}, {"two outputs", "'same'"});
+#else
+  expect_error(picture + Arguments{"--png", "p.png"}, {"'p.png'", "without VTK", "--html"});
+#endif
+}
+
+TEST(Program_defects, give_status_one_and_one_line) {
+  struct Defect : std::streambuf {
+    int_type overflow(int_type) override { throw std::logic_error("first\nsecond"); }
+  } defect;
+  std::ostream out(&defect);
+  out.exceptions(std::ios::badbit); // what the buffer throws passes through
+  std::ostringstream error;
+  EXPECT_EQ(equiaffine::run({"--version"}, {out, error}), 1);
+  EXPECT_EQ(error.str(), "equiaffine: internal error: first second\n");
+}

@@ -1,0 +1,451 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/volume_io.h"
+#include <equiaffine/Input_error.h>
+
+#include <gtest/gtest.h>
+
+#ifdef EQUIAFFINE_WITH_ITK
+#include <itkGDCMImageIO.h>
+#include <itkMetaDataObject.h>
+#endif
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using equiaffine::Input_error;
+using equiaffine::Kernel;
+using equiaffine::read_volume;
+using equiaffine::write_volume;
+using Lattice = equiaffine::Lattice_3<Kernel>;
+using Volume = equiaffine::Volume_3<Kernel>;
+using Point_3 = Kernel::Point_3;
+using Vector_3 = Kernel::Vector_3;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double float_epsilon = std::numeric_limits<float>::epsilon();
+
+class Program_volume_io : public testing::Test {
+protected:
+  Program_volume_io() {
+    std::string name = (fs::temp_directory_path() / "equiaffine-test-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  ~Program_volume_io() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  void write_file(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+  }
+
+  std::string read_file(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+
+  std::size_t number_of_files() const {
+    return std::size_t(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+
+  /// The message of the error, which is one line that names the file; nothing may be printed.
+  std::string reading_error(const std::string& name) const {
+    testing::internal::CaptureStderr();
+    std::string message = "no error";
+    try {
+      read_volume(path(name));
+    } catch (const Input_error& error) {
+      message = error.what();
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_NE(message.find(path(name)), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    return message;
+  }
+
+  void expect_reading_error(const std::string& name, const std::string& part) const {
+    const std::string message = reading_error(name);
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+
+private:
+  fs::path folder_;
+};
+
+std::vector<std::string> written_extensions() {
+  return {
+#ifdef EQUIAFFINE_WITH_ITK
+      ".nrrd", ".mhd", ".mha", ".nii", ".nii.gz",
+#endif
+#ifdef EQUIAFFINE_WITH_VTK
+      ".vti",
+#endif
+  };
+}
+
+bool is_nifti(const std::string& extension) { return extension.starts_with(".nii"); }
+
+/// Every value differs from every other, and from its nearest float.
+Volume sampled(const Lattice& lattice) {
+  Volume volume{lattice, {}};
+  for (std::size_t node = 0; node < lattice.number_of_nodes(); ++node) volume.values.push_back(double(node) + 1. / 3);
+  return volume;
+}
+
+Lattice axis_parallel_lattice() {
+  return {
+      {5, 4, 3}, Point_3(-1.2, 0.1, 1. / 3), {Vector_3(2.4 / 63, 0, 0), Vector_3(0, 1.1 / 7, 0), Vector_3(0, 0, 2.5)}};
+}
+
+/// Rotated about no axis of symmetry, different steps, left-handed.
+Lattice rotated_lattice() {
+  const Vector_3 a = Vector_3(2, -1, 0.5) / std::sqrt(5.25);
+  const Vector_3 b = Vector_3(1, 2, 0) / std::sqrt(5.);
+  const Vector_3 c = CGAL::cross_product(b, a);
+  return {{5, 4, 3}, Point_3(-10.1, 3.7, 1. / 3), {0.7 * a, 1.3 * b, 2.1 * c}};
+}
+
+Lattice sheared_lattice() {
+  return {{5, 4, 3}, Point_3(-1.2, 0.1, 1. / 3), {Vector_3(0.5, 0, 0.1), Vector_3(0.2, 1, 0), Vector_3(0, 0.3, 2)}};
+}
+
+double largest_coordinate(const Lattice& lattice) {
+  const CGAL::Bbox_3 box = lattice.bbox();
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis) largest = std::max({largest, std::abs(box.min(axis)), std::abs(box.max(axis))});
+  return largest;
+}
+
+double largest_distance_between_nodes(const Lattice& a, const Lattice& b) {
+  EXPECT_EQ(a.size(), b.size());
+  double distance = 0;
+  for (unsigned k = 0; k < a.size()[2]; ++k)
+    for (unsigned j = 0; j < a.size()[1]; ++j)
+      for (unsigned i = 0; i < a.size()[0]; ++i)
+        distance = std::max(distance, std::sqrt(CGAL::squared_distance(a.point(i, j, k), b.point(i, j, k))));
+  return distance;
+}
+
+template <class Number>
+std::string bytes_of(const std::vector<Number>& numbers, bool is_reversed = false) {
+  std::string bytes;
+  for (const Number number : numbers) {
+    std::array<char, sizeof(Number)> word;
+    std::memcpy(word.data(), &number, sizeof number);
+    if (is_reversed) std::reverse(word.begin(), word.end());
+    bytes.append(word.data(), word.size());
+  }
+  return bytes;
+}
+
+TEST_F(Program_volume_io, every_format_keeps_a_rotated_left_handed_anisotropic_volume) {
+  const Volume volume = sampled(rotated_lattice());
+  ASSERT_LT(volume.lattice.determinant(), 0);
+  for (const std::string& extension : written_extensions()) {
+    SCOPED_TRACE(extension);
+    write_volume(path("a" + extension), volume, false);
+    const Volume copy = read_volume(path("a" + extension));
+    EXPECT_EQ(copy.values, volume.values);
+    // Steps are stored as length times direction; NIfTI stores floats. A few roundings of a coordinate.
+    const double rounding = 4 * (is_nifti(extension) ? float_epsilon : epsilon) * largest_coordinate(volume.lattice);
+    EXPECT_LE(largest_distance_between_nodes(copy.lattice, volume.lattice), rounding);
+  }
+}
+
+TEST_F(Program_volume_io, every_format_but_nifti_keeps_an_axis_parallel_lattice_exactly) {
+  const Volume volume = sampled(axis_parallel_lattice());
+  for (const std::string& extension : written_extensions()) {
+    SCOPED_TRACE(extension);
+    write_volume(path("a" + extension), volume, false);
+    const Lattice lattice = read_volume(path("a" + extension)).lattice;
+    const double bound = is_nifti(extension) ? 4 * float_epsilon * largest_coordinate(lattice) : 0;
+    EXPECT_LE(largest_distance_between_nodes(lattice, volume.lattice), bound);
+  }
+}
+
+TEST_F(Program_volume_io, floats_are_the_nearest_ones) {
+  const Volume volume = sampled(rotated_lattice());
+  std::vector<double> floats(volume.values.size());
+  std::transform(volume.values.begin(), volume.values.end(), floats.begin(), [](double v) { return double(float(v)); });
+  ASSERT_NE(floats, volume.values);
+  for (const std::string& extension : written_extensions()) {
+    SCOPED_TRACE(extension);
+    write_volume(path("a" + extension), volume, true);
+    EXPECT_EQ(read_volume(path("a" + extension)).values, floats);
+  }
+}
+
+TEST_F(Program_volume_io, a_sheared_lattice_is_kept_or_refused) {
+  const Volume volume = sampled(sheared_lattice());
+  for (const std::string& extension : written_extensions()) {
+    SCOPED_TRACE(extension);
+    const std::size_t files = number_of_files();
+    if (is_nifti(extension)) {
+      EXPECT_THROW(write_volume(path("a" + extension), volume, false), Input_error);
+      EXPECT_EQ(number_of_files(), files);
+    } else {
+      write_volume(path("a" + extension), volume, false);
+      EXPECT_LE(largest_distance_between_nodes(read_volume(path("a" + extension)).lattice, volume.lattice),
+                4 * epsilon * largest_coordinate(volume.lattice));
+    }
+  }
+}
+
+TEST_F(Program_volume_io, two_nodes_per_axis_are_enough) {
+  const Volume volume = sampled(Lattice({2, 2, 2}, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1)));
+  for (const std::string& extension : written_extensions()) {
+    write_volume(path("a" + extension), volume, false);
+    EXPECT_EQ(read_volume(path("a" + extension)).values, volume.values) << extension;
+  }
+}
+
+TEST_F(Program_volume_io, a_file_that_ends_early_is_refused) {
+  const Volume volume = sampled(rotated_lattice());
+  for (const std::string& extension : written_extensions()) {
+    SCOPED_TRACE(extension);
+    write_volume(path("whole" + extension), volume, false);
+    const std::string name = extension == ".mhd" ? "whole.raw" : "whole" + extension;
+    const std::string bytes = read_file(name);
+    for (const std::size_t missing :
+         {std::size_t(2), std::size_t(8), std::size_t(200), bytes.size() - 60, bytes.size()}) {
+      write_file(name, bytes.substr(0, bytes.size() - missing));
+      reading_error("whole" + extension);
+      EXPECT_THROW(read_volume(path("whole" + extension)), Input_error) << missing;
+    }
+  }
+}
+
+TEST_F(Program_volume_io, mistakes_about_names_say_what_is_possible) {
+  expect_reading_error("absent.nrrd", "there is no such file");
+  write_file("a.jpeg", "x");
+  expect_reading_error("a.jpeg", ".nii.gz .inr .inr.gz .vti");
+  EXPECT_THROW(equiaffine::check_volume_output("a.jpeg"), Input_error);
+  EXPECT_THROW(equiaffine::check_volume_output("a.inr"), Input_error);
+  EXPECT_NO_THROW(equiaffine::check_volume_output("A.NII.GZ"));
+  EXPECT_THROW(write_volume(path("absent/a.nrrd"), sampled(rotated_lattice()), false), Input_error);
+}
+
+std::string inr(const std::string& fields, const std::string& data) {
+  std::string header = "#INRIMAGE-4#{\n" + fields;
+  header.append(256 - header.size() - 4, '\n');
+  return header + "##}\n" + data;
+}
+
+constexpr const char* inr_size = "XDIM=4\nYDIM=3\nZDIM=2\nVX=0.5\nVY=1.5\nVZ=2.5\n";
+constexpr const char* inr_place = "TX=-1\nTY=2\nTZ=30\n";
+
+TEST_F(Program_volume_io, an_inr_file_has_its_spacing_and_translation) {
+  std::vector<float> values(24);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = float(i) - 7.25F;
+  const std::string fields = std::string(inr_size) + inr_place + "VDIM=1\nTYPE=float\nPIXSIZE=32 bits\n";
+  write_file("little.inr", inr(fields + "CPU=decm\n", bytes_of(values)));
+  write_file("big.inr", inr(fields + "CPU=sun\n", bytes_of(values, true)));
+  const std::string zipped = read_file("little.inr");
+  const gzFile file = gzopen(path("zipped.inr.gz").c_str(), "wb");
+  gzwrite(file, zipped.data(), unsigned(zipped.size()));
+  gzclose(file);
+  for (const char* name : {"little.inr", "big.inr", "zipped.inr.gz"}) {
+    SCOPED_TRACE(name);
+    const Volume volume = read_volume(path(name));
+    EXPECT_EQ(volume.values, std::vector<double>(values.begin(), values.end()));
+    EXPECT_EQ(volume.lattice.point(0, 0, 0), Point_3(-1, 2, 30));
+    EXPECT_EQ(volume.lattice.point(3, 2, 1), Point_3(-1 + 3 * 0.5, 2 + 2 * 1.5, 30 + 2.5));
+    const std::string bytes = read_file(name);
+    write_file(name, bytes.substr(0, bytes.size() - 20));
+    expect_reading_error(name, "not a complete INRIMAGE-4 file");
+  }
+}
+
+TEST_F(Program_volume_io, an_inr_file_may_have_integers_but_no_vectors_and_no_rotation) {
+  const std::vector<std::int16_t> values = {-300, 2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12,
+                                            13,   14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24};
+  const std::string type = "TYPE=signed fixed\nPIXSIZE=16 bits\nCPU=decm\n";
+  write_file("a.inr", inr(std::string(inr_size) + "VDIM=1\n" + type, bytes_of(values)));
+  EXPECT_EQ(read_volume(path("a.inr")).values, std::vector<double>(values.begin(), values.end()));
+  write_file("v.inr", inr(std::string(inr_size) + "VDIM=2\n" + type, bytes_of(values) + bytes_of(values)));
+  expect_reading_error("v.inr", "2 numbers per node");
+  write_file("r.inr", inr(std::string(inr_size) + "VDIM=1\nRZ=0.5\n" + type, bytes_of(values)));
+  expect_reading_error("r.inr", "rotated");
+}
+
+#ifdef EQUIAFFINE_WITH_ITK
+
+std::string nrrd(const std::string& type, const std::string& sizes, const std::string& directions,
+                 const std::string& data) {
+  const std::string dimension = std::to_string(1 + std::count(sizes.begin(), sizes.end(), ' '));
+  return "NRRD0004\nencoding: ascii\ntype: " + type + "\ndimension: " + dimension + "\nsizes: " + sizes +
+         "\nspace: left-posterior-superior\nspace directions: " + directions + "\n\n" + data + "\n";
+}
+
+TEST_F(Program_volume_io, every_type_of_numbers_becomes_double) {
+  for (const char* type :
+       {"int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float", "double"}) {
+    write_file("a.nrrd", nrrd(type, "2 2 2", "(1,0,0) (0,2,0) (0,0,3)", "1 2 3 4 5 6 7 117"));
+    EXPECT_EQ(read_volume(path("a.nrrd")).values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 117})) << type;
+  }
+}
+
+TEST_F(Program_volume_io, only_volumes_of_scalars_with_two_nodes_per_axis_are_read) {
+  write_file("v.nrrd", nrrd("float", "3 2 2 2", "none (1,0,0) (0,1,0) (0,0,1)\nkinds: vector domain domain domain",
+                            "0 1 2 3 4 5 6 7 8 9 0 1 2 3 4 5 6 7 8 9 0 1 2 3"));
+  expect_reading_error("v.nrrd", "3 numbers per node");
+  write_file("flat.nrrd", "NRRD0004\nencoding: ascii\ntype: float\ndimension: 2\nsizes: 2 2\n\n1 2 3 4\n");
+  expect_reading_error("flat.nrrd", "2 axes");
+  write_file("thin.nrrd", nrrd("float", "4 1 2", "(1,0,0) (0,1,0) (0,0,1)", "1 2 3 4 5 6 7 8"));
+  expect_reading_error("thin.nrrd", "4 x 1 x 2");
+}
+
+/// The bytes of NIfTI's header that say how many axes there are and how values are scaled.
+void patch_nifti(std::string& bytes, std::array<std::int16_t, 6> dimensions, float slope, float intercept) {
+  std::memcpy(&bytes[40], dimensions.data(), sizeof dimensions);
+  std::memcpy(&bytes[112], &slope, sizeof slope);
+  std::memcpy(&bytes[116], &intercept, sizeof intercept);
+}
+
+TEST_F(Program_volume_io, a_nifti_file_may_have_a_fourth_axis_of_one_volume_and_a_scale) {
+  const Volume volume = sampled(rotated_lattice());
+  write_volume(path("a.nii"), volume, false);
+  std::string bytes = read_file("a.nii");
+  patch_nifti(bytes, {4, 5, 4, 3, 1, 1}, 1, 0);
+  write_file("single.nii", bytes);
+  EXPECT_EQ(read_volume(path("single.nii")).values, volume.values);
+  patch_nifti(bytes, {4, 5, 4, 1, 3, 1}, 1, 0);
+  write_file("series.nii", bytes);
+  expect_reading_error("series.nii", "4 axes");
+  patch_nifti(bytes, {3, 5, 4, 3, 1, 1}, 2, -3);
+  write_file("scaled.nii", bytes);
+  const Volume scaled = read_volume(path("scaled.nii"));
+  for (std::size_t node = 0; node < volume.values.size(); ++node)
+    EXPECT_NEAR(scaled.values[node], 2 * volume.values[node] - 3,
+                4 * float_epsilon * std::abs(volume.values[node]) + 1e-6);
+}
+
+TEST_F(Program_volume_io, coordinates_far_from_the_origin_are_refused_by_nifti) {
+  const Volume volume = sampled(Lattice({2, 2, 2}, CGAL::Bbox_3(1e4 + 1. / 3, 0, 0, 1e4 + 1. / 3 + 0.01, 1, 1)));
+  EXPECT_THROW(write_volume(path("a.nii"), volume, false), Input_error);
+  EXPECT_NO_THROW(write_volume(path("a.nrrd"), volume, false));
+}
+
+TEST_F(Program_volume_io, both_files_of_a_meta_image_replace_the_old_ones_together) {
+  const Volume volume = sampled(rotated_lattice());
+  write_file("a.mhd", "old");
+  write_file("a.raw", "old");
+  equiaffine::Output_file file(path("a.mhd"));
+  write_volume(file, volume, false);
+  EXPECT_EQ(read_file("a.mhd"), "old");
+  EXPECT_EQ(read_file("a.raw"), "old");
+  file.commit();
+  EXPECT_EQ(number_of_files(), 2u);
+  EXPECT_EQ(read_volume(path("a.mhd")).values, volume.values);
+}
+
+/// One slice of 4 x 3 short numbers of a CT series, with its place in the patient.
+void write_slice(const std::string& path, const std::string& position, std::int16_t first_value) {
+  const itk::GDCMImageIO::Pointer io = itk::GDCMImageIO::New();
+  itk::MetaDataDictionary& dictionary = io->GetMetaDataDictionary();
+  const auto set = [&](const char* tag, const std::string& value) { itk::EncapsulateMetaData(dictionary, tag, value); };
+  set("0008|0016", "1.2.840.10008.5.1.4.1.1.2");
+  set("0008|0018", "1.2.826.0.1.3680043.2.1125.9." + std::to_string(first_value));
+  set("0008|0060", "CT");
+  set("0020|000d", "1.2.826.0.1.3680043.2.1125.7");
+  set("0020|000e", "1.2.826.0.1.3680043.2.1125.8");
+  set("0020|0032", position);
+  set("0020|0037", R"(0.36\0.48\-0.8\-0.8\0.6\0)");
+  io->KeepOriginalUIDOn();
+  io->SetNumberOfDimensions(2);
+  io->SetDimensions(0, 4);
+  io->SetDimensions(1, 3);
+  io->SetSpacing(0, 0.5);
+  io->SetSpacing(1, 0.75);
+  io->SetPixelType(itk::IOPixelEnum::SCALAR);
+  io->SetNumberOfComponents(1);
+  io->SetComponentType(itk::IOComponentEnum::SHORT);
+  io->SetFileName(path);
+  std::vector<std::int16_t> values(12);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::int16_t(first_value + std::int16_t(i));
+  io->Write(values.data());
+}
+
+TEST_F(Program_volume_io, a_dicom_series_is_ordered_by_the_places_of_its_slices) {
+  const fs::path series = path("series");
+  fs::create_directory(series);
+  expect_reading_error("series", "0 DICOM series");
+  // The third direction is the cross product (0.48, 0.64, 0.6); steps of 2 along it, files not in this order.
+  write_slice(series / "c.dcm", R"(10\20\30)", 100);
+  write_slice(series / "a.dcm", R"(10.96\21.28\31.2)", 200);
+  write_slice(series / "b.dcm", R"(11.92\22.56\32.4)", 300);
+  const Volume volume = read_volume(series);
+  ASSERT_EQ(volume.lattice.size(), (Lattice::Size{4, 3, 3}));
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(volume(i, j, k), double(100 * (k + 1) + 4 * j + i));
+  const Lattice expected({4, 3, 3}, Point_3(10, 20, 30),
+                         {Vector_3(0.18, 0.24, -0.4), Vector_3(-0.6, 0.45, 0), Vector_3(0.96, 1.28, 1.2)});
+  EXPECT_LE(largest_distance_between_nodes(volume.lattice, expected), 16 * epsilon * largest_coordinate(expected));
+  write_slice(series / "e.dcm", R"(13.84\25.12\34.8)", 500);
+  expect_reading_error("series", "not evenly spaced");
+}
+
+#endif
+
+#ifdef EQUIAFFINE_WITH_VTK
+
+std::string vti(const std::string& arrays) {
+  return "<VTKFile type=\"ImageData\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+         "<ImageData WholeExtent=\"1 2 3 4 -1 1\" Origin=\"10 20 30\" Spacing=\"0.5 1.5 2\" "
+         "Direction=\"0 1 0 1 0 0 0 0 1\">\n<Piece Extent=\"1 2 3 4 -1 1\">\n" +
+         arrays + "</Piece>\n</ImageData>\n</VTKFile>\n";
+}
+
+std::string data_array(const std::string& attributes, const std::string& numbers) {
+  return "<DataArray type=\"Int16\" format=\"ascii\" " + attributes + ">" + numbers + "</DataArray>\n";
+}
+
+TEST_F(Program_volume_io, a_vti_file_has_its_extent_and_directions) {
+  write_file("a.vti", vti("<PointData>" + data_array("Name=\"f\"", "1 2 3 4 5 6 7 8 9 10 11 -12") + "</PointData>"));
+  const Volume volume = read_volume(path("a.vti"));
+  EXPECT_EQ(volume.values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, -12}));
+  // Node (1, 3, -1) of the extent; x and y are exchanged by the directions.
+  EXPECT_EQ(volume.lattice.point(0, 0, 0), Point_3(10 + 3 * 1.5, 20 + 0.5, 30 - 2));
+  EXPECT_EQ(volume.lattice.point(1, 1, 2), Point_3(10 + 4 * 1.5, 20 + 2 * 0.5, 30 + 2));
+}
+
+TEST_F(Program_volume_io, a_vti_file_needs_one_array_of_scalars_at_its_points) {
+  const std::string numbers = "1 2 3 4 5 6 7 8 9 10 11 12";
+  write_file("cells.vti", vti("<CellData>" + data_array("Name=\"f\"", "1 2") + "</CellData>"));
+  expect_reading_error("cells.vti", "convert its cell data");
+  write_file("two.vti", vti("<PointData>" + data_array("Name=\"f\"", numbers) + data_array("Name=\"g\"", numbers) +
+                            "</PointData>"));
+  expect_reading_error("two.vti", "marked as its scalars");
+  write_file("marked.vti", vti("<PointData Scalars=\"g\">" + data_array("Name=\"f\"", numbers) +
+                               data_array("Name=\"g\"", "0 2 3 4 5 6 7 8 9 10 11 12") + "</PointData>"));
+  EXPECT_EQ(read_volume(path("marked.vti")).values[0], 0);
+  write_file(
+      "vector.vti",
+      vti("<PointData>" + data_array("Name=\"f\" NumberOfComponents=\"2\"", numbers + " " + numbers) + "</PointData>"));
+  expect_reading_error("vector.vti", "2 numbers per node");
+  write_file("short.vti", vti("<PointData>" + data_array("Name=\"f\"", "1 2 3 4 5") + "</PointData>"));
+  expect_reading_error("short.vti", "damaged");
+  write_file("text.vti", "this is no XML");
+  expect_reading_error("text.vti", "damaged");
+}
+
+#endif
+
+} // namespace

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/sample_volume.h"
+#include <equiaffine/volume/Sample_noise.h>
+#include <equiaffine/volume/Spline_function_3.h>
+#include <equiaffine/volume/smooth_volume.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Volume = Volume_3<Kernel>;
+constexpr auto scheme = Spline_scheme::QUASI_INTERPOLATION;
+
+double ellipsoid(double x, double y, double z) { return std::exp(x * x + y * y / 0.7 + z * z / 0.5 - 1) - 1; }
+
+Volume sample(std::size_t n, double deviation) {
+  const Lattice_3<Kernel> lattice({n, n, n}, CGAL::Bbox_3(-1.25, -1.1, -1, 1.25, 1.1, 1));
+  return sample_volume(lattice, ellipsoid, deviation);
+}
+
+} // namespace
+
+TEST(Sample_noise, the_deviation_of_white_noise_is_found) {
+  for (const double deviation : {1e-8, 1e-5, 1e-2}) {
+    EXPECT_NEAR(estimate_noise(sample(64, deviation), 0.).deviation / deviation, 1, 0.05);
+    EXPECT_NEAR(estimate_noise(sample(64, deviation)).deviation / deviation, 1, 0.05);
+  }
+}
+
+TEST(Sample_noise, smooth_samples_have_next_to_none) {
+  EXPECT_LT(estimate_noise(sample(128, 0), 0.).deviation, 1e-14);
+  EXPECT_EQ(estimate_noise(sample(64, 0)).quantum, 0);
+}
+
+TEST(Sample_noise, floats_and_integers_have_that_of_their_rounding) {
+  Volume volume = sample(64, 0);
+  for (double& value : volume.values) value = double(float(value));
+  const Sample_noise of_floats = estimate_noise(volume, 0.);
+  EXPECT_GT(of_floats.quantum, 0);
+  EXPECT_GT(of_floats.deviation, 1e-10);
+  EXPECT_LT(of_floats.deviation, 6e-8);
+  for (double& value : volume.values) value = std::round(100 * value);
+  const Sample_noise of_integers = estimate_noise(volume, 0.);
+  EXPECT_EQ(of_integers.quantum, 1);
+  EXPECT_NEAR(of_integers.deviation, 1 / std::sqrt(12.0), 0.05);
+  for (double& value : volume.values) value = 3;
+  EXPECT_EQ(estimate_noise(volume, 3.).deviation, 1 / std::sqrt(12.0)) << "nothing is seen, and yet it is rounded";
+}
+
+TEST(Sample_noise, nodes_without_a_value_do_not_matter_and_small_volumes_say_nothing) {
+  Volume volume = sample(40, 1e-5);
+  for (std::size_t n = 0; n < volume.values.size(); n += 997)
+    volume.values[n] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NEAR(estimate_noise(volume).deviation, 1e-5, 2e-6);
+  EXPECT_EQ(estimate_noise(sample(12, 1e-5)).deviation, 0);
+}
+
+TEST(Sample_noise, the_chosen_scale_has_nearly_the_least_error_of_fourth_derivatives) {
+  const auto exact = sample(64, 0);
+  const Spline_function_3<Kernel> reference(exact, 9);
+  for (const double deviation : {0.0, 1e-7, 1e-4}) {
+    const Volume volume = sample(64, deviation);
+    const Sample_noise noise = estimate_noise(volume, 0.);
+    const auto error = [&](double scale) {
+      const Spline_function_3<Kernel> spline(smooth_volume(volume, scale), 7);
+      std::vector<double> errors;
+      for (int n = 0; n < 400; ++n) {
+        const double u = std::acos(1 - 2 * (n + 0.5) / 400), v = 2.4 * n; // about the surface
+        const Kernel::Point_3 p(std::sin(u) * std::cos(v), std::sqrt(0.7) * std::sin(u) * std::sin(v),
+                                std::sqrt(0.5) * std::cos(u));
+        errors.push_back(std::abs(spline.taylor(p).derivative(4, 0, 0) - reference.taylor(p).derivative(4, 0, 0)));
+      }
+      std::nth_element(errors.begin(), errors.begin() + 200, errors.end());
+      return errors[200];
+    };
+    double least = std::numeric_limits<double>::infinity();
+    for (const double scale : {0.0, 2.0, 3.0, 4.0, 6.0}) least = std::min(least, error(scale));
+    const double chosen = choose_smoothing(volume, noise, 7, scheme, {0.});
+    if (deviation == 0) EXPECT_EQ(chosen, 0);
+    else EXPECT_LE(error(chosen), 5 * least) << "scale " << chosen << " for noise " << deviation;
+  }
+}
+
+TEST(Sample_noise, more_noise_needs_a_larger_scale) {
+  double last = 0;
+  for (const double deviation : {1e-9, 1e-6, 1e-3}) {
+    const Volume volume = sample(64, deviation);
+    const double scale = choose_smoothing(volume, estimate_noise(volume, 0.), 7, scheme, {0.});
+    EXPECT_GT(scale, last);
+    last = scale;
+  }
+}
+
+TEST(Sample_noise, details_of_a_few_voxels_are_not_smoothed_away) {
+  // A wall two voxels thick, bent, in a little noise: no scale resolves fourth derivatives of it.
+  const Lattice_3<Kernel> lattice({48, 48, 48}, CGAL::Bbox_3(0, 0, 0, 47, 47, 47));
+  const auto wall = [](double x, double y, double z) {
+    const double distance = std::sqrt((x - 23.5) * (x - 23.5) + (y - 23.5) * (y - 23.5) + (z - 20) * (z - 20)) - 15;
+    return 4 * std::exp(-distance * distance / 2);
+  };
+  const double isovalue = 4 * std::exp(-0.5);
+  const auto inside = [&](const Volume& v) {
+    return std::count_if(v.values.begin(), v.values.end(), [&](double x) { return x > isovalue; });
+  };
+  for (const double deviation : {0.01, 0.1}) {
+    const Volume volume = sample_volume(lattice, wall, deviation);
+    const double scale = choose_smoothing(volume, estimate_noise(volume, {isovalue}), 7, scheme, {isovalue});
+    const auto left = inside(smooth_volume(volume, scale));
+    EXPECT_NEAR(double(left) / double(inside(volume)), 1, 0.05) << "scale " << scale << " for noise " << deviation;
+  }
+}
+
+TEST(Sample_noise, noise_is_smoothed_away_though_that_moves_the_surface) {
+  const Volume volume = sample(64, 0.1); // by more than a voxel in a fifth of the nodes
+  EXPECT_GE(choose_smoothing(volume, estimate_noise(volume, 0.), 7, scheme, {0.}), 6);
+}
