@@ -2,10 +2,9 @@
 #ifndef EQUIAFFINE_SRC_OUTPUT_STATISTICS_H
 #define EQUIAFFINE_SRC_OUTPUT_STATISTICS_H
 
+#include "source/Spline_statistics.h"
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/mesh_topology.h>
-#include <equiaffine/volume/Sample_noise.h>
-#include <equiaffine/volume/Spline_scheme.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -22,14 +21,6 @@ namespace equiaffine {
 struct Completeness {
   bool is_certified = false;
   std::vector<CGAL::Bbox_3> undecided_boxes;
-};
-
-/// How samples became a spline, and what they are like.
-struct Spline_statistics {
-  int degree = 0;
-  Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
-  double smoothing = 0;
-  Sample_noise noise = {};
 };
 
 /// What is known about a mesh that was made.

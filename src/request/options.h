@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_SRC_REQUEST_OPTIONS_H
 #define EQUIAFFINE_SRC_REQUEST_OPTIONS_H
 
+#include "request/Raw_layout.h"
 #include "system/kernel.h"
-#include "volume/raw_volume.h"
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/attributes.h>
 #include <equiaffine/base/named_parameters.h>

@@ -3,6 +3,7 @@
 
 #include "source/read_triangle_mesh.h"
 #include "system/resources.h"
+#include "volume/raw_volume.h"
 #include "volume/volume_io.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/function/sample_on_lattice.h>

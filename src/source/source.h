@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_SRC_SOURCE_SOURCE_H
 #define EQUIAFFINE_SRC_SOURCE_SOURCE_H
 
-#include "output/statistics.h"
 #include "request/options.h"
+#include "source/Spline_statistics.h"
 #include "source/source_function.h"
 #include "system/kernel.h"
 #include "system/progress.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/sample_volume.h"
-#include <equiaffine/number/internal/Jet_functions_3.h>
+#include <equiaffine/number/Jet_3.h>
 #include <equiaffine/volume/Spline_function_3.h>
 
 #include <CGAL/Simple_cartesian.h>

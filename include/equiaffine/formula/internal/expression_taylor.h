@@ -5,7 +5,7 @@
 #define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAYLOR_H
 
 #include <equiaffine/formula/internal/expression_tape_builder.h>
-#include <equiaffine/number/internal/Jet_functions_3.h>
+#include <equiaffine/number/Jet_3.h>
 
 #include <array>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elementary functions of intervals. Included by Interval.h.
+// Elementary functions of intervals.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_INTERVAL_FUNCTIONS_H
 #define EQUIAFFINE_NUMBER_INTERNAL_INTERVAL_FUNCTIONS_H
 
-#include <equiaffine/number/Interval.h>
+#include <equiaffine/number/internal/interval.h>
 #include <equiaffine/number/elementary_functions.h>
 
 #include <algorithm>

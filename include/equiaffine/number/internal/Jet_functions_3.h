@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Functions of jets: division, powers, elementary functions. Included by Jet_3.h.
+// Functions of jets: division, powers, elementary functions.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_JET_FUNCTIONS_3_H
 #define EQUIAFFINE_NUMBER_INTERNAL_JET_FUNCTIONS_3_H
 
-#include <equiaffine/number/Jet_3.h>
+#include <equiaffine/number/internal/jet.h>
 #include <equiaffine/number/elementary_functions.h>
 #include <equiaffine/number/internal/Jet_ordering_3.h>
 #include <equiaffine/number/kinks.h>

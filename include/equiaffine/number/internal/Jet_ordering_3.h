@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Functions of jets that choose by value: comparisons, max, min, abs. Included by Jet_3.h.
+// Functions of jets that choose by value: comparisons, max, min, abs.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_JET_ORDERING_3_H
 #define EQUIAFFINE_NUMBER_INTERNAL_JET_ORDERING_3_H
 
-#include <equiaffine/number/Jet_3.h>
+#include <equiaffine/number/internal/jet.h>
 #include <equiaffine/number/kinks.h>
 
 #include <cmath>

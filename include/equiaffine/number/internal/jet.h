@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_NUMBER_INTERNAL_JET_H
+#define EQUIAFFINE_NUMBER_INTERNAL_JET_H
+
+#include <equiaffine/number/monomials_3.h>
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+// Products are unrolled into lambdas; one that the compiler does not inline costs more than what it computes.
+#if defined(__GNUC__)
+#define EQUIAFFINE_INLINE __attribute__((always_inline))
+#else
+#define EQUIAFFINE_INLINE
+#endif
+
+namespace equiaffine {
+
+using internal::Monomial_set;
+
+/// A trivariate Taylor polynomial, truncated at total order `Order` <= 4: the expansion of a function of (x, y, z) at a
+/// point, sum of c_ijk dx^i dy^j dz^k with c_ijk = (d^(i+j+k) f / dx^i dy^j dz^k) / (i! j! k!). Order 4 has 35
+/// coefficients, kept in graded lexicographic order (1; x y z; xx xy xz yy yz zz; ...).
+///
+/// Evaluating a function on the jets of the three coordinates yields its expansion: forward automatic differentiation
+/// (Griewank, Walther: Evaluating Derivatives, 2008, chapter 13). Functions of jets are in Jet_functions_3.h.
+///
+/// `Support` is the set of monomials whose coefficient can differ from zero, known at compile time. A function written
+/// with `auto` for its intermediate results computes nothing that its structure makes zero; one with a single fixed
+/// type works on full jets, and may sum up in a loop, where the type of a sum cannot grow.
+///
+/// `T` may be any number type with ring operations: float, double, multiprecision, Interval, a SIMD pack. The default
+/// constructor leaves the coefficients uninitialised when that of T does.
+template <class T, int Order = internal::maximal_order, Monomial_set Support = internal::all_monomials(Order)>
+class Jet_3 {
+  static_assert(0 <= Order && Order <= internal::maximal_order);
+  static_assert((Support & ~internal::all_monomials(Order)) == 0);
+
+public:
+  using Number_type = T;
+  static constexpr int order = Order;
+  static constexpr Monomial_set support = Support;
+  static constexpr std::size_t size = std::size_t(std::popcount(Support));
+
+  Jet_3() = default;
+
+  /// The constant function.
+  Jet_3(const T& value) requires(internal::contains(Support, 0)) {
+    c_.fill(T(0));
+    c_[0] = value;
+  }
+
+  template <class Number>
+  Jet_3(const Number& value) requires(internal::contains(Support, 0) && std::is_arithmetic_v<Number> &&
+                                      !std::same_as<Number, T>)
+      : Jet_3(T(value)) {}
+
+  /// The same polynomial with a larger support.
+  template <Monomial_set Other>
+  Jet_3(const Jet_3<T, Order, Other>& other) requires((Other & ~Support) == 0 && Other != Support) {
+    for_each_monomial([&](auto n)
+                          EQUIAFFINE_INLINE { this->template at<n>() = other.template coefficient_or_zero<n>(); });
+  }
+
+  /// The jet of coordinate `axis` (0, 1, 2 for x, y, z) at a point where that coordinate is `value`.
+  static Jet_3 variable(int axis, const T& value) requires(Support == internal::all_monomials(Order) && Order > 0) {
+    Jet_3 jet(value);
+    jet.c_[std::size_t(1 + axis)] = T(1);
+    return jet;
+  }
+
+  /// Position of x^i y^j z^k in the order of the coefficients of a full jet.
+  static constexpr int index(int i, int j, int k) { return internal::monomial_index(i, j, k); }
+
+  const T& value() const requires(internal::contains(Support, 0)) { return c_[0]; }
+
+  /// Coefficient of dx^i dy^j dz^k, i + j + k <= Order: the derivative divided by i! j! k!.
+  T coefficient(int i, int j, int k) const {
+    const int n = index(i, j, k);
+    return internal::contains(Support, n) ? c_[std::size_t(internal::rank(Support, n))] : T(0);
+  }
+
+  /// The partial derivative d^(i+j+k) f / dx^i dy^j dz^k.
+  T derivative(int i, int j, int k) const {
+    constexpr std::array<int, 5> factorial = {1, 1, 2, 6, 24};
+    return coefficient(i, j, k) * T(factorial[std::size_t(i)] * factorial[std::size_t(j)] * factorial[std::size_t(k)]);
+  }
+
+  /// The coefficients of the monomials in the support, in their order.
+  const std::array<T, size>& coefficients() const { return c_; }
+  std::array<T, size>& coefficients() { return c_; }
+
+  /// Coefficient of monomial number N, a member of the support.
+  template <int N>
+  const T& at() const {
+    return c_[std::size_t(internal::rank(Support, N))];
+  }
+  template <int N>
+  T& at() {
+    return c_[std::size_t(internal::rank(Support, N))];
+  }
+
+  template <int N>
+  T coefficient_or_zero() const {
+    if constexpr (internal::contains(Support, N)) return at<N>();
+    else return T(0);
+  }
+
+  /// Calls `f(std::integral_constant<int, n>)` for every monomial n of the support, unrolled.
+  template <class F>
+  EQUIAFFINE_INLINE static constexpr void for_each_monomial(F f) {
+    [&]<std::size_t... Rank>(std::index_sequence<Rank...>) EQUIAFFINE_INLINE {
+      (f(std::integral_constant<int, internal::member(Support, Rank)>()), ...);
+    }
+    (std::make_index_sequence<size>());
+  }
+
+  Jet_3 operator-() const {
+    Jet_3 r;
+    for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = -this->template at<n>(); });
+    return r;
+  }
+  Jet_3 operator+() const { return *this; }
+
+  template <class Other>
+  Jet_3& operator+=(const Other& other) {
+    return assign(*this + other);
+  }
+  template <class Other>
+  Jet_3& operator-=(const Other& other) {
+    return assign(*this - other);
+  }
+  template <class Other>
+  Jet_3& operator*=(const Other& other) {
+    return assign(*this * other);
+  }
+  template <class Other>
+  Jet_3& operator/=(const Other& other) {
+    return assign(*this / other);
+  }
+
+private:
+  template <class Result>
+  Jet_3& assign(const Result& result) {
+    static_assert(std::is_convertible_v<Result, Jet_3>,
+                  "the result has monomials that the left side does not have: name it anew, `auto t = s + y * y`, or "
+                  "give the function one type for all its arguments");
+    return *this = result;
+  }
+
+  std::array<T, size> c_;
+};
+
+/// What may stand beside a jet over T in arithmetic without being one.
+template <class S, class T>
+concept JetScalar = std::same_as<S, T> || std::is_arithmetic_v<S>;
+
+namespace internal {
+
+/// The homogeneous part of degree `Degree`.
+template <int Degree, class T, int Order, Monomial_set A>
+auto part(const Jet_3<T, Order, A>& a) {
+  Jet_3<T, Order, part_of_set(A, Degree, Order)> r;
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = a.template at<n>(); });
+  return r;
+}
+
+template <int Target, class T, int Order, Monomial_set A, Monomial_set B>
+T product_coefficient(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
+  using Pairs = Factor_pairs<A, B, Target>;
+  return [&]<std::size_t... P>(std::index_sequence<P...>) EQUIAFFINE_INLINE {
+    return ((a.coefficients()[Pairs::pairs[P].first] * b.coefficients()[Pairs::pairs[P].second]) + ...);
+  }
+  (std::make_index_sequence<Pairs::size>());
+}
+
+template <int Target, class T, int Order, Monomial_set A>
+T square_coefficient(const Jet_3<T, Order, A>& a) {
+  using Pairs = Factor_pairs<A, A, Target>; // symmetric: first < second, then first == second, in either order
+  T mixed = T(0), pure = T(0);
+  bool has_mixed = false;
+  [&]<std::size_t... P>(std::index_sequence<P...>) EQUIAFFINE_INLINE {
+    (
+        [&]() EQUIAFFINE_INLINE {
+          constexpr auto pair = Pairs::pairs[P];
+          if constexpr (pair.first < pair.second) {
+            const T product = a.coefficients()[pair.first] * a.coefficients()[pair.second];
+            mixed = has_mixed ? mixed + product : product;
+            has_mixed = true;
+          } else if constexpr (pair.first == pair.second) {
+            pure = a.coefficients()[pair.first] * a.coefficients()[pair.first];
+          }
+        }(),
+        ...);
+  }
+  (std::make_index_sequence<Pairs::size>());
+  if constexpr (Pairs::size == 1) return pure;
+  else if constexpr (Pairs::size % 2 == 0) return mixed + mixed;
+  else return mixed + mixed + pure;
+}
+
+} // namespace internal
+
+template <class T, int Order, Monomial_set A>
+auto square(const Jet_3<T, Order, A>& a) {
+  Jet_3<T, Order, internal::product_of_sets(A, A, Order)> r;
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = internal::square_coefficient<n>(a); });
+  return r;
+}
+
+template <class T, int Order, Monomial_set A, Monomial_set B>
+auto operator+(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
+  Jet_3<T, Order, (A | B)> r;
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE {
+    if constexpr (!internal::contains(B, n)) r.template at<n>() = a.template at<n>();
+    else if constexpr (!internal::contains(A, n)) r.template at<n>() = b.template at<n>();
+    else r.template at<n>() = a.template at<n>() + b.template at<n>();
+  });
+  return r;
+}
+
+template <class T, int Order, Monomial_set A, Monomial_set B>
+auto operator-(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
+  Jet_3<T, Order, (A | B)> r;
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE {
+    if constexpr (!internal::contains(B, n)) r.template at<n>() = a.template at<n>();
+    else if constexpr (!internal::contains(A, n)) r.template at<n>() = -b.template at<n>();
+    else r.template at<n>() = a.template at<n>() - b.template at<n>();
+  });
+  return r;
+}
+
+/// The truncated product. A jet times itself is a square: half the multiplications.
+template <class T, int Order, Monomial_set A, Monomial_set B>
+auto operator*(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
+  if constexpr (A == B)
+    if (&a == &b) return square(a);
+  Jet_3<T, Order, internal::product_of_sets(A, B, Order)> r;
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = internal::product_coefficient<n>(a, b); });
+  return r;
+}
+
+template <class T, int Order, Monomial_set A, JetScalar<T> S>
+auto operator+(const Jet_3<T, Order, A>& a, const S& s) {
+  return a + Jet_3<T, Order, 1>(T(s));
+}
+template <class T, int Order, Monomial_set A, JetScalar<T> S>
+auto operator+(const S& s, const Jet_3<T, Order, A>& a) {
+  return Jet_3<T, Order, 1>(T(s)) + a;
+}
+template <class T, int Order, Monomial_set A, JetScalar<T> S>
+auto operator-(const Jet_3<T, Order, A>& a, const S& s) {
+  return a - Jet_3<T, Order, 1>(T(s));
+}
+template <class T, int Order, Monomial_set A, JetScalar<T> S>
+auto operator-(const S& s, const Jet_3<T, Order, A>& a) {
+  return Jet_3<T, Order, 1>(T(s)) - a;
+}
+template <class T, int Order, Monomial_set A, JetScalar<T> S>
+auto operator*(const Jet_3<T, Order, A>& a, const S& s) {
+  Jet_3<T, Order, A> r;
+  const T factor = T(s);
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = a.template at<n>() * factor; });
+  return r;
+}
+template <class T, int Order, Monomial_set A, JetScalar<T> S>
+auto operator*(const S& s, const Jet_3<T, Order, A>& a) {
+  return a * s;
+}
+template <class T, int Order, Monomial_set A, JetScalar<T> S>
+auto operator/(const Jet_3<T, Order, A>& a, const S& s) {
+  Jet_3<T, Order, A> r;
+  const T divisor = T(s);
+  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = a.template at<n>() / divisor; });
+  return r;
+}
+
+} // namespace equiaffine
+
+#endif

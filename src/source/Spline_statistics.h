@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_SOURCE_SPLINE_STATISTICS_H
+#define EQUIAFFINE_SRC_SOURCE_SPLINE_STATISTICS_H
+
+#include <equiaffine/volume/Sample_noise.h>
+#include <equiaffine/volume/Spline_scheme.h>
+
+namespace equiaffine {
+
+/// How samples became a spline, and what they are like.
+struct Spline_statistics {
+  int degree = 0;
+  Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
+  double smoothing = 0;
+  Sample_noise noise = {};
+};
+
+} // namespace equiaffine
+
+#endif
