@@ -78,7 +78,7 @@ double seconds(F f) {
   return timer.time();
 }
 
-/// The point of a grid with f < 0 that is nearest to the centre: CGAL's Surface_mesher begins there.
+/// The point of a grid with f < 0 that is nearest to the center: CGAL's Surface_mesher begins there.
 template <class Function>
 Epick::Point_3 inner_point(const Function& f, const Clip_domain_3& domain) {
   const CGAL::Bbox_3& b = domain.bbox();

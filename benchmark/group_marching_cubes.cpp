@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Marching Cubes against VTK's Flying Edges, against itself with two threads, with a table that knows no ambiguity, and
-// without skipping empty space: in one process, runs alternate, figures are medians of ratios of neighbouring runs.
+// without skipping empty space: in one process, runs alternate, figures are medians of ratios of neighboring runs.
 // Times are of the processor for one thread and of the wall for two. Normals, gradients and scalars are off in VTK.
 // Usage: benchmark_marching_cubes [runs]
 #include "marching_cubes_fields.h"

@@ -123,11 +123,11 @@ def plot(all_series, x_label, y_label, log_x=False, log_y=False):
     ])
 
 
-def histograms(labelled, x_label, low, high, bins=60):
+def histograms(labeled, x_label, low, high, bins=60):
     """Distributions as steps: pairs of a label and a Distribution; every second one is dashed."""
     width = (high - low) / bins
     all_series = []
-    for i, (label, distribution) in enumerate(labelled):
+    for i, (label, distribution) in enumerate(labeled):
         shares = distribution.histogram(low, high, bins)
         points = [(low + width * k, share / width) for k, share in enumerate(shares)] + [(high, 0.0)]
         all_series.append(Series(label, points, COLORS[i % len(COLORS)], dashed=i % 2 == 1, kind="steps"))

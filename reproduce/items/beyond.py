@@ -89,7 +89,7 @@ def pick(lab):
               greatest(row[-1] for row in rows), "<=", 1e-6)
     lab.table(["point", "H", "J", "H + J", "κ, Gaussian curvature of the affine metric", "relative difference"], rows)
     lab.pictured("pick", "J on the surface of figure 3; black: its parabolic curves")
-    lab.say("κ knows nothing of H and J: it is made from the metric at 49 neighbouring points by Brioschi's formula.")
+    lab.say("κ knows nothing of H and J: it is made from the metric at 49 neighboring points by Brioschi's formula.")
 
 
 @item("signature", "The affine signature",
@@ -120,7 +120,7 @@ def signature(lab):
             f"Two coordinates of the signature, H and {symbols[y]}, at other points of the surface and of its image")
     lab.picture("convex", "|grad H| in the affine metric", "--color", "affine_mean_curvature_gradient")
     lab.say("K, H, J and the norms of their gradients in the Berwald-Blaschke metric, the attributes `signature`. The "
-            "gradients are derivatives of order 5: extrapolated differences of invariants of neighbouring level sets.")
+            "gradients are derivatives of order 5: extrapolated differences of invariants of neighboring level sets.")
 
 
 @item("parabolic", "Parabolic curves",

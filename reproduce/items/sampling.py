@@ -32,7 +32,7 @@ def fig7(lab):
     lab.check("greatest difference of σ₁ / 2 from our B-spline of degree 5",
               greatest(abs(a / 2 - b) for a, b in zip(printed, ours["degree_5"])), "<=", 1e-14)
     integers = ours["degree_5"][30::100]
-    lab.check("sum over the integers, to which the constant c normalises it", abs(sum(integers) - 1), "<=", 1e-15,
+    lab.check("sum over the integers, to which the constant c normalizes it", abs(sum(integers) - 1), "<=", 1e-15,
               sum(printed[30::100]))
     box, n = [-1.13, 1.15, -1.15, 1.13, -1.14, 1.15], lab.choose(64, 24)
     formula = ["--function", "x^4 + y^4 + z^4 - 1", "--box", *box]
