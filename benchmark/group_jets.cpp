@@ -117,6 +117,28 @@ struct Case {
   bool is_algebraic;
 };
 
+/// The figures of one function from the contenders in the order of `compare`.
+void report(const Case& c, const std::vector<Contender>& contenders) {
+  const double jets = contenders[0].nanoseconds, packs = contenders[2].nanoseconds;
+  const std::string prefix = "jets_" + c.name;
+  figure(prefix + "_to_hand", jets / contenders[1].nanoseconds, "x", c.is_algebraic ? "<=1.15" : "<=1.5");
+  double best_peer = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 4; n < contenders.size(); ++n) best_peer = std::min(best_peer, contenders[n].nanoseconds);
+  if (contenders.size() > 4) figure(prefix + "_best_peer_to_jets", best_peer / jets, "x", ">=8");
+  if (c.is_algebraic) figure(prefix + "_boost_to_jets", contenders[4].nanoseconds / jets, "x", ">=100");
+  else figure(prefix + "_scalar_to_packs", jets / packs, "x", Lanes::size >= 8 ? ">=4" : ">=2.2");
+  figure(prefix + "_expression_to_functor", contenders[3].nanoseconds / packs, "x", "<=3");
+}
+
+/// The largest difference between the coefficients of two contenders, which compute the same thing.
+double difference(const std::array<Jet, number_of_points>& jets, const std::array<Array, number_of_points>& arrays) {
+  double largest = 0;
+  for (std::size_t i = 0; i < number_of_points; ++i)
+    for (std::size_t n = 0; n < 35; ++n)
+      largest = std::max(largest, std::abs(jets[i].coefficients()[n] - arrays[i][n]) / (1 + std::abs(arrays[i][n])));
+  return largest;
+}
+
 template <class Function, class Hand, class Plain>
 void compare(const Case& c, const Function& f, const Hand& hand, [[maybe_unused]] const Plain& plain,
              [[maybe_unused]] short tape) {
@@ -165,23 +187,9 @@ void compare(const Case& c, const Function& f, const Hand& hand, [[maybe_unused]
 #endif
   std::printf("%s, per point, %zu lanes\n", c.name.c_str(), Lanes::size);
   race(contenders, 101);
-
-  const double jets = contenders[0].nanoseconds, packs = contenders[2].nanoseconds;
-  const std::string prefix = "jets_" + c.name;
-  figure(prefix + "_to_hand", jets / contenders[1].nanoseconds, "x", c.is_algebraic ? "<=1.15" : "<=1.5");
-  double best_peer = std::numeric_limits<double>::infinity();
-  for (std::size_t n = 4; n < contenders.size(); ++n) best_peer = std::min(best_peer, contenders[n].nanoseconds);
-  if (contenders.size() > 4) figure(prefix + "_best_peer_to_jets", best_peer / jets, "x", ">=8");
-  if (c.is_algebraic) figure(prefix + "_boost_to_jets", contenders[4].nanoseconds / jets, "x", ">=100");
-  else figure(prefix + "_scalar_to_packs", jets / packs, "x", Lanes::size >= 8 ? ">=4" : ">=2.2");
-  figure(prefix + "_expression_to_functor", contenders[3].nanoseconds / packs, "x", "<=3");
-  figure(prefix + "_fourth_derivative_error", fourth_order_error(f, p), "eps", "<=5");
-  double difference = 0; // the competitors compute the same thing
-  for (std::size_t i = 0; i < number_of_points; ++i)
-    for (std::size_t n = 0; n < 35; ++n)
-      difference =
-          std::max(difference, std::abs(out[i].coefficients()[n] - hand_out[i][n]) / (1 + std::abs(hand_out[i][n])));
-  std::printf("  largest difference to hand-derived code: %.1e\n", difference);
+  report(c, contenders);
+  figure("jets_" + c.name + "_fourth_derivative_error", fourth_order_error(f, p), "eps", "<=5");
+  std::printf("  largest difference to hand-derived code: %.1e\n", difference(out, hand_out));
 }
 
 } // namespace
