@@ -197,7 +197,7 @@ void accuracy(const std::string& plot_path) {
       h.push_back(std::sqrt(lattice.steps()[0].squared_length()));
       std::printf("  %-16s N = %3zu", s.name.c_str(), n);
       for (std::size_t v = 0; v < variants.size(); ++v) {
-        const Sampled sampled(volume, variants[v].degree, variants[v].scheme);
+        const Sampled sampled(volume, {.degree = variants[v].degree, .scheme = variants[v].scheme});
         const Errors e = errors_at(vertices(sampled, variants[v]), sampled, s.function);
         medians[v].push_back(e.median_gaussian);
         std::printf(" | %.1e (%.0e)", e.median_gaussian, e.p95_gaussian);
@@ -237,7 +237,7 @@ void figure_10() {
     for (const std::size_t n : {40, 64, 128, 256}) {
       const auto row = [&](const auto& function) {
         const Sampled sampled(sample_on_lattice<Parallel>(function, Lattice_3<Kernel>({n, n, n}, function.bbox())),
-                              v->degree, v->scheme);
+                              {.degree = v->degree, .scheme = v->scheme});
         const Errors e = errors_at(vertices(sampled, *v), sampled, function);
         std::printf(" | %.2g, %.2g", 2 * mean(e.gaussian), std::sqrt(2) * mean(e.mean)); // K = H^2: the scale is 2 K
         return 2 * mean(e.gaussian);
@@ -269,7 +269,7 @@ void noise() {
     const auto points = vertices(sampled, usual);
     const Errors e = errors_at(points, sampled, s.function);
     const Errors paper_errors = [&] {
-      const Sampled convolved(volume, paper.degree, paper.scheme);
+      const Sampled convolved(volume, {.degree = paper.degree, .scheme = paper.scheme});
       return errors_at(vertices(convolved, paper), convolved, s.function);
     }();
     std::printf("  %-10s measured %.2g, scale %g: K %.1e (%.0e), H %.1e; paper K %.1e\n", name, measured.deviation,
@@ -309,7 +309,8 @@ void cost() {
     random_order.push_back({x, y, z});
   }
   const auto ours = [&](int degree) -> Spline_evaluation {
-    return [spline = std::make_shared<Spline_function_3<Kernel>>(volume, degree)](const Lattice_points& points) {
+    return [spline = std::make_shared<Spline_function_3<Kernel>>(volume, Spline_parameters{.degree = degree})](
+               const Lattice_points& points) {
       for (const auto& [x, y, z] : points) keep(spline->taylor(Point_3(x, y, z)));
       return 0.;
     };

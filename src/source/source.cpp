@@ -100,9 +100,9 @@ Fit fit_spline(const Source_options& source, Progress& progress) {
   const double smoothing = scale ? *scale : choose_smoothing(volume, noise, degree, scheme, isovalue);
   progress.begin("fitting a spline");
   const Spline_statistics statistics = {degree, scheme, smoothing, noise};
-  using Tag = CGAL::Parallel_if_available_tag;
-  if (!estimates_errors) return {Spline_traits(std::move(volume), degree, scheme, Tag(), smoothing), statistics, {}};
-  Fit fit = {Spline_traits(volume, degree, scheme, Tag(), smoothing), statistics, {}};
+  const Spline_parameters parameters = {.degree = degree, .scheme = scheme, .smoothing = smoothing};
+  if (!estimates_errors) return {Spline_traits(std::move(volume), parameters), statistics, {}};
+  Fit fit = {Spline_traits(volume, parameters), statistics, {}};
   fit.errors.emplace(fit.function, volume, smoothing, noise.deviation);
   return fit;
 }

@@ -43,8 +43,8 @@ TEST(Sampled_function_traits_3, values_and_expansions_are_those_of_the_spline_of
   const Volume_3 volume = random_volume(10);
   for (const int degree : {5, 7, 9})
     for (const auto scheme : {equiaffine::Spline_scheme::CONVOLUTION, equiaffine::Spline_scheme::QUASI_INTERPOLATION}) {
-      const equiaffine::Spline_function_3<Kernel> spline(volume, degree, scheme);
-      const Traits traits(volume, degree, scheme);
+      const equiaffine::Spline_function_3<Kernel> spline(volume, {.degree = degree, .scheme = scheme});
+      const Traits traits(volume, {.degree = degree, .scheme = scheme});
       EXPECT_EQ(traits.value(inner_point), spline.value(inner_point));
       EXPECT_EQ(traits.first_order(inner_point).coefficients(), spline.taylor<1>(inner_point).coefficients());
       EXPECT_EQ(traits.taylor(inner_point).coefficients(), spline.taylor(inner_point).coefficients());
@@ -61,7 +61,7 @@ TEST(Sampled_function_traits_3, the_default_is_quasi_interpolation_of_degree_sev
 
 TEST(Sampled_function_traits_3, samples_are_smoothed_by_a_scale) {
   const Volume_3 volume = random_volume(12);
-  const Traits smooth(volume, 7, equiaffine::Spline_scheme::QUASI_INTERPOLATION, CGAL::Sequential_tag(), 2);
+  const Traits smooth(volume, {.smoothing = 2}, CGAL::Sequential_tag());
   const Traits expected(equiaffine::smooth_volume(volume, 2.));
   EXPECT_EQ(smooth.sample(5, 6, 7), expected.sample(5, 6, 7));
   EXPECT_NE(smooth.sample(5, 6, 7), volume(5, 6, 7));

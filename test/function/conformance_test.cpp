@@ -66,7 +66,7 @@ struct Sampled_model {
           const Point_3 p = lattice.point(double(i), double(j), double(k));
           volume.values.push_back(Auto_function()(p.x(), p.y(), p.z()));
         }
-    return Traits(volume, Degree);
+    return Traits(volume, {.degree = Degree});
   }
   static std::vector<Point_3> points() { return inner_points(); }
   static constexpr double length = 0.1; // of a voxel, beyond which the spline is another polynomial

@@ -119,7 +119,7 @@ TEST(Marching_cubes, skipping_empty_space_keeps_the_samples_of_a_volume) {
   Volume_3<Kernel> volume{Lattice_3<Kernel>({12, 12, 12}, CGAL::Bbox_3(0, 0, 0, 11, 11, 11)),
                           std::vector<double>(1728, 1.0)};
   volume.values[volume.lattice.index(6, 6, 6)] = -0.5;
-  const Sampled_function_traits_3<Kernel> traits(volume, 5, Spline_scheme::CONVOLUTION);
+  const Sampled_function_traits_3<Kernel> traits(volume, {.degree = 5, .scheme = Spline_scheme::CONVOLUTION});
   EXPECT_EQ(marching_cubes(traits, parameters::skip_empty_space()).points.size(), 6u);
 }
 
@@ -253,7 +253,8 @@ TEST(Marching_cubes, vertices_around_a_sample_that_the_spline_smooths_away_are_u
   Volume_3<Kernel> volume{Lattice_3<Kernel>({12, 12, 12}, CGAL::Bbox_3(0, 0, 0, 11, 11, 11)),
                           std::vector<double>(1728, 1.0)};
   volume.values[volume.lattice.index(6, 6, 6)] = -0.5;
-  const auto surface = marching_cubes(Sampled_function_traits_3<Kernel>(volume, 5, Spline_scheme::CONVOLUTION));
+  const auto surface =
+      marching_cubes(Sampled_function_traits_3<Kernel>(volume, {.degree = 5, .scheme = Spline_scheme::CONVOLUTION}));
   EXPECT_EQ(surface.points.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(surface.vertex_status[i], Point_status::UNCONVERGED);
 }

@@ -66,12 +66,12 @@ TEST(Sample_noise, nodes_without_a_value_do_not_matter_and_small_volumes_say_not
 
 TEST(Sample_noise, the_chosen_scale_has_nearly_the_least_error_of_fourth_derivatives) {
   const auto exact = sample(64, 0);
-  const Spline_function_3<Kernel> reference(exact, 9);
+  const Spline_function_3<Kernel> reference(exact, {.degree = 9});
   for (const double deviation : {0.0, 1e-7, 1e-4}) {
     const Volume volume = sample(64, deviation);
     const Sample_noise noise = estimate_noise(volume, 0.);
     const auto error = [&](double scale) {
-      const Spline_function_3<Kernel> spline(smooth_volume(volume, scale), 7);
+      const Spline_function_3<Kernel> spline(volume, {.smoothing = scale});
       std::vector<double> errors;
       for (int n = 0; n < 400; ++n) {
         const double u = std::acos(1 - 2 * (n + 0.5) / 400), v = 2.4 * n; // about the surface

@@ -2,6 +2,7 @@
 #include "support/sample_volume.h"
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/volume/Spline_function_3.h>
+#include <equiaffine/volume/smooth_volume.h>
 
 #include <CGAL/Simple_cartesian.h>
 
@@ -126,7 +127,7 @@ void expect_reproduction(const Lattice_3& lattice, double row_sum,
   double greatest = 0;
   for (const double value : volume.values) greatest = std::max(greatest, std::abs(value));
   const auto bounds = rounding_bounds<Degree>(greatest, row_sum, scheme);
-  const Spline_function_3 spline(volume, Degree, scheme);
+  const Spline_function_3 spline(volume, {.degree = Degree, .scheme = scheme});
   for (const Point_3& p : points_of(lattice)) {
     const Jet_3 expected = jet_of(f, p), computed = spline.taylor(p);
     for (std::size_t n = 0; n < 35; ++n)
@@ -147,7 +148,7 @@ struct Greatest_errors {
 
 Greatest_errors errors_of_wave(std::size_t cells, int degree, Spline_scheme scheme) {
   const Lattice_3 lattice({cells + 1, cells + 1, cells + 1}, CGAL::Bbox_3(-1, -1.5, -2, 2, 2, 1.5));
-  const Spline_function_3 spline(sample(lattice, wave), degree, scheme);
+  const Spline_function_3 spline(sample(lattice, wave), {.degree = degree, .scheme = scheme});
   Greatest_errors errors{};
   // the same points on every lattice: in a corner, on faces and edges, in the middle
   for (const Point_3& p : points_of(Lattice_3({5, 5, 5}, lattice.bbox()))) {
@@ -189,7 +190,7 @@ TEST(Spline_function_3, quasi_interpolation_reproduces_polynomials_up_to_its_deg
 TEST(Spline_function_3, quasi_interpolation_errs_at_the_border_as_inside_to_one_more_degree) {
   for (const int degree : {5, 7}) {
     const auto power = [=](double x, double, double) { return std::pow((x - 10) / 4, degree + 1); };
-    const Spline_function_3 spline(sample(unit_lattice(21, 10, 10), power), degree);
+    const Spline_function_3 spline(sample(unit_lattice(21, 10, 10), power), {.degree = degree});
     for (const double t : {0.2, 0.6, 1.0}) { // that error has the period of the lattice
       const auto error = [&](double x) { return spline.value(Point_3(x, 5, 5)) - power(x, 5, 5); };
       EXPECT_GT(std::abs(error(10 + t)), 1e-8);
@@ -205,7 +206,7 @@ TEST(Spline_function_3, smooth_samples_are_extended_by_two_more_degrees_noise_an
   const auto ball = [](double x, double y, double z) { return double(std::hypot(x - 20, y - 20, z - 20) < 19); };
   for (const int degree : {5, 7, 9}) {
     const auto border_degree = [&](const Volume_3& volume, Spline_scheme scheme) {
-      return Spline_function_3(volume, degree, scheme).border_degree();
+      return Spline_function_3(volume, {.degree = degree, .scheme = scheme}).border_degree();
     };
     constexpr auto scheme = Spline_scheme::QUASI_INTERPOLATION;
     EXPECT_EQ(border_degree(sample(lattice, wave), scheme), std::min(degree + 2, 9));
@@ -253,7 +254,7 @@ TEST(Spline_function_3, interpolation_has_the_samples_as_values_at_the_nodes) {
   const Lattice_3 lattice = skew_lattice(12, 15, 13);
   const Volume_3 volume = random_volume(lattice);
   const auto expect_samples = [&](int degree, double bound) {
-    const Spline_function_3 spline(volume, degree, Spline_scheme::INTERPOLATION);
+    const Spline_function_3 spline(volume, {.degree = degree, .scheme = Spline_scheme::INTERPOLATION});
     for (std::size_t i = 0; i < 12; ++i)
       for (std::size_t j = 0; j < 15; ++j)
         for (std::size_t k = 0; k < 13; ++k)
@@ -267,7 +268,8 @@ TEST(Spline_function_3, interpolation_has_the_samples_as_values_at_the_nodes) {
 TEST(Spline_function_3, the_scheme_of_the_paper_interpolates_expansions_by_convolution_at_the_nodes) {
   const Lattice_3 lattice = skew_lattice(9, 10, 11);
   const Volume_3 volume = random_volume(lattice);
-  const Spline_function_3 paper(volume, 5, Spline_scheme::PAPER), nodes(volume, 5, Spline_scheme::CONVOLUTION);
+  const Spline_function_3 paper(volume, {.degree = 5, .scheme = Spline_scheme::PAPER}),
+      nodes(volume, {.degree = 5, .scheme = Spline_scheme::CONVOLUTION});
   const auto bounds = rounding_bounds<5>(0.5, 4, Spline_scheme::CONVOLUTION);
   const auto expect_between = [&](const Point_3& p, const Point_3& q, double t) {
     const Jet_3 jet = paper.taylor(p + t * (q - p)), jet_p = nodes.taylor(p), jet_q = nodes.taylor(q);
@@ -297,7 +299,7 @@ TEST(Spline_function_3, convolution_takes_the_samples_as_coefficients) {
   // One sample 1 in the middle of zeros: the B-spline itself, of degree 5 with values 66, 26, 1 over 120 at integers.
   Volume_3 volume{unit_lattice(15, 15, 15), std::vector<double>(15 * 15 * 15)};
   volume.values[volume.lattice.index(7, 7, 7)] = 1;
-  const Spline_function_3 spline(volume, 5, Spline_scheme::CONVOLUTION);
+  const Spline_function_3 spline(volume, {.degree = 5, .scheme = Spline_scheme::CONVOLUTION});
   EXPECT_NEAR(spline.value(Point_3(7, 7, 7)), std::pow(66.0 / 120, 3), 8 * epsilon);
   EXPECT_NEAR(spline.value(Point_3(8, 5, 7)), 26.0 * 1 * 66 / (120 * 120 * 120), 8 * epsilon);
   EXPECT_EQ(spline.value(Point_3(10, 7, 7)), 0);
@@ -307,7 +309,7 @@ TEST(Spline_function_3, the_expansion_is_that_of_the_value) {
   // Rough data have large fifth derivatives; the remainder of order 5 is seen as the slope of |value - expansion|.
   for (const int degree : {7, 9}) {
     const Lattice_3 lattice = skew_lattice(12, 13, 14);
-    const Spline_function_3 spline(random_volume(lattice), degree);
+    const Spline_function_3 spline(random_volume(lattice), {.degree = degree});
     for (const Point_3& p : {lattice.point(5.5, 6.25, 7), lattice.point(1.2, 11.1, 6.4), lattice.point(9.9, 3, 0.7)}) {
       const Jet_3 jet = spline.taylor(p);
       const auto remainder = [&](double h) {
@@ -358,7 +360,7 @@ TEST(Spline_function_3, the_whole_lattice_and_nothing_else_is_inside) {
 TEST(Spline_function_3, an_axis_with_no_more_nodes_than_the_degree_leaves_everything_outside) {
   for (const auto& [degree, nodes] : {std::array<std::size_t, 2>{5, 5}, {7, 7}, {7, 2}}) {
     const Lattice_3 lattice = unit_lattice(12, nodes, 12);
-    const Spline_function_3 spline(random_volume(lattice), int(degree));
+    const Spline_function_3 spline(random_volume(lattice), {.degree = int(degree)});
     EXPECT_TRUE(all_nan(spline.taylor(Point_3(5, 0.5, 5))));
     EXPECT_EQ(spline.bounds(CGAL::Bbox_3(5, 0.5, 5, 6, 0.6, 6)), equiaffine::Interval::whole());
   }
@@ -370,7 +372,7 @@ TEST(Spline_function_3, points_whose_samples_include_one_without_a_value_are_out
   for (const double missing : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Volume_3 volume = random_volume(unit_lattice(30, 30, 30));
     volume.values[volume.lattice.index(15, 15, 15)] = missing;
-    const Spline_function_3 spline(volume, 7);
+    const Spline_function_3 spline(volume);
     for (const Point_3& p : {Point_3(15, 15, 15), Point_3(8.01, 15, 15), Point_3(21.99, 21.99, 21.99)}) {
       EXPECT_TRUE(all_nan(spline.taylor(p))) << p;
       EXPECT_TRUE(std::isnan(spline.value(p))) << p;
@@ -408,7 +410,7 @@ TEST(Spline_function_3, bounds_enclose_the_values_in_a_box) {
 
 TEST(Spline_function_3, bounds_are_tight_where_the_coefficients_are_and_the_whole_line_outside) {
   Volume_3 volume = sample(unit_lattice(20, 20, 20), [](double x, double, double) { return x < 10 ? 3.0 : -5.0; });
-  const Spline_function_3 spline(volume, 7, Spline_scheme::CONVOLUTION);
+  const Spline_function_3 spline(volume, {.degree = 7, .scheme = Spline_scheme::CONVOLUTION});
   const auto constant = spline.bounds(CGAL::Bbox_3(1, 1, 1, 2, 2, 2));
   EXPECT_TRUE(constant.contains(3));
   EXPECT_LT(constant.upper() - constant.lower(), 1e-12);
@@ -441,7 +443,7 @@ TEST(Spline_function_3, first_order_bounds_enclose_values_and_gradients_in_a_box
                             Spline_scheme::INTERPOLATION, Spline_scheme::PAPER})
     for (const int degree : {5, 7, 9})
       for (const Lattice_3& lattice : {unit_lattice(17, 12, 13), skew_lattice(41, 12, 50)}) {
-        const Spline_function_3 spline(random_volume(lattice), degree, scheme);
+        const Spline_function_3 spline(random_volume(lattice), {.degree = degree, .scheme = scheme});
         std::size_t bounded = 0;
         for (const double side : {1.0, 0.5, 0.1, 0.01, 1e-4, 0.0})
           for (int n = 0; n < 40; ++n) {
@@ -472,7 +474,7 @@ TEST(Spline_function_3, first_order_bounds_enclose_values_and_gradients_in_a_box
 
 TEST(Spline_function_3, first_order_bounds_are_hardly_wider_than_the_ranges_at_the_border_of_noise_too) {
   for (const int degree : {5, 7, 9}) {
-    const Spline_function_3 spline(random_volume(unit_lattice(20, 21, 22)), degree);
+    const Spline_function_3 spline(random_volume(unit_lattice(20, 21, 22)), {.degree = degree});
     for (const Point_3& corner : {Point_3(0, 9.7, 8), Point_3(18.5, 0.2, 8), Point_3(7.6, 8, 9)})
       for (const double side : {0.5, 0.05}) {
         const Point_3 end = corner + side * Vector_3(1, 1, 1);
@@ -545,12 +547,23 @@ TEST(Spline_function_3, bounds_of_boxes_of_many_cells_are_nearly_those_of_their_
   }
 }
 
+TEST(Spline_function_3, parameters_are_named_and_smoothing_is_that_of_smooth_volume) {
+  const Volume_3 volume = random_volume(skew_lattice(12, 13, 14));
+  const Point_3 p = volume.lattice.point(3.3, 4.4, 5.5);
+  const Spline_function_3 smooth(volume, {.degree = 5, .smoothing = 2});
+  const Spline_function_3 expected(equiaffine::smooth_volume(volume, 2.), {.degree = 5});
+  EXPECT_EQ(smooth.degree(), 5);
+  EXPECT_EQ(smooth.scheme(), Spline_function_3(volume).scheme());
+  EXPECT_EQ(smooth.taylor(p).coefficients(), expected.taylor(p).coefficients());
+  EXPECT_NE(smooth.value(p), Spline_function_3(volume, {.degree = 5}).value(p));
+}
+
 #ifdef CGAL_LINKED_WITH_TBB
 TEST(Spline_function_3, the_coefficients_do_not_depend_on_threads) {
   const Lattice_3 lattice = skew_lattice(21, 33, 18);
   const Volume_3 volume = random_volume(lattice);
-  const Spline_function_3 one(volume, 7, Spline_scheme::QUASI_INTERPOLATION, CGAL::Sequential_tag());
-  const Spline_function_3 many(volume, 7, Spline_scheme::QUASI_INTERPOLATION, CGAL::Parallel_tag());
+  const Spline_function_3 one(volume, {}, CGAL::Sequential_tag());
+  const Spline_function_3 many(volume, {}, CGAL::Parallel_tag());
   for (const Point_3& p : points_of(lattice)) EXPECT_EQ(one.taylor(p).coefficients(), many.taylor(p).coefficients());
 }
 #endif

@@ -5,7 +5,6 @@
 #include <equiaffine/function/Sampled_function_traits_3.h>
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/volume/bspline_functionals.h>
-#include <equiaffine/volume/smooth_volume.h>
 
 #include <CGAL/tags.h>
 
@@ -45,9 +44,11 @@ public:
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   Curvature_error_3(const Sampled_function_traits_3<Kernel>& function, const Volume_3<Kernel>& volume,
                     const FT& smoothing, const FT& noise_deviation, ConcurrencyTag tag = {})
-      : function_(function),
-        other_(smooth_volume<ConcurrencyTag>(volume, FT(1.2) * smoothing), function.spline().degree() == 9 ? 7 : 9,
-               other_scheme(function.spline().scheme()), tag) {
+      : function_(function), other_(volume,
+                                    {.degree = function.spline().degree() == 9 ? 7 : 9,
+                                     .scheme = other_scheme(function.spline().scheme()),
+                                     .smoothing = double(FT(1.2) * smoothing)},
+                                    tag) {
     const internal::Spline_rule<FT> rule{function.spline().degree(), function.spline().scheme(),
                                          function.spline().border_degree(), smoothing};
     for (std::size_t a = 0; a < 3; ++a)

@@ -27,14 +27,15 @@ public:
   using Point_3 = typename Kernel::Point_3;
   using Vector_3 = typename Kernel::Vector_3;
 
-  /// Degree and scheme as for Spline_function_3, of the samples smoothed by a scale as for smooth_volume.
+  /// The spline that `parameters` ask for; samples that they smooth are smooth in `sample`, too.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  explicit Sampled_function_traits_3(Volume_3<Kernel> volume, int degree = 7,
-                                     Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION, ConcurrencyTag tag = {},
-                                     const FT& smoothing = FT(0)) {
+  explicit Sampled_function_traits_3(Volume_3<Kernel> volume, const Spline_parameters& parameters = {},
+                                     ConcurrencyTag tag = {}) {
     const internal::Sample_format<FT> format(volume.values);
+    const FT smoothing(parameters.smoothing);
     volume_ = std::make_shared<const Volume_3<Kernel>>(smooth_volume<ConcurrencyTag>(std::move(volume), smoothing));
-    spline_ = std::make_shared<const Spline_function_3<Kernel>>(*volume_, degree, scheme, tag);
+    spline_ = std::make_shared<const Spline_function_3<Kernel>>(
+        *volume_, Spline_parameters{.degree = parameters.degree, .scheme = parameters.scheme}, tag);
     rounding_ = std::make_shared<const internal::Spline_rounding_3<Kernel>>(*spline_, smoothing, format);
   }
 

@@ -6,13 +6,14 @@
 #include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/number/Linear_substitution_3.h>
-#include <equiaffine/volume/Spline_scheme.h>
+#include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Volume_3.h>
 #include <equiaffine/volume/internal/border_degree.h>
 #include <equiaffine/volume/internal/bspline_bounds.h>
 #include <equiaffine/volume/internal/bspline_evaluation.h>
 #include <equiaffine/volume/internal/bspline_interpolation.h>
 #include <equiaffine/volume/internal/separable_filter.h>
+#include <equiaffine/volume/smooth_volume.h>
 
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/tags.h>
@@ -53,22 +54,20 @@ public:
 
   /// The coefficients do not depend on the number of threads that compute them.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  explicit Spline_function_3(const Volume_3<Kernel>& volume, int degree = 7,
-                             Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION, ConcurrencyTag = {})
-      : lattice_(volume.lattice), degree_(degree), scheme_(scheme), to_lattice_(inverse_matrix(lattice_)),
-        substitution_(to_lattice_) {
-    CGAL_precondition(degree == 5 || degree == 7 || degree == 9);
+  explicit Spline_function_3(const Volume_3<Kernel>& volume, const Spline_parameters& parameters = {},
+                             ConcurrencyTag = {})
+      : lattice_(volume.lattice), degree_(parameters.degree), scheme_(parameters.scheme),
+        to_lattice_(inverse_matrix(lattice_)), substitution_(to_lattice_) {
+    CGAL_precondition(degree_ == 5 || degree_ == 7 || degree_ == 9);
     CGAL_precondition(volume.values.size() == lattice_.number_of_nodes());
     for (std::size_t a = 0; a < 3; ++a) {
       slack_[a] = rounding_of_coordinate(a);
-      size_[a] = lattice_.size()[a] + 2 * std::size_t(internal::spline_padding(degree));
-      is_supported_ = is_supported_ && lattice_.size()[a] > std::size_t(degree);
+      size_[a] = lattice_.size()[a] + 2 * std::size_t(internal::spline_padding(degree_));
+      is_supported_ = is_supported_ && lattice_.size()[a] > std::size_t(degree_);
     }
     if (!is_supported_) return;
-    border_degree_ = internal::border_degree(volume.values, lattice_.size(), degree, scheme);
-    coefficients_.resize(size_[0] * size_[1] * size_[2] + internal::overread);
-    internal::with_degree(degree_, [&](auto n) { filter<n, ConcurrencyTag>(volume.values); });
-    bounds_.emplace(degree_, size_, slack_);
+    if (parameters.smoothing == 0) fit<ConcurrencyTag>(volume.values);
+    else fit<ConcurrencyTag>(smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing)).values);
   }
 
   const Lattice& lattice() const { return lattice_; }
@@ -245,6 +244,15 @@ private:
   /// Position of a coefficient; the first tap of cell c is coefficient c, as padding shifts both alike.
   std::size_t coefficient_index(const std::array<std::size_t, 3>& c) const {
     return (c[2] * size_[1] + c[1]) * size_[0] + c[0];
+  }
+
+  /// Chooses the border's degree and computes the coefficients.
+  template <class ConcurrencyTag>
+  void fit(const std::vector<FT>& samples) {
+    border_degree_ = internal::border_degree(samples, lattice_.size(), degree_, scheme_);
+    coefficients_.resize(size_[0] * size_[1] * size_[2] + internal::overread);
+    internal::with_degree(degree_, [&](auto n) { filter<n, ConcurrencyTag>(samples); });
+    bounds_.emplace(degree_, size_, slack_);
   }
 
   /// Samples to coefficients, along x, then y, then z.
