@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_NUMBER_PACK_H
 #define EQUIAFFINE_NUMBER_PACK_H
 
-#include <equiaffine/number/elementary_functions.h>
 #include <equiaffine/number/internal/Jet_functions_3.h>
-#include <equiaffine/number/lanes.h>
+#include <equiaffine/number/internal/elementary_functions.h>
+#include <equiaffine/number/internal/select.h>
 
 #include <bit>
 #include <cmath>
@@ -179,7 +179,7 @@ struct Pack {
     return generate([&](std::size_t i) { return internal::natural_power(a[i], n); });
   }
 
-  /// As for an ordered number, see internal/kinks.h.
+  /// As for an ordered number, see internal/nonsmooth.h.
   friend Pack branch_or_kink(const Pack& u, const Pack& v, const Pack& a, const Pack& b, int degree) {
     const Pack at_kink = degree == 0 ? select(u == v, a, u + v) : Pack(std::numeric_limits<T>::quiet_NaN());
     return select(u > v, a, select(v > u, b, at_kink));

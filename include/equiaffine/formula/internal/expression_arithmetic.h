@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_ARITHMETIC_H
 #define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_ARITHMETIC_H
 
-#include <equiaffine/number/lanes.h>
+#include <equiaffine/number/select.h>
 
 #include <cmath>
 #include <concepts>

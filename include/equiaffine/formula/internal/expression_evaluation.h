@@ -5,7 +5,7 @@
 #include <equiaffine/formula/internal/expression_arithmetic.h>
 #include <equiaffine/formula/internal/expression_tape.h>
 #include <equiaffine/number/elementary_functions.h>
-#include <equiaffine/number/kinks.h>
+#include <equiaffine/number/nonsmooth.h>
 
 #include <algorithm>
 #include <array>

@@ -80,7 +80,7 @@ public:
 
   friend Symbol natural_power(const Symbol& a, unsigned n) { return apply(Opcode::POWER, a, double(n)); }
 
-  /// As for an ordered number, see internal/kinks.h, but the value is left to the tape of the expression.
+  /// As for an ordered number, see number/nonsmooth.h, but the value is left to the tape of the expression.
   friend Symbol branch_or_kink(const Symbol& u, const Symbol& v, const Symbol& a, const Symbol& b, int) {
     if (a.is(0) && b.is(0)) return a;
     const Symbol order = apply(Opcode::ORDER, u, v);

@@ -3,8 +3,8 @@
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_INTERVAL_FUNCTIONS_H
 #define EQUIAFFINE_NUMBER_INTERNAL_INTERVAL_FUNCTIONS_H
 
+#include <equiaffine/number/internal/elementary_functions.h>
 #include <equiaffine/number/internal/interval.h>
-#include <equiaffine/number/elementary_functions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ inline bool contains_multiple(const Interval& a, double offset, double period) {
 
 } // namespace internal
 
-/// The hook of internal/kinks.h, found by argument-dependent lookup.
+/// The hook of internal/nonsmooth.h, found by argument-dependent lookup.
 inline Interval branch_or_kink(const Interval& u, const Interval& v, const Interval& a, const Interval& b, int degree) {
   if (u.lower() > v.upper()) return a;
   if (v.lower() > u.upper()) return b;
@@ -141,7 +141,7 @@ inline Interval atan(const Interval& a) {
   return internal::increasing([](double u) { return std::atan(u); }, a);
 }
 
-/// The other hook of internal/kinks.h.
+/// The other hook of internal/nonsmooth.h.
 inline Interval factor_for_jump(const Interval& y, const Interval& x) {
   return x.lower() <= 0 && y.contains(0) ? Interval::whole() : Interval(1);
 }

@@ -3,11 +3,11 @@
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_JET_FUNCTIONS_3_H
 #define EQUIAFFINE_NUMBER_INTERNAL_JET_FUNCTIONS_3_H
 
-#include <equiaffine/number/internal/jet.h>
-#include <equiaffine/number/elementary_functions.h>
 #include <equiaffine/number/internal/Jet_ordering_3.h>
-#include <equiaffine/number/kinks.h>
-#include <equiaffine/number/lanes.h>
+#include <equiaffine/number/internal/elementary_functions.h>
+#include <equiaffine/number/internal/jet.h>
+#include <equiaffine/number/internal/nonsmooth.h>
+#include <equiaffine/number/internal/select.h>
 
 #include <array>
 #include <cmath>

@@ -4,7 +4,7 @@
 #define EQUIAFFINE_NUMBER_INTERNAL_JET_ORDERING_3_H
 
 #include <equiaffine/number/internal/jet.h>
-#include <equiaffine/number/kinks.h>
+#include <equiaffine/number/internal/nonsmooth.h>
 
 #include <cmath>
 #include <cstddef>

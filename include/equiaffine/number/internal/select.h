@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The few words in which a formula chooses without branching, so that it can be read for one number and for a pack of
 // numbers. Pack.h has the overloads for packs, found by argument-dependent lookup.
-#ifndef EQUIAFFINE_NUMBER_LANES_H
-#define EQUIAFFINE_NUMBER_LANES_H
+#ifndef EQUIAFFINE_NUMBER_INTERNAL_SELECT_H
+#define EQUIAFFINE_NUMBER_INTERNAL_SELECT_H
 
 #include <cmath>
 #include <limits>

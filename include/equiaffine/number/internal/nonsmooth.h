@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives where functions have kinks and jumps. Interval_functions.h has overloads for ranges that may contain
 // some, found by argument-dependent lookup.
-#ifndef EQUIAFFINE_NUMBER_KINKS_H
-#define EQUIAFFINE_NUMBER_KINKS_H
+#ifndef EQUIAFFINE_NUMBER_INTERNAL_NONSMOOTH_H
+#define EQUIAFFINE_NUMBER_INTERNAL_NONSMOOTH_H
 
 #include <limits>
 
