@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/contraction.h"
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/Level_set_traits_3.h>
@@ -17,24 +18,39 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <type_traits>
 #include <vector>
 
 namespace {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
-using Lanes = Pack<double>;
+constexpr std::size_t size = Pack<double>::size;
 const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
 const Kernel::Aff_transformation_3 shear(0.9, 0, 0.9, 0.1, 0, 2, 0, 0, 1.1, 0, 0.6, 0);
+
+// Packs of std::experimental::simd, where there is one, and of arrays.
+template <class Lanes>
+class Pack_of : public testing::Test {};
+using All_lanes = testing::Types<
+#ifndef EQUIAFFINE_WITHOUT_SIMD
+    internal::Simd_lanes<double, size>,
+#endif
+    internal::Array_lanes<double, size>>;
+TYPED_TEST_SUITE(Pack_of, All_lanes);
+
+// Whether this test, which compares the bits of packs with those of numbers, is to be skipped.
+#define SKIP_IF_THE_COMPILER_CONTRACTS()                                                                               \
+  if (compiler_contracts()) GTEST_SKIP() << "packs and numbers are equal to within rounding only"
 
 std::uint64_t bits(double x) { return std::isnan(x) ? 0 : std::bit_cast<std::uint64_t>(x); }
 
 // Random points, and between them points on the axes and the origin, where functions have kinks and gradients vanish.
-std::vector<Kernel::Point_3> points(std::size_t size) {
+std::vector<Kernel::Point_3> points(std::size_t number) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> unit(-1, 1);
   std::vector<Kernel::Point_3> result;
-  for (std::size_t n = 0; n < size; ++n) {
+  for (std::size_t n = 0; n < number; ++n) {
     double c[3] = {unit(random), unit(random), unit(random)};
     if (n % 7 == 0) c[n % 3] = 0;
     if (n % 11 == 0) c[n % 2] = c[2] = 0;
@@ -44,12 +60,12 @@ std::vector<Kernel::Point_3> points(std::size_t size) {
 }
 
 template <class Tag = CGAL::Sequential_tag, class Traits>
-void expect_batch_equals_single(const Traits& traits, std::size_t size = 203) {
+void expect_batch_equals_single(const Traits& traits, std::size_t number = 203) {
   const auto selection = select_attributes("all");
-  const auto p = points(size);
+  const auto p = points(number);
   const auto batch = compute_attributes<Tag>(traits, p, selection);
-  ASSERT_EQ(batch.status->size(), size);
-  for (std::size_t i = 0; i < size; ++i) {
+  ASSERT_EQ(batch.status->size(), number);
+  for (std::size_t i = 0; i < number; ++i) {
     const auto single = local_structure_at(traits, p[i]);
     ASSERT_EQ((*batch.status)[i], single.status) << i;
     for (std::size_t n = 0; n < selection.columns.size(); ++n)
@@ -77,7 +93,7 @@ std::vector<double> arguments(double range) {
   std::vector<double> result = {0., -0., range, -range, std::nextafter(range, 2 * range)};
   for (int n = 0; n < 4000; ++n) result.push_back(range * unit(random) * std::exp2(-n % 40));
   for (int n = -400; n <= 400; ++n) result.push_back(n * std::acos(-1.) / 2); // up to 628
-  while (result.size() % Lanes::size != 0) result.push_back(1);
+  while (result.size() % size != 0) result.push_back(1);
   return result;
 }
 
@@ -94,23 +110,83 @@ TEST(Pack, elementary_functions_are_right_to_the_last_place_or_the_one_before) {
   EXPECT_EQ(internal::sine_and_cosine(0.).first, 0);
 }
 
-TEST(Pack, elementary_functions_of_a_lane_have_the_bits_of_single_numbers) {
+TYPED_TEST(Pack_of, elementary_functions_with_the_bits_of_single_numbers) {
+  SKIP_IF_THE_COMPILER_CONTRACTS();
+  using Number = Pack<double, TypeParam>;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> x = arguments(internal::exponential_range);
   x.insert(x.end(), {infinity, -infinity, std::nan(""), 1e300, -1e300, 710., -746., 1e-310});
-  for (std::size_t first = 0; first + Lanes::size <= x.size(); first += Lanes::size) {
-    const Lanes lanes = Lanes::generate([&](std::size_t i) { return x[first + i]; });
-    const Lanes e = exp(lanes), s = sin(lanes), c = cos(lanes);
-    for (std::size_t i = 0; i < Lanes::size; ++i) {
+  for (std::size_t first = 0; first + size <= x.size(); first += size) {
+    const Number pack = Number::generate([&](std::size_t i) { return x[first + i]; });
+    const Number e = exp(pack), s = sin(pack), c = cos(pack), p = natural_power(pack, 11), t = atan2(pack, Number(3));
+    for (std::size_t i = 0; i < size; ++i) {
       const double u = x[first + i];
       EXPECT_EQ(bits(e[i]), bits(internal::exp_value(u))) << u;
       EXPECT_EQ(bits(s[i]), bits(internal::sine_and_cosine(u).first)) << u;
       EXPECT_EQ(bits(c[i]), bits(internal::sine_and_cosine(u).second)) << u;
+      EXPECT_EQ(bits(p[i]), bits(internal::natural_power(u, 11))) << u;
+      EXPECT_EQ(bits(t[i]), bits(std::atan2(u, 3))) << u;
     }
   }
 }
 
+TYPED_TEST(Pack_of, the_arithmetic_and_the_order_of_its_numbers) {
+  using Number = Pack<double, TypeParam>;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> numbers = {0., -0., 1. / 3, -7.25, 1e300, -1e-310, nan, 1 / 0.};
+  for (const double u : numbers)
+    for (const double v : numbers) {
+      // u stands beside v, so that lanes are told apart
+      const Number a = Number::generate([&](std::size_t i) { return i == 0 ? u : v; }), b = v;
+      const auto expect = [&](const Number& computed, double first, double other) {
+        EXPECT_EQ(bits(computed[0]), bits(first)) << u << ' ' << v;
+        EXPECT_EQ(bits(computed[size - 1]), bits(other)) << u << ' ' << v;
+      };
+      expect(a + b, u + v, v + v);
+      expect(a - b, u - v, v - v);
+      expect(a * b, u * v, v * v);
+      expect(a / b, u / v, v / v);
+      expect(-a, -u, -v);
+      expect(abs(a), std::abs(u), std::abs(v));
+      expect(sqrt(a), std::sqrt(u), std::sqrt(v));
+      const auto expect_truth = [&](const auto& computed, bool first, bool other) {
+        EXPECT_EQ(computed[0], first) << u << ' ' << v;
+        EXPECT_EQ(computed[size - 1], other) << u << ' ' << v;
+      };
+      expect_truth(a < b, u < v, false);
+      expect_truth(a > b, u > v, false);
+      expect_truth(a <= b, u <= v, v <= v);
+      expect_truth(a >= b, u >= v, v >= v);
+      expect_truth(a == b, u == v, v == v);
+      expect_truth(a != b, u != v, v != v);
+      expect_truth(!(a < b) && a == a, !(u < v) && u == u, v == v);
+      expect_truth(a < b || b != b, u < v || v != v, v != v);
+    }
+}
+
+// The Barth sextic has products and sums of all kinds; the lanes of a pack of arrays have the bits of single jets, too.
+TYPED_TEST(Pack_of, the_jets_of_its_numbers_bit_for_bit) {
+  SKIP_IF_THE_COMPILER_CONTRACTS();
+  using Number = Pack<double, TypeParam>;
+  const auto p = points(size);
+  const auto coordinate = [&](int axis) { return Number::generate([&](std::size_t i) { return p[i][axis]; }); };
+  const auto jet = [](const auto& x, const auto& y, const auto& z) {
+    using T = std::remove_cvref_t<decltype(x)>;
+    const auto f = [](const auto& u, const auto& v, const auto& w) {
+      return analytic_functions::Barth_sextic()(u, v, w) + exp(u) * sin(v / (w + 3.0)) - sqrt(w * w + 1.0);
+    };
+    return f(Jet_3<T>::variable(0, x), Jet_3<T>::variable(1, y), Jet_3<T>::variable(2, z));
+  };
+  const auto pack = jet(coordinate(0), coordinate(1), coordinate(2));
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto single = jet(p[i].x(), p[i].y(), p[i].z());
+    for (std::size_t n = 0; n < single.size; ++n)
+      EXPECT_EQ(bits(pack.coefficients()[n][i]), bits(single.coefficients()[n])) << n;
+  }
+}
+
 TEST(Pack, attributes_of_a_batch_are_those_of_its_points_bit_for_bit) {
+  SKIP_IF_THE_COMPILER_CONTRACTS();
   using namespace analytic_functions;
   expect_batch_equals_single_for(Torus());
   expect_batch_equals_single_for(Metaballs());
@@ -122,11 +198,13 @@ TEST(Pack, attributes_of_a_batch_are_those_of_its_points_bit_for_bit) {
 }
 
 TEST(Pack, any_number_of_points_is_a_batch) {
+  SKIP_IF_THE_COMPILER_CONTRACTS();
   const auto traits = make_analytic_traits<Kernel>(analytic_functions::Gyroid(), box);
-  for (std::size_t size = 0; size <= 2 * Lanes::size + 1; ++size) expect_batch_equals_single(traits, size);
+  for (std::size_t number = 0; number <= 2 * size + 1; ++number) expect_batch_equals_single(traits, number);
 }
 
 TEST(Pack, threads_and_adaptors_change_no_bit) {
+  SKIP_IF_THE_COMPILER_CONTRACTS();
   const auto base = make_analytic_traits<Kernel>(analytic_functions::Torus(), box);
   const Level_set_traits_3 level_set(base, 0.25, Orientation_of_level_set::AGAINST_GRADIENT);
   expect_batch_equals_single(level_set);
@@ -145,18 +223,20 @@ struct Branching {
 };
 
 TEST(Pack, a_function_that_branches_is_evaluated_point_by_point_where_lanes_disagree) {
+  SKIP_IF_THE_COMPILER_CONTRACTS();
   expect_batch_equals_single_for(Branching());
 }
 
-TEST(Pack, masks_choose_lane_by_lane_and_decide_only_when_unanimous) {
-  const Lanes ascending = Lanes::generate([](std::size_t i) { return double(i); });
-  const auto first = ascending < Lanes(1);
-  const Lanes chosen = select(first, Lanes(5), -ascending);
-  for (std::size_t i = 0; i < Lanes::size; ++i) EXPECT_EQ(chosen[i], i == 0 ? 5 : -double(i));
-  EXPECT_TRUE(bool(ascending >= Lanes(0)));
-  EXPECT_FALSE(bool(ascending < Lanes(0)));
+TYPED_TEST(Pack_of, masks_that_choose_lane_by_lane_and_decide_only_when_unanimous) {
+  using Number = Pack<double, TypeParam>;
+  const Number ascending = Number::generate([](std::size_t i) { return double(i); });
+  const auto first = ascending < Number(1);
+  const Number chosen = select(first, Number(5), -ascending);
+  for (std::size_t i = 0; i < size; ++i) EXPECT_EQ(chosen[i], i == 0 ? 5 : -double(i));
+  EXPECT_TRUE(bool(ascending >= Number(0)));
+  EXPECT_FALSE(bool(ascending < Number(0)));
   EXPECT_THROW(static_cast<void>(bool(first)), Lanes_disagree);
-  const Lanes nan = std::numeric_limits<double>::quiet_NaN();
+  const Number nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isnan(max(ascending, nan)[0]) && std::isnan(min(nan, ascending)[0]));
 }
 

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_FUNCTION_ANALYTIC_FUNCTION_TRAITS_3_H
 
 #include <equiaffine/function/concepts.h>
+#include <equiaffine/number/Pack.h>
 
 #include <CGAL/Bbox_3.h>
 

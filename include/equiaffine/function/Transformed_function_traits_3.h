@@ -6,6 +6,7 @@
 #include <equiaffine/function/first_order_bounds.h>
 #include <equiaffine/function/rounding.h>
 #include <equiaffine/number/Linear_substitution_3.h>
+#include <equiaffine/number/Pack.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/number_utils.h>

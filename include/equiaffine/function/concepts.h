@@ -6,7 +6,7 @@
 
 #include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
-#include <equiaffine/number/Pack.h>
+#include <equiaffine/number/Pack_fwd.h>
 #include <equiaffine/volume/Lattice_3.h>
 
 #include <CGAL/Bbox_3.h>

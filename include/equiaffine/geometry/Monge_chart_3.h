@@ -139,7 +139,7 @@ private:
 
   /// The coefficient that plays x^I y^J z^K, when it is known which axis plays z, or (Pivot == 3) lane by lane.
   template <int Pivot, int I, int J, int K>
-  EQUIAFFINE_INLINE FT f(const Jet_3<FT>& jet) const {
+  [[gnu::always_inline]] FT f(const Jet_3<FT>& jet) const {
     using internal::select;
     if constexpr (Pivot < 3) return jet.template at<played_by(Pivot, I, J, K)>();
     else return select(pivot_is_x, f<0, I, J, K>(jet), select(pivot_is_y, f<1, I, J, K>(jet), f<2, I, J, K>(jet)));
@@ -215,8 +215,8 @@ private:
 
   /// Subtracts (a u + b v) times another form. In place: copies of arrays of packs would go through memory.
   template <std::size_t N>
-  EQUIAFFINE_INLINE void reduce(std::array<FT, N + 1>& form, const std::array<FT, N>& other) const {
-    [&]<std::size_t... I>(std::index_sequence<I...>) EQUIAFFINE_INLINE {
+  [[gnu::always_inline]] void reduce(std::array<FT, N + 1>& form, const std::array<FT, N>& other) const {
+    [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
       ((form[I] -= a * other[I], form[I + 1] -= b * other[I]), ...);
     }
     (std::make_index_sequence<N>());

@@ -2,16 +2,16 @@
 #ifndef EQUIAFFINE_NUMBER_PACK_H
 #define EQUIAFFINE_NUMBER_PACK_H
 
-#include <equiaffine/number/internal/Jet_functions_3.h>
+#include <equiaffine/number/Pack_fwd.h>
+#include <equiaffine/number/internal/Array_lanes.h>
+#include <equiaffine/number/internal/Simd_lanes.h>
 #include <equiaffine/number/internal/elementary_functions.h>
+#include <equiaffine/number/internal/natural_power.h>
 #include <equiaffine/number/internal/select.h>
 
-#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <exception>
-#include <experimental/simd>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -23,30 +23,22 @@ struct Lanes_disagree : std::exception {
   const char* what() const noexcept override { return "the lanes of a pack disagree"; }
 };
 
-namespace internal {
-
-/// Translation units that are compiled for different processors have different packs, never two of one name.
-template <class T>
-using Native_abi = std::experimental::simd_abi::native<T>;
-
-} // namespace internal
-
 /// A truth value per lane.
-template <class T, class Abi = internal::Native_abi<T>>
+template <class T, class Lanes>
 struct Pack_mask {
-  using Simd_mask = std::experimental::simd_mask<T, Abi>;
-  Simd_mask lanes;
+  using Mask = typename Lanes::Mask;
+  Mask lanes;
 
   Pack_mask() = default;
   Pack_mask(bool value) : lanes(value) {}
-  Pack_mask(const Simd_mask& values) : lanes(values) {}
+  Pack_mask(const Mask& values) : lanes(values) {}
 
   bool operator[](std::size_t lane) const { return lanes[lane]; }
 
   /// What all lanes say, so that code that branches serves packs where they agree. \throw Lanes_disagree
   explicit operator bool() const {
-    if (all_of(lanes)) return true;
-    if (any_of(lanes)) throw Lanes_disagree();
+    if (Lanes::all(lanes)) return true;
+    if (Lanes::any(lanes)) throw Lanes_disagree();
     return false;
   }
 
@@ -60,28 +52,30 @@ struct Pack_mask {
 };
 
 /// As many numbers as one vector register holds under the compiler's flags, to be used as one number: a number type for
-/// Jet_3, Monge_chart_3 and what follows. Every operation is that of T in each lane, functions are those of <cmath> but
-/// for exp, sin and cos of doubles (internal/elementary_functions.h), so that, unless the compiler contracts products
-/// and sums (-ffp-contract=off), a lane has the bits that T would have.
-template <class T, class Abi = internal::Native_abi<T>>
+/// Jet_3, Monge_chart_3 and what follows. Every operation is that of T in each lane; functions are those of <cmath> but
+/// for exp, sin and cos of doubles (elementary_functions.h). So a lane has the bits that T would have, unless the
+/// compiler contracts products and sums to fused operations (GCC does by default where the processor has them; see
+/// -ffp-contract): then it has them to within rounding.
+///
+/// `Lanes` says how lanes are kept: in a std::experimental::simd where there is one, else in an array. Results are the
+/// same.
+template <class T, class Lanes> // a default is in Pack_fwd.h
 struct Pack {
-  using Simd = std::experimental::simd<T, Abi>;
-  using Mask = Pack_mask<T, Abi>;
-  static constexpr std::size_t size = Simd::size();
+  using Vector = typename Lanes::Vector;
+  using Mask = Pack_mask<T, Lanes>;
+  static constexpr std::size_t size = Lanes::size;
 
-  Simd lanes;
+  Vector lanes;
 
-  Pack() = default; // leaves the lanes uninitialised: zeroing them costs factors in jets
+  Pack() = default; // leaves the lanes uninitialized: zeroing them costs factors in jets
   template <class Number>
   Pack(const Number& value) requires(std::is_arithmetic_v<Number>) : lanes(static_cast<T>(value)) {}
-  Pack(const Simd& values) : lanes(values) {}
+  Pack(const Vector& values) : lanes(values) {}
 
   /// Lane i is f(i).
   template <class F>
   static Pack generate(F f) {
-    alignas(Simd) T values[size];
-    for (std::size_t i = 0; i < size; ++i) values[i] = f(i);
-    return Simd(values, std::experimental::vector_aligned);
+    return Lanes::generate(f);
   }
 
   /// Lane i is f(a[i]).
@@ -112,13 +106,11 @@ struct Pack {
   [[gnu::always_inline]] friend Mask operator!=(const Pack& a, const Pack& b) { return a.lanes != b.lanes; }
 
   [[gnu::always_inline]] friend Pack select(const Mask& condition, const Pack& yes, const Pack& no) {
-    Simd r = no.lanes;
-    where(condition.lanes, r) = yes.lanes;
-    return r;
+    return Lanes::select(condition.lanes, yes.lanes, no.lanes);
   }
 
-  [[gnu::always_inline]] friend Pack abs(const Pack& a) { return std::experimental::abs(a.lanes); }
-  [[gnu::always_inline]] friend Pack sqrt(const Pack& a) { return std::experimental::sqrt(a.lanes); }
+  [[gnu::always_inline]] friend Pack abs(const Pack& a) { return Lanes::abs(a.lanes); }
+  [[gnu::always_inline]] friend Pack sqrt(const Pack& a) { return Lanes::sqrt(a.lanes); }
   /// A NaN in either argument gives NaN.
   friend Pack min(const Pack& a, const Pack& b) { return select(a < b || a != a, a, b); }
   friend Pack max(const Pack& a, const Pack& b) { return select(a > b || a != a, a, b); }
@@ -148,13 +140,13 @@ struct Pack {
 
   [[gnu::always_inline]] friend Pack exp(const Pack& a) {
     if constexpr (std::is_same_v<T, double>)
-      if (const Mask in_range = abs(a) <= Pack(internal::exponential_range); all_of(in_range.lanes))
+      if (const Mask in_range = abs(a) <= Pack(internal::exponential_range); Lanes::all(in_range.lanes))
         return internal::exponential_in_range(a);
     return lane_by_lane(a, [](T u) { return internal::exp_value(u); });
   }
   [[gnu::always_inline]] friend std::pair<Pack, Pack> sine_and_cosine(const Pack& a) {
     if constexpr (std::is_same_v<T, double>)
-      if (const Mask in_range = abs(a) <= Pack(internal::circular_range); all_of(in_range.lanes))
+      if (const Mask in_range = abs(a) <= Pack(internal::circular_range); Lanes::all(in_range.lanes))
         return internal::sine_and_cosine_in_range(a);
     return {lane_by_lane(a, [](T u) { return internal::sine_and_cosine(u).first; }),
             lane_by_lane(a, [](T u) { return internal::sine_and_cosine(u).second; })};
@@ -162,16 +154,9 @@ struct Pack {
   friend Pack sin(const Pack& a) { return sine_and_cosine(a).first; }
   friend Pack cos(const Pack& a) { return sine_and_cosine(a).second; }
 
-  /// Lane by lane what internal/elementary_functions.h has for a double.
+  /// The hook of elementary_functions.h, found by argument-dependent lookup.
   [[gnu::always_inline]] friend Pack scaled_exponential(const Pack& k, const Pack& p) {
-    using Integers = std::experimental::rebind_simd_t<std::int64_t, Simd>;
-    using Table = internal::Exponential_table;
-    const auto bits = std::bit_cast<Integers>(k.lanes);
-    const Integers n = bits & (Table::size - 1);
-    const Simd high([&](auto i) { return internal::exponential_table.high[std::size_t(n[i])]; });
-    const Simd low([&](auto i) { return internal::exponential_table.low[std::size_t(n[i])]; });
-    const Simd e = high + (low + high * p.lanes);
-    return std::bit_cast<Simd>(std::bit_cast<Integers>(e) + ((bits >> std::countr_zero(unsigned(Table::size))) << 52));
+    return Lanes::scaled_exponential(k.lanes, p.lanes);
   }
 
   /// a^n as jets of T compute it.
@@ -179,7 +164,7 @@ struct Pack {
     return generate([&](std::size_t i) { return internal::natural_power(a[i], n); });
   }
 
-  /// As for an ordered number, see internal/nonsmooth.h.
+  /// The hook of nonsmooth.h, which does for each lane what is done for an ordered number.
   friend Pack branch_or_kink(const Pack& u, const Pack& v, const Pack& a, const Pack& b, int degree) {
     const Pack at_kink = degree == 0 ? select(u == v, a, u + v) : Pack(std::numeric_limits<T>::quiet_NaN());
     return select(u > v, a, select(v > u, b, at_kink));
@@ -188,8 +173,8 @@ struct Pack {
 
 } // namespace equiaffine
 
-/// Those of a lane; they convert to a pack.
-template <class T, class Abi>
-struct std::numeric_limits<equiaffine::Pack<T, Abi>> : std::numeric_limits<T> {};
+/// The limits of T, which convert to a pack.
+template <class T, class Lanes>
+struct std::numeric_limits<equiaffine::Pack<T, Lanes>> : std::numeric_limits<T> {};
 
 #endif

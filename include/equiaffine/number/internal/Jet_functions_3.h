@@ -6,6 +6,7 @@
 #include <equiaffine/number/internal/Jet_ordering_3.h>
 #include <equiaffine/number/internal/elementary_functions.h>
 #include <equiaffine/number/internal/jet.h>
+#include <equiaffine/number/internal/natural_power.h>
 #include <equiaffine/number/internal/nonsmooth.h>
 #include <equiaffine/number/internal/select.h>
 
@@ -32,22 +33,6 @@ auto compose(const Jet_3<T, Order, A>& a, const std::array<T, 5>& t) {
 }
 
 namespace internal {
-
-/// x^n by repeated squaring, which loses up to n / 2 units in the last place, unless the C library does better.
-template <class T>
-T natural_power(T x, unsigned n) {
-  if constexpr (std::is_floating_point_v<T>)
-    if (n > 8) return std::pow(x, T(n));
-  T r(1);
-  for (bool first = true; n > 0; n >>= 1) {
-    if (n & 1) {
-      r = first ? x : r * x;
-      first = false;
-    }
-    if (n > 1) x = x * x;
-  }
-  return r;
-}
 
 /// a^p, given its value. Powers and logarithms are composed from a / a_0, which is near 1 at any scale of a: powers of
 /// a_0 itself would overflow.

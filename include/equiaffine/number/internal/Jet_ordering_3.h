@@ -37,7 +37,7 @@ template <class T, int Order, Monomial_set A, Monomial_set B>
 auto max(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   using internal::branch_or_kink;
   Jet_3<T, Order, (A | B | 1)> r;
-  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE {
+  r.for_each_monomial([&](auto n) __attribute__((always_inline)) {
     constexpr int degree = internal::monomials[std::size_t(n())].degree();
     r.template at<n>() = branch_or_kink(a.value(), b.value(), a.template coefficient_or_zero<n>(),
                                         b.template coefficient_or_zero<n>(), degree);

@@ -10,13 +10,6 @@
 #include <type_traits>
 #include <utility>
 
-// Products are unrolled into lambdas; one that the compiler does not inline costs more than what it computes.
-#if defined(__GNUC__)
-#define EQUIAFFINE_INLINE __attribute__((always_inline))
-#else
-#define EQUIAFFINE_INLINE
-#endif
-
 namespace equiaffine {
 
 using internal::Monomial_set;
@@ -61,8 +54,9 @@ public:
   /// The same polynomial with a larger support.
   template <Monomial_set Other>
   Jet_3(const Jet_3<T, Order, Other>& other) requires((Other & ~Support) == 0 && Other != Support) {
-    for_each_monomial([&](auto n)
-                          EQUIAFFINE_INLINE { this->template at<n>() = other.template coefficient_or_zero<n>(); });
+    for_each_monomial([&](auto n) __attribute__((always_inline)) {
+      this->template at<n>() = other.template coefficient_or_zero<n>();
+    });
   }
 
   /// The jet of coordinate `axis` (0, 1, 2 for x, y, z) at a point where that coordinate is `value`.
@@ -109,10 +103,11 @@ public:
     else return T(0);
   }
 
-  /// Calls `f(std::integral_constant<int, n>)` for every monomial n of the support, unrolled.
+  /// Calls `f(std::integral_constant<int, n>)` for every monomial n of the support, unrolled. Here and below a lambda
+  /// that the compiler does not inline costs more than what it computes.
   template <class F>
-  EQUIAFFINE_INLINE static constexpr void for_each_monomial(F f) {
-    [&]<std::size_t... Rank>(std::index_sequence<Rank...>) EQUIAFFINE_INLINE {
+  [[gnu::always_inline]] static constexpr void for_each_monomial(F f) {
+    [&]<std::size_t... Rank>(std::index_sequence<Rank...>) __attribute__((always_inline)) {
       (f(std::integral_constant<int, internal::member(Support, Rank)>()), ...);
     }
     (std::make_index_sequence<size>());
@@ -120,7 +115,7 @@ public:
 
   Jet_3 operator-() const {
     Jet_3 r;
-    for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = -this->template at<n>(); });
+    for_each_monomial([&](auto n) __attribute__((always_inline)) { r.template at<n>() = -this->template at<n>(); });
     return r;
   }
   Jet_3 operator+() const { return *this; }
@@ -164,14 +159,14 @@ namespace internal {
 template <int Degree, class T, int Order, Monomial_set A>
 auto part(const Jet_3<T, Order, A>& a) {
   Jet_3<T, Order, part_of_set(A, Degree, Order)> r;
-  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = a.template at<n>(); });
+  r.for_each_monomial([&](auto n) __attribute__((always_inline)) { r.template at<n>() = a.template at<n>(); });
   return r;
 }
 
 template <int Target, class T, int Order, Monomial_set A, Monomial_set B>
 T product_coefficient(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   using Pairs = Factor_pairs<A, B, Target>;
-  return [&]<std::size_t... P>(std::index_sequence<P...>) EQUIAFFINE_INLINE {
+  return [&]<std::size_t... P>(std::index_sequence<P...>) __attribute__((always_inline)) {
     return ((a.coefficients()[Pairs::pairs[P].first] * b.coefficients()[Pairs::pairs[P].second]) + ...);
   }
   (std::make_index_sequence<Pairs::size>());
@@ -182,9 +177,9 @@ T square_coefficient(const Jet_3<T, Order, A>& a) {
   using Pairs = Factor_pairs<A, A, Target>; // symmetric: first < second, then first == second, in either order
   T mixed = T(0), pure = T(0);
   bool has_mixed = false;
-  [&]<std::size_t... P>(std::index_sequence<P...>) EQUIAFFINE_INLINE {
+  [&]<std::size_t... P>(std::index_sequence<P...>) __attribute__((always_inline)) {
     (
-        [&]() EQUIAFFINE_INLINE {
+        [&]() __attribute__((always_inline)) {
           constexpr auto pair = Pairs::pairs[P];
           if constexpr (pair.first < pair.second) {
             const T product = a.coefficients()[pair.first] * a.coefficients()[pair.second];
@@ -207,14 +202,15 @@ T square_coefficient(const Jet_3<T, Order, A>& a) {
 template <class T, int Order, Monomial_set A>
 auto square(const Jet_3<T, Order, A>& a) {
   Jet_3<T, Order, internal::product_of_sets(A, A, Order)> r;
-  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = internal::square_coefficient<n>(a); });
+  r.for_each_monomial([&](auto n)
+                          __attribute__((always_inline)) { r.template at<n>() = internal::square_coefficient<n>(a); });
   return r;
 }
 
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto operator+(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   Jet_3<T, Order, (A | B)> r;
-  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE {
+  r.for_each_monomial([&](auto n) __attribute__((always_inline)) {
     if constexpr (!internal::contains(B, n)) r.template at<n>() = a.template at<n>();
     else if constexpr (!internal::contains(A, n)) r.template at<n>() = b.template at<n>();
     else r.template at<n>() = a.template at<n>() + b.template at<n>();
@@ -225,7 +221,7 @@ auto operator+(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto operator-(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   Jet_3<T, Order, (A | B)> r;
-  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE {
+  r.for_each_monomial([&](auto n) __attribute__((always_inline)) {
     if constexpr (!internal::contains(B, n)) r.template at<n>() = a.template at<n>();
     else if constexpr (!internal::contains(A, n)) r.template at<n>() = -b.template at<n>();
     else r.template at<n>() = a.template at<n>() - b.template at<n>();
@@ -239,7 +235,9 @@ auto operator*(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   if constexpr (A == B)
     if (&a == &b) return square(a);
   Jet_3<T, Order, internal::product_of_sets(A, B, Order)> r;
-  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = internal::product_coefficient<n>(a, b); });
+  r.for_each_monomial([&](auto n) __attribute__((always_inline)) {
+    r.template at<n>() = internal::product_coefficient<n>(a, b);
+  });
   return r;
 }
 
@@ -263,7 +261,7 @@ template <class T, int Order, Monomial_set A, JetScalar<T> S>
 auto operator*(const Jet_3<T, Order, A>& a, const S& s) {
   Jet_3<T, Order, A> r;
   const T factor = T(s);
-  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = a.template at<n>() * factor; });
+  r.for_each_monomial([&](auto n) __attribute__((always_inline)) { r.template at<n>() = a.template at<n>() * factor; });
   return r;
 }
 template <class T, int Order, Monomial_set A, JetScalar<T> S>
@@ -274,7 +272,8 @@ template <class T, int Order, Monomial_set A, JetScalar<T> S>
 auto operator/(const Jet_3<T, Order, A>& a, const S& s) {
   Jet_3<T, Order, A> r;
   const T divisor = T(s);
-  r.for_each_monomial([&](auto n) EQUIAFFINE_INLINE { r.template at<n>() = a.template at<n>() / divisor; });
+  r.for_each_monomial([&](auto n)
+                          __attribute__((always_inline)) { r.template at<n>() = a.template at<n>() / divisor; });
   return r;
 }
 
