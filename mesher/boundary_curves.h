@@ -7,6 +7,7 @@
 #include <equiaffine/surface/Polyline_3.h>
 #include <equiaffine/surface/curve_step.h>
 #include <equiaffine/surface/project_to_surface.h>
+#include <equiaffine/surface/sign_change.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions_3.h>
@@ -108,7 +109,7 @@ private:
     std::array<double, 4> value;
     for (std::size_t n = 0; n < 4; ++n) value[n] = traits_.value(p[n]);
     for (std::size_t n = 0, m = 1; n < 4; ++n, m = (m + 1) % 4) {
-      if (!((value[n] < 0 && value[m] >= 0) || (value[n] >= 0 && value[m] < 0))) continue;
+      if (!is_sign_change(value[n], value[m])) continue;
       const auto root = intersect_segment(traits_, p[n], p[m], value[n], value[m]);
       if (!root.has_converged) continue;
       const auto start = project(root.point, face.axis);

@@ -8,6 +8,7 @@
 #include <equiaffine/marching_cubes/internal/split_fans.h>
 #include <equiaffine/marching_cubes/internal/trilinear_cell.h>
 #include <equiaffine/marching_cubes/internal/zero_area_repair.h>
+#include <equiaffine/surface/sign_change.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/tags.h>

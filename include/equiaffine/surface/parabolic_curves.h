@@ -9,6 +9,7 @@
 #include <equiaffine/surface/Polyline_3.h>
 #include <equiaffine/surface/curve_step.h>
 #include <equiaffine/surface/internal/parabolic_nodes.h>
+#include <equiaffine/surface/sign_change.h>
 
 #include <CGAL/tags.h>
 
@@ -142,7 +143,7 @@ private:
   bool place_point(std::size_t e) {
     const auto [a, b] = edges_[e];
     const Vector_3 edge = mesh_.points[b] - mesh_.points[a];
-    points_[e] = mesh_.points[a] + values_[a] / (values_[a] - values_[b]) * edge;
+    points_[e] = mesh_.points[a] + linear_zero(values_[a], values_[b]) * edge;
     const auto p = project_to_parabolic_curve(traits_, points_[e], edge.squared_length());
     if (p) points_[e] = *p;
     return p.has_value();

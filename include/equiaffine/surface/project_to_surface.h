@@ -3,6 +3,7 @@
 #define EQUIAFFINE_SURFACE_PROJECT_TO_SURFACE_H
 
 #include <equiaffine/function/concepts.h>
+#include <equiaffine/surface/sign_change.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,12 +53,6 @@ struct Bracket_3 {
     negligible = FT(1e-6) * (larger_end - larger_end == FT(0) ? larger_end : smaller_end);
   }
 
-  /// Where linear interpolation of the values at the ends vanishes, as a fraction of the segment.
-  FT start() const {
-    const FT t = fa / (fa - fb);
-    return t >= FT(0) && t <= FT(1) ? t : FT(0.5); // infinite ends
-  }
-
   /// A pole or a jump has no such value.
   bool is_plausible(const FT& value) const {
     using std::abs;
@@ -84,7 +79,7 @@ Surface_point_3<Kernel> newton(const Traits& traits, const Bracket_3<Kernel>& br
   using FT = typename Kernel::FT;
   using std::abs;
   const auto& direction = bracket.direction;
-  FT lower(0), upper(1), last_step(1), t = bracket.start();
+  FT lower(0), upper(1), last_step(1), t = linear_zero(bracket.fa, bracket.fb);
   for (int n = 1; n <= bracket.maximal_evaluations; ++n) {
     const auto jet = first_order(traits, bracket.a + t * direction);
     const auto& c = jet.coefficients();
@@ -110,7 +105,8 @@ template <class Kernel, class Traits>
 Surface_point_3<Kernel> chandrupatla(const Traits& traits, const Bracket_3<Kernel>& bracket) {
   using FT = typename Kernel::FT;
   using std::abs;
-  FT x1(0), f1 = bracket.fa, x2(1), f2 = bracket.fb, fraction = bracket.start(); // the zero is between x1 and x2
+  FT x1(0), f1 = bracket.fa, x2(1), f2 = bracket.fb,
+            fraction = linear_zero(bracket.fa, bracket.fb); // the zero is between x1 and x2
   for (int n = 1; n <= bracket.maximal_evaluations; ++n) {
     const FT x = x1 + fraction * (x2 - x1);
     const FT f = traits.value(bracket.a + x * bracket.direction);

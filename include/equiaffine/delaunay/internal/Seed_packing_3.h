@@ -6,6 +6,7 @@
 #include <equiaffine/surface/Clip_domain_3.h>
 #include <equiaffine/surface/curve_step.h>
 #include <equiaffine/surface/project_to_surface.h>
+#include <equiaffine/surface/sign_change.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions_3.h>
@@ -120,8 +121,7 @@ private:
     for (unsigned c = 0; c < 8; ++c)
       for (unsigned axis = 1; axis < 8; axis *= 2) {
         const unsigned d = c | axis;
-        if (c == d || !((values[c] < FT(0) && values[d] >= FT(0)) || (values[c] >= FT(0) && values[d] < FT(0))))
-          continue;
+        if (c == d || !is_sign_change(values[c], values[d])) continue;
         const auto found = intersect_segment(traits_, corners[c], corners[d], values[c], values[d]);
         if (!found.has_converged) continue;
         insert({found.point, unit(gradient_of<Vector_3>(first_order(traits_, found.point))), spacing});

@@ -5,6 +5,7 @@
 #include <equiaffine/function/first_order_bounds.h>
 #include <equiaffine/surface/Clip_domain_3.h>
 #include <equiaffine/surface/project_to_surface.h>
+#include <equiaffine/surface/sign_change.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>
@@ -48,7 +49,7 @@ public:
 
 private:
   std::optional<Point_3> on_segment(const Point_3& a, const Point_3& b, const FT& fa, const FT& fb) const {
-    if ((fa < FT(0) && fb >= FT(0)) || (fa >= FT(0) && fb < FT(0))) {
+    if (is_sign_change(fa, fb)) {
       const auto root = intersect_segment(traits_, a, b, fa, fb);
       if (root.has_converged) return root.point;
       return std::nullopt;

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_INNER_VERTEX_H
 
 #include <equiaffine/marching_cubes/internal/cell_polygons.h>
+#include <equiaffine/surface/sign_change.h>
 
 #include <array>
 #include <cmath>
@@ -11,14 +12,6 @@
 #include <utility>
 
 namespace equiaffine::internal {
-
-/// Where on an edge the linear interpolant of the values at its ends vanishes, as a fraction; halfway if they are
-/// infinite.
-template <class FT>
-FT linear_zero(const FT& first, const FT& second) {
-  const FT t = first / (first - second);
-  return t >= FT(0) && t <= FT(1) ? t : FT(0.5);
-}
 
 /// Value and partial derivative along `axis` of the trilinear interpolant of f at p in the unit cell.
 template <class FT>

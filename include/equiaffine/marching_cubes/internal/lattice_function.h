@@ -5,6 +5,7 @@
 #include <equiaffine/function/Batch_function_traits_3.h>
 #include <equiaffine/marching_cubes/internal/inner_vertex.h>
 #include <equiaffine/marching_cubes/internal/isosurface_numbering.h>
+#include <equiaffine/surface/sign_change.h>
 #include <equiaffine/volume/Lattice_3.h>
 
 #include <array>

@@ -7,6 +7,7 @@
 #include <equiaffine/marching_cubes/internal/zero_area_repair.h>
 #include <equiaffine/surface/Isosurface_3.h>
 #include <equiaffine/surface/project_to_surface.h>
+#include <equiaffine/surface/sign_change.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 
@@ -189,7 +190,7 @@ private:
         const Point_3 q = function_.point(vertex.cell, end);
         const FT end_value = traits.value(q);
         ++best.evaluations;
-        if (!(value < FT(0) ? end_value >= FT(0) : end_value < FT(0)) || p == q) continue;
+        if (!is_sign_change(value, end_value) || p == q) continue;
         const auto found = intersect_segment(traits, p, q, value, end_value);
         best.evaluations += found.evaluations;
         const FT distance = (found.point - p).squared_length() / function_.lattice().steps()[axis].squared_length();
@@ -209,9 +210,8 @@ private:
       // nearby.
       using std::sqrt;
       const FT fa = traits.value(a), fb = traits.value(b);
-      const bool has_sign_change = (fa >= FT(0) && fb < FT(0)) || (fa < FT(0) && fb >= FT(0));
-      auto result = has_sign_change ? intersect_segment(traits, a, b, fa, fb)
-                                    : project_to_surface(traits, linear, FT(sqrt((b - a).squared_length())));
+      auto result = is_sign_change(fa, fb) ? intersect_segment(traits, a, b, fa, fb)
+                                           : project_to_surface(traits, linear, FT(sqrt((b - a).squared_length())));
       result.evaluations += 2;
       return result;
     } else {
