@@ -14,6 +14,7 @@
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/surface/curve_step.h>
 #include <equiaffine/surface/mesh_topology.h>
+#include <equiaffine/surface/vertex_links.h>
 
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
@@ -228,16 +229,10 @@ private:
 
   /// Where parts of the surface, or features, are too near to each other for the radius.
   void report_where_not_manifold() {
-    const Corner_lists lists(result_.triangles, result_.points.size());
-    Link link;
-    Mesh_topology counted;
-    for (std::size_t v = 0; v < result_.points.size(); ++v) {
-      link.reset(std::uint32_t(v));
-      for (std::size_t i = lists.first[v]; i < lists.first[v + 1]; ++i)
-        link.add(result_.triangles[lists.corners[i] / 3], lists.corners[i] % 3);
-      const Point_3& p = result_.points[v];
-      if (!link.count_edges(counted)) lost_.emplace_back(p.x(), p.y(), p.z());
-    }
+    for_each_vertex_link(result_.triangles, result_.points.size(), [&](const auto& link) {
+      const Point_3& p = result_.points[link.vertex()];
+      if (!link.is_path_or_circle()) lost_.emplace_back(p.x(), p.y(), p.z());
+    });
   }
 
   void read_mesh() {
