@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The only translation unit of the library that instantiates CGAL's mesher.
 #include "Angle_improvement_3.h"
+#include "Border_curves_3.h"
 #include "Facet_sizing_field.h"
 #include "Feature_ends_3.h"
 #include "Memoized_function_3.h"
+#include "Protecting_balls_3.h"
 #include "Surface_criteria_3.h"
-#include "boundary_curves.h"
 #include "orient_triangles.h"
-#include "protecting_balls.h"
 #include "singular_points.h"
 #include <equiaffine/delaunay/Implicit_mesh_domain_3.h>
 #include <equiaffine/delaunay/delaunay_surface.h>
@@ -122,7 +122,7 @@ private:
   Features cover_curves() const {
     Features features;
     const auto spacing = [&](const Point_3& p) { return feature_spacing * size_(p); };
-    Boundary_curves_3 boundary(function_, domain_.domain(), criteria_.radius);
+    Border_curves_3 boundary(function_, domain_.domain(), criteria_.radius);
     const auto exactly = [](const Point_3& p) { return std::optional(p); };
     Feature_ends_3 ends(domain_.domain(), criteria_.radius);
     for (Feature_curve_3 curve : features_) {

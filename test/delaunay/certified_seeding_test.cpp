@@ -4,7 +4,7 @@
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/analytic_functions.h>
-#include <equiaffine/delaunay/internal/certified_seeding.h>
+#include <equiaffine/delaunay/internal/Certified_seeding_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 

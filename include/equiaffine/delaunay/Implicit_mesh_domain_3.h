@@ -3,8 +3,8 @@
 #define EQUIAFFINE_DELAUNAY_IMPLICIT_MESH_DOMAIN_3_H
 
 #include <equiaffine/delaunay/cgal_compatibility.h>
+#include <equiaffine/delaunay/internal/Certified_seeding_3.h>
 #include <equiaffine/delaunay/internal/Segment_oracle_3.h>
-#include <equiaffine/delaunay/internal/certified_seeding.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/tags.h>

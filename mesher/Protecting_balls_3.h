@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_MESHER_PROTECTING_BALLS_H
-#define EQUIAFFINE_MESHER_PROTECTING_BALLS_H
+#ifndef EQUIAFFINE_MESHER_PROTECTING_BALLS_3_H
+#define EQUIAFFINE_MESHER_PROTECTING_BALLS_3_H
 
 #include <equiaffine/surface/Polyline_3.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_MESHER_BOUNDARY_CURVES_H
-#define EQUIAFFINE_MESHER_BOUNDARY_CURVES_H
+#ifndef EQUIAFFINE_MESHER_BORDER_CURVES_3_H
+#define EQUIAFFINE_MESHER_BORDER_CURVES_3_H
 
 #include <equiaffine/delaunay/Seed_grid_3.h>
 #include <equiaffine/surface/Clip_domain_3.h>
@@ -30,7 +30,7 @@ namespace equiaffine::internal {
 ///
 /// A curve that winds within less than `spacing`, and a closed one that small, may be missed.
 template <ImplicitFunctionTraits_3 Traits>
-class Boundary_curves_3 {
+class Border_curves_3 {
   using Kernel = Kernel_of<Traits>;
   using Point_3 = typename Traits::Point_3;
   using Vector_3 = typename Traits::Vector_3;
@@ -48,7 +48,7 @@ public:
     int axis = 0; // normal to its face of a box
   };
 
-  Boundary_curves_3(const Traits& traits, const Clip_domain_3& domain, double spacing)
+  Border_curves_3(const Traits& traits, const Clip_domain_3& domain, double spacing)
       : traits_(traits), domain_(domain), box_(domain.bbox()), pitch_(spacing / 2), step_(spacing / 8) {}
 
   std::vector<Curve> operator()() {

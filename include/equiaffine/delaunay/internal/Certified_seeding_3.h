@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_DELAUNAY_INTERNAL_CERTIFIED_SEEDING_H
-#define EQUIAFFINE_DELAUNAY_INTERNAL_CERTIFIED_SEEDING_H
+#ifndef EQUIAFFINE_DELAUNAY_INTERNAL_CERTIFIED_SEEDING_3_H
+#define EQUIAFFINE_DELAUNAY_INTERNAL_CERTIFIED_SEEDING_3_H
 
 #include <equiaffine/delaunay/internal/Seed_packing_3.h>
 #include <equiaffine/delaunay/internal/acute_gradients.h>
