@@ -178,7 +178,7 @@ Vertex_attributes compute_attributes(const Traits& traits, std::span<const typen
   Vertex_attributes result;
   for (const Attribute& attribute : selection.columns)
     result.columns.push_back({std::string(attribute.name), std::vector<double>(points.size())});
-  if (!selection.has_status) return result;
+  if (selection.columns.empty() && !selection.has_status) return result;
   std::vector<Point_status>& status = result.status.emplace(points.size());
   constexpr std::size_t block = internal::points_per_block;
   internal::parallel_for<ConcurrencyTag>(
@@ -191,6 +191,7 @@ Vertex_attributes compute_attributes(const Traits& traits, std::span<const typen
             status[i] = Point_status::UNCONVERGED;
       },
       256 / block);
+  if (!selection.has_status) result.status.reset();
   return result;
 }
 

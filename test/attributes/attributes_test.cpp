@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/analytic_functions.h>
+#include <equiaffine/attributes.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point_3 = Kernel::Point_3;
+
+auto torus() { return make_analytic_traits<Kernel>(analytic_functions::Torus(), CGAL::Bbox_3(-2, -2, -1, 2, 2, 1)); }
+
+// More than a block of packs; the middle of the torus among them, where it is singular.
+std::vector<Point_3> points() {
+  std::vector<Point_3> result;
+  for (int n = 0; n < 203; ++n)
+    result.emplace_back(n % 7 == 0 ? 0 : 1.3 * std::cos(n), n % 7 == 0 ? 0 : 1.3 * std::sin(n), 0.001 * n);
+  return result;
+}
+
+TEST(Attributes, columns_are_the_same_with_and_without_the_status) {
+  const auto p = points();
+  Attribute_selection selection = select_attributes("normal,k1,affine_mean_curvature,pick_invariant_gradient");
+  const auto with = compute_attributes(torus(), std::span(p).first(40), selection);
+  selection.has_status = false;
+  const auto without = compute_attributes(torus(), std::span(p).first(40), selection);
+  ASSERT_TRUE(with.status);
+  EXPECT_FALSE(without.status);
+  ASSERT_EQ(without.columns.size(), 6u);
+  for (std::size_t c = 0; c < 6; ++c)
+    for (std::size_t i = 0; i < 40; ++i)
+      if (const double expected = with.columns[c].values[i]; std::isnan(expected)) {
+        EXPECT_TRUE(std::isnan(without.columns[c].values[i]));
+      } else {
+        EXPECT_EQ(without.columns[c].values[i], expected) << without.columns[c].name << ' ' << i;
+      }
+  EXPECT_NE(without.columns[3].values[1], 0);
+}
+
+TEST(Attributes, the_status_comes_without_columns_and_nothing_where_nothing_was_asked_for) {
+  const auto p = points();
+  const auto status = compute_attributes(torus(), p, select_attributes("status"));
+  ASSERT_TRUE(status.status);
+  EXPECT_TRUE(status.columns.empty());
+  EXPECT_EQ(status.status->at(1), Point_status::REGULAR);
+  const auto nothing = compute_attributes(torus(), p, select_attributes("none"));
+  EXPECT_TRUE(nothing.columns.empty() && !nothing.status);
+}
+
+} // namespace
