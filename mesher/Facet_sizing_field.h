@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_MESHER_FACET_SIZING_FIELD_H
 #define EQUIAFFINE_MESHER_FACET_SIZING_FIELD_H
 
-#include <equiaffine/base/named_parameters.h>
 #include <equiaffine/delaunay/Any_function_3.h>
+#include <equiaffine/delaunay/Facet_sizing.h>
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/surface/Clip_domain_3.h>
 

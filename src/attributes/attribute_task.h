@@ -5,7 +5,7 @@
 #include "source/source_function.h"
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/attributes.h>
-#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/geometry/Estimator.h>
 
 #include <span>
 #include <vector>

@@ -6,8 +6,9 @@
 #include "system/kernel.h"
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/attributes.h>
-#include <equiaffine/base/named_parameters.h>
 #include <equiaffine/delaunay_surface.h>
+#include <equiaffine/geometry/Estimator.h>
+#include <equiaffine/marching_cubes/Vertex_position.h>
 #include <equiaffine/volume/Spline_scheme.h>
 
 #include <CGAL/Aff_transformation_3.h>

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_ATTRIBUTES_ANNOTATE_H
 
 #include <equiaffine/attributes/attributes.h>
+#include <equiaffine/base/named_parameters.h>
 #include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Surface_mesh.h>
@@ -101,6 +102,7 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 
           class Parameters = internal::No_parameters>
 void annotate(CGAL::Surface_mesh<typename Traits::Point_3>& mesh, const Traits& traits,
               const Parameters& parameters = {}) {
+  internal::check_parameters<Parameters, internal::Estimator_tag>();
   using Mesh = CGAL::Surface_mesh<typename Traits::Point_3>;
   using Vertex_index = typename Mesh::Vertex_index;
   internal::Structure_maps<Mesh> maps(mesh);

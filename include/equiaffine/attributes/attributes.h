@@ -45,6 +45,7 @@ template <ImplicitFunctionTraits_3 Traits, class Parameters = internal::No_param
 Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, const typename Traits::Point_3& p,
                                                           Point_status sampled_status = Point_status::REGULAR,
                                                           const Parameters& parameters = {}) {
+  internal::check_parameters<Parameters, internal::Estimator_tag>();
   const std::array<typename Traits::FT, 3> point = {p.x(), p.y(), p.z()};
   auto structure = internal::local_structure_by(parameters, traits.taylor(p), point, internal::rounding(traits, p));
   if (sampled_status == Point_status::UNCONVERGED && structure.status != Point_status::OUTSIDE)
@@ -174,6 +175,7 @@ Vertex_attributes compute_attributes(const Traits& traits, std::span<const typen
                                      std::span<const Point_status> sampled_status = {},
                                      const Parameters& parameters = {}) {
   static_assert(std::is_same_v<typename Traits::FT, double>);
+  internal::check_parameters<Parameters, internal::Estimator_tag>();
   const internal::Attribute_columns<Parameters> columns(selection, parameters);
   Vertex_attributes result;
   for (const Attribute& attribute : selection.columns)

@@ -4,6 +4,7 @@
 
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/delaunay/Any_function_3.h>
+#include <equiaffine/delaunay/Facet_sizing.h>
 #include <equiaffine/surface/Clip_domain_3.h>
 #include <equiaffine/surface/Isosurface_3.h>
 #include <equiaffine/surface/Polyline_3.h>
@@ -103,6 +104,8 @@ std::vector<Feature_curve_3> given_features(const Any_function_3& function, cons
 template <ImplicitFunctionTraits_3 Traits, class NamedParameters = internal::No_parameters>
 Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Delaunay_criteria criteria = {},
                                                        const NamedParameters& parameters = {}) {
+  internal::check_parameters<NamedParameters, internal::Clip_tag, internal::Facet_sizing_tag,
+                             internal::Feature_curves_tag, internal::Parabolic_features_tag>();
   using Surface = Delaunay_surface_3<Kernel_of<Traits>>;
   const auto domain = internal::get_parameter<internal::Clip_tag>(parameters, Clip_domain_3(traits.bbox()));
   const auto sizing = internal::get_parameter<internal::Facet_sizing_tag>(parameters, Facet_sizing::UNIFORM);

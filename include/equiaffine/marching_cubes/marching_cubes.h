@@ -3,6 +3,7 @@
 #define EQUIAFFINE_MARCHING_CUBES_MARCHING_CUBES_H
 
 #include <equiaffine/base/named_parameters.h>
+#include <equiaffine/marching_cubes/Vertex_position.h>
 #include <equiaffine/marching_cubes/internal/inner_vertex.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
 #include <equiaffine/marching_cubes/internal/lattice_function.h>
@@ -145,6 +146,8 @@ private:
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           class NamedParameters = internal::No_parameters>
 Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const NamedParameters& parameters = {}) {
+  internal::check_parameters<NamedParameters, internal::Number_of_nodes_tag, internal::Vertex_position_tag,
+                             internal::Skip_empty_space_tag>();
   using Size = std::array<std::size_t, 3>;
   const auto lattice = [&] {
     if constexpr (LatticeImplicitFunctionTraits_3<Traits>) return traits.lattice();

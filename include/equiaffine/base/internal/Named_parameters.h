@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_BASE_INTERNAL_NAMED_PARAMETERS_H
+#define EQUIAFFINE_BASE_INTERNAL_NAMED_PARAMETERS_H
+
+#include <equiaffine/base/named_parameter_list.h>
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+
+namespace equiaffine::internal {
+
+/// The types by which a function asks for its parameters.
+struct Number_of_nodes_tag {};
+struct Vertex_position_tag {};
+struct Skip_empty_space_tag {};
+struct Estimator_tag {};
+struct Clip_tag {};
+struct Feature_curves_tag {};
+struct Parabolic_features_tag {};
+struct Facet_sizing_tag {};
+
+/// The empty chain of parameters.
+struct No_parameters {};
+
+template <class Value, class Tag, class Base>
+struct Named_parameters;
+
+template <class Tag, class Value, class Base>
+Named_parameters<Value, Tag, Base> add_parameter(const Value& value, const Base& base) {
+  return {value, base};
+}
+
+/// One parameter and those given before it.
+template <class Value, class Tag, class Base>
+struct Named_parameters {
+  Value value;
+  Base base;
+
+  EQUIAFFINE_NAMED_PARAMETERS(const, *this)
+};
+
+template <class Tag, class Default>
+Default get_parameter(const No_parameters&, const Default& otherwise) {
+  return otherwise;
+}
+
+/// The parameter with the given tag, the last one given if there are several.
+template <class Tag, class Default, class Value, class OtherTag, class Base>
+Default get_parameter(const Named_parameters<Value, OtherTag, Base>& parameters, const Default& otherwise) {
+  if constexpr (std::is_same_v<Tag, OtherTag>) return parameters.value;
+  else return get_parameter<Tag>(parameters.base, otherwise);
+}
+
+/// Whether a parameter was given.
+template <class Tag, class Parameters>
+inline constexpr bool has_parameter = false;
+template <class Tag, class Value, class OtherTag, class Base>
+inline constexpr bool has_parameter<Tag, Named_parameters<Value, OtherTag, Base>> =
+    std::is_same_v<Tag, OtherTag> || has_parameter<Tag, Base>;
+
+/// The compiler's message shows the tag of the unknown parameter as `Given`.
+template <class Given, class... Known>
+constexpr void check_parameter() {
+  static_assert((std::is_same_v<Given, Known> || ...),
+                "this function does not know one of the named parameters that it is given");
+}
+
+template <class... Known>
+constexpr void check_each_parameter(const No_parameters*) {}
+
+template <class... Known, class Value, class Tag, class Base>
+constexpr void check_each_parameter(const Named_parameters<Value, Tag, Base>*) {
+  check_parameter<Tag, Known...>();
+  check_each_parameter<Known...>(static_cast<const Base*>(nullptr));
+}
+
+/// Every function with named parameters begins with this call, which does not compile when `Parameters` has one that is
+/// not among the tags `Known`.
+template <class Parameters, class... Known>
+constexpr void check_parameters() {
+  check_each_parameter<Known...>(static_cast<const Parameters*>(nullptr));
+}
+
+} // namespace equiaffine::internal
+
+#endif

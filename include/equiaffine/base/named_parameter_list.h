@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The closed list of named parameters: a new one is one function here, and its tag in internal/Named_parameters.h.
+#ifndef EQUIAFFINE_BASE_NAMED_PARAMETER_LIST_H
+#define EQUIAFFINE_BASE_NAMED_PARAMETER_LIST_H
+
+/// Defines one function per named parameter. A free function begins a chain of parameters, a member continues one:
+/// `GIVEN` is the chain before, and `CONST` is `const` for members and nothing for free functions.
+#define EQUIAFFINE_NAMED_PARAMETERS(CONST, GIVEN)                                                                      \
+  /** Nodes per axis, at least 2 each; default 64. */                                                                  \
+  inline auto number_of_nodes(const std::array<std::size_t, 3>& n) CONST {                                             \
+    return internal::add_parameter<internal::Number_of_nodes_tag>(n, GIVEN);                                           \
+  }                                                                                                                    \
+  inline auto number_of_nodes(std::size_t n) CONST { return number_of_nodes(std::array<std::size_t, 3>{n, n, n}); }    \
+                                                                                                                       \
+  /** A Vertex_position, default PROJECTED. */                                                                         \
+  template <class Position>                                                                                            \
+  auto vertex_position(Position position) CONST {                                                                      \
+    return internal::add_parameter<internal::Vertex_position_tag>(position, GIVEN);                                    \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The sampler asks the function for bounds and evaluates it near its zero set only; not the default. Requires */   \
+  /** BoundedImplicitFunctionTraits_3; whether a function written as code accepts Interval cannot be asked without */  \
+  /** an error where it does not. */                                                                                   \
+  inline auto skip_empty_space() CONST {                                                                               \
+    return internal::add_parameter<internal::Skip_empty_space_tag>(std::true_type(), GIVEN);                           \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The Estimator of co-normal, affine normal and affine curvatures, default COMPACT. */                             \
+  template <class Way>                                                                                                 \
+  auto estimator(Way way) CONST {                                                                                      \
+    return internal::add_parameter<internal::Estimator_tag>(way, GIVEN);                                               \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The Clip_domain_3 where the surface is looked for; default the box of the function. */                           \
+  template <class Domain>                                                                                              \
+  auto clip(const Domain& domain) CONST {                                                                              \
+    return internal::add_parameter<internal::Clip_tag>(domain, GIVEN);                                                 \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A range of Polyline_3 on the surface that the edges of the mesh follow, default none. Segments are short */      \
+  /** beside the facets; the mesh has vertices of its own on them. */                                                  \
+  template <class Polylines>                                                                                           \
+  auto feature_curves(const Polylines& curves) CONST {                                                                 \
+    return internal::add_parameter<internal::Feature_curves_tag>(curves, GIVEN);                                       \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The edges of the mesh follow the parabolic curves, so that no triangle has points on both sides of one, where */ \
+  /** the affine curvatures are infinite; not the default. */                                                          \
+  inline auto parabolic_features() CONST {                                                                             \
+    return internal::add_parameter<internal::Parabolic_features_tag>(std::true_type(), GIVEN);                         \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A Facet_sizing, default UNIFORM. */                                                                              \
+  template <class Sizing>                                                                                              \
+  auto facet_sizing(Sizing sizing) CONST {                                                                             \
+    return internal::add_parameter<internal::Facet_sizing_tag>(sizing, GIVEN);                                         \
+  }
+
+#endif

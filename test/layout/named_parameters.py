@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Says which functions of the library take named parameters and do not check them: python3 named_parameters.py ROOT.
+
+Without the call of check_parameters, a named parameter that the function does not know would be ignored silently."""
+import pathlib
+import re
+import sys
+
+TAKES_PARAMETERS = re.compile(r"class \w*Parameters = internal::No_parameters>\n(.*\n)")
+CHECKS = re.compile(r"\binternal::check_parameters<")
+
+
+def find_faults(path, text):
+    heads = list(TAKES_PARAMETERS.finditer(text))
+    ends = [head.start() for head in heads[1:]] + [len(text)]
+    return [f"{path}: no check of named parameters in {head.group(1).strip()}"
+            for head, end in zip(heads, ends) if not CHECKS.search(text, head.end(), end)]
+
+
+if __name__ == "__main__":
+    headers = {path: path.read_text() for path in sorted(pathlib.Path(sys.argv[1], "include").rglob("*.h"))}
+    if not any(TAKES_PARAMETERS.search(text) for text in headers.values()):
+        sys.exit("no function with named parameters found")
+    found = [fault for path, text in headers.items() for fault in find_faults(path, text)]
+    print("\n".join(found) or "every function checks its named parameters")
+    sys.exit(bool(found))
