@@ -5,6 +5,8 @@
 #ifndef EQUIAFFINE_FORMULA_ANALYTIC_FUNCTIONS_H
 #define EQUIAFFINE_FORMULA_ANALYTIC_FUNCTIONS_H
 
+#include <equiaffine/formula/internal/centered_box.h>
+
 #include <CGAL/Bbox_3.h>
 
 #include <array>
@@ -14,13 +16,6 @@
 #include <utility>
 
 namespace equiaffine {
-
-namespace internal {
-
-inline CGAL::Bbox_3 centered_box(double x, double y, double z) { return CGAL::Bbox_3(-x, -y, -z, x, y, z); }
-inline CGAL::Bbox_3 cube(double half_side) { return centered_box(half_side, half_side, half_side); }
-
-} // namespace internal
 
 /// Every struct has `f(x, y, z)` and `box()`, which contains a closed surface with a margin and of an unbounded one the
 /// part worth looking at. Parameters are positive and have the unit of x, y, z unless said otherwise.
@@ -39,7 +34,7 @@ struct Sphere {
   auto operator()(const auto& x, const auto& y, const auto& z) const {
     return square(x) + square(y) + square(z) - radius * radius;
   }
-  CGAL::Bbox_3 box() const { return internal::cube(1.25 * radius); }
+  CGAL::Bbox_3 box() const { return internal::centered_cube(1.25 * radius); }
 };
 
 /// (x/a)^2 + (y/b)^2 + (z/c)^2 - 1. K = 1 / (a b c), H = -(a b c)^(-1/2), J = 0.
@@ -56,25 +51,25 @@ struct Ellipsoid {
 /// figure 4).
 struct Elliptic_paraboloid {
   auto operator()(const auto& x, const auto& y, const auto& z) const { return z - (square(x) + square(y)) * 0.5; }
-  CGAL::Bbox_3 box() const { return internal::cube(1); }
+  CGAL::Bbox_3 box() const { return internal::centered_cube(1); }
 };
 
 /// z - (x^2 - y^2) / 2. K = H = J = 0, with constant affine normal as above.
 struct Hyperbolic_paraboloid {
   auto operator()(const auto& x, const auto& y, const auto& z) const { return z - (square(x) - square(y)) * 0.5; }
-  CGAL::Bbox_3 box() const { return internal::cube(1); }
+  CGAL::Bbox_3 box() const { return internal::centered_cube(1); }
 };
 
 /// x^2 + y^2 - z^2 - 1. K = 1, H = -1, J = 0.
 struct Hyperboloid_of_one_sheet {
   auto operator()(const auto& x, const auto& y, const auto& z) const { return square(x) + square(y) - square(z) - 1.0; }
-  CGAL::Bbox_3 box() const { return internal::cube(2); }
+  CGAL::Bbox_3 box() const { return internal::centered_cube(2); }
 };
 
 /// z^2 - x^2 - y^2 - 1. K = 1, H = -1, J = 0.
 struct Hyperboloid_of_two_sheets {
   auto operator()(const auto& x, const auto& y, const auto& z) const { return square(z) - square(x) - square(y) - 1.0; }
-  CGAL::Bbox_3 box() const { return internal::cube(2); }
+  CGAL::Bbox_3 box() const { return internal::centered_cube(2); }
 };
 
 /// (sqrt(x^2 + y^2) - R)^2 + z^2 - r^2, not differentiable on the z axis. Andrade, Lewiner 2012, figure 11, with the
@@ -102,7 +97,7 @@ struct Blobby {
     };
     return term(x) + term(y) + term(z) + 6.0;
   }
-  CGAL::Bbox_3 box() const { return internal::cube(1); }
+  CGAL::Bbox_3 box() const { return internal::centered_cube(1); }
 };
 
 /// 2 z^2 - sin(5 x + 3 y^2 - 1). Andrade, Lewiner 2012, figure 9.
@@ -124,7 +119,7 @@ struct Tanglecube {
     };
     return term(x) + term(y) + term(z) + 11.8;
   }
-  CGAL::Bbox_3 box() const { return internal::cube(3); }
+  CGAL::Bbox_3 box() const { return internal::centered_cube(3); }
 };
 
 /// sin x cos y + sin y cos z + sin z cos x, close to the minimal surface of Schoen: Infinite periodic minimal surfaces
@@ -135,7 +130,7 @@ struct Gyroid {
     using std::sin;
     return sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x);
   }
-  CGAL::Bbox_3 box() const { return internal::cube(std::numbers::pi); }
+  CGAL::Bbox_3 box() const { return internal::centered_cube(std::numbers::pi); }
 };
 
 /// 2 y (y^2 - 3 x^2) (1 - z^2) + (x^2 + y^2)^2 - (9 z^2 - 1) (1 - z^2): a closed surface of genus 2, and other sheets
@@ -145,7 +140,7 @@ struct Genus_two {
     const auto x2 = square(x), y2 = square(y), z2 = square(z);
     return 2.0 * (y * (y2 - 3.0 * x2) * (1.0 - z2)) + square(x2 + y2) - (9.0 * z2 - 1.0) * (1.0 - z2);
   }
-  CGAL::Bbox_3 box() const { return internal::cube(2); }
+  CGAL::Bbox_3 box() const { return internal::centered_cube(2); }
 };
 
 /// The union of a ball of the given radius about the origin and a smaller one: min(|p|^2 - R^2, |p - c|^2 - r^2).
@@ -159,7 +154,7 @@ struct Two_spheres {
     return min(square(x) + square(y) + square(z) - radius * radius,
                square(x - center[0]) + square(y - center[1]) + square(z - center[2]) - small_radius * small_radius);
   }
-  CGAL::Bbox_3 box() const { return internal::cube(2 * radius); }
+  CGAL::Bbox_3 box() const { return internal::centered_cube(2 * radius); }
 };
 
 /// t - sum of exp(-|p - c_i|^2 / s^2) over eight centres c_i: positive outside, transcendental, and no symmetry. `size`
@@ -184,7 +179,7 @@ struct Metaballs {
     return [&]<std::size_t... I>(std::index_sequence<I...>) { return threshold - (ball(centers[I]) + ...); }
     (std::make_index_sequence<8>());
   }
-  CGAL::Bbox_3 box() const { return internal::cube(1.5); }
+  CGAL::Bbox_3 box() const { return internal::centered_cube(1.5); }
 };
 
 /// x^2 + y^2 + z^2 - 2 x y z - 1: Cayley's cubic with its four nodes at (1, 1, 1), (1, -1, -1), (-1, 1, -1) and
@@ -194,7 +189,7 @@ struct Cayley_cubic {
   auto operator()(const auto& x, const auto& y, const auto& z) const {
     return square(x) + square(y) + square(z) - 2.0 * (x * y * z) - 1.0;
   }
-  CGAL::Bbox_3 box() const { return internal::cube(1.75); }
+  CGAL::Bbox_3 box() const { return internal::centered_cube(1.75); }
 };
 
 /// T(x) + T(y) + T(z) with the Chebyshev polynomial T(t) = 32 t^6 - 48 t^4 + 18 t^2 - 1: closed and smooth. Banchoff
@@ -207,7 +202,7 @@ struct Chmutov_sextic {
     };
     return chebyshev(x) + chebyshev(y) + chebyshev(z);
   }
-  CGAL::Bbox_3 box() const { return internal::cube(1.1); }
+  CGAL::Bbox_3 box() const { return internal::centered_cube(1.1); }
 };
 
 /// 4 (g^2 x^2 - y^2) (g^2 y^2 - z^2) (g^2 z^2 - x^2) - (1 + 2 g) (x^2 + y^2 + z^2 - 1)^2 + c with the golden ratio g.
@@ -221,7 +216,7 @@ struct Barth_sextic {
     const auto x2 = square(x), y2 = square(y), z2 = square(z);
     return 4.0 * ((g2 * x2 - y2) * (g2 * y2 - z2) * (g2 * z2 - x2)) - (1.0 + 2.0 * g) * square(x2 + y2 + z2 - 1.0) + c;
   }
-  CGAL::Bbox_3 box() const { return internal::cube(2); }
+  CGAL::Bbox_3 box() const { return internal::centered_cube(2); }
 };
 
 } // namespace analytic_functions

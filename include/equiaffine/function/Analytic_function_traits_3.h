@@ -3,76 +3,17 @@
 #define EQUIAFFINE_FUNCTION_ANALYTIC_FUNCTION_TRAITS_3_H
 
 #include <equiaffine/function/concepts.h>
+#include <equiaffine/function/internal/expand.h>
 #include <equiaffine/number/Pack.h>
 
 #include <CGAL/Bbox_3.h>
 
-#include <array>
-#include <concepts>
 #include <cstddef>
 #include <span>
 #include <type_traits>
 #include <utility>
 
 namespace equiaffine {
-
-namespace internal {
-
-/// The jets of the coordinates with the least support: 1 and the coordinate itself.
-template <class FT, int Order, int Axis>
-auto sparse_variable(const FT& value) {
-  Jet_3<FT, Order, (Monomial_set(1) | Monomial_set(2) << Axis)> jet(value);
-  jet.template at<1 + Axis>() = FT(1);
-  return jet;
-}
-
-template <class Function, class X, class Y, class Z>
-concept CallableWith = requires(const Function& f, const X& x, const Y& y, const Z& z) {
-  f(x, y, z);
-};
-
-// With its checks of every operation a sanitizer would make one function of millions of lines.
-#ifdef __SANITIZE_ADDRESS__
-#define EQUIAFFINE_FLATTEN
-#else
-#define EQUIAFFINE_FLATTEN [[gnu::flatten]]
-#endif
-
-/// f(x, y, z) with everything inlined: what crosses a call goes through memory, which costs more than its arithmetic.
-template <class Result, class Function, class X, class Y, class Z>
-EQUIAFFINE_FLATTEN Result inlined_call(const Function& f, const X& x, const Y& y, const Z& z) {
-  return f(x, y, z);
-}
-
-#undef EQUIAFFINE_FLATTEN
-
-/// The expansion of f at (x, y, z): on sparse jets when f takes three arguments of different types, else on full ones.
-template <int Order, class FT, class Function>
-Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z) {
-  const auto sx = sparse_variable<FT, Order, 0>(x);
-  const auto sy = sparse_variable<FT, Order, 1>(y);
-  const auto sz = sparse_variable<FT, Order, 2>(z);
-  using Jet = Jet_3<FT, Order>;
-  if constexpr (CallableWith<Function, decltype(sx), decltype(sy), decltype(sz)>) {
-    if constexpr (is_built_in<FT>) return inlined_call<Jet>(f, sx, sy, sz);
-    else return f(sx, sy, sz);
-  } else {
-    static_assert(CallableWith<Function, Jet, Jet, Jet>,
-                  "the function takes no jets: write it as a template of the type of its arguments, and call functions "
-                  "as `using std::sin; sin(x)`");
-    return f(Jet(sx), Jet(sy), Jet(sz));
-  }
-}
-
-/// A function with an own way to its Taylor polynomials, for numbers and for spans of packs.
-template <class Function, class FT>
-concept HasTaylor = requires(const Function& f, const FT& x, std::span<const Pack<FT>> packs,
-                             std::span<Jet_3<Pack<FT>>> jets) {
-  { f.taylor(x, x, x) } -> std::same_as<Jet_3<FT>>;
-  f.taylor(packs, packs, packs, jets);
-};
-
-} // namespace internal
 
 /// Model of FirstOrderImplicitFunctionTraits_3 and, if the function takes Interval, of
 /// FirstOrderBoundedImplicitFunctionTraits_3 for a function given as code: `f(x, y, z)`, templated on its number type,

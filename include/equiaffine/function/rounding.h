@@ -1,24 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// rounding(traits, p): the one place where a model is asked how large errors of its second derivatives can be.
 #ifndef EQUIAFFINE_FUNCTION_ROUNDING_H
 #define EQUIAFFINE_FUNCTION_ROUNDING_H
 
-#include <equiaffine/function/concepts.h>
-
-namespace equiaffine::internal {
-
-template <class Traits>
-concept Has_rounding = requires(const Traits& traits, const typename Traits::Point_3& p) {
-  traits.rounding(p);
-};
-
-/// How large errors of second derivatives at p can be, beyond some roundings of their own size: what the optional
-/// member `rounding(p)` of a model says, else 0. A K_e that they could produce counts as zero.
-template <ImplicitFunctionTraits_3 Traits>
-typename Traits::FT rounding(const Traits& traits, const typename Traits::Point_3& p) {
-  if constexpr (Has_rounding<Traits>) return traits.rounding(p);
-  else return typename Traits::FT(0);
-}
-
-} // namespace equiaffine::internal
+#include <equiaffine/function/internal/rounding.h> // IWYU pragma: export
 
 #endif
