@@ -87,17 +87,6 @@ void print_estimates(const F& f) {
   }
 }
 
-/// The centered B-spline at t, from the polynomials on cells that the splines of the library are made of.
-template <int Degree>
-double bspline(double t) {
-  static constexpr auto basis = internal::bspline_basis_polynomials<double, Degree, Degree + 1>();
-  const int cell = int(std::floor(t)), r = internal::spline_padding(Degree) - cell;
-  if (r < 0 || r > Degree) return 0;
-  double value = 0;
-  for (int p = Degree; p >= 0; --p) value = value * (t - cell - 0.5) + basis[std::size_t(p)][std::size_t(r)];
-  return value;
-}
-
 void print_splines() {
   std::printf("t,degree_5,degree_7\n");
   for (double t = 0; std::cin >> t;) std::printf("%.17g,%.17g,%.17g\n", t, bspline<5>(t), bspline<7>(t));

@@ -4,7 +4,7 @@
 #include "attributes/error_columns.h"
 #include "cli/command_line.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/io/text_input.h>
+#include <equiaffine/io/input_file.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -68,7 +68,7 @@ std::array<double, 3> read_triple(const Command_line& line, const std::string& o
 /// For a volume in a file `.raw`; the options are refused for others.
 std::optional<Raw_layout> read_raw_layout(const Command_line& line, const Source_options& source) {
   if (line.command == "sample") return std::nullopt; // its --type is that of what it writes
-  const bool is_raw = source.kind == Source_kind::VOLUME && internal::has_extension(source.text, ".raw");
+  const bool is_raw = source.kind == Source_kind::VOLUME && has_extension(source.text, ".raw");
   for (const char* option : {"--dims", "--spacing", "--origin", "--type"})
     if (line.has(option) && !is_raw)
       fail_option(option, "it is for a --volume FILE.raw, which has no header", "leave it out");

@@ -4,8 +4,8 @@
 #include "picture/draw_surface.h"
 #include "system/atomic_file.h"
 #include <equiaffine/Input_error.h>
+#include <equiaffine/io/input_file.h>
 #include <equiaffine/io/read_PLY.h>
-#include <equiaffine/io/text_input.h>
 
 #include <algorithm>
 #include <fstream>
@@ -18,7 +18,7 @@ namespace {
 
 Annotated_mesh_3<Kernel> read_mesh(const std::string& path) {
   if (path == "-") return read_PLY<Kernel>(std::cin, "standard input");
-  std::ifstream file = internal::open_input(path);
+  std::ifstream file = open_input(path);
   return read_PLY<Kernel>(file, path);
 }
 

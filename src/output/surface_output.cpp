@@ -4,7 +4,7 @@
 #include "output/write_VTP.h"
 #include "picture/write_PNG.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/io/text_input.h>
+#include <equiaffine/io/input_file.h>
 #include <equiaffine/io/write_HTML.h>
 #include <equiaffine/io/write_curves.h>
 #include <equiaffine/io/write_mesh.h>
@@ -23,7 +23,7 @@ constexpr bool has_vtk = false;
 constexpr const char *surface_extensions = ".ply .off .obj .stl .csv", *curves_extensions = ".obj";
 #endif
 
-bool is_VTP(const std::string& path) { return internal::has_extension(path, ".vtp"); }
+bool is_VTP(const std::string& path) { return has_extension(path, ".vtp"); }
 
 void check_output(const std::string& path, bool is_known, const std::string& known_extensions) {
   if (path == "-" || is_known || (has_vtk && is_VTP(path))) return;
@@ -39,7 +39,7 @@ void check_surface_output(const std::string& path) {
 }
 
 void check_curves_output(const std::string& path) {
-  check_output(path, internal::has_extension(path, ".obj"), curves_extensions);
+  check_output(path, has_extension(path, ".obj"), curves_extensions);
 }
 
 void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh,
@@ -59,7 +59,7 @@ void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves) {
 
 void check_picture_output(const std::string& path) {
   if (!has_vtk) throw Input_error("cannot write '" + path + "': this equiaffine was built without VTK; use --html");
-  if (path != "-" && !internal::has_extension(path, ".png"))
+  if (path != "-" && !has_extension(path, ".png"))
     throw Input_error("cannot write '" + path + "': a picture is a PNG file; give it the extension .png");
 }
 

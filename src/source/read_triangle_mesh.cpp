@@ -2,9 +2,9 @@
 #include "source/read_triangle_mesh.h"
 
 #include <equiaffine/Input_error.h>
+#include <equiaffine/io/input_file.h>
 #include <equiaffine/io/read_OFF.h>
 #include <equiaffine/io/read_PLY.h>
-#include <equiaffine/io/text_input.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -41,10 +41,10 @@ Polygon_soup to_soup(const Indexed_triangle_mesh_3<Kernel>& mesh) {
 
 Polygon_soup read_soup(const std::string& path) {
   if (path == "-") return to_soup(read_OFF<Kernel>(std::cin, "standard input"));
-  std::ifstream file = internal::open_input(path);
-  if (internal::has_extension(path, ".off")) return to_soup(read_OFF<Kernel>(file, path));
-  if (internal::has_extension(path, ".ply")) return to_soup(read_PLY<Kernel>(file, path).mesh);
-  if (!internal::has_extension(path, ".obj") && !internal::has_extension(path, ".stl"))
+  std::ifstream file = open_input(path);
+  if (has_extension(path, ".off")) return to_soup(read_OFF<Kernel>(file, path));
+  if (has_extension(path, ".ply")) return to_soup(read_PLY<Kernel>(file, path).mesh);
+  if (!has_extension(path, ".obj") && !has_extension(path, ".stl"))
     fail(path, "its extension is not known", "use one of .off .ply .obj .stl");
   Polygon_soup soup;
   if (!CGAL::IO::read_polygon_soup(path, soup.points, soup.polygons))

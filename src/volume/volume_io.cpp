@@ -3,7 +3,7 @@
 
 #include "volume/volume_formats.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/io/text_input.h>
+#include <equiaffine/io/input_file.h>
 
 #include <algorithm>
 #include <array>
@@ -36,7 +36,7 @@ constexpr std::array extensions = {
 
 std::optional<Extension> find_extension(const std::string& path) {
   for (const Extension& extension : extensions)
-    if (internal::has_extension(path, extension.text)) return extension;
+    if (has_extension(path, extension.text)) return extension;
   return std::nullopt;
 }
 

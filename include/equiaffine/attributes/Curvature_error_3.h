@@ -4,17 +4,14 @@
 
 #include <equiaffine/function/Sampled_function_traits_3.h>
 #include <equiaffine/geometry/Local_structure_3.h>
-#include <equiaffine/volume/bspline_functionals.h>
+#include <equiaffine/volume/Spline_disturbances_3.h>
+#include <equiaffine/volume/Spline_function_3.h>
 
 #include <CGAL/tags.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
-#include <vector>
 
 namespace equiaffine {
 
@@ -48,13 +45,8 @@ public:
                                     {.degree = function.spline().degree() == 9 ? 7 : 9,
                                      .scheme = other_scheme(function.spline().scheme()),
                                      .smoothing = double(FT(1.2) * smoothing)},
-                                    tag) {
-    const internal::Spline_rule<FT> rule{function.spline().degree(), function.spline().scheme(),
-                                         function.spline().border_degree(), smoothing};
-    for (std::size_t a = 0; a < 3; ++a)
-      if (const std::size_t nodes = volume.lattice.size()[a]; nodes > std::size_t(rule.degree))
-        factors_[a] = factors(internal::Line_functionals<FT>(nodes, rule), a == 0 ? noise_deviation : FT(1));
-  }
+                                    tag),
+        disturbances_(function.spline(), smoothing, noise_deviation) {}
 
   Affine_curvature_error<FT> operator()(const Point_3& p) const {
     const Spline_function_3<Kernel>& spline = function_.spline();
@@ -68,7 +60,7 @@ public:
     FT gaussian = 0, mean = 0;
     for (std::size_t n = 0; n < jet.size; ++n) {
       const auto [i, j, k] = internal::monomials[n];
-      auto disturbed = spline.to_space(disturbance(*cell, {i, j, k}));
+      auto disturbed = spline.to_space(disturbances_(*cell, {i, j, k}));
       for (std::size_t m = 0; m < disturbed.size; ++m) disturbed.coefficients()[m] += jet.coefficients()[m];
       const Curvatures c = curvatures(disturbed);
       gaussian += (c.gaussian - at_p.gaussian) * (c.gaussian - at_p.gaussian);
@@ -79,30 +71,9 @@ public:
   }
 
 private:
-  static constexpr std::size_t orders = internal::Line_functionals<FT>::orders;
-  using Factor = std::array<std::array<FT, orders>, orders>; // [d][p]: lower triangular
-
   struct Curvatures {
     FT gaussian, mean;
   };
-
-  /// Along one axis: the Cholesky factors L of the covariance of the Taylor coefficients.
-  static internal::Per_kind_of_cell<Factor> factors(const internal::Line_functionals<FT>& line, FT deviation) {
-    return {line.kinds(), [&](std::size_t kind) { return factor(line.rows(kind), deviation); }};
-  }
-
-  static Factor factor(const typename internal::Line_functionals<FT>::Rows& rows, FT deviation) {
-    Factor l{};
-    for (std::size_t d = 0; d < orders; ++d)
-      for (std::size_t p = 0; p <= d; ++p) {
-        FT sum = internal::dot(rows[d], rows[p]);
-        for (std::size_t q = 0; q < p; ++q) sum -= l[d][q] * l[p][q];
-        l[d][p] = p == d ? std::sqrt(std::max(sum, FT(0))) : l[p][p] > 0 ? sum / l[p][p] : FT(0);
-      }
-    for (auto& row : l)
-      for (FT& x : row) x *= deviation;
-    return l;
-  }
 
   /// The error of convolution is much the same for all degrees.
   static Spline_scheme other_scheme(Spline_scheme scheme) {
@@ -114,24 +85,9 @@ private:
     return {s.gaussian_curvature, s.mean_curvature};
   }
 
-  /// Of the expansion in lattice coordinates: the covariance is that of a tensor product, L_x L_x^T times and so on;
-  /// column (i, j, k) of its factor.
-  Jet_3<FT> disturbance(const std::array<std::size_t, 3>& cell, const std::array<int, 3>& column) const {
-    std::array<const Factor*, 3> l;
-    for (std::size_t a = 0; a < 3; ++a) l[a] = &factors_[a][cell[a]];
-    Jet_3<FT> jet(FT(0));
-    for (std::size_t n = 0; n < jet.size; ++n) {
-      const auto [i, j, k] = internal::monomials[n];
-      jet.coefficients()[n] = (*l[0])[std::size_t(i)][std::size_t(column[0])] *
-                              (*l[1])[std::size_t(j)][std::size_t(column[1])] *
-                              (*l[2])[std::size_t(k)][std::size_t(column[2])];
-    }
-    return jet;
-  }
-
   Sampled_function_traits_3<Kernel> function_;
   Spline_function_3<Kernel> other_;
-  std::array<internal::Per_kind_of_cell<Factor>, 3> factors_;
+  Spline_disturbances_3<Kernel> disturbances_;
 };
 
 } // namespace equiaffine

@@ -31,12 +31,12 @@ public:
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Sampled_function_traits_3(Volume_3<Kernel> volume, const Spline_parameters& parameters = {},
                                      ConcurrencyTag tag = {}) {
-    const internal::Sample_format<FT> format(volume.values);
+    const Sample_format<FT> format(volume.values);
     const FT smoothing(parameters.smoothing);
     volume_ = std::make_shared<const Volume_3<Kernel>>(smooth_volume<ConcurrencyTag>(std::move(volume), smoothing));
     spline_ = std::make_shared<const Spline_function_3<Kernel>>(
         *volume_, Spline_parameters{.degree = parameters.degree, .scheme = parameters.scheme}, tag);
-    rounding_ = std::make_shared<const internal::Spline_rounding_3<Kernel>>(*spline_, smoothing, format);
+    rounding_ = std::make_shared<const Spline_rounding_3<Kernel>>(*spline_, smoothing, format);
   }
 
   /// NaN, as every coefficient of an expansion, outside the support of the spline.
@@ -62,7 +62,7 @@ public:
 private:
   std::shared_ptr<const Volume_3<Kernel>> volume_;
   std::shared_ptr<const Spline_function_3<Kernel>> spline_;
-  std::shared_ptr<const internal::Spline_rounding_3<Kernel>> rounding_;
+  std::shared_ptr<const Spline_rounding_3<Kernel>> rounding_;
 };
 
 static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);

@@ -3,21 +3,21 @@
 #define EQUIAFFINE_IO_COLOR_MAP_H
 
 #include <equiaffine/geometry/Point_status.h>
+#include <equiaffine/io/internal/oklab.h>
 
 #include <CGAL/IO/Color.h>
 #include <CGAL/assertions.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
 /// \file
-/// The one mapping from a number to a colour: every picture of this library uses it.
-/// number -> `Color_range` of the whole column -> position on the map -> colour, sRGB.
+/// The one mapping from a number to a color: every picture of this library uses it.
+/// number -> `Color_range` of the whole column -> position on the map -> color, sRGB.
 /// The maps are straight paths in Oklab (B. Ottosson, "A perceptual color space for image processing", 2020): lightness
-/// alone, which no form of colour blindness takes away, tells the order.
+/// alone, which no form of color blindness takes away, tells the order.
 
 namespace equiaffine {
 
@@ -26,17 +26,17 @@ enum class Color_scale {
   ASINH ///< linear below `Color_range::knee`, logarithmic above, with the sign kept
 };
 
-/// The numbers that get the two end colours; beyond them colours stay the same.
+/// The numbers that get the two end colors; beyond them colors stay the same.
 struct Color_range {
   double lower;
   double upper;
-  double knee;       ///< the median of |value|, at least the least difference worth a colour: > 0
+  double knee;       ///< the median of |value|, at least the least difference worth a color: > 0
   bool is_diverging; ///< lower == -upper: zero is the middle of the diverging map; else the sequential map is used
 
   friend bool operator==(const Color_range&, const Color_range&) = default;
 };
 
-/// The share of numbers, in percent, that gets an end colour at each end unless said otherwise.
+/// The share of numbers, in percent, that gets an end color at each end unless said otherwise.
 inline constexpr double default_clip_percent = 2;
 
 /// The `percent`-quantile of the numbers, linear between order statistics; reorders `values`, which must not be empty.
@@ -54,7 +54,7 @@ inline double quantile(std::vector<double>& values, double percent) {
 /// The range of a column of numbers; infinities and NaNs do not count.
 /// Numbers of both signs: +-(the (100 - clip_percent)-quantile of |value|). Numbers of one sign: the quantiles at
 /// clip_percent and 100 - clip_percent. A sign counts when it reaches a millionth of that largest |value|.
-/// `resolution` >= 0, in the unit of the numbers, is the least half-width worth a colour: numbers below it all look
+/// `resolution` >= 0, in the unit of the numbers, is the least half-width worth a color: numbers below it all look
 /// like zero instead of like noise. Neither is a relative half-width below a millionth: pages store single precision.
 inline Color_range color_range(std::vector<double> values, double clip_percent = default_clip_percent,
                                double resolution = 0) {
@@ -92,51 +92,12 @@ inline double map_position(double value, const Color_range& range, Color_scale s
 }
 
 /// The scale that shows most of a quantity: logarithmic where the range is wider than a hundred times the typical
-/// number, as for curvatures near a parabolic curve, which would leave all else in the middle colour.
+/// number, as for curvatures near a parabolic curve, which would leave all else in the middle color.
 inline Color_scale preferred_scale(const Color_range& range) {
   constexpr double widest_linear = 100;
   const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
   return largest > widest_linear * range.knee ? Color_scale::ASINH : Color_scale::LINEAR;
 }
-
-namespace internal {
-
-/// Linear sRGB components of an Oklab colour given by lightness, chroma and hue in degrees; outside [0, 1] when no
-/// screen shows the colour. Ottosson's matrices.
-inline std::array<double, 3> linear_rgb_from_oklch(double lightness, double chroma, double hue) {
-  constexpr double degree = 0.017453292519943295;
-  const double a = chroma * std::cos(hue * degree), b = chroma * std::sin(hue * degree);
-  const auto cube = [](double x) { return x * x * x; };
-  const double l = cube(lightness + 0.3963377774 * a + 0.2158037573 * b);
-  const double m = cube(lightness - 0.1055613458 * a - 0.0638541728 * b);
-  const double s = cube(lightness - 0.0894841775 * a - 1.2914855480 * b);
-  return {4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
-          -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
-          -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
-}
-
-inline CGAL::IO::Color color_from_linear_rgb(const std::array<double, 3>& linear) {
-  const auto byte = [](double x) { // IEC 61966-2-1
-    x = std::clamp(x, 0., 1.);
-    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-    return static_cast<unsigned char>(std::lround(255 * encoded));
-  };
-  return CGAL::IO::Color(byte(linear[0]), byte(linear[1]), byte(linear[2]));
-}
-
-/// Near-white at 0, equally dark blue at -1 and red at +1, lightness linear in |t|.
-inline std::array<double, 3> diverging_linear_rgb(double t) {
-  const double u = std::abs(t);
-  return linear_rgb_from_oklch(0.94 - 0.50 * u, 0.175 * u * (2 - u), t < 0 ? 262 : 27);
-}
-
-/// Pale yellow at 0 through orange and magenta to dark violet at 1, lightness linear in t.
-inline std::array<double, 3> sequential_linear_rgb(double t) {
-  constexpr double pi = 3.141592653589793;
-  return linear_rgb_from_oklch(0.95 - 0.65 * t, 0.06 + 0.08 * std::sin(pi * t) + 0.06 * t, 95 - 155 * t);
-}
-
-} // namespace internal
 
 /// For a number that does not exist.
 inline CGAL::IO::Color undefined_color() { return CGAL::IO::Color(157, 157, 163); }
@@ -144,25 +105,25 @@ inline CGAL::IO::Color undefined_color() { return CGAL::IO::Color(157, 157, 163)
 /// For a surface without a quantity, and for regular points where the status is shown.
 inline CGAL::IO::Color plain_color() { return CGAL::IO::Color(201, 209, 220); }
 
-/// For t in [-1, 1]: blue, near-white at 0, red. Grey for NaN.
+/// For t in [-1, 1]: blue, near-white at 0, red. Gray for NaN.
 inline CGAL::IO::Color diverging_color(double t) {
   CGAL_precondition(!(std::abs(t) > 1));
   return std::isnan(t) ? undefined_color() : internal::color_from_linear_rgb(internal::diverging_linear_rgb(t));
 }
 
-/// For t in [0, 1]: pale yellow to dark violet. Grey for NaN.
+/// For t in [0, 1]: pale yellow to dark violet. Gray for NaN.
 inline CGAL::IO::Color sequential_color(double t) {
   CGAL_precondition(!(t < 0 || t > 1));
   return std::isnan(t) ? undefined_color() : internal::color_from_linear_rgb(internal::sequential_linear_rgb(t));
 }
 
-/// The colour of a number of a column with that range.
+/// The color of a number of a column with that range.
 inline CGAL::IO::Color map_color(double value, const Color_range& range, Color_scale scale = Color_scale::LINEAR) {
   const double t = map_position(value, range, scale);
   return range.is_diverging ? diverging_color(t) : sequential_color(t);
 }
 
-/// The colour of a point by its status: hues and darkness that neither map has.
+/// The color of a point by its status: hues and darkness that neither map has.
 inline CGAL::IO::Color status_color(Point_status status) {
   switch (status) {
   case Point_status::PARABOLIC: return CGAL::IO::Color(18, 161, 80);

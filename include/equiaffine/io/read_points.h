@@ -4,18 +4,22 @@
 
 // Points from CSV, PLY and OFF with all that came with them, and back to CSV with more columns.
 
-#include <equiaffine/base/Input_error.h>
+#include <equiaffine/io/Annotated_mesh_3.h>
+#include <equiaffine/io/input_file.h>
+#include <equiaffine/io/internal/Csv_scanner.h>
+#include <equiaffine/io/internal/buffered_output.h>
+#include <equiaffine/io/internal/csv_columns.h>
+#include <equiaffine/io/internal/csv_rows.h>
+#include <equiaffine/io/internal/fail_to_read.h>
+#include <equiaffine/io/internal/text_input.h>
 #include <equiaffine/io/read_OFF.h>
 #include <equiaffine/io/read_PLY.h>
-#include <equiaffine/io/text_input.h>
 #include <equiaffine/io/write_CSV.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <fstream>
 #include <iostream>
-#include <optional>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -33,118 +37,6 @@ struct Point_table_3 : Annotated_mesh_3<Kernel> {
   std::vector<std::string> cells;
 };
 
-namespace internal {
-
-/// A cell of a CSV file without the quotes around it.
-inline std::string unquote(std::string_view cell) {
-  cell = trim(cell);
-  if (cell.size() < 2 || cell.front() != '"' || cell.back() != '"') return std::string(cell);
-  std::string text;
-  for (std::size_t i = 1; i + 1 < cell.size(); ++i) {
-    text += cell[i];
-    if (cell[i] == '"' && cell[i + 1] == '"') ++i;
-  }
-  return text;
-}
-
-/// Takes the cells of the next row off the text of a CSV file, blank lines skipped; empty at the end. A quoted cell may
-/// hold commas and line ends.
-class Csv_scanner {
-public:
-  Csv_scanner(std::string_view text, const std::string& name) : rest_(text), name_(name) {
-    if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
-  }
-
-  [[noreturn]] void fail(const std::string& reason, const std::string& advice) const {
-    throw Input_error("cannot read '" + name_ + "': " + reason + "; " + advice);
-  }
-
-  /// The line in which the row taken last begins.
-  std::size_t line_number() const { return line_number_; }
-
-  std::vector<std::string_view> row() {
-    std::size_t end = 0;
-    do {
-      line_number_ = next_line_number_;
-      rest_.remove_prefix(end);
-      end = end_of_row();
-    } while (end > 0 && trim(rest_.substr(0, end)).empty());
-    const std::string_view text = rest_.substr(0, end);
-    rest_.remove_prefix(end);
-    return split(text);
-  }
-
-private:
-  /// The length of the next row, its line end included.
-  std::size_t end_of_row() {
-    bool is_quoted = false;
-    for (std::size_t i = 0; i < rest_.size(); ++i) {
-      if (rest_[i] == '"') is_quoted = !is_quoted;
-      if (rest_[i] != '\n') continue;
-      ++next_line_number_;
-      if (!is_quoted) return i + 1;
-    }
-    if (is_quoted) fail("line " + std::to_string(line_number_) + " opens a quote that is never closed", "close it");
-    return rest_.size();
-  }
-
-  static std::vector<std::string_view> split(std::string_view text) {
-    if (text.ends_with('\n')) text.remove_suffix(1);
-    if (text.ends_with('\r')) text.remove_suffix(1);
-    std::vector<std::string_view> cells;
-    if (text.empty()) return cells;
-    bool is_quoted = false;
-    std::size_t begin = 0;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-      if (text[i] == '"') is_quoted = !is_quoted;
-      if (text[i] != ',' || is_quoted) continue;
-      cells.push_back(text.substr(begin, i - begin));
-      begin = i + 1;
-    }
-    cells.push_back(text.substr(begin));
-    return cells;
-  }
-
-  std::string_view rest_;
-  const std::string& name_;
-  std::size_t line_number_ = 1;
-  std::size_t next_line_number_ = 1;
-};
-
-/// The places of the columns x, y, z.
-inline std::array<std::size_t, 3> find_coordinates(const Csv_scanner& scanner, const std::vector<std::string>& header) {
-  std::array<std::size_t, 3> places{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::string name(1, "xyz"[axis]);
-    const auto is_name = [&](const std::string& cell) { return unquote(cell) == name; };
-    if (std::count_if(header.begin(), header.end(), is_name) != 1)
-      scanner.fail("its header has no single column '" + name + "'",
-                   "the first line names the columns, with x, y and z among them, separated by commas");
-    places[axis] = std::size_t(std::find_if(header.begin(), header.end(), is_name) - header.begin());
-  }
-  return places;
-}
-
-/// The columns all of whose cells are numbers.
-inline std::vector<Vertex_attributes::Column> numeric_columns(const std::vector<std::string>& header,
-                                                              const std::vector<std::string>& cells,
-                                                              const std::array<std::size_t, 3>& coordinates) {
-  std::vector<Vertex_attributes::Column> columns;
-  for (std::size_t column = 0; column < header.size(); ++column) {
-    if (std::find(coordinates.begin(), coordinates.end(), column) != coordinates.end()) continue;
-    std::vector<double> values;
-    for (std::size_t cell = column; cell < cells.size(); cell += header.size()) {
-      const std::optional<double> value = parse_number<double>(unquote(cells[cell]));
-      if (!value) break;
-      values.push_back(*value);
-    }
-    if (values.size() * header.size() == cells.size()) columns.push_back({unquote(header[column]), std::move(values)});
-  }
-  return columns;
-}
-
-} // namespace internal
-
 /// Reads a CSV file whose header names x, y, z in any places. `name` stands for the file in messages. Throws
 /// `Input_error` with line and column for a cell that is missing, and for a coordinate that is not a number. A
 /// number is also nan or inf: such a point is nowhere.
@@ -155,22 +47,10 @@ Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
   Point_table_3<Kernel> table;
   for (const std::string_view cell : scanner.row()) table.header.emplace_back(cell);
   const auto coordinates = internal::find_coordinates(scanner, table.header);
-  const std::string advice = "correct the cell";
   for (auto row = scanner.row(); !row.empty(); row = scanner.row()) {
-    const std::string line = "line " + std::to_string(scanner.line_number());
-    if (row.size() < table.header.size())
-      scanner.fail(line + ", column '" + internal::unquote(table.header[row.size()]) + "': the cell is missing",
-                   "write as many cells as the header has");
-    if (row.size() > table.header.size())
-      scanner.fail(line + " has more cells than the header", "write as many, or put quotes around commas");
-    std::array<double, 3> p{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::string cell = internal::unquote(row[coordinates[axis]]);
-      const std::optional<double> value = internal::parse_number<double>(cell);
-      if (!value) scanner.fail(line + ", column '" + "xyz"[axis] + "': '" + cell + "' is not a number", advice);
-      p[axis] = *value;
-    }
-    table.mesh.points.emplace_back(p[0], p[1], p[2]);
+    internal::check_length(scanner, row, table.header);
+    const auto [x, y, z] = internal::parse_point(scanner, row, coordinates);
+    table.mesh.points.emplace_back(x, y, z);
     table.cells.insert(table.cells.end(), row.begin(), row.end());
   }
   table.attributes.columns = internal::numeric_columns(table.header, table.cells, coordinates);
@@ -194,10 +74,10 @@ Point_table_3<Kernel> read_points(const std::string& path) {
     std::istringstream stream(std::move(text));
     return read(stream, "standard input", extension);
   }
-  std::ifstream file = internal::open_input(path);
+  std::ifstream file = open_input(path);
   for (const std::string_view extension : {".csv", ".ply", ".off"})
-    if (internal::has_extension(path, extension)) return read(file, path, extension);
-  throw Input_error("cannot read '" + path + "': its extension is not known; use one of .csv .ply .off");
+    if (has_extension(path, extension)) return read(file, path, extension);
+  internal::fail_to_read(path, "its extension is not known", "use one of .csv .ply .off");
 }
 
 /// The columns of `first` that `second` does not have, then those of `second`; the status of `second` if it has one.

@@ -3,9 +3,9 @@
 #define EQUIAFFINE_IO_WRITE_CSV_H
 
 #include <equiaffine/io/internal/buffered_output.h>
+#include <equiaffine/io/internal/csv_rows.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
-#include <CGAL/assertions.h>
 #include <CGAL/number_utils.h>
 
 #include <cstddef>
@@ -13,26 +13,6 @@
 #include <vector>
 
 namespace equiaffine {
-
-namespace internal {
-
-/// Calls `write(row)`, then the numbers of `attributes` and the word for the status follow on the same line.
-template <class WriteRow>
-void write_CSV_rows(Buffered_output& out, std::size_t number_of_rows, const Vertex_attributes& attributes,
-                    const WriteRow& write) {
-  CGAL_precondition(attributes.has_length(number_of_rows));
-  for (const auto& column : attributes.columns) out << ',' << column.name;
-  out << (attributes.status ? ",status\n" : "\n");
-  for (std::size_t row = 0; row < number_of_rows; ++row) {
-    write(row);
-    for (const auto& column : attributes.columns) out << ',' << column.values[row];
-    if (attributes.status) out << ',' << to_string((*attributes.status)[row]);
-    out << '\n';
-  }
-  out.flush();
-}
-
-} // namespace internal
 
 /// Writes a line per point after the header `x,y,z,<columns>,status`: numbers with 17 significant digits, `nan` for
 /// those that do not exist, the status as a word. Errors are in the state of the stream.

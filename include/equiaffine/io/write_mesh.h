@@ -6,16 +6,15 @@
 // numbers that do not exist. All functions write to a stream (opened as binary for PLY and STL); errors are in its
 // state.
 
+#include <equiaffine/io/input_file.h>
 #include <equiaffine/io/internal/buffered_output.h>
-#include <equiaffine/io/text_input.h>
+#include <equiaffine/io/internal/mesh_text.h>
 #include <equiaffine/io/write_CSV.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/assertions.h>
-#include <CGAL/number_utils.h>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -31,41 +30,9 @@ enum class Mesh_format { PLY, OFF, OBJ, STL, CSV };
 inline std::optional<Mesh_format> mesh_format(const std::string& path) {
   constexpr std::array<std::string_view, 5> extensions = {".ply", ".off", ".obj", ".stl", ".csv"};
   for (std::size_t i = 0; i < extensions.size(); ++i)
-    if (internal::has_extension(path, extensions[i])) return static_cast<Mesh_format>(i);
+    if (has_extension(path, extensions[i])) return static_cast<Mesh_format>(i);
   return std::nullopt;
 }
-
-namespace internal {
-
-template <class Point_3>
-std::array<double, 3> coordinates(const Point_3& p) {
-  return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
-}
-
-inline void write_line(Buffered_output& out, std::string_view keyword, const std::array<double, 3>& numbers) {
-  out << keyword << numbers[0] << ' ' << numbers[1] << ' ' << numbers[2] << '\n';
-}
-
-/// The unit normal of a triangle, or zero if it has none.
-inline std::array<double, 3> unit_normal(const std::array<std::array<double, 3>, 3>& corners) {
-  std::array<double, 3> u{}, v{}, normal{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    u[i] = corners[1][i] - corners[0][i];
-    v[i] = corners[2][i] - corners[0][i];
-  }
-  for (std::size_t i = 0; i < 3; ++i) normal[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
-  const double length = std::hypot(normal[0], normal[1], normal[2]);
-  for (double& component : normal) component = length > 0 ? component / length : 0;
-  return normal;
-}
-
-inline const Vertex_attributes::Column* find_column(const Vertex_attributes& attributes, std::string_view name) {
-  for (const auto& column : attributes.columns)
-    if (column.name == name) return &column;
-  return nullptr;
-}
-
-} // namespace internal
 
 /// PLY, binary little-endian: `double x y z`, a `double` property per column, `uchar status`, `vertex_indices`.
 template <class Kernel>

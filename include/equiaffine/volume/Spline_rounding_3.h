@@ -3,7 +3,7 @@
 #define EQUIAFFINE_VOLUME_SPLINE_ROUNDING_3_H
 
 #include <equiaffine/volume/Spline_function_3.h>
-#include <equiaffine/volume/bspline_functionals.h>
+#include <equiaffine/volume/internal/Line_functionals.h>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace equiaffine::internal {
+namespace equiaffine {
 
 /// What decides how samples have been rounded.
 template <class FT>
@@ -44,7 +44,8 @@ public:
     for (std::size_t a = 0; a < 3; ++a) {
       const std::size_t nodes = spline.lattice().size()[a];
       if (nodes <= std::size_t(spline.degree())) return;
-      const Line_functionals<FT> line(nodes, {spline.degree(), spline.scheme(), spline.border_degree(), smoothing});
+      const internal::Line_functionals<FT> line(nodes,
+                                                {spline.degree(), spline.scheme(), spline.border_degree(), smoothing});
       gains_[a] = {line.kinds(), [&](std::size_t kind) { return gains(line, kind); }};
     }
   }
@@ -77,7 +78,7 @@ private:
     std::array<FT, 3> terms, samples;
   };
 
-  static Gains gains(const Line_functionals<FT>& line, std::size_t kind) {
+  static Gains gains(const internal::Line_functionals<FT>& line, std::size_t kind) {
     const auto rows = line.rows(kind);
     Gains gains{};
     for (std::size_t d = 0; d < 3; ++d) {
@@ -90,9 +91,9 @@ private:
 
   typename Spline::Matrix to_lattice_;
   FT of_terms_, of_samples_; // a rounding of the largest of them
-  std::array<Per_kind_of_cell<Gains>, 3> gains_;
+  std::array<internal::Per_kind_of_cell<Gains>, 3> gains_;
 };
 
-} // namespace equiaffine::internal
+} // namespace equiaffine
 
 #endif

@@ -2,164 +2,26 @@
 #ifndef EQUIAFFINE_VOLUME_BSPLINE_H
 #define EQUIAFFINE_VOLUME_BSPLINE_H
 
-#include <algorithm>
-#include <array>
+#include <equiaffine/volume/internal/bspline.h>
+
+#include <cmath>
 #include <cstddef>
-#include <optional>
 
-// Centred cardinal B-splines of odd degree n in one variable: their polynomials on a cell, and the local filters that
-// turn samples at the integers into spline coefficients. Lengths are in steps of the grid.
-namespace equiaffine::internal {
+namespace equiaffine {
 
-/// Coefficients at and beyond the border: floor(n / 2) on each side, so that every point of the grid has n + 1 taps.
-constexpr int spline_padding(int degree) { return degree / 2; }
-
-/// The n + 1 B-splines that live on the cell [0, 1], as polynomials in s = t - 1/2: `basis[p][r]` is the coefficient of
-/// s^p in the B-spline centred at r - floor(n / 2). Rows have `Width` >= n + 1 entries, the last ones zero.
-/// The recursion of Cox and de Boor in the variable 2s has integer coefficients, so every entry is rounded once.
-/// Powers of s rather than of t: they are at most 2^-p, so that Horner's scheme loses nothing at the end of the cell.
-template <class FT, int Degree, int Width>
-constexpr auto bspline_basis_polynomials() {
-  static_assert(Degree % 2 == 1 && Degree <= 9 && Width > Degree);
-  std::array<std::array<long long, Degree + 1>, Degree + 1> pieces{}; // [piece q on [q, q + 1]][power of 2s]
-  pieces[0][0] = 1;
-  long long denominator = 1; // 2^n n!
-  for (int n = 1; n <= Degree; ++n) {
-    denominator *= 2 * n;
-    for (int q = n; q >= 0; --q) // P_q <- (2s + 1 + 2q) P_q + (2n + 1 - 2q - 2s) P_{q-1}, from the last piece down
-      for (int p = n; p >= 0; --p) {
-        long long sum = (1 + 2 * q) * pieces[q][p] + (p > 0 ? pieces[q][p - 1] : 0);
-        if (q > 0) sum += (2 * n + 1 - 2 * q) * pieces[q - 1][p] - (p > 0 ? pieces[q - 1][p - 1] : 0);
-        pieces[q][p] = sum;
-      }
-  }
-  std::array<std::array<FT, Width>, Degree + 1> basis{};
-  for (int p = 0; p <= Degree; ++p)
-    for (int r = 0; r <= Degree; ++r) basis[p][r] = FT(pieces[Degree - r][p]) * FT(1LL << p) / FT(denominator);
-  return basis;
+/// The centered cardinal B-spline of odd degree n <= 9 at t. Its knots are the integers from -(n + 1) / 2 to
+/// (n + 1) / 2, beyond which it vanishes; its shifts by integers sum to 1. The polynomials on cells that the splines of
+/// this library are made of are evaluated.
+template <int Degree, class FT>
+FT bspline(FT t) {
+  static constexpr auto basis = internal::bspline_basis_polynomials<FT, Degree, Degree + 1>();
+  const int cell = int(std::floor(t)), r = internal::spline_padding(Degree) - cell;
+  if (r < 0 || r > Degree) return 0;
+  FT value = 0;
+  for (int p = Degree; p >= 0; --p) value = value * (t - FT(cell) - FT(0.5)) + basis[std::size_t(p)][std::size_t(r)];
+  return value;
 }
 
-/// Of the polynomials that extend samples beyond a border.
-inline constexpr int greatest_border_degree = 9;
-
-/// A local linear map from the samples f_0 .. f_{N-1} of a line to coefficients c_{-m} .. c_{N-1+m}, m = floor(n / 2).
-///
-/// Inside, c_i = sum_s weights[|s|] f_{i+s}, |s| <= radius. Near a border the missing samples are those of the
-/// polynomial of degree d >= n through the d + 1 samples nearest to that border; as this is linear in them,
-/// c_i = sum_j border[m + i][j] f_j for i < radius, and the mirror image at the other end. Polynomials of degree n
-/// are hence treated at the border as they are inside, which keeps the order of every derivative. For
-/// quasi-interpolation d may be min(n + 2, 9, N - 1): with d = n, where a wave has 24 samples, the errors of affine
-/// curvatures in the border are a thousand times those inside. A larger d magnifies noise (border_degree.h chooses).
-/// Others lose the order: repeating or mirroring samples makes a kink at the border, zeros make a jump, so the value
-/// has order 1 or 0 and fourth derivatives grow as h^-3 or h^-4; giving the domain up as far as the taps reach costs
-/// n - 1 cells per axis.
-template <class FT, int Degree>
-struct Line_filter {
-  static constexpr int padding = spline_padding(Degree);
-  int radius = 0;
-  std::array<FT, padding + 1> weights{FT(1)};
-  using Border = std::array<std::array<FT, greatest_border_degree + 1>, 2 * padding>;
-  int border_degree = Degree; ///< d in lines of more than d nodes
-  Border border{};            ///< for this d
-
-  /// Coefficients = samples: the spline of a polynomial p is p smoothed by the B-spline; order 2.
-  static constexpr Line_filter convolution() {
-    Line_filter filter;
-    filter.border = filter.border_of(Degree);
-    return filter;
-  }
-
-  /// The local quasi-interpolation of order n + 1: polynomials of degree <= n are reproduced.
-  ///
-  /// On these polynomials the sum over the grid acts as the convolution with the B-spline (Strang and Fix 1971), which
-  /// is the operator (sinh(D/2) / (D/2))^(n+1). In terms of the central difference delta = 2 sinh(D/2) the inverse is
-  /// (arcsinh(delta/2) / (delta/2))^(n+1), an even power series in delta that is cut after delta^(2m): the next term
-  /// annihilates polynomials of degree n. Then delta^2 f_i = f_{i-1} - 2 f_i + f_{i+1}.
-  static constexpr Line_filter quasi_interpolation(int border_degree) {
-    std::array<FT, padding + 1> series{FT(1)}; // in delta^2
-    std::array<FT, padding + 1> arcsinh{FT(1)};
-    for (int k = 1; k <= padding; ++k) // arcsinh(x)/x = sum_k a_k x^2k, a_k / a_{k-1} = -(2k-1)^2 / (2k (2k+1))
-      arcsinh[k] = arcsinh[k - 1] * FT(-(2 * k - 1) * (2 * k - 1)) / FT(4 * 2 * k * (2 * k + 1));
-    for (int power = 0; power <= Degree; ++power)
-      for (int k = padding; k >= 0; --k) {
-        FT sum = 0;
-        for (int l = 0; l <= k; ++l) sum += arcsinh[l] * series[k - l];
-        series[k] = sum;
-      }
-    Line_filter filter;
-    filter.radius = padding;
-    filter.border_degree = border_degree;
-    filter.weights = {};
-    std::array<FT, padding + 2> difference{FT(1)}; // the right half of delta^2k
-    for (int k = 0; k <= padding; ++k) {
-      for (int s = 0; s <= k; ++s) filter.weights[s] += series[k] * difference[s];
-      FT left = difference[1]; // of the entry at s = 0, by symmetry
-      for (int s = 0; s <= k + 1 && s <= padding; ++s) {
-        const FT centre = difference[s];
-        difference[s] = left - 2 * centre + difference[s + 1];
-        left = centre;
-      }
-    }
-    filter.border = filter.border_of(border_degree);
-    return filter;
-  }
-
-  /// Filters a line whose elements are rows of `width` numbers: samples i = 0 .. count - 1 at `samples + i width`,
-  /// coefficients i = -m .. count - 1 + m at `coefficients + (i + m) stride`. Precondition: count > Degree.
-  void apply(const FT* samples, std::size_t count, std::size_t width, FT* coefficients, std::size_t stride) const {
-    const auto reach = std::size_t(radius), ends = reach + std::size_t(padding);
-    const std::size_t last = count - 1 + 2 * std::size_t(padding);
-    const std::size_t used = std::min(count, std::size_t(border_degree) + 1);
-    std::optional<Border> of_short_line;
-    if (count <= std::size_t(border_degree)) of_short_line = border_of(int(count) - 1);
-    const Border& extrapolated = of_short_line ? *of_short_line : border;
-    for (std::size_t end = 0; end < ends; ++end) {
-      FT* first_row = coefficients + end * stride;
-      FT* last_row = coefficients + (last - end) * stride;
-      std::fill_n(first_row, width, FT(0));
-      std::fill_n(last_row, width, FT(0));
-      for (std::size_t j = 0; j < used; ++j)
-        for (std::size_t x = 0; x < width; ++x) {
-          first_row[x] += extrapolated[end][j] * samples[j * width + x];
-          last_row[x] += extrapolated[end][j] * samples[(count - 1 - j) * width + x];
-        }
-    }
-    for (std::size_t i = reach; i < count - reach; ++i) {
-      const FT* centre = samples + i * width;
-      FT* row = coefficients + (i + std::size_t(padding)) * stride;
-      for (std::size_t x = 0; x < width; ++x) row[x] = weights[0] * centre[x];
-      for (std::size_t s = 1; s <= reach; ++s)
-        for (std::size_t x = 0; x < width; ++x)
-          row[x] += weights[s] * ((centre - s * width)[x] + (centre + s * width)[x]);
-    }
-  }
-
-private:
-  /// The polynomial through f_0 .. f_d at the integer x: the weight of f_j (Lagrange). Exact: products of integers.
-  static constexpr FT lagrange(int d, int j, int x) {
-    FT numerator = 1;
-    FT denominator = 1;
-    for (int i = 0; i <= d; ++i)
-      if (i != j) {
-        numerator *= FT(x - i);
-        denominator *= FT(j - i);
-      }
-    return numerator / denominator;
-  }
-
-  /// The weights of the samples in the coefficients at a border, by the polynomial of degree d.
-  constexpr Border border_of(int d) const {
-    Border result{};
-    for (int i = -padding; i < radius; ++i)
-      for (int j = 0; j <= d; ++j) {
-        FT sum = 0;
-        for (int s = -radius; s <= radius; ++s) sum += weights[s < 0 ? -s : s] * lagrange(d, j, i + s);
-        result[padding + i][j] = sum;
-      }
-    return result;
-  }
-};
-
-} // namespace equiaffine::internal
+} // namespace equiaffine
 
 #endif

@@ -5,7 +5,7 @@
 #include <string_view>
 
 /// \file
-/// The page's script, last part: pointer, keyboard, the address, and the start.
+/// The page's script, seventh and last part: pointer, keyboard, the address, and the start.
 
 namespace equiaffine::internal {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 
 /// \file
-/// The page's script, first part: the arrays, what can be shown, and the colour map of `io/color_map.h` in JavaScript
-/// (the colours themselves are tables computed by that header).
+/// The page's script, first part: the arrays, what can be shown, and the color map of `io/color_map.h` in JavaScript
+/// (the colors themselves are tables computed by that header).
 
 namespace equiaffine::internal {
 

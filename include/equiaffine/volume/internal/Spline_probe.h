@@ -3,7 +3,7 @@
 #define EQUIAFFINE_VOLUME_INTERNAL_SPLINE_PROBE_H
 
 #include <equiaffine/volume/Volume_3.h>
-#include <equiaffine/volume/bspline_functionals.h>
+#include <equiaffine/volume/internal/Line_functionals.h>
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_EVALUATION_H
 
 #include <equiaffine/number/monomials_3.h>
-#include <equiaffine/volume/bspline.h>
+#include <equiaffine/volume/internal/bspline.h>
 
 #include <array>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_INTERPOLATION_H
 
 #include <equiaffine/volume/Spline_scheme.h>
-#include <equiaffine/volume/bspline.h>
+#include <equiaffine/volume/internal/bspline.h>
 
 #include <algorithm>
 #include <array>

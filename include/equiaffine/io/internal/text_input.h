@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_TEXT_INPUT_H
-#define EQUIAFFINE_IO_TEXT_INPUT_H
+#ifndef EQUIAFFINE_IO_INTERNAL_TEXT_INPUT_H
+#define EQUIAFFINE_IO_INTERNAL_TEXT_INPUT_H
 
-#include <equiaffine/base/Input_error.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
-#include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <istream>
 #include <iterator>
 #include <optional>
@@ -22,37 +17,20 @@
 
 namespace equiaffine::internal {
 
+/// The rest of a stream.
 inline std::string read_all(std::istream& stream) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// Whether `path` ends with `extension`, which is in lower case, in lower or upper case.
-inline bool has_extension(std::string_view path, std::string_view extension) {
-  return path.size() >= extension.size() &&
-         std::equal(extension.begin(), extension.end(), path.end() - std::ptrdiff_t(extension.size()),
-                    [](char a, unsigned char b) { return a == char(std::tolower(b)); });
-}
-
-/// Opens a file with something in it as binary; throws `Input_error` that says why it is none.
-inline std::ifstream open_input(const std::string& path) {
-  const auto fail = [&](const std::string& reason) { throw Input_error("cannot read '" + path + "': " + reason); };
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found) fail("there is no such file; check the path");
-  if (std::filesystem::is_directory(status)) fail("it is a folder; name a file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail("permission denied; make it readable");
-  if (file.peek() == std::ifstream::traits_type::eof()) fail("it is empty; check the path");
-  return file;
-}
-
+/// The text without blanks and line ends at either end.
 inline std::string_view trim(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(" \t\r\n") + 1 - begin);
 }
 
-/// The whole text as a number, blanks around it and a leading '+' allowed; independent of any locale.
+/// The whole text as a number; none if it is something else. Blanks around it and a leading '+' are allowed, and no
+/// locale has a say.
 template <class Number>
 std::optional<Number> parse_number(std::string_view text) {
   text = trim(text);

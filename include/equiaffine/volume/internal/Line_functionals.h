@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_VOLUME_BSPLINE_FUNCTIONALS_H
-#define EQUIAFFINE_VOLUME_BSPLINE_FUNCTIONALS_H
+#ifndef EQUIAFFINE_VOLUME_INTERNAL_LINE_FUNCTIONALS_H
+#define EQUIAFFINE_VOLUME_INTERNAL_LINE_FUNCTIONALS_H
 
 #include <equiaffine/volume/internal/bspline_evaluation.h>
 #include <equiaffine/volume/internal/bspline_interpolation.h>
@@ -123,14 +123,6 @@ private:
   Kinds_of_cells kinds_;
   std::vector<T> things_;
 };
-
-/// The sum of the products of two vectors.
-template <class FT>
-FT dot(const std::vector<FT>& a, const std::vector<FT>& b) {
-  FT sum = 0;
-  for (std::size_t j = 0; j < a.size(); ++j) sum += a[j] * b[j];
-  return sum;
-}
 
 } // namespace equiaffine::internal
 

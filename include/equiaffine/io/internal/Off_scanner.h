@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_INTERNAL_OFF_SCANNER_H
+#define EQUIAFFINE_IO_INTERNAL_OFF_SCANNER_H
+
+#include <equiaffine/io/internal/fail_to_read.h>
+#include <equiaffine/io/internal/text_input.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace equiaffine::internal {
+
+/// Takes the lines off the text of an OFF file, without comments and blank lines.
+class Off_scanner {
+public:
+  Off_scanner(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
+
+  /// Fails because of the line that has been taken last.
+  [[noreturn]] void fail(const std::string& reason) const {
+    fail_to_read(name_, "line " + std::to_string(line_number_) + " " + reason, "correct the file or get it again");
+  }
+
+  /// Takes the next line that is not empty.
+  std::string_view line() {
+    while (!rest_.empty()) {
+      std::string_view line = take_line(rest_, line_number_);
+      line = trim(line.substr(0, line.find('#')));
+      if (!line.empty()) return line;
+    }
+    fail("is the last one, but more has to follow");
+  }
+
+  /// Takes the keyword `OFF`, whose prefixes say what vertices have besides points, and the numbers of vertices and
+  /// faces.
+  std::array<std::size_t, 2> header() {
+    if (trim(rest_).empty()) fail_to_read(name_, "it is empty", "give an OFF file");
+    std::string_view text = line();
+    std::string_view after_keyword = text;
+    const std::string_view keyword = take_word(after_keyword);
+    if (keyword.ends_with("OFF")) {
+      if (keyword.find_first_of("4n") != std::string_view::npos) fail("announces points that are not in 3D");
+      text = trim(after_keyword).empty() ? line() : after_keyword;
+    }
+    const auto vertices = parse_number<std::size_t>(take_word(text)),
+               faces = parse_number<std::size_t>(take_word(text));
+    if (!vertices || !faces) fail("has no numbers of vertices and faces as text");
+    if (*vertices > rest_.size() || *faces > rest_.size() || *vertices > std::numeric_limits<std::uint32_t>::max())
+      fail("announces more vertices and faces than the file holds");
+    return {*vertices, *faces};
+  }
+
+  /// Takes the next number off a line.
+  template <class Number>
+  Number number(std::string_view& line) const {
+    const std::optional<Number> value = parse_number<Number>(take_word(line));
+    if (!value) fail("has a missing or unreadable number");
+    return *value;
+  }
+
+private:
+  std::string_view rest_;
+  const std::string& name_;
+  std::size_t line_number_ = 0;
+};
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_INTERNAL_HTML_PAGE_H
+#define EQUIAFFINE_IO_INTERNAL_HTML_PAGE_H
+
+#include <equiaffine/io/Html_options.h>
+#include <equiaffine/io/internal/html_text.h>
+#include <equiaffine/io/internal/page_arrays.h>
+#include <equiaffine/io/internal/page_facts.h>
+#include <equiaffine/io/internal/viewer_control.h>
+#include <equiaffine/io/internal/viewer_data.h>
+#include <equiaffine/io/internal/viewer_graphics.h>
+#include <equiaffine/io/internal/viewer_page.h>
+#include <equiaffine/io/internal/viewer_panel.h>
+#include <equiaffine/io/internal/viewer_picked.h>
+#include <equiaffine/io/internal/viewer_scale.h>
+#include <equiaffine/io/internal/viewer_scene.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+
+#include <CGAL/Bbox_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <ostream>
+#include <string>
+
+namespace equiaffine::internal {
+
+/// Whether columns and status are as long as the points, and all triangles have vertices that exist.
+template <class Kernel>
+bool is_consistent(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes) {
+  const std::size_t size = mesh.points.size();
+  return attributes.has_length(size) &&
+         std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& triangle) {
+           return std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t index) { return index < size; });
+         });
+}
+
+/// Whether the page can show what `Html_options::color` names.
+inline bool is_offered(const std::string& color, const Vertex_attributes& attributes) {
+  return color.empty() || color == "plain" || (color == "status" && attributes.status) ||
+         std::any_of(attributes.columns.begin(), attributes.columns.end(),
+                     [&](const auto& column) { return column.name == color; });
+}
+
+/// The style, the elements and the description of the surface.
+inline void write_head_and_panel(std::ostream& out, const Html_options& options) {
+  const std::string title = html_escaped(options.title);
+  out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      << "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" << title << "</title>\n"
+      << "<style>" << viewer_style << "</style>\n</head>\n<body>\n"
+      << viewer_stage << "<aside id=\"panel\">\n<h1>" << title << "</h1>\n"
+      << viewer_controls << (options.description.empty() ? "" : "<h2>Surface</h2>\n") << "<dl id=\"description\">\n";
+  for (const auto& [name, text] : options.description)
+    out << "<dt>" << html_escaped(name) << "</dt><dd>" << html_escaped(text) << "</dd>\n";
+  out << "</dl>\n</aside>\n";
+}
+
+/// The page of `write_HTML`: its elements, the facts and arrays of the surface, and the script that draws it.
+template <class Kernel>
+void write_page(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
+                const Html_options& options) {
+  std::array<double, 3> center = {0, 0, 0};
+  double diagonal = 0;
+  if (!mesh.points.empty()) {
+    CGAL::Bbox_3 box;
+    for (const auto& point : mesh.points) box += point.bbox();
+    center = {box.xmin() + (box.xmax() - box.xmin()) / 2, box.ymin() + (box.ymax() - box.ymin()) / 2,
+              box.zmin() + (box.zmax() - box.zmin()) / 2};
+    diagonal = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
+  }
+  write_head_and_panel(out, options);
+  out << "<script type=\"application/json\" id=\"facts\">" << page_facts(attributes, options, center, diagonal)
+      << "</script>\n";
+  write_data(out, mesh, attributes, center);
+  out << "<script>\n'use strict';\n(() => {" << viewer_data << viewer_graphics << viewer_scene << viewer_panel
+      << viewer_scale << viewer_picked << viewer_control << "})();\n"
+      << "</script>\n</body>\n</html>\n";
+}
+
+} // namespace equiaffine::internal
+
+#endif

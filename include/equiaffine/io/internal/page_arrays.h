@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_INTERNAL_PAGE_ARRAYS_H
+#define EQUIAFFINE_IO_INTERNAL_PAGE_ARRAYS_H
+
+#include <equiaffine/io/internal/base64.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+
+#include <CGAL/number_utils.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <ostream>
+#include <string>
+
+namespace equiaffine::internal {
+
+/// The bits of the nearest float; those of an infinity beyond the largest.
+inline std::uint32_t float_bits(double value) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  if (std::abs(value) > largest) value = std::copysign(std::numeric_limits<double>::infinity(), value);
+  return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+}
+
+/// Writes an array as an element of the page that holds its bytes in base64: `put_all(writer)` puts them.
+template <class PutAll>
+void write_data_block(std::ostream& out, const std::string& id, PutAll put_all) {
+  out << "<script type=\"text/plain\" id=\"" << id << "\">";
+  Base64_writer writer(out);
+  put_all(writer);
+  writer.finish();
+  out << "</script>\n";
+}
+
+/// Writes all arrays: positions relative to `center`, triangles, status, and one per column.
+template <class Kernel>
+void write_data(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
+                const std::array<double, 3>& center) {
+  write_data_block(out, "positions", [&](Base64_writer& writer) {
+    for (const auto& point : mesh.points)
+      for (int i = 0; i < 3; ++i)
+        writer.put_little_endian(float_bits(CGAL::to_double(point[i]) - center[static_cast<std::size_t>(i)]));
+  });
+  write_data_block(out, "triangles", [&](Base64_writer& writer) {
+    for (const auto& triangle : mesh.triangles)
+      for (const std::uint32_t index : triangle) writer.put_little_endian(index);
+  });
+  write_data_block(out, "status", [&](Base64_writer& writer) {
+    if (!attributes.status) return;
+    for (const Point_status status : *attributes.status) writer.put(static_cast<std::uint8_t>(status));
+  });
+  for (std::size_t i = 0; i < attributes.columns.size(); ++i)
+    write_data_block(out, "column-" + std::to_string(i), [&](Base64_writer& writer) {
+      for (const double value : attributes.columns[i].values) writer.put_little_endian(float_bits(value));
+    });
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_INTERNAL_VIEWER_PICKED_H
+#define EQUIAFFINE_IO_INTERNAL_VIEWER_PICKED_H
+
+#include <string_view>
+
+/// \file
+/// The page's script, sixth part: the numbers of the picked vertex, vectors, and showing the panel.
+
+namespace equiaffine::internal {
+
+inline constexpr std::string_view viewer_picked = R"js(
+// Everything known about a vertex: [column, number, digits that are true].
+function numbersOf(vertex) {
+  const fine = radius * 2 ** -24;
+  const rows = ['x', 'y', 'z'].map((name, k) => {
+    const value = facts.center[k] + mesh.positions[3 * vertex + k];
+    return [{name, label: name}, value, Math.max(1, Math.min(15, Math.ceil(Math.log10(Math.abs(value) / fine)) || 1))];
+  });
+  for (const column of facts.columns) rows.push([column, column.values()[vertex], 7]);
+  return rows;
+}
+
+function showPicked() {
+  const {picked} = choice;
+  byId('picked').hidden = picked === null;
+  if (picked === null) return;
+  byId('picked-title').textContent = 'Vertex ' + picked;
+  const table = byId('picked-table');
+  table.replaceChildren();
+  if (mesh.status.length) addRow(table, element('span', 'quiet', 'status'), facts.statuses[mesh.status[picked]].word);
+  for (const [{label, symbol, values}, value, digits] of numbersOf(picked))
+    addRow(table, element('span', 'quiet', label.replaceAll('_', ' ') + (symbol ? ' ' + symbol : '')),
+           readable(value, values ? 6 : digits));
+}
+
+function copyText(text, button) {
+  const report = word => {
+    const before = button.dataset.label ??= button.textContent;
+    button.textContent = word;
+    setTimeout(() => { button.textContent = before; }, 1200);
+  };
+  const byHand = () => {
+    const area = element('textarea', '', text);
+    document.body.append(area);
+    area.select();
+    report(document.execCommand('copy') ? 'copied' : 'not allowed');
+    area.remove();
+  };
+  if (navigator.clipboard) navigator.clipboard.writeText(text).then(() => report('copied'), byHand);
+  else byHand();
+}
+
+function pick(vertex) {
+  choice.picked = vertex;
+  showPicked();
+  drawScale();
+  redraw();
+}
+
+function setVectors(vector) {
+  choice.vectors = vector;
+  scene.setNeedles(vector ? needles(vector) : new Float32Array(0));
+}
+
+function showPanel(isShown) {
+  document.body.classList.toggle('no-panel', !isShown);
+  byId('panel-toggle').setAttribute('aria-expanded', isShown);
+  if (isShown) byId('quantity').after(byId('scale'));
+  else stage.append(byId('scale'));
+  byId('hint').hidden = !isShown || isTouched;
+  drawScale();
+}
+)js";
+
+} // namespace equiaffine::internal
+
+#endif

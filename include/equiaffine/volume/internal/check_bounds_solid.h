@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_VOLUME_INTERNAL_CHECK_BOUNDS_SOLID_H
+#define EQUIAFFINE_VOLUME_INTERNAL_CHECK_BOUNDS_SOLID_H
+
+#include <equiaffine/base/Input_error.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <cmath>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// The kernel that decides on which side of the mesh a point lies: its predicates are exact.
+using Side_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Distance_mesh = CGAL::Surface_mesh<Side_kernel::Point_3>;
+
+/// A point as text for messages.
+inline std::string place(const Side_kernel::Point_3& p) {
+  std::ostringstream text;
+  text << '(' << p.x() << ", " << p.y() << ", " << p.z() << ')';
+  return text.str();
+}
+
+/// Throws Input_error unless the mesh bounds a solid: triangles, no border, no contact between triangles other than
+/// at common edges and vertices.
+inline void check_bounds_solid(const Distance_mesh& mesh) {
+  if (mesh.number_of_faces() == 0) throw Input_error("the mesh has no faces: give a closed mesh of triangles");
+  for (const auto v : mesh.vertices())
+    if (const auto& p = mesh.point(v); !std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z()))
+      throw Input_error("the mesh has a vertex with a coordinate that is not a finite number, " + place(p) +
+                        ": correct or remove it");
+  for (const auto f : mesh.faces())
+    if (const auto degree = mesh.degree(f); degree != 3)
+      throw Input_error("the mesh has a face with " + std::to_string(degree) + " vertices, one of them at " +
+                        place(mesh.point(mesh.target(mesh.halfedge(f)))) + ": triangulate its faces first");
+  std::vector<Distance_mesh::Halfedge_index> border;
+  for (const auto h : mesh.halfedges())
+    if (mesh.is_border(h)) border.push_back(h);
+  if (!border.empty())
+    throw Input_error("the mesh is not closed, it has " + std::to_string(border.size()) +
+                      " border edges, one of them at " + place(mesh.point(mesh.target(border.front()))) +
+                      ": fill its holes first");
+  std::vector<std::pair<Distance_mesh::Face_index, Distance_mesh::Face_index>> contacts;
+  CGAL::Polygon_mesh_processing::self_intersections<CGAL::Sequential_tag>(mesh, std::back_inserter(contacts),
+                                                                          CGAL::parameters::maximum_number(1));
+  if (!contacts.empty())
+    throw Input_error("the mesh has degenerate triangles or intersects itself, near " +
+                      place(mesh.point(mesh.target(mesh.halfedge(contacts.front().first)))) +
+                      ", so that its inside is not defined: repair it first");
+}
+
+} // namespace equiaffine::internal
+
+#endif
