@@ -3,93 +3,59 @@
 #define EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_ON_BOX_H
 
 #include <equiaffine/number/Interval.h>
+#include <equiaffine/volume/internal/Range.h>
 #include <equiaffine/volume/internal/bspline_evaluation.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
 namespace equiaffine::internal {
 
-/// The least and the greatest of numbers, in packs. None of them is compared with NaN; infinity is not expected.
-template <class FT>
-class Range {
-  using Lanes = Spline_pack<FT>;
-
-public:
-  /// `count` numbers; `number(at)` is made of at(p), what is at the pointer p, be it one number or a pack.
-  template <class F>
-  void add(std::size_t count, const F& number) {
-    std::size_t x = 0;
-    for (; x + Lanes::lanes <= count; x += Lanes::lanes) {
-      const auto d = number([x](const FT* p) { return Lanes::load(p + x); });
-      leasts_ = d < leasts_ ? d : leasts_;
-      greatests_ = d > greatests_ ? d : greatests_;
-      zeros_ += d - d;
-    }
-    for (; x < count; ++x) {
-      const FT d = number([x](const FT* p) { return p[x]; });
-      least_ = d < least_ ? d : least_;
-      greatest_ = d > greatest_ ? d : greatest_;
-      zero_ += d - d;
-    }
-  }
-
-  FT least() const {
-    FT least = least_;
-    for (int lane = 0; lane < Lanes::lanes; ++lane) least = std::min(least, leasts_[lane]);
-    return least;
-  }
-  FT greatest() const {
-    FT greatest = greatest_;
-    for (int lane = 0; lane < Lanes::lanes; ++lane) greatest = std::max(greatest, greatests_[lane]);
-    return greatest;
-  }
-  FT size() const { return std::max(std::abs(least()), std::abs(greatest())); }
-  bool is_empty() const { return least() > greatest(); }
-  bool has_nan() const {
-    FT zero = zero_;
-    for (int lane = 0; lane < Lanes::lanes; ++lane) zero += zeros_[lane];
-    return zero != 0;
-  }
-
-  /// Contains all numbers with an error of theirs.
-  Interval widened(FT error) const {
-    return Interval::widened(double(least()) - double(error), double(greatest()) + double(error));
-  }
-
-private:
-  FT least_ = std::numeric_limits<FT>::infinity(), greatest_ = -least_, zero_ = 0;
-  typename Lanes::type leasts_ = least_ - typename Lanes::type{}, greatests_ = -leasts_, zeros_ = {};
-};
-
-/// A box of the lattice: the cells that it meets, and where in the first it begins and in the last it ends, in [0, 1].
+/// A box of the lattice: the cells that it meets, and where it begins in the first and ends in the last cell of each
+/// axis, in [0, 1].
 template <class FT>
 struct Bspline_box {
   std::array<FT, 3> begin, end;
   std::array<std::size_t, 3> first, cells;
 
+  /// Whether the box meets at most `count` cells along each axis.
   bool has_at_most(std::size_t count) const { return *std::max_element(cells.begin(), cells.end()) <= count; }
 };
 
-/// The spline on a box alone, over knots that end there: its coefficients are values of the spline's blossom at
-/// arguments in the box, so that their range exceeds that of the values by the square of the side only, and knows
-/// nothing of coefficients beyond the border of the lattice, which extrapolation makes large. By knot insertion (Boehm:
-/// Inserting new knots into B-spline curves, 1980), a convex combination in each step.
+/// The spline restricted to a box: its coefficients over knots that end at the sides of the box.
+///
+/// These coefficients are values of the spline's blossom (polar form) at arguments inside the box. Hence their range
+/// exceeds that of the values by the square of the side only, and coefficients beyond the border of the lattice, which
+/// extrapolation makes large, have no influence.
+///
+/// The sides t and s of the box are inserted as knots, n times each (Boehm: Inserting new knots into B-spline curves,
+/// 1980). Every step is a convex combination of two coefficients. For one axis, n = 3 and a box that meets the two
+/// cells [0, 1] and [1, 2]:
+///
+///     knots           -2   -1    0 . t . 1 . s . 2    3    4
+///                                   [---------]               the box
+///     coefficient                  0        1        2        3        4
+///     its arguments            -2 -1 0   -1 0 1    0 1 2    1 2 3    2 3 4
+///     t inserted once          -1  0 t    0 1 t    1 2 t    1 2 3    2 3 4
+///     t inserted twice          0  t t    1 t t    1 2 t    1 2 3    2 3 4
+///     t inserted three times    t  t t    1 t t    1 2 t    1 2 3    2 3 4
+///     s inserted three times    t  t t    1 t t    1 s t    1 s s    s s s
 template <int Degree, class FT>
 class Bspline_on_box {
   using Lanes = Spline_pack<FT>;
-  using Pack_of_lines = typename Lanes::type;
+  using Pack = typename Lanes::type;
 
 public:
   static constexpr std::size_t most_cells = 9;
-  /// Of a coefficient, relative to the largest of those that it is made of: 2n steps per axis.
+  /// The rounding error of a coefficient on the box, relative to the largest of those that it is made of, after 2n
+  /// steps per axis.
   static constexpr FT relative_error = 3 * 2 * Degree * 8 * std::numeric_limits<FT>::epsilon();
 
-  /// `*c` is the first coefficient that counts in the box, of at most `most_cells` cells per axis. Where the box has
-  /// less than 2^-12 of a cell, it is taken as wide as that, which keeps the error of differences small.
+  /// `*c` is the first coefficient of the lattice that counts in the box, which has at most `most_cells` cells per
+  /// axis; coefficients are 1, `row` and `slab` apart along x, y and z. Where the box has less than 2^-12 of a cell, it
+  /// is taken as wide as that, which keeps the error of differences small.
   Bspline_on_box(const FT* c, std::size_t row, std::size_t slab, const Bspline_box<FT>& box) : cells_(box.cells) {
     constexpr FT thin = FT(1) / FT(1 << 12);
     for (std::size_t a = 0; a < 3; ++a) {
@@ -102,89 +68,97 @@ public:
     for (std::size_t z = 0; z < count_[2]; ++z)
       for (std::size_t y = 0; y < count_[1]; ++y, line += count_[0])
         std::copy_n(c + z * slab + y * row, count_[0], line);
-    insert_knots(2, other, numbers_);
-    insert_knots(1, numbers_, other);
-    insert_knots(0, other, numbers_);
+    insert_sides(2, other, coefficients_);
+    insert_sides(1, coefficients_, other);
+    insert_sides(0, other, coefficients_);
   }
 
+  /// Contains the values, also as computed with an error of at most `error`.
   Interval value(FT error) const {
     Range<FT> range;
-    range.add(count_[0] * count_[1] * count_[2], [this](const auto& at) { return at(numbers_.data()); });
+    range.add(count_[0] * count_[1] * count_[2], [this](const auto& load) { return load(coefficients_.data()); });
     return range.widened(error);
   }
 
-  /// Of the derivative along axis a, in lattice coordinates: `error` of that, and `error_of_coefficient`.
+  /// Contains the derivatives along axis a, in lattice coordinates, also as computed with an error of at most `error`
+  /// from coefficients on the box with errors of at most `error_of_coefficient`.
   Interval derivative(std::size_t a, FT error, FT error_of_coefficient) const {
     const std::array<std::size_t, 3> stride = {1, count_[0], count_[0] * count_[1]};
-    const auto weights = weights_of_differences(a);
+    const auto weights = difference_weights(a);
     Range<FT> range;
     if (a == 0) {
       for (std::size_t first = 0; first < count_[2] * stride[2]; first += stride[1])
-        range.add(count_[0] - 1,
-                  [&, p = &numbers_[first]](const auto& at) { return at(weights.data()) * (at(p + 1) - at(p)); });
+        range.add(count_[0] - 1, [&, p = &coefficients_[first]](const auto& load) {
+          return load(weights.data()) * (load(p + 1) - load(p));
+        });
     } else {
       for (std::size_t slab = 0; slab < (a == 1 ? count_[2] : 1); ++slab)
         for (std::size_t n = 0; n + 1 < count_[a]; ++n)
-          range.add(stride[a], [&, p = &numbers_[slab * stride[2] + n * stride[a]], w = weights[n]](const auto& at) {
-            return w * (at(p + stride[a]) - at(p));
-          });
+          range.add(stride[a], [&, p = &coefficients_[slab * stride[2] + n * stride[a]],
+                                w = weights[n]](const auto& load) { return w * (load(p + stride[a]) - load(p)); });
     }
     return range.widened(error + 2 * error_of_coefficient * *std::max_element(weights.begin(), weights.end()));
   }
 
 private:
-  static constexpr std::size_t most = most_cells + Degree, capacity = most * most * most + std::size_t(Lanes::lanes);
-  using Numbers = std::array<FT, capacity>;
-  using Weights = std::array<Pack_of_lines, std::size_t(Degree*(Degree + 1) / 2)>;
+  static constexpr std::size_t most_coefficients = most_cells + Degree; // along an axis
+  static constexpr std::size_t capacity =
+      most_coefficients * most_coefficients * most_coefficients + std::size_t(Lanes::lanes);
+  using Coefficients = std::array<FT, capacity>;
+  using Insertion_weights = std::array<Pack, std::size_t(Degree*(Degree + 1) / 2)>; // of a triangle, row by row
 
-  /// Step k = 1 .. n inserts a knot for the k-th time: coefficient i with the arguments i + k - n .. i gets that knot
-  /// for the least of them, u, for which coefficient i + 1 has v = i + 1, or the end of the line if that is nearer.
-  static Weights insertion_weights(FT knot, FT end_of_line) {
-    Weights weights;
+  /// The weights by which a knot is inserted n times in the first cell of a line, as in the figure. The k-th time,
+  /// k = 1 .. n, coefficient i exchanges its least argument, u = i + k - n, for the knot, by a convex combination with
+  /// coefficient i + 1, which has v = i + 1 instead. No knot lies beyond the end of the line, where v is cut off.
+  static Insertion_weights insertion_weights(FT knot, FT end_of_line) {
+    Insertion_weights weights;
     std::size_t n = 0;
     for (int k = 1; k <= Degree; ++k)
       for (int i = 0; i <= Degree - k; ++i) {
         const FT u = FT(i + k - Degree), v = std::min(FT(i + 1), end_of_line);
-        weights[n++] = (knot - u) / (v - u) + Pack_of_lines{};
+        weights[n++] = (knot - u) / (v - u) + Pack{};
       }
     return weights;
   }
 
-  /// At the end of lines where `at(0)` is.
+  /// Inserts a knot n times at one end of a pack of lines; `coefficient(i)` is the i-th one counted from that end.
   template <class F>
-  static void insert_knot(const Weights& weights, const F& at) {
-    std::array<Pack_of_lines, Degree + 1> c;
-    unrolled<Degree + 1>([&](auto i) { c[i] = at(i); });
+  static void insert_knot(const Insertion_weights& weights, const F& coefficient) {
+    std::array<Pack, Degree + 1> c;
+    unrolled<Degree + 1>([&](auto i) { c[i] = coefficient(i); });
     unrolled<Degree>([&](auto k) {
       constexpr int first = k * Degree - k * (k - 1) / 2;
       unrolled<Degree - k>([&](auto i) { c[i] += weights[first + i] * (c[i + 1] - c[i]); });
     });
-    unrolled<Degree>([&](auto i) { at(i) = c[i]; });
+    unrolled<Degree>([&](auto i) { coefficient(i) = c[i]; });
   }
 
-  /// At both ends of the lines along `axis`, the slowest one of `from`; it is the fastest one of the result.
-  void insert_knots(std::size_t axis, Numbers& from, Numbers& to) const {
-    const std::size_t count = count_[axis], width = count_[(axis + 1) % 3] * count_[(axis + 2) % 3];
-    const Weights at_begin = insertion_weights(begin_[axis], std::numeric_limits<FT>::infinity());
-    const Weights at_end = insertion_weights(1 - end_[axis], FT(cells_[axis]) - begin_[axis]);
-    std::fill_n(from.begin() + std::ptrdiff_t(count * width), Lanes::lanes, FT(0)); // read by the last pack, unused
-    for (std::size_t first = 0; first < width; first += Lanes::lanes) {
-      std::array<Pack_of_lines, most> line;
-      for (std::size_t n = 0; n < count; ++n) line[n] = Lanes::load(&from[n * width + first]);
+  /// Inserts both sides of the box in the lines along `axis`. In `from` this axis is the slowest, so that neighboring
+  /// lines fill a pack; in `to` it is the fastest, and three calls bring the axes back into their order.
+  void insert_sides(std::size_t axis, Coefficients& from, Coefficients& to) const {
+    const std::size_t count = count_[axis], lines = count_[(axis + 1) % 3] * count_[(axis + 2) % 3];
+    const auto weights_of_begin = insertion_weights(begin_[axis], std::numeric_limits<FT>::infinity());
+    const auto weights_of_end =
+        insertion_weights(1 - end_[axis], FT(cells_[axis]) - begin_[axis]);         // from the other end
+    std::fill_n(from.begin() + std::ptrdiff_t(count * lines), Lanes::lanes, FT(0)); // the last pack reads that far
+    for (std::size_t first = 0; first < lines; first += Lanes::lanes) {
+      std::array<Pack, most_coefficients> pack_of_lines;
+      for (std::size_t n = 0; n < count; ++n) pack_of_lines[n] = Lanes::load(&from[n * lines + first]);
       insert_knot(
-          at_begin, [&](std::size_t i) -> auto& { return line[i]; });
+          weights_of_begin, [&](std::size_t i) -> auto& { return pack_of_lines[i]; });
       insert_knot(
-          at_end, [&](std::size_t i) -> auto& { return line[count - 1 - i]; });
-      const std::size_t lines = std::min(width - first, std::size_t(Lanes::lanes));
-      for (std::size_t l = 0; l < lines; ++l)
-        for (std::size_t i = 0; i < count; ++i) to[(first + l) * count + i] = line[i][l];
+          weights_of_end, [&](std::size_t i) -> auto& { return pack_of_lines[count - 1 - i]; });
+      const std::size_t used_lanes = std::min(lines - first, std::size_t(Lanes::lanes));
+      for (std::size_t lane = 0; lane < used_lanes; ++lane)
+        for (std::size_t i = 0; i < count; ++i) to[(first + lane) * count + i] = pack_of_lines[i][lane];
     }
   }
 
-  /// n over the distance of the knots that a difference belongs to.
-  std::array<FT, most> weights_of_differences(std::size_t a) const {
+  /// The factors that turn differences of neighboring coefficients into coefficients of the derivative along axis a: n
+  /// over the distance from the least argument of the one to the greatest argument of the other.
+  std::array<FT, most_coefficients> difference_weights(std::size_t a) const {
     const FT last = FT(cells_[a] - 1) + end_[a];
-    std::array<FT, most> weights{};
+    std::array<FT, most_coefficients> weights{};
     for (std::size_t i = 0; i + 1 < count_[a]; ++i) {
       const FT from = i < Degree ? begin_[a] : FT(i + 1 - Degree), to = i + 1 < cells_[a] ? FT(i + 1) : last;
       weights[i] = Degree / (to - from);
@@ -192,9 +166,9 @@ private:
     return weights;
   }
 
-  std::array<std::size_t, 3> cells_, count_;
-  std::array<FT, 3> begin_, end_;
-  Numbers numbers_;
+  std::array<std::size_t, 3> cells_, count_; ///< of cells and of coefficients along each axis
+  std::array<FT, 3> begin_, end_;            ///< as in Bspline_box
+  Coefficients coefficients_;
 };
 
 } // namespace equiaffine::internal

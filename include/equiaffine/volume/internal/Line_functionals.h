@@ -10,22 +10,24 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
 
-/// How samples become a spline: smoothed (a scale in steps, 0 for none), then by a scheme of a degree.
+/// How the samples of a line become a spline: smoothed by a scale in steps (0 for none), then by a scheme and degrees.
 template <class FT>
 struct Spline_rule {
   int degree;
   Spline_scheme scheme;
-  int border_degree; ///< see border_degree.h
+  int border_degree; ///< the degree of the polynomials beyond the border, see border_degree.h
   FT smoothing;
 };
 
-/// The kinds of the cells of a line: near its ends each cell is of its own, those in between are all alike.
-struct Kinds_of_cells {
+/// The kinds of the cells of a line. Cells of the same kind depend in the same way on the samples around them: each
+/// cell near an end is a kind of its own, and the cells between are all of one kind.
+///
+/// A kind is named by its representative, the cell with that number in a line of `kinds` cells.
+struct Cell_kinds {
   std::size_t cells = 0, kinds = 0;
 
   std::size_t operator()(std::size_t cell) const {
@@ -36,8 +38,8 @@ struct Kinds_of_cells {
 };
 
 /// What one axis of a tensor product spline makes of the samples of a line: the Taylor coefficients of order 0 .. 4 in
-/// the middle of a cell are linear functions of the samples, whose coefficients these are. They differ between cells
-/// near a border only; long lines have the cells of one that is long enough for both borders.
+/// the middle of a cell are linear functions of the samples, and this class has their coefficients. A line that is
+/// longer than both borders reach is represented by a shorter one.
 template <class FT>
 class Line_functionals {
 public:
@@ -47,25 +49,19 @@ public:
   /// Precondition: nodes > rule.degree.
   Line_functionals(std::size_t nodes, const Spline_rule<FT>& rule)
       : cells_(nodes - 1), nodes_(std::min(nodes, sufficient_nodes(rule))) {
-    const std::size_t padding = std::size_t(spline_padding(rule.degree));
-    std::vector<FT> unit(nodes_ * nodes_);
-    for (std::size_t i = 0; i < nodes_; ++i) unit[i * (nodes_ + 1)] = 1; // row i: sample i as a function of all
-    if (rule.smoothing > 1) {
-      std::vector<FT> smoothed(unit.size());
-      Smoothing_filter<FT>(rule.smoothing, nodes_).apply(unit.data(), nodes_, nodes_, smoothed.data(), nodes_);
-      unit = std::move(smoothed);
-    }
-    coefficients_.resize((nodes_ + 2 * padding) * nodes_);
+    const std::vector<FT> samples = smoothed_unit_samples(rule.smoothing);
+    coefficients_.resize((nodes_ + 2 * std::size_t(spline_padding(rule.degree))) * nodes_);
     with_degree(rule.degree, [&](auto n) {
       with_line_filter<FT, n>(rule.scheme, rule.border_degree, [&](const auto& filter) {
-        filter.apply(unit.data(), nodes_, nodes_, coefficients_.data(), nodes_);
+        filter.apply(samples.data(), nodes_, nodes_, coefficients_.data(), nodes_);
       });
       const Bspline_taylor<n, 4, FT> basis(FT(0.5));
       for (std::size_t d = 0; d < orders; ++d) basis_[d].assign(basis.rows[d], basis.rows[d] + n + 1);
     });
   }
 
-  /// Those of a kind of cells, from the samples of a line of `length()` nodes, the `kind`-th cell of which is one.
+  /// The functionals of a kind of cells: row d has the coefficients of the Taylor coefficient of order d in the
+  /// representative of the kind, one for each sample of the representative line.
   Rows rows(std::size_t kind) const {
     Rows rows;
     for (std::size_t d = 0; d < orders; ++d) {
@@ -76,8 +72,8 @@ public:
     return rows;
   }
 
-  /// The sum of the sizes of all terms of the Taylor coefficient of order d, for samples of size 1: how much it can be
-  /// changed by rounding. At least that of the row, in which terms have been cancelled.
+  /// The sum of the magnitudes of all terms of the Taylor coefficient of order d, for samples of magnitude 1: how much
+  /// rounding can change it. It is at least the sum over the row, in which terms have cancelled.
   FT gain(std::size_t kind, std::size_t d) const {
     FT sum = 0;
     for (std::size_t r = 0; r < basis_[d].size(); ++r)
@@ -85,43 +81,52 @@ public:
     return sum;
   }
 
-  std::size_t length() const { return nodes_; }
-
-  /// Cells of the same kind have the same functionals.
-  Kinds_of_cells kinds() const { return {cells_, nodes_ - 1}; }
+  Cell_kinds kinds() const { return {cells_, nodes_ - 1}; }
 
 private:
-  /// Window of the smoothing, reach of the filter and of the spline; a recursive filter has decayed to 0.61^40 = 3e-9.
+  /// The number of nodes with which a line has room for both borders: the windows of the smoothing, the reaches of the
+  /// filter and of the spline. A recursive filter has decayed to 0.61^40 = 3e-9 after 40 nodes.
   static std::size_t sufficient_nodes(const Spline_rule<FT>& rule) {
     const std::size_t decay = rule.scheme == Spline_scheme::INTERPOLATION ? 40 : 0;
     return 2 * (2 * Smoothing_filter<FT>::radius_of(rule.smoothing) + 2 * std::size_t(rule.degree + 1) + decay) + 2;
   }
 
-  std::size_t cells_, nodes_;
-  std::vector<FT> coefficients_; // of the line: row i is coefficient i as a function of the samples
-  std::array<std::vector<FT>, orders> basis_;
+  /// The samples of the line as linear functions of themselves, smoothed: row i has the coefficients of sample i.
+  std::vector<FT> smoothed_unit_samples(FT smoothing) const {
+    std::vector<FT> unit(nodes_ * nodes_);
+    for (std::size_t i = 0; i < nodes_; ++i) unit[i * (nodes_ + 1)] = 1;
+    if (!(smoothing > 1)) return unit;
+    std::vector<FT> smoothed(unit.size());
+    Smoothing_filter<FT>(smoothing, nodes_).apply(unit.data(), nodes_, nodes_, smoothed.data(), nodes_);
+    return smoothed;
+  }
+
+  std::size_t cells_;                         // of the line itself
+  std::size_t nodes_;                         // of the line that represents it
+  std::vector<FT> coefficients_;              // row i is spline coefficient i as a function of the samples
+  std::array<std::vector<FT>, orders> basis_; // Taylor coefficients of the B-splines in the middle of a cell
 };
 
-/// Something for every cell of a line, made once per kind.
+/// A value for every cell of a line that is the same for all cells of a kind.
 template <class T>
 class Per_kind_of_cell {
 public:
   Per_kind_of_cell() = default;
 
-  /// Of `make(kind)`.
+  /// Stores `make(kind)` for every kind.
   template <class Make>
-  Per_kind_of_cell(const Kinds_of_cells& kinds, const Make& make) : kinds_(kinds) {
-    for (std::size_t kind = 0; kind < kinds.kinds; ++kind) things_.push_back(make(kind));
+  Per_kind_of_cell(const Cell_kinds& kinds, const Make& make) : kinds_(kinds) {
+    for (std::size_t kind = 0; kind < kinds.kinds; ++kind) values_.push_back(make(kind));
   }
 
-  const T& operator[](std::size_t cell) const { return things_[kinds_(cell)]; }
+  const T& operator[](std::size_t cell) const { return values_[kinds_(cell)]; }
 
-  /// Of a cell from the one of its kind that `make` was called for.
-  std::size_t distance(std::size_t cell) const { return cell - kinds_(cell); }
+  /// The offset of a cell from the representative cell of its kind.
+  std::size_t offset_from_representative(std::size_t cell) const { return cell - kinds_(cell); }
 
 private:
-  Kinds_of_cells kinds_;
-  std::vector<T> things_;
+  Cell_kinds kinds_;
+  std::vector<T> values_;
 };
 
 } // namespace equiaffine::internal

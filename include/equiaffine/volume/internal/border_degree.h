@@ -10,12 +10,12 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
 
-/// What the polynomial of degree d through f_1 .. f_{d+1} errs at f_0: the difference of order d + 1.
+/// How far the polynomial of degree d through f_1 .. f_{d+1} is from f_0, where f_j = samples[j stride]: the magnitude
+/// of the difference of order d + 1.
 template <class FT>
 FT error_of_prediction(const FT* samples, std::ptrdiff_t stride, int d) {
   FT sum = 0, binomial = 1; // exact: small integers
@@ -26,31 +26,37 @@ FT error_of_prediction(const FT* samples, std::ptrdiff_t stride, int d) {
   return std::abs(sum);
 }
 
+/// The vote of the end of a line that begins at `*end`: 1 if the greater degree predicts the sample there better than
+/// the lesser one, else -1; 0 if the lesser one predicts it up to rounding, or if the sample is NaN.
+template <class FT>
+int vote_for_greater_degree(const FT* end, std::ptrdiff_t stride, int lesser, int greater) {
+  const FT of_lesser = error_of_prediction(end, stride, lesser);
+  const FT of_greater = error_of_prediction(end, stride, greater);
+  if (!(of_lesser > 1000 * std::numeric_limits<FT>::epsilon() * std::abs(*end))) return 0;
+  return of_greater < of_lesser ? 1 : -1;
+}
+
 /// The degree of the polynomials that extend size[0] x size[1] x size[2] samples beyond the border for a spline of
-/// degree n (see Line_filter): the greater of the two where it predicts the ends of most lines better from the samples
-/// next to them than the lesser one does. It does not for noise, nor for edges of a scan, and magnifies both more.
-/// Lines that are polynomials up to rounding say nothing. Time: that of a border of n + 4 samples.
+/// degree n (see Line_filter): n + 2, at most 9, if that degree predicts the sample at most ends of lines from its
+/// neighbors better than degree n does; else n. Degree n wins for noise and for edges in a scan, which the greater
+/// degree would magnify. Time: proportional to the number of samples in the n + 4 layers at the border.
 template <class FT>
 int border_degree(const std::vector<FT>& samples, const std::array<std::size_t, 3>& size, int degree,
                   Spline_scheme scheme) {
   const int greater = std::min(degree + 2, greatest_border_degree);
   if (scheme != Spline_scheme::QUASI_INTERPOLATION || greater == degree) return degree;
+  const std::array<std::size_t, 3> strides = {1, size[0], size[0] * size[1]};
   std::ptrdiff_t votes = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     if (size[a] < std::size_t(greater) + 2) continue;
-    const std::array<std::size_t, 3> strides = {1, size[0], size[0] * size[1]};
     const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
     const auto stride = std::ptrdiff_t(strides[a]);
     for (std::size_t k = 0; k < size[c]; ++k)
       for (std::size_t j = 0; j < size[b]; ++j) {
         const FT* const begin = samples.data() + k * strides[c] + j * strides[b];
         const FT* const last = begin + (size[a] - 1) * strides[a];
-        for (const auto& [end, step] : {std::pair(begin, stride), std::pair(last, -stride)}) {
-          const FT of_lesser = error_of_prediction(end, step, degree);
-          const FT of_greater = error_of_prediction(end, step, greater);
-          if (of_lesser > 1000 * std::numeric_limits<FT>::epsilon() * std::abs(*end))
-            votes += of_greater < of_lesser ? 1 : -1;
-        }
+        votes += vote_for_greater_degree(begin, stride, degree, greater);
+        votes += vote_for_greater_degree(last, -stride, degree, greater);
       }
   }
   return votes > 0 ? greater : degree;

@@ -12,7 +12,7 @@
 
 namespace equiaffine::internal {
 
-/// As many numbers as one register of the target holds, by the vector extension that g++ and clang share.
+/// A pack has as many numbers as one register of the target holds, by the vector extension that g++ and clang share.
 template <class FT>
 struct Spline_pack {
 #if defined(__AVX512F__)
@@ -36,27 +36,28 @@ struct Spline_pack {
   static constexpr int round_up(int n) { return (n + lanes - 1) / lanes * lanes; }
 };
 
-/// How far beyond the last coefficient an evaluation may read (and ignore what it finds): one pack of any target.
+/// How many numbers beyond the last coefficient an evaluation may read, whose values have no influence: the largest pack
+/// of any target.
 inline constexpr std::size_t overread = 16;
 
-/// f(0), ..., f(N - 1) with constant arguments, so that arrays indexed by them live in registers.
+/// Calls f(0), ..., f(N - 1) with constant arguments, so that arrays indexed by them live in registers.
 template <int N, class F>
 void unrolled(F f) {
   [&]<int... I>(std::integer_sequence<int, I...>) { (f(std::integral_constant<int, I>()), ...); }
   (std::make_integer_sequence<int, N>());
 }
 
-/// The Taylor coefficients at t in [0, 1] of the n + 1 B-splines of a cell; row d: the d-th derivatives / d!.
+/// The Taylor coefficients at t in [0, 1] of the n + 1 B-splines of a cell: row d has the d-th derivatives / d!.
 template <int Degree, int Order, class FT>
 struct Bspline_taylor {
   static constexpr int width = Spline_pack<FT>::round_up(Degree + 1);
   FT rows[Order + 1][width];
 
+  /// Horner's scheme, extended to derivatives, with a B-spline in each lane.
   explicit Bspline_taylor(FT t) {
     static constexpr auto basis = bspline_basis_polynomials<FT, Degree, width>();
     const FT s = t - FT(0.5);
-    for (int r = 0; r < width;
-         r += Spline_pack<FT>::lanes) { // Horner's scheme with its derivatives, a B-spline per lane
+    for (int r = 0; r < width; r += Spline_pack<FT>::lanes) {
       typename Spline_pack<FT>::type b[Order + 1] = {};
       b[0] = Spline_pack<FT>::load(&basis[Degree][r]);
       unrolled<Degree>([&](auto step) {
@@ -68,49 +69,75 @@ struct Bspline_taylor {
   }
 };
 
-/// Taylor coefficients of total order <= `Order` of the tensor product spline, in index space, at the offset t in
-/// [0, 1]^3 of a cell whose first tap is `*c`; taps are 1, `row` and `slab` apart along x, y and z.
+/// The contraction of the coefficients of a cell with the B-splines' Taylor coefficients, one axis after the other:
+/// along z for every order k, then along y for orders j + k <= Order, then along x for i + j + k <= Order.
 ///
-/// Separable: first z for every derivative order k, then y for j + k <= Order, both with x in the lanes, so that the
-/// coefficients are read once and whole rows at a time; then x for i + j + k <= Order, with i in the lanes.
+/// The first two passes have neighbors along x in the lanes of a pack, so that coefficients are read once and whole rows
+/// at a time; the last one has the orders i in the lanes.
 template <int Degree, int Order, class FT>
-void contract(const FT* c, std::size_t row, std::size_t slab, const std::array<FT, 3>& t,
-              std::array<FT, std::size_t(number_of_monomials(Order))>& taylor) {
+struct Cell_contraction {
   using Lanes = Spline_pack<FT>;
-  constexpr int taps = Degree + 1, width = Lanes::round_up(taps), orders = Order + 1;
-  const Bspline_taylor<Degree, Order, FT> bx(t[0]), by(t[1]), bz(t[2]);
+  using Pack = typename Lanes::type;
+  using Taylor = Bspline_taylor<Degree, Order, FT>;
+  static constexpr int taps = Degree + 1, orders = Order + 1, width = Taylor::width;
 
-  FT lines[orders][orders][width]; // [k][j][x]
-  for (int x = 0; x < width; x += Lanes::lanes) {
-    typename Lanes::type along_z[orders][taps];
+  using Columns = Pack[orders][taps];      ///< [k][y]
+  using Lines = FT[orders][orders][width]; ///< [k][j][x]
+
+  /// Sums along z of a pack of columns whose first coefficients are at `c`, `c + row`, ..., for each y.
+  static void along_z(const FT* c, std::size_t row, std::size_t slab, const Taylor& bz, Columns& columns) {
     for (int y = 0; y < taps; ++y) {
-      typename Lanes::type sum[orders] = {};
+      Pack sum[orders] = {};
       for (int z = 0; z < taps; ++z) {
-        const auto pack = Lanes::load(c + std::size_t(z) * slab + std::size_t(y) * row + x);
+        const auto pack = Lanes::load(c + std::size_t(z) * slab + std::size_t(y) * row);
         unrolled<orders>([&](auto k) { sum[k] += bz.rows[k][z] * pack; });
       }
-      unrolled<orders>([&](auto k) { along_z[k][y] = sum[k]; });
+      unrolled<orders>([&](auto k) { columns[k][y] = sum[k]; });
     }
+  }
+
+  /// Sums along y; they become the pack of `lines` that begins at x.
+  static void along_y(const Columns& columns, const Taylor& by, Lines& lines, int x) {
     unrolled<orders>([&](auto k) {
-      typename Lanes::type sum[orders - k] = {};
-      for (int y = 0; y < taps; ++y) unrolled<orders - k>([&](auto j) { sum[j] += by.rows[j][y] * along_z[k][y]; });
+      Pack sum[orders - k] = {};
+      for (int y = 0; y < taps; ++y) unrolled<orders - k>([&](auto j) { sum[j] += by.rows[j][y] * columns[k][y]; });
       unrolled<orders - k>([&](auto j) { Lanes::store(sum[j], lines[k][j] + x); });
     });
   }
 
-  FT transposed[taps][Lanes::round_up(orders)] = {}; // [x][i]
-  for (int x = 0; x < taps; ++x)
-    for (int i = 0; i < orders; ++i) transposed[x][i] = bx.rows[i][x];
-  unrolled<orders>([&](auto k) {
-    unrolled<orders - k>([&](auto j) {
-      constexpr int count = orders - k - j, packs = Lanes::round_up(count) / Lanes::lanes;
-      typename Lanes::type sum[packs] = {};
-      for (int x = 0; x < taps; ++x)
-        unrolled<packs>([&](auto p) { sum[p] += lines[k][j][x] * Lanes::load(transposed[x] + p * Lanes::lanes); });
-      unrolled<count>(
-          [&](auto i) { taylor[std::size_t(monomial_index(i, j, k))] = sum[i / Lanes::lanes][i % Lanes::lanes]; });
+  /// Sums along x, which are the Taylor coefficients.
+  static void along_x(const Lines& lines, const Taylor& bx,
+                      std::array<FT, std::size_t(number_of_monomials(Order))>& taylor) {
+    FT transposed[taps][Lanes::round_up(orders)] = {}; // [x][i]
+    for (int x = 0; x < taps; ++x)
+      for (int i = 0; i < orders; ++i) transposed[x][i] = bx.rows[i][x];
+    unrolled<orders>([&](auto k) {
+      unrolled<orders - k>([&](auto j) {
+        constexpr int count = orders - k - j, packs = Lanes::round_up(count) / Lanes::lanes;
+        Pack sum[packs] = {};
+        for (int x = 0; x < taps; ++x)
+          unrolled<packs>([&](auto p) { sum[p] += lines[k][j][x] * Lanes::load(transposed[x] + p * Lanes::lanes); });
+        unrolled<count>(
+            [&](auto i) { taylor[std::size_t(monomial_index(i, j, k))] = sum[i / Lanes::lanes][i % Lanes::lanes]; });
+      });
     });
-  });
+  }
+};
+
+/// Taylor coefficients of total order <= `Order` of the tensor product spline, in lattice coordinates, at the offset t
+/// in [0, 1]^3 of a cell. Its (n + 1)^3 coefficients begin at `*c` and are 1, `row` and `slab` apart along x, y and z.
+template <int Degree, int Order, class FT>
+void contract(const FT* c, std::size_t row, std::size_t slab, const std::array<FT, 3>& t,
+              std::array<FT, std::size_t(number_of_monomials(Order))>& taylor) {
+  using Contraction = Cell_contraction<Degree, Order, FT>;
+  const Bspline_taylor<Degree, Order, FT> bx(t[0]), by(t[1]), bz(t[2]);
+  typename Contraction::Lines lines;
+  for (int x = 0; x < Contraction::width; x += Spline_pack<FT>::lanes) {
+    typename Contraction::Columns columns;
+    Contraction::along_z(c + x, row, slab, bz, columns);
+    Contraction::along_y(columns, by, lines, x);
+  }
+  Contraction::along_x(lines, bx, taylor);
 }
 
 } // namespace equiaffine::internal
