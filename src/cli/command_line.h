@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_SRC_CLI_COMMAND_LINE_H
 #define EQUIAFFINE_SRC_CLI_COMMAND_LINE_H
 
+#include "cli/Option_row.h"
 #include "cli/option_values.h"
 
 #include <map>
@@ -11,18 +12,16 @@
 
 namespace equiaffine {
 
-/// What stands on the command line: the words of every option that is given. Their meaning is a matter of options.h.
+/// What stands on the command line: the words of every option that is given, not yet their meaning.
 struct Command_line {
-  std::string command;
-  std::map<std::string, Words> options;   ///< "-o" is "--output"; the positional of `view` is "MESH.ply"
+  Command command = MESH;
+  std::map<std::string, Words> options;   ///< by the name() of the option's row
   std::optional<std::string> information; ///< help or version, if it was asked for
 
   bool has(const std::string& option) const { return options.count(option) > 0; }
 
-  /// The word of an option that is given or has a default.
-  const std::string& word(const std::string& option, const std::string& otherwise) const {
-    return has(option) ? options.at(option).front() : otherwise;
-  }
+  /// The first word of an option that is given.
+  const std::string& word(const std::string& option) const { return options.at(option).front(); }
 };
 
 /// Splits the command line with CLI11. Words that an option needs are its own whatever they look like, so that `-.5`

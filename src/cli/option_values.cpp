@@ -29,7 +29,7 @@ std::optional<Number> parse_number(std::string_view word) {
   return number;
 }
 
-/// Insertions, deletions, replacements and swaps of neighbours that make one word of the other.
+/// Insertions, deletions, replacements and swaps of neighbors that make one word of the other.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
   std::iota(last.begin(), last.end(), std::size_t(0));
@@ -67,33 +67,49 @@ std::size_t parse_count(const std::string& option, const std::string& word, std:
   return *number;
 }
 
-std::array<std::size_t, 3> parse_resolution(const std::string& option, const Words& words) {
+std::array<double, 3> parse_triple(const Option_words& option) {
+  std::array<double, 3> result{};
+  for (std::size_t a = 0; a < 3; ++a) result[a] = parse_finite_number(option.name, option.words[a]);
+  return result;
+}
+
+double parse_length(const Option_words& option) {
+  const double length = parse_number(option);
+  if (!(length > 0))
+    fail_option(option.name, "'" + option.word() + "' is not a length", "give a number above 0, or leave it out");
+  return length;
+}
+
+std::array<std::size_t, 3> parse_resolution(const Option_words& option) {
+  const auto& [name, words] = option;
   if (words.size() != 1 && words.size() != 3)
-    fail_option(option, std::to_string(words.size()) + " numbers are given", "give one, N, or three, NX NY NZ");
+    fail_option(name, std::to_string(words.size()) + " numbers are given", "give one, N, or three, NX NY NZ");
   std::array<std::size_t, 3> resolution{};
-  for (std::size_t a = 0; a < 3; ++a) resolution[a] = parse_count(option, words[words.size() == 3 ? a : 0], 2);
+  for (std::size_t a = 0; a < 3; ++a) resolution[a] = parse_count(name, words[words.size() == 3 ? a : 0], 2);
   return resolution;
 }
 
-CGAL::Bbox_3 parse_box(const std::string& option, const Words& words) {
+CGAL::Bbox_3 parse_box(const Option_words& option) {
+  const auto& [name, words] = option;
   std::array<double, 6> bounds{};
-  for (std::size_t i = 0; i < 6; ++i) bounds[i] = parse_finite_number(option, words[i]);
+  for (std::size_t i = 0; i < 6; ++i) bounds[i] = parse_finite_number(name, words[i]);
   for (std::size_t a = 0; a < 3; ++a) {
     const std::string axis(1, axis_names[a]);
     if (!(bounds[2 * a] < bounds[2 * a + 1]))
-      fail_option(option,
+      fail_option(name,
                   "the box is empty, " + axis + "MIN " + words[2 * a] + " is not below " + axis + "MAX " +
                       words[2 * a + 1],
                   "give XMIN XMAX YMIN YMAX ZMIN ZMAX");
     if (!std::isfinite(bounds[2 * a + 1] - bounds[2 * a]))
-      fail_option(option, "the box is too large", "its sides must be finite numbers");
+      fail_option(name, "the box is too large", "its sides must be finite numbers");
   }
   return {bounds[0], bounds[2], bounds[4], bounds[1], bounds[3], bounds[5]};
 }
 
-CGAL::Aff_transformation_3<Kernel> parse_transformation(const std::string& option, const Words& words) {
+CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& option) {
+  const auto& [name, words] = option;
   std::array<double, 9> m{}, n{};
-  for (std::size_t i = 0; i < 9; ++i) m[i] = parse_finite_number(option, words[i]);
+  for (std::size_t i = 0; i < 9; ++i) m[i] = parse_finite_number(name, words[i]);
   for (std::size_t row = 0; row < 3; ++row) {
     const double norm = std::hypot(m[3 * row], m[3 * row + 1], m[3 * row + 2]);
     for (std::size_t i = 3 * row; i < 3 * row + 3; ++i) n[i] = norm > 0 ? m[i] / norm : 0;
@@ -101,7 +117,7 @@ CGAL::Aff_transformation_3<Kernel> parse_transformation(const std::string& optio
   // With rows of length one the determinant is the volume they span: below rounding they lie in a plane.
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   if (!(std::abs(CGAL::determinant(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8])) > rounding))
-    fail_option(option, "the matrix is singular", "give nine numbers, row by row, of a matrix with an inverse");
+    fail_option(name, "the matrix is singular", "give nine numbers, row by row, of a matrix with an inverse");
   return {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]};
 }
 
@@ -112,13 +128,12 @@ std::pair<std::string, double> parse_constant(const std::string& option, const s
   return {word.substr(0, equals), parse_finite_number(option + " " + word, word.substr(equals + 1))};
 }
 
-std::size_t parse_choice(const std::string& option, const std::string& word,
-                         std::initializer_list<std::string_view> choices) {
-  const auto choice = std::find(choices.begin(), choices.end(), word);
+std::size_t parse_choice(const Option_words& option, std::span<const std::string_view> choices) {
+  const auto choice = std::find(choices.begin(), choices.end(), option.word());
   if (choice == choices.end()) {
     std::string list;
     for (const std::string_view c : choices) list.append(list.empty() ? "" : " or ").append(c);
-    fail_option(option, "'" + word + "' is not known", "use " + list);
+    fail_option(option.name, "'" + option.word() + "' is not known", "use " + list);
   }
   return std::size_t(choice - choices.begin());
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Turns words of the command line into values. Every function throws `Input_error`, with the name of the option.
 #ifndef EQUIAFFINE_SRC_CLI_OPTION_VALUES_H
 #define EQUIAFFINE_SRC_CLI_OPTION_VALUES_H
-
-// Words of the command line to values. `option` stands for the place in messages; every function throws `Input_error`.
 
 #include "system/kernel.h"
 
@@ -12,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,29 +21,53 @@ namespace equiaffine {
 
 using Words = std::vector<std::string>;
 
+/// An option that is given: its name and the words after it.
+struct Option_words {
+  std::string name;
+  Words words;
+
+  const std::string& word() const { return words.front(); }
+};
+
 /// "option: reason; advice"
 [[noreturn]] void fail_option(const std::string& option, const std::string& reason, const std::string& advice);
 
 double parse_finite_number(const std::string& option, const std::string& word);
 
+/// The only word of the option as a number.
+inline double parse_number(const Option_words& option) { return parse_finite_number(option.name, option.word()); }
+
+/// Word by word.
+std::array<double, 3> parse_triple(const Option_words& option);
+
+/// A length above 0.
+double parse_length(const Option_words& option);
+
 /// A whole number, at least `minimum`.
 std::size_t parse_count(const std::string& option, const std::string& word, std::size_t minimum);
 
 /// One or three counts of nodes.
-std::array<std::size_t, 3> parse_resolution(const std::string& option, const Words& words);
+std::array<std::size_t, 3> parse_resolution(const Option_words& option);
 
 /// XMIN XMAX YMIN YMAX ZMIN ZMAX
-CGAL::Bbox_3 parse_box(const std::string& option, const Words& words);
+CGAL::Bbox_3 parse_box(const Option_words& option);
 
 /// Nine numbers, row by row, of a matrix that is not singular, rounding considered.
-CGAL::Aff_transformation_3<Kernel> parse_transformation(const std::string& option, const Words& words);
+CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& option);
 
 /// name=value
 std::pair<std::string, double> parse_constant(const std::string& option, const std::string& word);
 
-/// The position of `word` in `choices`.
-std::size_t parse_choice(const std::string& option, const std::string& word,
-                         std::initializer_list<std::string_view> choices);
+/// The position of the only word of the option in `choices`.
+std::size_t parse_choice(const Option_words& option, std::span<const std::string_view> choices);
+
+/// The value that stands beside the only word of the option.
+template <class Value>
+Value parse_choice(const Option_words& option, std::initializer_list<std::pair<std::string_view, Value>> choices) {
+  std::vector<std::string_view> names;
+  for (const auto& choice : choices) names.push_back(choice.first);
+  return (choices.begin() + parse_choice(option, names))->second;
+}
 
 /// ", did you mean 'candidate'?" for the candidate with the fewest typing errors, if they are few; else nothing.
 std::string suggestion(const std::string& word, const Words& candidates);

@@ -113,7 +113,7 @@ void sample(const Traits& function, const Mesh_options& options, const Delaunay_
   const CGAL::Bbox_3 box = function.bbox();
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
   check_box_of_delaunay_surface(box, diagonal);
-  Delaunay_criteria criteria = method.criteria;
+  Delaunay_criteria criteria = {method.angle, method.radius, method.distance};
   criteria.radius = criteria.radius == 0 ? diagonal / 50 : std::min(criteria.radius, diagonal); // of no larger ball
   if (criteria.distance == 0) criteria.distance = criteria.radius / 10;
   check_memory_of_delaunay_surface(diagonal, criteria.radius, criteria.distance);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/program.h"
 
+#include "cli/parse_options.h"
 #include "commands/commands.h"
 #include "request/options.h"
 #include "system/progress.h"

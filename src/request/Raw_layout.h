@@ -14,9 +14,9 @@ inline constexpr std::array<std::string_view, 10> raw_types = {"uint8", "int8", 
 
 /// What a file of samples without a header does not say itself.
 struct Raw_layout {
-  std::array<std::size_t, 3> dims;
+  std::array<std::size_t, 3> dims = {};
   std::array<double, 3> spacing = {1, 1, 1}, origin = {0, 0, 0};
-  std::size_t type; ///< in raw_types
+  std::size_t type = 0; ///< the position in raw_types
 };
 
 } // namespace equiaffine

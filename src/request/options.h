@@ -4,9 +4,9 @@
 
 #include "request/Raw_layout.h"
 #include "system/kernel.h"
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/attributes.h>
-#include <equiaffine/delaunay_surface.h>
+#include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/delaunay/Facet_sizing.h>
+#include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/Estimator.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
 #include <equiaffine/volume/Spline_scheme.h>
@@ -61,7 +61,7 @@ struct Page_options {
 /// What only a picture has.
 struct Picture_options {
   std::array<std::size_t, 2> size = {1000, 800};
-  std::optional<std::array<double, 2>> range; ///< the numbers of the end colours
+  std::optional<std::array<double, 2>> range; ///< the numbers of the end colors
   std::string arrows;                         ///< a vector among the attributes, or empty
 };
 
@@ -70,7 +70,8 @@ struct Marching_cubes_options {
 };
 
 struct Delaunay_options {
-  Delaunay_criteria criteria; ///< a length of 0 stands for its default
+  double angle = 30;               ///< the least angle of triangles, in degrees
+  double radius = 0, distance = 0; ///< as in Delaunay_criteria; 0 stands for the default
   Facet_sizing sizing = Facet_sizing::UNIFORM;
   bool clips_to_ball = false; ///< the largest one in the box
 };
@@ -118,12 +119,6 @@ struct Options {
   std::variant<Information, Mesh_options, Evaluate_options, Sample_options, View_options> command;
   std::optional<std::size_t> threads;
 };
-
-/// Reads the command line, without the program's name. Throws `Input_error` for everything that cannot be meant.
-Options parse_options(const std::vector<std::string>& arguments);
-
-/// The nodes per axis that hold for a source if none are given.
-std::array<std::size_t, 3> default_resolution(Source_kind kind);
 
 } // namespace equiaffine
 

@@ -109,6 +109,11 @@ Fit fit_spline(const Source_options& source, Progress& progress) {
 
 } // namespace
 
+std::array<std::size_t, 3> default_resolution(Source_kind kind) {
+  const std::size_t n = kind == Source_kind::DISTANCE ? 129 : 64;
+  return {n, n, n};
+}
+
 Volume_3<Kernel> sample_source(const Source_options& options, Progress& progress) {
   const Size size = options.resolution.value_or(default_resolution(options.kind));
   check_memory_of_volume(size);

@@ -9,6 +9,7 @@
 #include "system/progress.h"
 #include <equiaffine/attributes/Curvature_error_3.h>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -25,6 +26,9 @@ struct Source {
 /// Makes the function, which may mean to read a volume, to measure distances, and to fit a spline. Throws
 /// `Input_error`.
 Source make_source(const Source_options& options, Progress& progress);
+
+/// The nodes per axis of a source that is sampled, if none are given.
+std::array<std::size_t, 3> default_resolution(Source_kind kind);
 
 /// The samples of a source that is not a volume.
 Volume_3<Kernel> sample_source(const Source_options& options, Progress& progress);

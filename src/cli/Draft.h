@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_CLI_DRAFT_H
+#define EQUIAFFINE_SRC_CLI_DRAFT_H
+
+#include "request/options.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace equiaffine {
+
+/// What the options of any command say; each command takes its part. Here are the defaults that a request has not.
+struct Draft {
+  std::optional<std::size_t> threads;
+  Source_options source;
+  double isovalue = 0;
+  Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
+  bool is_delaunay = false;
+  Marching_cubes_options marching_cubes;
+  Delaunay_options delaunay;
+  Attribute_selection attributes = select_attributes("basic");
+  Estimator estimator = Estimator::COMPACT;
+  Page_options page;
+  Picture_options picture;
+  bool samples_are_float = false;
+  std::string mesh, points; ///< the files that `view` and `evaluate` read
+  std::optional<std::string> output, html, png, curves, stats;
+};
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "attributes/error_columns.h"
+#include "cli/Option_row.h"
+#include <equiaffine/Input_error.h>
+
+#include <algorithm>
+
+namespace equiaffine {
+
+namespace {
+
+using enum Option_group;
+
+#ifdef EQUIAFFINE_WITH_VTK
+const std::string vtp = " .vtp";
+#else
+const std::string vtp;
+#endif
+
+/// The parts of a text between separators.
+Words split(const std::string& text, char separator) {
+  Words parts(1);
+  for (const char c : text)
+    if (c == separator) parts.emplace_back();
+    else parts.back() += c;
+  return parts;
+}
+
+/// Error estimates are not among the attributes of the library: the source is told of them.
+void read_attributes(const Option_words& option, Draft& draft) {
+  bool& estimates_errors = draft.source.spline.estimates_errors;
+  std::string list;
+  for (const std::string& name : split(option.word(), ',')) {
+    const bool is_error = std::find(error_attributes.begin(), error_attributes.end(), name) != error_attributes.end();
+    estimates_errors = estimates_errors || is_error;
+    if (!is_error) list += (list.empty() ? "" : ",") + name;
+  }
+  if (estimates_errors && draft.source.derivatives == Derivatives::JETS)
+    fail_option(option.name, "errors are estimated for splines, and the derivatives of a formula have none",
+                "add --derivatives spline or leave them out");
+  try {
+    draft.attributes = select_attributes(list.empty() && estimates_errors ? "status" : list);
+  } catch (const Input_error& error) {
+    throw Input_error(option.name + ": " + error.what());
+  }
+}
+
+void read_estimator(const Option_words& option, Draft& draft) {
+  draft.estimator = parse_choice<Estimator>(option, {{"compact", Estimator::COMPACT},
+                                                     {"transformation", Estimator::TRANSFORMATION},
+                                                     {"direct", Estimator::DIRECT},
+                                                     {"direct-z", Estimator::DIRECT_Z}});
+}
+
+void read_up(const Option_words& option, Draft& draft) {
+  draft.page.up = parse_choice<std::array<double, 3>>(option, {{"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}});
+}
+
+void read_size(const Option_words& option, Draft& draft) {
+  constexpr std::size_t least = 100, most = 10'000; // for a legend, and for memory
+  for (std::size_t n = 0; n < 2; ++n) {
+    const std::string& word = option.words[n];
+    draft.picture.size[n] = parse_count(option.name, word, least);
+    if (draft.picture.size[n] > most)
+      fail_option(option.name, "'" + word + "' is more than 10000", "give fewer pixels");
+  }
+}
+
+void read_range(const Option_words& option, Draft& draft) {
+  const auto& [name, words] = option;
+  const double low = parse_finite_number(name, words[0]), high = parse_finite_number(name, words[1]);
+  if (!(low < high))
+    fail_option(name, "'" + words[0] + "' is not less than '" + words[1] + "'", "give the smaller number first");
+  draft.picture.range = {low, high};
+}
+
+void read_output(const Option_words& option, Draft& draft) { draft.output = option.word(); }
+
+const std::vector<Option_row> rows = {
+    {"-o,--output", MESH, OUTPUT, 1, "OUT",
+     "the mesh: .ply .off .obj .stl" + vtp +
+         ", or its vertices as .csv; - writes OFF to standard\n"
+         "output. Attributes are in .ply .csv" +
+         vtp + ", normals in .obj",
+     read_output},
+    {"-o,--output", EVALUATE, OUTPUT, 1, "OUT",
+     "the points with their attributes, .csv or .ply; - writes CSV to standard output", read_output},
+    {"-o,--output", SAMPLE, OUTPUT, 1, "VOLUME", "the volume: .nrrd .mhd .mha .nii .nii.gz .vti", read_output},
+    {"-o,--output", VIEW, OUTPUT, 1, "PAGE.html", "the page, needed unless there is --png; - writes to standard output",
+     read_output},
+    {"--type", SAMPLE, OUTPUT, 1, "float|double", "the type of the samples, by default double",
+     [](const Option_words& option, Draft& draft) {
+       draft.samples_are_float = parse_choice<bool>(option, {{"float", true}, {"double", false}});
+     }},
+    {"--attributes", MESH | EVALUATE, OUTPUT, 1, "basic|all|none|LIST",
+     "what to compute: basic (the default) is normal, k1, k2, gaussian_curvature,\n"
+     "mean_curvature, conormal, affine_normal, affine_gaussian_curvature,\n"
+     "affine_mean_curvature, pick_invariant, status; all adds affine_k1, affine_k2,\n"
+     "direction1, direction2, metric; LIST is some of these words with commas between, also\n"
+     "quadric_defect, signature (affine curvatures, pick_invariant, and the norms of their\n"
+     "gradients), and for a spline affine_gaussian_curvature_error and\n"
+     "affine_mean_curvature_error",
+     read_attributes},
+    {"--estimator", MESH | EVALUATE, OUTPUT, 1, "compact|transformation|direct|direct-z",
+     "how conormal, affine_normal, affine_gaussian_curvature and affine_mean_curvature are\n"
+     "computed from the derivatives: our own formulas (compact, the default), or those of\n"
+     "Andrade and Lewiner, to compare with",
+     read_estimator},
+    {"--html", MESH, OUTPUT, 1, "PAGE.html", "also a web page to look at the surface, without network",
+     [](const Option_words& option, Draft& draft) { draft.html = option.word(); }},
+    {"--png", MESH | VIEW, OUTPUT, 1, "PICTURE.png",
+     "also a picture, which is what the page shows first; needs no display",
+     [](const Option_words& option, Draft& draft) { draft.png = option.word(); }},
+    {"--color", MESH | VIEW, OUTPUT, 1, "NAME", "the attribute that page and picture show first, or status or plain",
+     [](const Option_words& option, Draft& draft) { draft.page.color = option.word(); }},
+    {"--up", MESH | VIEW, OUTPUT, 1, "x|y|z", "the axis that points up on them, by default z", read_up},
+    {"--size", MESH | VIEW, OUTPUT, 2, "WIDTH HEIGHT", "of the picture in pixels, by default 1000 800", read_size},
+    {"--range", MESH | VIEW, OUTPUT, 2, "LOW HIGH",
+     "the numbers of the end colors of the picture, by default quantiles as on the page;\n"
+     "blue and red about white if LOW is -HIGH",
+     read_range},
+    {"--arrows", MESH | VIEW, OUTPUT, 1, "VECTOR", "arrows on the picture, such as affine_normal",
+     [](const Option_words& option, Draft& draft) { draft.picture.arrows = option.word(); }},
+    {"--parabolic-curves", MESH, OUTPUT, 1, "CURVES",
+     "also the curves on the surface where gaussian_curvature is 0 and changes its sign:\n"
+     ".obj" +
+         vtp + "; - writes OBJ to standard output",
+     [](const Option_words& option, Draft& draft) { draft.curves = option.word(); }},
+    {"--stats", MESH, OUTPUT, 1, "FILE.json", "also statistics: sizes, topology, status, accuracy, times",
+     [](const Option_words& option, Draft& draft) { draft.stats = option.word(); }},
+};
+
+} // namespace
+
+std::span<const Option_row> output_options() { return rows; }
+
+} // namespace equiaffine

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/parse_options.h"
+
+#include "attributes/error_columns.h"
+#include "cli/Option_reader.h"
+#include "cli/read_source.h"
+#include <equiaffine/Input_error.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <system_error>
+#include <utility>
+
+namespace equiaffine {
+
+namespace {
+
+/// Names of the same file are equal after this, whatever links and dots lead there.
+std::filesystem::path canonical_output(const std::string& path) {
+  if (path == "-") return path;
+  std::error_code error;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, error),
+                              canonical = std::filesystem::weakly_canonical(absolute, error);
+  return error ? absolute.lexically_normal() : canonical;
+}
+
+void check_outputs(const std::vector<std::optional<std::string>>& paths) {
+  std::set<std::filesystem::path> outputs;
+  for (const auto& path : paths)
+    if (path && !outputs.insert(canonical_output(*path)).second)
+      throw Input_error("two outputs go to " + (path == "-" ? "standard output" : "'" + *path + "'") +
+                        "; give each its own name");
+}
+
+void read_delaunay_options(Option_reader& reader) {
+  reader.refuse({"--vertices"}, "it is for --method marching-cubes", "leave it out");
+  if (reader.draft().source.derivatives == Derivatives::JETS)
+    reader.refuse({"--resolution"}, "--method delaunay needs no grid for a formula",
+                  "leave it out and say with --radius how fine the mesh is to be");
+  reader.read({"--angle", "--radius", "--distance"});
+  const double angle = reader.draft().delaunay.angle;
+  if (!(angle >= 0 && angle <= 30))
+    fail_option("--angle", "'" + reader.word("--angle") + "' is not between 0 and 30 degrees",
+                "give a smaller one: with more than 30 the refinement need not end");
+  reader.read({"--sizing", "--clip"});
+}
+
+/// Reads `--method` and the options that belong to it.
+void read_method(Option_reader& reader) {
+  reader.read({"--method"});
+  if (reader.draft().is_delaunay) return read_delaunay_options(reader);
+  reader.refuse({"--angle", "--radius", "--distance", "--sizing", "--clip"}, "it is for --method delaunay",
+                "add --method delaunay or leave it out");
+  reader.read({"--vertices"});
+}
+
+void need_output(const Option_reader& reader) { reader.need("--output", "name the file to write, -o FILE"); }
+
+void refuse_picture_options(const Option_reader& reader) {
+  if (!reader.has("--png"))
+    reader.refuse({"--size", "--range", "--arrows"}, "it is for the picture of --png", "add --png or leave it out");
+}
+
+bool has_vector(const Attribute_selection& attributes, const std::string& name) {
+  return std::count_if(attributes.columns.begin(), attributes.columns.end(),
+                       [&](const Attribute& attribute) { return attribute.group == name; }) == 3;
+}
+
+bool has_color(const Draft& draft, const std::string& name) {
+  const auto& columns = draft.attributes.columns;
+  return name == "plain" || (name == "status" && draft.attributes.has_status) ||
+         std::any_of(columns.begin(), columns.end(), [&](const Attribute& column) { return column.name == name; }) ||
+         (draft.source.spline.estimates_errors &&
+          std::find(error_attributes.begin(), error_attributes.end(), name) != error_attributes.end());
+}
+
+/// Checks that there is a page or picture, and that it will have the attributes it is to show.
+void check_page(const Option_reader& reader) {
+  if (!reader.has("--html") && !reader.has("--png"))
+    reader.refuse({"--color", "--up"}, "it is for the page of --html and the picture of --png",
+                  "add one of them or leave it out");
+  const Draft& draft = reader.draft();
+  const std::string &arrows = draft.picture.arrows, &color = draft.page.color;
+  if (!arrows.empty() && !has_vector(draft.attributes, arrows))
+    fail_option("--arrows", "'" + arrows + "' is not among the vectors that are computed",
+                "name one of them, such as affine_normal, or add it to --attributes");
+  if (!color.empty() && !has_color(draft, color))
+    fail_option("--color", "'" + color + "' is not among the attributes that are computed",
+                "name one of them, such as affine_mean_curvature, or add it to --attributes");
+}
+
+/// The expansions of the paper's scheme are those of no function, which other ways to find a surface need.
+void check_scheme(const Draft& draft) {
+  if (draft.source.spline.scheme != Spline_scheme::PAPER) return;
+  if (draft.is_delaunay || draft.marching_cubes.vertices != Vertex_position::LINEAR || draft.curves)
+    fail_option("--spline-scheme", "paper is for Marching Cubes with linear vertices and without parabolic curves",
+                "add --vertices linear, or use convolution");
+}
+
+Mesh_options read_mesh_options(Option_reader& reader) {
+  read_source(reader);
+  reader.read({"--isovalue", "--orientation"});
+  read_method(reader);
+  reader.read({"--attributes", "--estimator"});
+  need_output(reader);
+  reader.read({"--up"});
+  refuse_picture_options(reader);
+  reader.read_rest();
+  check_page(reader);
+  Draft& draft = reader.draft();
+  check_scheme(draft);
+  check_outputs({draft.output, draft.html, draft.png, draft.curves, draft.stats});
+
+  Mesh_options options;
+  options.source = std::move(draft.source);
+  options.source.spline.isovalue = draft.isovalue;
+  options.isovalue = draft.isovalue;
+  options.orientation = draft.orientation;
+  if (draft.is_delaunay) options.method = draft.delaunay;
+  else options.method = draft.marching_cubes;
+  options.attributes = std::move(draft.attributes);
+  options.estimator = draft.estimator;
+  options.output = *draft.output;
+  options.html = draft.html;
+  options.png = draft.png;
+  options.curves = draft.curves;
+  options.stats = draft.stats;
+  options.page = draft.page;
+  options.picture = draft.picture;
+  return options;
+}
+
+Evaluate_options read_evaluate_options(Option_reader& reader) {
+  read_source(reader);
+  reader.read_rest();
+  reader.need("--points", "name the file with the points");
+  need_output(reader);
+  const Draft& draft = reader.draft();
+  if (draft.source.kind == Source_kind::DISTANCE && draft.source.text == "-" && draft.points == "-")
+    throw Input_error("--distance-to and --points both read standard input; name a file for one of them");
+  return {draft.source, draft.orientation, draft.attributes, draft.estimator, draft.points, *draft.output};
+}
+
+Sample_options read_sample_options(Option_reader& reader) {
+  read_source(reader);
+  reader.read_rest();
+  need_output(reader);
+  const Draft& draft = reader.draft();
+  return {draft.source, draft.samples_are_float, *draft.output};
+}
+
+View_options read_view_options(Option_reader& reader) {
+  if (!reader.has("MESH.ply")) throw Input_error("no mesh is given; write 'equiaffine view MESH.ply -o PAGE.html'");
+  reader.read({"--up"});
+  refuse_picture_options(reader);
+  reader.read_rest();
+  const Draft& draft = reader.draft();
+  if (!draft.output && !draft.png)
+    throw Input_error("no output is given; name the page, -o PAGE.html, or the picture, --png FILE.png");
+  check_outputs({draft.output, draft.png});
+  return {draft.mesh, draft.output, draft.png, draft.page, draft.picture};
+}
+
+} // namespace
+
+Options parse_options(const std::vector<std::string>& arguments) {
+  const Command_line line = split_command_line(arguments);
+  if (line.information) return {Information{*line.information}, {}};
+  Option_reader reader(line);
+  reader.read({"--threads"});
+  Options options;
+  switch (line.command) {
+  case MESH: options.command = read_mesh_options(reader); break;
+  case EVALUATE: options.command = read_evaluate_options(reader); break;
+  case SAMPLE: options.command = read_sample_options(reader); break;
+  case VIEW: options.command = read_view_options(reader); break;
+  }
+  options.threads = reader.draft().threads;
+  return options;
+}
+
+} // namespace equiaffine

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_CLI_PARSE_OPTIONS_H
+#define EQUIAFFINE_SRC_CLI_PARSE_OPTIONS_H
+
+#include "request/options.h"
+
+#include <string>
+#include <vector>
+
+namespace equiaffine {
+
+/// Reads the command line, without the program's name. Throws `Input_error` for everything that cannot be meant.
+Options parse_options(const std::vector<std::string>& arguments);
+
+} // namespace equiaffine
+
+#endif

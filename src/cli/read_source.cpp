@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/read_source.h"
+
+#include <equiaffine/Input_error.h>
+#include <equiaffine/io/input_file.h>
+
+namespace equiaffine {
+
+namespace {
+
+void read_kind(Option_reader& reader) {
+  std::string given;
+  for (const char* option : {"--function", "--volume", "--distance-to"}) {
+    if (!reader.has(option)) continue;
+    if (!given.empty()) throw Input_error(given + " and " + option + " are both given; give one source");
+    given = option;
+    reader.read({option});
+  }
+  if (given.empty())
+    throw Input_error(std::string("no source is given; use ") + (reader.command() == SAMPLE
+                                                                     ? "--function or --distance-to"
+                                                                     : "--function, --volume or --distance-to"));
+  Source_options& source = reader.draft().source;
+  source.derivatives = source.kind == Source_kind::FUNCTION ? Derivatives::JETS : Derivatives::SPLINE;
+}
+
+/// Checks that the source has what was read of it, and that a formula has a box where it is sampled.
+void check_kind(const Option_reader& reader) {
+  const Source_options& source = reader.draft().source;
+  if (source.kind != Source_kind::FUNCTION) reader.refuse({"--set"}, "only a --function has constants", "leave it out");
+  if (source.kind == Source_kind::VOLUME)
+    reader.refuse({"--box", "--resolution"}, "a --volume has its own", "leave it out");
+  if (source.kind != Source_kind::FUNCTION && source.derivatives == Derivatives::JETS)
+    fail_option("--derivatives", "jets need a formula, and this source is known by samples only",
+                "leave it out or use spline");
+  const bool is_sampled = reader.command() != EVALUATE || source.derivatives == Derivatives::SPLINE;
+  if (source.kind == Source_kind::FUNCTION && is_sampled)
+    reader.need("--box", "say where the --function is to be sampled, such as --box -2 2 -2 2 -2 2");
+}
+
+void read_spline(Option_reader& reader) {
+  if (reader.draft().source.derivatives == Derivatives::JETS)
+    reader.refuse({"--spline-degree", "--spline-scheme", "--smoothing"},
+                  "it is for splines, and the derivatives are those of the formula",
+                  "add --derivatives spline or leave it out");
+  reader.read({"--spline-scheme", "--spline-degree"});
+  const Spline_options& spline = reader.draft().source.spline;
+  if (spline.scheme == Spline_scheme::PAPER && spline.degree != 5)
+    fail_option("--spline-degree", "the paper's spline has degree 5", "leave it out or use another --spline-scheme");
+  reader.read({"--smoothing"});
+}
+
+/// Reads what a file `.raw` does not say itself; the options are refused for others.
+void read_raw_layout(Option_reader& reader) {
+  if (reader.command() == SAMPLE) return; // its --type is that of what it writes
+  const Source_options& source = reader.draft().source;
+  const bool is_raw = source.kind == Source_kind::VOLUME && has_extension(source.text, ".raw");
+  if (!is_raw)
+    return reader.refuse({"--dims", "--spacing", "--origin", "--type"},
+                         "it is for a --volume FILE.raw, which has no header", "leave it out");
+  for (const char* option : {"--dims", "--type"})
+    reader.need(option, "a .raw has no header, say for instance --dims 256 256 128 --type int16");
+  reader.read({"--dims", "--spacing", "--origin", "--type"});
+}
+
+} // namespace
+
+void read_source(Option_reader& reader) {
+  read_kind(reader);
+  reader.read({"--set", "--box", "--resolution", "--transform", "--derivatives"});
+  check_kind(reader);
+  read_spline(reader);
+  read_raw_layout(reader);
+  if (reader.draft().source.kind != Source_kind::DISTANCE)
+    reader.refuse({"--narrow-band"}, "it is for --distance-to", "leave it out");
+  reader.read({"--narrow-band"});
+}
+
+} // namespace equiaffine

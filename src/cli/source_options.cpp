@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/Option_row.h"
+
+namespace equiaffine {
+
+namespace {
+
+using enum Option_group;
+
+void read_source(Source_kind kind, const Option_words& option, Draft& draft) {
+  draft.source.kind = kind;
+  draft.source.text = option.word();
+}
+
+void read_constants(const Option_words& option, Draft& draft) {
+  for (const std::string& word : option.words)
+    if (!draft.source.constants.insert(parse_constant(option.name, word)).second)
+      fail_option(option.name + " " + word, "the name has a value already", "give each name once");
+}
+
+void read_narrow_band(const Option_words& option, Draft& draft) {
+  const double band = parse_number(option);
+  if (!(band >= 1)) fail_option(option.name, "'" + option.word() + "' is less than 1 voxel", "give some 16 voxels");
+  draft.source.narrow_band = band;
+}
+
+Raw_layout& raw_layout(Draft& draft) {
+  if (!draft.source.raw) draft.source.raw.emplace();
+  return *draft.source.raw;
+}
+
+void read_raw_dims(const Option_words& option, Draft& draft) {
+  for (std::size_t a = 0; a < 3; ++a) raw_layout(draft).dims[a] = parse_count(option.name, option.words[a], 2);
+}
+
+const std::vector<Option_row> rows = {
+    {"--function", MESH | EVALUATE | SAMPLE, SOURCE, 1, "EXPR",
+     "a formula in x, y, z: + - * / ^ ( ) pi e sqrt cbrt exp log sin cos tan\n"
+     "asin acos atan atan2 sinh cosh tanh abs min max hypot pow; lhs = rhs means lhs - rhs",
+     [](const Option_words& option, Draft& draft) { read_source(Source_kind::FUNCTION, option, draft); }},
+    {"--set",
+     MESH | EVALUATE | SAMPLE,
+     SOURCE,
+     {1, unlimited},
+     "NAME=VALUE ...",
+     "constants of the formula",
+     read_constants},
+    {"--distance-to", MESH | EVALUATE | SAMPLE, SOURCE, 1, "MESH",
+     "the signed distance, negative inside, to a closed mesh: .off .ply .obj .stl; - reads\n"
+     "OFF from standard input",
+     [](const Option_words& option, Draft& draft) { read_source(Source_kind::DISTANCE, option, draft); }},
+    {"--narrow-band", MESH | EVALUATE | SAMPLE, SOURCE, 1, "N",
+     "measure distances up to N voxels only, which is faster; 16 are enough without --smoothing", read_narrow_band},
+    {"--volume", MESH | EVALUATE, SOURCE, 1, "FILE",
+     "a volume of samples: .nrrd .nhdr .mhd .mha .nii .nii.gz .inr .inr.gz .vti .raw, or a\n"
+     "folder with a DICOM series",
+     [](const Option_words& option, Draft& draft) { read_source(Source_kind::VOLUME, option, draft); }},
+    {"--dims", MESH | EVALUATE, SOURCE, 3, "NX NY NZ", "nodes of a .raw, which has no header; x runs fastest",
+     read_raw_dims},
+    {"--type", MESH | EVALUATE, SOURCE, 1, "TYPE",
+     "type of the samples of a .raw: uint8 int8 uint16 int16 uint32 int32 uint64 int64\n"
+     "float double",
+     [](const Option_words& option, Draft& draft) { raw_layout(draft).type = parse_choice(option, raw_types); }},
+    {"--spacing", MESH | EVALUATE, SOURCE, 3, "DX DY DZ", "steps between the nodes of a .raw, by default 1 1 1",
+     [](const Option_words& option, Draft& draft) { raw_layout(draft).spacing = parse_triple(option); }},
+    {"--origin", MESH | EVALUATE, SOURCE, 3, "X Y Z", "place of the first node of a .raw, by default 0 0 0",
+     [](const Option_words& option, Draft& draft) { raw_layout(draft).origin = parse_triple(option); }},
+    {"--box", MESH | EVALUATE | SAMPLE, BOX, 6, "XMIN XMAX YMIN YMAX ZMIN ZMAX",
+     "where a formula is looked at, before --transform; for a distance the mesh's box,\n"
+     "widened on all sides by 10 % of its longest side, if not given",
+     [](const Option_words& option, Draft& draft) { draft.source.box = parse_box(option); }},
+    {"--points", EVALUATE, SOURCE, 1, "IN",
+     "the points: .csv with a header that names x, y, z; .ply; .off; - reads one of these\n"
+     "from standard input",
+     [](const Option_words& option, Draft& draft) { draft.points = option.word(); }},
+    {"MESH.ply", VIEW, INPUT, 1, "", "a mesh as this program writes it, or any other .ply; - reads standard input",
+     [](const Option_words& option, Draft& draft) { draft.mesh = option.word(); }},
+};
+
+} // namespace
+
+std::span<const Option_row> source_options() { return rows; }
+
+} // namespace equiaffine

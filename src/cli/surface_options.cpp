@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/Option_row.h"
+
+namespace equiaffine {
+
+namespace {
+
+using enum Option_group;
+
+void read_derivatives(const Option_words& option, Draft& draft) {
+  draft.source.derivatives =
+      parse_choice<Derivatives>(option, {{"jets", Derivatives::JETS}, {"spline", Derivatives::SPLINE}});
+}
+
+void read_spline_degree(const Option_words& option, Draft& draft) {
+  draft.source.spline.degree = parse_choice<int>(option, {{"5", 5}, {"7", 7}, {"9", 9}});
+}
+
+void read_spline_scheme(const Option_words& option, Draft& draft) {
+  Spline_options& spline = draft.source.spline;
+  spline.scheme = parse_choice<Spline_scheme>(option, {{"quasi-interpolation", Spline_scheme::QUASI_INTERPOLATION},
+                                                       {"interpolation", Spline_scheme::INTERPOLATION},
+                                                       {"convolution", Spline_scheme::CONVOLUTION},
+                                                       {"paper", Spline_scheme::PAPER}});
+  if (spline.scheme == Spline_scheme::PAPER) spline.degree = 5;
+}
+
+void read_smoothing(const Option_words& option, Draft& draft) {
+  std::optional<double>& smoothing = draft.source.spline.smoothing;
+  if (option.word() == "auto") return smoothing.reset();
+  smoothing = parse_number(option);
+  constexpr double most = 100; // voxels
+  if (!(*smoothing >= 0 && *smoothing <= most))
+    fail_option(option.name, "'" + option.word() + "' is not between 0 and 100 voxels",
+                "use 0 for none, some 1.5 to 8 for noise, or auto");
+}
+
+void read_orientation(const Option_words& option, Draft& draft) {
+  draft.orientation =
+      parse_choice<Orientation_of_level_set>(option, {{"gradient", Orientation_of_level_set::ALONG_GRADIENT},
+                                                      {"against", Orientation_of_level_set::AGAINST_GRADIENT}});
+}
+
+void read_method(const Option_words& option, Draft& draft) {
+  draft.is_delaunay = parse_choice<bool>(option, {{"marching-cubes", false}, {"delaunay", true}});
+}
+
+void read_threads(const Option_words& option, Draft& draft) {
+  constexpr std::size_t most = 1024; // what a thread pool of any computer today takes without harm
+  draft.threads = parse_count(option.name, option.word(), 1);
+  if (*draft.threads > most)
+    fail_option(option.name, "'" + option.word() + "' is more than " + std::to_string(most),
+                "give the number of processor cores, or leave it out to use all of them");
+}
+
+void read_vertices(const Option_words& option, Draft& draft) {
+  draft.marching_cubes.vertices = parse_choice<Vertex_position>(
+      option, {{"projected", Vertex_position::PROJECTED}, {"linear", Vertex_position::LINEAR}});
+}
+
+void read_sizing(const Option_words& option, Draft& draft) {
+  draft.delaunay.sizing = parse_choice<Facet_sizing>(
+      option,
+      {{"uniform", Facet_sizing::UNIFORM}, {"euclidean", Facet_sizing::EUCLIDEAN}, {"affine", Facet_sizing::AFFINE}});
+}
+
+void read_clip(const Option_words& option, Draft& draft) {
+  draft.delaunay.clips_to_ball = parse_choice<bool>(option, {{"box", false}, {"ball", true}});
+}
+
+const std::vector<Option_row> rows = {
+    {"--isovalue", MESH, SURFACE, 1, "V", "the level set f = V, by default 0",
+     [](const Option_words& option, Draft& draft) { draft.isovalue = parse_number(option); }},
+    {"--transform", MESH | EVALUATE, SURFACE, 9, "A11 A12 .. A33",
+     "take the image of the surface under p -> A p, A given row by row",
+     [](const Option_words& option, Draft& draft) { draft.source.transformation = parse_transformation(option); }},
+    {"--derivatives", MESH | EVALUATE, SURFACE, 1, "jets|spline",
+     "from the formula (jets, its default), or from a spline through samples\n"
+     "on the grid (spline, the only way for volumes and distances)",
+     read_derivatives},
+    {"--spline-degree", MESH | EVALUATE, SURFACE, 1, "5|7|9", "the degree of that spline, by default 7",
+     read_spline_degree},
+    {"--spline-scheme", MESH | EVALUATE, SURFACE, 1, "quasi-interpolation|interpolation|convolution|paper",
+     "how samples become a spline: by a local filter (quasi-interpolation, the default) or a\n"
+     "recursive one (interpolation), both of order degree + 1; with the samples as\n"
+     "coefficients (convolution, order 2); or this in degree 5 at the nodes, linearly between\n"
+     "them, as Andrade and Lewiner do (paper, with --vertices linear)",
+     read_spline_scheme},
+    {"--smoothing", MESH | EVALUATE, SURFACE, 1, "S|auto",
+     "smooth the samples first: the standard deviation of the weights in voxels, more than 1\n"
+     "to have an effect, 0 by default, or what suits the noise in the samples (auto)",
+     read_smoothing},
+    {"--orientation", MESH | EVALUATE, SURFACE, 1, "gradient|against",
+     "normals towards larger f (gradient, the default) or smaller f (against)", read_orientation},
+    {"--method", MESH, SAMPLING, 1, "marching-cubes|delaunay",
+     "a mesh on the edges of a grid (marching-cubes, the default), or one of triangles with\n"
+     "good angles that is proved to be complete where the function has bounds (delaunay)",
+     read_method},
+    {"--resolution",
+     MESH | EVALUATE | SAMPLE,
+     SAMPLING,
+     {1, 3},
+     "N [NY NZ]",
+     "nodes of the grid per axis, 2 or more: 64, for a distance 129; a volume has its own",
+     [](const Option_words& option, Draft& draft) { draft.source.resolution = parse_resolution(option); }},
+    {"--threads", MESH | EVALUATE | SAMPLE, SAMPLING, 1, "N",
+     "threads to use, all by default; the result is always the same", read_threads},
+    {"--vertices", MESH, MARCHING_CUBES, 1, "projected|linear",
+     "on the surface (projected, the default), or where linear interpolation along the\n"
+     "grid edges finds it (linear)",
+     read_vertices},
+    {"--angle", MESH, DELAUNAY, 1, "DEG", "the least angle of triangles, at most 30, the default",
+     [](const Option_words& option, Draft& draft) { draft.delaunay.angle = parse_number(option); }},
+    {"--radius", MESH, DELAUNAY, 1, "R",
+     "the greatest radius of a ball about a point of the surface through the corners of a\n"
+     "triangle, by default 1/50 of the diagonal of the box",
+     [](const Option_words& option, Draft& draft) { draft.delaunay.radius = parse_length(option); }},
+    {"--distance", MESH, DELAUNAY, 1, "D",
+     "the greatest distance of a triangle's circumcenter from the center of that ball, by\n"
+     "default R/10",
+     [](const Option_words& option, Draft& draft) { draft.delaunay.distance = parse_length(option); }},
+    {"--sizing", MESH, DELAUNAY, 1, "uniform|euclidean|affine",
+     "triangles of one size (uniform, the default), smaller ones where a radius of curvature\n"
+     "is less than 4 R (euclidean), or such of equal affine area (affine)",
+     read_sizing},
+    {"--clip", MESH, DELAUNAY, 1, "box|ball",
+     "cut the surface off at the box (the default) or at the largest ball in it", read_clip},
+};
+
+} // namespace
+
+std::span<const Option_row> surface_options() { return rows; }
+
+} // namespace equiaffine
