@@ -18,16 +18,12 @@ std::vector<Instruction_set> instruction_sets() {
   return sets;
 }
 
-Vertex_attributes compute_attributes(const Attribute_task& task, [[maybe_unused]] Instruction_set set) {
-  Vertex_attributes result;
+const Attribute_functions& attribute_functions([[maybe_unused]] Instruction_set set) {
 #ifdef EQUIAFFINE_WITH_INSTRUCTION_SETS
-  if (set == Instruction_set::AVX512) equiaffine_attributes_avx512(task, result);
-  else if (set == Instruction_set::AVX2) equiaffine_attributes_avx2(task, result);
-  else equiaffine_attributes_baseline(task, result);
-#else
-  equiaffine_attributes_baseline(task, result);
+  if (set == Instruction_set::AVX512) return equiaffine_attributes_avx512();
+  if (set == Instruction_set::AVX2) return equiaffine_attributes_avx2();
 #endif
-  return result;
+  return equiaffine_attributes_baseline();
 }
 
 } // namespace equiaffine

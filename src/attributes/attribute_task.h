@@ -3,18 +3,22 @@
 #define EQUIAFFINE_SRC_ATTRIBUTES_ATTRIBUTE_TASK_H
 
 #include "source/source_function.h"
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/attributes.h>
+#include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/Estimator.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <span>
+#include <tuple>
+#include <variant>
 #include <vector>
 
 namespace equiaffine {
 
 /// What compute_attributes needs: points of level sets of f, which pass through them whatever the value there.
+template <class Traits>
 struct Attribute_task {
-  const Source_function& function;
+  const Traits& function; ///< one of the models of Source_function
   Orientation_of_level_set orientation;
   std::span<const Kernel::Point_3> points;
   const Attribute_selection& selection;
@@ -22,14 +26,34 @@ struct Attribute_task {
   std::span<const Point_status> sampled_status = {}; ///< empty, or one per point
 };
 
+template <class Traits>
+using Attribute_function = Vertex_attributes (*)(const Attribute_task<Traits>&);
+
+template <class Source>
+struct Attribute_functions_of;
+
+template <class... Traits>
+struct Attribute_functions_of<std::variant<Traits...>> {
+  using type = std::tuple<Attribute_function<Traits>...>;
+};
+
+/// compute_attributes of the library for each model of Source_function, compiled for one instruction set.
+using Attribute_functions = Attribute_functions_of<Source_function>::type;
+
 /// Which vector instructions are used. All have the same results, bit for bit.
 enum class Instruction_set { BASELINE, AVX2, AVX512 };
 
-/// Those that this program was compiled for and this processor has, the narrowest first.
+/// The instruction sets that this program was compiled for and this processor has, the narrowest first.
 std::vector<Instruction_set> instruction_sets();
 
-/// compute_attributes of the library, with all threads.
-Vertex_attributes compute_attributes(const Attribute_task& task, Instruction_set set = instruction_sets().back());
+const Attribute_functions& attribute_functions(Instruction_set set);
+
+/// Does what compute_attributes of the library does, with all threads.
+template <class Traits>
+Vertex_attributes compute_attributes(const Attribute_task<Traits>& task,
+                                     Instruction_set set = instruction_sets().back()) {
+  return std::get<Attribute_function<Traits>>(attribute_functions(set))(task);
+}
 
 } // namespace equiaffine
 

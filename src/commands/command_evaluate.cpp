@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <variant>
 
 namespace equiaffine {
 
@@ -46,8 +47,12 @@ void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& 
   const std::vector<Kernel::Point_3>& points = table.mesh.points;
   const Source source = make_source(options.source, progress);
   progress.begin("computing attributes");
-  Vertex_attributes attributes =
-      compute_attributes({source.function, options.orientation, points, options.attributes, options.estimator});
+  Vertex_attributes attributes = std::visit(
+      [&]<class Traits>(const Traits& function) {
+        return compute_attributes(
+            Attribute_task<Traits>{function, options.orientation, points, options.attributes, options.estimator});
+      },
+      source.function);
   add_error_columns(source, options.source, points, attributes);
   mark_points_at_infinity(points, attributes);
   progress.begin("writing");

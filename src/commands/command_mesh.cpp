@@ -27,6 +27,7 @@ namespace equiaffine {
 
 namespace {
 
+/// A surface with its attributes, which are still missing after it was sampled.
 struct Annotated_surface {
   Isosurface_3<Kernel> mesh;
   Vertex_attributes attributes;
@@ -36,7 +37,8 @@ struct Annotated_surface {
   std::optional<Parabolic_curves_3<Kernel>> curves; ///< if they were asked for
 };
 
-/// `place` is where it was looked for, `refinement` what may find more, if anything.
+/// Throws the error that says why there is no surface: `place` is where it was looked for; `refinement` says what may
+/// find more, and is empty if nothing can.
 template <class Traits>
 [[noreturn]] void fail_without_surface(const Traits& function, double isovalue, const std::string& place,
                                        const std::string& refinement) {
@@ -70,13 +72,14 @@ template <class Traits>
 }
 
 template <class Traits>
-void sample(const Traits& function, const Mesh_options& options, const Marching_cubes_options& method,
-            Annotated_surface& surface) {
+Annotated_surface sample(const Traits& function, const Mesh_options& options, const Marching_cubes_options& method) {
+  Annotated_surface surface;
   surface.mesh = marching_cubes<CGAL::Parallel_if_available_tag>(
       function, parameters::vertex_position(method.vertices)
                     .number_of_nodes(options.source.resolution.value_or(default_resolution(options.source.kind))));
   if (surface.mesh.triangles.empty())
     fail_without_surface(function.base(), options.isovalue, "box", "a finer --resolution");
+  return surface;
 }
 
 double greatest_coordinate(const CGAL::Bbox_3& box) {
@@ -96,7 +99,7 @@ void check_box_of_delaunay_surface(const CGAL::Bbox_3& box, double diagonal) {
   throw Input_error(text.str());
 }
 
-/// Facets of a few units in the last place have no shape.
+/// Throws if facets would be as small as a few units in the last place, where they have no shape.
 void check_radius_of_delaunay_surface(const CGAL::Bbox_3& box, double radius) {
   const double farthest = greatest_coordinate(box);
   const double least = 1024 * std::numeric_limits<double>::epsilon() * farthest;
@@ -108,13 +111,13 @@ void check_radius_of_delaunay_surface(const CGAL::Bbox_3& box, double radius) {
 }
 
 template <class Traits>
-void sample(const Traits& function, const Mesh_options& options, const Delaunay_options& method,
-            Annotated_surface& surface) {
+Annotated_surface sample(const Traits& function, const Mesh_options& options, const Delaunay_options& method) {
   const CGAL::Bbox_3 box = function.bbox();
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
   check_box_of_delaunay_surface(box, diagonal);
   Delaunay_criteria criteria = {method.angle, method.radius, method.distance};
-  criteria.radius = criteria.radius == 0 ? diagonal / 50 : std::min(criteria.radius, diagonal); // of no larger ball
+  criteria.radius =
+      criteria.radius == 0 ? diagonal / 50 : std::min(criteria.radius, diagonal); // a larger bound would mean the same
   if (criteria.distance == 0) criteria.distance = criteria.radius / 10;
   check_memory_of_delaunay_surface(diagonal, criteria.radius, criteria.distance);
   check_radius_of_delaunay_surface(box, criteria.radius);
@@ -125,21 +128,23 @@ void sample(const Traits& function, const Mesh_options& options, const Delaunay_
   if (mesh.triangles.empty())
     fail_without_surface(function.base(), options.isovalue, method.clips_to_ball ? "ball" : "box",
                          mesh.is_certified ? "" : "a smaller --radius");
+  Annotated_surface surface;
   surface.completeness = {mesh.is_certified, std::move(mesh.undecided_boxes)};
   if (options.curves) surface.curves = std::move(mesh.parabolic_curves);
   surface.mesh = std::move(mesh);
+  return surface;
 }
 
-/// `function` is the alternative of `source`.
+/// `function` is the function of `source`, whose type is known here and below.
 template <class Traits>
 Annotated_surface make_surface(const Traits& function, const Source& source, const Mesh_options& options,
                                Progress& progress) {
   // The mesh is that of f, so that the orientation changes nothing but the side to which it is turned.
   const Level_set_traits_3<Traits> extracted(function, options.isovalue);
   const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
-  Annotated_surface surface;
   progress.begin("extracting the surface");
-  std::visit([&](const auto& method) { sample(extracted, options, method, surface); }, options.method);
+  Annotated_surface surface =
+      std::visit([&](const auto& method) { return sample(extracted, options, method); }, options.method);
   if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
     for (auto& triangle : surface.mesh.triangles) std::swap(triangle[1], triangle[2]);
   const Stopwatch stopwatch;
@@ -148,8 +153,8 @@ Annotated_surface make_surface(const Traits& function, const Source& source, con
   surface.mesh.function_evaluations += surface.mesh.points.size();
   Attribute_selection selection = options.attributes;
   selection.has_status = true; // also if it is not written: the statistics count it
-  surface.attributes = compute_attributes({source.function, options.orientation, surface.mesh.points, selection,
-                                           options.estimator, surface.mesh.vertex_status});
+  surface.attributes = compute_attributes(Attribute_task<Traits>{
+      function, options.orientation, surface.mesh.points, selection, options.estimator, surface.mesh.vertex_status});
   surface.mesh.function_evaluations += surface.mesh.points.size();
   surface.status = count(*surface.attributes.status);
   add_error_columns(source, options.source, surface.mesh.points, surface.attributes);

@@ -25,7 +25,7 @@ auto limit_threads(std::size_t threads) {
   return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
 }
 #else
-std::unique_ptr<int> limit_threads(std::size_t) { return nullptr; } // there is one
+std::unique_ptr<int> limit_threads(std::size_t) { return nullptr; } // without TBB there is one thread
 #endif
 
 void run_command(const Options& options, const Streams& streams) {
@@ -43,7 +43,7 @@ void run_command(const Options& options, const Streams& streams) {
   std::visit(Runner{streams.out, progress}, options.command);
 }
 
-/// In one line, whatever the text.
+/// Reports the text in one line, even if it has several.
 void report(std::ostream& stream, const std::string& kind, std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   stream << "equiaffine: " << kind << ": " << text << '\n';

@@ -42,17 +42,18 @@ std::vector<Kernel::Point_3> points() {
 const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
 const char* const formula = "exp(x*y) + abs(x)*sin(3*z) + sqrt(1.5 - y^2*z) + log(z + 2) - max(x, y)^3 + z^7";
 
-void expect_same_on_all_instruction_sets(const Source_function& function) {
+template <class Traits>
+void expect_same_on_all_instruction_sets(const Traits& function) {
   const auto p = points();
   const Attribute_selection selection = select_attributes("all");
-  const Attribute_task task{function, Orientation_of_level_set::AGAINST_GRADIENT, p, selection};
+  const Attribute_task<Traits> task{function, Orientation_of_level_set::AGAINST_GRADIENT, p, selection};
   const Vertex_attributes expected = compute_attributes(task, Instruction_set::BASELINE);
   ASSERT_EQ(expected.status->size(), p.size());
   for (const Instruction_set set : instruction_sets()) {
     SCOPED_TRACE(int(set));
     expect_equal(compute_attributes(task, set), expected);
     for (std::size_t i = 0; i < 20; ++i) {
-      Attribute_task single = task;
+      Attribute_task<Traits> single = task;
       single.points = std::span(p).subspan(i, 1);
       expect_equal(compute_attributes(single, set), expected, i);
     }
