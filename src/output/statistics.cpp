@@ -53,7 +53,7 @@ std::string to_JSON(const Statistics& s) {
   if (s.completeness) {
     json["certified"] = s.completeness->is_certified;
     json["undecided_boxes"] = nlohmann::ordered_json::array();
-    for (const CGAL::Bbox_3& b : s.completeness->undecided_boxes) // as for --box
+    for (const CGAL::Bbox_3& b : s.completeness->undecided_boxes) // in the order of --box
       json["undecided_boxes"].push_back({b.xmin(), b.xmax(), b.ymin(), b.ymax(), b.zmin(), b.zmax()});
   }
   // Texts come from the command line and need not be UTF-8.

@@ -33,8 +33,8 @@ struct Statistics {
   double max_distance_to_surface = 0; ///< in the unit of the coordinates; NaN if f is defined at no vertex
   double sample_seconds = 0, project_seconds = 0, annotate_seconds = 0, write_seconds = 0;
   std::size_t function_evaluations = 0;
-  std::optional<Completeness> completeness; ///< of a mesh by a method that has one
-  std::optional<Spline_statistics> spline;  ///< if derivatives are those of a spline
+  std::optional<Completeness> completeness; ///< is set by methods that look for all components
+  std::optional<Spline_statistics> spline;  ///< is set if derivatives are those of a spline
 };
 
 std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_status> status);
@@ -42,7 +42,7 @@ std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_st
 /// One object, see `equiaffine mesh --help`. A distance that is not a finite number is null.
 std::string to_JSON(const Statistics& statistics);
 
-/// A few lines for people.
+/// Says the most important of it in a few lines.
 std::string summary(const Statistics& statistics);
 
 } // namespace equiaffine

@@ -67,7 +67,7 @@ void Canvas::draw_triangle(const std::array<Screen_point, 3>& corners, Shade sha
   constexpr double rounding = 1e-9; // neither neighbor may leave out a sample on their common edge
   const auto& [a, b, c] = corners;
   const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  if (!(std::abs(area) > 0)) return; // also NaN
+  if (!(std::abs(area) > 0)) return; // NaN is refused, too
   const auto [left, right] = std::minmax({a.x, b.x, c.x});
   const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
   const Range columns(left, right, width_), rows(top, bottom, height_);

@@ -17,7 +17,7 @@ namespace equiaffine {
 
 /// What the colors of a picture mean.
 struct Color_legend {
-  std::string label; ///< with the unit, if it is known
+  std::string label; ///< the name of the number, with its unit if that is known
   Color_range range;
   Color_scale scale;
 };
@@ -33,10 +33,11 @@ public:
   Surface_paint(const Vertex_attributes& attributes, const std::string& name,
                 const std::optional<std::array<double, 2>>& range, double diagonal);
 
-  /// If the colors are those of a number.
+  /// Is set if the colors show a number.
   const std::optional<Color_legend>& legend() const { return legend_; }
 
-  /// As on the page: numbers are interpolated between the vertices that have one, and what has most weight wins.
+  /// The color at barycentric weights, as on the page: vertices with a number compete by their weights with those of
+  /// each status; the number is interpolated between the vertices that have one.
   Light operator()(const std::array<std::uint32_t, 3>& triangle, const std::array<double, 3>& weights) const;
 
 private:
@@ -44,8 +45,8 @@ private:
 
   void use(const Vertex_attributes::Column& column, const std::optional<std::array<double, 2>>& range, double diagonal);
 
-  std::vector<std::uint8_t> codes_; // per vertex: 0 for its number, 1 to 4 for its status, no_number; empty: all 0
-  std::vector<double> levels_;      // per vertex, in [0, 1]
+  std::vector<std::uint8_t> codes_; // per vertex 0 if its number is shown, else its status or no_number; empty: all 0
+  std::vector<double> levels_;      // the number of each vertex as a place in [0, 1]
   std::vector<Light> table_;
   std::optional<Color_legend> legend_;
 };

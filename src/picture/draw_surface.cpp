@@ -53,14 +53,14 @@ public:
     return {0.5 * width_ + scale * (right_ * v), 0.5 * height_ - scale * (up_ * v), nearness};
   }
 
-  /// In coordinates to the right, upwards and towards the eye.
+  /// Gives the components of a vector to the right, upwards and towards the eye.
   Vector turned(const Vector& v) const { return {right_ * v, up_ * v, back_ * v}; }
   Vector towards_eye(const Kernel::Point_3& p) const { return unit(center_ + distance_ * back_ - p); }
   double radius() const { return radius_; }
   const Kernel::Point_3& center() const { return center_; }
 
 private:
-  /// The least distance from which everything is seen, and a margin.
+  /// Sets the least distance from which everything and a margin is seen.
   void fit(const std::vector<Kernel::Point_3>& points) {
     double least = 0;
     for (const Kernel::Point_3& p : points) {
@@ -79,7 +79,7 @@ private:
   Vector right_, up_, back_;
 };
 
-/// The attributes nx ny nz, where there are none the means of the faces'.
+/// The attributes nx ny nz; where they are missing, means of the normals of the faces.
 std::vector<Vector> vertex_normals(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes) {
   std::vector<Vector> normals(mesh.points.size(), CGAL::NULL_VECTOR);
   for (const auto& [a, b, c] : mesh.triangles) {

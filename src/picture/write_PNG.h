@@ -8,7 +8,7 @@
 
 namespace equiaffine {
 
-/// Writes the picture, with a bar of its colours in the lower left corner if they are those of a number, as a PNG file.
+/// Writes the picture, with a bar of its colors in the lower left corner if they are those of a number, as a PNG file.
 void write_PNG(std::ostream& stream, const Surface_picture& picture);
 
 } // namespace equiaffine

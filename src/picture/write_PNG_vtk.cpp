@@ -47,11 +47,12 @@ void draw_text(Picture& picture, const std::string& text, std::size_t x, std::si
     }
 }
 
-/// With as many digits as tell the numbers of the bar from one another, three or more.
+/// Writes a number with as many digits, at least three, as tell the numbers of the bar from one another.
 std::string short_number(double value, const Color_range& range) {
   const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
   const int digits = std::clamp(int(std::ceil(std::log10(largest / (range.upper - range.lower)))) + 3, 3, 15);
-  const bool is_round = digits < 5 && std::abs(value) >= 1e3 && std::abs(value) < 1e5; // no longer than with exponents
+  const bool is_round =
+      digits < 5 && std::abs(value) >= 1e3 && std::abs(value) < 1e5; // then digits need no more room than exponents
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), is_round ? "%.*f" : "%.*g", is_round ? 0 : digits, value);
   return text.data();
@@ -60,7 +61,7 @@ std::string short_number(double value, const Color_range& range) {
 /// The number at place t in [0, 1] of the bar.
 double number_at(const Color_legend& legend, double t) {
   const auto& [lower, upper, knee, is_diverging] = legend.range;
-  if (is_diverging && t == 0.5) return 0; // to rounding
+  if (is_diverging && t == 0.5) return 0; // the formula gives 0 up to rounding only
   if (legend.scale == Color_scale::LINEAR) return lower + t * (upper - lower);
   const double low = std::asinh(lower / knee), high = std::asinh(upper / knee);
   return knee * std::sinh(low + t * (high - low));
@@ -86,7 +87,7 @@ void draw_legend(Picture& picture, const Color_legend& legend) {
   };
   std::size_t last = 4, longest = 0;
   for (std::size_t i = 0; i <= last; ++i) longest = std::max(longest, number(i, last).size());
-  if (8 * longest * (last + 1) > width) last = 2; // lest they touch
+  if (8 * longest * (last + 1) > width) last = 2; // so that the numbers do not touch
   for (std::size_t i = 0; i <= last; ++i)
     draw_text(picture, number(i, last), left + i * width / last, top + bar_height + 14,
               i == 0      ? Alignment::LEFT

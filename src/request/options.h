@@ -33,9 +33,9 @@ enum class Derivatives { JETS, SPLINE };
 struct Spline_options {
   int degree = 7;
   Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
-  std::optional<double> smoothing = 0; ///< a scale in voxels; nothing: as the noise needs it
-  std::optional<double> isovalue;      ///< where noise is measured; nothing: everywhere
-  bool estimates_errors = false;       ///< of affine curvatures
+  std::optional<double> smoothing = 0; ///< a scale in voxels; without a value the noise decides
+  std::optional<double> isovalue;      ///< noise is measured beside this level set, or everywhere
+  bool estimates_errors = false;       ///< estimates those of affine curvatures
 };
 
 /// SOURCE of the command line, with what changes the function itself.
@@ -47,7 +47,7 @@ struct Source_options {
   std::optional<std::array<std::size_t, 3>> resolution;
   Derivatives derivatives = Derivatives::JETS;
   Spline_options spline;
-  std::optional<Raw_layout> raw;     ///< of a volume without a header
+  std::optional<Raw_layout> raw;     ///< is set for a volume without a header
   std::optional<double> narrow_band; ///< voxels beyond which distances are not needed
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
 };
@@ -58,10 +58,10 @@ struct Page_options {
   std::array<double, 3> up = {0, 0, 1};
 };
 
-/// What only a picture has.
+/// What is asked of a picture and not of a page.
 struct Picture_options {
   std::array<std::size_t, 2> size = {1000, 800};
-  std::optional<std::array<double, 2>> range; ///< the numbers of the end colors
+  std::optional<std::array<double, 2>> range; ///< the numbers that have the end colors
   std::string arrows;                         ///< a vector among the attributes, or empty
 };
 
@@ -73,7 +73,7 @@ struct Delaunay_options {
   double angle = 30;               ///< the least angle of triangles, in degrees
   double radius = 0, distance = 0; ///< as in Delaunay_criteria; 0 stands for the default
   Facet_sizing sizing = Facet_sizing::UNIFORM;
-  bool clips_to_ball = false; ///< the largest one in the box
+  bool clips_to_ball = false; ///< cuts off at the largest ball in the box, not at the box
 };
 
 struct Mesh_options {
@@ -105,7 +105,7 @@ struct Sample_options {
 
 struct View_options {
   std::string mesh;
-  std::optional<std::string> html, png; ///< one of them at least
+  std::optional<std::string> html, png; ///< one of them is given at least
   Page_options page;
   Picture_options picture;
 };

@@ -24,7 +24,7 @@ namespace {
 
 using Size = Lattice_3<Kernel>::Size;
 
-/// Throws unless every name that --set gives occurs in the formula, which has no errors.
+/// Throws unless every name that --set gives occurs in the formula. The formula itself must have no errors.
 void check_constants_are_used(const Source_options& options) {
   for (const auto& [name, value] : options.constants) {
     auto others = options.constants;
@@ -32,7 +32,7 @@ void check_constants_are_used(const Source_options& options) {
     try {
       Expression_3(options.text, others);
     } catch (const Input_error&) {
-      continue; // the name is missed
+      continue; // the formula needs this name
     }
     throw Input_error("--set " + name + ": the formula " + options.text + " has no '" + name +
                       "'; correct the name or leave it out");
@@ -71,7 +71,7 @@ Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size
   }
 }
 
-/// Interpolation by a recursive filter has every sample take part in all coefficients.
+/// Throws if values are missing and the scheme is interpolation, whose recursive filter would spread them everywhere.
 void check_values(const Volume_3<Kernel>& volume, const Source_options& options) {
   if (options.spline.scheme != Spline_scheme::INTERPOLATION) return;
   const auto missing =

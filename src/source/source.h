@@ -18,7 +18,7 @@ namespace equiaffine {
 
 struct Source {
   Source_function function;
-  std::size_t function_evaluations = 0;            ///< that it took so far
+  std::size_t function_evaluations = 0;            ///< the number that making the source took
   std::optional<Spline_statistics> spline;         ///< if derivatives are those of a spline
   std::optional<Curvature_error_3<Kernel>> errors; ///< if estimates were asked for
 };

@@ -35,8 +35,8 @@ Existing_folders& existing_folders() {
   return folders;
 }
 
-/// Waits for one of the signals and ends the process. The mutex stays locked: whoever wants to make, or thinks that it
-/// has to remove, a folder waits for the end.
+/// Waits for one of the signals and ends the process. The mutex stays locked, so that threads that
+/// make or remove folders wait for that end.
 void end_at(const sigset_t& signals) {
   int signal = 0;
   ::sigwait(&signals, &signal);

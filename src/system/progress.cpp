@@ -30,7 +30,7 @@ void Progress::end() {
 
 void Progress::show_until_ended() {
   constexpr auto period = std::chrono::milliseconds(100);
-  constexpr const char* wipe = "\r\x1b[K"; // to the begin of the line, erase it
+  constexpr const char* wipe = "\r\x1b[K"; // goes to the beginning of the line and erases it
   bool is_shown = false;
   std::unique_lock lock(mutex_);
   ended_.wait_for(lock, patience_, [this] { return is_ended_; });
@@ -52,7 +52,7 @@ std::string Progress::line() const {
     std::fill_n(bar.begin(), std::size_t(fraction * double(width)), '#');
     percent = std::to_string(int(fraction * 100)) + " %";
     percent.insert(0, 5 - percent.size(), ' ');
-  } else { // nobody counts: a mark that goes to and fro
+  } else { // without a number of steps a mark goes to and fro
     const std::size_t place = std::size_t(elapsed / 100) % (2 * width - 2);
     bar[place < width ? place : 2 * width - 2 - place] = '#';
   }

@@ -24,10 +24,10 @@ public:
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Begins the next stage, of `steps` steps; 0 if nobody counts them.
+  /// Begins the next stage, of `steps` steps; 0 if their number is not known.
   void begin(const std::string& stage, std::size_t steps = 0);
 
-  /// Counts steps of the stage; from any thread.
+  /// Counts steps of the stage. Any thread may call it.
   void advance(std::size_t steps = 1) { done_.fetch_add(steps, std::memory_order_relaxed); }
 
   /// Wipes the line away; nothing is shown any more.
@@ -40,7 +40,7 @@ private:
   std::ostream& terminal_;
   const Clock::time_point start_ = Clock::now();
   const Clock::duration patience_;
-  mutable std::mutex mutex_; // of the members up to the thread
+  mutable std::mutex mutex_; // guards the members from here to the thread
   std::condition_variable ended_;
   bool is_ended_ = false;
   std::string stage_;
@@ -49,7 +49,7 @@ private:
   std::thread thread_;
 };
 
-/// Seconds since it was made.
+/// Measures the seconds since it was made.
 class Stopwatch {
 public:
   double seconds() const { return std::chrono::duration<double>(Progress::Clock::now() - start_).count(); }

@@ -12,7 +12,7 @@ namespace equiaffine {
 
 namespace {
 
-/// f(T()) for the type of a number.
+/// Calls f(T()), where T is the type at this position of raw_types.
 template <class F>
 auto with_type(std::size_t type, const F& f) {
   switch (type) {

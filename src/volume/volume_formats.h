@@ -2,8 +2,7 @@
 #ifndef EQUIAFFINE_SRC_VOLUME_VOLUME_FORMATS_H
 #define EQUIAFFINE_SRC_VOLUME_VOLUME_FORMATS_H
 
-// The pieces of volume_io.h: one reader and one writer per library. They are defined where the program is built with
-// that library.
+// The readers and writers that volume_io.h chooses from. Those of a library exist only in a program built with it.
 
 #include "system/kernel.h"
 #include <equiaffine/Volume_3.h>
@@ -29,7 +28,7 @@ void write_vti_volume(std::ostream& stream, const Volume_3<Kernel>& volume, bool
 /// Throws `Input_error`: "cannot read the volume 'path': reason; advice".
 [[noreturn]] void fail_to_read_volume(const std::string& path, const std::string& reason, const std::string& advice);
 
-/// The same for a file that ends before its data, or whose data are damaged.
+/// Throws `Input_error` for a file that ends before its data, or whose data are damaged.
 [[noreturn]] void fail_to_read_volume_data(const std::string& path);
 
 /// The lattice of a file; throws `Input_error` for what a file may hold and a lattice may not.

@@ -58,7 +58,7 @@ std::string_view missing_library(Volume_format format) {
   return has_itk ? "" : "ITK";
 }
 
-/// Those that this program reads, or writes.
+/// The extensions that this program reads, or only those that it also writes.
 std::string known_extensions(bool written_only) {
   std::string list;
   for (const Extension& extension : extensions)

@@ -12,7 +12,7 @@ namespace equiaffine {
 
 /// Reads a volume of scalars: `.nrrd .nhdr .mhd .mha .nii .nii.gz` or a folder with one DICOM series through ITK,
 /// `.inr .inr.gz` through CGAL, `.vti` through VTK. Every pixel type becomes double. Node (i, j, k) lies at
-/// origin + directions * spacings * (i, j, k): for ITK's formats in ITK's physical frame (millimetres; x to the left,
+/// origin + directions * spacings * (i, j, k): for ITK's formats in ITK's physical frame (millimeters; x to the left,
 /// y to the back, z up), for `.inr` at (TX + VX i, TY + VY j, TZ + VZ k), as in `CGAL::Image_3`.
 /// Throws `Input_error` for everything that is not a complete volume with two nodes or more per axis.
 Volume_3<Kernel> read_volume(const std::string& path);
@@ -26,7 +26,7 @@ void check_volume_output(const std::string& path);
 /// What ITK wrote is read back once, because it does not notice a full disk.
 void write_volume(Output_file& file, const Volume_3<Kernel>& volume, bool as_float);
 
-/// The same, committed.
+/// Writes the volume to a file of its own and commits it.
 void write_volume(const std::string& path, const Volume_3<Kernel>& volume, bool as_float);
 
 } // namespace equiaffine

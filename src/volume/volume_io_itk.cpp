@@ -60,8 +60,8 @@ itk::ImageIOBase::Pointer make_image_io(Volume_format format) {
 }
 
 /// What an ITK exception says, without the places in ITK and the libraries below it where it was found: the last line,
-/// after "): " and after "[library] function: ". MetaImage gives the last error of the system, which is none of this
-/// file: nothing remains of it.
+/// after "): " and after "[library] function: ". The text is empty for "Reason: ", with which MetaImage introduces the
+/// last error of the system, whatever that was about.
 std::string reason_of(const itk::ExceptionObject& exception) {
   std::string text = exception.GetDescription();
   text.erase(text.find_last_not_of(" .\n") + 1);
@@ -153,8 +153,8 @@ void check_nifti_length(const std::string& path, std::size_t number_of_nodes) {
   if (error != Z_OK || !(length >= expected)) fail_to_read_volume_data(path);
 }
 
-/// Fails if the header of a MetaImage names a file with the data that does not exist. `LOCAL` and `LIST` are no names,
-/// and one with a % stands for several files.
+/// Fails if the header of a MetaImage names a file with the data that does not exist. `LOCAL` and `LIST` are not
+/// names of files, and a name with a % stands for several files.
 void check_data_file(const std::string& path, itk::ImageIOBase& io) {
   auto* const meta = dynamic_cast<itk::MetaImageIO*>(&io);
   if (!meta) return;

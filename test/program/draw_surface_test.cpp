@@ -35,7 +35,7 @@ std::array<int, 3> middle(const Picture& picture, std::size_t row) {
   return {first[0], first[1], first[2]};
 }
 
-/// What the shader of the page makes of a colour that faces the eye.
+/// What the shader of the page makes of a color that faces the eye.
 std::array<int, 3> shaded(const CGAL::IO::Color& color) {
   const double cosine = 1 / std::sqrt(0.35 * 0.35 + 0.5 * 0.5 + 1), diffuse = 0.5 + 0.5 * cosine;
   const double shade = 0.36 + 0.67 * diffuse * diffuse, glint = 0.03 * std::pow((1 + cosine) / 2, 20);
