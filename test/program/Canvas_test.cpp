@@ -26,7 +26,7 @@ std::array<int, 3> pixel(const Picture& picture, std::size_t x, std::size_t y) {
   return {first[0], first[1], first[2]};
 }
 
-/// The number of black pixels on white, parts of pixels included.
+/// The area of what is black on white, in pixels; gray pixels count as fractions.
 double dark_area(const Picture& picture) {
   double area = 0;
   for (std::size_t i = 0; i < picture.rgb.size(); i += 3) area += 1 - std::pow(picture.rgb[i] / 255., 2.2);
@@ -81,7 +81,7 @@ TEST(Program_Canvas, what_is_nearer_hides_what_is_behind_in_any_order) {
 TEST(Program_Canvas, weights_are_those_in_space) {
   Canvas canvas(100, 100);
   std::array<double, 3> middle{};
-  // The middle of the edge as it is seen is three times as far from the near end as from the far one.
+  // In space the point that is seen in the middle of the edge divides it as 3 to 1.
   canvas.draw_triangle({Screen_point{0, 50, 1}, {100, 50, 3}, {50, 100, 2}}, [&](const auto& weights, bool is_front) {
     if (std::abs(weights[2]) < 0.01 && std::abs(weights[0] - 0.25) < 0.01) middle = weights;
     EXPECT_FALSE(is_front) << "y points downwards";

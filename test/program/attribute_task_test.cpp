@@ -29,7 +29,7 @@ void expect_equal(const Vertex_attributes& actual, const Vertex_attributes& expe
     ASSERT_EQ((*actual.status)[i], (*expected.status)[first + i]) << "point " << first + i;
 }
 
-// Random points and such with kinks, singular and outside.
+/// Random points; some of them lie on kinks of the formula, are singular, or lie outside its box.
 std::vector<Kernel::Point_3> points() {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -82,7 +82,7 @@ TEST(Program_attribute_task, the_first_instruction_set_is_that_of_any_processor)
 }
 
 #ifdef EQUIAFFINE_OBJECTS_FOR_PROCESSORS
-/// What a command prints.
+/// What a command of the shell prints, or a text that says that it failed.
 std::string output_of(const std::string& command) {
   std::string text;
   FILE* const pipe = ::popen(command.c_str(), "r");
@@ -90,7 +90,7 @@ std::string output_of(const std::string& command) {
   return ::pclose(pipe) == 0 ? text : "failed: " + command;
 }
 
-// Else the linker could take an inline function that is compiled for AVX-512 for the whole program.
+// If they shared more, the linker could use an inline function compiled for AVX-512 in the whole program.
 TEST(Program_attribute_task, objects_for_some_processors_share_nothing_but_their_entry) {
   const std::string names = EQUIAFFINE_OBJECTS_FOR_PROCESSORS;
   for (std::size_t begin = 0; begin < names.size();) {

@@ -79,7 +79,7 @@ protected:
       EXPECT_EQ(stats["boundary_edges"], 0) << expression;
       EXPECT_EQ(stats["manifold"], true) << expression;
       EXPECT_LE(stats["max_distance_to_surface"], 1e-13 * 2 * half_side * std::sqrt(3))
-          << expression; // the contract's limit
+          << expression; // 1e-13 of the diagonal of the box
       EXPECT_EQ(stats["status"]["unconverged"], 0) << expression;
     }
   }
@@ -477,7 +477,7 @@ TEST_F(Program_command_line, a_Delaunay_mesh_of_a_singular_surface_has_undecided
   const Json stats = stats_of(cone + delaunay);
   EXPECT_EQ(stats["certified"], false);
   ASSERT_GT(stats["undecided_boxes"].size(), 0U);
-  for (const Json& box : stats["undecided_boxes"]) { // as for --box
+  for (const Json& box : stats["undecided_boxes"]) { // in the order of --box
     ASSERT_EQ(box.size(), 6U);
     for (const std::size_t a : {0, 2, 4}) {
       EXPECT_LT(box.at(a), box.at(a + 1));
@@ -644,7 +644,7 @@ TEST_F(Program_command_line, a_volume_sampled_and_read_again_gives_the_same_surf
   for (std::size_t i = 0; i < direct.size(); ++i)
     for (const std::string name : {"x", "y", "z", "mean_curvature"})
       EXPECT_NEAR(std::stod(read[i].at(name)), std::stod(direct[i].at(name)), 1e6 * rounding)
-          << name; // spacings go through text
+          << name; // the file has the spacings as rounded decimals
 }
 
 TEST_F(Program_command_line, a_volume_of_two_nodes_per_axis_is_extracted_without_attributes) {

@@ -356,7 +356,7 @@ TEST(Program_defects, give_status_one_and_one_line) {
     int_type overflow(int_type) override { throw std::logic_error("first\nsecond"); }
   } defect;
   std::ostream out(&defect);
-  out.exceptions(std::ios::badbit); // what the buffer throws passes through
+  out.exceptions(std::ios::badbit); // lets what the buffer throws pass
   std::ostringstream error;
   EXPECT_EQ(equiaffine::run({"--version"}, {out, error}), 1);
   EXPECT_EQ(error.str(), "equiaffine: internal error: first second\n");

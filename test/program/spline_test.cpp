@@ -19,7 +19,7 @@ using namespace equiaffine::test;
 using Arguments = std::vector<std::string>;
 using Json = nlohmann::json;
 
-// An ellipsoid that is no polynomial: K = 1 / 0.72, H = -sqrt(K), J = 0.
+// The level sets are ellipsoids and f is not a polynomial: K = 1 / 0.72, H = -sqrt(K), J = 0.
 const Arguments ellipsoid = {"--function", "exp(x^2 + y^2/0.81 + z^2/0.64 - 1) - 1",
                              "--box",      "-1.3",
                              "1.3",        "-1.2",
@@ -72,7 +72,7 @@ protected:
   }
   Json spline() const { return Json::parse(file("stats.json"))["spline"]; }
 
-  /// Of K over the vertices.
+  /// The error of K over the vertices.
   double median_error(const Arguments& arguments) {
     std::vector<double> errors;
     for (const double k : mesh(arguments)["affine_gaussian_curvature"]) errors.push_back(std::abs(k - gaussian));

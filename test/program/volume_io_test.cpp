@@ -101,7 +101,7 @@ std::vector<std::string> written_extensions() {
 
 bool is_nifti(const std::string& extension) { return extension.starts_with(".nii"); }
 
-/// Every value differs from every other, and from its nearest float.
+/// All values differ, and no value is a float.
 Volume sampled(const Lattice& lattice) {
   Volume volume{lattice, {}};
   for (std::size_t node = 0; node < lattice.number_of_nodes(); ++node) volume.values.push_back(double(node) + 1. / 3);
@@ -113,7 +113,7 @@ Lattice axis_parallel_lattice() {
       {5, 4, 3}, Point_3(-1.2, 0.1, 1. / 3), {Vector_3(2.4 / 63, 0, 0), Vector_3(0, 1.1 / 7, 0), Vector_3(0, 0, 2.5)}};
 }
 
-/// Rotated about no axis of symmetry, different steps, left-handed.
+/// A lattice with a general rotation and different steps, whose axes are left-handed.
 Lattice rotated_lattice() {
   const Vector_3 a = Vector_3(2, -1, 0.5) / std::sqrt(5.25);
   const Vector_3 b = Vector_3(1, 2, 0) / std::sqrt(5.);
@@ -162,7 +162,7 @@ TEST_F(Program_volume_io, every_format_keeps_a_rotated_left_handed_anisotropic_v
     write_volume(path("a" + extension), volume, false);
     const Volume copy = read_volume(path("a" + extension));
     EXPECT_EQ(copy.values, volume.values);
-    // Steps are stored as length times direction; NIfTI stores floats. A few roundings of a coordinate.
+    // Steps are stored as length times direction, and by NIfTI as floats: this allows a few roundings of a coordinate.
     const double rounding = 4 * (is_nifti(extension) ? float_epsilon : epsilon) * largest_coordinate(volume.lattice);
     EXPECT_LE(largest_distance_between_nodes(copy.lattice, volume.lattice), rounding);
   }
@@ -386,7 +386,7 @@ TEST_F(Program_volume_io, a_dicom_series_is_ordered_by_the_places_of_its_slices)
   const fs::path series = path("series");
   fs::create_directory(series);
   expect_reading_error("series", "0 DICOM series");
-  // The third direction is the cross product (0.48, 0.64, 0.6); steps of 2 along it, files not in this order.
+  // The third direction is the cross product (0.48, 0.64, 0.6). Slices lie 2 apart along it, in another order than files.
   write_slice(series / "c.dcm", R"(10\20\30)", 100);
   write_slice(series / "a.dcm", R"(10.96\21.28\31.2)", 200);
   write_slice(series / "b.dcm", R"(11.92\22.56\32.4)", 300);

@@ -29,7 +29,7 @@ inline void write_file(const std::filesystem::path& path, const std::string& tex
 }
 
 struct Result {
-  int status = -1; ///< -1: ended by a signal
+  int status = -1; ///< the exit status; -1 for a program that a signal ended
   std::string out, error;
 };
 
@@ -45,7 +45,7 @@ protected:
   }
   ~Program_test() override { std::filesystem::remove_all(root_); }
 
-  /// `standard_output` is a file instead of the usual one, such as a device.
+  /// Runs the program to its end. `standard_output` is a file to write to, such as a device, instead of a temporary one.
   Result run(std::vector<std::string> arguments, const std::string& input = {},
              const std::string& standard_output = {}) const {
     Result result = wait_for(start(std::move(arguments), input, standard_output));
@@ -53,7 +53,7 @@ protected:
     return result;
   }
 
-  /// Begins to run the program; gives its process.
+  /// Starts the program and returns the id of its process.
   pid_t start(std::vector<std::string> arguments, const std::string& input = {},
               const std::string& standard_output = {}) const {
     const std::string in = root_ / "in", out = standard_output.empty() ? (root_ / "out").string() : standard_output,
@@ -65,7 +65,7 @@ protected:
     argv.push_back(nullptr);
     const pid_t child = ::fork();
     if (child == 0) {
-      for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL); // who runs the tests may ignore them
+      for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL); // the parent may ignore them
       redirect(in, O_RDONLY, STDIN_FILENO);
       redirect(out, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
       redirect(error, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
@@ -81,7 +81,7 @@ protected:
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(root_ / "out"), read_file(root_ / "error")};
   }
 
-  /// Runs the program and expects that nothing goes wrong; gives standard output.
+  /// Runs the program, expects that nothing goes wrong, and returns what is on standard output.
   std::string run_well(const std::vector<std::string>& arguments, const std::string& input = {}) const {
     const Result result = run(arguments, input);
     EXPECT_EQ(result.status, 0) << result.error;
@@ -91,7 +91,7 @@ protected:
 
   std::string file(const std::string& name) const { return read_file(folder_ / name); }
 
-  /// The names in the folder, in order.
+  /// The names of the files in the folder, in alphabetical order.
   std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) names.push_back(entry.path().filename());
