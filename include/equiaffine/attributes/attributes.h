@@ -165,8 +165,8 @@ void compute_block_of_attributes(const Traits& traits, std::span<const typename 
 
 /// Attributes of points, one column per scalar, in double. One Taylor expansion of order 4 per point, 41 with a norm of
 /// a gradient; the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Points are taken in packs; the
-/// numbers are those of local_structure_at, bit for bit unless the compiler contracts products and sums
-/// (-ffp-contract=off).
+/// numbers are those of local_structure_at: bit for bit where the compiler rounds each product and each sum
+/// (-ffp-contract=off), else to within rounding.
 /// `sampled_status` is empty or has one entry per point. Named parameter: `estimator`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           class Parameters = internal::No_parameters>

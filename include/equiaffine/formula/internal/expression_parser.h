@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_PARSER_H
 #define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_PARSER_H
 
+#include <equiaffine/base/from_chars.h>
 #include <equiaffine/formula/internal/expression_errors.h>
 #include <equiaffine/formula/internal/expression_tape_builder.h>
 
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -101,7 +101,7 @@ private:
   Node number() {
     double value = 0;
     const char* const first = text_.data() + position_;
-    const auto [last, error] = std::from_chars(first, text_.data() + text_.size(), value);
+    const auto [last, error] = from_chars(first, text_.data() + text_.size(), value);
     if (error == std::errc::invalid_argument) fail(position_, "a point without digits", "write a number such as 0.5");
     token_ = text_.substr(position_, static_cast<std::size_t>(last - first));
     if (error == std::errc::result_out_of_range)

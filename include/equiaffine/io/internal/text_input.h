@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_TEXT_INPUT_H
 #define EQUIAFFINE_IO_INTERNAL_TEXT_INPUT_H
 
+#include <equiaffine/base/from_chars.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <istream>
@@ -36,7 +36,7 @@ std::optional<Number> parse_number(std::string_view text) {
   text = trim(text);
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return number;
 }

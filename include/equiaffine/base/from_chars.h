@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// internal::from_chars(first, last, value): std::from_chars, also of floating-point numbers with standard libraries that
+// have it for integers only.
+#ifndef EQUIAFFINE_BASE_FROM_CHARS_H
+#define EQUIAFFINE_BASE_FROM_CHARS_H
+
+#include <equiaffine/base/internal/from_chars.h> // IWYU pragma: export
+
+#endif
