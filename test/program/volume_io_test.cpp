@@ -386,7 +386,8 @@ TEST_F(Program_volume_io, a_dicom_series_is_ordered_by_the_places_of_its_slices)
   const fs::path series = path("series");
   fs::create_directory(series);
   expect_reading_error("series", "0 DICOM series");
-  // The third direction is the cross product (0.48, 0.64, 0.6). Slices lie 2 apart along it, in another order than files.
+  // The third direction is the cross product (0.48, 0.64, 0.6). Slices lie 2 apart along it, in another order than the
+  // names of their files.
   write_slice(series / "c.dcm", R"(10\20\30)", 100);
   write_slice(series / "a.dcm", R"(10.96\21.28\31.2)", 200);
   write_slice(series / "b.dcm", R"(11.92\22.56\32.4)", 300);
