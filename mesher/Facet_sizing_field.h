@@ -12,7 +12,7 @@
 
 namespace equiaffine::internal {
 
-/// The bound of the radius of facets near a point: between a sixteenth of a length and the length.
+/// The bound of the radius of facets near a point, which lies between radius/16 and radius.
 class Facet_sizing_field {
 public:
   Facet_sizing_field(const Any_function_3& function, const Clip_domain_3& domain, double radius, Facet_sizing sizing)
@@ -23,16 +23,18 @@ public:
     if (sizing_ == Facet_sizing::UNIFORM) return radius_;
     const auto structure = local_structure(function_.taylor(Any_function_3::Point_3(p.x(), p.y(), p.z())));
     const double size = sizing_ == Facet_sizing::EUCLIDEAN ? euclidean(structure) : affine(structure);
-    return size >= radius_ / 16 ? std::min(size, radius_) : size < radius_ / 16 ? radius_ / 16 : radius_; // NaN: radius
+    if (size < radius_ / 16) return radius_ / 16;
+    return size >= radius_ / 16 ? std::min(size, radius_) : radius_; // the radius for NaN, too
   }
 
 private:
+  /// A quarter of the smaller radius of curvature.
   static double euclidean(const Local_structure_3<double>& s) {
     const auto& e = s.euclidean;
     return 0.25 / std::max(std::abs(e.k1), std::abs(e.k2));
   }
 
-  /// `radius` where the curvature is that of a sphere that fills the domain.
+  /// Facets of equal affine area; the radius where the Gaussian curvature is that of a sphere that fills the domain.
   double affine(const Local_structure_3<double>& s) const {
     return radius_ * std::pow(std::abs(s.euclidean.gaussian_curvature) * extent_ * extent_, -0.125);
   }

@@ -2,7 +2,8 @@
 #ifndef EQUIAFFINE_MESHER_FEATURE_ENDS_3_H
 #define EQUIAFFINE_MESHER_FEATURE_ENDS_3_H
 
-#include <equiaffine/delaunay/delaunay_surface.h>
+#include "Feature_curve_3.h"
+#include <equiaffine/surface/Clip_domain_3.h>
 
 #include <CGAL/squared_distance_3.h>
 
@@ -24,36 +25,25 @@ class Feature_ends_3 {
   using Vector_3 = Kernel::Vector_3;
 
 public:
-  /// `size` is that of facets.
+  /// `size` bounds the size of facets.
   Feature_ends_3(const Clip_domain_3& domain, double size) : domain_(domain), size_(size) {}
 
-  /// Prolongs an open curve at those ends from which it reaches the border within a facet.
+  /// Prolongs an open curve at those ends from which it reaches the border within the size of a facet.
   void extend(Feature_curve_3& curve) {
     auto& points = curve.polyline.points;
     if (curve.polyline.is_closed || points.size() < 2) return;
     for (int n = 0; n < 2; ++n) {
       std::reverse(points.begin(), points.end());
-      while (points.size() > 2 && !domain_.contains(points.back())) points.pop_back();
-      if (const auto end = end_on_border(curve, points[points.size() - 2], points.back())) {
-        if (points.size() > 2 && CGAL::squared_distance(*end, points.back()) < size_ * size_ / 16) points.pop_back();
-        points.push_back(*end);
-        ends_.push_back(*end);
-      }
+      extend_last(curve);
     }
   }
 
   bool is_on_border(const Point_3& p) const { return std::find(ends_.begin(), ends_.end(), p) != ends_.end(); }
 
-  /// A curve on the border in pieces between the ends of others.
+  /// Cuts a curve on the border at the ends of the curves that `extend` brought there.
   std::vector<Polyline_3<Kernel>> split(Polyline_3<Kernel> curve) const {
     auto& points = curve.points;
-    std::vector<Point_3> cuts;
-    for (const Point_3& end : ends_) {
-      const std::size_t n = nearest_segment(curve, end);
-      if (CGAL::squared_distance(end, segment(curve, n)) > size_ * size_ / 256) continue; // beyond a chord's sagitta
-      points.insert(points.begin() + std::ptrdiff_t(n) + 1, end);
-      cuts.push_back(end);
-    }
+    const std::vector<Point_3> cuts = insert_ends(curve);
     const auto is_cut = [&](const Point_3& p) { return std::find(cuts.begin(), cuts.end(), p) != cuts.end(); };
     if (cuts.empty()) return {std::move(curve)};
     if (curve.is_closed) {
@@ -71,6 +61,28 @@ public:
   }
 
 private:
+  void extend_last(Feature_curve_3& curve) {
+    auto& points = curve.polyline.points;
+    while (points.size() > 2 && !domain_.contains(points.back())) points.pop_back();
+    const auto end = end_on_border(curve, points[points.size() - 2], points.back());
+    if (!end) return;
+    if (points.size() > 2 && CGAL::squared_distance(*end, points.back()) < size_ * size_ / 16) points.pop_back();
+    points.push_back(*end);
+    ends_.push_back(*end);
+  }
+
+  /// Inserts those ends into a curve that it passes through, nearer than chords are to the curve, and returns them.
+  std::vector<Point_3> insert_ends(Polyline_3<Kernel>& curve) const {
+    std::vector<Point_3> inserted;
+    for (const Point_3& end : ends_) {
+      const std::size_t n = nearest_segment(curve, end);
+      if (CGAL::squared_distance(end, segment(curve, n)) > size_ * size_ / 256) continue;
+      curve.points.insert(curve.points.begin() + std::ptrdiff_t(n) + 1, end);
+      inserted.push_back(end);
+    }
+    return inserted;
+  }
+
   static Kernel::Segment_3 segment(const Polyline_3<Kernel>& curve, std::size_t n) {
     return {curve.points[n], curve.points[(n + 1) % curve.points.size()]};
   }
@@ -84,7 +96,7 @@ private:
     return nearest;
   }
 
-  /// Of the box; of a ball any.
+  /// A side of the box; a ball has one side only, which any value stands for.
   struct Side {
     int axis;
     bool is_upper;
@@ -105,7 +117,7 @@ private:
     return side;
   }
 
-  /// Positive inside.
+  /// The distance of p from a side, positive inside.
   double depth(const Point_3& p, const Side& side) const {
     const CGAL::Bbox_3& box = domain_.bbox();
     if (!domain_.is_ball())
@@ -114,16 +126,22 @@ private:
     return domain_.radius() - std::sqrt(CGAL::squared_distance(p, Point_3(c[0], c[1], c[2])));
   }
 
-  /// Where the curve, which comes from `before` to `p`, leaves the domain: by the Illinois variant of regula falsi.
+  /// Where the curve, which comes from `before` to its last point p, leaves the domain; nothing if it does not within
+  /// the size of a facet.
   std::optional<Point_3> end_on_border(const Feature_curve_3& curve, const Point_3& before, const Point_3& p) const {
     const Vector_3 direction = p - before;
     const Point_3 guess = p + size_ / std::sqrt(direction.squared_length()) * direction;
     const auto beyond = curve.project(guess);
     if (!beyond || domain_.contains(*beyond) || CGAL::squared_distance(*beyond, guess) > size_ * size_ / 4) return {};
-    const Side side = side_beyond(*beyond);
-    Point_3 a = p, b = *beyond;
-    double depth_a = depth(a, side), depth_b = depth(b, side);
+    return intersect_side(curve, p, *beyond);
+  }
+
+  /// Where the curve between a point inside and one outside of the domain meets its border: by the Illinois variant of
+  /// regula falsi.
+  std::optional<Point_3> intersect_side(const Feature_curve_3& curve, Point_3 a, Point_3 b) const {
     constexpr int maximal_iterations = 60;
+    const Side side = side_beyond(b);
+    double depth_a = depth(a, side), depth_b = depth(b, side);
     for (int n = 0; n < maximal_iterations; ++n) {
       const auto m = curve.project(a + depth_a / (depth_a - depth_b) * (b - a));
       if (!m) return {};
@@ -143,6 +161,7 @@ private:
     return {};
   }
 
+  /// p, moved into a side of the box; for a ball p itself.
   Point_3 on_side(const Point_3& p, const Side& side) const {
     if (domain_.is_ball()) return p;
     std::array<double, 3> x = {p.x(), p.y(), p.z()};
@@ -153,7 +172,7 @@ private:
 
   const Clip_domain_3& domain_;
   const double size_;
-  std::vector<Point_3> ends_; // on the border
+  std::vector<Point_3> ends_; // of the curves that were extended, on the border
 };
 
 } // namespace equiaffine::internal

@@ -12,7 +12,7 @@
 
 namespace equiaffine::internal {
 
-/// A function that remembers its latest values and counts its evaluations: the mesher asks for each circumcentre up to
+/// A function that remembers its latest values and counts its evaluations: the mesher asks for each circumcenter up to
 /// four times. Copies share the memory, which must outlive them; for one thread.
 class Memoized_function_3 {
 public:

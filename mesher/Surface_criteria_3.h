@@ -3,8 +3,8 @@
 #define EQUIAFFINE_MESHER_SURFACE_CRITERIA_3_H
 
 #include "Facet_sizing_field.h"
-#include <equiaffine/delaunay/cgal_compatibility.h>
-#include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/delaunay/Cgal_optional.h>
+#include <equiaffine/delaunay/Delaunay_criteria.h>
 
 #include <CGAL/Weighted_point_3.h>
 
@@ -21,6 +21,7 @@ template <class Triangulation>
 class Surface_criteria_3 {
 public:
   struct Facet_criteria {
+    enum Criterion { ON_SURFACE, RADIUS, DISTANCE, ANGLE };
     using Facet_quality = std::pair<int, double>; ///< criterion and ratio of bound and measure: the worst come first
     using Is_facet_bad = Cgal_optional<Facet_quality>;
 
@@ -37,29 +38,35 @@ public:
       bool touches_corner = false;
       for (int i = 1; i < 4; ++i) {
         const int dimension = cell->vertex((opposite + i) & 3)->in_dimension();
-        if (dimension > 2) return bad(0, 0);
+        if (dimension > 2) return bad(ON_SURFACE, 0);
         touches_corner = touches_corner || dimension == 0;
         largest_weight = std::max(largest_weight, double(point(i).weight()));
       }
       // No vertex may come into or near a ball around a feature.
       if (squared_radius - point(1).weight() < clearance * largest_weight) return Is_facet_bad();
       const double bound = size(center);
-      if (squared_radius > bound * bound) return bad(1, bound * bound / squared_radius);
-      if (touches_corner) return Is_facet_bad();
+      if (squared_radius > bound * bound) return bad(RADIUS, bound * bound / squared_radius);
+      return touches_corner ? Is_facet_bad() : is_shape_bad(p, q, r, squared_radius);
+    }
 
+    /// The criteria of angle and distance, for a triangle with a surface Delaunay ball of the given radius.
+    template <class Point_3>
+    Is_facet_bad is_shape_bad(const Point_3& p, const Point_3& q, const Point_3& r, double squared_radius) const {
       const double a = CGAL::squared_distance(q, r), b = CGAL::squared_distance(r, p), c = CGAL::squared_distance(p, q);
       const double squared_area = CGAL::cross_product(q - p, r - p).squared_length(); // of the parallelogram
       const double sine_squared = squared_area * std::min({a, b, c}) / (a * b * c);   // of the smallest angle
-      if (sine_squared < least_sine * least_sine) return bad(3, sine_squared);
+      if (sine_squared < least_sine * least_sine) return bad(ANGLE, sine_squared);
       const double squared_circumradius = a * b * c / (4 * squared_area);
       const double squared_distance = squared_radius - squared_circumradius;
-      if (squared_distance > distance * distance) return bad(2, distance * distance / squared_distance);
+      if (squared_distance > distance * distance) return bad(DISTANCE, distance * distance / squared_distance);
       return Is_facet_bad();
     }
 
-    static Is_facet_bad bad(int criterion, double quality) { return Is_facet_bad(Facet_quality(criterion, quality)); }
+    static Is_facet_bad bad(Criterion criterion, double quality) {
+      return Is_facet_bad(Facet_quality(criterion, quality));
+    }
 
-    static constexpr double clearance = 2; // square of distance / radius of a ball
+    static constexpr double clearance = 2; // least square of distance / radius of a ball around a feature
 
     double squared_min_radius_bound() const { return smallest * smallest; } // CGAL 6 asks for it
 

@@ -12,12 +12,18 @@
 
 namespace equiaffine::internal {
 
-/// Turns triangles over so that the two at an edge pass it in opposite directions, as few of each part that hangs
-/// together by such edges as can be. \pre the parts can be oriented
-inline void orient_triangles(std::vector<std::array<std::uint32_t, 3>>& triangles) {
+/// Two triangles with a common edge, which is in no third one.
+struct Adjacent_triangle {
+  std::size_t triangle; ///< index of the other one
+  bool agrees;          ///< both pass the edge in opposite directions
+};
+
+/// The triangles across the edges of each triangle.
+inline std::vector<std::vector<Adjacent_triangle>>
+adjacent_triangles(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   struct Side {
     std::uint32_t first, second; // the smaller index first
-    bool is_reversed;
+    bool is_reversed;            // the triangle goes from the larger index to the smaller one
     std::size_t triangle;
   };
   std::vector<Side> sides;
@@ -30,38 +36,40 @@ inline void orient_triangles(std::vector<std::array<std::uint32_t, 3>>& triangle
   std::sort(sides.begin(), sides.end(), [&](const Side& s, const Side& t) {
     return std::tuple(s.first, s.second, s.triangle) < std::tuple(t.first, t.second, t.triangle);
   });
-
-  struct Neighbor {
-    std::size_t triangle;
-    bool agrees;
-  };
-  std::vector<std::vector<Neighbor>> neighbors(triangles.size());
+  std::vector<std::vector<Adjacent_triangle>> adjacent(triangles.size());
   for (auto first = sides.begin(); first != sides.end();) {
     const auto last = std::find_if(first, sides.end(), [&](const Side& s) { return ends(s) != ends(*first); });
     if (last - first == 2) {
       const bool agrees = first[0].is_reversed != first[1].is_reversed;
-      neighbors[first[0].triangle].push_back({first[1].triangle, agrees});
-      neighbors[first[1].triangle].push_back({first[0].triangle, agrees});
+      adjacent[first[0].triangle].push_back({first[1].triangle, agrees});
+      adjacent[first[1].triangle].push_back({first[0].triangle, agrees});
     }
     first = last;
   }
+  return adjacent;
+}
 
-  enum State { UNSEEN, KEPT, TURNED };
+/// Flips the fewest triangles per component so that adjacent ones agree. Components are connected by edges that are in
+/// exactly two triangles. \pre the components can be oriented
+inline void orient_triangles(std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  const auto adjacent = adjacent_triangles(triangles);
+  enum State { UNSEEN, LIKE_FIRST, UNLIKE_FIRST };
   std::vector<State> state(triangles.size(), UNSEEN);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (state[t] != UNSEEN) continue;
-    std::vector<std::size_t> part = {t};
-    state[t] = KEPT;
-    for (std::size_t n = 0; n < part.size(); ++n)
-      for (const Neighbor& next : neighbors[part[n]]) {
+    std::vector<std::size_t> component = {t};
+    state[t] = LIKE_FIRST;
+    for (std::size_t n = 0; n < component.size(); ++n)
+      for (const Adjacent_triangle& next : adjacent[component[n]]) {
         if (state[next.triangle] != UNSEEN) continue;
-        state[next.triangle] = (state[part[n]] == KEPT) == next.agrees ? KEPT : TURNED;
-        part.push_back(next.triangle);
+        state[next.triangle] = (state[component[n]] == LIKE_FIRST) == next.agrees ? LIKE_FIRST : UNLIKE_FIRST;
+        component.push_back(next.triangle);
       }
-    const auto turned = std::count_if(part.begin(), part.end(), [&](std::size_t u) { return state[u] == TURNED; });
-    const State lesser = 2 * std::size_t(turned) > part.size() ? KEPT : TURNED;
-    for (const std::size_t u : part)
-      if (state[u] == lesser) std::swap(triangles[u][1], triangles[u][2]);
+    const auto unlike =
+        std::count_if(component.begin(), component.end(), [&](std::size_t u) { return state[u] == UNLIKE_FIRST; });
+    const State fewer = 2 * std::size_t(unlike) > component.size() ? LIKE_FIRST : UNLIKE_FIRST;
+    for (const std::size_t u : component)
+      if (state[u] == fewer) std::swap(triangles[u][1], triangles[u][2]);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/analytic_functions.h>
-#include <equiaffine/delaunay/internal/Certified_seeding_3.h>
+#include <equiaffine/delaunay/certified_seeding.h>
 
 #include <CGAL/Simple_cartesian.h>
 
@@ -30,11 +30,8 @@ constexpr double rounding = 0.98;             // points are compared before they
 std::vector<Point_3> seeds_of_sphere(double size, const Point_3& vertex, double clearance) {
   const functions::Sphere sphere;
   const auto traits = make_analytic_traits<Kernel>(sphere, sphere.box());
-  const Clip_domain_3 domain(sphere.box());
-  internal::Certified_seeding_3 seeding(
-      traits, domain, [=](const Point_3&) { return size; }, size);
-  seeding.keep_away(vertex, clearance);
-  return seeding().seeds;
+  const auto uniform = [=](const Point_3&) { return size; };
+  return certified_seeding(traits, Clip_domain_3(sphere.box()), uniform, size, {{vertex, clearance}}).seeds;
 }
 
 double distance_to_nearest(const Point_3& p, const std::vector<Point_3>& points) {
@@ -88,10 +85,8 @@ TEST(Certified_seeding, an_image_in_a_mirror_is_decided_as_well) {
     const Expression_3 f("min(0.04*(" + u + "^2-2.5*" + u + "+1.5), " + v + "^2-2.3*" + v + "+1.3)");
     const CGAL::Bbox_3 box(-1.5, -1.5, -1.5, 1.5, 1.5, 1.5);
     const auto traits = make_analytic_traits<Kernel>(f, box);
-    const Clip_domain_3 domain(box);
-    internal::Certified_seeding_3 seeding(
-        traits, domain, [](const Point_3&) { return 0.1; }, 0.1);
-    EXPECT_TRUE(seeding().undecided_boxes.empty()) << small;
+    const auto uniform = [](const Point_3&) { return 0.1; };
+    EXPECT_TRUE(certified_seeding(traits, Clip_domain_3(box), uniform, 0.1).undecided_boxes.empty()) << small;
   }
 }
 

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_DELAUNAY_ANY_FUNCTION_3_H
 #define EQUIAFFINE_DELAUNAY_ANY_FUNCTION_3_H
 
+#include <equiaffine/delaunay/internal/convert_point.h>
 #include <equiaffine/function/first_order_bounds.h>
 #include <equiaffine/surface/project_to_surface.h>
 
@@ -12,10 +13,10 @@
 #include <memory>
 #include <utility>
 
-namespace equiaffine::internal {
+namespace equiaffine {
 
-/// Any model of ImplicitFunctionTraits_3 behind one type, so that what is expensive to compile is compiled once. A root
-/// is found behind a single virtual call.
+/// Any model of ImplicitFunctionTraits_3 behind one type, so that what is expensive to compile is compiled once. The
+/// model finds a root on a segment within a single virtual call. Copies share the model.
 class Any_function_3 {
 public:
   using Kernel = CGAL::Simple_cartesian<double>;
@@ -34,8 +35,10 @@ public:
   Interval bounds(const CGAL::Bbox_3& box) const { return function_->bounds(box); }
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return function_->first_order_bounds(box); }
   Jet_3<Interval, 1> mean_value_bounds(const CGAL::Bbox_3& box) const { return function_->mean_value_bounds(box); }
-  Known_bounds known_bounds() const { return function_->known_bounds(); }
+  internal::Known_bounds known_bounds() const { return function_->known_bounds(); }
   CGAL::Bbox_3 bbox() const { return function_->bbox(); }
+
+  /// The model's own `equiaffine::intersect_segment`.
   Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa, double fb) const {
     return function_->intersect_segment(a, b, fa, fb);
   }
@@ -49,7 +52,7 @@ private:
     virtual Interval bounds(const CGAL::Bbox_3& box) const = 0;
     virtual Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const = 0;
     virtual Jet_3<Interval, 1> mean_value_bounds(const CGAL::Bbox_3& box) const = 0;
-    virtual Known_bounds known_bounds() const = 0;
+    virtual internal::Known_bounds known_bounds() const = 0;
     virtual CGAL::Bbox_3 bbox() const = 0;
     virtual Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa,
                                                       double fb) const = 0;
@@ -59,7 +62,9 @@ private:
   struct Model final : Concept {
     explicit Model(Traits t) : traits(std::move(t)) {}
 
-    static typename Traits::Point_3 own(const Point_3& p) { return typename Traits::Point_3(p.x(), p.y(), p.z()); }
+    static typename Traits::Point_3 to_traits(const Point_3& p) {
+      return internal::convert_point<Kernel_of<Traits>>(p);
+    }
 
     template <int Order, class FT>
     static Jet_3<double, Order> to_double(const Jet_3<FT, Order>& jet) {
@@ -68,11 +73,11 @@ private:
       return result;
     }
 
-    double value(const Point_3& p) const override { return CGAL::to_double(traits.value(own(p))); }
+    double value(const Point_3& p) const override { return CGAL::to_double(traits.value(to_traits(p))); }
     Jet_3<double, 1> first_order(const Point_3& p) const override {
-      return to_double(equiaffine::first_order(traits, own(p)));
+      return to_double(equiaffine::first_order(traits, to_traits(p)));
     }
-    Jet_3<double> taylor(const Point_3& p) const override { return to_double(traits.taylor(own(p))); }
+    Jet_3<double> taylor(const Point_3& p) const override { return to_double(traits.taylor(to_traits(p))); }
     Interval bounds(const CGAL::Bbox_3& box) const override {
       if constexpr (BoundedImplicitFunctionTraits_3<Traits>) return traits.bounds(box);
       else return Interval::whole();
@@ -83,14 +88,12 @@ private:
     Jet_3<Interval, 1> mean_value_bounds(const CGAL::Bbox_3& box) const override {
       return internal::tight_first_order_bounds(traits, box);
     }
-    Known_bounds known_bounds() const override { return internal::known_bounds(traits); }
+    internal::Known_bounds known_bounds() const override { return internal::known_bounds(traits); }
     CGAL::Bbox_3 bbox() const override { return traits.bbox(); }
     Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa, double fb) const override {
       using FT = typename Traits::FT;
-      const auto found = equiaffine::intersect_segment(traits, own(a), own(b), FT(fa), FT(fb));
-      const auto& p = found.point;
-      return {Point_3(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())), found.has_converged,
-              found.evaluations};
+      const auto found = equiaffine::intersect_segment(traits, to_traits(a), to_traits(b), FT(fa), FT(fb));
+      return {internal::convert_point<Kernel>(found.point), found.has_converged, found.evaluations};
     }
 
     Traits traits;
@@ -101,6 +104,6 @@ private:
   std::shared_ptr<const Concept> function_;
 };
 
-} // namespace equiaffine::internal
+} // namespace equiaffine
 
 #endif

@@ -2,9 +2,11 @@
 #ifndef EQUIAFFINE_DELAUNAY_IMPLICIT_MESH_DOMAIN_3_H
 #define EQUIAFFINE_DELAUNAY_IMPLICIT_MESH_DOMAIN_3_H
 
-#include <equiaffine/delaunay/cgal_compatibility.h>
-#include <equiaffine/delaunay/internal/Certified_seeding_3.h>
+#include <equiaffine/delaunay/Cgal_optional.h>
+#include <equiaffine/delaunay/Delaunay_criteria.h>
+#include <equiaffine/delaunay/certified_seeding.h>
 #include <equiaffine/delaunay/internal/Segment_oracle_3.h>
+#include <equiaffine/delaunay/internal/convert_point.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/tags.h>
@@ -39,14 +41,15 @@ public:
   using Subdomain_index = int;
   using Surface_patch_index = int;
   using Index = int;
-  using Subdomain = internal::Cgal_optional<Subdomain_index>;
-  using Surface_patch = internal::Cgal_optional<Surface_patch_index>;
+  using Subdomain = Cgal_optional<Subdomain_index>;
+  using Surface_patch = Cgal_optional<Surface_patch_index>;
   using Intersection = std::tuple<Point_3, Index, int>;
 
-  /// `facet_size` is the bound of the radii of surface Delaunay balls that will be asked for, 0 for 1/50 of the
-  /// diagonal: initial points are that dense, and on longer dual edges pairs of intersections are looked for.
+  /// `facet_size` is the bound of the radii of surface Delaunay balls that will be asked for, 0 for that of
+  /// `Delaunay_criteria`: initial points are that dense, and pairs of intersections are looked for on dual edges that
+  /// are longer than twice that.
   Implicit_mesh_domain_3(Traits traits, const Clip_domain_3& domain, double facet_size = 0)
-      : facet_size_(facet_size > 0 ? facet_size : domain.diagonal() / 50),
+      : facet_size_(facet_size > 0 ? facet_size : Delaunay_criteria::default_radius(domain)),
         oracle_(std::make_shared<const Oracle>(std::move(traits), domain, 2 * facet_size_)) {}
   explicit Implicit_mesh_domain_3(Traits traits) : Implicit_mesh_domain_3(traits, Clip_domain_3(traits.bbox())) {}
 
@@ -56,8 +59,8 @@ public:
     template <class OutputIterator>
     OutputIterator operator()(OutputIterator out, int = 0) const {
       const auto size = [this](const auto&) { return facet_size; };
-      internal::Certified_seeding_3 seeding(oracle->traits(), oracle->domain(), size, facet_size);
-      for (const auto& p : seeding().seeds) *out++ = std::pair(to_kernel(p), surface_index);
+      const auto seeding = certified_seeding(oracle->traits(), oracle->domain(), size, facet_size);
+      for (const auto& p : seeding.seeds) *out++ = std::pair(to_kernel(p), surface_index);
       return out;
     }
 
@@ -114,10 +117,8 @@ private:
   static constexpr int surface_index = 1, subdomain_index_inside = 1;
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  static Point_3 to_kernel(const typename Traits::Point_3& p) {
-    return Point_3(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
-  }
-  static typename Traits::Point_3 to_traits(const Point_3& p) { return typename Traits::Point_3(p.x(), p.y(), p.z()); }
+  static Point_3 to_kernel(const typename Traits::Point_3& p) { return internal::convert_point<Kernel>(p); }
+  static typename Traits::Point_3 to_traits(const Point_3& p) { return internal::convert_point<Kernel_of<Traits>>(p); }
 
   double facet_size_;
   std::shared_ptr<const Oracle> oracle_;

@@ -12,10 +12,10 @@
 #include <limits>
 #include <vector>
 
-namespace equiaffine::internal {
+namespace equiaffine {
 
-/// Points with distances that they keep from each other, in hashed grids, one for each power of two of the distance:
-/// insertion in constant time, a query in the number of those powers.
+/// Points with distances that they keep from each other, in hashed grids, one for each power of two of the distance.
+/// Insertion takes constant time; a query takes time in proportion to the number of those powers.
 template <class Point_3, class Vector_3>
 class Seed_grid_3 {
 public:
@@ -23,13 +23,13 @@ public:
     Point_3 point;
     Vector_3 normal; // zero at a singular point
     double spacing;
-    bool is_fixed = false; // keeps its distance also from denser seeds
+    bool is_fixed = false; // then denser seeds keep its spacing, too
   };
 
   const std::vector<Seed>& seeds() const { return seeds_; }
 
-  /// Whether a seed is nearer than the smaller one of both spacings, and on a sheet of the same orientation: the two
-  /// sides of a thin part are sampled each for itself.
+  /// Whether a seed is nearer to the candidate than the smaller one of their spacings, and their normals form no obtuse
+  /// angle: each side of a thin part of a surface has its own seeds.
   bool is_crowded(const Seed& candidate) {
     if (latest_ < seeds_.size() && is_near(seeds_[latest_], candidate)) return true;
     for (const int level : levels_) {
@@ -46,9 +46,9 @@ public:
     return false;
   }
 
-  /// Of seeds much denser than the box is large it knows nothing.
+  /// Whether there is a seed in a box. Seeds whose spacing is below about 1/8 of the box are ignored.
   bool has_seed_in(const CGAL::Bbox_3& box) const {
-    constexpr double most_cells = 8; // along an axis
+    constexpr double most_cells = 8; // that are visited along an axis
     for (const int level : levels_) {
       if (std::ldexp(most_cells, level) < std::max({box.x_span(), box.y_span(), box.z_span()})) continue;
       const auto first = cell_of({box.xmin(), box.ymin(), box.zmin()}, level);
@@ -75,12 +75,12 @@ private:
   using Cell = std::array<std::int64_t, 3>;
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  static bool is_near(const Seed& a, const Seed& b) { // a is in the grid
-    const double spacing = a.is_fixed ? a.spacing : std::min(a.spacing, b.spacing);
-    return (a.point - b.point).squared_length() < spacing * spacing && a.normal * b.normal >= 0;
+  static bool is_near(const Seed& seed, const Seed& candidate) {
+    const double spacing = seed.is_fixed ? seed.spacing : std::min(seed.spacing, candidate.spacing);
+    return (seed.point - candidate.point).squared_length() < spacing * spacing && seed.normal * candidate.normal >= 0;
   }
 
-  /// The exponent of the smallest power of two that is larger than the distance: the side of the cells.
+  /// The side of the cells of a level is 2^level. That of a seed is the smallest one above its spacing.
   static int level_of(const Seed& seed) { return std::ilogb(seed.spacing) + 1; }
 
   static Cell cell_of(const Point_3& p, int level) {
@@ -108,11 +108,13 @@ private:
   }
 
   std::vector<Seed> seeds_;
-  std::uint32_t latest_ = none; // that a candidate was near: the next candidate is often beside that one
-  std::vector<int> levels_;
-  std::vector<std::uint32_t> heads_ = std::vector<std::uint32_t>(1024, none), next_;
+  std::uint32_t latest_ =
+      none;                 // the seed that the latest crowded candidate was near; the next one is often near it, too
+  std::vector<int> levels_; // all that seeds have
+  std::vector<std::uint32_t> heads_ = std::vector<std::uint32_t>(1024, none); // first seed of a bucket
+  std::vector<std::uint32_t> next_;                                           // next seed of the same bucket, per seed
 };
 
-} // namespace equiaffine::internal
+} // namespace equiaffine
 
 #endif

@@ -23,8 +23,8 @@
 
 namespace equiaffine::internal {
 
-/// Points of a surface that are about `packing * size(p)` apart, nearer where a smaller distance is asked for; from
-/// where one is asked for they go as far as the surface does.
+/// Packs a surface with seeds, points that are about `packing * size(p)` apart, or nearer where a smaller distance is
+/// asked for. From a box that is to be covered, seeds spread over the whole component of the surface.
 template <ImplicitFunctionTraits_3 Traits, class Sizing>
 class Seed_packing_3 {
   using Point_3 = typename Traits::Point_3;
@@ -34,58 +34,46 @@ class Seed_packing_3 {
 
 public:
   using Seed = typename Grid::Seed;
-  static constexpr double packing = 1.1; // distance of seeds / bound of circumradii
+  static constexpr double packing = 1.1; ///< distance of seeds / bound of circumradii
 
   Seed_packing_3(const Traits& traits, const Clip_domain_3& domain, Sizing size)
       : traits_(traits), domain_(domain), size_(std::move(size)) {}
 
   const std::vector<Seed>& seeds() const { return grid_.seeds(); }
 
-  /// Seeds keep the distance `spacing` from a vertex that the mesh has already: a fixed seed.
+  /// Makes a vertex that the mesh has already a fixed seed, from which others keep the distance `spacing`.
   void keep_away(const Point_3& vertex, double spacing) {
     const auto jet = first_order(traits_, vertex);
     grid_.insert({vertex, unit(gradient_of<Vector_3>(jet)), spacing, true});
   }
 
-  /// A seed in a box that has none, searched for up to `reach` from points in it, and all those around it.
+  /// If a box has no seed, finds one in it and spreads from there. The surface is searched for up to the distance
+  /// `reach` from points in the box.
   void cover(const CGAL::Bbox_3& box, double reach, double spacing) {
+    constexpr int candidates = 3;
     if (grid_.has_seed_in(box)) return;
     bool is_found = false;
-    for (int n = 0; n < candidates && !is_found; ++n) is_found = project(random_point(box), box, spacing, reach);
-    if (!is_found) search_edges(box, spacing);
+    for (int n = 0; n < candidates && !is_found; ++n)
+      is_found = seed_surface_near(random_point(box), box, spacing, reach);
+    if (!is_found) seed_edges(box, spacing);
     spread();
   }
 
-  /// From each new seed, seeds around it at the distance that they keep.
+  /// Surrounds every new seed with seeds at the distance that they keep, until there are no new ones.
   void spread() {
     for (; spread_seeds_ < grid_.seeds().size(); ++spread_seeds_) {
-      const Seed seed = grid_.seeds()[spread_seeds_]; // a copy: insertion may move it
-      const Vector_3& n = seed.normal;
-      const auto is_smaller = [](const FT& a, const FT& b) { return CGAL::abs(a) < CGAL::abs(b); };
-      const auto axis = std::min_element(n.cartesian_begin(), n.cartesian_end(), is_smaller) - n.cartesian_begin();
-      const Vector_3 u = unit(CGAL::cross_product(n, Vector_3(FT(axis == 0), FT(axis == 1), FT(axis == 2))));
-      const Vector_3 v = CGAL::cross_product(n, u);
-      const double turn = random();
-      for (int k = 0; k < directions; ++k) {
-        const double angle = 2 * std::numbers::pi * (k + turn) / directions;
-        const double distance = seed.spacing * (1 + jitter * random());
-        const Point_3 p = seed.point + FT(distance * std::cos(angle)) * u + FT(distance * std::sin(angle)) * v;
-        if (!domain_.contains(p)) continue;
-        const double spacing = std::min(packing * size_(p), growth * seed.spacing);
-        if (grid_.is_crowded({p, n, 0.98 * spacing})) continue;
-        const double r = spacing / 2;
-        project(p, CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r), spacing, spacing);
-      }
+      const Seed seed = grid_.seeds()[spread_seeds_]; // a copy, since insertion may move the seeds
+      surround(seed);
     }
   }
 
-  /// A regular arrangement would be a degenerate one.
+  /// Points are random since a regular arrangement would make the triangulation degenerate.
   Point_3 random_point(const CGAL::Bbox_3& b) {
     return Point_3(FT(b.xmin() + random() * b.x_span()), FT(b.ymin() + random() * b.y_span()),
                    FT(b.zmin() + random() * b.z_span()));
   }
 
-  /// In [0, 1), the same on every machine (Vigna: splitmix64, 2015).
+  /// A number in [0, 1); the sequence is the same on every machine (Vigna: splitmix64, 2015).
   double random() {
     std::uint64_t z = state_ += 0x9E3779B97F4A7C15U;
     z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
@@ -94,8 +82,38 @@ public:
   }
 
 private:
-  /// Whether a point of the surface that is near p, and by Newton's method in the box, got a seed or had one nearby.
-  bool project(const Point_3& p, const CGAL::Bbox_3& box, double spacing, double reach) {
+  void surround(const Seed& seed) {
+    constexpr int directions = 16;
+    constexpr double jitter = 0.3;     // largest random addition to a distance, as a fraction
+    constexpr double growth = 1.2;     // largest ratio of the spacings of neighbors
+    constexpr double tolerance = 0.98; // the candidate is not on the surface yet
+    const Vector_3 &n = seed.normal, u = tangent_at(seed), v = CGAL::cross_product(n, u);
+    const double turn = random();
+    for (int k = 0; k < directions; ++k) {
+      const double angle = 2 * std::numbers::pi * (k + turn) / directions;
+      const double distance = seed.spacing * (1 + jitter * random());
+      const Point_3 p = seed.point + FT(distance * std::cos(angle)) * u + FT(distance * std::sin(angle)) * v;
+      if (!domain_.contains(p)) continue;
+      const double spacing = std::min(packing * size_(p), growth * seed.spacing);
+      if (grid_.is_crowded({p, n, tolerance * spacing})) continue;
+      const double r = spacing / 2;
+      const CGAL::Bbox_3 box(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r);
+      seed_surface_near(p, box, spacing, spacing);
+    }
+  }
+
+  /// A unit vector orthogonal to the normal of a seed; far from parallel to the axis that it is computed from.
+  static Vector_3 tangent_at(const Seed& seed) {
+    const Vector_3& n = seed.normal;
+    const auto is_smaller = [](const FT& a, const FT& b) { return CGAL::abs(a) < CGAL::abs(b); };
+    const auto axis = std::min_element(n.cartesian_begin(), n.cartesian_end(), is_smaller) - n.cartesian_begin();
+    return unit(CGAL::cross_product(n, Vector_3(FT(axis == 0), FT(axis == 1), FT(axis == 2))));
+  }
+
+  /// Makes a seed of the point of the surface near p, if a step of Newton's method leads into the box. Returns whether
+  /// there is a seed now at or near that point.
+  bool seed_surface_near(const Point_3& p, const CGAL::Bbox_3& box, double spacing, double reach) {
+    constexpr double tolerance = 0.99; // the point is not on the surface yet
     const auto jet = first_order(traits_, p);
     const auto gradient = gradient_of<Vector_3>(jet);
     const FT squared_norm = gradient.squared_length();
@@ -103,14 +121,15 @@ private:
     const Point_3 newton = p - jet.value() / squared_norm * gradient;
     if (!CGAL::do_overlap(newton.bbox(), box)) return false;
     const Vector_3 normal = unit(gradient);
-    if (grid_.is_crowded({newton, normal, 0.99 * spacing})) return true; // before more is spent on it
+    if (grid_.is_crowded({newton, normal, tolerance * spacing})) return true; // saves the projection
     const auto found = project_to_surface(traits_, p, FT(reach), jet);
     if (!found.has_converged) return false;
     insert({found.point, normal, spacing});
     return true;
   }
 
-  void search_edges(const CGAL::Bbox_3& box, double spacing) {
+  /// Makes seeds where the surface crosses the edges of a box.
+  void seed_edges(const CGAL::Bbox_3& box, double spacing) {
     std::array<Point_3, 8> corners;
     std::array<FT, 8> values;
     for (unsigned c = 0; c < 8; ++c) {
@@ -132,23 +151,18 @@ private:
     if (domain_.contains(seed.point) && !grid_.is_crowded(seed)) grid_.insert(seed);
   }
 
-  /// Zero stays zero: a singular point has no normal.
+  /// v with the length 1. The vector zero, which a singular point has in place of a normal, is left as it is.
   static Vector_3 unit(const Vector_3& v) {
     const double norm = std::sqrt(CGAL::to_double(v.squared_length()));
     return norm > 0 ? v / FT(norm) : v;
   }
 
-  static constexpr int candidates = 3;  // of a cell, before its edges are searched
-  static constexpr int directions = 16; // from a seed to others
-  static constexpr double jitter = 0.3; // of their distance, as a fraction
-  static constexpr double growth = 1.2; // of the spacing from a seed to those around it
-
   const Traits& traits_;
   const Clip_domain_3& domain_;
   Sizing size_;
   Grid grid_;
-  std::size_t spread_seeds_ = 0; // the first ones
-  std::uint64_t state_ = 1;
+  std::size_t spread_seeds_ = 0; // so many first seeds are surrounded
+  std::uint64_t state_ = 1;      // of the random numbers
 };
 
 } // namespace equiaffine::internal

@@ -17,9 +17,9 @@
 
 namespace equiaffine::internal {
 
-/// Where the dual edges of a Delaunay triangulation meet a surface. A segment, ray or line is cut to the clip domain
-/// before the signs at its ends are compared: a sheet of the surface outside has no say. Const members may be called
-/// from several threads at once; `Traits` decides whether values are remembered.
+/// Finds where segments, rays and lines, the duals of the facets of a Delaunay triangulation, meet a surface. They are
+/// cut to the clip domain before the signs at their ends are compared, so that sheets of the surface outside of it do
+/// not matter. Const members may be called from several threads at once if those of `Traits` may.
 template <ImplicitFunctionTraits_3 Traits>
 class Segment_oracle_3 {
 public:
@@ -28,17 +28,17 @@ public:
   using Vector_3 = typename Traits::Vector_3;
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  /// A pair of roots, which leaves no sign change, is looked for on pieces of a segment longer than `certified_length`,
-  /// with the bounds of the function, as far as they cannot exclude it.
+  /// A segment longer than `certified_length` may have two roots and no sign change. If the bounds of the function
+  /// cannot exclude that, its halves are searched, down to pieces of that length.
   Segment_oracle_3(Traits traits, const Clip_domain_3& domain, double certified_length = infinity)
       : traits_(std::move(traits)), domain_(domain), certified_length_(certified_length) {}
 
   /// A point of the surface on p + t d, first <= t <= last (which may be infinite), inside the domain.
   std::optional<Point_3> operator()(const Point_3& p, const Vector_3& d, double first, double last) const {
-    const auto part = domain_.clip(p, d, first, last);
-    if (!part) return std::nullopt;
-    const auto at = [&](double t, double end) { return t == 0 ? p : t == 1 && end == 1 ? p + d : p + FT(t) * d; };
-    const Point_3 a = at(part->first, last), b = at(part->second, last);
+    const auto clipped = domain_.clip(p, d, first, last);
+    if (!clipped) return std::nullopt;
+    const auto at = [&](double t) { return t == 0 ? p : t == 1 && t == last ? p + d : p + FT(t) * d; }; // exact ends
+    const Point_3 a = at(clipped->first), b = at(clipped->second);
     return on_segment(a, b, traits_.value(a), traits_.value(b));
   }
 
@@ -48,6 +48,7 @@ public:
   const Clip_domain_3& domain() const { return domain_; }
 
 private:
+  /// A root between a and b, where f has the values fa and fb.
   std::optional<Point_3> on_segment(const Point_3& a, const Point_3& b, const FT& fa, const FT& fb) const {
     if (is_sign_change(fa, fb)) {
       const auto root = intersect_segment(traits_, a, b, fa, fb);
@@ -68,7 +69,7 @@ private:
     return std::nullopt;
   }
 
-  /// A root between a and where f ceases to be defined on the way to b.
+  /// A root between a, where f has the value fa, and the place on the way to b from which on f is undefined.
   std::optional<Point_3> before_undefined(Point_3 a, Point_3 b, const FT& fa) const {
     constexpr int halvings = 12;
     for (int n = 0; n < halvings; ++n) {
@@ -85,7 +86,7 @@ private:
     return std::nullopt;
   }
 
-  /// False if f is monotone on the segment, or has no zero on its box.
+  /// False if f is proved to be monotone on the segment from a to b = a + d, or to have no zero in its box.
   bool may_have_two_roots(const Point_3& a, const Point_3& b, const Vector_3& d) const {
     const auto jet = first_order_bounds(traits_, a.bbox() + b.bbox());
     const auto& c = jet.coefficients();

@@ -13,7 +13,8 @@
 
 namespace equiaffine::internal {
 
-/// Whether the projections to some axes of any two gradients in a box have a positive product.
+/// Whether any two gradients that `jet` bounds have projections to the plane or line of some axes that form an acute
+/// angle.
 inline bool has_acute_gradients(const Jet_3<Interval, 1>& jet, const std::array<bool, 3>& axes) {
   double largest = 0;
   for (std::size_t a = 0; a < 3; ++a) largest = std::max(largest, abs(jet.coefficients()[1 + a]).upper());
@@ -21,11 +22,45 @@ inline bool has_acute_gradients(const Jet_3<Interval, 1>& jet, const std::array<
   const Interval scale(std::ldexp(1.0, -std::ilogb(largest))); // so that no product over- or underflows
   Interval product(0);
   for (std::size_t a = 0; a < 3; ++a) {
-    const Interval g = jet.coefficients()[1 + a] * scale, independent = g;
+    const Interval g = jet.coefficients()[1 + a] * scale, independent = g; // two gradients, not one twice
     if (axes[a]) product += g * independent;
   }
   return product.lower() > 0;
 }
+
+/// A face, an edge or a corner of a cell, or the cell itself: its extent along each axis.
+struct Cell_side_3 {
+  enum Extent { WHOLE, LOWER, UPPER };
+  std::array<Extent, 3> extents;
+
+  /// All 27, the cell itself first.
+  static Cell_side_3 number(int n) { return {{Extent(n % 3), Extent(n / 3 % 3), Extent(n / 9)}}; }
+
+  std::array<bool, 3> axes() const {
+    return {extents[0] == WHOLE, extents[1] == WHOLE, extents[2] == WHOLE}; // along which it extends
+  }
+
+  bool is_corner() const { return axes() == std::array<bool, 3>{false, false, false}; }
+
+  CGAL::Bbox_3 box(const CGAL::Bbox_3& cell) const {
+    std::array<double, 3> lower, upper;
+    for (int a = 0; a < 3; ++a) {
+      lower[std::size_t(a)] = extents[std::size_t(a)] == UPPER ? cell.max(a) : cell.min(a);
+      upper[std::size_t(a)] = extents[std::size_t(a)] == LOWER ? cell.min(a) : cell.max(a);
+    }
+    return CGAL::Bbox_3(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]);
+  }
+
+  /// Whether it lies in the same side of another box.
+  bool touches(const CGAL::Bbox_3& cell, const CGAL::Bbox_3& outer) const {
+    for (int a = 0; a < 3; ++a) {
+      const Extent extent = extents[std::size_t(a)];
+      if (extent == LOWER && cell.min(a) != outer.min(a)) return false;
+      if (extent == UPPER && cell.max(a) != outer.max(a)) return false;
+    }
+    return true;
+  }
+};
 
 /// Whether any two gradients in a cell form an acute angle, and so do their projections to every face and edge of the
 /// outer box that the cell touches and the surface meets. `jet` bounds f on the cell.
@@ -33,24 +68,11 @@ template <ImplicitFunctionTraits_3 Traits>
 bool has_acute_gradients(const Traits& traits, const Jet_3<Interval, 1>& jet, const CGAL::Bbox_3& cell,
                          const CGAL::Bbox_3& outer) {
   if (!has_acute_gradients(jet, {true, true, true})) return false;
-  enum Side { ALL, LOWER, UPPER };
-  for (int part = 1; part < 27; ++part) { // along each axis all of the cell, or its lower or upper side
-    const std::array<int, 3> side = {part % 3, part / 3 % 3, part / 9};
-    std::array<double, 3> lower, upper;
-    std::array<bool, 3> is_free;
-    bool is_border = true;
-    for (int a = 0; a < 3; ++a) {
-      const auto n = std::size_t(a);
-      is_free[n] = side[n] == ALL;
-      lower[n] = side[n] == UPPER ? cell.max(a) : cell.min(a);
-      upper[n] = side[n] == LOWER ? cell.min(a) : cell.max(a);
-      is_border = is_border && (is_free[n] || lower[n] == (side[n] == LOWER ? outer.min(a) : outer.max(a)));
-    }
-    const bool is_corner = !is_free[0] && !is_free[1] && !is_free[2];
-    if (!is_border || is_corner || has_acute_gradients(jet, is_free)) continue;
-    const CGAL::Bbox_3 box(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]);
-    const auto jet_there = tight_first_order_bounds(traits, box);
-    if (jet_there.value().contains(0) && !has_acute_gradients(jet_there, is_free)) return false;
+  for (int n = 1; n < 27; ++n) {
+    const auto side = Cell_side_3::number(n);
+    if (side.is_corner() || !side.touches(cell, outer) || has_acute_gradients(jet, side.axes())) continue;
+    const auto jet_there = tight_first_order_bounds(traits, side.box(cell));
+    if (jet_there.value().contains(0) && !has_acute_gradients(jet_there, side.axes())) return false;
   }
   return true;
 }

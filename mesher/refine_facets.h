@@ -1,30 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Everything in which the use of CGAL's mesher differs between CGAL 5 and CGAL 6.
-#ifndef EQUIAFFINE_DELAUNAY_CGAL_COMPATIBILITY_H
-#define EQUIAFFINE_DELAUNAY_CGAL_COMPATIBILITY_H
+#ifndef EQUIAFFINE_MESHER_REFINE_FACETS_H
+#define EQUIAFFINE_MESHER_REFINE_FACETS_H
 
 #include <CGAL/refine_mesh_3.h>
 #include <CGAL/version.h>
 
-#if CGAL_VERSION_NR >= 1060000000
-#include <optional>
-#else
-#include <boost/optional.hpp>
-#endif
-
 namespace equiaffine::internal {
 
-#if CGAL_VERSION_NR >= 1060000000
-template <class T>
-using Cgal_optional = std::optional<T>;
-#else
-template <class T>
-using Cgal_optional = boost::optional<T>;
-#endif
-
+/// What the facets must be as a topological space.
 enum class Manifoldness { ANY, MANIFOLD, MANIFOLD_WITH_BOUNDARY };
 
-/// Refines the facets, and nothing else, from the points that are in the triangulation.
+/// Refines the facets, and nothing else, from the points that are in the triangulation. The calls of CGAL 5 and CGAL 6
+/// differ.
 template <class C3t3, class Domain, class Criteria>
 void refine_facets(C3t3& c3t3, const Domain& domain, const Criteria& criteria, Manifoldness manifoldness) {
   namespace parameters = CGAL::parameters;
@@ -36,9 +23,11 @@ void refine_facets(C3t3& c3t3, const Domain& domain, const Criteria& criteria, M
                         parameters::no_exude(), topology);
 #endif
   };
-  if (manifoldness == Manifoldness::ANY) refine(parameters::non_manifold());
-  else if (manifoldness == Manifoldness::MANIFOLD) refine(parameters::manifold());
-  else refine(parameters::manifold_with_boundary());
+  switch (manifoldness) {
+  case Manifoldness::ANY: return refine(parameters::non_manifold());
+  case Manifoldness::MANIFOLD: return refine(parameters::manifold());
+  case Manifoldness::MANIFOLD_WITH_BOUNDARY: return refine(parameters::manifold_with_boundary());
+  }
 }
 
 } // namespace equiaffine::internal

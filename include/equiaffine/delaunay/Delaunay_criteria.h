@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_DELAUNAY_DELAUNAY_CRITERIA_H
+#define EQUIAFFINE_DELAUNAY_DELAUNAY_CRITERIA_H
+
+#include <equiaffine/surface/Clip_domain_3.h>
+
+namespace equiaffine {
+
+/// What every triangle of a Delaunay mesh satisfies. Lengths are absolute.
+struct Delaunay_criteria {
+  double angle = 30;   ///< least angle in degrees, at most 30
+  double radius = 0;   ///< bound of the radius of surface Delaunay balls; 0: 1/50 of the diagonal of the clip domain
+  double distance = 0; ///< bound of the distance of a triangle's circumcenter to the center of that ball; 0: radius/10
+
+  static double default_radius(const Clip_domain_3& domain) { return domain.diagonal() / 50; }
+
+  /// The same criteria with the defaults in place of lengths that are 0.
+  Delaunay_criteria completed(const Clip_domain_3& domain) const {
+    Delaunay_criteria result = *this;
+    if (result.radius == 0) result.radius = default_radius(domain);
+    if (result.distance == 0) result.distance = result.radius / 10;
+    return result;
+  }
+};
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_DELAUNAY_DELAUNAY_SURFACE_3_H
+#define EQUIAFFINE_DELAUNAY_DELAUNAY_SURFACE_3_H
+
+#include <equiaffine/surface/Isosurface_3.h>
+#include <equiaffine/surface/parabolic_curves.h>
+
+#include <CGAL/Bbox_3.h>
+
+#include <vector>
+
+namespace equiaffine {
+
+/// A Delaunay mesh of the zero set of a function.
+template <class Kernel>
+struct Delaunay_surface_3 : Isosurface_3<Kernel> {
+  bool is_certified = false; ///< no component of the surface was missed: there are no undecided boxes
+  /// Where a part of the surface may have been missed, since neither its absence nor its regularity could be proved:
+  /// around singular points, where the surface touches the border of the box, beside points where f is not defined, in
+  /// noise that would need too many boxes, or everywhere for a function without bounds of its gradient. Also where a
+  /// part was found and yet got no triangle, or a feature no edge, for being too near to others, where the mesh is not
+  /// a manifold, and where a triangle straddles a parabolic curve that is a feature.
+  std::vector<CGAL::Bbox_3> undecided_boxes;
+  Parabolic_curves_3<Kernel> parabolic_curves; ///< if the mesh was asked to follow them
+};
+
+} // namespace equiaffine
+
+#endif

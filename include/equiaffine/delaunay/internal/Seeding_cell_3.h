@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_DELAUNAY_INTERNAL_SEEDING_CELL_3_H
+#define EQUIAFFINE_DELAUNAY_INTERNAL_SEEDING_CELL_3_H
+
+#include <equiaffine/delaunay/internal/Octree_3.h>
+#include <equiaffine/delaunay/internal/acute_gradients.h>
+#include <equiaffine/function/first_order_bounds.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace equiaffine::internal {
+
+/// A cell of the octree, and what is known about f in it, which its children inherit.
+struct Seeding_cell_3 {
+  Octree_3::Position position;
+  double slope = std::numeric_limits<double>::infinity(); ///< bound of the sum of the |partial derivatives|
+  bool is_decided = false;                                ///< the gradients pairwise form acute angles
+};
+
+/// Proves, with bounds of f and of its gradient, that cells have no surface or have gradients that pairwise form acute
+/// angles. The cells are asked for level by level.
+template <ImplicitFunctionTraits_3 Traits>
+class Cell_prover_3 {
+  using Point_3 = typename Traits::Point_3;
+  using FT = typename Traits::FT;
+  using Cell = Seeding_cell_3;
+
+public:
+  /// `outer` is the box of the octree. Tight bounds are tried in cells with sides of at most `largest_tight_side`.
+  Cell_prover_3(const Traits& traits, const CGAL::Bbox_3& outer, double largest_tight_side)
+      : traits_(traits), outer_(outer), largest_tight_side_(largest_tight_side),
+        known_(internal::known_bounds(traits)) {}
+
+  bool knows_gradients() const { return known_.have_gradients; }
+
+  /// Every level tries out anew whether tight bounds are worth it.
+  void begin_level() { tight_cells_ = settled_tight_cells_ = 0; }
+
+  /// Whether it is proved that there is no surface in a cell. If there may be some, the cell learns what is found about
+  /// it; for an urgent cell no effort is spared.
+  bool is_empty(Cell& cell, const CGAL::Bbox_3& box, double side, bool is_urgent) {
+    const double value = known_.have_gradients ? std::abs(CGAL::to_double(traits_.value(center(box)))) : 0;
+    if (is_far(cell, box, value)) return true;
+    if (cell.is_decided) return false;
+    if constexpr (BoundedImplicitFunctionTraits_3<Traits>)
+      if (!traits_.bounds(box).contains(0)) return true;
+    if (learn(cell, box, value, first_order_bounds(traits_, box))) return true;
+    if (cell.is_decided || !are_tight_bounds_worth_it(side, is_urgent)) return false;
+    const bool is_empty = learn(cell, box, value, tight_first_order_bounds(traits_, box));
+    ++tight_cells_;
+    settled_tight_cells_ += is_empty || cell.is_decided;
+    return is_empty;
+  }
+
+  /// Whether f has a pole in a box or is undefined there, which no subdivision removes.
+  bool is_unbounded(const CGAL::Bbox_3& box) const {
+    if constexpr (BoundedImplicitFunctionTraits_3<Traits>) return traits_.bounds(box) == Interval::whole();
+    else return false;
+  }
+
+  static Point_3 center(const CGAL::Bbox_3& b) {
+    const auto c = center_of(b);
+    return Point_3(FT(c[0]), FT(c[1]), FT(c[2]));
+  }
+
+private:
+  /// Tight bounds cost about three times as much as others. After a number of cells of a level they are used as long as
+  /// they settle a third of them.
+  bool are_tight_bounds_worth_it(double side, bool is_urgent) const {
+    constexpr std::size_t least_tight_cells = 64;
+    if (!known_.are_tight_in_small_boxes || side > largest_tight_side_) return false;
+    return is_urgent || tight_cells_ < least_tight_cells || 3 * settled_tight_cells_ >= tight_cells_;
+  }
+
+  /// Takes over what bounds of f and its gradient in the cell tell, and returns whether they exclude a zero. `value` is
+  /// |f| at the center.
+  bool learn(Cell& cell, const CGAL::Bbox_3& box, double value, const Jet_3<Interval, 1>& jet) const {
+    cell.is_decided = has_acute_gradients(traits_, jet, box, outer_);
+    Interval sum(0);
+    for (std::size_t a = 1; a < 4; ++a) sum += abs(jet.coefficients()[a]);
+    cell.slope = std::min(cell.slope, sum.upper());
+    return !jet.value().contains(0) || is_far(cell, box, value);
+  }
+
+  /// Whether |f| at the center of a cell, `value`, is so large that the slope allows no zero in the cell. What seems to
+  /// be so is proved with bounds of the rounding errors, which take longer.
+  bool is_far(const Cell& cell, const CGAL::Bbox_3& box, double value) const {
+    const auto offset = offset_from_center(box, center_of(box));
+    double reach = 0;
+    for (const Interval& x : offset) reach = std::max(reach, abs(x).upper());
+    if (!(value > cell.slope * reach)) return false;
+    if constexpr (BoundedImplicitFunctionTraits_3<Traits>)
+      return !(traits_.bounds(box_of_point(center_of(box))) + Interval(-1, 1) * Interval(cell.slope) * Interval(reach))
+                  .contains(0);
+    else return false;
+  }
+
+  const Traits& traits_;
+  const CGAL::Bbox_3 outer_;
+  const double largest_tight_side_;
+  const Known_bounds known_;
+  std::size_t tight_cells_ = 0;         // of this level, on which tight bounds were tried
+  std::size_t settled_tight_cells_ = 0; // those of them that tight bounds proved to be empty, or decided
+};
+
+} // namespace equiaffine::internal
+
+#endif
