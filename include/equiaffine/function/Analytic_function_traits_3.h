@@ -3,6 +3,7 @@
 #define EQUIAFFINE_FUNCTION_ANALYTIC_FUNCTION_TRAITS_3_H
 
 #include <equiaffine/function/concepts.h>
+#include <equiaffine/function/internal/box_intervals.h>
 #include <equiaffine/function/internal/expand.h>
 #include <equiaffine/number/Pack.h>
 
@@ -24,10 +25,10 @@ namespace equiaffine {
 ///     };
 ///     Analytic_function_traits_3<Kernel, Sphere> traits(Sphere(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
 ///
-/// It is called with FT, Interval, jets of both and, for batches in compute_attributes, jets of Pack<FT>. Elementary
-/// functions must be found by argument-dependent lookup (`using std::exp; return exp(x);`). With three template
-/// parameters, or `auto`, for the arguments and `auto` for intermediate results it computes only the derivatives that
-/// its structure leaves nonzero.
+/// It is called with FT, Interval, jets of both and, by compute_attributes, jets of Pack<FT>. Elementary functions must
+/// be found by argument-dependent lookup (`using std::exp; return exp(x);`). With three template parameters, or `auto`,
+/// for the arguments and `auto` for intermediate results it computes only the derivatives that its structure leaves
+/// nonzero.
 template <class Kernel, class Function>
 class Analytic_function_traits_3 {
 public:
@@ -35,7 +36,7 @@ public:
   using Point_3 = typename Kernel::Point_3;
   using Vector_3 = typename Kernel::Vector_3;
 
-  /// `box` is where the level set is looked for, not a limit of f.
+  /// The level set is looked for in `box`; f may be called outside of it.
   Analytic_function_traits_3(Function function, const CGAL::Bbox_3& box) : function_(std::move(function)), box_(box) {}
 
   FT value(const Point_3& p) const { return function_(p.x(), p.y(), p.z()); }
@@ -45,7 +46,8 @@ public:
     else return internal::expand<4, FT>(function_, p.x(), p.y(), p.z());
   }
 
-  /// A function that asks whether x < y has to be answered alike in all lanes of a pack. \throw Lanes_disagree
+  /// jets[n] becomes the expansion at the points x[n], y[n], z[n], one in each lane. A comparison in the function, such
+  /// as x < y, needs the same answer in all lanes of a pack. \throw Lanes_disagree when the answers differ
   void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
                     std::span<Jet_3<Pack<FT>>> jets) const requires(std::is_floating_point_v<FT>) {
     if constexpr (internal::HasTaylor<Function, FT>) function_.taylor(x, y, z, jets);
@@ -55,18 +57,18 @@ public:
   }
 
   Interval bounds(const CGAL::Bbox_3& box) const {
-    return function_(Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()),
-                     Interval(box.zmin(), box.zmax()));
+    const auto [x, y, z] = internal::sides_of(box);
+    return function_(x, y, z);
   }
 
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const {
-    return internal::expand<1, Interval>(function_, Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()),
-                                         Interval(box.zmin(), box.zmax()));
+    const auto [x, y, z] = internal::sides_of(box);
+    return internal::expand<1, Interval>(function_, x, y, z);
   }
 
   Jet_3<Interval, 2> second_order_bounds(const CGAL::Bbox_3& box) const {
-    return internal::expand<2, Interval>(function_, Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()),
-                                         Interval(box.zmin(), box.zmax()));
+    const auto [x, y, z] = internal::sides_of(box);
+    return internal::expand<2, Interval>(function_, x, y, z);
   }
 
   CGAL::Bbox_3 bbox() const { return box_; }
@@ -77,7 +79,7 @@ private:
   CGAL::Bbox_3 box_;
 };
 
-/// Deduces the type of the function: `make_analytic_traits<Kernel>(f, box)`.
+/// The model for `function`, whose type is deduced: `make_analytic_traits<Kernel>(f, box)`.
 template <class Kernel, class Function>
 Analytic_function_traits_3<Kernel, Function> make_analytic_traits(Function function, const CGAL::Bbox_3& box) {
   return {std::move(function), box};

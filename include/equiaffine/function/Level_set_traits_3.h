@@ -21,8 +21,8 @@ enum class Orientation_of_level_set {
 };
 
 /// The function f - v, or v - f against the gradient, whose zero set is the level set f = v with the chosen
-/// orientation. Models every refinement that the base models, batches apart. Reversing the orientation changes the sign
-/// of nu, xi, H, J, H_e and of the metric; K and K_e stay.
+/// orientation. It models every refinement that the base models, except batches. Reversing the orientation changes the
+/// sign of nu, xi, H, J, H_e and of the metric; K and K_e stay.
 template <ImplicitFunctionTraits_3 Base>
 class Level_set_traits_3 {
 public:
@@ -49,11 +49,11 @@ public:
   }
   Jet_3<Interval, 1>
   first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
-    return from_base(base_.first_order_bounds(box));
+    return shifted_bounds(base_.first_order_bounds(box));
   }
   Jet_3<Interval, 2>
   second_order_bounds(const CGAL::Bbox_3& box) const requires SecondOrderBoundedImplicitFunctionTraits_3<Base> {
-    return from_base(base_.second_order_bounds(box));
+    return shifted_bounds(base_.second_order_bounds(box));
   }
   FT rounding(const Point_3& p) const requires internal::Has_rounding<Base> { return base_.rounding(p); }
   CGAL::Bbox_3 bbox() const { return base_.bbox(); }
@@ -71,6 +71,7 @@ public:
 private:
   FT shifted(const FT& value) const { return is_reversed_ ? isovalue_ - value : value - isovalue_; }
 
+  /// The value is rounded as that of a number is: v + (-f) has the bits of v - f.
   template <class Number, int Order>
   Jet_3<Number, Order> shifted(Jet_3<Number, Order> jet) const {
     if (is_reversed_) jet = -jet;
@@ -79,7 +80,7 @@ private:
   }
 
   template <int Order>
-  Jet_3<Interval, Order> from_base(Jet_3<Interval, Order> jet) const {
+  Jet_3<Interval, Order> shifted_bounds(Jet_3<Interval, Order> jet) const {
     jet.template at<0>() = jet.value() - Interval(CGAL::to_double(isovalue_));
     return is_reversed_ ? -jet : jet;
   }

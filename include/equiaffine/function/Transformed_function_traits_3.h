@@ -4,6 +4,7 @@
 
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/function/first_order_bounds.h>
+#include <equiaffine/function/internal/box_intervals.h>
 #include <equiaffine/function/rounding.h>
 #include <equiaffine/number/Linear_substitution_3.h>
 #include <equiaffine/number/Pack.h>
@@ -21,8 +22,8 @@
 
 namespace equiaffine {
 
-/// The function f o A^-1, whose level sets are the images under A of those of f. A is any invertible affine map; models
-/// every refinement that the base models, batches apart.
+/// The function f o A^-1, whose level sets are the images under A of those of f. A is any invertible affine map. The
+/// function models every refinement that the base models, except batches.
 ///
 /// With a = |det A| the affine curvatures change by K' = K / a, H' = H / sqrt(a), J' = J / sqrt(a), the co-normal by
 /// nu' = sqrt(a) A^-T nu and the affine normal by xi' = A xi / sqrt(a).
@@ -48,22 +49,17 @@ public:
 
   void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
                     std::span<Jet_3<Pack<FT>>> jets) const requires PackImplicitFunctionTraits_3<Base> {
-    std::array<std::vector<Pack<FT>>, 3> preimages;
-    for (auto& axis : preimages) axis.resize(jets.size());
+    std::array<std::vector<Pack<FT>>, 3> coordinates;
+    for (auto& coordinate : coordinates) coordinate.resize(jets.size());
     for (std::size_t n = 0; n < jets.size(); ++n) {
-      std::array<std::array<FT, Pack<FT>::size>, 3> lanes;
-      for (std::size_t i = 0; i < Pack<FT>::size; ++i) {
-        const Point_3 p = inverse_(Point_3(x[n][i], y[n][i], z[n][i]));
-        for (int axis = 0; axis < 3; ++axis) lanes[std::size_t(axis)][i] = p[axis];
-      }
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        preimages[axis][n] = Pack<FT>::generate([&](std::size_t i) { return lanes[axis][i]; });
+      const auto preimage = preimage_of_lanes(x[n], y[n], z[n]);
+      for (std::size_t axis = 0; axis < 3; ++axis) coordinates[axis][n] = preimage[axis];
     }
-    base_.taylor_packs(preimages[0], preimages[1], preimages[2], jets);
+    base_.taylor_packs(coordinates[0], coordinates[1], coordinates[2], jets);
     for (auto& jet : jets) jet = substitution_(jet);
   }
 
-  /// Bounds over the box of the preimage of `box`.
+  /// Bounds over the axis-parallel box around the preimage of `box`.
   Interval bounds(const CGAL::Bbox_3& box) const requires BoundedImplicitFunctionTraits_3<Base> {
     return base_.bounds(preimage(box));
   }
@@ -76,22 +72,23 @@ public:
     return substitution_of_bounds_(base_.second_order_bounds(preimage(box)));
   }
 
-  /// A second derivative is a sum of the base's, each times two entries of A^-1.
+  /// By the chain rule a second derivative is a sum of those of the base, each times one entry of A^-1 from the column
+  /// of either variable. The factors add up to the square of the greatest column sum at most.
   FT rounding(const Point_3& p) const requires internal::Has_rounding<Base> {
-    FT greatest(0);
+    FT greatest_sum(0);
     for (int column = 0; column < 3; ++column) {
       using std::abs;
       FT sum(0);
       for (int row = 0; row < 3; ++row) sum += abs(inverse_.m(row, column));
-      greatest = std::max(greatest, sum);
+      greatest_sum = std::max(greatest_sum, sum);
     }
-    return base_.rounding(inverse_(p)) * greatest * greatest;
+    return base_.rounding(inverse_(p)) * greatest_sum * greatest_sum;
   }
 
-  /// The box of the image of the base's box.
+  /// The axis-parallel box around the image of the base's box.
   CGAL::Bbox_3 bbox() const { return Lattice_3<Kernel_of<Base>>({2, 2, 2}, base_.bbox()).transform(map_).bbox(); }
 
-  /// The image of the lattice with which the base would be sampled: the image of the base's box, nothing around it.
+  /// The image of the lattice on which the base would be sampled: it fills the image of the base's box, nothing else.
   Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
     return sampling_lattice(base_, size).transform(map_);
   }
@@ -106,20 +103,33 @@ public:
   const Aff_transformation_3& transformation() const { return map_; }
 
 private:
-  /// The box of the preimage of a box.
+  /// The coordinates of the preimages of the points (x[i], y[i], z[i]), lane by lane.
+  std::array<Pack<FT>, 3> preimage_of_lanes(const Pack<FT>& x, const Pack<FT>& y, const Pack<FT>& z) const {
+    std::array<std::array<FT, Pack<FT>::size>, 3> lanes;
+    for (std::size_t i = 0; i < Pack<FT>::size; ++i) {
+      const Point_3 p = inverse_(Point_3(x[i], y[i], z[i]));
+      for (int axis = 0; axis < 3; ++axis) lanes[std::size_t(axis)][i] = p[axis];
+    }
+    const auto pack_of = [&](std::size_t axis) {
+      return Pack<FT>::generate([&](std::size_t i) { return lanes[axis][i]; });
+    };
+    return {pack_of(0), pack_of(1), pack_of(2)};
+  }
+
+  /// The axis-parallel box around the preimage of a box.
   CGAL::Bbox_3 preimage(const CGAL::Bbox_3& box) const {
-    const std::array<Interval, 3> side = {Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()),
-                                          Interval(box.zmin(), box.zmax())};
+    const std::array<Interval, 3> sides = internal::sides_of(box);
     std::array<Interval, 3> image;
     for (int row = 0; row < 3; ++row) {
       image[std::size_t(row)] = Interval(CGAL::to_double(inverse_.m(row, 3)));
       for (int column = 0; column < 3; ++column)
-        image[std::size_t(row)] += Interval(CGAL::to_double(inverse_.m(row, column))) * side[std::size_t(column)];
+        image[std::size_t(row)] += Interval(CGAL::to_double(inverse_.m(row, column))) * sides[std::size_t(column)];
     }
     return CGAL::Bbox_3(image[0].lower(), image[1].lower(), image[2].lower(), image[0].upper(), image[1].upper(),
                         image[2].upper());
   }
 
+  /// The matrix of the linear part of a map, with converted entries.
   template <class Convert>
   static auto linear_part(const Aff_transformation_3& map, const Convert& convert) {
     std::array<std::array<decltype(convert(FT())), 3>, 3> matrix;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The contract between functions and everything that is done with their level sets. The doc folder has a page for each
-// concept with its semantics; test/conformance.h checks them for every model.
+// The contract between functions and everything that is done with their level sets. doc/concepts has a page for each
+// concept with its semantics; test/support/conformance.h checks them for every model.
 #ifndef EQUIAFFINE_FUNCTION_CONCEPTS_H
 #define EQUIAFFINE_FUNCTION_CONCEPTS_H
 
@@ -34,7 +34,7 @@ concept ImplicitFunctionTraits_3 =
     { traits.bbox() } -> std::convertible_to<CGAL::Bbox_3>;
   };
 
-/// ... that bounds its values on a box: `bounds(box)` contains f(p) for every p in the box.
+/// A function that bounds its values on a box: `bounds(box)` contains f(p) for every p in the box.
 template <class Traits>
 concept BoundedImplicitFunctionTraits_3 =
   ImplicitFunctionTraits_3<Traits> &&
@@ -42,8 +42,8 @@ concept BoundedImplicitFunctionTraits_3 =
     { traits.bounds(box) } -> std::same_as<Interval>;
   };
 
-/// ... that also bounds its gradient: coefficient n of `first_order_bounds(box)` contains that of `first_order(p)` for
-/// every p in the box.
+/// A function that also bounds its gradient: coefficient n of `first_order_bounds(box)` contains that of
+/// `first_order(p)` for every p in the box.
 template <class Traits>
 concept FirstOrderBoundedImplicitFunctionTraits_3 =
   BoundedImplicitFunctionTraits_3<Traits> &&
@@ -51,8 +51,8 @@ concept FirstOrderBoundedImplicitFunctionTraits_3 =
     { traits.first_order_bounds(box) } -> std::same_as<Jet_3<Interval, 1>>;
   };
 
-/// ... and its second derivatives, for tighter bounds in small boxes: coefficient n of `second_order_bounds(box)`
-/// contains that of the expansion of order 2 at every p in the box.
+/// A function that also bounds its second derivatives, for tighter bounds in small boxes: coefficient n of
+/// `second_order_bounds(box)` contains that of the expansion of order 2 at every p in the box.
 template <class Traits>
 concept SecondOrderBoundedImplicitFunctionTraits_3 =
   FirstOrderBoundedImplicitFunctionTraits_3<Traits> &&
@@ -60,7 +60,7 @@ concept SecondOrderBoundedImplicitFunctionTraits_3 =
     { traits.second_order_bounds(box) } -> std::same_as<Jet_3<Interval, 2>>;
   };
 
-/// ... that evaluates many points at once; the numbers are those of the single calls, bit for bit.
+/// A function that evaluates many points in one call; the numbers are those of the single calls, bit for bit.
 template <class Traits>
 concept BatchImplicitFunctionTraits_3 =
   ImplicitFunctionTraits_3<Traits> &&
@@ -70,8 +70,8 @@ concept BatchImplicitFunctionTraits_3 =
     traits.taylors(points, jets);
   };
 
-/// ... that expands at the points of packs at once: lane i of x[n], y[n], z[n] is a point, lane i of jets[n] its
-/// expansion, bit for bit unless the compiler contracts products and sums. May throw Lanes_disagree.
+/// A function that expands at the points of packs: lane i of x[n], y[n], z[n] is a point, lane i of jets[n] its
+/// expansion, bit for bit unless the compiler contracts products and sums. It may throw Lanes_disagree.
 template <class Traits>
 concept PackImplicitFunctionTraits_3 =
   ImplicitFunctionTraits_3<Traits> &&
@@ -80,7 +80,7 @@ concept PackImplicitFunctionTraits_3 =
     traits.taylor_packs(x, x, x, jets);
   };
 
-/// ... with a cheaper expansion of order 1, for root finding.
+/// A function with a cheaper expansion of order 1, for root finding.
 template <class Traits>
 concept FirstOrderImplicitFunctionTraits_3 =
   ImplicitFunctionTraits_3<Traits> &&
@@ -88,7 +88,7 @@ concept FirstOrderImplicitFunctionTraits_3 =
     { traits.first_order(p) } -> std::same_as<Jet_3<typename Traits::FT, 1>>;
   };
 
-/// ... that was sampled at the nodes of a lattice and knows the samples.
+/// A function that was sampled at the nodes of a lattice and knows the samples.
 template <class Traits>
 concept LatticeImplicitFunctionTraits_3 =
   ImplicitFunctionTraits_3<Traits> &&
@@ -100,11 +100,11 @@ concept LatticeImplicitFunctionTraits_3 =
 
 // clang-format on
 
-/// The kernel of a traits class.
+/// The kernel of the points of a model.
 template <ImplicitFunctionTraits_3 Traits>
 using Kernel_of = typename CGAL::Kernel_traits<typename Traits::Point_3>::Kernel;
 
-/// The expansion of order 1, by the cheapest way the model has.
+/// The expansion of order 1, computed in the cheapest way that the model has.
 template <ImplicitFunctionTraits_3 Traits>
 Jet_3<typename Traits::FT, 1> first_order(const Traits& traits, const typename Traits::Point_3& p) {
   if constexpr (FirstOrderImplicitFunctionTraits_3<Traits>) {

@@ -15,7 +15,7 @@
 namespace equiaffine {
 
 /// The values of a function at the nodes of a lattice, NaN where it is undefined. `on_progress(n)` is called after
-/// every n nodes, from any thread. The same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit.
+/// every n nodes, from any thread. CGAL::Sequential_tag and CGAL::Parallel_tag give the same values, bit for bit.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Progress>
 Volume_3<Kernel_of<Traits>> sample_on_lattice(const Traits& traits, const Lattice_3<Kernel_of<Traits>>& lattice,
                                               const Progress& on_progress) {
@@ -34,6 +34,7 @@ Volume_3<Kernel_of<Traits>> sample_on_lattice(const Traits& traits, const Lattic
   return volume;
 }
 
+/// The same without reports of progress.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits>
 Volume_3<Kernel_of<Traits>> sample_on_lattice(const Traits& traits, const Lattice_3<Kernel_of<Traits>>& lattice) {
   return sample_on_lattice<ConcurrencyTag>(traits, lattice, [](std::size_t) {});

@@ -9,19 +9,20 @@
 
 namespace equiaffine::internal {
 
-/// The numbers below n in sets that can be united, as a forest with path halving (Tarjan, van Leeuwen 1984).
+/// A partition of the numbers below n into sets that can be united, stored as a forest with path halving (Tarjan, van
+/// Leeuwen: Worst-case analysis of set union algorithms, 1984).
 template <class Index>
 class Disjoint_sets {
 public:
   explicit Disjoint_sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), Index(0)); }
 
-  /// One number for all of a set.
+  /// The least number of the set of `a`, which stands for the set.
   Index find(Index a) {
     while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
     return a;
   }
 
-  /// False if they are in one set already.
+  /// Unites the sets of `a` and `b`; false if they are the same set already.
   bool unite(Index a, Index b) {
     a = find(a);
     b = find(b);

@@ -15,7 +15,7 @@
 namespace equiaffine::internal {
 
 /// Calls f(i) for every i in [begin, end), in any order: on the threads of TBB for CGAL::Parallel_tag when CGAL is used
-/// with TBB, else one after the other. `grain` calls or fewer are not worth a thread.
+/// with TBB, else one after the other. Ranges of `grain` calls or fewer are not split between threads.
 template <class ConcurrencyTag, class F>
 void parallel_for(std::size_t begin, std::size_t end, F f, [[maybe_unused]] std::size_t grain = 1) {
 #ifdef CGAL_LINKED_WITH_TBB

@@ -10,10 +10,12 @@
 
 namespace equiaffine::internal {
 
-/// The jets of the coordinates with the least support: 1 and the coordinate itself.
+/// The jet of the coordinate of an axis. Its type has room for two coefficients, the value and the derivative along the
+/// axis, so that all others are known to vanish when code is compiled.
 template <class FT, int Order, int Axis>
 auto sparse_variable(const FT& value) {
-  Jet_3<FT, Order, (Monomial_set(1) | Monomial_set(2) << Axis)> jet(value);
+  constexpr Monomial_set constant = 1, coordinate = Monomial_set(2) << Axis;
+  Jet_3<FT, Order, (constant | coordinate)> jet(value);
   jet.template at<1 + Axis>() = FT(1);
   return jet;
 }
@@ -23,14 +25,15 @@ concept CallableWith = requires(const Function& f, const X& x, const Y& y, const
   f(x, y, z);
 };
 
-// With its checks of every operation a sanitizer would make one function of millions of lines.
+// A sanitizer adds checks to every operation: inlined into one function, they would take too long to compile.
 #ifdef __SANITIZE_ADDRESS__
 #define EQUIAFFINE_FLATTEN
 #else
 #define EQUIAFFINE_FLATTEN [[gnu::flatten]]
 #endif
 
-/// f(x, y, z) with everything inlined: what crosses a call goes through memory, which costs more than its arithmetic.
+/// Calls f(x, y, z) with everything inlined. A jet that is passed to a function goes through memory, which costs more
+/// than the arithmetic on it.
 template <class Result, class Function, class X, class Y, class Z>
 EQUIAFFINE_FLATTEN Result inlined_call(const Function& f, const X& x, const Y& y, const Z& z) {
   return f(x, y, z);
@@ -56,7 +59,7 @@ Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z
   }
 }
 
-/// A function with an own way to its Taylor polynomials, for numbers and for spans of packs.
+/// A function that computes its Taylor polynomials itself, for numbers and for spans of packs.
 template <class Function, class FT>
 concept HasTaylor = requires(const Function& f, const FT& x, std::span<const Pack<FT>> packs,
                              std::span<Jet_3<Pack<FT>>> jets) {
