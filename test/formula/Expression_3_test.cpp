@@ -30,8 +30,8 @@ using equiaffine::Interval;
 using Jet = equiaffine::Jet_3<double>;
 using Big = boost::multiprecision::cpp_bin_float_50;
 
-// A number type of a user, in a namespace of its own, with nothing but what Expression_3 asks for: a value and a
-// derivative. Its only pow takes an int, as a trap for pow(T, 1.5).
+// This namespace stands for that of a user. Its number type, a value and a derivative, has only what Expression_3
+// asks for. Its only pow takes an int, as a trap for pow(T, 1.5).
 namespace dual_numbers {
 
 struct Dual {
@@ -86,7 +86,7 @@ double value(const std::string& text, double x = px, double y = py, double z = p
   return Expression_3(text)(x, y, z);
 }
 
-/// Every operator and function, each with what the language computes.
+/// An expression, and the same in the language; exact_cases has one for every operator and function.
 struct Case {
   std::string text;
   std::function<double(double, double, double)> expected;
@@ -153,7 +153,7 @@ const std::vector<Case> exact_cases = {
     {"x^2 = y", [](double x, double y, double) { return x * x - y; }},
 };
 
-/// Input_error of a text, or nothing when it is accepted.
+/// The Input_error for a text, or nothing when it is accepted.
 std::optional<Input_error> error_of(const std::string& text, const std::map<std::string, double>& constants = {}) {
   try {
     const Expression_3 accepted(text, constants);
@@ -163,10 +163,8 @@ std::optional<Input_error> error_of(const std::string& text, const std::map<std:
   return std::nullopt;
 }
 
-/// 1-based column of the caret.
+/// The column of the caret, counted from 1.
 std::size_t caret_column(const std::string& excerpt) { return excerpt.size() - excerpt.rfind('\n') - 1; }
-
-// Taylor polynomials.
 
 TEST(Expression_3, taylor_polynomials_are_those_of_a_call_on_jets) {
   const std::vector<std::string> texts = {"x",
@@ -260,7 +258,7 @@ struct Points {
   }
 };
 
-/// A text and its value at (px, py, pz), computed along with it.
+/// The text of an expression and its value at (px, py, pz), which is computed while the text is written.
 struct Written {
   std::string text;
   double value;

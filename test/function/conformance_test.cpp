@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The conformance suite for every model of the library, and the archetype; models and non-models of every concept.
+// Runs the conformance suite for every model of the library and for the archetype, and lists models and non-models of
+// every concept.
 #include "support/conformance.h"
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
@@ -23,7 +24,7 @@ std::vector<Point_3> inner_points() {
   return {Point_3(0.1, 0.2, 0.3), Point_3(-0.45, 0.31, 0.62), Point_3(0.7, -0.13, -0.28), Point_3(0.02, -0.5, 0.41)};
 }
 
-// exp(x) sin(2 y) + x z^2 / (2 + x y) - 0.3, so that every derivative is there
+// No derivative of exp(x) sin(2 y) + x z^2 / (2 + x y) - 0.3 vanishes.
 struct Auto_function {
   auto operator()(const auto& x, const auto& y, const auto& z) const {
     using std::exp;
@@ -69,7 +70,7 @@ struct Sampled_model {
     return Traits(volume, {.degree = Degree});
   }
   static std::vector<Point_3> points() { return inner_points(); }
-  static constexpr double length = 0.1; // of a voxel, beyond which the spline is another polynomial
+  static constexpr double length = 0.1; // a voxel, beyond which the spline is another polynomial
 };
 
 template <class Base>
@@ -99,7 +100,7 @@ struct Batch_model : Base {
   static Traits make() { return Traits(Base::make()); }
 };
 
-// The least that a model has to have.
+// The archetype has no members but those that the concept requires.
 class Archetype {
 public:
   using FT = double;

@@ -19,8 +19,8 @@ using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point_3 = Kernel::Point_3;
 
-/// By how much bounds of value and gradient on the box of half side r about p are wider than the ranges of their linear
-/// parts, which are the true ranges up to terms of order r^2; the largest of the four.
+/// The largest excess of four bounds, those of value and gradient on the box of half side r about p, over the ranges of
+/// the linear parts, which are the true ranges up to terms of order r^2.
 double excess(const Jet_3<Interval, 1>& bounds, const Jet_3<double>& jet, double r) {
   double largest = 0;
   for (int c = 0; c < 4; ++c) {

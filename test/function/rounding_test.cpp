@@ -23,7 +23,7 @@ using Point_3 = Kernel::Point_3;
 using Vector_3 = Kernel::Vector_3;
 using Traits = Sampled_function_traits_3<Kernel>;
 
-/// What happens to samples before they become a spline.
+/// Samples may be rounded to float and smoothed before they become a spline.
 struct Treatment {
   bool are_floats = false;
   double smoothing = 0;

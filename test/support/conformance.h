@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What models of ImplicitFunctionTraits_3 promise beyond its syntax, as one suite of tests. A model is a type with
+// A suite of tests for what models of ImplicitFunctionTraits_3 promise beyond its syntax. A parameter of the suite is a
+// type with
 //   using Traits; static Traits make(); static std::vector<Point_3> points();   // in the box, where f is smooth
 //   static constexpr double length;                                             // over which f varies by its own size
 #ifndef EQUIAFFINE_TEST_SUPPORT_CONFORMANCE_H
@@ -33,7 +34,7 @@ inline double evaluate(const Jet_3<double>& jet, double x, double y, double z) {
   return sum;
 }
 
-/// Largest difference between f and its expansion on a set of directions at distance h, relative to the size of the
+/// The largest difference between f and its expansion on a set of directions at distance h, relative to the size of the
 /// terms.
 template <class Traits>
 double remainder(const Traits& traits, const typename Traits::Point_3& p, double h) {
@@ -57,7 +58,7 @@ bool same_bits(const T& a, const T& b) {
   return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
-/// The cube with half the side r around p.
+/// The cube around p whose sides are 2 r.
 template <class Point_3>
 CGAL::Bbox_3 cube(const Point_3& p, double r) {
   return CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r);
@@ -69,7 +70,7 @@ Point_3 random_point_in_cube(const Point_3& p, double r, std::mt19937& random) {
   return Point_3(p.x() + r * unit(random), p.y() + r * unit(random), p.z() + r * unit(random));
 }
 
-/// The expansion at q, which is not rounded outwards, lies in the bounds up to a relative error.
+/// Expects the expansion at q, which is not rounded outwards, in the bounds up to a relative error.
 template <class Jet, class Bounds, class Point_3>
 void expect_enclosed(const Jet& jet, const Bounds& bounds, double relative_error, const Point_3& q) {
   for (std::size_t c = 0; c < bounds.coefficients().size(); ++c) {
@@ -79,7 +80,7 @@ void expect_enclosed(const Jet& jet, const Bounds& bounds, double relative_error
   }
 }
 
-/// `bounds_on(traits, box)` encloses values and gradients at points of the box, and shrinks with it.
+/// Expects `bounds_on(traits, box)` to enclose values and gradients at points of the box, and to shrink with it.
 template <class Model, class Bounds>
 void expect_bounds_of_first_order(const Bounds& bounds_on) {
   const auto traits = Model::make();

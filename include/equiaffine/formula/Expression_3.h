@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -74,13 +73,10 @@ public:
   template <class T>
   void operator()(std::span<const T> x, std::span<const T> y, std::span<const T> z, std::span<T> out) const {
     CGAL_precondition(x.size() == out.size() && y.size() == out.size() && z.size() == out.size());
-    constexpr std::size_t block = internal::expression::block_size<T>;
-    internal::expression::Slots<block, T> slots(tape_);
-    for (std::size_t first = 0; first < out.size(); first += block) {
-      const std::size_t count = std::min(block, out.size() - first);
-      slots.run({&x[first], &y[first], &z[first]}, count);
+    const auto store = [&](auto& slots, std::size_t first, std::size_t count) {
       std::copy_n(slots.result(), count, &out[first]);
-    }
+    };
+    internal::expression::run_in_blocks<internal::expression::block_size<T>>(tape_, x, y, z, store);
   }
 
   /// The Taylor polynomial at (x, y, z), for a floating-point type or a Pack. It is that of the call on jets but for
@@ -89,7 +85,7 @@ public:
   template <internal::expression::Ordered T>
   Jet_3<T> taylor(const T& x, const T& y, const T& z) const {
     Jet_3<T> jet;
-    taylor_blocks<1>(taylor_->get(tape_), std::span(&x, 1), std::span(&y, 1), std::span(&z, 1), std::span(&jet, 1));
+    expand_in_blocks<1>(std::span(&x, 1), std::span(&y, 1), std::span(&z, 1), std::span(&jet, 1));
     return jet;
   }
 
@@ -97,46 +93,34 @@ public:
   template <internal::expression::Ordered T>
   void taylor(std::span<const T> x, std::span<const T> y, std::span<const T> z, std::span<Jet_3<T>> out) const {
     CGAL_precondition(x.size() == out.size() && y.size() == out.size() && z.size() == out.size());
-    taylor_blocks<internal::expression::block_size<T>>(taylor_->get(tape_), x, y, z, out);
+    expand_in_blocks<internal::expression::block_size<T>>(x, y, z, out);
   }
 
-  /// The text it was made from.
+  /// The text that the constructor parsed.
   const std::string& text() const { return text_; }
 
-  /// Operations per evaluation, after sharing equal subexpressions and folding constants; 0 for a lone variable.
+  /// The number of operations per evaluation, after sharing equal subexpressions and folding constants; 0 for a lone
+  /// variable.
   std::size_t number_of_instructions() const { return tape_.instructions.size(); }
 
 private:
   template <std::size_t Block, class T>
-  static void taylor_blocks(const internal::expression::Tape& tape, std::span<const T> x, std::span<const T> y,
-                            std::span<const T> z, std::span<Jet_3<T>> out) {
-    internal::expression::Slots<Block, T> slots(tape);
-    for (std::size_t first = 0; first < out.size(); first += Block) {
-      const std::size_t count = std::min(Block, out.size() - first);
-      slots.run({&x[first], &y[first], &z[first]}, count);
+  void expand_in_blocks(std::span<const T> x, std::span<const T> y, std::span<const T> z,
+                        std::span<Jet_3<T>> out) const {
+    const auto store = [&](auto& slots, std::size_t first, std::size_t count) {
       for (std::size_t n = 0; n < Jet_3<T>::size; ++n) {
         const T* const coefficients = slots.result(n);
         for (std::size_t i = 0; i < count; ++i) out[first + i].coefficients()[n] = coefficients[i];
       }
-    }
+    };
+    internal::expression::run_in_blocks<Block>(taylor_->get(tape_), x, y, z, store);
   }
-
-  /// Made when it is needed first: most expressions never need it.
-  class Taylor_tape {
-  public:
-    const internal::expression::Tape& get(const internal::expression::Tape& values) {
-      std::call_once(is_made_, [&] { tape_ = internal::expression::taylor_tape(values); });
-      return tape_;
-    }
-
-  private:
-    std::once_flag is_made_;
-    internal::expression::Tape tape_;
-  };
 
   std::string text_;
   internal::expression::Tape tape_;
-  std::shared_ptr<Taylor_tape> taylor_ = std::make_shared<Taylor_tape>(); ///< copies are equal and share it
+  /// Copies are equal and share it.
+  std::shared_ptr<internal::expression::Lazy_taylor_tape> taylor_ =
+      std::make_shared<internal::expression::Lazy_taylor_tape>();
 };
 
 } // namespace equiaffine

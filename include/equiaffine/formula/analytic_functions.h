@@ -17,8 +17,9 @@
 
 namespace equiaffine {
 
-/// Every struct has `f(x, y, z)` and `box()`, which contains a closed surface with a margin and of an unbounded one the
-/// part worth looking at. Parameters are positive and have the unit of x, y, z unless said otherwise.
+/// Every struct has `f(x, y, z)` and `box()`. The box contains a closed surface with a margin, or the part of an
+/// unbounded surface that is worth looking at. Parameters are positive and have the unit of x, y, z unless said
+/// otherwise.
 namespace analytic_functions {
 
 /// The square of a number; jets and intervals have better ones, found by argument-dependent lookup.
@@ -157,7 +158,7 @@ struct Two_spheres {
   CGAL::Bbox_3 box() const { return internal::centered_cube(2 * radius); }
 };
 
-/// t - sum of exp(-|p - c_i|^2 / s^2) over eight centres c_i: positive outside, transcendental, and no symmetry. `size`
+/// t - sum of exp(-|p - c_i|^2 / s^2) over eight centers c_i: positive outside, transcendental, and no symmetry. `size`
 /// is s, `threshold` the pure number t. Blinn: A generalization of algebraic surface drawing, 1982.
 struct Metaballs {
   std::array<std::array<double, 3>, 8> centers = {{{-0.55, -0.45, -0.5},

@@ -12,8 +12,9 @@
 /// What the instructions of an expression compute for any number type.
 namespace equiaffine::internal::expression {
 
-// Arithmetic with a double. The mixed operators of T are used where they exist and return T: for a Taylor polynomial,
-// scaling is many times cheaper than a product. Built-in types would be promoted, and are converted instead.
+// These functions compute with a T and a double. They use the mixed operators of T where these exist and return T: to
+// scale a Taylor polynomial is many times cheaper than a product of two. A float would be promoted to double by such
+// an operator; therefore the double is converted for built-in types.
 template <class T>
 T plus_constant(const T& a, double c) {
   if constexpr (!std::is_arithmetic_v<T> && requires {
@@ -59,7 +60,7 @@ T constant_over(double c, const T& a) {
   else return T(c) / a;
 }
 
-// Functions with a fallback for types that do not have them.
+// These functions have a substitute for types that lack them.
 template <class T>
 T squared(const T& a) {
   if constexpr (requires {
@@ -69,8 +70,8 @@ T squared(const T& a) {
   else return a * a;
 }
 
-/// Tells whether T has its own pow(T, Exponent). The catch-all loses against it, but wins against a function that would
-/// need the exponent converted, such as pow(T, int) called with 1.5.
+/// HasOwnPower tells whether T has its own pow(T, Exponent). The catch-all `pow` below loses against such a function,
+/// but wins against one that would have to convert the exponent, such as pow(T, int) called with 1.5.
 namespace own_power {
 
 struct Absent {};
@@ -98,8 +99,8 @@ T constant_power(const T& a, double c) {
   else return real_power(a, T(c));
 }
 
-/// A NaN in either argument gives NaN, unlike std::min, std::fmin and their like, which can hide it. This is the result
-/// for types that are ordered by `<` and have no `min` of their own.
+/// The lesser argument, or NaN if either is NaN, which std::min and std::fmin can hide. This holds for types without a
+/// `min` of their own.
 template <class T>
 T minimum(const T& a, const T& b) {
   if constexpr (!std::is_arithmetic_v<T> && requires {
@@ -109,7 +110,7 @@ T minimum(const T& a, const T& b) {
   else return a < b || a != a ? a : b;
 }
 
-/// As minimum().
+/// The greater argument, with NaN as in minimum().
 template <class T>
 T maximum(const T& a, const T& b) {
   if constexpr (!std::is_arithmetic_v<T> && requires {
@@ -119,7 +120,7 @@ T maximum(const T& a, const T& b) {
   else return a > b || a != a ? a : b;
 }
 
-/// The angle of (x, y): NaN at the origin, where the C library has a convention, but no derivative exists.
+/// The angle of (x, y). It is NaN at the origin, where the C library has a conventional value but no derivative exists.
 template <class T>
 T angle(const T& y, const T& x) {
   using std::atan2;

@@ -3,85 +3,22 @@
 #define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_ERRORS_H
 
 #include <equiaffine/base/Input_error.h>
-#include <equiaffine/formula/internal/expression_tape.h>
+#include <equiaffine/formula/internal/expression_words.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
-#include <limits>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-/// The words of the language of expressions, and what is said about texts that are not in it.
+/// The messages about texts that are no expressions.
 namespace equiaffine::internal::expression {
-
-struct Function {
-  std::string_view name;
-  Opcode opcode;
-  std::size_t minimal_arguments = 1;
-  std::size_t maximal_arguments = 1;
-};
-
-inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
-
-inline constexpr std::array functions = {Function{"sqrt", Opcode::SQRT},
-                                         Function{"cbrt", Opcode::CBRT},
-                                         Function{"exp", Opcode::EXP},
-                                         Function{"log", Opcode::LOG},
-                                         Function{"sin", Opcode::SIN},
-                                         Function{"cos", Opcode::COS},
-                                         Function{"tan", Opcode::TAN},
-                                         Function{"asin", Opcode::ASIN},
-                                         Function{"acos", Opcode::ACOS},
-                                         Function{"atan", Opcode::ATAN},
-                                         Function{"atan2", Opcode::ATAN2, 2, 2},
-                                         Function{"sinh", Opcode::SINH},
-                                         Function{"cosh", Opcode::COSH},
-                                         Function{"tanh", Opcode::TANH},
-                                         Function{"abs", Opcode::ABS},
-                                         Function{"min", Opcode::MIN, 2, any_number},
-                                         Function{"max", Opcode::MAX, 2, any_number},
-                                         Function{"hypot", Opcode::HYPOT, 2, 2},
-                                         Function{"pow", Opcode::POWER, 2, 2}};
-
-inline constexpr std::array<std::string_view, number_of_variables> variables = {"x", "y", "z"};
-
-inline constexpr std::array known_constants = {std::pair<std::string_view, double>("pi", std::numbers::pi),
-                                               std::pair<std::string_view, double>("e", std::numbers::e)};
-
-/// Signs of other alphabets, and what to write for them.
-inline constexpr std::array foreign_signs = {std::pair<std::string_view, std::string_view>("\u00b2", "^2"),
-                                             std::pair<std::string_view, std::string_view>("\u00b3", "^3"),
-                                             std::pair<std::string_view, std::string_view>("\u2074", "^4"),
-                                             std::pair<std::string_view, std::string_view>("\u03c0", "pi"),
-                                             std::pair<std::string_view, std::string_view>("\u00b7", "*"),
-                                             std::pair<std::string_view, std::string_view>("\u00d7", "*"),
-                                             std::pair<std::string_view, std::string_view>("\u2212", "-"),
-                                             std::pair<std::string_view, std::string_view>("\u221a", "sqrt(...)")};
-
-inline const Function* find_function(std::string_view name) {
-  for (const Function& f : functions)
-    if (f.name == name) return &f;
-  return nullptr;
-}
-
-inline bool is_reserved(std::string_view name) {
-  return find_function(name) || std::find(variables.begin(), variables.end(), name) != variables.end() ||
-         std::any_of(known_constants.begin(), known_constants.end(), [&](const auto& c) { return c.first == name; });
-}
-
-// The locale must not matter, so these are not those of <cctype>.
-inline bool is_digit(char c) { return '0' <= c && c <= '9'; }
-inline bool is_letter(char c) { return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || c == '_'; }
-inline bool is_space(char c) { return c == ' ' || ('\t' <= c && c <= '\r'); }
-inline bool is_printable(char c) { return ' ' <= c && c <= '~'; }
 
 inline std::string concatenated(std::initializer_list<std::string_view> parts) {
   std::string result;
@@ -94,9 +31,10 @@ inline std::string shortened(std::string_view word) {
   return concatenated({word.substr(0, longest), word.size() > longest ? "..." : ""});
 }
 
-// Not `quoted`, which with <iomanip> would also be found in std.
+// It is not called `quoted` because argument-dependent lookup would find std::quoted, too.
 inline std::string in_quotes(std::string_view word) { return concatenated({"'", shortened(word), "'"}); }
 
+/// A character as a message shows it: in quotes, or as its code if it cannot be printed.
 inline std::string character(char c) {
   if (is_printable(c)) return in_quotes({&c, 1});
   constexpr std::string_view digits = "0123456789ABCDEF";
@@ -105,6 +43,7 @@ inline std::string character(char c) {
                        digits.substr(code / 16, 1), digits.substr(code % 16, 1)});
 }
 
+/// For instance "2 or more arguments".
 inline std::string arity(const Function& f) {
   const bool is_open = f.maximal_arguments == any_number, is_single = f.maximal_arguments == 1;
   return concatenated(
@@ -117,8 +56,8 @@ inline std::string function_names() {
   return names;
 }
 
-/// The text around a position, cut to about 100 columns, and under it a caret. What is not printable ASCII is replaced,
-/// so that the columns agree and a terminal is safe.
+/// The text around a position, cut to about 100 columns, and under it a caret. Characters that are not printable ASCII
+/// are replaced, so that the caret is in the right column and a terminal is safe.
 inline std::string excerpt_at(std::string_view text, std::size_t position) {
   constexpr std::size_t width = 94, before = 60;
   const std::size_t last_start = text.size() - std::min(width, text.size());
@@ -137,7 +76,8 @@ inline std::string excerpt_at(std::string_view text, std::size_t position) {
       excerpt_at(text, position));
 }
 
-/// Number of letters to insert, delete or replace (Levenshtein 1966), upper and lower case being equal.
+/// The number of letters to insert, delete or replace to make `a` from `b` (Levenshtein: Binary codes capable of
+/// correcting deletions, insertions, and reversals, 1966). Upper and lower case count as equal.
 inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
   std::vector<std::size_t> row(b.size() + 1);
@@ -152,42 +92,53 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-/// The known name that was probably meant, or nothing.
+/// Names that other languages use, and what they are called here.
+inline constexpr std::array foreign_names = {std::pair<std::string_view, std::string_view>("ln", "log"),
+                                             std::pair<std::string_view, std::string_view>("arcsin", "asin"),
+                                             std::pair<std::string_view, std::string_view>("arccos", "acos"),
+                                             std::pair<std::string_view, std::string_view>("arctan", "atan")};
+inline constexpr std::array foreign_logarithms = {
+    std::pair<std::string_view, std::string_view>("log10", "log(...)/log(10)"),
+    std::pair<std::string_view, std::string_view>("log2", "log(...)/log(2)")};
+
+/// The known name that was probably meant, or nothing. Of names that are equally near the first one counts.
 inline std::string near_name(std::string_view name, const std::map<std::string, double>& constants) {
   std::size_t best = name.size() / 3 + 1;
   std::string_view nearest;
   const auto consider = [&](std::string_view spelling, std::string_view meaning) {
-    if (name.size() > spelling.size() + best) return;
+    if (name.size() > spelling.size() + best) return; // that many letters would have to be deleted
     if (const std::size_t distance = edit_distance(name, spelling); distance < best) {
       best = distance;
       nearest = meaning;
     }
   };
-  consider("ln", "log");
-  consider("arcsin", "asin");
-  consider("arccos", "acos");
-  consider("arctan", "atan");
+  for (const auto& [spelling, meaning] : foreign_names) consider(spelling, meaning);
   for (const std::string_view variable : variables) consider(variable, variable);
   for (const auto& [known, value] : known_constants) consider(known, known);
   for (const Function& f : functions) consider(f.name, f.name);
   for (const auto& [known, value] : constants) consider(known, known);
-  consider("log10", "log(...)/log(10)");
-  consider("log2", "log(...)/log(2)");
+  for (const auto& [spelling, meaning] : foreign_logarithms) consider(spelling, meaning);
   return std::string(nearest);
 }
 
-/// Throws for names of constants that cannot be used and for values that are not finite.
+inline bool is_identifier(std::string_view name) {
+  return !name.empty() && !is_digit(name[0]) &&
+         std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c); });
+}
+
+/// The text with a question mark for every character that cannot be printed.
+inline std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return !is_printable(c); }, '?');
+  return text;
+}
+
+/// Throws Input_error for names of constants that cannot be used and for values that are not finite.
 inline void check_constants(const std::map<std::string, double>& constants) {
   for (const auto& [name, value] : constants) {
-    const bool is_name = !name.empty() && !is_digit(name[0]) &&
-                         std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c); });
-    if (!is_name) {
-      std::string shown = name;
-      std::replace_if(
-          shown.begin(), shown.end(), [](char c) { return !is_printable(c); }, '?');
-      throw Input_error(
-          concatenated({in_quotes(shown), " cannot name a constant: use letters, digits and _, and no digit first"}));
-    }
+    if (!is_identifier(name))
+      throw Input_error(concatenated(
+          {in_quotes(printable(name)), " cannot name a constant: use letters, digits and _, and no digit first"}));
     if (is_reserved(name))
       throw Input_error(
           concatenated({"constant ", in_quotes(name), " hides a name that expressions know: choose another name"}));

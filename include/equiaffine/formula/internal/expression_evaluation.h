@@ -14,13 +14,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <type_traits>
 
-/// The evaluation of a tape, for blocks of points.
+/// Evaluates a tape for blocks of points.
 namespace equiaffine::internal::expression {
 
-/// f of the first `count` elements. A full block has a trip count known at compile time, which is what compilers need
-/// to vectorise at moderate optimisation levels; unrolled, GCC's loops take half the time.
+/// Sets result[i] = f(a[i], b[i]) for the first `count` points. The size of a full block is known at compile time,
+/// which compilers need to vectorize at moderate optimization levels; unrolled, GCC's loops take half the time.
 template <std::size_t Block, class T, class Function>
 void for_each_point(const T* __restrict a, const T* __restrict b, T* __restrict result, std::size_t count, Function f) {
   if (Block == 1 || count == Block) {
@@ -57,7 +58,7 @@ concept Ordered = std::is_floating_point_v<T> || requires {
   typename T::Mask;
 };
 
-/// The choices of Taylor coefficients at kinks.
+/// Executes the instructions that choose Taylor coefficients where abs, min or max have a kink.
 template <std::size_t Block, class T>
 void execute_choice(const Instruction& instruction, const T* a, const T* b, T* result, std::size_t count) {
   using internal::branch_or_kink;
@@ -73,6 +74,7 @@ void execute_choice(const Instruction& instruction, const T* a, const T* b, T* r
   }
 }
 
+/// Executes the instructions whose cost makes that of a call negligible.
 template <std::size_t Block, class T>
 [[gnu::noinline]] void execute_function(const Instruction& instruction, const T* a, const T* b, T* result,
                                         std::size_t count) {
@@ -107,8 +109,8 @@ template <std::size_t Block, class T>
   }
 }
 
-/// Executes one instruction for `count` <= Block points. Arithmetic, which is most of a tape, stays within the loop
-/// over the instructions: a call for each costs as much as what it computes.
+/// Executes one instruction for `count` <= Block points. It is inlined into the loop over the instructions with all
+/// arithmetic, which is most of a tape: a call for each would cost as much as what it computes.
 template <std::size_t Block, class T>
 [[gnu::always_inline]] inline void execute(const Instruction& instruction, const T* a, const T* b, T* result,
                                            std::size_t count) {
@@ -131,17 +133,18 @@ template <std::size_t Block, class T>
   }
 }
 
-/// Points, or packs of points, per block: half a kilobyte per slot keeps a typical tape in the first-level cache; a
-/// type as large as a Taylor polynomial is taken one at a time.
+/// The number of points, or of packs of points, in a block: with half a kilobyte per slot a typical tape stays in the
+/// first-level cache. Numbers as large as a Taylor polynomial are evaluated one by one.
 template <class T>
 inline constexpr std::size_t block_size = std::max<std::size_t>(1, 512 / sizeof(T));
 
-/// Working memory of an evaluation: uninitialised when T is, and on the stack for up to 32 slots of a trivial T.
+/// The memory for the intermediate results of a tape. It is on the stack for up to 32 slots of a T that needs no
+/// constructor, else on the heap.
 template <std::size_t Block, class T>
 class Slots {
 public:
   explicit Slots(const Tape& tape) : tape_(tape) {
-    if (const std::size_t size = tape.number_of_slots * Block; size > capacity) large_.reset(new T[size]);
+    if (const std::size_t size = tape.number_of_slots * Block; size > stack_size) on_heap_.reset(new T[size]);
   }
 
   /// Runs the tape for `count` <= Block points.
@@ -152,13 +155,13 @@ public:
       execute<Block>(i, operand(slots, i.a), operand(slots, i.b), slot(slots, i.result), count);
   }
 
-  /// Result n of the last run, in the slots or in its `points`.
+  /// The values of result n after run(), which lie in a slot or, for a lone variable, in the points of that run.
   const T* result(std::size_t n = 0) { return operand(first(), tape_.results[n]); }
 
 private:
-  static constexpr std::size_t capacity = std::is_trivially_default_constructible_v<T> ? 32 * Block : 0;
+  static constexpr std::size_t stack_size = std::is_trivially_default_constructible_v<T> ? 32 * Block : 0;
 
-  T* first() { return large_ ? large_.get() : small_.data(); }
+  T* first() { return on_heap_ ? on_heap_.get() : on_stack_.data(); }
   static T* slot(T* slots, std::uint32_t index) { return slots + (index - number_of_variables) * Block; }
   const T* operand(T* slots, std::uint32_t index) const {
     return index < number_of_variables ? points_[index] : slot(slots, index);
@@ -166,9 +169,22 @@ private:
 
   const Tape& tape_;
   std::array<const T*, number_of_variables> points_{};
-  std::array<T, capacity> small_;
-  std::unique_ptr<T[]> large_;
+  std::array<T, stack_size> on_stack_; ///< uninitialized when T is
+  std::unique_ptr<T[]> on_heap_;
 };
+
+/// Runs the tape at all points, block by block. After a block, store(slots, first, count) takes the results of the
+/// points with the indices `first` to `first + count - 1`.
+template <std::size_t Block, class T, class Store>
+void run_in_blocks(const Tape& tape, std::span<const T> x, std::span<const T> y, std::span<const T> z,
+                   const Store& store) {
+  Slots<Block, T> slots(tape);
+  for (std::size_t first = 0; first < x.size(); first += Block) {
+    const std::size_t count = std::min(Block, x.size() - first);
+    slots.run({&x[first], &y[first], &z[first]}, count);
+    store(slots, first, count);
+  }
+}
 
 } // namespace equiaffine::internal::expression
 

@@ -16,7 +16,7 @@
 
 namespace equiaffine::internal::expression {
 
-/// Recursive descent over the grammar in Expression_3.h, one function per rule.
+/// Parses the grammar in Expression_3.h by recursive descent, with one function per rule.
 class Parser {
 public:
   using Constants = std::map<std::string, double>;
@@ -125,21 +125,14 @@ private:
     return builder_.constant(found->second);
   }
 
+  /// A call of the function whose name begins at `start`; the first two arguments are combined, then the result with
+  /// each further one.
   Node call(const Function& function, std::size_t start) {
     const std::string name = in_quotes(function.name);
     if (peek() != '(')
       fail(start, concatenated({"function ", name, " without arguments"}),
            concatenated({"write ", function.name, "(...)"}));
-    const std::size_t opening = position_++;
-    std::vector<Node> arguments;
-    if (peek() != ')') {
-      arguments.push_back(sum());
-      while (peek() == ',') {
-        ++position_;
-        arguments.push_back(sum());
-      }
-    }
-    close(opening);
+    const std::vector<Node> arguments = argument_list();
     if (arguments.size() < function.minimal_arguments || arguments.size() > function.maximal_arguments)
       fail(start, concatenated({"wrong number of arguments of ", name}),
            concatenated({"it takes ", arity(function), ", not ", std::to_string(arguments.size())}));
@@ -150,6 +143,22 @@ private:
     return result;
   }
 
+  /// The arguments between the parentheses at the current position.
+  std::vector<Node> argument_list() {
+    const std::size_t opening = position_++;
+    std::vector<Node> arguments;
+    if (peek() != ')') {
+      arguments.push_back(sum());
+      while (peek() == ',') {
+        ++position_;
+        arguments.push_back(sum());
+      }
+    }
+    close(opening);
+    return arguments;
+  }
+
+  /// Reads the ')' that belongs to the '(' at `opening`.
   void close(std::size_t opening) {
     const char c = peek();
     if (c == '\0' && at_end()) fail(opening, "'(' that is never closed", "add ')'");
@@ -158,6 +167,7 @@ private:
     ++position_;
   }
 
+  /// Reports the operation at `column` if its result is a constant that is not finite.
   void check_finite(Node node, std::string_view operation, std::size_t column) const {
     if (const auto value = builder_.value(node); value && !std::isfinite(*value))
       fail(column, concatenated({"result of ", in_quotes(operation), " that is not a finite number"}),
@@ -220,7 +230,7 @@ private:
 
   bool at_end() const { return position_ == text_.size(); }
 
-  /// The next character after white space, '\0' at the end.
+  /// Skips white space and returns the next character, or '\0' at the end.
   char peek() {
     while (!at_end() && is_space(text_[position_])) ++position_;
     return at_end() ? '\0' : text_[position_];

@@ -9,7 +9,7 @@
 namespace equiaffine::internal::expression {
 
 enum class Opcode : std::uint8_t {
-  VARIABLE, // only while parsing
+  VARIABLE, // occurs in a Tape_builder only
   CONSTANT,
   ADD_CONSTANT,
   SUBTRACT_FROM_CONSTANT,
@@ -43,14 +43,15 @@ enum class Opcode : std::uint8_t {
   MIN,
   MAX,
   HYPOT,
-  ORDER,          // 1 where a > b, -1 where a < b, else NaN; this and the next two only in tapes of Taylor coefficients
+  // The following ones occur in tapes of Taylor coefficients only.
+  ORDER,          // 1 where a > b, -1 where a < b, else NaN
   WHERE_POSITIVE, // b where a > 0, 0 where a < 0, else NaN
   WHERE_NEGATIVE  // b where a < 0, 0 where a > 0, else NaN
 };
 
-/// result = opcode(a, b, constant). Operands 0, 1, 2 are x, y, z; operand 3 + s is slot s. A unary instruction has
-/// a == b; `constant` also holds an integer exponent. The result is never the slot of an operand, so that loops over
-/// blocks of points may assume that reads and writes do not overlap.
+/// The instruction computes result = opcode(a, b, constant). Operands 0, 1, 2 are x, y, z; operand 3 + s is slot s. A
+/// unary instruction has a == b; `constant` also holds an integer exponent. The result is never the slot of an operand,
+/// so that loops over blocks of points may assume that reads and writes do not overlap.
 struct Instruction {
   Opcode opcode;
   std::uint32_t result, a, b;
@@ -61,7 +62,7 @@ inline constexpr std::uint32_t number_of_variables = 3;
 
 struct Tape {
   std::vector<Instruction> instructions;
-  std::vector<std::uint32_t> results; ///< operands that hold them at the end
+  std::vector<std::uint32_t> results; ///< the operands that hold the results after the last instruction
   std::uint32_t number_of_slots = 0;
 };
 

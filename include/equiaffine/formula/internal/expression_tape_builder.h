@@ -20,6 +20,25 @@
 
 namespace equiaffine::internal::expression {
 
+/// Hands out slots for intermediate results and takes them back. The slot that was returned last is reused first.
+class Slot_pool {
+public:
+  std::uint32_t take() {
+    if (free_.empty()) return number_of_variables + number_of_slots_++;
+    const std::uint32_t slot = free_.back();
+    free_.pop_back();
+    return slot;
+  }
+
+  void give_back(std::uint32_t slot) { free_.push_back(slot); }
+
+  std::uint32_t number_of_slots() const { return number_of_slots_; }
+
+private:
+  std::vector<std::uint32_t> free_;
+  std::uint32_t number_of_slots_ = 0;
+};
+
 /// Builds a tape bottom-up. Equal subexpressions become one node and constant ones one number. Only identities that
 /// hold bit for bit in IEEE arithmetic are applied (up to the sign of a NaN), so the tape computes what the text says.
 class Tape_builder {
@@ -76,34 +95,33 @@ public:
     return opcode == Opcode::POWER ? power(a, b) : node(opcode, a, b);
   }
 
-  /// What an instruction of another tape does, with other operands.
+  /// The node that does with the operands `a` and `b` what an instruction of another tape does with its own.
   Node repeat(const Instruction& i, Node a, Node b) {
     return i.opcode == Opcode::CONSTANT ? constant(i.constant) : node(i.opcode, a, b, i.constant);
   }
 
-  /// The tape that computes `roots`, without what they do not need, in as few slots as the order of the nodes allows.
+  /// The tape that computes `roots`. It leaves out nodes that the roots do not need and reuses the slot of a node after
+  /// the last instruction that reads it.
   Tape tape(std::span<const Node> roots) const {
     const std::vector<Node> last_reader = last_readers(roots);
-    std::vector<std::uint32_t> place(nodes_.size()), free_places;
+    std::vector<std::uint32_t> place(nodes_.size()); // the operand that holds the value of a node
     for (std::uint32_t v = 0; v < number_of_variables; ++v) place[v] = v;
+    Slot_pool slots;
     Tape tape;
     for (Node n = number_of_variables; n < nodes_.size(); ++n) {
       if (last_reader[n] == NONE) continue;
       Instruction i = nodes_[n];
-      if (free_places.empty()) free_places.push_back(number_of_variables + tape.number_of_slots++);
-      i.result = place[n] = free_places.back();
-      free_places.pop_back();
+      i.result = place[n] = slots.take(); // before the slots of the operands are given back: it must be none of them
       if (i.opcode != Opcode::CONSTANT) {
-        const auto release = [&](Node operand) {
-          if (operand >= number_of_variables && last_reader[operand] == n) free_places.push_back(place[operand]);
-        };
-        release(i.a);
-        if (i.b != i.a) release(i.b);
+        const auto is_done = [&](Node operand) { return operand >= number_of_variables && last_reader[operand] == n; };
+        if (is_done(i.a)) slots.give_back(place[i.a]);
+        if (i.b != i.a && is_done(i.b)) slots.give_back(place[i.b]);
         i.a = place[i.a];
         i.b = place[i.b];
       }
       tape.instructions.push_back(i);
     }
+    tape.number_of_slots = slots.number_of_slots();
     for (const Node root : roots) tape.results.push_back(place[root]);
     return tape;
   }
@@ -112,6 +130,7 @@ private:
   using Key = std::tuple<Opcode, Node, Node, std::uint64_t>;
   static constexpr Node NONE = std::numeric_limits<Node>::max(), END = NONE - 1;
 
+  /// The node of an instruction, which is an earlier one if the instruction occurred before.
   Node intern(const Instruction& i) {
     const Key key(i.opcode, i.a, i.b, std::bit_cast<std::uint64_t>(i.constant));
     const auto [position, is_new] = known_.try_emplace(key, static_cast<Node>(nodes_.size()));
@@ -119,6 +138,7 @@ private:
     return position->second;
   }
 
+  /// The node of an instruction, or of its result if the operands are constants.
   Node node(Opcode opcode, Node a, Node b, double c = 0) {
     const Instruction instruction{opcode, 0, a, b, c};
     if (!value(a) || !value(b)) return intern(instruction);
@@ -128,9 +148,10 @@ private:
     return constant(result);
   }
 
+  /// The order of the operands is normalized, so that a + b and b + a are one node.
   Node commutative(Opcode opcode, Node a, Node b) { return node(opcode, std::min(a, b), std::max(a, b)); }
 
-  /// -0 is the neutral element: x + 0 is +0 for x = -0.
+  /// Only -0 is the neutral element of addition: for x = -0, x + 0 is +0.
   Node add_constant(Node a, double c) { return c == 0 && std::signbit(c) ? a : node(Opcode::ADD_CONSTANT, a, a, c); }
 
   Node multiply_constant(Node a, double c) { return c == 1 ? a : node(Opcode::MULTIPLY_CONSTANT, a, a, c); }
@@ -142,7 +163,7 @@ private:
     return n == 2 ? node(Opcode::SQUARE, a, a) : node(Opcode::INTEGER_POWER, a, a, n);
   }
 
-  /// For each node the last one that reads it, END for the roots, NONE for what the roots do not need.
+  /// For each node the last one that reads it, END for a root, NONE for a node that the roots do not need.
   std::vector<Node> last_readers(std::span<const Node> roots) const {
     std::vector<Node> last_reader(nodes_.size(), NONE);
     for (const Node root : roots) last_reader[root] = END;

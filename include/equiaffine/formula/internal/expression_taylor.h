@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Taylor coefficients of an expression as a tape of their own: the expression is evaluated once on jets of symbols,
-// and what its structure makes zero or equal is left out, as compile-time sparsity does for functions written as code.
+// Makes a tape that computes the Taylor coefficients of an expression. The expression is evaluated once on jets of
+// symbols, which leaves out what its structure makes zero or equal, as compile-time sparsity does for functions that
+// are written as code.
 #ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAYLOR_H
 #define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAYLOR_H
 
@@ -11,12 +12,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 namespace equiaffine::internal::expression {
 
-/// A number type that computes with constants and records everything else as nodes of a builder. Constants zero and one
-/// act as in exact arithmetic: 0 * a is 0 whatever a.
+/// A number type that computes with constants and records everything else as nodes of a builder. The constants zero and
+/// one act as in exact arithmetic: 0 * a is 0 whatever the value of a.
 class Symbol {
 public:
   using Node = Tape_builder::Node;
@@ -36,24 +38,24 @@ public:
 
   Symbol operator-() const { return builder_ ? Symbol(*builder_, builder_->negate(node_)) : Symbol(-value_); }
   friend Symbol operator+(const Symbol& a, const Symbol& b) {
-    if (a.is(0)) return b;
-    if (b.is(0)) return a;
+    if (a.is_constant(0)) return b;
+    if (b.is_constant(0)) return a;
     return combine(a, b, [](Tape_builder& builder, Node u, Node v) { return builder.add(u, v); });
   }
   friend Symbol operator-(const Symbol& a, const Symbol& b) {
-    if (a.is(0)) return -b;
-    if (b.is(0)) return a;
+    if (a.is_constant(0)) return -b;
+    if (b.is_constant(0)) return a;
     return combine(a, b, [](Tape_builder& builder, Node u, Node v) { return builder.subtract(u, v); });
   }
   friend Symbol operator*(const Symbol& a, const Symbol& b) {
-    if (a.is(0) || b.is(1)) return a;
-    if (b.is(0) || a.is(1)) return b;
-    if (a.is(-1)) return -b;
-    if (b.is(-1)) return -a;
+    if (a.is_constant(0) || b.is_constant(1)) return a;
+    if (b.is_constant(0) || a.is_constant(1)) return b;
+    if (a.is_constant(-1)) return -b;
+    if (b.is_constant(-1)) return -a;
     return combine(a, b, [](Tape_builder& builder, Node u, Node v) { return builder.multiply(u, v); });
   }
   friend Symbol operator/(const Symbol& a, const Symbol& b) {
-    if (a.is(0) || b.is(1)) return a;
+    if (a.is_constant(0) || b.is_constant(1)) return a;
     return combine(a, b, [](Tape_builder& builder, Node u, Node v) { return builder.divide(u, v); });
   }
 
@@ -80,22 +82,24 @@ public:
 
   friend Symbol natural_power(const Symbol& a, unsigned n) { return apply(Opcode::POWER, a, double(n)); }
 
-  /// As for an ordered number, see number/nonsmooth.h, but the value is left to the tape of the expression.
+  /// Chooses between the coefficients a and b by the order of u and v, as number/nonsmooth.h does for ordered numbers,
+  /// but at run time. The value of the jet needs no choice here, see taylor_tape().
   friend Symbol branch_or_kink(const Symbol& u, const Symbol& v, const Symbol& a, const Symbol& b, int) {
-    if (a.is(0) && b.is(0)) return a;
+    if (a.is_constant(0) && b.is_constant(0)) return a;
     const Symbol order = apply(Opcode::ORDER, u, v);
-    if (b.is(0)) return apply(Opcode::WHERE_POSITIVE, order, a);
-    if (a.is(0)) return apply(Opcode::WHERE_NEGATIVE, order, b);
+    if (b.is_constant(0)) return apply(Opcode::WHERE_POSITIVE, order, a);
+    if (a.is_constant(0)) return apply(Opcode::WHERE_NEGATIVE, order, b);
     return apply(Opcode::WHERE_POSITIVE, order, a) + apply(Opcode::WHERE_NEGATIVE, order, b);
   }
 
 private:
-  bool is(double constant) const { return !builder_ && value_ == constant; }
+  bool is_constant(double constant) const { return !builder_ && value_ == constant; }
 
+  /// The operation on the nodes of a and b. Two constants have no builder, and a temporary one computes with them.
   template <class Operation>
   static Symbol combine(const Symbol& a, const Symbol& b, Operation operation) {
-    Tape_builder of_constants;
-    Tape_builder& builder = a.builder_ ? *a.builder_ : b.builder_ ? *b.builder_ : of_constants;
+    Tape_builder temporary;
+    Tape_builder& builder = a.builder_ ? *a.builder_ : b.builder_ ? *b.builder_ : temporary;
     return {builder, operation(builder, a.node(builder), b.node(builder))};
   }
 
@@ -103,12 +107,12 @@ private:
     return combine(a, b, [&](Tape_builder& builder, Node u, Node v) { return builder.function(opcode, u, v); });
   }
 
-  Tape_builder* builder_ = nullptr; ///< of a node; constants have none
+  Tape_builder* builder_ = nullptr; ///< the builder that has the node; null for a constant
   Node node_ = 0;
   double value_ = 0;
 };
 
-/// The tape whose results are the coefficients of order 4, in the order of the monomials.
+/// The tape whose results are the Taylor coefficients of total order 4, in the order of the monomials.
 inline Tape taylor_tape(const Tape& tape) {
   using Jet = Jet_3<Symbol>;
   Tape_builder builder;
@@ -117,7 +121,7 @@ inline Tape taylor_tape(const Tape& tape) {
     jets[axis] = Jet::variable(int(axis), Symbol(builder, axis));
   for (const Instruction& i : tape.instructions) {
     execute<1>(i, &jets[i.a], &jets[i.b], &jets[i.result], 1);
-    // The value is that of the expression, bit for bit.
+    // Coefficient 0 is computed by the instruction itself, so that it is the value of the expression bit for bit.
     const auto value = [&](std::uint32_t place) { return jets[place].value().node(builder); };
     jets[i.result].coefficients()[0] = Symbol(builder, builder.repeat(i, value(i.a), value(i.b)));
   }
@@ -125,6 +129,19 @@ inline Tape taylor_tape(const Tape& tape) {
   for (const Symbol& c : jets[tape.results.front()].coefficients()) roots.push_back(c.node(builder));
   return builder.tape(roots);
 }
+
+/// The tape of the Taylor coefficients, which is made when it is needed first: most expressions never need it.
+class Lazy_taylor_tape {
+public:
+  const Tape& get(const Tape& values) {
+    std::call_once(is_made_, [&] { tape_ = taylor_tape(values); });
+    return tape_;
+  }
+
+private:
+  std::once_flag is_made_;
+  Tape tape_;
+};
 
 } // namespace equiaffine::internal::expression
 
