@@ -9,7 +9,7 @@
 #include <limits>
 #include <type_traits>
 
-/// What the instructions of an expression compute for any number type.
+/// The operations and functions that the instructions of an expression need, for any number type.
 namespace equiaffine::internal::expression {
 
 // These functions compute with a T and a double. They use the mixed operators of T where these exist and return T: to

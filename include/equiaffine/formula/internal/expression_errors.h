@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-/// The messages about texts that are no expressions.
+/// Writes the messages about texts that are not expressions.
 namespace equiaffine::internal::expression {
 
 inline std::string concatenated(std::initializer_list<std::string_view> parts) {

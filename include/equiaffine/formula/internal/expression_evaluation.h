@@ -32,7 +32,7 @@ void for_each_point(const T* __restrict a, const T* __restrict b, T* __restrict 
   }
 }
 
-/// a^n for n >= 3, by repeated squaring from the leading bit of n downwards unless T has its own pow(T, int).
+/// Computes a^n for n >= 3, by repeated squaring from the leading bit of n downwards unless T has its own pow(T, int).
 template <std::size_t Block, class T>
 void integer_power(const T* a, T* result, std::size_t count, unsigned n) {
   const auto apply = [&](const T* u, auto f) { for_each_point<Block>(u, u, result, count, f); };
@@ -74,7 +74,7 @@ void execute_choice(const Instruction& instruction, const T* a, const T* b, T* r
   }
 }
 
-/// Executes the instructions whose cost makes that of a call negligible.
+/// Executes the instructions that take much longer than a call of this function.
 template <std::size_t Block, class T>
 [[gnu::noinline]] void execute_function(const Instruction& instruction, const T* a, const T* b, T* result,
                                         std::size_t count) {
@@ -169,7 +169,7 @@ private:
 
   const Tape& tape_;
   std::array<const T*, number_of_variables> points_{};
-  std::array<T, stack_size> on_stack_; ///< uninitialized when T is
+  std::array<T, stack_size> on_stack_; ///< not initialized, as T needs no constructor
   std::unique_ptr<T[]> on_heap_;
 };
 
