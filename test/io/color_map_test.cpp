@@ -47,7 +47,7 @@ TEST(Color_map, quantiles_interpolate_between_order_statistics) {
   EXPECT_EQ(quantile(one, 37), 5);
 }
 
-TEST(Color_map, numbers_of_both_signs_get_a_range_centred_at_zero) {
+TEST(Color_map, numbers_of_both_signs_get_a_range_centered_at_zero) {
   const Color_range range = color_range(integers(-20, 100), 0);
   EXPECT_EQ(range.lower, -100);
   EXPECT_EQ(range.upper, 100);
@@ -93,7 +93,7 @@ TEST(Color_map, rounding_noise_around_zero_looks_like_zero) {
   EXPECT_EQ(rgb(map_color(5e-15, range)), rgb(diverging_color(0)));
 }
 
-TEST(Color_map, a_constant_up_to_rounding_has_one_colour) {
+TEST(Color_map, a_constant_up_to_rounding_has_one_color) {
   const std::vector<double> values = {-0.55, -0.55 + 1e-13, -0.55 - 1e-13};
   const Color_range range = color_range(values, 0, 1e-9);
   for (const double value : values) EXPECT_EQ(rgb(map_color(value, range)), rgb(sequential_color(0.5)));
@@ -177,7 +177,7 @@ TEST(Color_map, the_diverging_map_is_neutral_at_zero_and_as_dark_on_both_sides) 
     const double t = i / 20.;
     EXPECT_LT(lightness(diverging_color(t)), lightness(diverging_color(t - 0.05)));
     EXPECT_LT(lightness(diverging_color(-t)), lightness(diverging_color(0.05 - t)));
-    // Oklab's lightness and CIE's differ by a few units for saturated colours.
+    // Oklab's lightness and CIE's differ by a few units for saturated colors.
     EXPECT_NEAR(lightness(diverging_color(t)), lightness(diverging_color(-t)), 8);
   }
 }
@@ -187,7 +187,7 @@ TEST(Color_map, the_sequential_map_darkens_steadily) {
     EXPECT_LT(lightness(sequential_color(i / 50.)), lightness(sequential_color((i - 1) / 50.)));
 }
 
-TEST(Color_map, known_colours_of_oklab) {
+TEST(Color_map, known_colors_of_oklab) {
   // Ottosson's reference values: Oklab of sRGB white is (1, 0, 0), of red (0.627955, 0.224863, 0.125846).
   EXPECT_EQ(rgb(internal::color_from_linear_rgb(internal::linear_rgb_from_oklch(1, 0, 0))), std::tuple(255, 255, 255));
   const double hue = std::atan2(0.125846, 0.224863) * 180 / 3.141592653589793;
@@ -197,12 +197,12 @@ TEST(Color_map, known_colours_of_oklab) {
   EXPECT_NEAR(red[2], 0, 1e-5);
 }
 
-TEST(Color_map, a_missing_number_is_grey_in_both_maps) {
+TEST(Color_map, a_missing_number_is_gray_in_both_maps) {
   EXPECT_EQ(rgb(map_color(nan, {-1, 1, 1, true})), rgb(undefined_color()));
   EXPECT_EQ(rgb(map_color(nan, {0, 1, 1, false}, Color_scale::ASINH)), rgb(undefined_color()));
 }
 
-TEST(Color_map, every_status_has_its_own_colour_away_from_both_maps) {
+TEST(Color_map, every_status_has_its_own_color_away_from_both_maps) {
   std::set<std::tuple<int, int, int>> colors = {rgb(undefined_color())};
   for (std::size_t i = 0; i < number_of_point_statuses; ++i)
     colors.insert(rgb(status_color(static_cast<Point_status>(i))));

@@ -208,7 +208,7 @@ TEST(Read_points, off_comes_back_as_it_was_written) {
   EXPECT_EQ(copy.triangles, square().triangles);
 }
 
-TEST(Read_points, off_may_have_comments_colours_and_polygons) {
+TEST(Read_points, off_may_have_comments_colors_and_polygons) {
   const Mesh mesh = off(
       "# c\r\nCOFF 4 1 0 # on the same line\r\n\r\n0 0 0 255 0 0\r\n1 0 0 1 1 1\n1 1 0 # c\n0 1 0\n4 0 1 2 3 0.5\n");
   EXPECT_EQ(mesh.points.size(), 4u);
@@ -245,7 +245,8 @@ TEST(Read_points, unknown_and_missing_files_are_told) {
   EXPECT_NE(error_of(read, "/absent/points.csv").find("'/absent/points.csv': there is no such file"),
             std::string::npos);
   EXPECT_NE(error_of(read, "/dev/null").find("'/dev/null': it is empty"), std::string::npos);
-  EXPECT_NE(error_of(read, EQUIAFFINE_TEST_DATA "/../CMakeLists.txt").find("use one of .csv .ply .off"), std::string::npos);
+  EXPECT_NE(error_of(read, EQUIAFFINE_TEST_DATA "/../CMakeLists.txt").find("use one of .csv .ply .off"),
+            std::string::npos);
 }
 
 } // namespace

@@ -119,7 +119,7 @@ TEST(Base64_writer, keeps_every_byte_across_its_buffer) {
   EXPECT_EQ(std::string(back.begin(), back.end()), bytes);
 }
 
-TEST(Write_HTML, stores_positions_in_single_precision_relative_to_the_centre) {
+TEST(Write_HTML, stores_positions_in_single_precision_relative_to_the_center) {
   const Mesh mesh = tetrahedron();
   const std::string text = page(mesh);
   EXPECT_NE(text.find("\"center\":[1000.5,1,2]"), std::string::npos);
@@ -161,7 +161,7 @@ TEST(Write_HTML, names_known_quantities_as_people_do_and_others_as_they_are) {
             std::string::npos);
 }
 
-TEST(Write_HTML, colours_are_those_of_the_colour_map) {
+TEST(Write_HTML, colors_are_those_of_the_color_map) {
   const std::string text = page(tetrahedron());
   std::string diverging = "\"diverging\":[";
   for (int i = 0; i <= 256; ++i) {
@@ -193,7 +193,7 @@ TEST(Write_HTML, text_of_the_user_cannot_become_markup_or_script) {
   const std::string text = page(tetrahedron(), attributes, options);
   EXPECT_EQ(count(text, "<b>"), 0u);
   EXPECT_EQ(count(text, "<i>"), 0u);
-  EXPECT_EQ(count(text, "alert(1)"), 3u); // name, label and colour
+  EXPECT_EQ(count(text, "alert(1)"), 3u); // name, label and color
   EXPECT_EQ(count(text, "<script"), count(page(tetrahedron(), some_attributes()), "<script") - 2);
   EXPECT_EQ(count(text, "<script"), count(text, "</script>"));
   EXPECT_NE(text.find("<title>&lt;b&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/b&gt;&lt;/title&gt;&lt;script&gt;</title>"),
@@ -242,7 +242,7 @@ TEST(Write_HTML, a_mesh_without_attributes_and_one_without_points_are_written) {
   EXPECT_NE(empty.find("\"center\":[0,0,0]"), std::string::npos);
 }
 
-TEST(Write_HTML, the_first_colour_and_the_up_direction_are_passed_on) {
+TEST(Write_HTML, the_first_color_and_the_up_direction_are_passed_on) {
   Html_options options;
   options.color = "gaussian_curvature";
   options.up = {0, 1, 0};

@@ -48,13 +48,13 @@ Lattice_3 unit_lattice(std::size_t nx, std::size_t ny, std::size_t nz) {
   return Lattice_3({nx, ny, nz}, Point_3(0, 0, 0), {Vector_3(1, 0, 0), Vector_3(0, 1, 0), Vector_3(0, 0, 1)});
 }
 
-// Anisotropic, rotated, a little sheared, left-handed, and away from the origin.
+// A lattice that is anisotropic, rotated, a little sheared, left-handed, and away from the origin.
 Lattice_3 skew_lattice(std::size_t nx, std::size_t ny, std::size_t nz) {
   return Lattice_3({nx, ny, nz}, Point_3(-2, 1, 3),
                    {Vector_3(0.3, 0.4, 0), Vector_3(0.8, -0.6, 0.1), Vector_3(0, 0.2, 1.2)});
 }
 
-// Points of the whole lattice: corners, points of faces and edges, and of outer and inner cells.
+// Points all over the lattice: corners, points of faces and edges, and of outer and inner cells.
 std::vector<Point_3> points_of(const Lattice_3& lattice) {
   const auto coordinates = [](std::size_t n) {
     const double last = double(n - 1);
@@ -107,7 +107,7 @@ std::array<double, 5> rounding_bounds(double greatest_sample, double row_sum,
   return bounds;
 }
 
-// Of degree n in every direction, with all its derivatives of comparable size on the lattices above.
+// A polynomial of degree n in every direction, with all its derivatives of comparable size on the lattices above.
 template <int Degree>
 struct Polynomial {
   template <class T>
@@ -137,7 +137,7 @@ void expect_reproduction(const Lattice_3& lattice, double row_sum,
   }
 }
 
-// Not a polynomial, and different along every direction.
+// A function that is no polynomial and differs along every direction.
 constexpr auto wave = [](const auto& x, const auto& y, const auto& z) {
   return sin(1.1 * x + 0.4) * exp(0.5 * y - 0.3 * z) + cos(0.8 * z - 0.6 * y + 0.2 * x);
 };
@@ -150,7 +150,7 @@ Greatest_errors errors_of_wave(std::size_t cells, int degree, Spline_scheme sche
   const Lattice_3 lattice({cells + 1, cells + 1, cells + 1}, CGAL::Bbox_3(-1, -1.5, -2, 2, 2, 1.5));
   const Spline_function_3 spline(sample(lattice, wave), {.degree = degree, .scheme = scheme});
   Greatest_errors errors{};
-  // the same points on every lattice: in a corner, on faces and edges, in the middle
+  // The points are the same on every lattice: in a corner, on faces and edges, in the middle.
   for (const Point_3& p : points_of(Lattice_3({5, 5, 5}, lattice.bbox()))) {
     const Jet_3 expected = jet_of(wave, p), computed = spline.taylor(p);
     errors.value = std::max(errors.value, std::abs(computed.value() - expected.value()));
@@ -340,7 +340,7 @@ TEST(Spline_function_3, lower_orders_are_the_first_coefficients_of_the_expansion
 }
 
 TEST(Spline_function_3, the_whole_lattice_and_nothing_else_is_inside) {
-  // Far from the origin, so that rounding puts border points on either side.
+  // The lattice is far from the origin, so that rounding puts border points on either side.
   const Lattice_3 lattice({8, 9, 10}, Point_3(1000.1, -2000.2, 3000.3),
                           {Vector_3(0.3, 0.4, 0), Vector_3(-0.4, 0.3, 0.1), Vector_3(0, 0.1, 0.3)});
   const Spline_function_3 spline(random_volume(lattice));
@@ -368,7 +368,7 @@ TEST(Spline_function_3, an_axis_with_no_more_nodes_than_the_degree_leaves_everyt
 }
 
 TEST(Spline_function_3, points_whose_samples_include_one_without_a_value_are_outside) {
-  // Degree 7: a sample reaches 3 coefficients to each side by the filter, a coefficient 4 cells.
+  // For degree 7 the filter takes a sample to 3 coefficients on each side, and a coefficient reaches 4 cells.
   for (const double missing : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Volume_3 volume = random_volume(unit_lattice(30, 30, 30));
     volume.values[volume.lattice.index(15, 15, 15)] = missing;
@@ -423,7 +423,7 @@ TEST(Spline_function_3, bounds_are_tight_where_the_coefficients_are_and_the_whol
   EXPECT_EQ(Spline_function_3(volume).bounds(CGAL::Bbox_3(8, 8, 8, 9, 9, 9)), equiaffine::Interval::whole());
 }
 
-// Boxes of a given side, as a part of the lattice: every fourth at its beginning, every fourth at its end.
+// Boxes whose sides are a given fraction of the lattice's: every fourth at its beginning, every fourth at its end.
 CGAL::Bbox_3 random_box(const Lattice_3& lattice, double side, int n, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0, 1);
   std::array<double, 3> u, v;

@@ -27,7 +27,7 @@ public:
   using Point_3 = typename Kernel::Point_3;
   using Vector_3 = typename Kernel::Vector_3;
 
-  /// The spline that `parameters` ask for; samples that they smooth are smooth in `sample`, too.
+  /// Makes the spline that `parameters` ask for. If they smooth the samples, `sample` returns smoothed ones.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Sampled_function_traits_3(Volume_3<Kernel> volume, const Spline_parameters& parameters = {},
                                      ConcurrencyTag tag = {}) {
@@ -39,13 +39,14 @@ public:
     rounding_ = std::make_shared<const Spline_rounding_3<Kernel>>(*spline_, smoothing, format);
   }
 
-  /// NaN, as every coefficient of an expansion, outside the support of the spline.
+  /// Values and coefficients of expansions are NaN outside the support of the spline.
   FT value(const Point_3& p) const { return spline_->value(p); }
   Jet_3<FT, 1> first_order(const Point_3& p) const { return spline_->template taylor<1>(p); }
   Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); }
   Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); }
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return spline_->first_order_bounds(box); }
-  /// Of second derivatives at p, that of the samples included if all are floats; 0 outside the support of the spline.
+  /// How far rounding may change second derivatives at p, rounding of the samples to float included if all are floats; 0
+  /// outside the support of the spline.
   FT rounding(const Point_3& p) const {
     const auto cell = spline_->cell_of(p);
     return cell ? (*rounding_)(*cell) : FT(0);

@@ -15,7 +15,7 @@
 
 /// \file
 /// The one mapping from a number to a color: every picture of this library uses it.
-/// number -> `Color_range` of the whole column -> position on the map -> color, sRGB.
+/// The steps are: number -> `Color_range` of the whole column -> position on the map -> color, sRGB.
 /// The maps are straight paths in Oklab (B. Ottosson, "A perceptual color space for image processing", 2020): lightness
 /// alone, which no form of color blindness takes away, tells the order.
 
@@ -51,11 +51,11 @@ inline double quantile(std::vector<double>& values, double percent) {
   return *nth + (rank - double(below)) * (next - *nth);
 }
 
-/// The range of a column of numbers; infinities and NaNs do not count.
-/// Numbers of both signs: +-(the (100 - clip_percent)-quantile of |value|). Numbers of one sign: the quantiles at
-/// clip_percent and 100 - clip_percent. A sign counts when it reaches a millionth of that largest |value|.
-/// `resolution` >= 0, in the unit of the numbers, is the least half-width worth a color: numbers below it all look
-/// like zero instead of like noise. Neither is a relative half-width below a millionth: pages store single precision.
+/// The range of a column of numbers; infinities and NaNs do not count. For numbers of both signs the bounds are +-(the
+/// (100 - clip_percent)-quantile of |value|), for numbers of one sign the quantiles at clip_percent and 100 -
+/// clip_percent. A sign counts when it reaches a millionth of that largest |value|. `resolution` >= 0, in the unit of
+/// the numbers, is the least half-width worth a color: numbers below it all look like zero instead of like noise. A
+/// relative half-width is at least a millionth, as pages store single precision.
 inline Color_range color_range(std::vector<double> values, double clip_percent = default_clip_percent,
                                double resolution = 0) {
   CGAL_precondition(clip_percent >= 0 && clip_percent < 50 && resolution >= 0);
@@ -72,8 +72,8 @@ inline Color_range color_range(std::vector<double> values, double clip_percent =
   const double knee = std::max({quantile(magnitudes, 50), resolution, relative_resolution * largest});
 
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-  if (*least<-relative_resolution * largest&& * greatest> relative_resolution * largest)
-    return {-largest, largest, knee, true};
+  const double negligible = relative_resolution * largest;
+  if (*least<-negligible&& * greatest> negligible) return {-largest, largest, knee, true};
   const double lower = quantile(values, clip_percent);
   const double upper = quantile(values, 100 - clip_percent);
   const double middle = lower + (upper - lower) / 2;
@@ -99,25 +99,25 @@ inline Color_scale preferred_scale(const Color_range& range) {
   return largest > widest_linear * range.knee ? Color_scale::ASINH : Color_scale::LINEAR;
 }
 
-/// For a number that does not exist.
+/// The color of a number that does not exist.
 inline CGAL::IO::Color undefined_color() { return CGAL::IO::Color(157, 157, 163); }
 
-/// For a surface without a quantity, and for regular points where the status is shown.
+/// The color of a surface without a quantity, and of regular points where the status is shown.
 inline CGAL::IO::Color plain_color() { return CGAL::IO::Color(201, 209, 220); }
 
-/// For t in [-1, 1]: blue, near-white at 0, red. Gray for NaN.
+/// The diverging map, for t in [-1, 1]: blue, near-white at 0, red; gray for NaN.
 inline CGAL::IO::Color diverging_color(double t) {
   CGAL_precondition(!(std::abs(t) > 1));
   return std::isnan(t) ? undefined_color() : internal::color_from_linear_rgb(internal::diverging_linear_rgb(t));
 }
 
-/// For t in [0, 1]: pale yellow to dark violet. Gray for NaN.
+/// The sequential map, for t in [0, 1]: pale yellow to dark violet; gray for NaN.
 inline CGAL::IO::Color sequential_color(double t) {
   CGAL_precondition(!(t < 0 || t > 1));
   return std::isnan(t) ? undefined_color() : internal::color_from_linear_rgb(internal::sequential_linear_rgb(t));
 }
 
-/// The color of a number of a column with that range.
+/// The color of a number in a column with that range.
 inline CGAL::IO::Color map_color(double value, const Color_range& range, Color_scale scale = Color_scale::LINEAR) {
   const double t = map_position(value, range, scale);
   return range.is_diverging ? diverging_color(t) : sequential_color(t);

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_IO_READ_OFF_H
 
 #include <equiaffine/io/internal/Off_scanner.h>
+#include <equiaffine/io/internal/add_face.h>
 #include <equiaffine/io/internal/text_input.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
@@ -10,7 +11,6 @@
 #include <cstdint>
 #include <istream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace equiaffine {
@@ -21,24 +21,17 @@ template <class Kernel>
 Indexed_triangle_mesh_3<Kernel> read_OFF(std::istream& stream, const std::string& name) {
   const std::string text = internal::read_all(stream);
   internal::Off_scanner scanner(text, name);
-  const auto [vertices, faces] = scanner.header();
+  const auto [vertices, faces] = scanner.read_header();
   Indexed_triangle_mesh_3<Kernel> mesh;
   mesh.points.reserve(vertices);
   mesh.triangles.reserve(faces);
   for (std::size_t v = 0; v < vertices; ++v) {
-    std::string_view line = scanner.line();
-    const double x = scanner.template number<double>(line), y = scanner.template number<double>(line),
-                 z = scanner.template number<double>(line);
+    const auto [x, y, z] = scanner.read_vertex();
     mesh.points.emplace_back(x, y, z);
   }
   std::vector<std::uint32_t> face;
   for (std::size_t f = 0; f < faces; ++f) {
-    std::string_view line = scanner.line();
-    face.clear();
-    for (auto count = scanner.template number<std::uint32_t>(line); count > 0; --count) {
-      face.push_back(scanner.template number<std::uint32_t>(line));
-      if (face.back() >= vertices) scanner.fail("has a vertex that does not exist");
-    }
+    scanner.read_face(vertices, face);
     internal::add_face(mesh, face);
   }
   return mesh;

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_IO_READ_POINTS_H
 #define EQUIAFFINE_IO_READ_POINTS_H
 
-// Points from CSV, PLY and OFF with all that came with them, and back to CSV with more columns.
+// Reads points from CSV, PLY and OFF with all that came with them, and writes them to CSV with more columns.
 
 #include <equiaffine/io/Annotated_mesh_3.h>
 #include <equiaffine/io/input_file.h>
@@ -30,7 +30,7 @@
 namespace equiaffine {
 
 /// Points as they came from a file. `attributes` holds the columns of numbers other than x, y, z. From CSV there are
-/// also the cells as they were written (blanks and quotes included), `header.size()` per row.
+/// also the names of all columns and the cells as they were written (blanks and quotes included), row by row.
 template <class Kernel>
 struct Point_table_3 : Annotated_mesh_3<Kernel> {
   std::vector<std::string> header;
@@ -38,16 +38,16 @@ struct Point_table_3 : Annotated_mesh_3<Kernel> {
 };
 
 /// Reads a CSV file whose header names x, y, z in any places. `name` stands for the file in messages. Throws
-/// `Input_error` with line and column for a cell that is missing, and for a coordinate that is not a number. A
-/// number is also nan or inf: such a point is nowhere.
+/// `Input_error` with line and column for a cell that is missing, and for a coordinate that is not a number. The words
+/// nan and inf are numbers: no function has a value at such a point.
 template <class Kernel>
 Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
   const std::string text = internal::read_all(stream);
   internal::Csv_scanner scanner(text, name);
   Point_table_3<Kernel> table;
-  for (const std::string_view cell : scanner.row()) table.header.emplace_back(cell);
+  for (const std::string_view cell : scanner.next_row()) table.header.emplace_back(cell);
   const auto coordinates = internal::find_coordinates(scanner, table.header);
-  for (auto row = scanner.row(); !row.empty(); row = scanner.row()) {
+  for (auto row = scanner.next_row(); !row.empty(); row = scanner.next_row()) {
     internal::check_length(scanner, row, table.header);
     const auto [x, y, z] = internal::parse_point(scanner, row, coordinates);
     table.mesh.points.emplace_back(x, y, z);
@@ -95,14 +95,7 @@ inline Vertex_attributes merge_attributes(Vertex_attributes first, const Vertex_
 template <class Kernel>
 void write_CSV(std::ostream& stream, const Point_table_3<Kernel>& table, const Vertex_attributes& attributes) {
   if (table.header.empty()) return write_CSV(stream, table.mesh.points, merge_attributes(table.attributes, attributes));
-  std::vector<std::size_t> kept;
-  for (std::size_t column = 0; column < table.header.size(); ++column) {
-    const std::string name = internal::unquote(table.header[column]);
-    const bool is_replaced =
-        (name == "status" && attributes.status) || std::any_of(attributes.columns.begin(), attributes.columns.end(),
-                                                               [&](const auto& c) { return c.name == name; });
-    if (!is_replaced) kept.push_back(column);
-  }
+  const std::vector<std::size_t> kept = internal::columns_to_keep(table.header, attributes);
   internal::Buffered_output out(stream);
   const auto write_row = [&](const std::vector<std::string>& cells, std::size_t begin) {
     for (std::size_t i = 0; i < kept.size(); ++i) out << (i == 0 ? "" : ",") << cells[begin + kept[i]];

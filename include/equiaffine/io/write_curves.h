@@ -12,7 +12,7 @@
 
 namespace equiaffine {
 
-/// OBJ: the points of the curves with 17 significant digits and one `l` line per curve; a closed one ends with its
+/// Writes OBJ: the points of the curves with 17 significant digits and one `l` line per curve; a closed one ends with its
 /// first point.
 template <class Kernel>
 void write_OBJ(std::ostream& stream, const Parabolic_curves_3<Kernel>& curves) {

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_IO_WRITE_MESH_H
 #define EQUIAFFINE_IO_WRITE_MESH_H
 
-// Files from an indexed triangle mesh and the numbers at its vertices. Text has 17 significant digits and `nan` for
+// Writes an indexed triangle mesh and the numbers at its vertices to files. Text has 17 significant digits and `nan` for
 // numbers that do not exist. All functions write to a stream (opened as binary for PLY and STL); errors are in its
 // state.
 
@@ -34,22 +34,13 @@ inline std::optional<Mesh_format> mesh_format(const std::string& path) {
   return std::nullopt;
 }
 
-/// PLY, binary little-endian: `double x y z`, a `double` property per column, `uchar status`, `vertex_indices`.
+/// Writes PLY, binary little-endian: `double x y z`, a `double` property per column, `uchar status`, `vertex_indices`.
 template <class Kernel>
 void write_PLY(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh,
                const Vertex_attributes& attributes = {}) {
   CGAL_precondition(attributes.has_length(mesh.points.size()));
   internal::Buffered_output out(stream);
-  out << "ply\nformat binary_little_endian 1.0\ncomment made by equiaffine";
-  if (attributes.status) {
-    out << "; status:";
-    for (std::size_t i = 0; i < number_of_point_statuses; ++i) out << ' ' << i << ' ' << to_string(Point_status(i));
-  }
-  out << "\nelement vertex " << mesh.points.size() << "\nproperty double x\nproperty double y\nproperty double z\n";
-  for (const auto& column : attributes.columns) out << "property double " << column.name << '\n';
-  if (attributes.status) out << "property uchar status\n";
-  out << "element face " << mesh.triangles.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
-
+  internal::write_ply_header(out, mesh.points.size(), mesh.triangles.size(), attributes);
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     for (const double x : internal::coordinates(mesh.points[v])) out.write_binary(x);
     for (const auto& column : attributes.columns) out.write_binary(column.values[v]);
@@ -62,7 +53,7 @@ void write_PLY(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh
   out.flush();
 }
 
-/// OFF: points and triangles; it holds no attributes.
+/// Writes OFF: points and triangles; it holds no attributes.
 template <class Kernel>
 void write_OFF(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh) {
   internal::Buffered_output out(stream);
@@ -73,7 +64,7 @@ void write_OFF(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh
   out.flush();
 }
 
-/// OBJ: points and triangles, and vertex normals if there are columns `nx ny nz`.
+/// Writes OBJ: points and triangles, and vertex normals if there are columns `nx ny nz`.
 template <class Kernel>
 void write_OBJ(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh,
                const Vertex_attributes& attributes = {}) {
@@ -97,7 +88,7 @@ void write_OBJ(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh
   out.flush();
 }
 
-/// STL, binary: triangles in single precision with their own unit normals; it holds no attributes.
+/// Writes STL, binary: triangles in single precision with their own unit normals; it holds no attributes.
 template <class Kernel>
 void write_STL(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh) {
   constexpr std::size_t header_size = 80;
@@ -117,7 +108,7 @@ void write_STL(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh
   out.flush();
 }
 
-/// The mesh in the format asked for, with those attributes that the format holds.
+/// Writes the mesh in the format asked for, with those attributes that the format holds.
 template <class Kernel>
 void write_mesh(std::ostream& stream, Mesh_format format, const Indexed_triangle_mesh_3<Kernel>& mesh,
                 const Vertex_attributes& attributes = {}) {

@@ -22,9 +22,9 @@ struct Sample_noise {
 };
 
 /// Estimates the noise beside the level set f = isovalue, or everywhere if there is none, from differences of order 12
-/// along the axes, which are next to nothing for a smooth function: their median, in units of the median for white noise
-/// of deviation 1. Details of the function of such a wavelength count as noise. Integers have at least the noise of
-/// rounding, 1 / sqrt(12). The deviation is 0 for other samples of a volume with less than 13 nodes along an axis.
+/// along the axes, which are next to nothing for a smooth function: their median, in units of the median for white
+/// noise of deviation 1. Details of the function of such a wavelength count as noise. Integers have at least the noise
+/// of rounding, 1 / sqrt(12). The deviation is 0 for other samples of a volume with less than 13 nodes along an axis.
 /// Time: that of some passes over the samples.
 template <class Kernel>
 Sample_noise estimate_noise(const Volume_3<Kernel>& volume,
@@ -38,13 +38,13 @@ Sample_noise estimate_noise(const Volume_3<Kernel>& volume,
 /// The scale for smooth_volume with the least estimated error of fourth derivatives, out of 0, 1.5, 2, 2.5, 3, 4, 5, 6
 /// and 8, among those that leave the surface where it is.
 ///
-/// The error of noise follows from its deviation. The error that smoothing makes is estimated by how far the derivatives
-/// differ from those at the scale before, beyond their noise, in most of some hundred cells beside the level set. A
-/// scale and all larger ones are left out if in more than a tenth of these cells the value changes by more than hypot(2 s, g):
-/// s is the standard deviation of the change that noise explains (the discrepancy principle: Morozov, On the solution
-/// of functional equations by the method of regularization, 1966), g the slope times a tenth of a voxel, below which
-/// details are interpolated anyway. Fourth derivatives of a scan that has details of a few voxels are wrong at every
-/// scale, the larger ones wear the details away.
+/// The error of noise follows from its deviation. The error that smoothing makes is estimated by how far the
+/// derivatives differ from those at the scale before, beyond their noise, in most of some hundred cells beside the
+/// level set. A scale and all larger ones are left out if in more than a tenth of these cells the value changes by more
+/// than hypot(2 s, g): s is the standard deviation of the change that noise explains (the discrepancy principle:
+/// Morozov, On the solution of functional equations by the method of regularization, 1966), g the slope times a tenth
+/// of a voxel, below which details are interpolated anyway. Fourth derivatives of a scan that has details of a few
+/// voxels are wrong at every scale, the larger ones wear the details away.
 ///
 /// Scales whose window does not fit into the volume are left out, and 0 is chosen where there is no spline.
 template <class Kernel>

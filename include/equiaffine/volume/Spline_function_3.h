@@ -2,25 +2,22 @@
 #ifndef EQUIAFFINE_VOLUME_SPLINE_FUNCTION_3_H
 #define EQUIAFFINE_VOLUME_SPLINE_FUNCTION_3_H
 
-#include <equiaffine/base/parallel_for.h>
 #include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/number/Linear_substitution_3.h>
 #include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/internal/Spline_coefficients.h>
+#include <equiaffine/volume/internal/Spline_support_3.h>
 #include <equiaffine/volume/internal/border_degree.h>
 #include <equiaffine/volume/internal/bspline_bounds.h>
-#include <equiaffine/volume/internal/bspline_evaluation.h>
-#include <equiaffine/volume/internal/bspline_interpolation.h>
-#include <equiaffine/volume/internal/separable_filter.h>
 #include <equiaffine/volume/smooth_volume.h>
 
-#include <CGAL/Kernel/global_functions.h>
+#include <CGAL/Bbox_3.h>
+#include <CGAL/assertions.h>
 #include <CGAL/tags.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -33,9 +30,9 @@ namespace equiaffine {
 /// space: value, and Taylor expansion to order 4, at any point.
 ///
 /// The support is the whole lattice, borders included, where the scheme keeps its order by extrapolating samples, by
-/// polynomials of degree n or, if the samples are smooth enough, n + 2 (internal/border_degree.h). Outside, at every
-/// point whose samples include one that is not finite (all samples take part in interpolation), and everywhere if an
-/// axis has no more than `degree` nodes, all numbers are NaN.
+/// polynomials of degree n or, if the samples are smooth enough, n + 2 (internal/border_degree.h). All numbers are NaN
+/// outside, at every point whose samples include one that is not finite (all samples take part in interpolation), and
+/// everywhere if an axis has no more than `degree` nodes.
 ///
 /// Derivatives are taken in lattice coordinates and mapped by the inverse of the lattice's matrix: any spacing,
 /// rotation, shear and handedness. The rounding error of a k-th derivative is some 1e-15 max|f| / spacing^k, in the
@@ -56,24 +53,21 @@ public:
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Spline_function_3(const Volume_3<Kernel>& volume, const Spline_parameters& parameters = {},
                              ConcurrencyTag = {})
-      : lattice_(volume.lattice), degree_(parameters.degree), scheme_(parameters.scheme),
-        to_lattice_(inverse_matrix(lattice_)), substitution_(to_lattice_) {
+      : degree_(parameters.degree), border_degree_(parameters.degree), scheme_(parameters.scheme),
+        support_(volume.lattice), substitution_(support_.to_lattice()),
+        coefficients_(volume.lattice.size(), parameters.degree) {
     CGAL_precondition(degree_ == 5 || degree_ == 7 || degree_ == 9);
-    CGAL_precondition(volume.values.size() == lattice_.number_of_nodes());
-    for (std::size_t a = 0; a < 3; ++a) {
-      slack_[a] = rounding_of_coordinate(a);
-      size_[a] = lattice_.size()[a] + 2 * std::size_t(internal::spline_padding(degree_));
-      is_supported_ = is_supported_ && lattice_.size()[a] > std::size_t(degree_);
-    }
-    if (!is_supported_) return;
+    CGAL_precondition(volume.values.size() == lattice().number_of_nodes());
+    for (const std::size_t nodes : lattice().size())
+      if (nodes <= std::size_t(degree_)) return;
     if (parameters.smoothing == 0) fit<ConcurrencyTag>(volume.values);
     else fit<ConcurrencyTag>(smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing)).values);
   }
 
-  const Lattice& lattice() const { return lattice_; }
+  const Lattice& lattice() const { return support_.lattice(); }
   int degree() const { return degree_; }
   Spline_scheme scheme() const { return scheme_; }
-  /// Of the polynomials that extend the samples beyond the border.
+  /// The degree of the polynomials that extend the samples beyond the border.
   int border_degree() const { return border_degree_; }
 
   FT value(const Point_3& p) const { return taylor<0>(p).value(); }
@@ -86,9 +80,9 @@ public:
   }
 
   /// The linear part of the map from space to lattice coordinates.
-  const Matrix& to_lattice() const { return to_lattice_; }
+  const Matrix& to_lattice() const { return support_.to_lattice(); }
 
-  /// An expansion in lattice coordinates, in those of space.
+  /// Turns an expansion in lattice coordinates into one in those of space.
   Jet_3<FT> to_space(const Jet_3<FT>& jet) const { return substitution_(jet); }
 
   /// The expansion at p in the coordinates of space, to total order `Order` <= 4; the lower ones cost less.
@@ -100,17 +94,19 @@ public:
       jet.coefficients().fill(std::numeric_limits<FT>::quiet_NaN());
       return jet;
     }
-    return substitution_(scheme_ == Spline_scheme::PAPER ? interpolated_expansion<Order>(*place)
-                                                         : expansion<Order>(*place));
+    return substitution_(scheme_ == Spline_scheme::PAPER
+                             ? coefficients_.template interpolated_expansion<Order>(place->cell, place->offset)
+                             : coefficients_.template expansion<Order>(place->cell, place->offset));
   }
 
-  /// Contains the values at all points of the box, also as computed, from the coefficients that count there. The whole
-  /// line if there is a point without a value in the box. The time is proportional to the number of cells that the box
+  /// Contains the values at all points of the box, also as computed, from the coefficients that count there. The bounds
+  /// are the whole line if a point of the box has no value. Time: proportional to the number of cells that the box
   /// meets.
   Interval bounds(const CGAL::Bbox_3& box) const {
-    const auto part = locate(box);
-    if (!part || !part->is_complete || bounds_->has_nan(coefficients_.data(), part->box)) return Interval::whole();
-    return bounds_->value(coefficients_.data(), part->box);
+    const auto common = locate(box);
+    if (!common || !common->is_whole_box || bounds_->has_nan(coefficients_.data(), common->box))
+      return Interval::whole();
+    return bounds_->value(coefficients_.data(), common->box);
   }
 
   /// Contains the values and the first derivatives in the same sense. In boxes of up to 9 cells along each axis they
@@ -118,169 +114,50 @@ public:
   /// without a value in the box, the bounds of the derivatives are the whole line, and those of the value are of the
   /// other points; infinity, if none of them has one.
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const {
-    const auto part = locate(box);
+    const auto common = locate(box);
     std::array<Interval, 4> bounds;
     bounds.fill(Interval::whole());
-    if (!part) bounds[0] = internal::no_values();
-    else if (part->is_complete) bounds = bounds_->first_order(coefficients_.data(), part->box);
-    else bounds[0] = bounds_->value(coefficients_.data(), part->box);
+    if (!common) bounds[0] = internal::no_values();
+    else if (common->is_whole_box) bounds = bounds_->first_order(coefficients_.data(), common->box);
+    else bounds[0] = bounds_->value(coefficients_.data(), common->box);
     Jet_3<Interval, 1> in_space(bounds[0]);
     for (std::size_t b = 0; b < 3; ++b)
       for (std::size_t a = 0; a < 3; ++a)
-        if (to_lattice_[a][b] != 0) in_space.coefficients()[1 + b] += Interval(to_lattice_[a][b]) * bounds[1 + a];
+        if (to_lattice()[a][b] != 0) in_space.coefficients()[1 + b] += Interval(to_lattice()[a][b]) * bounds[1 + a];
     return in_space;
   }
 
 private:
-  struct Place {
-    std::array<std::size_t, 3> cell;
-    std::array<FT, 3> offset; // in [0, 1], up to rounding
-  };
+  using Support = internal::Spline_support_3<Kernel>;
 
-  struct Part {
-    internal::Bspline_box<FT> box;
-    bool is_complete = true; // else the box leaves the support
-  };
-
-  static Matrix inverse_matrix(const Lattice& lattice) {
-    Matrix inverse;
-    for (std::size_t a = 0; a < 3; ++a) { // row a: the cross product of the other two steps / determinant
-      const auto row = CGAL::cross_product(lattice.steps()[(a + 1) % 3], lattice.steps()[(a + 2) % 3]);
-      for (int b = 0; b < 3; ++b) inverse[a][std::size_t(b)] = row[b] / lattice.determinant();
-    }
-    return inverse;
-  }
-
-  /// How far rounding moves lattice coordinate `a` of a point of the lattice: points of its border count as inside.
-  FT rounding_of_coordinate(std::size_t a) const {
-    const CGAL::Bbox_3 box = lattice_.bbox();
-    FT sum = 0;
-    for (int b = 0; b < 3; ++b)
-      sum += std::abs(to_lattice_[a][std::size_t(b)]) * FT(std::max(std::abs(box.min(b)), std::abs(box.max(b))));
-    return 8 * std::numeric_limits<FT>::epsilon() * sum;
-  }
-
-  bool is_inside(FT u, std::size_t a) const {
-    return u >= -slack_[a] && u <= FT(lattice_.size()[a] - 1) + slack_[a]; // false for NaN
-  }
-
-  std::size_t cell(FT u, std::size_t a) const {
-    return std::min(std::size_t(std::max(u, FT(0))), lattice_.size()[a] - 2);
-  }
-
-  std::optional<Place> locate(const Point_3& p) const {
-    if (!is_supported_) return std::nullopt;
-    Place place;
-    const auto d = p - lattice_.origin();
-    for (std::size_t a = 0; a < 3; ++a) {
-      const FT u = to_lattice_[a][0] * d.x() + to_lattice_[a][1] * d.y() + to_lattice_[a][2] * d.z();
-      if (!is_inside(u, a)) return std::nullopt;
-      place.cell[a] = cell(u, a);
-      place.offset[a] = u - FT(place.cell[a]);
-    }
-    return place;
-  }
-
-  /// The part of a box in the support; nothing if there is none. A side that rounding separates from a node is there.
-  std::optional<Part> locate(const CGAL::Bbox_3& box) const {
-    if (!is_supported_) return std::nullopt;
-    constexpr FT infinity = std::numeric_limits<FT>::infinity();
-    Part part;
-    for (std::size_t a = 0; a < 3; ++a) {
-      std::array<FT, 2> side{}; // lower, upper
-      for (int b = 0; b < 3; ++b) {
-        const FT p = to_lattice_[a][std::size_t(b)] * (FT(box.min(b)) - lattice_.origin()[b]);
-        const FT q = to_lattice_[a][std::size_t(b)] * (FT(box.max(b)) - lattice_.origin()[b]);
-        side[0] += std::min(p, q);
-        side[1] += std::max(p, q);
-      }
-      if (!(side[0] <= side[1])) side = {-infinity, infinity}; // 0 times infinity
-      const FT last = FT(lattice_.size()[a] - 1);
-      if (side[1] < -slack_[a] || side[0] > last + slack_[a]) return std::nullopt;
-      part.is_complete = part.is_complete && is_inside(side[0], a) && is_inside(side[1], a);
-      for (FT& u : side) {
-        if (std::abs(u - std::round(u)) <= slack_[a]) u = std::round(u);
-        u = std::clamp(u, FT(0), last);
-      }
-      const std::size_t first = cell(side[0], a);
-      const std::size_t end = std::max(first + 1, std::size_t(std::ceil(side[1])));
-      part.box.first[a] = first;
-      part.box.cells[a] = end - first;
-      const bool is_exact = scheme_ != Spline_scheme::PAPER; // whose expansions are means of those at all corners
-      part.box.begin[a] = is_exact ? side[0] - FT(first) : FT(0);
-      part.box.end[a] = is_exact ? side[1] - FT(end - 1) : FT(1);
-    }
-    return part;
-  }
-
-  /// In lattice coordinates.
-  template <int Order>
-  Jet_3<FT, Order> expansion(const Place& place) const {
-    Jet_3<FT, Order> jet;
-    const FT* first = &coefficients_[coefficient_index(place.cell)];
-    internal::with_degree(degree_, [&](auto n) {
-      internal::contract<n, Order>(first, size_[0], size_[0] * size_[1], place.offset, jet.coefficients());
-    });
-    return jet;
-  }
-
-  /// Linear in each coordinate between the expansions at the corners of the cell.
-  template <int Order>
-  Jet_3<FT, Order> interpolated_expansion(const Place& place) const {
-    Jet_3<FT, Order> sum(FT(0));
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      Place node = place;
-      FT weight = 1;
-      for (std::size_t a = 0; a < 3; ++a) {
-        node.offset[a] = FT(corner >> a & 1);
-        weight *= corner >> a & 1 ? place.offset[a] : 1 - place.offset[a];
-      }
-      const auto jet = expansion<Order>(node);
-      for (std::size_t n = 0; n < jet.size; ++n) sum.coefficients()[n] += weight * jet.coefficients()[n];
-    }
-    return sum;
-  }
-
-  /// Position of a coefficient; the first tap of cell c is coefficient c, as padding shifts both alike.
-  std::size_t coefficient_index(const std::array<std::size_t, 3>& c) const {
-    return (c[2] * size_[1] + c[1]) * size_[0] + c[0];
-  }
-
-  /// Chooses the border's degree and computes the coefficients.
   template <class ConcurrencyTag>
   void fit(const std::vector<FT>& samples) {
-    border_degree_ = internal::border_degree(samples, lattice_.size(), degree_, scheme_);
-    coefficients_.resize(size_[0] * size_[1] * size_[2] + internal::overread);
-    internal::with_degree(degree_, [&](auto n) { filter<n, ConcurrencyTag>(samples); });
-    bounds_.emplace(degree_, size_, slack_);
+    border_degree_ = internal::border_degree(samples, lattice().size(), degree_, scheme_);
+    coefficients_.template fit<ConcurrencyTag>(samples, lattice().size(), scheme_, border_degree_);
+    bounds_.emplace(degree_, coefficients_.size(), support_.slack());
   }
 
-  /// Samples to coefficients, along x, then y, then z.
-  template <int Degree, class ConcurrencyTag>
-  void filter(const std::vector<FT>& samples) {
-    internal::with_line_filter<FT, Degree>(scheme_, border_degree_, [&](const auto& line) {
-      using Filter = std::decay_t<decltype(line)>;
-      internal::Separable_filter<ConcurrencyTag, FT, Filter>(lattice_.size(), Filter::padding, coefficients_.data())(
-          {&line, &line, &line}, samples.data());
-    });
-    const std::size_t slab = size_[0] * size_[1];
-    internal::parallel_for<ConcurrencyTag>(0, size_[2], [&](std::size_t k) {
-      FT* const first = coefficients_.data() + k * slab;
-      for (FT* x = first; x != first + slab; ++x)
-        if (!std::isfinite(*x)) *x = std::numeric_limits<FT>::quiet_NaN(); // an infinity could pass as a value
-    });
+  std::optional<typename Support::Place> locate(const Point_3& p) const {
+    if (!bounds_) return std::nullopt;
+    return support_.locate(p);
   }
 
-  Lattice lattice_;
-  int degree_, border_degree_ = degree_;
+  std::optional<typename Support::Common_box> locate(const CGAL::Bbox_3& box) const {
+    if (!bounds_) return std::nullopt;
+    auto common = support_.locate(box);
+    if (common && scheme_ == Spline_scheme::PAPER) { // whose values are means of those at all corners of a cell
+      common->box.begin = {0, 0, 0};
+      common->box.end = {1, 1, 1};
+    }
+    return common;
+  }
+
+  int degree_, border_degree_;
   Spline_scheme scheme_;
-  Matrix to_lattice_;
+  Support support_;
   internal::Linear_substitution_3<FT> substitution_;
-  std::array<FT, 3> slack_{};
-  std::array<std::size_t, 3> size_{}; // of the coefficients, padding included
-  bool is_supported_ = true;
-  std::vector<FT> coefficients_;
-  std::optional<internal::Bspline_bounds<FT>> bounds_; // if there is a support
+  internal::Spline_coefficients<FT> coefficients_;
+  std::optional<internal::Bspline_bounds<FT>> bounds_; // if the lattice has nodes enough for a spline
 };
 
 } // namespace equiaffine

@@ -14,10 +14,10 @@
 
 namespace equiaffine {
 
-/// What decides how samples have been rounded.
+/// How large samples are, and of which type they may have been: both decide how they have been rounded.
 template <class FT>
 struct Sample_format {
-  FT greatest = 0; ///< size of a sample
+  FT greatest = 0; ///< the greatest magnitude of a sample that is finite
   bool are_floats = true;
 
   explicit Sample_format(const std::vector<FT>& samples) {
@@ -29,18 +29,21 @@ struct Sample_format {
   }
 };
 
-/// An estimate from above of the errors of a spline's second derivatives that come from rounding, as if all samples
-/// were of the size of the largest: two roundings of every term, and one of the samples to float if all are floats.
+/// Estimates from above how far rounding may change the second derivatives of a spline, as if all samples were as large
+/// as the largest one: two roundings of every term, and one of the samples to float if all are floats.
 template <class Kernel>
 class Spline_rounding_3 {
 public:
   using FT = typename Kernel::FT;
   using Spline = Spline_function_3<Kernel>;
+  using Cell = std::array<std::size_t, 3>;
 
-  /// Of a spline through samples smoothed by the scale `smoothing`, and the format they had before.
+  /// `smoothing` is the scale by which the samples of the spline have been smoothed, `samples` is what they were
+  /// before.
   Spline_rounding_3(const Spline& spline, const FT& smoothing, const Sample_format<FT>& samples)
-      : to_lattice_(spline.to_lattice()), of_terms_(2 * std::numeric_limits<FT>::epsilon() * samples.greatest),
-        of_samples_(samples.are_floats ? FT(std::numeric_limits<float>::epsilon()) / 2 * samples.greatest : FT(0)) {
+      : to_lattice_(spline.to_lattice()), rounding_of_terms_(2 * std::numeric_limits<FT>::epsilon() * samples.greatest),
+        rounding_of_samples_(samples.are_floats ? FT(std::numeric_limits<float>::epsilon()) / 2 * samples.greatest
+                                                : FT(0)) {
     for (std::size_t a = 0; a < 3; ++a) {
       const std::size_t nodes = spline.lattice().size()[a];
       if (nodes <= std::size_t(spline.degree())) return;
@@ -50,33 +53,38 @@ public:
     }
   }
 
-  FT operator()(const std::array<std::size_t, 3>& cell) const {
+  /// The largest error of a second derivative in the coordinates of space, in the middle of a cell.
+  FT operator()(const Cell& cell) const {
     FT greatest = 0;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = i; j < 3; ++j) {
         FT sum = 0;
         for (std::size_t a = 0; a < 3; ++a)
-          for (std::size_t b = 0; b < 3; ++b) {
-            FT terms = of_terms_, samples = of_samples_;
-            for (std::size_t c = 0; c < 3; ++c) {
-              const Gains& gains = gains_[c][cell[c]];
-              const std::size_t order = std::size_t(a == c) + std::size_t(b == c);
-              terms *= gains.terms[order];
-              samples *= gains.samples[order];
-            }
-            sum += std::abs(to_lattice_[a][i] * to_lattice_[b][j]) * (terms + samples);
-          }
+          for (std::size_t b = 0; b < 3; ++b)
+            sum += std::abs(to_lattice_[a][i] * to_lattice_[b][j]) * error_in_lattice(a, b, cell);
         greatest = std::max(greatest, sum);
       }
     return greatest;
   }
 
 private:
-  /// How much errors of size 1, of all terms or of all samples, can change the value and the first two derivatives
+  /// How far errors of magnitude 1, of all terms or of all samples, can change the value and the first two derivatives
   /// along one axis.
   struct Gains {
     std::array<FT, 3> terms, samples;
   };
+
+  /// The error of the derivative along the axes a and b of the lattice.
+  FT error_in_lattice(std::size_t a, std::size_t b, const Cell& cell) const {
+    FT terms = rounding_of_terms_, samples = rounding_of_samples_;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Gains& gains = gains_[c][cell[c]];
+      const std::size_t order = std::size_t(a == c) + std::size_t(b == c);
+      terms *= gains.terms[order];
+      samples *= gains.samples[order];
+    }
+    return terms + samples;
+  }
 
   static Gains gains(const internal::Line_functionals<FT>& line, std::size_t kind) {
     const auto rows = line.rows(kind);
@@ -90,7 +98,7 @@ private:
   }
 
   typename Spline::Matrix to_lattice_;
-  FT of_terms_, of_samples_; // a rounding of the largest of them
+  FT rounding_of_terms_, rounding_of_samples_; // of the largest ones
   std::array<internal::Per_kind_of_cell<Gains>, 3> gains_;
 };
 

@@ -19,7 +19,7 @@ namespace equiaffine {
 /// fits its neighbors by least squares, weighted by a bell of standard deviation `scale` >= 0, in steps of the lattice,
 /// that ends at 3.3 times this (Savitzky, Golay 1964 with other weights). What is smooth changes by O(h^8), since
 /// polynomials of degree 7 are kept, at the border too; a scale of 1 or less changes nothing. White noise in fourth
-/// derivatives falls as scale^-5.5. A node whose window has a sample that is not finite gets none either.
+/// derivatives falls as scale^-5.5. A node whose window has a sample that is not finite gets one that is not finite.
 ///
 /// Time: 20 scale operations per node. The result does not depend on the number of threads.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>

@@ -39,7 +39,7 @@ public:
   std::size_t line_number() const { return line_number_; }
 
   /// Takes the next row that is not blank: its cells as they are written; none at the end of the file.
-  std::vector<std::string_view> row() {
+  std::vector<std::string_view> next_row() {
     std::size_t end = 0;
     do {
       line_number_ = next_line_number_;

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace equiaffine::internal {
 
@@ -20,31 +21,16 @@ class Off_scanner {
 public:
   Off_scanner(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
 
-  /// Fails because of the line that has been taken last.
-  [[noreturn]] void fail(const std::string& reason) const {
-    fail_to_read(name_, "line " + std::to_string(line_number_) + " " + reason, "correct the file or get it again");
-  }
-
-  /// Takes the next line that is not empty.
-  std::string_view line() {
-    while (!rest_.empty()) {
-      std::string_view line = take_line(rest_, line_number_);
-      line = trim(line.substr(0, line.find('#')));
-      if (!line.empty()) return line;
-    }
-    fail("is the last one, but more has to follow");
-  }
-
   /// Takes the keyword `OFF`, whose prefixes say what vertices have besides points, and the numbers of vertices and
   /// faces.
-  std::array<std::size_t, 2> header() {
+  std::array<std::size_t, 2> read_header() {
     if (trim(rest_).empty()) fail_to_read(name_, "it is empty", "give an OFF file");
-    std::string_view text = line();
+    std::string_view text = next_line();
     std::string_view after_keyword = text;
     const std::string_view keyword = take_word(after_keyword);
     if (keyword.ends_with("OFF")) {
       if (keyword.find_first_of("4n") != std::string_view::npos) fail("announces points that are not in 3D");
-      text = trim(after_keyword).empty() ? line() : after_keyword;
+      text = trim(after_keyword).empty() ? next_line() : after_keyword;
     }
     const auto vertices = parse_number<std::size_t>(take_word(text)),
                faces = parse_number<std::size_t>(take_word(text));
@@ -54,6 +40,25 @@ public:
     return {*vertices, *faces};
   }
 
+  /// Takes the line of a vertex: its coordinates; normals and colors after them are left out.
+  std::array<double, 3> read_vertex() {
+    std::string_view text = next_line();
+    std::array<double, 3> p{};
+    for (double& x : p) x = number<double>(text);
+    return p;
+  }
+
+  /// Replaces `face` by the vertices in the line of a face, which are less than `vertices`.
+  void read_face(std::size_t vertices, std::vector<std::uint32_t>& face) {
+    std::string_view text = next_line();
+    face.clear();
+    for (auto count = number<std::uint32_t>(text); count > 0; --count) {
+      face.push_back(number<std::uint32_t>(text));
+      if (face.back() >= vertices) fail("has a vertex that does not exist");
+    }
+  }
+
+private:
   /// Takes the next number off a line.
   template <class Number>
   Number number(std::string_view& line) const {
@@ -62,7 +67,21 @@ public:
     return *value;
   }
 
-private:
+  /// Fails because of the line that has been taken last.
+  [[noreturn]] void fail(const std::string& reason) const {
+    fail_to_read(name_, "line " + std::to_string(line_number_) + " " + reason, "correct the file or get it again");
+  }
+
+  /// Takes the next line that is not empty.
+  std::string_view next_line() {
+    while (!rest_.empty()) {
+      std::string_view line = take_line(rest_, line_number_);
+      line = trim(line.substr(0, line.find('#')));
+      if (!line.empty()) return line;
+    }
+    fail("is the last one, but more has to follow");
+  }
+
   std::string_view rest_;
   const std::string& name_;
   std::size_t line_number_ = 0;

@@ -18,7 +18,7 @@ public:
     if (++bytes_in_group_ == 3) put_group();
   }
 
-  /// Four bytes, the least significant first.
+  /// Puts the four bytes of a word, the least significant one first.
   void put_little_endian(std::uint32_t word) {
     for (int shift = 0; shift < 32; shift += 8) put(static_cast<std::uint8_t>(word >> shift));
   }

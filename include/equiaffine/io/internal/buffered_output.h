@@ -14,8 +14,8 @@
 
 namespace equiaffine::internal {
 
-/// Text and little-endian binary numbers for a stream, collected into large blocks. Text does not depend on the
-/// stream's format or on any locale. The last block is written by `flush()`.
+/// Writes text and little-endian binary numbers to a stream, in large blocks. Text does not depend on the stream's
+/// format or on any locale. The last block is written by `flush()`.
 class Buffered_output {
 public:
   explicit Buffered_output(std::ostream& stream) : stream_(stream) { buffer_.reserve(2 * block_size); }
@@ -28,7 +28,7 @@ public:
 
   Buffered_output& operator<<(char character) { return *this << std::string_view(&character, 1); }
 
-  /// 17 significant digits, which give every double back; `nan` and zero have no sign.
+  /// Writes a number with 17 significant digits, which give every double back; `nan` and zero get no sign.
   Buffered_output& operator<<(double number) {
     if (std::isnan(number)) return *this << "nan";
     std::array<char, 32> digits;

@@ -76,6 +76,20 @@ inline std::vector<Vertex_attributes::Column> numeric_columns(const std::vector<
   return columns;
 }
 
+/// The columns of a file that stay when `attributes` are written beside them: those of other names.
+inline std::vector<std::size_t> columns_to_keep(const std::vector<std::string>& header,
+                                                const Vertex_attributes& attributes) {
+  std::vector<std::size_t> kept;
+  for (std::size_t column = 0; column < header.size(); ++column) {
+    const std::string name = unquote(header[column]);
+    const bool is_replaced =
+        (name == "status" && attributes.status) || std::any_of(attributes.columns.begin(), attributes.columns.end(),
+                                                               [&](const auto& c) { return c.name == name; });
+    if (!is_replaced) kept.push_back(column);
+  }
+  return kept;
+}
+
 } // namespace equiaffine::internal
 
 #endif

@@ -25,6 +25,20 @@ inline void write_line(Buffered_output& out, std::string_view keyword, const std
   out << keyword << numbers[0] << ' ' << numbers[1] << ' ' << numbers[2] << '\n';
 }
 
+/// Writes the header of a PLY file: what the numbers after it are.
+inline void write_ply_header(Buffered_output& out, std::size_t points, std::size_t triangles,
+                             const Vertex_attributes& attributes) {
+  out << "ply\nformat binary_little_endian 1.0\ncomment made by equiaffine";
+  if (attributes.status) {
+    out << "; status:";
+    for (std::size_t i = 0; i < number_of_point_statuses; ++i) out << ' ' << i << ' ' << to_string(Point_status(i));
+  }
+  out << "\nelement vertex " << points << "\nproperty double x\nproperty double y\nproperty double z\n";
+  for (const auto& column : attributes.columns) out << "property double " << column.name << '\n';
+  if (attributes.status) out << "property uchar status\n";
+  out << "element face " << triangles << "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
 /// The unit normal of a triangle, or zero if it has none.
 inline std::array<double, 3> unit_normal(const std::array<std::array<double, 3>, 3>& corners) {
   std::array<double, 3> u{}, v{}, normal{};

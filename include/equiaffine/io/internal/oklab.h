@@ -10,8 +10,8 @@
 
 namespace equiaffine::internal {
 
-/// Linear sRGB components of an Oklab color given by lightness, chroma and hue in degrees; outside [0, 1] when no
-/// screen shows the color. Ottosson's matrices.
+/// The linear sRGB components of an Oklab color given by lightness, chroma and hue in degrees, by Ottosson's matrices.
+/// They are outside [0, 1] when no screen shows the color.
 inline std::array<double, 3> linear_rgb_from_oklch(double lightness, double chroma, double hue) {
   constexpr double degree = 0.017453292519943295;
   const double a = chroma * std::cos(hue * degree), b = chroma * std::sin(hue * degree);
@@ -24,8 +24,9 @@ inline std::array<double, 3> linear_rgb_from_oklch(double lightness, double chro
           -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
 }
 
+/// The color of linear components, which are clamped to what a screen shows; the curve is that of IEC 61966-2-1.
 inline CGAL::IO::Color color_from_linear_rgb(const std::array<double, 3>& linear) {
-  const auto byte = [](double x) { // IEC 61966-2-1
+  const auto byte = [](double x) {
     x = std::clamp(x, 0., 1.);
     const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
     return static_cast<unsigned char>(std::lround(255 * encoded));
@@ -33,13 +34,13 @@ inline CGAL::IO::Color color_from_linear_rgb(const std::array<double, 3>& linear
   return CGAL::IO::Color(byte(linear[0]), byte(linear[1]), byte(linear[2]));
 }
 
-/// Near-white at 0, equally dark blue at -1 and red at +1, lightness linear in |t|.
+/// The diverging map: near-white at 0, equally dark blue at -1 and red at +1, with a lightness linear in |t|.
 inline std::array<double, 3> diverging_linear_rgb(double t) {
   const double u = std::abs(t);
   return linear_rgb_from_oklch(0.94 - 0.50 * u, 0.175 * u * (2 - u), t < 0 ? 262 : 27);
 }
 
-/// Pale yellow at 0 through orange and magenta to dark violet at 1, lightness linear in t.
+/// The sequential map: pale yellow at 0 through orange and magenta to dark violet at 1, with a lightness linear in t.
 inline std::array<double, 3> sequential_linear_rgb(double t) {
   constexpr double pi = 3.141592653589793;
   return linear_rgb_from_oklch(0.95 - 0.65 * t, 0.06 + 0.08 * std::sin(pi * t) + 0.06 * t, 95 - 155 * t);

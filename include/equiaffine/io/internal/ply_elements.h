@@ -5,7 +5,7 @@
 #include <equiaffine/io/Annotated_mesh_3.h>
 #include <equiaffine/io/internal/Ply_header.h>
 #include <equiaffine/io/internal/Ply_numbers.h>
-#include <equiaffine/io/internal/text_input.h>
+#include <equiaffine/io/internal/add_face.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>

@@ -3,17 +3,14 @@
 #define EQUIAFFINE_IO_INTERNAL_TEXT_INPUT_H
 
 #include <equiaffine/base/from_chars.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <istream>
 #include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <vector>
 
 namespace equiaffine::internal {
 
@@ -41,7 +38,7 @@ std::optional<Number> parse_number(std::string_view text) {
   return number;
 }
 
-/// Takes the first line off `text`, without its end; counts it in `line_number`.
+/// Takes the first line off `text` and returns it without its end; counts it in `line_number`.
 inline std::string_view take_line(std::string_view& text, std::size_t& line_number) {
   const std::size_t end = text.find('\n');
   std::string_view line = text.substr(0, end);
@@ -51,7 +48,7 @@ inline std::string_view take_line(std::string_view& text, std::size_t& line_numb
   return line;
 }
 
-/// Takes the first word off `text`; empty if there is none.
+/// Takes the first word off `text` and returns it; an empty one if there is none.
 inline std::string_view take_word(std::string_view& text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin == std::string_view::npos) {
@@ -62,12 +59,6 @@ inline std::string_view take_word(std::string_view& text) {
   const std::string_view word = text.substr(begin, end == std::string_view::npos ? end : end - begin);
   text.remove_prefix(begin + word.size());
   return word;
-}
-
-/// Appends a face as a fan of triangles around its first vertex.
-template <class Kernel>
-void add_face(Indexed_triangle_mesh_3<Kernel>& mesh, const std::vector<std::uint32_t>& face) {
-  for (std::size_t i = 2; i < face.size(); ++i) mesh.triangles.push_back({face[0], face[i - 1], face[i]});
 }
 
 } // namespace equiaffine::internal

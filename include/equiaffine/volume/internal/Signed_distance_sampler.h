@@ -2,12 +2,15 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SIGNED_DISTANCE_SAMPLER_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SIGNED_DISTANCE_SAMPLER_H
 
-#include <equiaffine/volume/internal/check_bounds_solid.h>
+#include <equiaffine/base/parallel_for.h>
+#include <equiaffine/volume/Lattice_3.h>
+#include <equiaffine/volume/internal/check_bounds_volume.h>
 
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Cartesian_converter.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Simple_cartesian.h>
+#include <CGAL/number_utils.h>
 #include <CGAL/version.h>
 
 #if CGAL_VERSION_NR >= 1060000000
@@ -19,6 +22,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -37,25 +41,25 @@ template <class Kernel, class Iterator>
 using Triangle_tree_traits = CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Iterator>>;
 #endif
 
-/// Signed distances at the nodes of rows of a lattice. A nearest point found at one node bounds the search at the
-/// next. If the surface separates two neighbours, their distances to it add up to at most the step between them: only
-/// then is the side determined anew.
+/// Measures signed distances at the nodes of a lattice, row by row. The nearest point of one node bounds the search at
+/// the next. If the surface separates two neighbors, their distances to it add up to at most the step between them:
+/// only then is the side determined anew.
 class Signed_distance_sampler {
 public:
   explicit Signed_distance_sampler(const Distance_mesh& mesh)
       : triangles_(copy_triangles(mesh)), distance_tree_(triangles_.begin(), triangles_.end()),
         side_tree_(faces(mesh).first, faces(mesh).second, mesh), side_((side_tree_.build(), side_tree_)) {
-    distance_tree_.build(); // here, by one thread, and not at the first query
+    distance_tree_.build(); // else the first query builds it, and several threads may be the first
     distance_tree_.accelerate_distance_queries();
   }
 
-  /// Calls `store(i, distance)` for the nodes point(0) .. point(count - 1), {x, y, z} each, which lie `step` apart; for
-  /// those farther than `band` from the surface the distance is NaN. Where it is larger by n steps, the next n nodes
-  /// are not looked at, and between them the side does not change.
+  /// Calls `store(i, distance)` for the nodes point(0) .. point(count - 1) of a row, {x, y, z} each, which lie `step`
+  /// apart. Nodes farther than `band` from the surface get NaN. Where a distance exceeds the band by n steps, the next
+  /// n nodes lie outside it, too, and on the same side, so that nothing is measured there.
   template <class Node, class Store>
   void sample_row(std::size_t count, double step, double band, const Node& point, const Store& store) const {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    const double reach = 1.01 * step; // beyond any rounding of the distance
+    const double reach = 1.01 * step; // rounding of the distances is less than a hundredth of a step
     Distance_kernel::Point_3 nearest;
     double last_distance = 0;
     CGAL::Bounded_side side = CGAL::ON_BOUNDARY;
@@ -80,6 +84,7 @@ private:
   using Distance_tree = CGAL::AABB_tree<Triangle_tree_traits<Distance_kernel, Triangles::const_iterator>>;
   using Side = CGAL::Side_of_triangle_mesh<Distance_mesh, Side_kernel>;
 
+  /// The triangles of the mesh in the kernel of the distances.
   static Triangles copy_triangles(const Distance_mesh& mesh) {
     const CGAL::Cartesian_converter<Side_kernel, Distance_kernel> convert;
     Triangles triangles;
@@ -97,6 +102,27 @@ private:
   Side::AABB_tree side_tree_;
   Side side_;
 };
+
+/// The signed distances at all nodes of a lattice, in the order of `Volume_3::values`.
+template <class ConcurrencyTag, class Kernel, class Progress>
+std::vector<typename Kernel::FT> signed_distances(const Signed_distance_sampler& sampler,
+                                                  const Lattice_3<Kernel>& lattice, const Progress& on_progress,
+                                                  double band) {
+  using FT = typename Kernel::FT;
+  const auto [nx, ny, nz] = lattice.size();
+  const double step = std::sqrt(CGAL::to_double(lattice.steps()[0].squared_length()));
+  std::vector<FT> distances(lattice.number_of_nodes());
+  parallel_for<ConcurrencyTag>(0, ny * nz, [&, nx = nx, ny = ny](std::size_t row) {
+    const std::size_t j = row % ny, k = row / ny;
+    const auto node = [&](std::size_t i) {
+      const auto p = lattice.point(FT(i), FT(j), FT(k));
+      return std::array<double, 3>{CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+    };
+    sampler.sample_row(nx, step, band, node, [&](std::size_t i, double d) { distances[row * nx + i] = FT(d); });
+    on_progress(nx);
+  });
+  return distances;
+}
 
 } // namespace equiaffine::internal
 

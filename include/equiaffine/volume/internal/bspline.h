@@ -5,19 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
 
-// Centred cardinal B-splines of odd degree n in one variable: their polynomials on a cell, and the local filters that
+// Centered cardinal B-splines of odd degree n in one variable: their polynomials on a cell, and the local filters that
 // turn samples at the integers into spline coefficients. Lengths are in steps of the grid.
 namespace equiaffine::internal {
 
-/// Coefficients at and beyond the border: floor(n / 2) on each side, so that every point of the grid has n + 1 taps.
+/// The number of coefficients beyond each border of the samples: with floor(n / 2), every cell has n + 1 coefficients.
 constexpr int spline_padding(int degree) { return degree / 2; }
 
-/// The n + 1 B-splines that live on the cell [0, 1], as polynomials in s = t - 1/2: `basis[p][r]` is the coefficient of
-/// s^p in the B-spline centred at r - floor(n / 2). Rows have `Width` >= n + 1 entries, the last ones zero.
-/// The recursion of Cox and de Boor in the variable 2s has integer coefficients, so every entry is rounded once.
-/// Powers of s rather than of t: they are at most 2^-p, so that Horner's scheme loses nothing at the end of the cell.
+/// The n + 1 B-splines that do not vanish on the cell [0, 1], as polynomials in s = t - 1/2: `basis[p][r]` is the
+/// coefficient of s^p in the B-spline centered at r - floor(n / 2). Rows have `Width` >= n + 1 entries, the last ones
+/// zero.
+///
+/// The recursion of Cox and de Boor in the variable 2s has integer coefficients, so every entry is rounded once. Powers
+/// of s are used rather than of t, since they are at most 2^-p: Horner's scheme loses nothing at the end of the cell.
 template <class FT, int Degree, int Width>
 constexpr auto bspline_basis_polynomials() {
   static_assert(Degree % 2 == 1 && Degree <= 9 && Width > Degree);
@@ -39,7 +40,7 @@ constexpr auto bspline_basis_polynomials() {
   return basis;
 }
 
-/// Of the polynomials that extend samples beyond a border.
+/// The greatest degree of the polynomials that extend samples beyond a border.
 inline constexpr int greatest_border_degree = 9;
 
 /// A local linear map from the samples f_0 .. f_{N-1} of a line to coefficients c_{-m} .. c_{N-1+m}, m = floor(n / 2).
@@ -50,9 +51,9 @@ inline constexpr int greatest_border_degree = 9;
 /// are hence treated at the border as they are inside, which keeps the order of every derivative. For
 /// quasi-interpolation d may be min(n + 2, 9, N - 1): with d = n, where a wave has 24 samples, the errors of affine
 /// curvatures in the border are a thousand times those inside. A larger d magnifies noise (border_degree.h chooses).
-/// Others lose the order: repeating or mirroring samples makes a kink at the border, zeros make a jump, so the value
-/// has order 1 or 0 and fourth derivatives grow as h^-3 or h^-4; giving the domain up as far as the taps reach costs
-/// n - 1 cells per axis.
+/// Other extensions lose the order: repeating or mirroring samples makes a kink at the border, zeros make a jump, so
+/// that the value has order 1 or 0 and fourth derivatives grow as h^-3 or h^-4. Giving the domain up as far as the
+/// coefficients reach costs n - 1 cells per axis.
 template <class FT, int Degree>
 struct Line_filter {
   static constexpr int padding = spline_padding(Degree);
@@ -60,24 +61,54 @@ struct Line_filter {
   std::array<FT, padding + 1> weights{FT(1)};
   using Border = std::array<std::array<FT, greatest_border_degree + 1>, 2 * padding>;
   int border_degree = Degree; ///< d in lines of more than d nodes
-  Border border{};            ///< for this d
+  Border border{};            ///< the weights at the border for this d
 
-  /// Coefficients = samples: the spline of a polynomial p is p smoothed by the B-spline; order 2.
+  /// The filter with coefficients = samples. The spline of a polynomial p is p smoothed by the B-spline: order 2.
   static constexpr Line_filter convolution() {
     Line_filter filter;
-    filter.border = filter.border_of(Degree);
+    filter.border = filter.border_weights(Degree);
     return filter;
   }
 
-  /// The local quasi-interpolation of order n + 1: polynomials of degree <= n are reproduced.
+  /// The local quasi-interpolation of order n + 1, which reproduces polynomials of degree <= n.
   ///
   /// On these polynomials the sum over the grid acts as the convolution with the B-spline (Strang and Fix 1971), which
   /// is the operator (sinh(D/2) / (D/2))^(n+1). In terms of the central difference delta = 2 sinh(D/2) the inverse is
   /// (arcsinh(delta/2) / (delta/2))^(n+1), an even power series in delta that is cut after delta^(2m): the next term
-  /// annihilates polynomials of degree n. Then delta^2 f_i = f_{i-1} - 2 f_i + f_{i+1}.
+  /// annihilates polynomials of degree n.
   static constexpr Line_filter quasi_interpolation(int border_degree) {
-    std::array<FT, padding + 1> series{FT(1)}; // in delta^2
-    std::array<FT, padding + 1> arcsinh{FT(1)};
+    Line_filter filter;
+    filter.radius = padding;
+    filter.border_degree = border_degree;
+    filter.weights = weights_of_differences(inverse_of_smoothing());
+    filter.border = filter.border_weights(border_degree);
+    return filter;
+  }
+
+  /// Filters a line whose elements are rows of `width` numbers: samples i = 0 .. count - 1 at `samples + i width`,
+  /// coefficients i = -m .. count - 1 + m at `coefficients + (i + m) stride`. Precondition: count > Degree.
+  void apply(const FT* samples, std::size_t count, std::size_t width, FT* coefficients, std::size_t stride) const {
+    if (count > std::size_t(border_degree)) apply_border(border, samples, count, width, coefficients, stride);
+    else apply_border(border_weights(int(count) - 1), samples, count, width, coefficients, stride);
+
+    const auto reach = std::size_t(radius);
+    for (std::size_t i = reach; i < count - reach; ++i) {
+      const FT* center = samples + i * width;
+      FT* row = coefficients + (i + std::size_t(padding)) * stride;
+      for (std::size_t x = 0; x < width; ++x) row[x] = weights[0] * center[x];
+      for (std::size_t s = 1; s <= reach; ++s)
+        for (std::size_t x = 0; x < width; ++x)
+          row[x] += weights[s] * ((center - s * width)[x] + (center + s * width)[x]);
+    }
+  }
+
+private:
+  using Weights = std::array<FT, padding + 1>;
+
+  /// The coefficients of the series (arcsinh(delta/2) / (delta/2))^(n+1) in powers of delta^2.
+  static constexpr Weights inverse_of_smoothing() {
+    Weights series{FT(1)};
+    Weights arcsinh{FT(1)};
     for (int k = 1; k <= padding; ++k) // arcsinh(x)/x = sum_k a_k x^2k, a_k / a_{k-1} = -(2k-1)^2 / (2k (2k+1))
       arcsinh[k] = arcsinh[k - 1] * FT(-(2 * k - 1) * (2 * k - 1)) / FT(4 * 2 * k * (2 * k + 1));
     for (int power = 0; power <= Degree; ++power)
@@ -86,56 +117,46 @@ struct Line_filter {
         for (int l = 0; l <= k; ++l) sum += arcsinh[l] * series[k - l];
         series[k] = sum;
       }
-    Line_filter filter;
-    filter.radius = padding;
-    filter.border_degree = border_degree;
-    filter.weights = {};
-    std::array<FT, padding + 2> difference{FT(1)}; // the right half of delta^2k
-    for (int k = 0; k <= padding; ++k) {
-      for (int s = 0; s <= k; ++s) filter.weights[s] += series[k] * difference[s];
-      FT left = difference[1]; // of the entry at s = 0, by symmetry
-      for (int s = 0; s <= k + 1 && s <= padding; ++s) {
-        const FT centre = difference[s];
-        difference[s] = left - 2 * centre + difference[s + 1];
-        left = centre;
-      }
-    }
-    filter.border = filter.border_of(border_degree);
-    return filter;
+    return series;
   }
 
-  /// Filters a line whose elements are rows of `width` numbers: samples i = 0 .. count - 1 at `samples + i width`,
-  /// coefficients i = -m .. count - 1 + m at `coefficients + (i + m) stride`. Precondition: count > Degree.
-  void apply(const FT* samples, std::size_t count, std::size_t width, FT* coefficients, std::size_t stride) const {
-    const auto reach = std::size_t(radius), ends = reach + std::size_t(padding);
+  /// The weights of the samples in sum_k series[k] delta^2k f, where delta^2 f_i = f_{i-1} - 2 f_i + f_{i+1}.
+  static constexpr Weights weights_of_differences(const Weights& series) {
+    Weights weights{};
+    std::array<FT, padding + 2> difference{FT(1)}; // the right half of delta^2k, which is symmetric
+    for (int k = 0; k <= padding; ++k) {
+      for (int s = 0; s <= k; ++s) weights[s] += series[k] * difference[s];
+      FT left = difference[1]; // the left neighbor of the entry at s = 0, by symmetry
+      for (int s = 0; s <= k + 1 && s <= padding; ++s) {
+        const FT center = difference[s];
+        difference[s] = left - 2 * center + difference[s + 1];
+        left = center;
+      }
+    }
+    return weights;
+  }
+
+  /// The coefficients at and beyond both borders.
+  void apply_border(const Border& at_border, const FT* samples, std::size_t count, std::size_t width, FT* coefficients,
+                    std::size_t stride) const {
+    const std::size_t rows = std::size_t(radius) + std::size_t(padding);
     const std::size_t last = count - 1 + 2 * std::size_t(padding);
     const std::size_t used = std::min(count, std::size_t(border_degree) + 1);
-    std::optional<Border> of_short_line;
-    if (count <= std::size_t(border_degree)) of_short_line = border_of(int(count) - 1);
-    const Border& extrapolated = of_short_line ? *of_short_line : border;
-    for (std::size_t end = 0; end < ends; ++end) {
+    for (std::size_t end = 0; end < rows; ++end) {
       FT* first_row = coefficients + end * stride;
       FT* last_row = coefficients + (last - end) * stride;
       std::fill_n(first_row, width, FT(0));
       std::fill_n(last_row, width, FT(0));
       for (std::size_t j = 0; j < used; ++j)
         for (std::size_t x = 0; x < width; ++x) {
-          first_row[x] += extrapolated[end][j] * samples[j * width + x];
-          last_row[x] += extrapolated[end][j] * samples[(count - 1 - j) * width + x];
+          first_row[x] += at_border[end][j] * samples[j * width + x];
+          last_row[x] += at_border[end][j] * samples[(count - 1 - j) * width + x];
         }
-    }
-    for (std::size_t i = reach; i < count - reach; ++i) {
-      const FT* centre = samples + i * width;
-      FT* row = coefficients + (i + std::size_t(padding)) * stride;
-      for (std::size_t x = 0; x < width; ++x) row[x] = weights[0] * centre[x];
-      for (std::size_t s = 1; s <= reach; ++s)
-        for (std::size_t x = 0; x < width; ++x)
-          row[x] += weights[s] * ((centre - s * width)[x] + (centre + s * width)[x]);
     }
   }
 
-private:
-  /// The polynomial through f_0 .. f_d at the integer x: the weight of f_j (Lagrange). Exact: products of integers.
+  /// The weight of f_j in the value at the integer x of the polynomial through f_0 .. f_d (Lagrange). Numerator and
+  /// denominator are exact, being products of integers.
   static constexpr FT lagrange(int d, int j, int x) {
     FT numerator = 1;
     FT denominator = 1;
@@ -148,7 +169,7 @@ private:
   }
 
   /// The weights of the samples in the coefficients at a border, by the polynomial of degree d.
-  constexpr Border border_of(int d) const {
+  constexpr Border border_weights(int d) const {
     Border result{};
     for (int i = -padding; i < radius; ++i)
       for (int j = 0; j <= d; ++j) {

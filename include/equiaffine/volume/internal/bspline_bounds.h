@@ -19,8 +19,9 @@
 namespace equiaffine::internal {
 
 /// The rounding error of a value computed by `contract`, relative to the largest coefficient; that of a d-th derivative
-/// in lattice coordinates is at most (2n)^d times as large. The sum of the magnitudes of all terms is largest at
-/// |s| = 1/2, and each term has been rounded 3n + 1 times in Horner's scheme, n times in s and n + 2 times in the contraction, per axis.
+/// in lattice coordinates is at most (2n)^d times as large. The sum of the magnitudes of all terms is largest at |s| =
+/// 1/2, and each term has been rounded 3n + 1 times in Horner's scheme, n times in s and n + 2 times in the
+/// contraction, per axis.
 template <int Degree, class FT>
 constexpr FT relative_error_of_value() {
   constexpr auto basis = bspline_basis_polynomials<FT, Degree, Degree + 1>();

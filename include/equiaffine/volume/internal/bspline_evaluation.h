@@ -36,8 +36,8 @@ struct Spline_pack {
   static constexpr int round_up(int n) { return (n + lanes - 1) / lanes * lanes; }
 };
 
-/// How many numbers beyond the last coefficient an evaluation may read, whose values have no influence: the largest pack
-/// of any target.
+/// How many numbers beyond the last coefficient an evaluation may read, whose values have no influence: the largest
+/// pack of any target.
 inline constexpr std::size_t overread = 16;
 
 /// Calls f(0), ..., f(N - 1) with constant arguments, so that arrays indexed by them live in registers.
@@ -72,8 +72,8 @@ struct Bspline_taylor {
 /// The contraction of the coefficients of a cell with the B-splines' Taylor coefficients, one axis after the other:
 /// along z for every order k, then along y for orders j + k <= Order, then along x for i + j + k <= Order.
 ///
-/// The first two passes have neighbors along x in the lanes of a pack, so that coefficients are read once and whole rows
-/// at a time; the last one has the orders i in the lanes.
+/// The first two passes have neighbors along x in the lanes of a pack, so that coefficients are read once and whole
+/// rows at a time; the last one has the orders i in the lanes.
 template <int Degree, int Order, class FT>
 struct Cell_contraction {
   using Lanes = Spline_pack<FT>;

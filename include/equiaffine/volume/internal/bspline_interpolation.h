@@ -35,7 +35,7 @@ template <class FT, int Degree>
 struct Interpolation_filter {
   static constexpr int padding = spline_padding(Degree);
 
-  /// As Line_filter::apply.
+  /// Filters a line as Line_filter::apply does.
   void apply(const FT* samples, std::size_t count, std::size_t width, FT* coefficients, std::size_t stride) const {
     static constexpr auto extension = Line_filter<FT, Degree>::convolution();
     extension.apply(samples, count, width, coefficients, stride);
@@ -47,8 +47,8 @@ struct Interpolation_filter {
   }
 
 private:
-  /// y_i = (1 - z) x_i + z y_{i-1}, in place. The filters of both directions leave constants as they are, and their
-  /// product is the inverse of a pair of roots z and 1 / z.
+  /// Runs y_i = (1 - z) x_i + z y_{i-1} in place over `rows` rows. The runs in both directions leave constants as they
+  /// are, and together they invert the factor with the roots z and 1 / z of the polynomial of `bspline_poles`.
   static void run(FT* first, std::ptrdiff_t stride, std::size_t rows, std::size_t width, FT z) {
     const auto start = starting_weights(z);
     for (std::size_t x = 0; x < width; ++x) {
@@ -63,8 +63,9 @@ private:
     }
   }
 
-  /// y_0 = (1 - z) sum_t z^t x_{-t} for a polynomial x of degree n, from x_0 .. x_n. By Newton's formula x_{-t} is the
-  /// sum of binomial(-t, k) (Delta^k x)_0, and sum_t z^t binomial(-t, k) = (-1)^k z / (1 - z)^(k+1) for k > 0.
+  /// The weights of x_0 .. x_n in y_0 = (1 - z) sum_t z^t x_{-t} for a polynomial x of degree n. By Newton's formula
+  /// x_{-t} is the sum of binomial(-t, k) (Delta^k x)_0, and sum_t z^t binomial(-t, k) = (-1)^k z / (1 - z)^(k+1) for
+  /// k > 0.
   static std::array<FT, Degree + 1> starting_weights(FT z) {
     std::array<FT, Degree + 1> weights{FT(1)}, binomial{FT(1)};
     FT power = z; // z / (1 - z)^k
@@ -77,7 +78,7 @@ private:
   }
 };
 
-/// f(filter) for the filter of a scheme. Only quasi-interpolation has a choice of the degree at the border.
+/// Calls f(filter) with the filter of a scheme. Only quasi-interpolation has a choice of the degree at the border.
 template <class FT, int Degree, class F>
 void with_line_filter(Spline_scheme scheme, int border_degree, F f) {
   using Filter = Line_filter<FT, Degree>;
@@ -89,7 +90,7 @@ void with_line_filter(Spline_scheme scheme, int border_degree, F f) {
   else f(border_degree > Degree ? greater : lesser);
 }
 
-/// f(n) with a constant n for a degree of 5, 7 or 9.
+/// Returns f(n) with a constant n for a degree of 5, 7 or 9.
 template <class F>
 auto with_degree(int degree, F f) {
   if (degree == 5) return f(std::integral_constant<int, 5>());

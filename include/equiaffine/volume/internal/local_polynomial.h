@@ -10,8 +10,8 @@
 namespace equiaffine::internal {
 
 /// The value at `center` of the polynomial of degree <= `degree` that fits the samples f_0 .. f_{count-1} by least
-/// squares with weights (1 - u^2)^4, u = (j - center) / reach, as a linear function of the samples: its coefficients.
-/// They are weight_j sum_k p_k(center) p_k(j) with the orthonormal polynomials p_k, here by Stieltjes' recurrence.
+/// squares with weights (1 - u^2)^4, u = (j - center) / reach, is linear in the samples; this returns its coefficients.
+/// They are weight_j sum_k p_k(center) p_k(j) with the orthonormal polynomials p_k, which Stieltjes' recurrence makes.
 /// Precondition: |u| < 1, count > degree.
 template <class FT>
 std::vector<FT> local_polynomial_weights(std::size_t count, FT center, FT reach, int degree) {
@@ -43,19 +43,19 @@ std::vector<FT> local_polynomial_weights(std::size_t count, FT center, FT reach,
 }
 
 /// A filter of lines that smooths: node i gets the value of the polynomial of degree 7 that fits the samples around it.
-/// The weights of the fit are those of a bell of standard deviation `scale` steps that ends at sqrt(11) scale. So
-/// polynomials of degree 7 stay as they are and the error is that of order 8; a scale of 1 changes nothing. Near a
-/// border the window stays within the line, and the bell reaches to its other end.
+/// The fit is weighted by a bell of standard deviation `scale` steps that ends at sqrt(11) scale. Hence polynomials of
+/// degree 7 stay as they are and the error is that of order 8; a scale of 1 changes nothing. Near a border the window
+/// stays within the line, and the bell reaches to its other end.
 template <class FT>
 class Smoothing_filter {
 public:
   static constexpr int padding = 0;
   static constexpr int degree = 7;
 
-  /// Nodes of the window to each side of its own, in a long line.
+  /// The number of nodes that the window has on each side of its center, in a long line.
   static std::size_t radius_of(FT scale) { return scale > 1 ? std::size_t(std::ceil(reach_of(scale))) - 1 : 0; }
 
-  /// The window has at most `count` nodes. Precondition: scale > 1.
+  /// Makes a filter for lines of `count` nodes, which limit its window. Precondition: scale > 1.
   Smoothing_filter(FT scale, std::size_t count) : radius_(std::min(radius_of(scale), (count - 1) / 2)) {
     const FT reach = reach_of(scale);
     const std::size_t window = 2 * radius_ + 1;
@@ -65,12 +65,13 @@ public:
           local_polynomial_weights(window, FT(i), FT(window - 1 - i) + excess, std::min(degree, int(window) - 1)));
   }
 
-  /// Rows of `width` numbers: from `samples + i width` to `result + i stride`, i = 0 .. count - 1.
+  /// Filters a line whose elements are rows of `width` numbers, i = 0 .. count - 1: from `samples + i width` to
+  /// `result + i stride`.
   void apply(const FT* samples, std::size_t count, std::size_t width, FT* result, std::size_t stride) const {
     for (std::size_t i = 0; i < count; ++i) {
       FT* const row = result + i * stride;
       std::fill_n(row, width, FT(0));
-      const bool is_near_end = i + radius_ >= count; // then all is mirrored
+      const bool is_near_end = i + radius_ >= count; // then samples are taken in reverse
       const std::vector<FT>& weights = weights_[std::min({i, count - 1 - i, radius_})];
       const std::size_t first = is_near_end ? count - 1 : i < radius_ ? 0 : i - radius_;
       for (std::size_t j = 0; j < weights.size(); ++j) {
@@ -84,7 +85,7 @@ private:
   static FT reach_of(FT scale) { return std::sqrt(FT(11)) * scale; } // the variance of (1 - u^2)^4 is 1 / 11
 
   std::size_t radius_;
-  std::vector<std::vector<FT>> weights_; // of node i < radius_; the last ones are those of inner nodes
+  std::vector<std::vector<FT>> weights_; // of node i < radius_, then of inner nodes
 };
 
 } // namespace equiaffine::internal

@@ -67,8 +67,8 @@ std::vector<std::array<std::size_t, 3>> nodes_to_measure(const Volume_3<Kernel>&
   return nodes;
 }
 
-/// The step of the samples' type, judged by some 65536 of them: 1 if all are integers, the step between floats of median
-/// size if all are floats, else 0.
+/// The step of the samples' type, judged by some 65536 of them: 1 if all are integers, the step between floats of
+/// median size if all are floats, else 0.
 template <class Kernel>
 double quantum_of(const Volume_3<Kernel>& volume) {
   bool are_integers = true, are_floats = true;

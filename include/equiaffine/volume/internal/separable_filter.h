@@ -11,8 +11,8 @@
 
 namespace equiaffine::internal {
 
-/// Applies filters of lines (Line_filter::apply says what they do) along x, y and z to size[0] x size[1] x size[2]
-/// samples. The result, `to`, has `padding` more nodes at each end of each axis.
+/// Applies a filter of lines along each axis of size[0] x size[1] x size[2] samples; Line_filter::apply is an example.
+/// The result, `to`, has `padding` more nodes at each end of each axis.
 template <class ConcurrencyTag, class FT, class Filter>
 class Separable_filter {
 public:
@@ -34,7 +34,7 @@ public:
   }
 
 private:
-  /// The `count` rows that lie `stride` apart, after `padding` empty ones, in the direction across them.
+  /// Filters, across the rows, `count` rows that lie `stride` apart after `padding` empty ones.
   void in_place(const Filter& filter, FT* rows, std::size_t count, std::size_t stride) const {
     std::vector<FT> samples(count * row_);
     for (std::size_t i = 0; i < count; ++i) std::copy_n(rows + (i + padding_) * stride, row_, &samples[i * row_]);

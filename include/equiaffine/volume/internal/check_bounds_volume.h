@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_VOLUME_INTERNAL_CHECK_BOUNDS_SOLID_H
-#define EQUIAFFINE_VOLUME_INTERNAL_CHECK_BOUNDS_SOLID_H
+#ifndef EQUIAFFINE_VOLUME_INTERNAL_CHECK_BOUNDS_VOLUME_H
+#define EQUIAFFINE_VOLUME_INTERNAL_CHECK_BOUNDS_VOLUME_H
 
 #include <equiaffine/base/Input_error.h>
 
@@ -28,9 +28,9 @@ inline std::string place(const Side_kernel::Point_3& p) {
   return text.str();
 }
 
-/// Throws Input_error unless the mesh bounds a solid: triangles, no border, no contact between triangles other than
-/// at common edges and vertices.
-inline void check_bounds_solid(const Distance_mesh& mesh) {
+/// Throws Input_error unless the mesh bounds a volume: its faces are triangles, it has no border, and triangles touch
+/// at common edges and vertices only.
+inline void check_bounds_volume(const Distance_mesh& mesh) {
   if (mesh.number_of_faces() == 0) throw Input_error("the mesh has no faces: give a closed mesh of triangles");
   for (const auto v : mesh.vertices())
     if (const auto& p = mesh.point(v); !std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z()))
