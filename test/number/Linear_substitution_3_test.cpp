@@ -10,7 +10,7 @@ namespace {
 
 template <int Order>
 using Jet = equiaffine::Jet_3<double, Order>;
-using Substitution = equiaffine::internal::Linear_substitution_3<double>;
+using Substitution = equiaffine::Linear_substitution_3<double>;
 using Matrix = Substitution::Matrix;
 
 // Every coefficient differs from zero and the matrices hold small integers: all results are exact.

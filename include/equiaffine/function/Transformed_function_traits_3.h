@@ -141,8 +141,8 @@ private:
 
   Base base_;
   Aff_transformation_3 map_, inverse_;
-  internal::Linear_substitution_3<FT> substitution_;
-  internal::Linear_substitution_3<Interval> substitution_of_bounds_;
+  Linear_substitution_3<FT> substitution_;
+  Linear_substitution_3<Interval> substitution_of_bounds_;
 };
 
 } // namespace equiaffine

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-namespace equiaffine::internal {
+namespace equiaffine {
 
 /// The chain rule for a linear change of variables: turns the jet of g at L(p) into the jet of g o L at p. The map acts
 /// on the homogeneous part of each degree by a fixed matrix, its symmetric power, which is built once: a jet then costs
@@ -27,15 +27,15 @@ public:
       }
     }
     for (std::size_t n = 0; n < columns_.size(); ++n) {
-      const Monomial_3 m = monomials[n];
+      const internal::Monomial_3 m = internal::monomials[n];
       const auto power = [&](std::size_t axis, int exponent) {
-        return natural_power(images[axis], unsigned(exponent));
+        return internal::natural_power(images[axis], unsigned(exponent));
       };
       columns_[n] = (power(0, m.i) * power(1, m.j) * power(2, m.k)).coefficients();
     }
   }
 
-  /// The jet may be of packs of FT.
+  /// The coefficients of the jet may be packs of FT.
   template <class Number, int Order>
   Jet_3<Number, Order> operator()(const Jet_3<Number, Order>& jet) const {
     const auto& in = jet.coefficients();
@@ -46,7 +46,8 @@ public:
       return result;
     }
     for (int degree = 1; degree <= Order; ++degree) {
-      const auto first = std::size_t(number_of_monomials(degree - 1)), last = std::size_t(number_of_monomials(degree));
+      const auto first = std::size_t(internal::number_of_monomials(degree - 1)),
+                 last = std::size_t(internal::number_of_monomials(degree));
       for (std::size_t n = first; n < last; ++n)
         for (std::size_t m = first; m < last; ++m) out[m] += in[n] * columns_[n][m];
     }
@@ -54,10 +55,11 @@ public:
   }
 
 private:
-  std::array<std::array<FT, maximal_number_of_monomials>, maximal_number_of_monomials> columns_;
+  static constexpr std::size_t size = Jet_3<FT>::size;
+  std::array<std::array<FT, size>, size> columns_;
   bool is_diagonal_ = true;
 };
 
-} // namespace equiaffine::internal
+} // namespace equiaffine
 
 #endif

@@ -46,7 +46,7 @@ public:
   using FT = typename Kernel::FT;
   using Point_3 = typename Kernel::Point_3;
   using Lattice = Lattice_3<Kernel>;
-  using Matrix = typename internal::Linear_substitution_3<FT>::Matrix;
+  using Matrix = typename Linear_substitution_3<FT>::Matrix;
   static_assert(std::is_floating_point_v<FT>);
 
   /// The coefficients do not depend on the number of threads that compute them.
@@ -155,7 +155,7 @@ private:
   int degree_, border_degree_;
   Spline_scheme scheme_;
   Support support_;
-  internal::Linear_substitution_3<FT> substitution_;
+  Linear_substitution_3<FT> substitution_;
   internal::Spline_coefficients<FT> coefficients_;
   std::optional<internal::Bspline_bounds<FT>> bounds_; // if the lattice has nodes enough for a spline
 };

@@ -20,10 +20,10 @@ namespace equiaffine {
 /// of two full jets (210): no power is formed beyond total order 4.
 template <class T, int Order, Monomial_set A>
 auto compose(const Jet_3<T, Order, A>& a, const std::array<T, 5>& t) {
-  const auto n1 = internal::part<1>(a);
-  const auto n2 = internal::part<2>(a);
-  const auto n3 = internal::part<3>(a);
-  const auto nilpotent = n1 + n2 + n3 + internal::part<4>(a);
+  const auto n1 = internal::homogeneous_part<1>(a);
+  const auto n2 = internal::homogeneous_part<2>(a);
+  const auto n3 = internal::homogeneous_part<3>(a);
+  const auto nilpotent = n1 + n2 + n3 + internal::homogeneous_part<4>(a);
   const auto n11 = square(n1);
   const auto sum = t[1] * nilpotent + t[2] * n11 + n1 * (T(T(2) * t[2]) * (n2 + n3) + t[3] * n11) +
                    n2 * (t[2] * n2 + T(T(3) * t[3]) * n11) + t[4] * square(n11);
@@ -84,11 +84,11 @@ template <class T, int Order, Monomial_set A>
 auto sqrt(const Jet_3<T, Order, A>& a) {
   using std::sqrt;
   const T s0 = sqrt(a.value()), half = T(0.5) / s0;
-  const auto s1 = internal::part<1>(a) * half;
+  const auto s1 = internal::homogeneous_part<1>(a) * half;
   const auto s1_twice = s1 + s1;
-  const auto s2 = (internal::part<2>(a) - square(s1)) * half;
-  const auto s3 = (internal::part<3>(a) - s1_twice * s2) * half;
-  const auto s4 = (internal::part<4>(a) - (s1_twice * s3 + square(s2))) * half;
+  const auto s2 = (internal::homogeneous_part<2>(a) - square(s1)) * half;
+  const auto s3 = (internal::homogeneous_part<3>(a) - s1_twice * s2) * half;
+  const auto s4 = (internal::homogeneous_part<4>(a) - (s1_twice * s3 + square(s2))) * half;
   return Jet_3<T, Order, internal::closure(A & ~Monomial_set(1), Order)>(Jet_3<T, Order, 1>(s0) + s1 + s2 + s3 + s4);
 }
 

@@ -59,7 +59,7 @@ auto min(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   return -max(-a, -b);
 }
 
-// With equal types, lest std::max and std::min be as good a match after `using std::max`.
+// Overloads for equal types, without which std::max and std::min would match as well after `using std::max`.
 template <class T, int Order, Monomial_set A>
 auto max(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, A>& b) {
   return max<T, Order, A, A>(a, b);

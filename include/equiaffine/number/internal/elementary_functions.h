@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// exp, sin and cos by arithmetic alone, so that a lane of a pack has the bits of a single number, whatever the
-// instruction set, without a call of the C library per lane. The schemes are those of Muller, Elementary Functions
+// exp, sin and cos by arithmetic alone: no lane of a pack needs a call of the C library, and it has the bits of a single
+// number whatever the instruction set is, unless the compiler contracts products and sums. The schemes are those of Muller, Elementary Functions
 // (2016): argument reduction after Cody and Waite (section 11.2), then a Taylor polynomial.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_ELEMENTARY_FUNCTIONS_H
 #define EQUIAFFINE_NUMBER_INTERNAL_ELEMENTARY_FUNCTIONS_H
@@ -17,7 +17,7 @@
 
 namespace equiaffine::internal {
 
-/// Absolute values of arguments up to which these schemes hold; beyond, and for NaN, take the C library.
+/// The schemes hold for arguments up to these absolute values; beyond them, and for NaN, the C library is called.
 inline constexpr double exponential_range = 708, circular_range = 1000;
 
 /// The integer nearest to x, |x| < 2^51, for rounding to nearest.
@@ -44,7 +44,7 @@ struct Exponential_table {
 };
 inline constexpr Exponential_table exponential_table;
 
-/// 2^(k / 128) (1 + p) for small p and an integer k, given as k + 1.5 2^52: the bits of that end in those of k.
+/// 2^(k / 128) (1 + p) for small p and an integer k. The argument is k + 1.5 2^52, whose bits end in those of k.
 inline double scaled_exponential(double k, double p) {
   const auto bits = std::bit_cast<std::int64_t>(k);
   const auto n = std::size_t(bits % Exponential_table::size);
@@ -102,13 +102,13 @@ std::pair<T, T> sine_and_cosine_in_range(const T& x) {
                    third = 0x1.45c06e0e68948p-86; // pi / 2
   const T k = nearest_integer(T(x * T(0x1.45f306dc9c883p-1)));
   const T a = x - k * T(first), b = k * T(second); // exact
-  const T c = a - b, part = a - c;
-  const T rest = ((a - (c + part)) + (part - b)) - k * T(third);
+  const T c = a - b, taken = a - c;
+  const T rest = ((a - (c + taken)) + (taken - b)) - k * T(third);
   const T r = c + rest, low = (c - r) + rest;
   const T z = r * r, half_z = T(0.5) * z, one_minus = T(1) - half_z;
   const T s = r + (low * one_minus - r * z * polynomial(of_sine, z));
   const T q = one_minus + (((T(1) - one_minus) - half_z) + (z * z * polynomial(of_cosine, z) - r * low));
-  // x = r + k pi / 2: which of s and q, and which sign, by the last two bits of k
+  // x = r + k pi / 2, so the last two bits of k tell which of s and q is the sine and which signs they have
   const T half = k * T(0.5);
   const auto is_odd = nearest_integer(half) != half;
   const T quarter = select(is_odd, T(half - T(0.5)), half) * T(0.5);
@@ -116,7 +116,7 @@ std::pair<T, T> sine_and_cosine_in_range(const T& x) {
   return {sign * select(is_odd, q, s), sign * select(is_odd, T(-s), q)};
 }
 
-/// exp(x); of a double the bits that a lane of a pack has.
+/// exp(x); the result for a double has the bits of a lane of a pack.
 template <class T>
 T exp_value(const T& x) {
   using std::exp;
@@ -125,7 +125,7 @@ T exp_value(const T& x) {
   return exp(x);
 }
 
-/// (sin x, cos x), likewise.
+/// (sin x, cos x); the results for a double have the bits of lanes of packs.
 template <class T>
 std::pair<T, T> sine_and_cosine(const T& x) {
   using std::cos;

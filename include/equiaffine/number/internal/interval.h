@@ -17,7 +17,7 @@ namespace equiaffine {
 /// contains its values at all points of them (Moore, Kearfott, Cloud: Introduction to Interval Analysis, 2009).
 ///
 /// Rounding is by widening each computed bound, never by switching the rounding mode of the processor: results do not
-/// depend on compiler flags, threads keep their modes, and clang and vectorisation are safe. Sums, products, quotients
+/// depend on compiler flags, threads keep their modes, and clang and vectorization are safe. Sums, products, quotients
 /// and square roots are widened by one unit in the last place, other functions by eight (for exp less than 1 would do,
 /// glibc documents at most 3 for the others). A thread that rounds downwards or towards zero sees no overflow.
 ///
@@ -38,7 +38,8 @@ public:
       if (value == value && static_cast<long double>(x) != static_cast<long double>(value)) *this = widened(x, x);
   }
 
-  /// The hull of lower <= upper, of which an infinite lower one becomes the largest number; else, as of NaN, the line.
+  /// The interval from `lower` to `upper`; a lower bound of +infinity becomes the largest number, an upper one of
+  /// -infinity the lowest. Unless lower <= upper, as with a NaN, it is the whole line.
   Interval(double lower, double upper)
       : Interval(lower <= upper ? greater(Outwards{-lower, upper}, repeated(Limits::lowest()))
                                 : repeated(Limits::infinity())) {}
@@ -60,7 +61,8 @@ public:
   friend Interval operator*(const Interval& a, const Interval& b) {
     if (&a == &b) return square(a);
     const Outwards p = a.outwards_ * b.outwards_, q = a.outwards_ * swapped(b.outwards_);
-    const Outwards least = lesser(greater(p, -p), greater(q, -q)); // in a lane NaN, or zero, if a product is NaN
+    const Outwards least =
+        lesser(greater(p, -p), greater(q, -q)); // a lane is NaN or zero if one of its products is NaN
     if (!(least[0] >= smallest_normal && least[1] >= smallest_normal)) return special_product(a, b);
     const Outwards lower = greater(-p, q), upper = greater(p, -q);
     return rounded(greater(__builtin_shufflevector(lower, upper, 0, 2), __builtin_shufflevector(lower, upper, 1, 3)));
@@ -99,17 +101,18 @@ public:
   /// The smallest interval that contains both.
   static Interval hull(const Interval& a, const Interval& b) { return greater(a.outwards_, b.outwards_); }
 
-  /// What both contain; two bounds of the same number have something in common.
+  /// The intersection of two bounds of the same number; the whole line if they have no point in common.
   static Interval intersection(const Interval& a, const Interval& b) {
     const Interval r = lesser(a.outwards_, b.outwards_);
     return r.lower() <= r.upper() ? r : whole();
   }
 
 private:
-  /// -lower and upper, which both grow outwards: neither is NaN, nor -infinity.
+  /// The pair (-lower, upper): both numbers grow outwards, and neither is NaN or -infinity.
   typedef double Outwards __attribute__((vector_size(2 * sizeof(double))));
 
-  /// A smaller product may have been rounded as subnormal numbers are; and that of a smaller number with itself.
+  /// A product below the first number may have been rounded to a subnormal one, and so may the square of a number below
+  /// the second.
   static constexpr double smallest_normal = Limits::min() / Limits::epsilon(), smallest_normal_root = 0x1p-485;
 
   Interval(const Outwards& outwards) : outwards_(outwards) {}
@@ -117,7 +120,8 @@ private:
   static Outwards repeated(double x) { return Outwards{x, x}; }
   static Outwards swapped(const Outwards& x) { return __builtin_shufflevector(x, x, 1, 0); }
 
-  // Where only the first is NaN, the second. GCC makes three instructions of the choice where one is constant.
+  // Both return the second argument where only the first is NaN. From the conditional expressions GCC would make three
+  // instructions if an argument is constant.
 #ifdef __SSE2__
   static Outwards greater(const Outwards& x, const Outwards& y) { return _mm_max_pd(x, y); }
   static Outwards lesser(const Outwards& x, const Outwards& y) { return _mm_min_pd(x, y); }
@@ -130,14 +134,14 @@ private:
     return rounded(outwards, ulps).outwards_ + repeated(Limits::min());
   }
 
-  /// The same for bounds that are exact where they are subnormal: sums are. A subnormal number, once made, would slow
-  /// down all that is computed of it.
+  /// Widens bounds that are exact where they are subnormal, as sums are: not by the smallest normal number, too. A
+  /// subnormal number, once made, would slow down all that is computed of it.
   static Interval rounded(const Outwards& outwards, int ulps = 1) {
     const Outwards x = greater(outwards, repeated(Limits::lowest()));
     return greater(x * (1 + Limits::epsilon() * ulps), x * (1 - Limits::epsilon() * ulps));
   }
 
-  /// Where a factor is zero, infinite, or so small that a product may be subnormal.
+  /// The product where a factor is zero, infinite, or so small that a product of bounds may be subnormal.
   static Interval special_product(const Interval& a, const Interval& b) {
     if ((a.lower() == 0 && a.upper() == 0) || (b.lower() == 0 && b.upper() == 0)) return Interval(0.0, 0.0);
     double lower = Limits::infinity(), upper = -Limits::infinity();

@@ -19,14 +19,14 @@ using internal::Monomial_set;
 /// coefficients, kept in graded lexicographic order (1; x y z; xx xy xz yy yz zz; ...).
 ///
 /// Evaluating a function on the jets of the three coordinates yields its expansion: forward automatic differentiation
-/// (Griewank, Walther: Evaluating Derivatives, 2008, chapter 13). Functions of jets are in Jet_functions_3.h.
+/// (Griewank, Walther: Evaluating Derivatives, 2008, chapter 13). Jet_3.h has functions of jets.
 ///
 /// `Support` is the set of monomials whose coefficient can differ from zero, known at compile time. A function written
 /// with `auto` for its intermediate results computes nothing that its structure makes zero; one with a single fixed
 /// type works on full jets, and may sum up in a loop, where the type of a sum cannot grow.
 ///
 /// `T` may be any number type with ring operations: float, double, multiprecision, Interval, a SIMD pack. The default
-/// constructor leaves the coefficients uninitialised when that of T does.
+/// constructor leaves the coefficients uninitialized when that of T does.
 template <class T, int Order = internal::maximal_order, Monomial_set Support = internal::all_monomials(Order)>
 class Jet_3 {
   static_assert(0 <= Order && Order <= internal::maximal_order);
@@ -149,16 +149,16 @@ private:
   std::array<T, size> c_;
 };
 
-/// What may stand beside a jet over T in arithmetic without being one.
+/// The numbers that arithmetic combines with a jet over T.
 template <class S, class T>
 concept JetScalar = std::same_as<S, T> || std::is_arithmetic_v<S>;
 
 namespace internal {
 
-/// The homogeneous part of degree `Degree`.
+/// The homogeneous part of degree `Degree` of a jet.
 template <int Degree, class T, int Order, Monomial_set A>
-auto part(const Jet_3<T, Order, A>& a) {
-  Jet_3<T, Order, part_of_set(A, Degree, Order)> r;
+auto homogeneous_part(const Jet_3<T, Order, A>& a) {
+  Jet_3<T, Order, members_of_degree(A, Degree, Order)> r;
   r.for_each_monomial([&](auto n) __attribute__((always_inline)) { r.template at<n>() = a.template at<n>(); });
   return r;
 }
@@ -174,7 +174,7 @@ T product_coefficient(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) 
 
 template <int Target, class T, int Order, Monomial_set A>
 T square_coefficient(const Jet_3<T, Order, A>& a) {
-  using Pairs = Factor_pairs<A, A, Target>; // symmetric: first < second, then first == second, in either order
+  using Pairs = Factor_pairs<A, A, Target>; // with (p, q) the list has (q, p)
   T mixed = T(0), pure = T(0);
   bool has_mixed = false;
   [&]<std::size_t... P>(std::index_sequence<P...>) __attribute__((always_inline)) {

@@ -31,7 +31,7 @@ inline constexpr auto monomials = [] {
   return table;
 }();
 
-// A table, not a search: a search would run at run time wherever (i, j, k) is not a constant.
+// This is a table because a search would run at run time wherever (i, j, k) is not a constant.
 inline constexpr auto monomial_indices = [] {
   std::array<std::array<std::array<std::int8_t, maximal_order + 1>, maximal_order + 1>, maximal_order + 1> table{};
   for (std::size_t n = 0; n < monomials.size(); ++n)
@@ -51,8 +51,8 @@ constexpr Monomial_set monomials_of_degree(int degree) {
   return degree == 0 ? Monomial_set(1) : all_monomials(degree) & ~all_monomials(degree - 1);
 }
 
-/// The members of a set that have the given degree, none if it exceeds the order.
-constexpr Monomial_set part_of_set(Monomial_set set, int degree, int order) {
+/// The members of a set that have the given degree; there are none if it exceeds the order.
+constexpr Monomial_set members_of_degree(Monomial_set set, int degree, int order) {
   return degree <= order ? set & monomials_of_degree(degree) : 0;
 }
 
@@ -67,6 +67,7 @@ constexpr int member(Monomial_set set, std::size_t position) {
   return std::countr_zero(set);
 }
 
+/// The number of the product of two monomials, or -1 if its degree exceeds the maximal order.
 constexpr int product_of_monomials(int a, int b) {
   const Monomial_3 p = monomials[std::size_t(a)], q = monomials[std::size_t(b)];
   return p.degree() + q.degree() > maximal_order ? -1 : monomial_index(p.i + q.i, p.j + q.j, p.k + q.k);
@@ -78,6 +79,7 @@ constexpr int quotient_of_monomials(int target, int divisor) {
   return p.i < q.i || p.j < q.j || p.k < q.k ? -1 : monomial_index(p.i - q.i, p.j - q.j, p.k - q.k);
 }
 
+/// The products of degree <= order of a member of a and a member of b.
 constexpr Monomial_set product_of_sets(Monomial_set a, Monomial_set b, int order) {
   Monomial_set product = 0;
   for (int p = 0; p < maximal_number_of_monomials; ++p)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Derivatives where functions have kinks and jumps. Interval_functions.h has overloads for ranges that may contain
-// some, found by argument-dependent lookup.
+// Derivatives where functions have kinks and jumps. Argument-dependent lookup finds the overloads of
+// Interval_functions.h, whose ranges may contain kinks and jumps, and those of Pack.h.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_NONSMOOTH_H
 #define EQUIAFFINE_NUMBER_INTERNAL_NONSMOOTH_H
 
@@ -15,8 +15,8 @@ T branch_or_kink(const T& u, const T& v, const T& a, const T& b, int degree) {
   return u > v ? a : v > u ? b : degree == 0 ? (u == v ? a : T(u + v)) : std::numeric_limits<T>::quiet_NaN();
 }
 
-/// What the derivatives of atan2(y, x) are multiplied by for its jump along the negative x-axis: a point is on one
-/// side.
+/// The factor that the derivatives of atan2(y, x) get for its jump along the negative x-axis. That of a number is 1, since
+/// a point lies on one side of the jump.
 template <class T>
 T factor_for_jump(const T&, const T&) {
   return T(1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The few words in which a formula chooses without branching, so that it can be read for one number and for a pack of
-// numbers. Pack.h has the overloads for packs, found by argument-dependent lookup.
+// Choices without branches, so that one formula serves a number and a pack of numbers. Argument-dependent lookup finds
+// the overloads of Pack.h.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_SELECT_H
 #define EQUIAFFINE_NUMBER_INTERNAL_SELECT_H
 
@@ -19,20 +19,20 @@ FT select(bool condition, const FT& yes, const FT& no) {
   return condition ? yes : no;
 }
 
-/// Neither infinite nor NaN, without an arithmetic operation.
+/// Whether x is neither infinite nor NaN, decided without an arithmetic operation.
 template <class FT>
 Mask_of<FT> is_finite_number(const FT& x) {
   using std::abs;
   return abs(x) <= FT(std::numeric_limits<FT>::max());
 }
 
-/// For numbers of the processor, up to double, and packs of them.
+/// Whether FT is a number of the processor, up to double, or a pack of such numbers.
 template <class FT>
 inline constexpr bool is_built_in =
     std::numeric_limits<FT>::is_iec559&& std::numeric_limits<FT>::digits <= std::numeric_limits<double>::digits;
 
-/// P / Q, for built-in numbers and packs of them divided by the compiler, which under -frounding-math (CGAL sets it)
-/// would leave that to every call.
+/// P / Q. For built-in numbers and packs of them the compiler divides, which under -frounding-math (CGAL sets it) it
+/// would leave to every call.
 template <int P, int Q, class FT>
 FT fraction() {
   if constexpr (is_built_in<FT>) {
