@@ -96,7 +96,9 @@ TEST(Monge_chart_3, a_vanishing_gradient_is_singular) {
             Point_status::SINGULAR);
   // A node at (1, 1, 1) that rounding hides: the gradient there is that of one rounding of the coordinates.
   const auto shifted = [](const auto& x, const auto& y, const auto& z) {
-    const auto u = x - 1.0, v = y - 1.0, w = z - 1.0;
+    const auto u = x - 1.0;
+    const auto v = y - 1.0;
+    const auto w = z - 1.0;
     return u * u + v * v - w * w;
   };
   EXPECT_EQ(status(shifted, 1 + 2e-16, 1, 1), Point_status::SINGULAR);
@@ -115,7 +117,9 @@ TEST(Monge_chart_3, a_gradient_is_not_taken_for_zero_because_of_the_units_of_the
   EXPECT_EQ(status(ellipsoid, 0, 0, 0), Point_status::SINGULAR);
   // Rounding hides the node at (1e8, 1, 1e-8), in whatever units.
   const auto node = [](const auto& x, const auto& y, const auto& z) {
-    const auto u = 1e-8 * x - 1.0, v = y - 1.0, w = 1e8 * z - 1.0;
+    const auto u = 1e-8 * x - 1.0;
+    const auto v = y - 1.0;
+    const auto w = 1e8 * z - 1.0;
     return u * u + v * v - w * w;
   };
   EXPECT_EQ(status(node, 1e8 * (1 + 2e-16), 1, 1e-8), Point_status::SINGULAR);
@@ -129,7 +133,8 @@ TEST(Monge_chart_3, near_a_singular_point_the_cone_is_an_ordinary_parabolic_surf
 TEST(Monge_chart_3, planes_cylinders_cones_and_flat_points_are_parabolic) {
   const auto cylinder = [](const auto& x, const auto& y, const auto&) { return x * x + y * y - 1.0; };
   const auto rotated_cylinder = [](const auto& x, const auto& y, const auto& z) {
-    const auto u = 0.6 * x + 0.8 * y, v = 0.28 * z + 0.96 * (0.6 * y - 0.8 * x);
+    const auto u = 0.6 * x + 0.8 * y;
+    const auto v = 0.28 * z + 0.96 * (0.6 * y - 0.8 * x);
     return u * u + v * v - 1.0;
   };
   const auto exponential_of_a_plane = [](const auto& x, const auto& y, const auto& z) {

@@ -43,7 +43,8 @@ struct Stretched_surface {
   double s;
 
   auto operator()(const auto& x, const auto& y, const auto& z) const {
-    const auto X = s * x, Z = z / s;
+    const auto X = s * x;
+    const auto Z = z / s;
     return X * X + y * y + Z * Z + 0.3 * (x * y * z) + 0.2 * (Z * Z * Z) + 0.1 * (X * X * X * X);
   }
 

@@ -138,7 +138,9 @@ struct Gyroid {
 /// outside the box. Palais: The visualization of mathematics, 1999.
 struct Genus_two {
   auto operator()(const auto& x, const auto& y, const auto& z) const {
-    const auto x2 = square(x), y2 = square(y), z2 = square(z);
+    const auto x2 = square(x);
+    const auto y2 = square(y);
+    const auto z2 = square(z);
     return 2.0 * (y * (y2 - 3.0 * x2) * (1.0 - z2)) + square(x2 + y2) - (9.0 * z2 - 1.0) * (1.0 - z2);
   }
   CGAL::Bbox_3 box() const { return internal::centered_cube(2); }
@@ -214,7 +216,9 @@ struct Barth_sextic {
 
   auto operator()(const auto& x, const auto& y, const auto& z) const {
     constexpr double g = std::numbers::phi, g2 = g * g;
-    const auto x2 = square(x), y2 = square(y), z2 = square(z);
+    const auto x2 = square(x);
+    const auto y2 = square(y);
+    const auto z2 = square(z);
     return 4.0 * ((g2 * x2 - y2) * (g2 * y2 - z2) * (g2 * z2 - x2)) - (1.0 + 2.0 * g) * square(x2 + y2 + z2 - 1.0) + c;
   }
   CGAL::Bbox_3 box() const { return internal::centered_cube(2); }
