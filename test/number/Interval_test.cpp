@@ -361,7 +361,7 @@ TEST(Interval, zeros_make_no_subnormal_numbers) {
   EXPECT_EQ(square(Interval(0)), Interval(0));
 }
 
-// Jets of intervals.
+// The tests below are of jets of intervals.
 namespace {
 
 using Interval_jet = equiaffine::Jet_3<Interval>;

@@ -87,7 +87,7 @@ const std::vector<Function>& functions() {
   return list;
 }
 
-// Of the coordinates: quadrants, axes, poles of spherical coordinates.
+// Functions of the coordinates themselves: quadrants, axes, poles of spherical coordinates.
 const std::vector<Function>& functions_of_a_direction() {
   static const std::vector<Function> list = {
       EQUIAFFINE_FUNCTION(atan2(y, x)),
@@ -149,7 +149,7 @@ Full<Exact> by_differences(const Function& f, const Point& p, const Exact& h) {
   return result;
 }
 
-/// Two steps, extrapolated: the truncation error is of the order h^4 = 1e-28 times a ratio of derivatives.
+/// Extrapolates from two steps: the truncation error is of the order h^4 = 1e-28 times a ratio of derivatives.
 Full<Exact> by_differences(const Function& f, const Point& p) {
   const Exact h("1e-7");
   return (4 * by_differences(f, p, h) - by_differences(f, p, 2 * h)) / 3;

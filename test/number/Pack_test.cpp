@@ -39,7 +39,7 @@ using All_lanes = testing::Types<
     internal::Array_lanes<double, size>>;
 TYPED_TEST_SUITE(Pack_of, All_lanes);
 
-// Whether this test, which compares the bits of packs with those of numbers, is to be skipped.
+// Skips a test that compares bits of packs with those of numbers where the two differ by rounding.
 #define SKIP_IF_THE_COMPILER_CONTRACTS()                                                                               \
   if (compiler_contracts()) GTEST_SKIP() << "packs and numbers are equal to within rounding only"
 
@@ -86,7 +86,7 @@ double units_in_the_last_place(double x, const Exact& exact) {
   return std::abs(double(Exact(x) - exact)) / std::ldexp(1., std::ilogb(double(exact)) - 52);
 }
 
-// Of every size, on both sides of where the C library takes over, and beside multiples of pi / 2.
+// Numbers of every size, on both sides of where the C library takes over, and beside multiples of pi / 2.
 std::vector<double> arguments(double range) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -136,7 +136,7 @@ TYPED_TEST(Pack_of, the_arithmetic_and_the_order_of_its_numbers) {
   const std::vector<double> numbers = {0., -0., 1. / 3, -7.25, 1e300, -1e-310, nan, 1 / 0.};
   for (const double u : numbers)
     for (const double v : numbers) {
-      // u stands beside v, so that lanes are told apart
+      // the first lane differs from the others, so that a lane in the wrong place is found
       const Number a = Number::generate([&](std::size_t i) { return i == 0 ? u : v; }), b = v;
       const auto expect = [&](const Number& computed, double first, double other) {
         EXPECT_EQ(bits(computed[0]), bits(first)) << u << ' ' << v;
@@ -164,7 +164,7 @@ TYPED_TEST(Pack_of, the_arithmetic_and_the_order_of_its_numbers) {
     }
 }
 
-// The Barth sextic has products and sums of all kinds; the lanes of a pack of arrays have the bits of single jets, too.
+// The Barth sextic, with an exponential, a sine, a quotient and a root, has every kind of operation on jets.
 TYPED_TEST(Pack_of, the_jets_of_its_numbers_bit_for_bit) {
   SKIP_IF_THE_COMPILER_CONTRACTS();
   using Number = Pack<double, TypeParam>;
@@ -212,7 +212,7 @@ TEST(Pack, threads_and_adaptors_change_no_bit) {
   expect_batch_equals_single(Transformed_function_traits_3(base, shear));
 }
 
-// Continuous nowhere on the plane x = 0.
+// A function that is continuous nowhere on the plane x = 0.
 struct Branching {
   template <class T>
   T operator()(const T& x, const T& y, const T& z) const {

@@ -36,7 +36,7 @@ inline bool contains_multiple(const Interval& a, double offset, double period) {
 
 } // namespace internal
 
-/// The hook of internal/nonsmooth.h, found by argument-dependent lookup.
+/// The hook of nonsmooth.h for kinks, found by argument-dependent lookup.
 inline Interval branch_or_kink(const Interval& u, const Interval& v, const Interval& a, const Interval& b, int degree) {
   if (u.lower() > v.upper()) return a;
   if (v.lower() > u.upper()) return b;
@@ -89,7 +89,8 @@ inline Interval pow(const Interval& a, int n) {
   return n < 0 ? Interval(1) / natural_power(a, 0u - unsigned(n)) : natural_power(a, unsigned(n));
 }
 
-/// Real power: of the part of a that is not negative, and of the rest where b contains a whole number.
+/// Real power. It bounds the powers of the numbers in a that are not negative, and of the others where b contains a whole
+/// number.
 inline Interval pow(const Interval& a, const Interval& b) {
   const double n = std::floor(b.upper()); // the largest whole number that b can contain
   const bool is_whole = b.lower() == n && b.upper() == n && std::abs(n) <= std::numeric_limits<int>::max();
@@ -103,7 +104,7 @@ namespace internal {
 template <class F>
 Interval sine_wave(F f, const Interval& a, double maximum) {
   using std::numbers::pi;
-  constexpr double largest = 1e8; // beyond, whole periods are not told apart with certainty
+  constexpr double largest = 1e8; // larger arguments do not tell for certain how many periods a has
   if (!(std::abs(a.lower()) < largest && std::abs(a.upper()) < largest)) return Interval(-1, 1);
   const double p = f(a.lower()), q = f(a.upper());
   const Interval r = clamped(Interval::widened(std::min(p, q), std::max(p, q), function_error_ulps), -1, 1);
@@ -141,7 +142,7 @@ inline Interval atan(const Interval& a) {
   return internal::increasing([](double u) { return std::atan(u); }, a);
 }
 
-/// The other hook of internal/nonsmooth.h.
+/// The hook of nonsmooth.h for jumps: derivatives are unbounded where the box meets the jump.
 inline Interval factor_for_jump(const Interval& y, const Interval& x) {
   return x.lower() <= 0 && y.contains(0) ? Interval::whole() : Interval(1);
 }

@@ -98,7 +98,7 @@ auto cbrt(const Jet_3<T, Order, A>& a) {
   return internal::real_power(a, T(cbrt(a.value())), T(T(1) / T(3)));
 }
 
-/// Integer power; also at zero for n >= 0.
+/// Integer power; for n >= 0 the value of the jet may be zero.
 template <class T, int Order, Monomial_set A>
 auto pow(const Jet_3<T, Order, A>& a, int n) -> decltype(compose(a, std::array<T, 5>())) {
   using internal::natural_power;
@@ -113,7 +113,7 @@ auto pow(const Jet_3<T, Order, A>& a, int n) -> decltype(compose(a, std::array<T
   return compose(a, t);
 }
 
-/// Real power; with a whole number as exponent the integer power.
+/// Real power; an exponent that is a whole number gives the integer power.
 template <class T, int Order, Monomial_set A, JetScalar<T> S>
 auto pow(const Jet_3<T, Order, A>& a, const S& exponent) requires(!std::is_integral_v<S>) {
   using std::pow;

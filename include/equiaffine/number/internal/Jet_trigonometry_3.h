@@ -118,8 +118,8 @@ auto atan2(const Jet_3<T, Order, A>& y, const Jet_3<T, Order, B>& x) {
 
 namespace internal {
 
-/// The length of a vector of jets, given its value r, without overflow or underflow of the squares: the sum below
-/// is 1 plus a nilpotent part.
+/// The length of a vector of jets, given its value r. No square overflows or underflows: the sum below is 1 plus a part
+/// without a value.
 template <class T, class... Jets>
 auto length(const T& r, const Jets&... x) {
   const T s = T(1) / r;
@@ -135,7 +135,7 @@ auto hypot(const Jet_3<T, Order, A>& x, const Jet_3<T, Order, B>& y) {
   return internal::length(T(hypot(x.value(), y.value())), x, y);
 }
 
-/// sqrt(x^2 + y^2 + z^2), as for two.
+/// sqrt(x^2 + y^2 + z^2), at the origin as above.
 template <class T, int Order, Monomial_set A, Monomial_set B, Monomial_set C>
 auto hypot(const Jet_3<T, Order, A>& x, const Jet_3<T, Order, B>& y, const Jet_3<T, Order, C>& z) {
   using std::hypot;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Chooses what a pack is made of, without including it.
+// Chooses how packs keep their lanes, and declares the choices without defining them.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_NATIVE_LANES_H
 #define EQUIAFFINE_NUMBER_INTERNAL_NATIVE_LANES_H
 
 #include <cstddef>
 
-// EQUIAFFINE_WITHOUT_SIMD keeps std::experimental::simd out, which is what happens by itself where there is none. The
-// standard library of GCC has it; that of LLVM has a header of this name with less in it.
+// Users may define EQUIAFFINE_WITHOUT_SIMD to keep std::experimental::simd out. It is defined here where there is none: the
+// standard library of LLVM has a header of this name, but not all of its contents.
 #if !defined(__GLIBCXX__) || !__has_include(<experimental/simd>)
 #ifndef EQUIAFFINE_WITHOUT_SIMD
 #define EQUIAFFINE_WITHOUT_SIMD
