@@ -24,15 +24,17 @@ bool is_component(const std::string& name) {
 
 /// What the page shows first.
 std::string default_color(const Vertex_attributes& attributes) {
-  for (const internal::Quantity& quantity : internal::quantities)
-    if (find_column(attributes, std::string(quantity.name))) return std::string(quantity.name);
-  for (const auto& column : attributes.columns)
-    if (!is_component(column.name)) return column.name;
+  const auto place = [](const Vertex_attributes::Column& column) {
+    return is_component(column.name) ? Quantity::unranked + 1 : rank_of_quantity(column.name);
+  };
+  const auto first = std::min_element(attributes.columns.begin(), attributes.columns.end(),
+                                      [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  if (first != attributes.columns.end() && !is_component(first->name)) return first->name;
   return attributes.status ? "status" : "plain";
 }
 
 std::string label_of(const std::string& name) {
-  const internal::Quantity* const quantity = internal::find_quantity(name);
+  const Quantity* const quantity = find_quantity(name);
   if (quantity == nullptr) return name;
   const std::string label(quantity->label);
   if (quantity->weight == 0) return label;
@@ -89,7 +91,7 @@ void Surface_paint::use(const Vertex_attributes::Column& column, const std::opti
     if (codes_[i] == 0 && !std::isfinite(column.values[i])) codes_[i] = no_number;
     if (codes_[i] == 0) shown.push_back(column.values[i]);
   }
-  Color_range range = color_range(std::move(shown), default_clip_percent, internal::resolution(column.name, diagonal));
+  Color_range range = color_range(std::move(shown), default_clip_percent, rounding_of_quantity(column.name, diagonal));
   Color_scale scale = preferred_scale(range);
   if (given) {
     const auto [lower, upper] = *given;

@@ -2,13 +2,14 @@
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/annotate.h>
+#include <equiaffine/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <set>
+#include <cstddef>
+#include <span>
 #include <string>
 
 namespace {
@@ -67,41 +68,6 @@ TEST(Annotate, columns_and_maps_hold_the_same_numbers_for_any_number_of_threads)
     for (std::size_t i = 0; i < surface.points.size(); ++i) ASSERT_EQ(column.values[i], map[Vertex_index(unsigned(i))]);
   }
   EXPECT_EQ(scalars, 16u);
-}
-
-TEST(Annotate, unconverged_vertices_stay_unconverged) {
-  const auto traits = torus();
-  const std::vector<Kernel::Point_3> points = {{0.7, 0.1, 0.1}, {0, 0, 0.5}};
-  const std::vector<Point_status> sampled = {Point_status::UNCONVERGED, Point_status::UNCONVERGED};
-  const auto columns = compute_attributes(traits, std::span(points), select_attributes("k1"), sampled);
-  ASSERT_TRUE(columns.status);
-  EXPECT_EQ(columns.status->at(0), Point_status::UNCONVERGED);
-  EXPECT_TRUE(std::isfinite(columns.columns[0].values[0]));
-  EXPECT_EQ(columns.status->at(1), Point_status::UNCONVERGED);
-  EXPECT_TRUE(std::isnan(columns.columns[0].values[1])) << "on the axis the square root has no derivatives";
-}
-
-TEST(Attributes, the_names_are_the_contract_in_its_order) {
-  const auto names = [](const char* list) {
-    std::string joined;
-    for (const Attribute& a : select_attributes(list).columns) joined += std::string(a.name) + " ";
-    return joined;
-  };
-  const std::string basic = "nx ny nz k1 k2 gaussian_curvature mean_curvature conormal_x conormal_y conormal_z "
-                            "affine_normal_x affine_normal_y affine_normal_z affine_gaussian_curvature "
-                            "affine_mean_curvature pick_invariant ";
-  EXPECT_EQ(names("basic"), basic);
-  EXPECT_EQ(names("all"), basic +
-                              "affine_k1 affine_k2 direction1_x direction1_y direction1_z direction2_x direction2_y "
-                              "direction2_z metric_xx metric_xy metric_xz metric_yy metric_yz metric_zz ");
-  EXPECT_EQ(names("none"), "");
-  EXPECT_EQ(names("metric_xx,normal,k2"), "nx ny nz k2 metric_xx ");
-  EXPECT_EQ(names("status"), "");
-  EXPECT_FALSE(select_attributes("none").has_status);
-  EXPECT_TRUE(select_attributes("status").has_status);
-  EXPECT_THROW(select_attributes("k3"), Input_error);
-  EXPECT_THROW(select_attributes("k1,"), Input_error);
-  EXPECT_THROW(select_attributes(""), Input_error);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/analytic_functions.h>
+#include <equiaffine/Expression_3.h>
 #include <equiaffine/attributes.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace {
@@ -16,9 +18,14 @@ using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point_3 = Kernel::Point_3;
 
-auto torus() { return make_analytic_traits<Kernel>(analytic_functions::Torus(), CGAL::Bbox_3(-2, -2, -1, 2, 2, 1)); }
+auto traits_of(const char* formula) {
+  return make_analytic_traits<Kernel>(Expression_3(formula), CGAL::Bbox_3(-2, -2, -1, 2, 2, 1));
+}
 
-// More than a block of packs; the middle of the torus among them, where it is singular.
+// On the axis the square root has no derivatives.
+auto torus() { return traits_of("z^2+(sqrt(x^2+y^2)-0.5)^2-0.04"); }
+
+// More than a block of packs, with some on the axis.
 std::vector<Point_3> points() {
   std::vector<Point_3> result;
   for (int n = 0; n < 203; ++n)
@@ -43,6 +50,21 @@ TEST(Attributes, columns_are_the_same_with_and_without_the_status) {
         EXPECT_EQ(without.columns[c].values[i], expected) << without.columns[c].name << ' ' << i;
       }
   EXPECT_NE(without.columns[3].values[1], 0);
+}
+
+TEST(Attributes, unconverged_points_stay_unconverged_unless_they_are_outside) {
+  const std::vector<Point_3> p = {{0.7, 0.1, 0.1}, {0, 0, 0.5}};
+  const std::vector<Point_status> sampled = {Point_status::UNCONVERGED, Point_status::UNCONVERGED};
+  const auto on_torus = compute_attributes(torus(), std::span(p), select_attributes("k1"), sampled);
+  ASSERT_TRUE(on_torus.status);
+  EXPECT_EQ(*on_torus.status, sampled);
+  EXPECT_TRUE(std::isfinite(on_torus.columns[0].values[0]));
+  EXPECT_TRUE(std::isnan(on_torus.columns[0].values[1]));
+  const auto logarithm = traits_of("log(x)+y+z^2");
+  const auto beside = compute_attributes(logarithm, std::span(p), select_attributes("k1"), sampled);
+  EXPECT_EQ(*beside.status, (std::vector{Point_status::UNCONVERGED, Point_status::OUTSIDE}));
+  for (std::size_t i = 0; i < p.size(); ++i)
+    EXPECT_EQ(local_structure_at(logarithm, p[i], sampled[i]).status, beside.status->at(i));
 }
 
 TEST(Attributes, the_status_comes_without_columns_and_nothing_where_nothing_was_asked_for) {

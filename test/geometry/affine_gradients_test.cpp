@@ -77,7 +77,7 @@ TEST(Affine_gradients, differences_are_extrapolated_and_skip_what_is_not_finite)
     const double x = std::exp(t), undefined = std::abs(t) > 0.05 ? NAN : x;
     return std::array{x, std::sin(3 * t), undefined};
   };
-  const auto [a, b, c] = internal::derivatives(f, 0.1);
+  const auto [a, b, c] = internal::derivatives_at_zero(f, 0.1);
   EXPECT_NEAR(a, 1, 1e-11);
   EXPECT_NEAR(b, 3, 1e-11);
   EXPECT_NEAR(c, 1, 1e-11);

@@ -176,11 +176,11 @@ TEST(Write_HTML, colors_are_those_of_the_color_map) {
 
 TEST(Write_HTML, a_rescaled_surface_has_a_rescaled_resolution) {
   // K_e has the dimension length^-2, K length^-3, H and J length^-3/2.
-  EXPECT_DOUBLE_EQ(internal::resolution("gaussian_curvature", 10), 1e-11);
-  EXPECT_DOUBLE_EQ(internal::resolution("affine_gaussian_curvature", 10), 1e-12);
-  EXPECT_DOUBLE_EQ(internal::resolution("pick_invariant", 100), 1e-12);
-  EXPECT_EQ(internal::resolution("anything else", 10), 0);
-  EXPECT_EQ(internal::resolution("k1", 0), 0);
+  EXPECT_DOUBLE_EQ(rounding_of_quantity("gaussian_curvature", 10), 1e-11);
+  EXPECT_DOUBLE_EQ(rounding_of_quantity("affine_gaussian_curvature", 10), 1e-12);
+  EXPECT_DOUBLE_EQ(rounding_of_quantity("pick_invariant", 100), 1e-12);
+  EXPECT_EQ(rounding_of_quantity("anything else", 10), 0);
+  EXPECT_EQ(rounding_of_quantity("k1", 0), 0);
 }
 
 TEST(Write_HTML, text_of_the_user_cannot_become_markup_or_script) {

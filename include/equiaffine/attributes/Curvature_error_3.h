@@ -29,15 +29,16 @@ struct Affine_curvature_error {
 ///
 /// The deviation follows from how the coefficients of the expansion depend on the samples: 35 independent disturbances
 /// of the expansion, each as large as the noise makes it, go through the curvatures. An estimate does not know of what
-/// both scales miss, such as details below a voxel. NaN where a curvature does not exist. Some 10 microseconds a point.
+/// both scales miss, such as details below a voxel. It is NaN where a curvature does not exist, and takes some 10
+/// microseconds a point.
 template <class Kernel>
 class Curvature_error_3 {
 public:
   using FT = typename Kernel::FT;
   using Point_3 = typename Kernel::Point_3;
 
-  /// `function` is that of the volume smoothed by the scale `smoothing`, `volume` as it was sampled. The deviation of
-  /// the noise is in the unit of the samples, see Sample_noise.
+  /// `function` belongs to the volume smoothed by the scale `smoothing`, while `volume` holds the samples before that.
+  /// The deviation of the noise is in the unit of the samples, see Sample_noise.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   Curvature_error_3(const Sampled_function_traits_3<Kernel>& function, const Volume_3<Kernel>& volume,
                     const FT& smoothing, const FT& noise_deviation, ConcurrencyTag tag = {})
@@ -75,7 +76,7 @@ private:
     FT gaussian, mean;
   };
 
-  /// The error of convolution is much the same for all degrees.
+  /// The scheme of the second scale. For convolution it is another one: its error is much the same for all degrees.
   static Spline_scheme other_scheme(Spline_scheme scheme) {
     return scheme == Spline_scheme::INTERPOLATION ? scheme : Spline_scheme::QUASI_INTERPOLATION;
   }

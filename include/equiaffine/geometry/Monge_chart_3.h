@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_GEOMETRY_MONGE_CHART_3_H
 #define EQUIAFFINE_GEOMETRY_MONGE_CHART_3_H
 
+#include <equiaffine/geometry/internal/choose_pivot.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/number/select.h>
 
@@ -37,9 +38,11 @@ struct Monge_chart_3 {
   using Mask = internal::Mask_of<FT>;
 
   Mask pivot_is_x, pivot_is_y; ///< which axis plays z; the next two, cyclically, play x and y
-  Mask is_steep;               ///< the gradient is not that of a singular point, see `disregard_rounding_of`
-  Mask is_curved; ///< d is not zero within 1000 roundings of the terms of which its entries are sums, see `disregard`
-  FT sign;        ///< of f_z: normals along the gradient are sign (a, b, 1) up to length
+  Mask is_steep;               ///< the gradient counts as not zero, see `take_gradient_within_rounding_for_zero`
+  /// d counts as not zero: it is more than 1000 roundings of the terms of which its entries are sums could make it, see
+  /// also `take_d_within_error_for_zero`.
+  Mask is_curved;
+  FT sign; ///< of f_z: normals along the gradient are sign (a, b, 1) up to length
   FT a, b;
   std::array<FT, 3> quadratic; ///< of Q
   std::array<FT, 2> mixed;     ///< of L
@@ -53,12 +56,15 @@ struct Monge_chart_3 {
     using std::abs;
     const auto& c = jet.coefficients();
     is_steep = abs(c[1]) > FT(0) || abs(c[2]) > FT(0) || abs(c[3]) > FT(0);
-    build(jet, choose_pivot(jet));
+    const auto pivot = internal::choose_pivot(jet);
+    pivot_is_x = pivot.is_x;
+    pivot_is_y = pivot.is_y;
+    expand_around_pivot(jet, pivot.reciprocals);
   }
 
-  /// Takes the gradient for zero where one rounding of the coordinates of the point could have made it, component by
-  /// component, since the axes can have different units.
-  void disregard_rounding_of(const std::array<FT, 3>& point, const Jet_3<FT>& jet) {
+  /// Makes `is_steep` false where one rounding of the coordinates of the point could have made the gradient, component
+  /// by component, since the axes can have different units.
+  void take_gradient_within_rounding_for_zero(const std::array<FT, 3>& point, const Jet_3<FT>& jet) {
     using std::abs;
     const auto& c = jet.coefficients();
     const FT x = roundings(4) * abs(point[0]), y = roundings(4) * abs(point[1]), z = roundings(4) * abs(point[2]);
@@ -67,9 +73,10 @@ struct Monge_chart_3 {
                abs(c[3]) > xz * x + yz * y + two * abs(c[9]) * z;
   }
 
-  /// Takes d for zero where second derivatives of the jet with errors of up to `error` could produce it. Errors of the
-  /// coefficients of Q are those of a frame with a = b = 0, times 1 + |a| per u and 1 + |b| per v.
-  void disregard(const Jet_3<FT>& jet, const FT& error) {
+  /// Makes `is_curved` false where errors of up to `error` in the second derivatives of the jet could have made d.
+  /// The errors that this gives the coefficients of Q are those of a frame with a = b = 0, times 1 + |a| for each u and
+  /// 1 + |b| for each v.
+  void take_d_within_error_for_zero(const Jet_3<FT>& jet, const FT& error) {
     using internal::select;
     using std::abs;
     const auto& c = jet.coefficients();
@@ -99,37 +106,6 @@ struct Monge_chart_3 {
   std::array<FT, 3> tangent(const FT& u, const FT& v) const { return unpermuted(u, v, -(a * u + b * v)); }
 
 private:
-  /// The axis whose largest |f_ij| / |f_i f_j| is smallest, up to a factor 2 for i = j: of two axes, without the one
-  /// they share. An axis with f_j = 0 does not count. Among equals it is that with the largest |f_i|. Returns all
-  /// 1 / f_i.
-  std::array<FT, 3> choose_pivot(const Jet_3<FT>& jet) {
-    using internal::select;
-    using std::abs;
-    const auto& c = jet.coefficients();
-    const std::array<FT, 3> size = {abs(c[1]), abs(c[2]), abs(c[3])};
-    const std::array<FT, 3> reciprocals = {FT(1) / c[1], FT(1) / c[2], FT(1) / c[3]};
-    std::array<Mask, 3> counts;
-    std::array<FT, 3> r;
-    for (std::size_t i = 0; i < 3; ++i) {
-      counts[i] = size[i] >= FT(std::numeric_limits<FT>::min());
-      r[i] = select(counts[i], reciprocals[i], FT(0));
-    }
-    const auto larger = [](const FT& x, const FT& y) { return select(x > y, x, y); };
-    const auto curvature = [&](std::size_t n, std::size_t i, std::size_t j) { return FT(abs(c[n] * r[i] * r[j])); };
-    const FT xy = curvature(5, 0, 1), xz = curvature(6, 0, 2), yz = curvature(8, 1, 2);
-    const FT never(std::numeric_limits<FT>::infinity());
-    const FT xx = select(counts[0], curvature(4, 0, 0), never);
-    const FT yy = select(counts[1], curvature(7, 1, 1), never);
-    const FT zz = select(counts[2], curvature(9, 2, 2), never);
-    const FT x = larger(xx, xz), y = larger(yy, yz); // both have xy
-    const Mask x_beats_y = x < y || (x == y && size[0] > size[1]);
-    const FT it = larger(select(x_beats_y, xx, yy), xy), z = larger(zz, select(x_beats_y, yz, xz));
-    const Mask it_beats_z = it < z || (it == z && select(x_beats_y, size[0], size[1]) > size[2]);
-    pivot_is_x = x_beats_y && it_beats_z;
-    pivot_is_y = !x_beats_y && it_beats_z;
-    return reciprocals;
-  }
-
   static FT roundings(int n) { return FT(n) * FT(std::numeric_limits<FT>::epsilon()); }
 
   /// Number of the monomial that plays x^i y^j z^k when axis `pivot` plays z.
@@ -145,7 +121,7 @@ private:
     else return select(pivot_is_x, f<0, I, J, K>(jet), select(pivot_is_y, f<1, I, J, K>(jet), f<2, I, J, K>(jet)));
   }
 
-  void build(const Jet_3<FT>& jet, const std::array<FT, 3>& reciprocals) {
+  void expand_around_pivot(const Jet_3<FT>& jet, const std::array<FT, 3>& reciprocals) {
     using internal::select;
     const FT r = select(pivot_is_x, reciprocals[0], select(pivot_is_y, reciprocals[1], reciprocals[2]));
     if constexpr (!std::is_same_v<Mask, bool>) expand<3>(jet, r);
@@ -154,60 +130,77 @@ private:
     else expand<2>(jet, r);
   }
 
-  /// Synthetic division of each homogeneous part by z - (w - a u - b v): the remainder is its part without w, the next
-  /// one the coefficient of w. `r` is 1 / f_z.
+  /// Divides every homogeneous part of the jet by z - (w - a u - b v), where `r` is 1 / f_z. The part is a polynomial
+  /// in z whose coefficients are forms in (u, v); synthetic division turns it into one in w. Its coefficients, of w^0
+  /// first, are the forms of the chart: Q, L, e from the part of degree 2, C and D from that of degree 3, R from that
+  /// of 4.
   template <int P>
   void expand(const Jet_3<FT>& jet, const FT& r) {
-    using internal::fraction;
     using internal::select;
-    const FT r2 = r * FT(0.5), r4 = r * FT(0.25);
-    const FT r3 = r * fraction<1, 3, FT>(), r6 = r * fraction<1, 6, FT>();
     sign = select(r > FT(0), FT(1), FT(-1));
     a = f<P, 1, 0, 0>(jet) * r;
     b = f<P, 0, 1, 0>(jet) * r;
+    const FT r2 = r * FT(0.5);
+    expand_second_order<P>(jet, r, r2);
+    expand_third_order<P>(jet, r, r2);
+    expand_fourth_order<P>(jet, r);
+  }
 
+  /// Sets Q, L and e from xx x^2 + ... + zz z^2, and d with whether it counts as zero.
+  template <int P>
+  [[gnu::always_inline]] void expand_second_order(const Jet_3<FT>& jet, const FT& r, const FT& r2) {
+    using std::abs;
     const FT xx = f<P, 2, 0, 0>(jet), xy = f<P, 1, 1, 0>(jet), yy = f<P, 0, 2, 0>(jet);
     const FT xz = f<P, 1, 0, 1>(jet), yz = f<P, 0, 1, 1>(jet), zz = f<P, 0, 0, 2>(jet);
     const FT azz = a * zz, bzz = b * zz;
     const Form<1> q1 = {xz - azz, yz - bzz};
     Form<2> q2 = {xx, xy, yy};
-    reduce(q2, q1);
+    subtract_multiple(q2, q1);
     quadratic = {r * q2[0], r2 * q2[1], r * q2[2]};
     mixed = {r * (q1[0] - azz), r * (q1[1] - bzz)};
     e = r * zz;
 
-    const Form<0> c0 = {f<P, 0, 0, 3>(jet)};
-    Form<1> c1 = {f<P, 1, 0, 2>(jet), f<P, 0, 1, 2>(jet)}, d1;
-    Form<2> c2 = {f<P, 2, 0, 1>(jet), f<P, 1, 1, 1>(jet), f<P, 0, 2, 1>(jet)}, d2;
-    Form<3> c3 = {f<P, 3, 0, 0>(jet), f<P, 2, 1, 0>(jet), f<P, 1, 2, 0>(jet), f<P, 0, 3, 0>(jet)};
-    reduce(c1, c0);
-    reduce(c2, c1);
-    reduce(c3, c2);
-    d1 = c1;
-    reduce(d1, c0);
-    d2 = c2;
-    reduce(d2, d1);
-    cubic = {r * c3[0], r3 * c3[1], r3 * c3[2], r * c3[3]};
-    mixed_quadratic = {r * d2[0], r2 * d2[1], r * d2[2]};
+    determinant = quadratic[0] * quadratic[2] - quadratic[1] * quadratic[1];
+    // The sizes of the terms of which the coefficients of Q are sums (Andrade, Lewiner 2012, equation (2)).
+    const FT u = abs(xz) + abs(azz), v = abs(yz) + abs(bzz);
+    const FT uu = r * (abs(xx) + abs(a) * u), vv = r * (abs(yy) + abs(b) * v);
+    const FT uv = r2 * (abs(xy) + abs(a) * v + abs(b) * u);
+    is_curved = abs(determinant) > roundings(1000) * (uu * vv + uv * uv);
+  }
 
+  /// Sets C and D. The form c_n is the coefficient of z^(3 - n) before the division.
+  template <int P>
+  [[gnu::always_inline]] void expand_third_order(const Jet_3<FT>& jet, const FT& r, const FT& r2) {
+    const FT r3 = r * internal::fraction<1, 3, FT>();
+    const Form<0> c0 = {f<P, 0, 0, 3>(jet)};
+    Form<1> c1 = {f<P, 1, 0, 2>(jet), f<P, 0, 1, 2>(jet)};
+    Form<2> c2 = {f<P, 2, 0, 1>(jet), f<P, 1, 1, 1>(jet), f<P, 0, 2, 1>(jet)};
+    Form<3> c3 = {f<P, 3, 0, 0>(jet), f<P, 2, 1, 0>(jet), f<P, 1, 2, 0>(jet), f<P, 0, 3, 0>(jet)};
+    subtract_multiple(c1, c0);
+    subtract_multiple(c2, c1);
+    subtract_multiple(c3, c2);
+    cubic = {r * c3[0], r3 * c3[1], r3 * c3[2], r * c3[3]};
+    Form<1> d1 = c1;
+    subtract_multiple(d1, c0);
+    Form<2> d2 = c2;
+    subtract_multiple(d2, d1);
+    mixed_quadratic = {r * d2[0], r2 * d2[1], r * d2[2]};
+  }
+
+  /// Sets R. The form s_n is the coefficient of z^(4 - n) before the division.
+  template <int P>
+  [[gnu::always_inline]] void expand_fourth_order(const Jet_3<FT>& jet, const FT& r) {
+    const FT r4 = r * FT(0.25), r6 = r * internal::fraction<1, 6, FT>();
     const Form<0> s0 = {f<P, 0, 0, 4>(jet)};
     Form<1> s1 = {f<P, 1, 0, 3>(jet), f<P, 0, 1, 3>(jet)};
     Form<2> s2 = {f<P, 2, 0, 2>(jet), f<P, 1, 1, 2>(jet), f<P, 0, 2, 2>(jet)};
     Form<3> s3 = {f<P, 3, 0, 1>(jet), f<P, 2, 1, 1>(jet), f<P, 1, 2, 1>(jet), f<P, 0, 3, 1>(jet)};
     Form<4> s4 = {f<P, 4, 0, 0>(jet), f<P, 3, 1, 0>(jet), f<P, 2, 2, 0>(jet), f<P, 1, 3, 0>(jet), f<P, 0, 4, 0>(jet)};
-    reduce(s1, s0);
-    reduce(s2, s1);
-    reduce(s3, s2);
-    reduce(s4, s3);
+    subtract_multiple(s1, s0);
+    subtract_multiple(s2, s1);
+    subtract_multiple(s3, s2);
+    subtract_multiple(s4, s3);
     quartic = {r * s4[0], r4 * s4[1], r6 * s4[2], r4 * s4[3], r * s4[4]};
-
-    determinant = quadratic[0] * quadratic[2] - quadratic[1] * quadratic[1];
-    // The terms of which the coefficients of Q are sums (Andrade, Lewiner 2012, equation (2)).
-    using std::abs;
-    const FT u = abs(xz) + abs(azz), v = abs(yz) + abs(bzz);
-    const FT uu = r * (abs(xx) + abs(a) * u), vv = r * (abs(yy) + abs(b) * v);
-    const FT uv = r2 * (abs(xy) + abs(a) * v + abs(b) * u);
-    is_curved = abs(determinant) > roundings(1000) * (uu * vv + uv * uv);
   }
 
   template <std::size_t Degree>
@@ -215,7 +208,7 @@ private:
 
   /// Subtracts (a u + b v) times another form. In place: copies of arrays of packs would go through memory.
   template <std::size_t N>
-  [[gnu::always_inline]] void reduce(std::array<FT, N + 1>& form, const std::array<FT, N>& other) const {
+  [[gnu::always_inline]] void subtract_multiple(std::array<FT, N + 1>& form, const std::array<FT, N>& other) const {
     [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
       ((form[I] -= a * other[I], form[I + 1] -= b * other[I]), ...);
     }

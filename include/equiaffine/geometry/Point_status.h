@@ -21,6 +21,13 @@ enum class Point_status : std::uint8_t {
 
 inline constexpr std::size_t number_of_point_statuses = 5;
 
+/// The status of a point whose structure has the status `structure`, when a sampler says `sampled` of it: a point that
+/// is UNCONVERGED stays so, unless it is OUTSIDE.
+constexpr Point_status status_after_sampling(Point_status structure, Point_status sampled) {
+  const bool stays_unconverged = sampled == Point_status::UNCONVERGED && structure != Point_status::OUTSIDE;
+  return stays_unconverged ? Point_status::UNCONVERGED : structure;
+}
+
 /// The word for a status in text files and statistics.
 constexpr std::string_view to_string(Point_status status) {
   constexpr std::array<std::string_view, number_of_point_statuses> words = {"regular", "parabolic", "singular",

@@ -4,72 +4,26 @@
 
 #include <equiaffine/geometry/Estimator.h>
 #include <equiaffine/geometry/Local_structure_3.h>
-#include <equiaffine/geometry/internal/direct_estimate.h>
-#include <equiaffine/geometry/internal/transformation_estimate.h>
+#include <equiaffine/geometry/internal/affine_estimate.h>
+#include <equiaffine/geometry/internal/estimate_by.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace equiaffine {
 
-namespace internal {
-
-/// f times a power of 2 that makes the largest |f_i| about 1: the paper's formulas raise derivatives to the power of 7
-/// and more, which soon leaves the range of FT. The surface does not depend on the factor.
+/// Co-normal, normal and curvatures by the given estimator. They are not finite where they do not exist.
 template <class FT>
-Jet_3<FT> with_gradient_about_one(Jet_3<FT> jet) {
-  using std::abs;
-  using std::frexp;
-  using std::ldexp;
-  const auto& c = jet.coefficients();
-  const FT size = std::max({FT(abs(c[1])), FT(abs(c[2])), FT(abs(c[3]))});
-  if (size > FT(0) && is_finite_number(size)) {
-    int exponent;
-    frexp(size, &exponent);
-    const FT factor = ldexp(FT(1), -std::clamp(exponent, -1000, 1000)); // finite also for subnormal sizes
-    for (FT& x : jet.coefficients()) x = x * factor;
-  }
-  return jet;
-}
-
-} // namespace internal
-
-/// Co-normal, normal and curvatures by the given way. Not finite where they do not exist.
-template <class FT>
-Affine_estimate_3<FT> affine_estimate(const Jet_3<FT>& jet_of_any_size, Estimator estimator) {
-  using std::abs;
-  const Jet_3<FT> jet = internal::with_gradient_about_one(jet_of_any_size);
-  switch (estimator) {
-  case Estimator::TRANSFORMATION: return transformation_estimate(jet);
-  case Estimator::DIRECT: {
-    const auto& c = jet.coefficients();
-    const FT x = abs(c[1]), y = abs(c[2]), z = abs(c[3]);
-    return direct_estimate(jet, x > y && x > z ? 0 : y > z ? 1 : 2);
-  }
-  case Estimator::DIRECT_Z: return direct_estimate(jet, 2);
-  default: {
-    const auto s = affine_invariants(Monge_chart_3<FT>(jet));
-    return {s.conormal, s.normal, s.gaussian_curvature, s.mean_curvature};
-  }
-  }
+Affine_estimate_3<FT> affine_estimate(const Jet_3<FT>& jet, Estimator estimator) {
+  return internal::estimate_by(jet, estimator);
 }
 
 /// As local_structure(jet, point, rounding), with co-normal, normal, Gaussian and mean curvature of the affine
-/// structure by the given way. Where that way alone fails, which is where f_z vanishes or nearly so for DIRECT_Z, the
-/// point is OUTSIDE what the way can do, and nothing exists.
+/// structure by the given estimator. Where the estimator alone fails, which is where f_z vanishes or nearly so for
+/// DIRECT_Z, the point is OUTSIDE what the estimator can do, and nothing exists.
 template <class FT>
 Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const std::array<FT, 3>& point, const FT& rounding,
                                       Estimator estimator) {
-  Local_structure_3<FT> s = local_structure(jet, point, rounding);
-  if (s.status != Point_status::REGULAR || estimator == Estimator::COMPACT) return s;
-  const Affine_estimate_3<FT> estimate = affine_estimate(jet, estimator);
-  s.affine.conormal = estimate.conormal;
-  s.affine.normal = estimate.normal;
-  s.affine.gaussian_curvature = estimate.gaussian_curvature;
-  s.affine.mean_curvature = estimate.mean_curvature;
-  if (internal::is_finite(s.affine)) return s;
-  return {Point_status::OUTSIDE, internal::no_euclidean_structure<FT>(), internal::no_affine_structure<FT>()};
+  return internal::with_estimate(local_structure(jet, point, rounding), jet, estimator);
 }
 
 } // namespace equiaffine

@@ -40,7 +40,7 @@ struct Graph_derivatives {
         if (i + j > 0) g[i][j] = formulas[i][j](f, powers);
   }
 
-  /// g_ij and its derivatives by x and y as a jet.
+  /// A jet of order 1 in x and y: g_ij and its derivatives.
   auto with_gradient(std::size_t i, std::size_t j) const {
     Jet_3<FT, 1, 0b111> jet(g[i][j]);
     jet.template at<1>() = g[i + 1][j];
@@ -49,7 +49,7 @@ struct Graph_derivatives {
   }
 };
 
-/// The axes in cyclic order, `last` at the end, and f with respect to them.
+/// Renames the axes cyclically so that `last` becomes z, and returns the derivatives of f by the renamed axes.
 template <class FT>
 std::array<FT, maximal_number_of_monomials> with_last_axis(const std::array<FT, maximal_number_of_monomials>& f,
                                                            std::size_t last) {
@@ -65,7 +65,7 @@ std::array<FT, maximal_number_of_monomials> with_last_axis(const std::array<FT, 
   return r;
 }
 
-/// xi of section 2(d) with its derivatives by x and y.
+/// The affine normal xi of section 2(d), each component with its derivatives by x and y.
 template <class FT>
 auto normal_of_graph(const Graph_derivatives<FT>& graph) {
   using std::sqrt;

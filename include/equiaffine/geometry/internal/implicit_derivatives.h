@@ -15,8 +15,8 @@
 
 namespace equiaffine::internal {
 
-/// The order (i, j) derivative of g, i + j >= 1, as a sum of products of derivatives of f, each product divided by a
-/// power of f_z.
+/// The derivative of g of order i in x and j in y, i + j >= 1: a sum of products of derivatives of f, each product
+/// divided by a power of f_z.
 class Implicit_derivative {
 public:
   Implicit_derivative() = default;
@@ -53,7 +53,7 @@ private:
   };
   std::vector<Term> terms_;
 
-  // While the sum is built: the factors, ascending, and the exponent of 1 / f_z; and what multiplies them.
+  // The sum while it is built maps the factors of a product, ascending, and the exponent of 1 / f_z to the coefficient.
   using Factors = std::vector<int>;
   using Sum = std::map<std::pair<Factors, int>, int>;
 

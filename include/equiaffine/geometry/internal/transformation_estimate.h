@@ -16,14 +16,14 @@ namespace internal {
 template <class FT>
 using Matrix_3 = std::array<std::array<FT, 3>, 3>;
 
-/// Number of the monomial that is the product of the variables with these numbers.
+/// The number of the monomial that is the product of the given variables: 0 is x, 1 is y, 2 is z.
 constexpr std::size_t monomial_of(auto... variables) {
   std::array<int, 3> exponents{};
   (++exponents[variables], ...);
   return std::size_t(monomial_index(exponents[0], exponents[1], exponents[2]));
 }
 
-/// monomial_of for four variables.
+/// monomial_of(a, b, c, d) as a table.
 inline constexpr auto products_of_four = [] {
   std::array<std::array<std::array<std::array<std::size_t, 3>, 3>, 3>, 3> table{};
   for (std::size_t a = 0; a < 3; ++a)
@@ -33,7 +33,7 @@ inline constexpr auto products_of_four = [] {
   return table;
 }();
 
-/// ... and for three.
+/// monomial_of(a, b, c) as a table.
 inline constexpr auto products_of_three = [] {
   std::array<std::array<std::array<std::size_t, 3>, 3>, 3> table{};
   for (std::size_t a = 0; a < 3; ++a)
@@ -42,7 +42,7 @@ inline constexpr auto products_of_three = [] {
   return table;
 }();
 
-/// A^-1 for the map A = R2 S R1 of proposition 1, and A.
+/// The map A = R2 S R1 of proposition 1 (`matrix`) and its inverse.
 template <class FT>
 struct Simplifying_map_3 {
   Matrix_3<FT> matrix, inverse;
@@ -88,7 +88,7 @@ private:
   }
 };
 
-/// The derivatives of f(A^-1 p), by equation (4) as it stands.
+/// The derivatives of f(A^-1 p), by equation (4) of the paper without any rearrangement.
 template <class FT>
 std::array<FT, maximal_number_of_monomials> mapped_derivatives(const std::array<FT, maximal_number_of_monomials>& f,
                                                                const Matrix_3<FT>& inverse) {
@@ -123,7 +123,7 @@ std::array<FT, maximal_number_of_monomials> mapped_derivatives(const std::array<
   return g;
 }
 
-/// The formulas of section 3(b) for f_x = f_y = f_xy = 0, f_z = 1, or with x and y exchanged.
+/// The formulas of section 3(b), which hold where f_x = f_y = f_xy = 0 and f_z = 1; on demand with x and y exchanged.
 template <class FT>
 struct Simplified_formulas_3 {
   const std::array<FT, maximal_number_of_monomials>& f;
@@ -133,14 +133,14 @@ struct Simplified_formulas_3 {
     return f[std::size_t(exchanged ? monomial_index(j, i, k) : monomial_index(i, j, k))];
   }
 
-  /// xi_1 4 d^2 / |d|^(1/4)
+  /// xi_1 times 4 d^2 / |d|^(1/4).
   FT normal() const {
     const auto& D = *this;
     const FT xx = D(2, 0, 0), yy = D(0, 2, 0);
     return yy * yy * D(3, 0, 0) + xx * yy * D(1, 2, 0) - FT(4) * xx * yy * yy * D(1, 0, 1);
   }
 
-  /// 16 b_11 f_xx^3 f_yy^2 / |d|^(1/4), as in doc/errata.md
+  /// b_11 times 16 f_xx^3 f_yy^2 / |d|^(1/4), with the correction of doc/errata.md.
   FT b11() const {
     const auto& D = *this;
     const FT xx = D(2, 0, 0), yy = D(0, 2, 0), xz = D(1, 0, 1), yz = D(0, 1, 1), zz = D(0, 0, 2);
@@ -153,7 +153,7 @@ struct Simplified_formulas_3 {
            FT(4) * xx * D(4, 0, 0) * yy2 + FT(12) * xx * xxy * xxy * yy + FT(7) * xxx * xxx * yy2;
   }
 
-  /// 16 b_21 f_xx^3 f_yy^2 / |d|^(1/4)
+  /// b_21 times 16 f_xx^3 f_yy^2 / |d|^(1/4).
   FT b21() const {
     const auto& D = *this;
     const FT xx = D(2, 0, 0), yy = D(0, 2, 0), xz = D(1, 0, 1), yz = D(0, 1, 1);

@@ -37,8 +37,8 @@ inline void write_column_facts(std::ostream& json, const Vertex_attributes& attr
          << ",\"label\":" << json_string(known ? known->label : column.name)
          << ",\"symbol\":" << json_string(known ? known->symbol : "")
          << ",\"group\":" << json_string(known ? known->group : "") << ",\"weight\":" << (known ? known->weight : 0)
-         << ",\"order\":" << (known ? known - quantities.data() : std::ptrdiff_t(quantities.size()))
-         << ",\"resolution\":" << resolution(column.name, diagonal) << '}';
+         << ",\"order\":" << rank_of_quantity(column.name)
+         << ",\"resolution\":" << rounding_of_quantity(column.name, diagonal) << '}';
     separator = ",\n";
   }
 }

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The table of all attributes. A new one is a row here: columns of files, lists of names, property maps of `annotate`,
+// web pages, pictures and the help of the program follow.
+#ifndef EQUIAFFINE_ATTRIBUTES_ATTRIBUTE_TABLE_H
+#define EQUIAFFINE_ATTRIBUTES_ATTRIBUTE_TABLE_H
+
+#include <equiaffine/geometry/Local_structure_3.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+namespace equiaffine {
+
+/// The named lists that an attribute belongs to, as bits. One that is in none of them is computed only where it is
+/// asked for by its name.
+namespace attribute_lists {
+
+inline constexpr unsigned none = 0, all = 1, basic = 2 | all, signature = 4;
+
+} // namespace attribute_lists
+
+/// How a scalar attribute is called where people read it.
+struct Quantity {
+  std::string_view label;  ///< empty: people read the name
+  std::string_view symbol; ///< UTF-8
+  std::string_view group;
+  int weight = 0;      ///< under p -> s p the number is multiplied by s^(weight / 2)
+  int rank = unranked; ///< what has a smaller one is offered first
+
+  static constexpr int unranked = 10; ///< offered after all others, in the order of the columns
+};
+
+/// A scalar, or a vector or form with several components.
+template <class FT>
+struct Attribute_row {
+  std::string_view name;
+  std::array<std::string_view, 6> components; ///< their names in files; empty for a scalar, which has that of the row
+  unsigned lists;                             ///< of `attribute_lists`
+  /// The component with the given number. Null for numbers that a local structure does not have.
+  FT (*get)(const Local_structure_3<FT>&, std::size_t component);
+  Quantity quantity = {};
+  std::optional<std::size_t> gradient = {}; ///< the number is the one with this index in affine_gradient_norms()
+
+  constexpr bool is_scalar() const { return components[0].empty(); }
+
+  constexpr std::size_t size() const {
+    std::size_t count = 0;
+    while (count < components.size() && !components[count].empty()) ++count;
+    return is_scalar() ? 1 : count;
+  }
+
+  /// The name of a column of a file.
+  constexpr std::string_view column(std::size_t component) const { return is_scalar() ? name : components[component]; }
+};
+
+/// All attributes in the order of the columns of a file.
+template <class FT>
+inline constexpr auto attribute_table = [] {
+  using namespace attribute_lists;
+  using Row = Attribute_row<FT>;
+  return std::array{
+      Row{"normal", {"nx", "ny", "nz"}, basic, [](const auto& s, auto i) { return s.euclidean.normal[i]; }},
+      Row{"k1",
+          {},
+          basic,
+          [](const auto& s, auto) { return s.euclidean.k1; },
+          {"Principal curvature 1", "k₁", "Euclidean", -2, 8}},
+      Row{"k2",
+          {},
+          basic,
+          [](const auto& s, auto) { return s.euclidean.k2; },
+          {"Principal curvature 2", "k₂", "Euclidean", -2, 9}},
+      Row{"gaussian_curvature",
+          {},
+          basic,
+          [](const auto& s, auto) { return s.euclidean.gaussian_curvature; },
+          {"Gaussian curvature", "Kₑ", "Euclidean", -4, 6}},
+      Row{"mean_curvature",
+          {},
+          basic,
+          [](const auto& s, auto) { return s.euclidean.mean_curvature; },
+          {"Mean curvature", "Hₑ", "Euclidean", -2, 7}},
+      Row{"conormal",
+          {"conormal_x", "conormal_y", "conormal_z"},
+          basic,
+          [](const auto& s, auto i) { return s.affine.conormal[i]; }},
+      Row{"affine_normal",
+          {"affine_normal_x", "affine_normal_y", "affine_normal_z"},
+          basic,
+          [](const auto& s, auto i) { return s.affine.normal[i]; }},
+      Row{"affine_gaussian_curvature",
+          {},
+          basic | signature,
+          [](const auto& s, auto) { return s.affine.gaussian_curvature; },
+          {"Affine Gaussian curvature", "K", "Affine", -6, 0}},
+      Row{"affine_mean_curvature",
+          {},
+          basic | signature,
+          [](const auto& s, auto) { return s.affine.mean_curvature; },
+          {"Affine mean curvature", "H", "Affine", -3, 1}},
+      Row{"pick_invariant",
+          {},
+          basic | signature,
+          [](const auto& s, auto) { return s.affine.pick_invariant; },
+          {"Pick invariant", "J", "Affine", -3, 2}},
+      Row{"affine_k1",
+          {},
+          all,
+          [](const auto& s, auto) { return s.affine.k1; },
+          {"Affine principal curvature 1", "κ₁", "Affine", -3, 3}},
+      Row{"affine_k2",
+          {},
+          all,
+          [](const auto& s, auto) { return s.affine.k2; },
+          {"Affine principal curvature 2", "κ₂", "Affine", -3, 4}},
+      Row{"direction1",
+          {"direction1_x", "direction1_y", "direction1_z"},
+          all,
+          [](const auto& s, auto i) { return s.euclidean.direction1[i]; }},
+      Row{"direction2",
+          {"direction2_x", "direction2_y", "direction2_z"},
+          all,
+          [](const auto& s, auto i) { return s.euclidean.direction2[i]; }},
+      Row{"metric",
+          {"metric_xx", "metric_xy", "metric_xz", "metric_yy", "metric_yz", "metric_zz"},
+          all,
+          [](const auto& s, auto i) { return s.affine.metric[i]; }},
+      Row{"quadric_defect",
+          {},
+          none,
+          [](const auto& s, auto) { return s.affine.quadric_defect; },
+          {"Quadric defect", "|T| / |II|²", "Affine", 0, 5}},
+      Row{"affine_gaussian_curvature_gradient", {}, signature, nullptr, {}, 0},
+      Row{"affine_mean_curvature_gradient", {}, signature, nullptr, {}, 1},
+      Row{"pick_invariant_gradient", {}, signature, nullptr, {}, 2},
+  };
+}();
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Columns of attributes, block by block: f is expanded at the points of a block, the expansions are measured in packs,
+// and points that are not regular are done again one by one.
+#ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_COMPUTE_COLUMNS_H
+#define EQUIAFFINE_ATTRIBUTES_INTERNAL_COMPUTE_COLUMNS_H
+
+#include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/attributes/internal/Expanded_block.h>
+#include <equiaffine/attributes/internal/structure_by.h>
+#include <equiaffine/base/parallel_for.h>
+#include <equiaffine/geometry/affine_gradients.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// Some rows of the columns of a result, one per point of a block.
+struct Attribute_rows {
+  const std::vector<Attribute>& attributes;
+  std::vector<Vertex_attributes::Column>& columns; ///< one per attribute
+  std::span<Point_status> status;                  ///< of these rows
+  std::size_t first;                               ///< of these rows in the columns
+
+  double& number(std::size_t row, std::size_t column) const { return columns[column].values[first + row]; }
+
+  void set(std::size_t row, const Local_structure_3<double>& structure) const {
+    status[row] = structure.status;
+    for (std::size_t c = 0; c < attributes.size(); ++c) number(row, c) = attributes[c].get(structure);
+  }
+};
+
+/// Fills the rows of the points of a pack that are regular, and does the others one by one, to find out what they are.
+inline void measure_pack(const Expanded_block& block, std::size_t n, const Attribute_rows& rows) {
+  using Lanes = Expanded_block::Lanes;
+  const auto pack = regular_structure(block.jets[n], block.points_of_pack(n), block.rounding_of_pack(n));
+  const std::size_t begin = n * Lanes::size, count = std::min(Lanes::size, block.number_of_points - begin);
+  for (std::size_t c = 0; c < rows.attributes.size(); ++c) {
+    const Lanes numbers = rows.attributes[c].get(pack.structure);
+    for (std::size_t i = 0; i < count; ++i) rows.number(begin + i, c) = numbers[i];
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    rows.status[begin + i] = Point_status::REGULAR;
+    if (!pack.is_regular[i])
+      rows.set(begin + i, irregular_structure(block.jet(begin + i), pack.is_steep[i], block.rounding(begin + i)));
+  }
+}
+
+/// Fills the rows with the estimator in `parameters`. Packs serve our own estimator only.
+template <class Parameters>
+void measure_block(const Expanded_block& block, const Parameters& parameters, const Attribute_rows& rows) {
+  if (get_parameter<Estimator_tag>(parameters, Estimator::COMPACT) == Estimator::COMPACT) {
+    for (std::size_t n = 0; n < block.number_of_packs(); ++n) measure_pack(block, n, rows);
+  } else {
+    for (std::size_t i = 0; i < block.number_of_points; ++i)
+      rows.set(i, structure_by(parameters, block.jet(i), block.point(i), block.rounding(i)));
+  }
+}
+
+/// Fills the columns of norms of gradients, if there are any.
+template <class Traits>
+void measure_gradients(const Traits& traits, std::span<const typename Traits::Point_3> points,
+                       const Attribute_rows& rows) {
+  const auto gradient = [&](std::size_t c) { return attribute_table<double>[rows.attributes[c].row].gradient; };
+  std::vector<std::size_t> columns;
+  for (std::size_t c = 0; c < rows.attributes.size(); ++c)
+    if (gradient(c)) columns.push_back(c);
+  for (std::size_t i = 0; i < points.size() && !columns.empty(); ++i) {
+    const auto norms = affine_gradient_norms(traits, points[i]);
+    for (const std::size_t c : columns) rows.number(i, c) = norms[*gradient(c)];
+  }
+}
+
+template <class ConcurrencyTag, class Traits, class Parameters>
+Vertex_attributes compute_columns(const Traits& traits, std::span<const typename Traits::Point_3> points,
+                                  const Attribute_selection& selection, std::span<const Point_status> sampled_status,
+                                  const Parameters& parameters) {
+  Vertex_attributes result;
+  if (selection.columns.empty() && !selection.has_status) return result;
+  for (const Attribute& attribute : selection.columns)
+    result.columns.push_back({std::string(attribute.name), std::vector<double>(points.size())});
+  std::vector<Point_status> status(points.size());
+  constexpr std::size_t block = Expanded_block::points;
+  parallel_for<ConcurrencyTag>(
+      0, (points.size() + block - 1) / block,
+      [&](std::size_t n) {
+        const std::size_t first = n * block, count = std::min(block, points.size() - first);
+        const auto points_of_block = points.subspan(first, count);
+        const Attribute_rows rows{selection.columns, result.columns, std::span(status).subspan(first, count), first};
+        measure_block(expand_block(traits, points_of_block), parameters, rows);
+        measure_gradients(traits, points_of_block, rows);
+        for (std::size_t i = first; i < first + count && !sampled_status.empty(); ++i)
+          status[i] = status_after_sampling(status[i], sampled_status[i]);
+      },
+      256 / block);
+  if (selection.has_status) result.status = std::move(status);
+  return result;
+}
+
+} // namespace equiaffine::internal
+
+#endif

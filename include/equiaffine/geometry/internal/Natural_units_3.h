@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_GEOMETRY_INTERNAL_NATURAL_UNITS_3_H
+#define EQUIAFFINE_GEOMETRY_INTERNAL_NATURAL_UNITS_3_H
+
+#include <equiaffine/geometry/affine_structure.h>
+#include <equiaffine/geometry/euclidean_structure.h>
+#include <equiaffine/number/Jet_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace equiaffine::internal {
+
+/// A unit of f, which makes the largest |f_i| about 1, and one of length, which makes the largest second derivative
+/// about 1. Both are powers of 2, the exponent of length a multiple of 4, so that changing units changes no bit of a
+/// number in range.
+template <class FT>
+struct Natural_units_3 {
+  int of_f = 0, of_length = 0; ///< exponents
+
+  explicit Natural_units_3(const Jet_3<FT>& jet) {
+    const int first = exponent(jet, 1, 4), second = exponent(jet, 4, 10);
+    if (first == none || second == none) return;
+    of_length = (first - second) / 4 * 4;
+    of_f = first + of_length;
+  }
+
+  Jet_3<FT> apply(Jet_3<FT> jet) const {
+    using std::ldexp;
+    for (std::size_t n = 0; n < jet.size; ++n) {
+      FT& x = jet.coefficients()[n];
+      x = ldexp(x, monomials[n].degree() * of_length - of_f);
+    }
+    return jet;
+  }
+
+  FT second_derivative(const FT& x) const {
+    using std::ldexp;
+    return ldexp(x, 2 * of_length - of_f);
+  }
+
+  /// Back to the old units, by the weights of doc/conventions.md.
+  void restore(Euclidean_structure_3<FT>& e, Affine_structure_3<FT>& a) const {
+    using std::ldexp;
+    const auto restore_all = [&](int quarters, auto&... x) { ((x = ldexp(x, of_length / 4 * quarters)), ...); };
+    restore_all(-4, e.k1, e.k2, e.mean_curvature);
+    restore_all(-8, e.gaussian_curvature, a.apolar_cubic[0], a.apolar_cubic[1], a.apolar_cubic[2], a.apolar_cubic[3]);
+    restore_all(-12, a.gaussian_curvature);
+    restore_all(-6, a.mean_curvature, a.pick_invariant, a.k1, a.k2);
+    for (FT& x : a.shape_operator) restore_all(-6, x);
+    for (FT& x : a.conormal) restore_all(2, x);
+    for (FT& x : a.normal) restore_all(-2, x);
+    for (FT& x : a.metric) restore_all(-2, x);
+  }
+
+private:
+  static constexpr int none = std::numeric_limits<int>::min();
+
+  /// The binary exponent of the largest of the coefficients [begin, end).
+  static int exponent(const Jet_3<FT>& jet, std::size_t begin, std::size_t end) {
+    using std::abs;
+    using std::frexp;
+    FT largest(0);
+    for (std::size_t n = begin; n < end; ++n) largest = std::max(largest, FT(abs(jet.coefficients()[n])));
+    int result = none;
+    if (largest > FT(0)) frexp(largest, &result);
+    return result;
+  }
+};
+
+} // namespace equiaffine::internal
+
+#endif

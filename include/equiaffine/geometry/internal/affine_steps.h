@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The steps from a chart to the affine invariants, in the notation of affine_structure.h: p is the quadratic form of
+// the chart, C = t + 3 sym(v p) its cubic form. Operations are counted by a test.
+#ifndef EQUIAFFINE_GEOMETRY_INTERNAL_AFFINE_STEPS_H
+#define EQUIAFFINE_GEOMETRY_INTERNAL_AFFINE_STEPS_H
+
+#include <equiaffine/geometry/Monge_chart_3.h>
+#include <equiaffine/number/lanes.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace equiaffine {
+
+template <class FT>
+struct Affine_invariants_3;
+
+namespace internal {
+
+/// A form of the given degree in two variables, by its symmetric coefficients.
+template <class FT, std::size_t Degree>
+using Binary_form = std::array<FT, Degree + 1>;
+
+/// The value of a linear form on a vector.
+template <class FT>
+FT linear_form_at(const Binary_form<FT, 1>& form, const std::array<FT, 2>& x) {
+  return form[0] * x[0] + form[1] * x[1];
+}
+
+/// p^-1, which raises indices and takes traces.
+template <class FT>
+struct Inverse_form {
+  FT reciprocal;               // 1 / det p
+  FT i11, i12, i22, i12_twice; // p^-1 but for the sign of i12
+
+  explicit Inverse_form(const Monge_chart_3<FT>& chart) {
+    const auto& p = chart.quadratic;
+    reciprocal = FT(1) / chart.determinant;
+    i11 = p[2] * reciprocal;
+    i12 = p[1] * reciprocal;
+    i22 = p[0] * reciprocal;
+    i12_twice = i12 + i12;
+  }
+
+  /// p^-1 x
+  std::array<FT, 2> raise(const Binary_form<FT, 1>& x) const {
+    return {i11 * x[0] - i12 * x[1], i22 * x[1] - i12 * x[0]};
+  }
+
+  /// The trace of a quadratic form.
+  FT trace(const FT& uu, const FT& uv, const FT& vv) const { return i11 * uu - i12_twice * uv + i22 * vv; }
+
+  /// The trace of a cubic form over two of its arguments.
+  Binary_form<FT, 1> trace(const Binary_form<FT, 3>& c) const {
+    return {trace(c[0], c[1], c[2]), trace(c[1], c[2], c[3])};
+  }
+
+  /// The trace of a quartic form over two of its arguments.
+  Binary_form<FT, 2> trace(const Binary_form<FT, 4>& r) const {
+    return {trace(r[0], r[1], r[2]), trace(r[1], r[2], r[3]), trace(r[2], r[3], r[4])};
+  }
+};
+
+/// A cubic form with a vector as one of its arguments.
+template <class FT>
+Binary_form<FT, 2> contract(const Binary_form<FT, 3>& c, const std::array<FT, 2>& u) {
+  return {c[0] * u[0] + c[1] * u[1], c[1] * u[0] + c[2] * u[1], c[2] * u[0] + c[3] * u[1]};
+}
+
+/// C = t + 3 sym(v p) with t apolar.
+template <class FT>
+struct Cubic_parts {
+  Binary_form<FT, 1> v, v_thrice;
+  Binary_form<FT, 3> t;
+
+  Cubic_parts(const Monge_chart_3<FT>& chart, const Inverse_form<FT>& inverse) {
+    const auto &p = chart.quadratic, trace = inverse.trace(chart.cubic);
+    const auto& c = chart.cubic;
+    v = {trace[0] * FT(0.25), trace[1] * FT(0.25)};
+    v_thrice = {v[0] * FT(3), v[1] * FT(3)};
+    const FT p1_twice = p[1] + p[1];
+    t = {c[0] - v_thrice[0] * p[0], c[1] - (v[1] * p[0] + v[0] * p1_twice), c[2] - (v[0] * p[2] + v[1] * p1_twice),
+         c[3] - v_thrice[1] * p[2]};
+  }
+};
+
+/// -|t|^2 / 2, from the Hessian covariant of t, which is this times det p times p.
+template <class FT>
+FT minus_half_squared_norm(const Binary_form<FT, 3>& t, const Inverse_form<FT>& inverse) {
+  const auto& [reciprocal, i11, i12, i22, i12_twice] = inverse;
+  return reciprocal *
+         (i11 * (t[0] * t[2] - t[1] * t[1]) - i12 * (t[0] * t[3] - t[1] * t[2]) + i22 * (t[1] * t[3] - t[2] * t[2]));
+}
+
+/// N = tr R - D - C(u) + 3 v v^T, where u is 3 alpha + 6 p^-1 v.
+template <class FT>
+Binary_form<FT, 2> fourth_order_form(const Monge_chart_3<FT>& chart, const Inverse_form<FT>& inverse,
+                                     const Cubic_parts<FT>& cubic, const std::array<FT, 2>& u) {
+  const auto trace = inverse.trace(chart.quartic), contracted = contract<FT>(chart.cubic, u);
+  const auto& m = chart.mixed_quadratic;
+  const auto& [v, v_thrice, t] = cubic;
+  return {trace[0] - m[0] - contracted[0] + v_thrice[0] * v[0], trace[1] - m[1] - contracted[1] + v_thrice[0] * v[1],
+          trace[2] - m[2] - contracted[2] + v_thrice[1] * v[1]};
+}
+
+/// B = `factor` (p^-1 N + sigma I), row by row.
+template <class FT>
+std::array<FT, 4> affine_shape_operator(const Inverse_form<FT>& inverse, const Binary_form<FT, 2>& n, const FT& sigma,
+                                        const FT& factor) {
+  const auto& [reciprocal, i11, i12, i22, i12_twice] = inverse;
+  const FT cross = i12 * n[1];
+  return {factor * (i11 * n[0] - cross + sigma), factor * (i11 * n[1] - i12 * n[2]), factor * (i22 * n[1] - i12 * n[0]),
+          factor * (i22 * n[2] - cross + sigma)};
+}
+
+template <class FT>
+Affine_invariants_3<FT> affine_invariants_of(const Monge_chart_3<FT>& chart) {
+  using std::abs;
+  using std::sqrt;
+  const FT &a = chart.a, &b = chart.b;
+  const auto& m = chart.mixed_quadratic;
+  const Inverse_form<FT> inverse(chart);
+  const Cubic_parts<FT> cubic(chart, inverse);
+  const auto& v = cubic.v;
+  const Binary_form<FT, 1> l = {chart.mixed[0] * FT(-0.5), chart.mixed[1] * FT(-0.5)};
+  const std::array<FT, 2> alpha = inverse.raise(l), x = inverse.raise(v);
+  const std::array<FT, 2> w = {x[0] * FT(1.5), x[1] * FT(1.5)}; // 3/2 p^-1 v
+  const FT minus_half_t2 = minus_half_squared_norm(cubic.t, inverse);
+  const auto n =
+      fourth_order_form<FT>(chart, inverse, cubic, {FT(3) * alpha[0] + FT(4) * w[0], FT(3) * alpha[1] + FT(4) * w[1]});
+  const FT sigma = linear_form_at<FT>(v, {w[0] - (alpha[0] + alpha[0]), w[1] - (alpha[1] + alpha[1])}) +
+                   FT(0.75) * minus_half_t2 + fraction<4, 3, FT>() * (chart.e - linear_form_at<FT>(l, alpha)) -
+                   inverse.trace(m[0], m[1], m[2]) * fraction<1, 6, FT>();
+
+  // Powers of |d|: `square` is the root, `length` is s times the fourth root, and `reciprocal_length` 1 / length.
+  const FT square = FT(2) * sqrt(abs(chart.determinant)), length = chart.sign * sqrt(square);
+  const FT reciprocal_length = length * square * abs(inverse.reciprocal) * FT(0.25);
+  Affine_invariants_3<FT> s;
+  s.conormal = chart.unpermuted(a * reciprocal_length, b * reciprocal_length, reciprocal_length);
+  s.slope = {alpha[0] + w[0], alpha[1] + w[1]};
+  const FT xi1 = length * s.slope[0], xi2 = length * s.slope[1];
+  s.normal = chart.unpermuted(xi1, xi2, length - a * xi1 - b * xi2);
+  s.shape_operator = affine_shape_operator<FT>(inverse, n, sigma, FT(-1.5) * length);
+  const auto& [b11, b12, b21, b22] = s.shape_operator;
+  s.gaussian_curvature = b11 * b22 - b12 * b21;
+  s.mean_curvature = (b11 + b22) * FT(0.5);
+  s.pick_invariant = FT(1.125) * length * minus_half_t2;
+  s.apolar_cubic = cubic.t;
+  return s;
+}
+
+/// Eigenvalues, the larger one first; NaN where they are complex.
+template <class FT>
+struct Real_eigenvalues {
+  Mask_of<FT> exist;
+  FT larger, smaller;
+};
+
+/// The eigenvalues of B: real for a definite metric, for which B is self-adjoint; else by the sign of the discriminant,
+/// which counts as zero (a double eigenvalue) within the rounding errors of B.
+template <class FT>
+Real_eigenvalues<FT> affine_principal_curvatures(const Affine_invariants_3<FT>& s, const Mask_of<FT>& is_definite) {
+  using std::abs;
+  using std::sqrt;
+  const auto& [b11, b12, b21, b22] = s.shape_operator;
+  const FT half_difference = (b11 - b22) * FT(0.5), product = b12 * b21;
+  const FT discriminant = half_difference * half_difference + product;
+  const FT rounding = FT(1000) * FT(std::numeric_limits<FT>::epsilon());
+  const FT size = abs(b11) + abs(b22) + sqrt(FT(abs(product)));
+  const Mask_of<FT> are_real = is_definite || discriminant >= -(rounding * rounding * size * size);
+  const FT radius = sqrt(select(discriminant > FT(0), discriminant, FT(0)));
+  const FT nan = std::numeric_limits<FT>::quiet_NaN();
+  return {are_real, select(are_real, FT(s.mean_curvature + radius), nan),
+          select(are_real, FT(s.mean_curvature - radius), nan)};
+}
+
+/// s h / |d|^(1/4) in the covectors dual to e_u, e_v that vanish on xi.
+template <class FT>
+std::array<FT, 6> affine_metric(const Affine_invariants_3<FT>& s, const Monge_chart_3<FT>& chart) {
+  using std::abs;
+  using std::sqrt;
+  const FT factor = FT(-2) * chart.sign / sqrt(FT(FT(2) * sqrt(FT(abs(chart.determinant)))));
+  const auto& [p11, p12, p22] = chart.quadratic;
+  const auto& [x1, x2] = s.slope;
+  const auto u = chart.unpermuted(FT(1) - x1 * chart.a, -(x1 * chart.b), -x1);
+  const auto v = chart.unpermuted(-(x2 * chart.a), FT(1) - x2 * chart.b, -x2);
+  std::array<FT, 6> metric;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i; j < 3; ++j)
+      metric[n++] = factor * (p11 * u[i] * u[j] + p12 * (u[i] * v[j] + v[i] * u[j]) + p22 * v[i] * v[j]);
+  return metric;
+}
+
+/// |T| / |II|^2 from the forms in the orthonormal tangent basis s = x e_u, t = y e_u + z e_v of euclidean_structure().
+template <class FT>
+FT quadric_defect(const Affine_invariants_3<FT>& s, const Monge_chart_3<FT>& chart) {
+  using std::sqrt;
+  const FT e = FT(1) + chart.a * chart.a, length = sqrt(FT(e + chart.b * chart.b)), root = sqrt(e);
+  const FT x = FT(1) / root, z = root / length, y = -(chart.a * chart.b) * z / e;
+  const auto& [p11, p12, p22] = chart.quadratic;
+  const auto& [t0, t1, t2, t3] = s.apolar_cubic;
+  const FT q12 = x * (y * p11 + z * p12), q22 = y * y * p11 + FT(2) * y * z * p12 + z * z * p22, q11 = x * x * p11;
+  const FT c0 = x * x * x * t0, c1 = x * x * (y * t0 + z * t1), c2 = x * (y * y * t0 + FT(2) * y * z * t1 + z * z * t2);
+  const FT c3 = y * y * (y * t0 + FT(3) * z * t1) + z * z * (FT(3) * y * t2 + z * t3);
+  const FT cubic = sqrt(FT(c0 * c0 + FT(3) * (c1 * c1 + c2 * c2) + c3 * c3));
+  return FT(1.5) * length * cubic / (q11 * q11 + FT(2) * q12 * q12 + q22 * q22);
+}
+
+} // namespace internal
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The steps from a chart to the Euclidean structure.
+#ifndef EQUIAFFINE_GEOMETRY_INTERNAL_EUCLIDEAN_STEPS_H
+#define EQUIAFFINE_GEOMETRY_INTERNAL_EUCLIDEAN_STEPS_H
+
+#include <equiaffine/geometry/Monge_chart_3.h>
+#include <equiaffine/geometry/internal/hypotenuse.h>
+
+#include <array>
+#include <cmath>
+
+namespace equiaffine {
+
+template <class FT>
+struct Euclidean_structure_3;
+
+namespace internal {
+
+/// The orthonormal tangent basis t1 = e_u / sqrt(e), t2 = (e_v - f e_u) sqrt(e) / w of a chart.
+template <class FT>
+struct Orthonormal_basis {
+  FT e;     // |e_u|^2
+  FT w2, w; // |e_u x e_v|^2, and its root
+  FT f;     // <e_u, e_v> / e
+
+  explicit Orthonormal_basis(const Monge_chart_3<FT>& chart) {
+    using std::sqrt;
+    const FT &a = chart.a, &b = chart.b;
+    e = FT(1) + a * a;
+    w2 = e + b * b;
+    w = sqrt(w2);
+    f = a * b / e;
+  }
+};
+
+/// The coefficients of the second fundamental form in an orthonormal tangent basis.
+template <class FT>
+struct Second_fundamental_form {
+  FT l, m, n;
+
+  /// `r` is the third component of the unit normal in the chart.
+  Second_fundamental_form(const Monge_chart_3<FT>& chart, const Orthonormal_basis<FT>& basis, const FT& r) {
+    const auto& [e, w2, w, f] = basis;
+    const FT huu = chart.h_uu(), huv = chart.h_uv(), hvv = chart.h_vv();
+    l = r * huu / e;
+    m = r * (huv - f * huu) / w;
+    n = r * (hvv - f * (FT(2) * huv - f * huu)) * e / w2;
+  }
+};
+
+/// Sets k1 and k2 from their mean, their product and half their difference, `radius`.
+template <class FT>
+void set_principal_curvatures(Euclidean_structure_3<FT>& s, const FT& radius) {
+  const FT zero(0);
+  // The curvature of larger magnitude has no cancellation, the other one follows from the product.
+  const auto first_is_larger = s.mean_curvature >= zero;
+  const FT larger = s.mean_curvature + select(first_is_larger, radius, FT(-radius));
+  const FT smaller = select(larger == zero, zero, FT(s.gaussian_curvature / larger));
+  // At an umbilic both are equal, whatever the rounding.
+  s.k1 = select(first_is_larger || smaller < larger, larger, smaller);
+  s.k2 = select(first_is_larger && smaller < larger, smaller, larger);
+}
+
+/// Sets the principal directions: that of k1 is an eigenvector of the form; at an umbilic any direction will do.
+template <class FT>
+void set_principal_directions(Euclidean_structure_3<FT>& s, const Monge_chart_3<FT>& chart,
+                              const Orthonormal_basis<FT>& basis, const FT& half_difference, const FT& m,
+                              const FT& radius) {
+  using std::abs;
+  using std::sqrt;
+  const FT zero(0);
+  const auto along_first = half_difference >= zero;
+  const FT sum = radius + abs(half_difference);
+  // The direction is c t1 + t t2.
+  FT c = select(along_first, sum, FT(abs(m))), t = select(along_first, m, select(m < zero, FT(-sum), sum));
+  const FT length = hypotenuse(c, t);
+  const auto is_umbilic = length == zero;
+  c = select(is_umbilic, FT(1), FT(c / length));
+  t = select(is_umbilic, zero, FT(t / length));
+  const FT sqrt_e = sqrt(basis.e);
+  const FT u2 = -basis.f * sqrt_e / basis.w, v2 = sqrt_e / basis.w; // t2 = u2 e_u + v2 e_v
+  s.direction1 = chart.tangent(c / sqrt_e + t * u2, t * v2);
+  s.direction2 = chart.tangent(chart.sign * (c * u2 - t / sqrt_e), chart.sign * c * v2);
+}
+
+template <class FT>
+Euclidean_structure_3<FT> euclidean_structure_of(const Monge_chart_3<FT>& chart) {
+  const Orthonormal_basis<FT> basis(chart);
+  const FT r = chart.sign / basis.w;
+  const Second_fundamental_form<FT> form(chart, basis, r);
+  const FT half_difference = (form.l - form.n) / FT(2), radius = hypotenuse(half_difference, form.m);
+  Euclidean_structure_3<FT> s;
+  s.normal = chart.unpermuted(chart.a * r, chart.b * r, r);
+  s.mean_curvature = (form.l + form.n) / FT(2);
+  s.gaussian_curvature = chart.d() / (basis.w2 * basis.w2);
+  set_principal_curvatures(s, radius);
+  set_principal_directions(s, chart, basis, half_difference, form.m, radius);
+  return s;
+}
+
+} // namespace internal
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_GEOMETRY_INTERNAL_HYPOTENUSE_H
+#define EQUIAFFINE_GEOMETRY_INTERNAL_HYPOTENUSE_H
+
+#include <equiaffine/number/lanes.h>
+
+#include <cmath>
+
+namespace equiaffine::internal {
+
+/// sqrt(x^2 + y^2) for numbers and packs; the squares neither overflow nor underflow.
+template <class FT>
+FT hypotenuse(const FT& x, const FT& y) {
+  using std::abs;
+  using std::sqrt;
+  const FT u = abs(x), v = abs(y), large = select(u > v, u, v), small = select(u > v, v, u);
+  const FT ratio = select(large == FT(0), FT(0), FT(small / large));
+  return large * sqrt(FT(FT(1) + ratio * ratio));
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From the jet at a point to its structure: directly where the point is regular, else in natural units.
+#ifndef EQUIAFFINE_GEOMETRY_INTERNAL_STRUCTURE_OF_JET_H
+#define EQUIAFFINE_GEOMETRY_INTERNAL_STRUCTURE_OF_JET_H
+
+#include <equiaffine/geometry/Monge_chart_3.h>
+#include <equiaffine/geometry/Point_status.h>
+#include <equiaffine/geometry/internal/Natural_units_3.h>
+#include <equiaffine/geometry/internal/missing_structure.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+namespace equiaffine {
+
+template <class FT>
+struct Local_structure_3;
+template <class FT>
+struct Regular_structure_3;
+
+namespace internal {
+
+/// The rounding, if there is any.
+template <class FT>
+std::optional<FT> positive(const FT& rounding) {
+  if (rounding > FT(0)) return rounding;
+  return std::nullopt;
+}
+
+/// The chart in which a gradient and a d that rounding could have made count as zero.
+template <class FT>
+Monge_chart_3<FT> chart_within_rounding(const Jet_3<FT>& jet, const std::array<FT, 3>& point,
+                                        const std::optional<FT>& rounding) {
+  Monge_chart_3<FT> chart(jet);
+  chart.take_gradient_within_rounding_for_zero(point, jet);
+  if (rounding) chart.take_d_within_error_for_zero(jet, *rounding);
+  return chart;
+}
+
+/// Nothing here branches on values of FT.
+template <class FT>
+Regular_structure_3<FT> regular_structure_of(const Jet_3<FT>& jet, const std::array<FT, 3>& point,
+                                             const std::optional<FT>& rounding) {
+  const Monge_chart_3<FT> chart = chart_within_rounding(jet, point, rounding);
+  Regular_structure_3<FT> s{{Point_status::REGULAR, euclidean_structure(chart), affine_structure(chart)}, {}, {}, {}};
+  // Where d^2 underflows, products of as high a degree would, too, and unlike infinity would not be seen.
+  const Mask_of<FT> has_room = chart.determinant * chart.determinant >= FT(std::numeric_limits<FT>::min());
+  s.is_steep = chart.is_steep;
+  s.is_out_of_range = chart.is_curved && !has_room;
+  s.is_regular = has_room && chart.is_steep && chart.is_curved && is_finite_number(jet.value()) &&
+                 is_finite(s.structure.euclidean) && is_finite(s.structure.affine);
+  return s;
+}
+
+/// In natural units d decides what the point is, and no unit does; intermediate numbers stay in the range of FT.
+template <class FT>
+Local_structure_3<FT> irregular_structure_of(const Jet_3<FT>& jet, bool is_steep, const std::optional<FT>& rounding) {
+  Local_structure_3<FT> nothing{Point_status::SINGULAR, no_euclidean_structure<FT>(), no_affine_structure<FT>()};
+  const auto& c = jet.coefficients();
+  if (!is_finite_number(c[0])) nothing.status = Point_status::OUTSIDE;
+  const bool is_smooth = std::all_of(c.begin(), c.end(), [](const FT& x) { return is_finite_number(x); });
+  if (!is_smooth || !is_steep) return nothing;
+
+  const Natural_units_3<FT> units(jet);
+  const std::optional<FT> natural_rounding =
+      rounding ? std::optional<FT>(units.second_derivative(*rounding)) : std::nullopt;
+  const auto natural = regular_structure_of<FT>(units.apply(jet), {FT(0), FT(0), FT(0)}, natural_rounding);
+  Local_structure_3<FT> s = natural.structure;
+  units.restore(s.euclidean, s.affine);
+  const bool is_too_large = !is_finite(s.euclidean) || (natural.is_regular && !is_finite(s.affine));
+  if (natural.is_out_of_range || is_too_large) return nothing;
+  if (natural.is_regular) return s;
+  s.status = Point_status::PARABOLIC;
+  s.affine = nothing.affine;
+  return s;
+}
+
+} // namespace internal
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/Input_error.h>
+#include <equiaffine/attributes/Attribute_selection.h>
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+
+TEST(Attribute_selection, the_names_are_the_contract_in_its_order) {
+  const auto names = [](const char* list) {
+    std::string joined;
+    for (const Attribute& a : select_attributes(list).columns) joined += std::string(a.name) + " ";
+    return joined;
+  };
+  const std::string basic = "nx ny nz k1 k2 gaussian_curvature mean_curvature conormal_x conormal_y conormal_z "
+                            "affine_normal_x affine_normal_y affine_normal_z affine_gaussian_curvature "
+                            "affine_mean_curvature pick_invariant ";
+  EXPECT_EQ(names("basic"), basic);
+  EXPECT_EQ(names("all"), basic +
+                              "affine_k1 affine_k2 direction1_x direction1_y direction1_z direction2_x direction2_y "
+                              "direction2_z metric_xx metric_xy metric_xz metric_yy metric_yz metric_zz ");
+  EXPECT_EQ(names("none"), "");
+  EXPECT_EQ(names("metric_xx,normal,k2"), "nx ny nz k2 metric_xx ");
+  EXPECT_EQ(names("status"), "");
+  EXPECT_FALSE(select_attributes("none").has_status);
+  EXPECT_TRUE(select_attributes("status").has_status);
+  EXPECT_THROW(select_attributes("k3"), Input_error);
+  EXPECT_THROW(select_attributes("k1,"), Input_error);
+  EXPECT_THROW(select_attributes(""), Input_error);
+}
+
+std::string joined(const std::vector<std::string_view>& names) {
+  std::string result;
+  for (const std::string_view name : names) result += std::string(name) + " ";
+  return result;
+}
+
+TEST(Attribute_selection, names_for_people_have_vectors_by_one_name) {
+  const Attribute_names names = attribute_names();
+  EXPECT_EQ(joined(names.basic), "normal k1 k2 gaussian_curvature mean_curvature conormal affine_normal "
+                                 "affine_gaussian_curvature affine_mean_curvature pick_invariant ");
+  EXPECT_EQ(joined(names.added_by_all), "affine_k1 affine_k2 direction1 direction2 metric ");
+  EXPECT_EQ(joined(names.by_name), "quadric_defect ");
+  EXPECT_EQ(joined(names.signature), "affine_gaussian_curvature affine_mean_curvature pick_invariant "
+                                     "affine_gaussian_curvature_gradient affine_mean_curvature_gradient "
+                                     "pick_invariant_gradient ");
+}
+
+TEST(Attribute_selection, every_name_is_that_of_one_row) {
+  for (const auto& row : attribute_table<double>) {
+    const auto columns = select_attributes(row.name).columns;
+    ASSERT_EQ(columns.size(), row.size()) << row.name;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      EXPECT_EQ(columns[i].name, row.column(i));
+      EXPECT_EQ(select_attributes(row.column(i)).columns.size(), row.column(i) == row.name ? row.size() : 1);
+    }
+  }
+}
+
+} // namespace
