@@ -67,6 +67,29 @@ TEST(Attributes, unconverged_points_stay_unconverged_unless_they_are_outside) {
     EXPECT_EQ(local_structure_at(logarithm, p[i], sampled[i]).status, beside.status->at(i));
 }
 
+TEST(Attributes, numbers_made_of_principal_curvatures_have_the_same_bits_in_packs_and_exist_at_parabolic_points) {
+  const auto traits = traits_of("z-x^2-y^3"); // parabolic where y = 0, as on the axis
+  const auto p = points();
+  const auto selection = select_attributes("shape_index");
+  const auto batch = compute_attributes(traits, p, selection);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const auto single = local_structure_at(traits, p[i]);
+    EXPECT_EQ(single.status, p[i].y() == 0 ? Point_status::PARABOLIC : Point_status::REGULAR) << i;
+    for (std::size_t c = 0; c < selection.columns.size(); ++c) {
+      EXPECT_EQ(batch.columns[c].values[i], selection.columns[c].get(single)) << i;
+      EXPECT_TRUE(std::isfinite(batch.columns[c].values[i])) << i;
+    }
+  }
+}
+
+TEST(Attributes, planar_points_have_no_shape_index) {
+  const std::vector<Point_3> origin = {{0, 0, 0}};
+  const auto attributes = compute_attributes(traits_of("z-x^3-y^3"), origin, select_attributes("k1,shape_index"));
+  EXPECT_EQ(attributes.status->at(0), Point_status::PARABOLIC);
+  EXPECT_EQ(attributes.columns[0].values[0], 0);
+  EXPECT_TRUE(std::isnan(attributes.columns[1].values[0]));
+}
+
 TEST(Attributes, the_status_comes_without_columns_and_nothing_where_nothing_was_asked_for) {
   const auto p = points();
   const auto status = compute_attributes(torus(), p, select_attributes("status"));

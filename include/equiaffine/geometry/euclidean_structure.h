@@ -26,6 +26,15 @@ Euclidean_structure_3<FT> euclidean_structure(const Monge_chart_3<FT>& chart) {
   return internal::euclidean_structure_of(chart);
 }
 
+/// The shape index of principal curvatures k1 >= k2, (2 / pi) atan2(k1 + k2, k1 - k2), whatever the size of the
+/// surface: -1 on a sphere with outward normals, -1/2 on such a cylinder, 0 on a symmetric saddle, 1/2 and 1 on a
+/// cylinder and a sphere with inward normals. NaN where both curvatures are zero. See Koenderink, van Doorn: Surface
+/// shape and curvature scales, 1992.
+template <class FT>
+FT shape_index(const FT& k1, const FT& k2) {
+  return internal::shape_index_of(k1, k2);
+}
+
 } // namespace equiaffine
 
 #endif

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace equiaffine {
 
@@ -96,6 +97,13 @@ Euclidean_structure_3<FT> euclidean_structure_of(const Monge_chart_3<FT>& chart)
   set_principal_curvatures(s, radius);
   set_principal_directions(s, chart, basis, half_difference, form.m, radius);
   return s;
+}
+
+template <class FT>
+FT shape_index_of(const FT& k1, const FT& k2) {
+  using std::atan2;
+  const FT right_angle = atan2(FT(1), FT(0)), index = atan2(FT(k1 + k2), FT(k1 - k2)) / right_angle;
+  return select(k1 == FT(0) && k2 == FT(0), FT(std::numeric_limits<double>::quiet_NaN()), index);
 }
 
 } // namespace internal

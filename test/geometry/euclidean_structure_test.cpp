@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/Local_structure_3.h>
+#include <equiaffine/number/Pack.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace {
+
+using namespace equiaffine;
+
+template <class Function>
+Euclidean_structure_3<double> euclidean(const Function& f, double x, double y, double z) {
+  return local_structure(internal::expand<4, double>(f, x, y, z), {x, y, z}).euclidean;
+}
+
+const auto sphere = [](const auto& x, const auto& y, const auto& z) { return x * x + y * y + z * z; };
+const auto cylinder = [](const auto& x, const auto& y, const auto&) { return x * x + y * y; };
+const auto saddle = [](const auto& x, const auto& y, const auto& z) { return z - x * y; };
+const auto plane = [](const auto& x, const auto& y, const auto& z) { return x - 2.0 * y + 0.5 * z; };
+
+TEST(Shape_index, goes_from_a_sphere_with_outward_normals_to_one_with_inward_normals) {
+  const auto index = [](const auto& f, double x, double y, double z) {
+    const auto s = euclidean(f, x, y, z);
+    return shape_index(s.k1, s.k2);
+  };
+  EXPECT_EQ(index(sphere, 1, 2, -2), -1);
+  EXPECT_NEAR(index(cylinder, 3, 4, 1), -0.5, 1e-15);
+  EXPECT_NEAR(index(saddle, 0, 0, 0), 0, 1e-15);
+  EXPECT_EQ(index([](const auto& x, const auto& y, const auto& z) { return -sphere(x, y, z); }, 1, 2, -2), 1);
+  EXPECT_TRUE(std::isnan(index(plane, 1, 2, 3)));
+  EXPECT_NEAR(shape_index(3., 1.), 2 / std::acos(-1.) * std::atan2(4., 2.), 1e-15);
+}
+
+TEST(Shape_index, does_not_exist_where_the_curvatures_do_not) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(shape_index(nan, nan)));
+}
+
+TEST(Shape_index, of_a_lane_has_the_bits_of_that_of_a_number) {
+  using Lanes = Pack<double>;
+  for (int n = 1; n < 200; ++n) {
+    const auto k2 = [&](std::size_t i) { return std::sin(n + double(i)); };
+    const auto k1 = [&](std::size_t i) { return k2(i) + (n + int(i)) % 3 * 0.7; };
+    const Lanes lanes = shape_index(Lanes::generate(k1), Lanes::generate(k2));
+    for (std::size_t i = 0; i < Lanes::size; ++i) EXPECT_EQ(lanes[i], shape_index(k1(i), k2(i)));
+  }
+}
+
+} // namespace
