@@ -58,8 +58,9 @@ TEST(Annotate, columns_and_maps_hold_the_same_numbers_for_any_number_of_threads)
   const auto surface = marching_cubes(traits, parameters::number_of_nodes(20));
   Mesh mesh = to_surface_mesh(surface);
   annotate<CGAL::Parallel_tag>(mesh, traits);
-  const auto columns = compute_attributes(traits, std::span(surface.points),
-                                          select_attributes("all,quadric_defect,shape_index"), surface.vertex_status);
+  const auto columns =
+      compute_attributes(traits, std::span(surface.points),
+                         select_attributes("all,quadric_defect,shape_index,curvedness"), surface.vertex_status);
   std::size_t scalars = 0;
   for (const auto& column : columns.columns) {
     const auto [map, is_new] = mesh.add_property_map<Vertex_index, double>("v:" + column.name);
@@ -67,7 +68,7 @@ TEST(Annotate, columns_and_maps_hold_the_same_numbers_for_any_number_of_threads)
     ++scalars;
     for (std::size_t i = 0; i < surface.points.size(); ++i) ASSERT_EQ(column.values[i], map[Vertex_index(unsigned(i))]);
   }
-  EXPECT_EQ(scalars, 17u);
+  EXPECT_EQ(scalars, 18u);
 }
 
 } // namespace

@@ -70,7 +70,7 @@ TEST(Attributes, unconverged_points_stay_unconverged_unless_they_are_outside) {
 TEST(Attributes, numbers_made_of_principal_curvatures_have_the_same_bits_in_packs_and_exist_at_parabolic_points) {
   const auto traits = traits_of("z-x^2-y^3"); // parabolic where y = 0, as on the axis
   const auto p = points();
-  const auto selection = select_attributes("shape_index");
+  const auto selection = select_attributes("shape_index,curvedness");
   const auto batch = compute_attributes(traits, p, selection);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const auto single = local_structure_at(traits, p[i]);

@@ -41,13 +41,30 @@ TEST(Shape_index, does_not_exist_where_the_curvatures_do_not) {
   EXPECT_TRUE(std::isnan(shape_index(nan, nan)));
 }
 
-TEST(Shape_index, of_a_lane_has_the_bits_of_that_of_a_number) {
+TEST(Curvedness, is_one_over_the_radius_on_a_sphere_and_overflows_only_with_the_curvatures) {
+  const auto of = [](const auto& f, double x, double y, double z) {
+    const auto s = euclidean(f, x, y, z);
+    return curvedness(s.k1, s.k2);
+  };
+  EXPECT_NEAR(of(sphere, 1, 2, -2), 1. / 3, 1e-16);
+  EXPECT_NEAR(of(cylinder, 3, 4, 1), std::sqrt(0.5) / 5, 1e-16);
+  EXPECT_NEAR(of(saddle, 0, 0, 0), 1, 1e-15);
+  EXPECT_EQ(of(plane, 1, 2, 3), 0);
+  EXPECT_NEAR(curvedness(1e308, -1.5e308) / std::sqrt(1.625), 1e308, 1e293);
+  EXPECT_EQ(curvedness(-3e-300, -3e-300), 3e-300);
+}
+
+TEST(Shape_index_and_curvedness, of_a_lane_have_the_bits_of_those_of_a_number) {
   using Lanes = Pack<double>;
   for (int n = 1; n < 200; ++n) {
     const auto k2 = [&](std::size_t i) { return std::sin(n + double(i)); };
     const auto k1 = [&](std::size_t i) { return k2(i) + (n + int(i)) % 3 * 0.7; };
-    const Lanes lanes = shape_index(Lanes::generate(k1), Lanes::generate(k2));
-    for (std::size_t i = 0; i < Lanes::size; ++i) EXPECT_EQ(lanes[i], shape_index(k1(i), k2(i)));
+    const Lanes indices = shape_index(Lanes::generate(k1), Lanes::generate(k2));
+    const Lanes sizes = curvedness(Lanes::generate(k1), Lanes::generate(k2));
+    for (std::size_t i = 0; i < Lanes::size; ++i) {
+      EXPECT_EQ(indices[i], shape_index(k1(i), k2(i)));
+      EXPECT_EQ(sizes[i], curvedness(k1(i), k2(i)));
+    }
   }
 }
 

@@ -35,6 +35,13 @@ FT shape_index(const FT& k1, const FT& k2) {
   return internal::shape_index_of(k1, k2);
 }
 
+/// The curvedness of principal curvatures k1, k2, sqrt((k1^2 + k2^2) / 2): 1 / r on a sphere of radius r, 0 on a plane.
+/// Unit: 1/length. Source: as for shape_index().
+template <class FT>
+FT curvedness(const FT& k1, const FT& k2) {
+  return internal::curvedness_of(k1, k2);
+}
+
 } // namespace equiaffine
 
 #endif

@@ -106,6 +106,13 @@ FT shape_index_of(const FT& k1, const FT& k2) {
   return select(k1 == FT(0) && k2 == FT(0), FT(std::numeric_limits<double>::quiet_NaN()), index);
 }
 
+/// The hypotenuse of the mean and half the difference is exactly |k1| where both curvatures are equal.
+template <class FT>
+FT curvedness_of(const FT& k1, const FT& k2) {
+  const FT half1 = FT(0.5) * k1, half2 = FT(0.5) * k2;
+  return hypotenuse(FT(half1 + half2), FT(half1 - half2));
+}
+
 } // namespace internal
 
 } // namespace equiaffine
