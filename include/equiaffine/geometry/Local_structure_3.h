@@ -7,7 +7,7 @@
 #include <equiaffine/geometry/euclidean_structure.h>
 #include <equiaffine/geometry/internal/structure_of_jet.h>
 #include <equiaffine/number/Jet_3.h>
-#include <equiaffine/number/lanes.h>
+#include <equiaffine/number/select.h>
 
 #include <array>
 #include <optional>

@@ -4,7 +4,7 @@
 
 #include <equiaffine/geometry/Monge_chart_3.h>
 #include <equiaffine/geometry/internal/affine_steps.h>
-#include <equiaffine/number/lanes.h>
+#include <equiaffine/number/select.h>
 
 #include <array>
 

@@ -5,7 +5,7 @@
 #define EQUIAFFINE_GEOMETRY_INTERNAL_AFFINE_STEPS_H
 
 #include <equiaffine/geometry/Monge_chart_3.h>
-#include <equiaffine/number/lanes.h>
+#include <equiaffine/number/select.h>
 
 #include <array>
 #include <cmath>

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_GEOMETRY_INTERNAL_CHOOSE_PIVOT_H
 
 #include <equiaffine/number/Jet_3.h>
-#include <equiaffine/number/lanes.h>
+#include <equiaffine/number/select.h>
 
 #include <array>
 #include <cmath>

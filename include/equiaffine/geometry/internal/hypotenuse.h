@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_GEOMETRY_INTERNAL_HYPOTENUSE_H
 #define EQUIAFFINE_GEOMETRY_INTERNAL_HYPOTENUSE_H
 
-#include <equiaffine/number/lanes.h>
+#include <equiaffine/number/select.h>
 
 #include <cmath>
 

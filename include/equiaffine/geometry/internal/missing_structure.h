@@ -5,7 +5,7 @@
 
 #include <equiaffine/geometry/affine_structure.h>
 #include <equiaffine/geometry/euclidean_structure.h>
-#include <equiaffine/number/lanes.h>
+#include <equiaffine/number/select.h>
 
 #include <cstddef>
 #include <limits>
