@@ -3,6 +3,7 @@
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_STRUCTURE_BY_H
 
 #include <equiaffine/base/named_parameters.h>
+#include <equiaffine/geometry/Estimator.h>
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/geometry/reference_estimators.h>
 

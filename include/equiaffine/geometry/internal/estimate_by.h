@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_GEOMETRY_INTERNAL_ESTIMATE_BY_H
 #define EQUIAFFINE_GEOMETRY_INTERNAL_ESTIMATE_BY_H
 
-#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/geometry/Estimator.h>
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/geometry/internal/direct_estimate.h>
 #include <equiaffine/geometry/internal/transformation_estimate.h>
