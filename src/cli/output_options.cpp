@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "attributes/error_columns.h"
 #include "cli/Option_row.h"
+#include "cli/attributes_help.h"
 #include <equiaffine/Input_error.h>
 
 #include <algorithm>
@@ -92,15 +93,7 @@ const std::vector<Option_row> rows = {
      [](const Option_words& option, Draft& draft) {
        draft.samples_are_float = parse_choice<bool>(option, {{"float", true}, {"double", false}});
      }},
-    {"--attributes", MESH | EVALUATE, OUTPUT, 1, "basic|all|none|LIST",
-     "what to compute: basic (the default) is normal, k1, k2, gaussian_curvature,\n"
-     "mean_curvature, conormal, affine_normal, affine_gaussian_curvature,\n"
-     "affine_mean_curvature, pick_invariant, status; all adds affine_k1, affine_k2,\n"
-     "direction1, direction2, metric; LIST is some of these words with commas between, also\n"
-     "quadric_defect, signature (affine curvatures, pick_invariant, and the norms of their\n"
-     "gradients), and for a spline affine_gaussian_curvature_error and\n"
-     "affine_mean_curvature_error",
-     read_attributes},
+    {"--attributes", MESH | EVALUATE, OUTPUT, 1, "basic|all|none|LIST", attributes_help(), read_attributes},
     {"--estimator", MESH | EVALUATE, OUTPUT, 1, "compact|transformation|direct|direct-z",
      "how conormal, affine_normal, affine_gaussian_curvature and affine_mean_curvature are\n"
      "computed from the derivatives: our own formulas (compact, the default), or those of\n"

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/attributes_help.h"
+
+#include "attributes/error_columns.h"
+#include <equiaffine/attributes/Attribute_selection.h>
+
+#include <cstddef>
+#include <sstream>
+
+namespace equiaffine {
+
+namespace {
+
+template <class Names>
+std::string joined(const Names& names, const std::string& separator) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : separator) + std::string(name);
+  return text;
+}
+
+/// The words of a text in as few lines as hold them.
+std::string wrapped(const std::string& text, std::size_t width) {
+  std::istringstream words(text);
+  std::string result, line;
+  for (std::string word; words >> word;) {
+    const bool is_full = !line.empty() && line.size() + 1 + word.size() > width;
+    if (is_full) result += line + '\n';
+    line = is_full || line.empty() ? word : line + ' ' + word;
+  }
+  return result + line;
+}
+
+} // namespace
+
+std::string attributes_help() {
+  const Attribute_names names = attribute_names();
+  return wrapped("what to compute: basic (the default) is " + joined(names.basic, ", ") + ", status; all adds " +
+                     joined(names.added_by_all, ", ") + "; LIST is some of these words with commas between, also " +
+                     joined(names.by_name, ", ") +
+                     ", signature (affine curvatures, pick_invariant, and the norms of their gradients), and for a "
+                     "spline " +
+                     joined(error_attributes, " and "),
+                 88);
+}
+
+} // namespace equiaffine

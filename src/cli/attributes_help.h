@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_CLI_ATTRIBUTES_HELP_H
+#define EQUIAFFINE_SRC_CLI_ATTRIBUTES_HELP_H
+
+#include <string>
+
+namespace equiaffine {
+
+/// The help of the option --attributes in lines of at most 88 characters, with the names of the library's table.
+std::string attributes_help();
+
+} // namespace equiaffine
+
+#endif
