@@ -4,7 +4,7 @@
 #define EQUIAFFINE_GEOMETRY_INTERNAL_EUCLIDEAN_STEPS_H
 
 #include <equiaffine/geometry/Monge_chart_3.h>
-#include <equiaffine/geometry/internal/hypotenuse.h>
+#include <equiaffine/geometry/internal/root_of_squares.h>
 
 #include <array>
 #include <cmath>
@@ -74,7 +74,7 @@ void set_principal_directions(Euclidean_structure_3<FT>& s, const Monge_chart_3<
   const FT sum = radius + abs(half_difference);
   // The direction is c t1 + t t2.
   FT c = select(along_first, sum, FT(abs(m))), t = select(along_first, m, select(m < zero, FT(-sum), sum));
-  const FT length = hypotenuse(c, t);
+  const FT length = root_of_squares(c, t);
   const auto is_umbilic = length == zero;
   c = select(is_umbilic, FT(1), FT(c / length));
   t = select(is_umbilic, zero, FT(t / length));
@@ -89,7 +89,7 @@ Euclidean_structure_3<FT> euclidean_structure_of(const Monge_chart_3<FT>& chart)
   const Orthonormal_basis<FT> basis(chart);
   const FT r = chart.sign / basis.w;
   const Second_fundamental_form<FT> form(chart, basis, r);
-  const FT half_difference = (form.l - form.n) / FT(2), radius = hypotenuse(half_difference, form.m);
+  const FT half_difference = (form.l - form.n) / FT(2), radius = root_of_squares(half_difference, form.m);
   Euclidean_structure_3<FT> s;
   s.normal = chart.unpermuted(chart.a * r, chart.b * r, r);
   s.mean_curvature = (form.l + form.n) / FT(2);
@@ -106,11 +106,11 @@ FT shape_index_of(const FT& k1, const FT& k2) {
   return select(k1 == FT(0) && k2 == FT(0), FT(std::numeric_limits<double>::quiet_NaN()), index);
 }
 
-/// The hypotenuse of the mean and half the difference is exactly |k1| where both curvatures are equal.
+/// The root of the squares of the mean and half the difference is exactly |k1| where both curvatures are equal.
 template <class FT>
 FT curvedness_of(const FT& k1, const FT& k2) {
   const FT half1 = FT(0.5) * k1, half2 = FT(0.5) * k2;
-  return hypotenuse(FT(half1 + half2), FT(half1 - half2));
+  return root_of_squares(FT(half1 + half2), FT(half1 - half2));
 }
 
 } // namespace internal

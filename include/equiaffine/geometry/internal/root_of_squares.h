@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_GEOMETRY_INTERNAL_HYPOTENUSE_H
-#define EQUIAFFINE_GEOMETRY_INTERNAL_HYPOTENUSE_H
+#ifndef EQUIAFFINE_GEOMETRY_INTERNAL_ROOT_OF_SQUARES_H
+#define EQUIAFFINE_GEOMETRY_INTERNAL_ROOT_OF_SQUARES_H
 
 #include <equiaffine/number/select.h>
 
@@ -10,7 +10,7 @@ namespace equiaffine::internal {
 
 /// sqrt(x^2 + y^2) for numbers and packs; the squares neither overflow nor underflow.
 template <class FT>
-FT hypotenuse(const FT& x, const FT& y) {
+FT root_of_squares(const FT& x, const FT& y) {
   using std::abs;
   using std::sqrt;
   const FT u = abs(x), v = abs(y), large = select(u > v, u, v), small = select(u > v, v, u);
