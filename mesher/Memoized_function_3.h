@@ -60,6 +60,7 @@ public:
     return memory_->function_.taylor(p);
   }
 
+  /// Asked by `equiaffine::intersect_segment`: the model iterates itself, and only the number of evaluations is kept.
   Surface_point_3<Any_function_3::Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa,
                                                             double fb) const {
     const auto found = memory_->function_.intersect_segment(a, b, fa, fb);

@@ -57,6 +57,34 @@ TEST(Certified_seeding, seeds_keep_their_distance_and_leave_no_gap) {
   }
 }
 
+TEST(Certified_seeding, seeds_are_as_many_as_their_distance_tells) {
+  const double density = 0.77; // seeds per square of their least distance
+  for (const double size : {0.05, 0.1, 0.2}) {
+    const auto seeds = seeds_of_sphere(size, Point_3(1, 0, 0), packing * size);
+    const double expected = density * 4 * CGAL_PI / (packing * packing * size * size);
+    EXPECT_NEAR(double(seeds.size()), expected, 0.05 * expected) << size;
+  }
+}
+
+TEST(Certified_seeding, the_scaffold_is_around_the_box_and_in_the_middle_of_empty_cells) {
+  const functions::Sphere sphere;
+  const auto traits = make_analytic_traits<Kernel>(sphere, sphere.box());
+  const auto uniform = [](const Point_3&) { return 0.05; };
+  const auto scaffold = certified_seeding(traits, Clip_domain_3(sphere.box()), uniform, 0.05).scaffold;
+  const double corner = 1.25 * std::sqrt(3.0), smallest_cell = 2.5 / 8; // at least four facets
+  ASSERT_GT(scaffold.size(), 8u);
+  for (std::size_t n = 0; n < scaffold.size(); ++n) {
+    const double distance = std::sqrt((scaffold[n] - CGAL::ORIGIN).squared_length());
+    if (n < 8) {
+      EXPECT_GE(distance, 2 * corner);
+      EXPECT_LE(distance, 3 * corner);
+    } else {
+      EXPECT_GE(std::abs(distance - 1), 0.9 * smallest_cell / 2);
+      EXPECT_LE(distance, corner);
+    }
+  }
+}
+
 // Cells of an eighth of the cube's side are the largest ones in which all gradients of the sphere form acute angles,
 // and seeds there are 1.4 sides apart instead of one size, a tenth more as everywhere.
 TEST(Certified_seeding, where_cells_have_to_be_small_seeds_are_as_dense) {
