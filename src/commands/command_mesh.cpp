@@ -21,6 +21,7 @@
 #include <limits>
 #include <optional>
 #include <sstream>
+#include <string>
 #include <utility>
 
 namespace equiaffine {
@@ -37,11 +38,9 @@ struct Annotated_surface {
   std::optional<Parabolic_curves_3<Kernel>> curves; ///< if they were asked for
 };
 
-/// Throws the error that says why there is no surface: `place` is where it was looked for; `refinement` says what may
-/// find more, and is empty if nothing can.
+/// The least and the greatest value of f at the nodes of a grid; in reverse order if all values are NaN.
 template <class Traits>
-[[noreturn]] void fail_without_surface(const Traits& function, double isovalue, const std::string& place,
-                                       const std::string& refinement) {
+std::pair<double, double> range_on_grid(const Traits& function) {
   const auto samples = [&] {
     if constexpr (LatticeImplicitFunctionTraits_3<Traits>) {
       Volume_3<Kernel> volume{function.lattice(), {}};
@@ -55,20 +54,29 @@ template <class Traits>
   }();
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (const double value : samples.values) {
-    if (value < least) least = value; // not std::min: values may be NaN
+    if (value < least) least = value; // std::min would keep a NaN
     if (value > greatest) greatest = value;
   }
-  std::ostringstream text;
-  const bool is_there = !refinement.empty() && least < isovalue && greatest > isovalue;
-  text << (is_there ? "no part of the surface f = " : "no surface f = ") << isovalue << (is_there ? " was found" : "")
-       << " in the " << place << ": at the nodes of a grid f ";
-  if (least <= greatest) text << "lies between " << least << " and " << greatest;
-  else text << "is undefined";
-  text << "; choose ";
-  if (is_there) text << refinement;
-  else text << "another --isovalue or box";
-  if (!is_there && least <= greatest && !refinement.empty()) text << ", or " << refinement;
-  throw Input_error(text.str());
+  return {least, greatest};
+}
+
+/// Throws the error that says why there is no surface: `place` is where it was looked for; `refinement` says what may
+/// find more, and is empty if nothing can.
+template <class Traits>
+[[noreturn]] void fail_without_surface(const Traits& function, double isovalue, const std::string& place,
+                                       const std::string& refinement) {
+  const auto [least, greatest] = range_on_grid(function);
+  const bool is_defined = least <= greatest;
+  std::ostringstream surface, reason;
+  surface << "surface f = " << isovalue;
+  reason << " in the " << place << ": at the nodes of a grid f ";
+  if (is_defined) reason << "lies between " << least << " and " << greatest << "; choose ";
+  else reason << "is undefined; choose ";
+  if (!refinement.empty() && least < isovalue && greatest > isovalue)
+    throw Input_error("no part of the " + surface.str() + " was found" + reason.str() + refinement);
+  const std::string choice = "another --isovalue or box";
+  throw Input_error("no " + surface.str() + reason.str() +
+                    (is_defined && !refinement.empty() ? choice + ", or " + refinement : choice));
 }
 
 template <class Traits>
@@ -116,9 +124,8 @@ Annotated_surface sample(const Traits& function, const Mesh_options& options, co
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
   check_box_of_delaunay_surface(box, diagonal);
   Delaunay_criteria criteria = {method.angle, method.radius, method.distance};
-  criteria.radius =
-      criteria.radius == 0 ? diagonal / 50 : std::min(criteria.radius, diagonal); // a larger bound would mean the same
-  if (criteria.distance == 0) criteria.distance = criteria.radius / 10;
+  criteria.radius = std::min(criteria.radius, diagonal); // a larger bound would mean the same
+  criteria = criteria.completed(Clip_domain_3(box));
   check_memory_of_delaunay_surface(diagonal, criteria.radius, criteria.distance);
   check_radius_of_delaunay_surface(box, criteria.radius);
   const Clip_domain_3 domain = method.clips_to_ball ? Clip_domain_3::ball_in(box) : Clip_domain_3(box);
