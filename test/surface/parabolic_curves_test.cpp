@@ -40,7 +40,7 @@ TEST(Parabolic_curves, those_of_a_torus_are_its_two_highest_circles) {
       EXPECT_NEAR(std::abs(p.z()), 0.2, 1e-14);
       length += std::sqrt(CGAL::squared_distance(p, line.points[(i + 1) % line.points.size()]));
     }
-    EXPECT_NEAR(length, CGAL_PI, 0.01) << "neighbours in the list are neighbours on the circle";
+    EXPECT_NEAR(length, CGAL_PI, 0.01) << "neighbors in the list are neighbors on the circle";
   }
 }
 

@@ -37,7 +37,7 @@ auto with_derivatives(const Function& f) {
   return make_analytic_traits<Kernel>(f, CGAL::Bbox_3(-3, -3, -3, 3, 3, 3));
 }
 
-/// Roots on random segments with a sign change: the largest distance and the mean number of evaluations.
+/// Judges roots on random segments with a sign change by their distance and the mean number of evaluations.
 template <class Traits, class Function>
 void expect_exact_roots(const Traits& traits, const Function& f, double most_evaluations) {
   std::mt19937 random(1);

@@ -28,7 +28,7 @@ public:
     check();
   }
 
-  /// The largest ball about the centre of a box that the box contains.
+  /// The largest ball in a box about its center.
   static Clip_domain_3 ball_in(const CGAL::Bbox_3& box) {
     double radius = (box.max(0) - box.min(0)) / 2;
     std::array<double, 3> center;
@@ -41,7 +41,7 @@ public:
 
   bool is_ball() const { return radius_ > 0; }
   const std::array<double, 3>& center() const { return center_; } ///< of the ball
-  double radius() const { return radius_; }                       ///< of the ball, 0 for a box
+  double radius() const { return radius_; }                       ///< of the ball; 0 for a box
   const CGAL::Bbox_3& bbox() const { return box_; }
   double diagonal() const { return std::hypot(box_.x_span(), box_.y_span(), box_.z_span()); }
 
@@ -79,23 +79,31 @@ public:
       last = std::min(last, std::max(s, t));
     }
     if (is_ball()) {
-      double dd = 0, qd = 0, qq = 0; // of q = p - center
-      for (int a = 0; a < 3; ++a) {
-        const double q = p[a] - center_[std::size_t(a)];
-        dd += d[a] * d[a];
-        qd += q * d[a];
-        qq += q * q;
-      }
-      const double discriminant = qd * qd - dd * (qq - radius_ * radius_);
-      if (!(discriminant > 0)) return std::nullopt;
-      first = std::max(first, (-qd - std::sqrt(discriminant)) / dd);
-      last = std::min(last, (-qd + std::sqrt(discriminant)) / dd);
+      const auto in_ball = parameters_in_ball(p, d);
+      if (!in_ball) return std::nullopt;
+      first = std::max(first, in_ball->first);
+      last = std::min(last, in_ball->second);
     }
     if (!(first < last)) return std::nullopt;
     return std::pair(first, last);
   }
 
 private:
+  /// First and last t for which p + t d is in the ball.
+  template <class Point_3, class Vector_3>
+  std::optional<std::pair<double, double>> parameters_in_ball(const Point_3& p, const Vector_3& d) const {
+    double dd = 0, qd = 0, qq = 0; // products of d and q = p - center
+    for (int a = 0; a < 3; ++a) {
+      const double q = p[a] - center_[std::size_t(a)];
+      dd += d[a] * d[a];
+      qd += q * d[a];
+      qq += q * q;
+    }
+    const double discriminant = qd * qd - dd * (qq - radius_ * radius_);
+    if (!(discriminant > 0)) return std::nullopt;
+    return std::pair((-qd - std::sqrt(discriminant)) / dd, (-qd + std::sqrt(discriminant)) / dd);
+  }
+
   void check() const {
     CGAL_precondition(box_.x_span() > 0 && box_.y_span() > 0 && box_.z_span() > 0);
     CGAL_precondition(std::isfinite(diagonal()));

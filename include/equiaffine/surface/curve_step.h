@@ -5,18 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
-namespace equiaffine::internal {
+namespace equiaffine {
 
-/// Of a jet of any order.
+/// The gradient of a function as a vector, from its jet of any order.
 template <class Vector_3, class Jet>
 Vector_3 gradient_of(const Jet& jet) {
   return Vector_3(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]);
 }
 
-/// The step of least length to f = g = 0 by Newton's method; not finite where the gradients are parallel.
+/// The shortest step of Newton's method to the curve f = g = 0, from the jets of f and g at a point; not finite where
+/// the gradients are parallel.
 template <class Vector_3, class Jet_f, class Jet_g>
 Vector_3 step_to_curve(const Jet_f& f, const Jet_g& g) {
-  const auto scale_of = [](const auto& jet) { // so that no product of four gradients over- or underflows
+  // Gradients are scaled so that no product of four of them over- or underflows.
+  const auto scale_of = [](const auto& jet) {
     const auto& c = jet.coefficients();
     using std::abs;
     return std::max({abs(c[1]), abs(c[2]), abs(c[3])});
@@ -28,6 +30,6 @@ Vector_3 step_to_curve(const Jet_f& f, const Jet_g& g) {
   return (uv * b - vv * a) / determinant * u + (uv * a - uu * b) / determinant * v;
 }
 
-} // namespace equiaffine::internal
+} // namespace equiaffine
 
 #endif

@@ -3,7 +3,8 @@
 #define EQUIAFFINE_SURFACE_DISTANCE_TO_SURFACE_H
 
 #include <equiaffine/base/parallel_for.h>
-#include <equiaffine/surface/project_to_surface.h>
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/surface/distance_estimate.h>
 
 #include <CGAL/tags.h>
 

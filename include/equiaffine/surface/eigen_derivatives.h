@@ -5,15 +5,16 @@
 #include <CGAL/number_utils.h>
 #include <Eigen/Dense>
 
-namespace equiaffine::internal {
+namespace equiaffine {
 
-/// Of a jet, as what Eigen computes with.
+/// The gradient of a function as a vector of Eigen, from its jet.
 template <class Jet>
 Eigen::Vector3d eigen_gradient(const Jet& jet) {
   return {CGAL::to_double(jet.derivative(1, 0, 0)), CGAL::to_double(jet.derivative(0, 1, 0)),
           CGAL::to_double(jet.derivative(0, 0, 1))};
 }
 
+/// The matrix of the second derivatives of a function, from its jet.
 template <class Jet>
 Eigen::Matrix3d eigen_hessian(const Jet& jet) {
   Eigen::Matrix3d hessian;
@@ -24,6 +25,6 @@ Eigen::Matrix3d eigen_hessian(const Jet& jet) {
   return hessian;
 }
 
-} // namespace equiaffine::internal
+} // namespace equiaffine
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SURFACE_INTERNAL_PARABOLIC_NODES_H
-#define EQUIAFFINE_SURFACE_INTERNAL_PARABOLIC_NODES_H
+#ifndef EQUIAFFINE_SURFACE_INTERNAL_PARABOLIC_CROSSINGS_H
+#define EQUIAFFINE_SURFACE_INTERNAL_PARABOLIC_CROSSINGS_H
 
 #include <equiaffine/surface/eigen_derivatives.h>
 
@@ -13,10 +13,11 @@
 
 namespace equiaffine::internal {
 
-/// A point where two branches of the curve f = d = 0 cross, not further than `reach` from p: a saddle of d on f = 0, by
-/// Newton's method for grad d = m grad f. `jets(p)` are those of f and d, of order 2 at least.
+/// A point where two branches of the curve f = d = 0 cross, not further than `reach` from `start`: a saddle of d on
+/// f = 0, found by Newton's method for f = 0, grad d = m grad f. `jets(p)` is the pair of the jets of f and d, of order
+/// 2 at least.
 template <class Point_3, class Vector_3, class Jets>
-std::optional<Point_3> node_of_curve_near(const Point_3& start, double reach, const Jets& jets) {
+std::optional<Point_3> crossing_near(const Point_3& start, double reach, const Jets& jets) {
   constexpr int maximal_iterations = 20;
   Point_3 p = start;
   std::optional<double> multiplier;
@@ -38,13 +39,15 @@ std::optional<Point_3> node_of_curve_near(const Point_3& start, double reach, co
     if (!(CGAL::to_double(CGAL::squared_distance(p, start)) <= reach * reach)) return std::nullopt; // also NaN
     const double length = step.head<3>().norm();
     if (length > 1e-9 * reach) continue;
-    // Where the gradient of f is e, minus this determinant is that of the Hessian within the tangent plane.
+    // With the unit normal in place of the gradient of f, minus the determinant is that of the Hessian of d within the
+    // tangent plane, which is negative at a saddle.
     jacobian.topRightCorner<3, 1>() = f1 / norm;
     jacobian.bottomLeftCorner<1, 3>() = f1.transpose() / norm;
     const double scale = hessian.norm(), determinant = -jacobian.determinant();
-    constexpr double least_determinant = 1e-4, negligible = 1e-6; // of d, compared with what it is at that reach
+    // Both are relative: to the square of the Hessian, and to what d is at the distance `reach`.
+    constexpr double least_determinant = 1e-4, negligible_value = 1e-6;
     if (!(determinant < -least_determinant * scale * scale)) return std::nullopt;
-    if (!(std::abs(CGAL::to_double(d.value())) <= negligible * scale * reach * reach)) return std::nullopt;
+    if (!(std::abs(CGAL::to_double(d.value())) <= negligible_value * scale * reach * reach)) return std::nullopt;
     return p;
   }
   return std::nullopt;

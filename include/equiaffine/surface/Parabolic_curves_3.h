@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SURFACE_PARABOLIC_CURVES_3_H
+#define EQUIAFFINE_SURFACE_PARABOLIC_CURVES_3_H
+
+#include <equiaffine/surface/Polyline_3.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace equiaffine {
+
+/// The curves on which the Gaussian curvature changes its sign, where the affine metric is degenerate and the affine
+/// curvatures are infinite.
+template <class Kernel>
+struct Parabolic_curves_3 {
+  std::vector<Polyline_3<Kernel>> polylines;
+  std::size_t unconverged_points = 0; ///< left at the linear intersection with an edge of the mesh
+};
+
+} // namespace equiaffine
+
+#endif

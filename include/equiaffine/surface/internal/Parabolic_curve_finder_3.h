@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SURFACE_INTERNAL_PARABOLIC_CURVE_FINDER_3_H
+#define EQUIAFFINE_SURFACE_INTERNAL_PARABOLIC_CURVE_FINDER_3_H
+
+#include <equiaffine/base/parallel_for.h>
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/surface/Parabolic_curves_3.h>
+#include <equiaffine/surface/curve_step.h>
+#include <equiaffine/surface/internal/parabolic_crossings.h>
+#include <equiaffine/surface/parabolic_function.h>
+#include <equiaffine/surface/sign_change.h>
+
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// The solution of f = 0, d = 0 that Newton's method with steps of least length finds from p; nothing if one of them
+/// leads too far away.
+template <ImplicitFunctionTraits_3 Traits>
+std::optional<typename Traits::Point_3> project_to_parabolic_curve(const Traits& traits,
+                                                                   const typename Traits::Point_3& start,
+                                                                   const typename Traits::FT& squared_reach) {
+  using FT = typename Traits::FT;
+  constexpr int maximal_iterations = 30;
+  auto p = start;
+  for (int n = 0; n < maximal_iterations; ++n) {
+    const auto jet = traits.taylor(p);
+    const auto step = step_to_curve<typename Traits::Vector_3>(jet, parabolic_function(jet));
+    if (!((p + step - start).squared_length() <= squared_reach)) return std::nullopt; // also NaN
+    p = p + step;
+    const FT rounding = FT(8) * std::numeric_limits<FT>::epsilon();
+    if (step.squared_length() <= rounding * rounding * (p - CGAL::ORIGIN).squared_length()) return p;
+  }
+  return std::nullopt;
+}
+
+template <class ConcurrencyTag, class Traits>
+class Parabolic_curve_finder_3 {
+  using FT = typename Traits::FT;
+  using Kernel = Kernel_of<Traits>;
+  using Point_3 = typename Traits::Point_3;
+  using Vector_3 = typename Traits::Vector_3;
+  using Index = std::uint32_t;
+  using Edge = std::pair<Index, Index>; // smaller index first
+  static constexpr Index none = std::numeric_limits<Index>::max();
+
+public:
+  Parabolic_curve_finder_3(const Indexed_triangle_mesh_3<Kernel>& mesh, const Traits& traits)
+      : mesh_(mesh), traits_(traits) {}
+
+  Parabolic_curves_3<Kernel> find() {
+    values_.resize(mesh_.points.size());
+    parallel_for<ConcurrencyTag>(
+        0, values_.size(),
+        [&](std::size_t v) { values_[v] = parabolic_function(traits_.taylor(mesh_.points[v])).value(); }, 256);
+    connect_edges(find_segments());
+    points_.resize(edges_.size());
+    std::vector<std::uint8_t> has_converged(edges_.size());
+    parallel_for<ConcurrencyTag>(
+        0, edges_.size(), [&](std::size_t e) { has_converged[e] = place_point(e); }, 64);
+    join_at_crossings(find_crossings());
+    Parabolic_curves_3<Kernel> curves;
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+      curves.unconverged_points += !has_converged[e] && !is_at_crossing_[e];
+    curves.polylines = trace_polylines();
+    return curves;
+  }
+
+private:
+  using Segment = std::array<Edge, 2>;
+
+  /// A segment of a curve lies in every triangle with different signs at its vertices, between two of its edges.
+  std::vector<Segment> find_segments() const {
+    std::vector<Segment> segments;
+    for (const auto& t : mesh_.triangles) {
+      Segment ends;
+      std::size_t n = 0;
+      bool is_defined = true;
+      for (std::size_t m = 0; m < 3; ++m) {
+        const Index a = t[m], b = t[(m + 1) % 3];
+        is_defined = is_defined && values_[a] - values_[a] == FT(0);
+        if ((values_[a] < FT(0)) != (values_[b] < FT(0))) ends[n++] = std::minmax(a, b);
+      }
+      if (is_defined && n == 2) segments.push_back(ends);
+    }
+    return segments;
+  }
+
+  /// Lists the edges of all segments, and with each edge the ones to which segments lead from it.
+  void connect_edges(const std::vector<Segment>& segments) {
+    for (const auto& [first, second] : segments) {
+      edges_.push_back(first);
+      edges_.push_back(second);
+    }
+    std::sort(edges_.begin(), edges_.end());
+    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    neighbors_.assign(edges_.size(), {none, none});
+    const auto position = [&](const Edge& e) {
+      return Index(std::lower_bound(edges_.begin(), edges_.end(), e) - edges_.begin());
+    };
+    for (const auto& [first, second] : segments) {
+      const Index a = position(first), b = position(second);
+      neighbors_[a][neighbors_[a][0] == none ? 0 : 1] = b;
+      neighbors_[b][neighbors_[b][0] == none ? 0 : 1] = a;
+    }
+  }
+
+  /// Puts the point of an edge on the curve, not further from the linear intersection than the edge is long; false if
+  /// it stays there.
+  bool place_point(std::size_t e) {
+    const auto [a, b] = edges_[e];
+    const Vector_3 edge = mesh_.points[b] - mesh_.points[a];
+    points_[e] = mesh_.points[a] + linear_zero(values_[a], values_[b]) * edge;
+    const auto p = project_to_parabolic_curve(traits_, points_[e], edge.squared_length());
+    if (p) points_[e] = *p;
+    return p.has_value();
+  }
+
+  /// Appends the points where curves cross to the others. Returns the squared radius of the neighborhood of each, in
+  /// which the mesh does not tell which point is on which branch.
+  std::vector<FT> find_crossings() {
+    const auto jets = [this](const Point_3& p) {
+      const auto jet = traits_.taylor(p);
+      return std::pair(jet, parabolic_function<2>(jet));
+    };
+    std::vector<FT> squared_radii;
+    for (Index e = 0; e < edges_.size(); ++e) {
+      FT squared_length(0);
+      for (const Index m : neighbors_[e])
+        if (m != none) squared_length = std::max(squared_length, CGAL::squared_distance(points_[e], points_[m]));
+      const double reach = 2 * std::sqrt(CGAL::to_double(squared_length));
+      const auto crossing = crossing_near<Point_3, Vector_3>(points_[e], reach, jets);
+      if (!crossing) continue;
+      const auto is_same = [&](const Point_3& p) { return CGAL::squared_distance(p, *crossing) <= squared_length; };
+      if (std::any_of(points_.begin() + std::ptrdiff_t(edges_.size()), points_.end(), is_same)) continue;
+      points_.push_back(*crossing);
+      squared_radii.push_back(FT(2) * squared_length);
+    }
+    return squared_radii;
+  }
+
+  /// Makes the crossings neighbors in place of the points near them.
+  void join_at_crossings(const std::vector<FT>& squared_radii) {
+    is_at_crossing_.assign(edges_.size(), false);
+    std::vector<Index> replacement(points_.size());
+    std::iota(replacement.begin(), replacement.end(), Index(0));
+    for (Index e = 0; e < edges_.size(); ++e)
+      for (std::size_t n = 0; n < squared_radii.size(); ++n)
+        if (CGAL::squared_distance(points_[e], points_[edges_.size() + n]) <= squared_radii[n]) {
+          replacement[e] = Index(edges_.size() + n);
+          is_at_crossing_[e] = true;
+        }
+    for (auto& neighbors : neighbors_)
+      for (Index& m : neighbors)
+        if (m != none) m = replacement[m];
+  }
+
+  bool is_crossing(Index n) const { return n != none && n >= edges_.size(); }
+
+  /// Links the points to curves: first those that end at the border of the mesh, then those between crossings, then
+  /// closed ones.
+  std::vector<Polyline_3<Kernel>> trace_polylines() const {
+    std::vector<Polyline_3<Kernel>> polylines;
+    std::vector<bool> is_used = is_at_crossing_; // per edge
+    const auto trace = [&](Index first, Index before) {
+      auto line = trace_polyline(first, before, is_used);
+      if (line.points.size() > 1) polylines.push_back(std::move(line));
+    };
+    for (Index e = 0; e < edges_.size(); ++e)
+      if (!is_used[e] && neighbors_[e][1] == none) trace(e, none);
+    for (Index e = 0; e < edges_.size(); ++e)
+      for (const Index m : neighbors_[e])
+        if (!is_used[e] && is_crossing(m)) trace(e, m);
+    for (Index e = 0; e < edges_.size(); ++e)
+      if (!is_used[e]) trace(e, none);
+    return polylines;
+  }
+
+  /// The curve that goes on from `first`, away from the neighbor `before`, which may be a crossing or none.
+  Polyline_3<Kernel> trace_polyline(Index first, Index before, std::vector<bool>& is_used) const {
+    Polyline_3<Kernel> line;
+    if (is_crossing(before)) line.points.push_back(points_[before]);
+    for (Index here = first; here != none;) {
+      line.points.push_back(points_[here]);
+      if (is_crossing(here)) break;
+      is_used[here] = true;
+      const auto& [p, q] = neighbors_[here];
+      const Index next = p != before ? p : q;
+      before = here;
+      line.is_closed = next == first;
+      here = next == none || (!is_crossing(next) && is_used[next]) ? none : next;
+    }
+    return line;
+  }
+
+  const Indexed_triangle_mesh_3<Kernel>& mesh_;
+  const Traits& traits_;
+  std::vector<FT> values_;                      // of the parabolic function at the vertices of the mesh
+  std::vector<Edge> edges_;                     // edges of the mesh that curves cross, ascending
+  std::vector<std::array<Index, 2>> neighbors_; // for each edge the indices of points along the curve
+  std::vector<bool> is_at_crossing_;            // whether a crossing stands for the point of the edge
+  std::vector<Point_3> points_;                 // a point for each edge, then crossings
+};
+
+} // namespace equiaffine::internal
+
+#endif

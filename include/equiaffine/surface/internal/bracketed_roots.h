@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SURFACE_INTERNAL_BRACKETED_ROOTS_H
+#define EQUIAFFINE_SURFACE_INTERNAL_BRACKETED_ROOTS_H
+
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/surface/Surface_point_3.h>
+#include <equiaffine/surface/sign_change.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace equiaffine::internal {
+
+/// A sign change of f on the segment ab, and what a root finder may conclude from a value near it.
+template <class Kernel>
+struct Bracket_3 {
+  using FT = typename Kernel::FT;
+
+  Bracket_3(const typename Kernel::Point_3& first, const typename Kernel::Point_3& last, const FT& f_first,
+            const FT& f_last)
+      : a(first), direction(last - first), fa(f_first), fb(f_last) {
+    using std::abs;
+    const FT length = std::max({abs(direction.x()), abs(direction.y()), abs(direction.z())});
+    const FT magnitude = std::max({abs(a.x()), abs(a.y()), abs(a.z()), length});
+    tolerance = FT(2) * std::numeric_limits<FT>::epsilon() * magnitude / length;
+    smaller_end = std::min(abs(fa), abs(fb));
+    const FT larger_end = std::max(abs(fa), abs(fb));
+    negligible = FT(1e-6) * (larger_end - larger_end == FT(0) ? larger_end : smaller_end);
+  }
+
+  /// A pole or a jump has no such value.
+  bool is_plausible(const FT& value) const {
+    using std::abs;
+    return abs(value) < smaller_end || abs(value) <= negligible;
+  }
+
+  Surface_point_3<Kernel> point(const FT& t, bool has_converged, int evaluations) const {
+    return {a + t * direction, has_converged, std::size_t(evaluations)};
+  }
+
+  static constexpr int maximal_evaluations = 200; // bisection alone needs 60 in double
+
+  typename Kernel::Point_3 a;
+  typename Kernel::Vector_3 direction;
+  FT fa, fb;
+  FT tolerance; // of fractions of the segment
+  FT smaller_end, negligible;
+};
+
+/// Newton's method on the restriction of f, kept within the bracket by bisection whenever a step would leave it or not
+/// halve the last one (Press et al., Numerical Recipes, 2007, section 9.4).
+template <class Kernel, class Traits>
+Surface_point_3<Kernel> newton(const Traits& traits, const Bracket_3<Kernel>& bracket) {
+  using FT = typename Kernel::FT;
+  using std::abs;
+  const auto& direction = bracket.direction;
+  FT lower(0), upper(1), last_step(1), t = linear_zero(bracket.fa, bracket.fb);
+  for (int n = 1; n <= bracket.maximal_evaluations; ++n) {
+    const auto jet = first_order(traits, bracket.a + t * direction);
+    const auto& c = jet.coefficients();
+    const FT slope = c[1] * direction.x() + c[2] * direction.y() + c[3] * direction.z();
+    if (c[0] == FT(0)) return bracket.point(t, true, n);
+    if (!(c[0] < FT(0) || c[0] > FT(0))) return bracket.point(t, false, n); // NaN
+    FT step = -c[0] / slope;
+    if (abs(step) <= bracket.tolerance)
+      return bracket.point(std::clamp(t + step, FT(0), FT(1)), bracket.is_plausible(c[0]), n);
+    ((c[0] < FT(0)) == (bracket.fa < FT(0)) ? lower : upper) = t;
+    if (!(t + step > lower && t + step < upper) || abs(step) > abs(last_step) / FT(2))
+      step = (lower + upper) / FT(2) - t;
+    last_step = step;
+    t += step;
+    if (abs(step) <= bracket.tolerance) return bracket.point(t, bracket.is_plausible(c[0]), n);
+  }
+  return bracket.point(t, false, bracket.maximal_evaluations);
+}
+
+/// Inverse quadratic interpolation where it is safe, else bisection (Chandrupatla, A new hybrid quadratic/bisection
+/// algorithm for finding the zero of a nonlinear function without using derivatives, 1997).
+template <class Kernel, class Traits>
+Surface_point_3<Kernel> chandrupatla(const Traits& traits, const Bracket_3<Kernel>& bracket) {
+  using FT = typename Kernel::FT;
+  using std::abs;
+  FT x1(0), f1 = bracket.fa, x2(1), f2 = bracket.fb,
+            fraction = linear_zero(bracket.fa, bracket.fb); // the zero is between x1 and x2
+  for (int n = 1; n <= bracket.maximal_evaluations; ++n) {
+    const FT x = x1 + fraction * (x2 - x1);
+    const FT f = traits.value(bracket.a + x * bracket.direction);
+    if (f == FT(0)) return bracket.point(x, true, n);
+    if (!(f < FT(0) || f > FT(0))) return bracket.point(x, false, n); // NaN
+    FT x3 = x1, f3 = f1;
+    if ((f < FT(0)) != (f1 < FT(0))) {
+      x3 = x2, f3 = f2;
+      x2 = x1, f2 = f1;
+    }
+    x1 = x, f1 = f;
+    const FT smallest_step = bracket.tolerance / abs(x2 - x1);
+    if (!(smallest_step < FT(0.5))) {
+      const bool is_first_better = abs(f1) < abs(f2);
+      return bracket.point(is_first_better ? x1 : x2, bracket.is_plausible(is_first_better ? f1 : f2), n);
+    }
+    const FT xi = (x1 - x2) / (x3 - x2), phi = (f1 - f2) / (f3 - f2);
+    const bool is_safe = phi * phi < xi && (FT(1) - phi) * (FT(1) - phi) < FT(1) - xi;
+    fraction = is_safe ? f1 / (f2 - f1) * (f3 / (f2 - f3)) + (x3 - x1) / (x2 - x1) * (f1 / (f3 - f1)) * (f2 / (f3 - f2))
+                       : FT(0.5);
+    fraction = std::clamp(fraction, smallest_step, FT(1) - smallest_step);
+  }
+  return bracket.point(x1, false, bracket.maximal_evaluations);
+}
+
+} // namespace equiaffine::internal
+
+#endif
