@@ -70,8 +70,8 @@ Array_isosurface_3<FT> classic(const Field<FT>& field) {
     for (auto& entry : result.of_signs) entry.is_ambiguous = false;
     return result;
   }();
-  const internal::Array_grid<FT> grid{field.values, {field.n, field.n, field.n}, 0, {0, 0, 0}, {1, 1, 1}};
-  return internal::extract<CGAL::Sequential_tag>(grid, table);
+  const internal::Array_grid<FT> grid(field.values, {field.n, field.n, field.n}, 0, {0, 0, 0}, {1, 1, 1});
+  return internal::isosurface_of_array<CGAL::Sequential_tag>(grid, table);
 }
 
 void with_one_thread(const auto& f) {
@@ -132,8 +132,7 @@ struct Sphere {
 template <bool SkipsEmptySpace, class Traits>
 void sample_signs(const Traits& traits, std::size_t n) {
   const internal::Lattice_function<Traits> function(traits, sampling_lattice(traits, {n, n, n}));
-  internal::Node_signs signs(function.lattice().size());
-  const internal::Sign_sampler<CGAL::Sequential_tag, SkipsEmptySpace, Traits> sampler(function, signs);
+  internal::sample_signs<CGAL::Sequential_tag, SkipsEmptySpace>(function);
 }
 
 /// An analytic sphere with n^3 nodes: the whole, and the signs alone, which are what skipping saves.

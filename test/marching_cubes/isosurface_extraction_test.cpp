@@ -28,7 +28,7 @@ void append_triangles(const Surface& surface, std::vector<Triangle>& triangles) 
     triangles.push_back({surface.points[a], surface.points[b], surface.points[c]});
 }
 
-/// Made cell after cell, each as a grid of its own.
+/// The triangles of all cells, where each cell is a grid of its own.
 std::vector<Triangle> triangles_of_cells(const std::vector<double>& values, const Size& size) {
   std::vector<Triangle> triangles;
   for (std::size_t k = 0; k + 1 < size[2]; ++k)
@@ -44,7 +44,8 @@ std::vector<Triangle> triangles_of_cells(const std::vector<double>& values, cons
   return triangles;
 }
 
-// Rows shorter, as long and longer than words, and than the 4096 nodes of one word of words.
+// Rows are shorter, as long and longer than the 64 nodes of a word of signs, and than the 4096 nodes for which a word
+// says which words have signs.
 TEST(Isosurface_extraction, a_grid_has_the_triangles_of_its_cells) {
   std::mt19937 random(1);
   for (const Size& size : {Size{2, 2, 2}, Size{63, 3, 4}, Size{64, 4, 3}, Size{65, 3, 3}, Size{66, 3, 3},
@@ -65,7 +66,7 @@ TEST(Isosurface_extraction, threads_change_nothing) {
   for (const bool has_undefined : {false, true}) {
     const Size size = {70, 40, 50};
     auto values = random_values(size, has_undefined, random);
-    for (std::size_t n = 0; n < 1000; ++n) values[random() % values.size()] = 0; // what has to be repaired
+    for (std::size_t n = 0; n < 1000; ++n) values[random() % values.size()] = 0; // makes triangles without area
     const auto one = marching_cubes_of_array<CGAL::Sequential_tag>(std::span<const double>(values), size, 0.0);
     const auto many = marching_cubes_of_array<CGAL::Parallel_tag>(std::span<const double>(values), size, 0.0);
     EXPECT_TRUE(one.points == many.points);

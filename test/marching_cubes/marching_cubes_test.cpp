@@ -98,10 +98,9 @@ TEST(Marching_cubes, skipping_empty_space_changes_nothing_on_skew_lattices) {
 }
 
 TEST(Marching_cubes, skipping_empty_space_does_not_take_the_end_of_the_domain_for_a_surface) {
-  // The square root is undefined on one side of a plane, where the bounds know nothing of it; y - 0.3 and the like
-  // change their sign.
+  // The function changes its sign on a plane and is undefined on one side of another, of which its bounds know nothing.
   for (const char* text : {"(y-0.3)*(1+0.01*sqrt(x))", "(y-0.3)*(1+0.01*sqrt(-x))",
-                           // the plane crosses what is just above the surface, where blocks begin
+                           // Here it becomes undefined just above the surface, where blocks of nodes begin.
                            "(x-0.3)*(1+0.01*sqrt(0.33-x+0.2*y))", "(y-0.3)*(1+0.01*sqrt(0.33-y+0.2*z))",
                            "(z-0.3)*(1+0.01*sqrt(0.33-z+0.2*x))"})
     for (const std::size_t n : {37, 40}) {
@@ -259,7 +258,8 @@ TEST(Marching_cubes, vertices_around_a_sample_that_the_spline_smooths_away_are_u
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(surface.vertex_status[i], Point_status::UNCONVERGED);
 }
 
-// Node values that are exactly zero, or that the spline changes by a rounding: the vertex is there already.
+// Node values are exactly zero, or the spline changes them by a rounding: vertices are on the surface before
+// projection.
 TEST(Marching_cubes, vertices_at_nodes_of_a_volume_are_on_the_surface) {
   for (const char* text : {"x", "x+y", "x^2+y^2+z^2-25", "50*(x-2)"}) {
     const Lattice_3<Kernel> lattice({17, 17, 17}, CGAL::Bbox_3(-8, -8, -8, 8, 8, 8));

@@ -16,7 +16,7 @@ namespace {
 using namespace equiaffine;
 using internal::Marching_cubes_cases;
 
-/// A whole number from the environment: scripts/topology asks for more grids and other seeds.
+/// A whole number from the environment, where scripts/topology asks for more grids and other seeds.
 std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
   const char* text = std::getenv(name);
   return text ? std::strtoull(text, nullptr, 10) : otherwise;
@@ -58,13 +58,14 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Marching_cubes_topology_of,
                          testing::Values("closed", "open", "check", "cell", "case13"),
                          [](const auto& kind) { return std::string(kind.param); });
 
-// Values at the isovalue: nodes, and saddles on faces. In float few positions are left beside a node.
+// Nodes, and saddles on faces, have the isovalue. In float few positions are left beside a node.
 template <class FT>
 class Marching_cubes_topology : public testing::Test {};
 using Floating_point_types = testing::Types<float, double>;
 TYPED_TEST_SUITE(Marching_cubes_topology, Floating_point_types);
 
-/// The grid with positive values for zeros, which have the same signs: the surface before its repairs.
+/// The grid with small positive values for zeros. Its surface is the one of the grid before repairs: signs are the
+/// same.
 Grid without_ties(Grid grid) {
   for (double& x : grid.values)
     if (x == 0) x = 1e-7;
@@ -82,7 +83,7 @@ void expect_vertices_near_zeros(const Grid& grid, const Array_isosurface_3<FT>& 
       node[a] = std::size_t(p[a]);
       if (p[a] != FT(node[a])) ++inside, axis = a;
     }
-    if (inside != 1) continue; // at a node, or within a cell
+    if (inside != 1) continue; // a vertex at a node, or within a cell
     auto end = node;
     ++end[axis];
     const double f = grid.values[grid.index(node[0], node[1], node[2])],
@@ -93,7 +94,7 @@ void expect_vertices_near_zeros(const Grid& grid, const Array_isosurface_3<FT>& 
   }
 }
 
-/// What was done to the surfaces of many grids, which are judged.
+/// Judges the surfaces of many grids, and adds up what was done to them.
 template <class FT>
 Isosurface_repairs repairs_of(const std::string& kind) {
   Isosurface_repairs sum;
@@ -150,7 +151,7 @@ TEST(Trilinear_topology, the_oracle_says_the_same_along_all_axes) {
     }
 }
 
-// The tables.
+// Tests of the tables follow.
 
 /// Every directed edge of the triangles of a sub-case, with how often it occurs.
 std::map<std::pair<int, int>, int> directed_edges(const Marching_cubes_cases::Sub_case& sub_case) {
@@ -160,7 +161,7 @@ std::map<std::pair<int, int>, int> directed_edges(const Marching_cubes_cases::Su
   return edges;
 }
 
-/// The edges of the mesh without a partner: where it continues in the next cell.
+/// The directed edges that no triangle has the other way round: there the mesh goes on in the next cell.
 std::set<std::pair<int, int>> border(const Marching_cubes_cases::Sub_case& sub_case) {
   const auto edges = directed_edges(sub_case);
   std::set<std::pair<int, int>> result;
@@ -212,7 +213,7 @@ void for_each_sub_case(const Visit& visit) {
 // seen from both sides, and nothing else lies in a face: so any two sub-cases that can meet at a face fit together.
 TEST(Marching_cubes_cases, every_pair_of_sub_cases_fits_together_across_a_face) {
   for (int axis = 0; axis < 3; ++axis) {
-    // Signs and decision on the face -> its segments, as edges of the lower cell.
+    // From the signs and the decision on the face to its segments, as edges of the lower cell.
     std::map<std::pair<unsigned, bool>, std::set<std::pair<int, int>>> seen_from_below, seen_from_above;
     const auto to_lower = [&](int edge) {
       return internal::edge_between(internal::first_corner(edge) | 1 << axis,
@@ -252,7 +253,7 @@ TEST(Marching_cubes_cases, the_border_of_a_sub_case_lies_in_the_faces) {
   });
 }
 
-// Exactness.
+// Tests of exactness follow.
 
 /// A cell whose face z = 0 has the saddle p q - r s for diagonal positive p, q and negative r, s.
 bool is_joined_on_bottom(double p, double q, double r, double s, double isovalue = 0) {

@@ -28,7 +28,7 @@ std::size_t unconverged(const Isosurface_3<Kernel>& s) {
   return std::size_t(std::count(s.vertex_status.begin(), s.vertex_status.end(), Point_status::UNCONVERGED));
 }
 
-// More planes than are projected at once.
+// The grid has more planes than one slab, which is projected before the next.
 TEST(Vertex_projection, no_triangle_turns_over_in_many_planes_and_threads_change_nothing) {
   std::mt19937 random(3);
   std::size_t undone = 0;

@@ -18,27 +18,28 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 using Points = std::vector<std::array<double, 3>>;
 
 struct Result {
-  Mesh_topology topology; ///< of what is left
+  Mesh_topology topology; ///< of the triangles that are left
   std::size_t triangles = 0;
   Isosurface_repairs repairs;
 };
 
-/// Vertices are moved in directions of their own, in early rounds all in the same.
+/// The outcome of a repair in which every vertex moves in a direction of its own, but all in the same one in early
+/// rounds.
 Result repaired(Triangles triangles, Points points, int early_rounds = 0) {
-  std::vector<std::size_t> part(triangles.size());
-  std::iota(part.begin(), part.end(), std::size_t(0));
+  std::vector<std::size_t> suspects(triangles.size());
+  std::iota(suspects.begin(), suspects.end(), std::size_t(0));
   const auto at = [&](std::size_t v) { return points[v]; };
   const auto nudge = [&](std::size_t v, int round) {
     for (std::size_t a = 0; a < 3; ++a)
       points[v][a] += 1e-7 * std::sin(round < early_rounds ? 1.0 : double(1 + 3 * v + a));
   };
   const std::span all(triangles);
-  const internal::Zero_area_repair repair(all, part, at, nudge);
+  const Isosurface_repairs repairs = internal::Zero_area_repair(all, suspects, at, nudge).run();
   std::erase_if(triangles, [](const auto& t) { return t[0] == t[1]; });
   std::map<std::uint32_t, std::uint32_t> number;
   for (auto& t : triangles)
     for (auto& v : t) v = number.try_emplace(v, std::uint32_t(number.size())).first->second;
-  return {mesh_topology(triangles, number.size()), triangles.size(), repair.repairs()};
+  return {mesh_topology(triangles, number.size()), triangles.size(), repairs};
 }
 
 void expect_unchanged(const Result& r, std::size_t triangles, std::ptrdiff_t euler_characteristic) {
@@ -64,7 +65,7 @@ TEST(Zero_area_repair, an_edge_without_length_is_contracted) {
 }
 
 TEST(Zero_area_repair, a_strip_is_not_pinched_between_two_boundaries) {
-  // 0 and 1 lie on different boundaries and have two triangles in common.
+  // Vertices 0 and 1 lie on different boundaries and have two triangles in common.
   const Triangles strip = {{0, 5, 3}, {0, 3, 1}, {0, 1, 2}, {0, 2, 4}, {2, 1, 6}, {1, 3, 7}};
   expect_unchanged(
       repaired(strip, {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, -1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, 1, 0}, {1, -1, 0}}), 6,
@@ -106,7 +107,7 @@ TEST(Zero_area_repair, a_component_with_boundary_stays) {
   EXPECT_EQ(r.repairs.zero_area_left, 0u);
 }
 
-// The second search meets but triangles that the first one has seen.
+// From the second flat triangle on, the search for a component meets triangles that it has seen before.
 TEST(Zero_area_repair, a_component_with_area_between_two_flat_triangles_stays) {
   expect_unchanged(repaired(antiprism, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 2, 1}}), 8, 2);
 }

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// Node values, i fastest.
+/// The values at the nodes of a grid, with i fastest.
 struct Grid {
   std::array<std::size_t, 3> size;
   std::vector<double> values;

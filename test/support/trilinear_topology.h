@@ -44,7 +44,7 @@ struct Slice {
     else join(1, 2);
   }
 
-  /// What is positive or joined in either.
+  /// Makes positive and joins what is so in the other slice.
   void unite(const Slice& other) {
     for (std::size_t c = 0; c < 4; ++c) is_positive[c] = is_positive[c] || other.is_positive[c];
     for (std::size_t c = 0; c < 4; ++c) components.join(c, other.components.root(c));
@@ -110,12 +110,13 @@ std::optional<long> sweep(const std::array<Real, 8>& f, Join join) {
   return chi;
 }
 
-/// Number of components and chi of P for sign = 1, of N for sign = -1.
+/// The number of components and chi of P for sign = 1, and of N for sign = -1.
 inline std::optional<Trilinear_topology> of_positive_part(const Grid& grid, double sign, std::size_t sweep_axis) {
   const auto& n = grid.size;
   Partition nodes(grid.values.size());
   long chi = 0;
-  // Every box of `extent` cells, 0 or 1 along each axis, that is not in the boundary of the grid.
+  // The loops visit every cell, face, edge and node that is not in the boundary of the grid: bit a of `extent` says
+  // whether it extends along axis a.
   for (std::size_t extent = 0; extent < 8; ++extent) {
     const auto along = [&](std::size_t axis) { return extent >> axis & 1; };
     std::vector<std::size_t> axes;
@@ -153,7 +154,7 @@ inline std::optional<Trilinear_topology> of_positive_part(const Grid& grid, doub
 
 } // namespace trilinear_topology
 
-/// The topology of the zero set; nothing if a value is zero or a saddle nearly so. Swept along `axis`.
+/// The topology of the zero set, found by a sweep along `axis`; nothing if a value is zero or a saddle nearly so.
 inline std::optional<Trilinear_topology> topology_of_trilinear_surface(const Grid& grid, std::size_t axis) {
   for (const double x : grid.values)
     if (x == 0) return std::nullopt;

@@ -11,8 +11,8 @@
 
 namespace equiaffine::internal {
 
-/// For large arrays that are written once, right after they are made: leaves numbers uninitialised and asks for large
-/// pages.
+/// An allocator for large arrays that are written once, right after they are made: it leaves numbers uninitialized and
+/// asks for large pages.
 template <class T>
 struct Output_allocator {
   using value_type = T;

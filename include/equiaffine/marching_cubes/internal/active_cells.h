@@ -15,7 +15,7 @@
 
 namespace equiaffine::internal {
 
-/// Eight words seen from the side: column i has bit i of word c as its bit c.
+/// Transposes eight words: bit c of column i is bit i of word c.
 class Bit_columns {
 public:
   using Word = Node_signs::Word;
@@ -60,9 +60,10 @@ template <bool HasUndefined, class Visit>
 void for_each_active_cell(const Node_signs& signs, std::size_t j, std::size_t k, const Visit& visit) {
   using Word = Node_signs::Word;
   const Word* const rows[4] = {signs.row(j, k), signs.row(j + 1, k), signs.row(j, k + 1), signs.row(j + 1, k + 1)};
-  const auto differ = [&](std::size_t w) { // across the row
+  const auto differ = [&](std::size_t w) { // nodes of which the four rows have different signs
     return (rows[0][w] ^ rows[1][w]) | (rows[0][w] ^ rows[2][w]) | (rows[0][w] ^ rows[3][w]);
   };
+  // Bit i of a shifted word belongs to node i + 1.
   const auto shifted = [&](std::size_t r, std::size_t w) { return rows[r][w] >> 1 | rows[r][w + 1] << 63; };
   signs.for_each_word(j, k, [&](std::size_t w) {
     const Word differ_here = differ(w);

@@ -12,17 +12,23 @@
 
 namespace equiaffine::internal {
 
-/// The sub-cases of Marching_cubes_cases in flat arrays, for speed. The vertices of a cell are kept in 16 slots: those
-/// on the edges 0, 1, 2, 3, 4, 5, 8, 10, which begin at the lower end of the cell along i, then those on 6, 7, 9, 11,
-/// which face the last four of them at its upper end, then the inner vertices.
+/// The sub-cases of Marching_cubes_cases in flat arrays, for speed. The vertices of a cell are kept in slots: first
+/// those on the edges 0, 1, 2, 3, which run along i, then those on 4, 5, 8, 10 at the lower end of the cell along i,
+/// then those on 6, 7, 9, 11, which face them at its upper end, then the inner vertices.
 struct Case_table {
+  static constexpr std::size_t first_lower_slot = 4, first_upper_slot = 8, first_inner_slot = 12, number_of_slots = 16;
+
+  /// For the edges of the first eight slots, which begin at the lower end of the cell: 1 if it is crossed, else 0.
+  using Crossed_edges = std::array<std::uint32_t, 8>;
+
   struct Entry {
     std::uint32_t first_slot;
     std::uint8_t triangles, inner_vertices;
     bool is_ambiguous;
   };
 
-  static constexpr std::size_t at_once = 4; ///< triangles that may be read behind the last ones
+  /// Few cells have more triangles. The slots of so many may be read from any entry on.
+  static constexpr std::size_t triangles_of_most_cells = 4;
 
   static const Case_table& instance() {
     static const Case_table table;
@@ -41,7 +47,7 @@ struct Case_table {
           slots[1].push_back(slot_of_edge[t[(3 - m) % 3]]);
         }
     }
-    for (auto& side : slots) side.resize(side.size() + 3 * at_once);
+    for (auto& side : slots) side.resize(side.size() + 3 * triangles_of_most_cells);
     for (unsigned signs = 0; signs < 256; ++signs) {
       of_signs[signs] = of_sub_case[cases.variant(signs, 0).sub_case];
       of_signs[signs].is_ambiguous = cases.is_ambiguous(signs);
@@ -52,9 +58,9 @@ struct Case_table {
   }
 
   std::vector<Entry> of_sub_case;
-  std::array<Entry, 256> of_signs;
-  std::array<std::vector<std::uint8_t>, 2> slots;        ///< three per triangle; [1]: the other way round
-  std::array<std::array<std::uint32_t, 8>, 256> crossed; ///< of the edges 0, 1, 2, 3, 4, 5, 8, 10
+  std::array<Entry, 256> of_signs; ///< for all signs of the corners; where they are ambiguous, only that counts
+  std::array<std::vector<std::uint8_t>, 2> slots; ///< three per triangle; slots[1] has them the other way round
+  std::array<Crossed_edges, 256> crossed;         ///< for all signs of the corners
 };
 
 } // namespace equiaffine::internal

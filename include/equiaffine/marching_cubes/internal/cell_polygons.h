@@ -23,6 +23,7 @@ constexpr int first_corner(int edge) {
 }
 constexpr int second_corner(int edge) { return first_corner(edge) | 1 << edge / 4; }
 
+/// The edge between two corners.
 constexpr int edge_between(int corner, int other) {
   const int axis = (corner ^ other) == 1 ? 0 : (corner ^ other) == 2 ? 1 : 2;
   return 4 * axis + (corner >> (axis + 1) % 3 & 1) + 2 * (corner >> (axis + 2) % 3 & 1);
@@ -35,6 +36,7 @@ constexpr std::array<int, 4> face_corners(int face) {
   return side ? std::array{base, base | u, base | u | v, base | v} : std::array{base, base | v, base | u | v, base | u};
 }
 
+/// Whether two edges lie in one face.
 constexpr bool share_face(int edge, int other) {
   for (int axis = 0; axis < 3; ++axis)
     if (edge / 4 != axis && other / 4 != axis && ((first_corner(edge) ^ first_corner(other)) >> axis & 1) == 0)
@@ -42,7 +44,8 @@ constexpr bool share_face(int edge, int other) {
   return false;
 }
 
-using Polygon = std::vector<std::uint8_t>; // edges of the cell
+/// A closed curve through points on edges of the cell.
+using Polygon = std::vector<std::uint8_t>;
 
 /// The boundary curves of the surface. On each face a segment leads from the edge after a run of positive corners to
 /// the edge before it or, where the positive corners of the face are joined, to the edge before the next run. The face
@@ -56,7 +59,7 @@ inline std::vector<Polygon> boundary_curves(unsigned signs, unsigned joined) {
     const auto corner = [&](std::size_t m) { return corners[m % 4]; };
     for (std::size_t m = 0; m < 4; ++m) {
       if (!is_positive(corner(m)) || is_positive(corner(m + 1))) continue;
-      std::size_t end = m; // of the segment: corner(end) is negative, corner(end + 1) positive
+      std::size_t end = m; // the segment ends where corner(end) is negative and corner(end + 1) positive
       if (joined >> face & 1) {
         for (end = m + 1; !is_positive(corner(end + 1));) ++end;
       } else {
@@ -97,7 +100,7 @@ inline bool triangulate_disc(const Polygon& polygon, std::vector<std::array<std:
   return false;
 }
 
-/// Between the midpoints of two edges, in half steps.
+/// The squared distance between the midpoints of two edges, in half steps.
 inline int squared_distance(int edge, int other) {
   int sum = 0;
   for (int axis = 0; axis < 3; ++axis) {

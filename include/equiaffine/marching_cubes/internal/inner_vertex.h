@@ -27,8 +27,8 @@ std::pair<FT, FT> trilinear(const std::array<FT, 8>& f, const std::array<FT, 3>&
   return {ends[0] + p[axis] * slope, slope};
 }
 
-/// A vertex amid those on some edges of a cell, in its coordinates: their mean, moved along the axis of the steepest
-/// slope onto the surface of the trilinear interpolant if that is within the cell.
+/// The place of a vertex amid those on some edges of a cell, in the coordinates of the cell: their mean, moved along
+/// the axis of the steepest slope onto the surface of the trilinear interpolant if that is within the cell.
 template <class FT>
 std::array<FT, 3> inner_vertex(const std::array<FT, 8>& f, std::span<const std::uint8_t> edges) {
   using std::abs;

@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_NUMBERING_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_NUMBERING_H
 
+#include <equiaffine/marching_cubes/internal/Grid_rows.h>
+#include <equiaffine/marching_cubes/internal/grid_elements.h>
 #include <equiaffine/marching_cubes/internal/node_signs.h>
 
 #include <CGAL/assertions.h>
@@ -17,29 +19,23 @@
 
 namespace equiaffine::internal {
 
-/// The edge of a grid that begins at a node.
-struct Grid_edge {
-  std::array<std::size_t, 3> node;
-  std::size_t axis;
-};
-
 /// The numbers of the vertices and triangles of a surface in a grid. The vertices of a row of nodes are those on its
 /// edges along i, then j, then k, each in the order of i: the number of a vertex is that of its row and kind plus the
 /// number of crossed edges before it, so no vertex is ever looked up. The inner vertices of cells come last, layer
 /// after layer. Triangles are ordered like their cells.
 ///
-/// Memory: 16 bytes per row of nodes.
+/// Rows and layers first hold counts, which `turn_counts_into_numbers` replaces. Memory: 16 bytes per row of nodes.
 class Isosurface_numbering {
 public:
   using Word = Node_signs::Word;
   using Index = std::uint32_t;
-  using Node = std::array<std::size_t, 3>;
 
+  /// A row of nodes along i, and the row of cells that begins there.
   struct Row {
-    std::array<Index, 3> first{}; ///< vertex on an edge along each axis; counts before `scan`
-    Index triangles = 0;
+    std::array<Index, 3> first{}; ///< the first vertex on an edge along each axis; at the beginning, how many there are
+    Index triangles = 0;          ///< how many the row of cells has
   };
-  /// Cells between two planes of nodes.
+  /// The cells between two planes of nodes.
   struct Layer {
     std::size_t first_triangle = 0, first_inner_vertex = 0, inner_vertices = 0;
   };
@@ -51,15 +47,14 @@ public:
   const Row& row(std::size_t j, std::size_t k) const { return rows_[k * signs_.size()[1] + j]; }
   Layer& layer(std::size_t k) { return layers_[k]; }
 
-  /// Makes numbers of the counts in rows and layers.
-  void scan() {
+  void turn_counts_into_numbers() {
     const std::size_t ny = signs_.size()[1];
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       if (r % ny == 0 && r / ny < layers_.size()) layers_[r / ny].first_triangle = number_of_triangles_;
       for (Index& first : rows_[r].first) {
-        const Index n = first;
+        const Index count = first;
         first = Index(number_of_vertices_);
-        number_of_vertices_ += n;
+        number_of_vertices_ += count;
       }
       number_of_triangles_ += rows_[r].triangles;
     }
@@ -79,7 +74,7 @@ public:
     const Row* const r = &row(j, k);
     return r[0].first[0] != r[1].first[0];
   }
-  /// On edges that begin in a plane.
+  /// The vertices on edges that begin in a plane.
   Index_range vertices_of_plane(std::size_t k) const { return {row(0, k).first[0], row(0, k + 1).first[0]}; }
   Index_range inner_vertices_of_layer(std::size_t k) const {
     const Layer& layer = layers_[k];
@@ -103,16 +98,16 @@ public:
     }
   }
 
-  /// The same for many rows, those j in rows[k]: every triangle once, ascending.
-  std::vector<std::size_t> triangles_around(const std::vector<std::vector<std::size_t>>& rows) const {
+  /// All triangles in the rows of cells at some rows of nodes, ascending, each of them once.
+  std::vector<std::size_t> triangles_around(const Grid_rows& rows) const {
     std::vector<std::size_t> result;
-    if (std::all_of(rows.begin(), rows.end(), [](const auto& js) { return js.empty(); })) return result;
+    if (rows.is_empty()) return result;
     const std::size_t ny = signs_.size()[1];
     std::vector<bool> is_around(rows_.size());
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      for (const std::size_t j : rows[k])
-        for (std::size_t q = k > 0 ? k - 1 : 0; q <= k; ++q)
-          for (std::size_t p = j > 0 ? j - 1 : 0; p <= j; ++p) is_around[q * ny + p] = true;
+    rows.for_each([&](std::size_t j, std::size_t k) {
+      for (std::size_t q = k > 0 ? k - 1 : 0; q <= k; ++q)
+        for (std::size_t p = j > 0 ? j - 1 : 0; p <= j; ++p) is_around[q * ny + p] = true;
+    });
     std::size_t t = 0;
     for (std::size_t r = 0; r < rows_.size(); t += rows_[r].triangles, ++r)
       if (is_around[r])
@@ -120,9 +115,9 @@ public:
     return result;
   }
 
-  /// Calls visit(range) for ranges of triangles that hold all with a vertex from `vertex` on.
+  /// Calls visit(range) for ranges of triangles that together contain all triangles with a vertex from `vertex` on.
   template <class Visit>
-  void for_each_part_with_vertices_from(std::size_t vertex, const Visit& visit) const {
+  void for_each_range_with_vertices_from(std::size_t vertex, const Visit& visit) const {
     for (std::size_t k = 0; k + 1 < layers_.size(); ++k) {
       const Index_range inner = inner_vertices_of_layer(k);
       const bool has_inner = inner.first < inner.end && inner.end > vertex;
@@ -138,21 +133,11 @@ public:
     const std::size_t r = std::size_t(after - rows_.begin()) - 1, j = r % signs_.size()[1], k = r / signs_.size()[1];
     const auto& first = rows_[r].first;
     const std::size_t axis = vertex >= first[2] ? 2 : vertex >= first[1] ? 1 : 0;
-    std::size_t before = vertex - first[axis];
-    const Node_signs::Edge_row<true> edges(signs_, j, k);
-    for (std::size_t w = 0;; ++w) {
-      Word crossed = edges.crossed(w)[axis];
-      const auto n = std::size_t(std::popcount(crossed));
-      if (before >= n) {
-        before -= n;
-        continue;
-      }
-      for (; before > 0; --before) crossed &= crossed - 1;
-      return Grid_edge{{64 * w + std::size_t(std::countr_zero(crossed)), j, k}, axis};
-    }
+    return Grid_edge{{node_of_crossed_edge(vertex - first[axis], j, k, axis), j, k}, axis};
   }
 
-  /// The number of the first vertex on an edge along `axis` from i on in a row.
+  /// The number of the first vertex in a row of nodes that lies on an edge along `axis` which begins at i or further
+  /// on.
   Index vertex_from(std::size_t i, std::size_t j, std::size_t k, std::size_t axis) const {
     Index vertex = row(j, k).first[axis];
     const Node_signs::Edge_row<true> edges(signs_, j, k);
@@ -162,8 +147,22 @@ public:
   }
 
 private:
+  /// The i at which the n-th of the crossed edges along `axis` begins in a row of nodes, counted from 0.
+  std::size_t node_of_crossed_edge(std::size_t n, std::size_t j, std::size_t k, std::size_t axis) const {
+    const Node_signs::Edge_row<true> edges(signs_, j, k);
+    for (std::size_t w = 0;; ++w) {
+      Word crossed = edges.crossed(w)[axis];
+      const auto count = std::size_t(std::popcount(crossed));
+      if (n < count) {
+        for (; n > 0; --n) crossed &= crossed - 1; // removes the lowest bit
+        return 64 * w + std::size_t(std::countr_zero(crossed));
+      }
+      n -= count;
+    }
+  }
+
   const Node_signs& signs_;
-  std::vector<Row> rows_; // and one behind the last
+  std::vector<Row> rows_; // with one more behind the last
   std::vector<Layer> layers_;
   std::size_t number_of_vertices_ = 0, number_of_triangles_ = 0;
 };

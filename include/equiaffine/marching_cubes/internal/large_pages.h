@@ -14,7 +14,7 @@ namespace equiaffine::internal {
 inline constexpr std::size_t large_page = std::size_t(1) << 21;
 
 /// Asks for large pages where memory is written for the first time: the first touch of every small page costs more than
-/// what Marching Cubes computes for it. Advice only: without it programs are but slower.
+/// what Marching Cubes computes for it. This is advice only: a system that ignores it makes programs slower, not wrong.
 inline void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
   const auto begin = reinterpret_cast<std::uintptr_t>(memory);
@@ -24,7 +24,7 @@ inline void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] s
 #endif
 }
 
-/// The first resize of a vector.
+/// Gives an empty vector n elements, in large pages where there are some.
 template <class Vector>
 void resize_with_large_pages(Vector& vector, std::size_t n) {
   vector.reserve(n);

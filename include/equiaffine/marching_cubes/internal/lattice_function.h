@@ -3,8 +3,7 @@
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LATTICE_FUNCTION_H
 
 #include <equiaffine/function/Batch_function_traits_3.h>
-#include <equiaffine/marching_cubes/internal/inner_vertex.h>
-#include <equiaffine/marching_cubes/internal/isosurface_numbering.h>
+#include <equiaffine/marching_cubes/internal/grid_elements.h>
 #include <equiaffine/surface/sign_change.h>
 #include <equiaffine/volume/Lattice_3.h>
 
@@ -13,17 +12,20 @@
 
 namespace equiaffine::internal {
 
-/// A function at the nodes of a lattice: samples where there are some, else evaluated.
+/// The values of a function at the nodes of a lattice, where samples are used if there are any: a Grid as in
+/// grid_elements.h.
 template <class Traits>
 class Lattice_function {
 public:
   using FT = typename Traits::FT;
   using Kernel = Kernel_of<Traits>;
   using Point_3 = typename Traits::Point_3;
+  using Point = Point_3;
   using Node = std::array<std::size_t, 3>;
-  using Offset = std::array<FT, 3>; ///< in a cell, in steps of the lattice
+  using Offset = std::array<FT, 3>; ///< from the first node of a cell, in steps of the lattice
   static constexpr bool has_samples = LatticeImplicitFunctionTraits_3<Traits>;
 
+  /// The ends of an edge of the lattice and the values there.
   struct Edge {
     std::array<Point_3, 2> ends;
     std::array<FT, 2> values;
@@ -36,23 +38,39 @@ public:
 
   const Batch_function_traits_3<Traits>& traits() const { return traits_; }
   const Lattice_3<Kernel>& lattice() const { return lattice_; }
+  static FT isovalue() { return FT(0); }
+  bool is_left_handed() const { return lattice_.determinant() < FT(0); }
+  static std::array<FT, 3> coordinates(const Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
   Point_3 point(const Node& n) const { return lattice_.point(number(n[0]), number(n[1]), number(n[2])); }
   Point_3 point(const Node& cell, const Offset& offset) const {
     return lattice_.point(number(cell[0]) + offset[0], number(cell[1]) + offset[1], number(cell[2]) + offset[2]);
   }
 
-  /// At a node, which lies at p.
+  /// The value at a node, which lies at p.
   FT value(const Node& n, const Point_3& p) const {
     if constexpr (has_samples) return traits_.sample(n[0], n[1], n[2]);
     else return traits_.value(p);
   }
 
   Edge edge(const Grid_edge& e) const {
-    const auto& [i, j, k] = e.node;
-    const Node end = {i + (e.axis == 0), j + (e.axis == 1), k + (e.axis == 2)};
+    const Node end = end_of(e);
     const std::array<Point_3, 2> ends = {point(e.node), point(end)};
     return {ends, {value(e.node, ends[0]), value(end, ends[1])}};
+  }
+
+  Edge_vertex<Point_3> edge_vertex(const Node& node, std::size_t axis) const {
+    const Edge e = edge({node, axis});
+    const Point_3 p = e.linear_intersection();
+    return {p, e.ends_at(p)};
+  }
+
+  bool is_nearer_to_end(const Grid_edge& e, const Point_3& p) const {
+    return (point(end_of(e)) - p).squared_length() < (p - point(e.node)).squared_length();
+  }
+
+  Point_3 moved(const Point_3& p, std::size_t axis, double steps) const {
+    return p + FT(steps) * lattice_.steps()[axis];
   }
 
   std::array<FT, 8> cell_values(const Node& cell) const {
@@ -64,14 +82,18 @@ public:
     return f;
   }
 
-  /// What it costs to know the values at n nodes.
+  /// The number of evaluations of the function that the values at n nodes take.
   static constexpr std::size_t evaluations(std::size_t n) { return has_samples ? 0 : n; }
 
 private:
+  static Node end_of(const Grid_edge& e) {
+    const auto& [i, j, k] = e.node;
+    return {i + (e.axis == 0), j + (e.axis == 1), k + (e.axis == 2)};
+  }
   static bool coincide(const Point_3& p, const Point_3& q) {
     return p.x() == q.x() && p.y() == q.y() && p.z() == q.z();
   }
-  static FT number(std::size_t n) { return FT(double(std::ptrdiff_t(n))); } // signed: one instruction
+  static FT number(std::size_t n) { return FT(double(std::ptrdiff_t(n))); } // of a signed number in one instruction
 
   const Batch_function_traits_3<Traits> traits_;
   const Lattice_3<Kernel> lattice_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The triangles of every topology that the zero set of a trilinear function has in a cell. Made from the signs at the
-// corners, the decision on every face with a diagonal pair of positive corners, and the pair of boundary curves that
-// are joined by a tunnel, if there is one.
+// The triangles of every topology that the zero set of a trilinear function has in a cell. They are made from the signs
+// at the corners, the decision on every face with a diagonal pair of positive corners, and the pair of boundary curves
+// that are joined by a tunnel, if there is one.
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_MARCHING_CUBES_CASES_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_MARCHING_CUBES_CASES_H
 
@@ -19,8 +19,8 @@
 
 namespace equiaffine::internal {
 
-/// Numbering of corners, edges and faces: cell_polygons.h. Bit c of `signs` says that corner c is positive, bit f of
-/// `joined` that the positive corners of face f are connected across the face; it counts only where they face each
+/// Corners, edges and faces have the numbers of cell_polygons.h. Bit c of `signs` says that corner c is positive, bit f
+/// of `joined` that the positive corners of face f are connected across the face; it counts only where they face each
 /// other diagonally.
 ///
 /// The boundary curves cut the surface of the cell into regions, one more than there are curves. Inside the cell at
@@ -29,7 +29,7 @@ namespace equiaffine::internal {
 class Marching_cubes_cases {
 public:
   using Triangle = std::array<std::uint8_t, 3>;          ///< counterclockwise seen from the positive side
-  static constexpr std::uint8_t first_inner_vertex = 12; ///< below: the vertex on that edge of the cell
+  static constexpr std::uint8_t first_inner_vertex = 12; ///< smaller numbers are edges of the cell
 
   /// One topology. Inner vertex n lies amid the vertices on the edges inner_edges[n].
   struct Sub_case {
@@ -41,8 +41,8 @@ public:
   /// What the faces leave open: the regions of the corners, and which of them may be joined inside.
   struct Variant {
     std::array<std::uint8_t, 8> region{};
-    std::uint16_t sub_case = 0;                                 ///< without a tunnel; with tunnel n: sub_case + 1 + n
-    std::vector<std::pair<std::uint8_t, std::uint8_t>> tunnels; ///< regions, the smaller first
+    std::uint16_t sub_case = 0; ///< the sub-case without a tunnel; that with tunnel n is sub_case + 1 + n
+    std::vector<std::pair<std::uint8_t, std::uint8_t>> tunnels; ///< the two regions of each, the smaller first
   };
 
   static const Marching_cubes_cases& instance() {
@@ -85,6 +85,7 @@ private:
     return faces;
   }
 
+  /// The region of every corner. A region has the smallest number of its corners.
   static std::array<std::uint8_t, 8> find_regions(unsigned signs, unsigned joined) {
     std::array<std::uint8_t, 8> region{};
     for (std::uint8_t c = 0; c < 8; ++c) region[c] = c;
@@ -127,7 +128,8 @@ private:
     return variant;
   }
 
-  /// A tunnel is seen along every axis: as corners of the two regions on edges that face each other diagonally.
+  /// Whether a tunnel may join two regions. If so, along every axis there are corners of the two regions on edges that
+  /// face each other diagonally.
   static bool may_be_joined(const std::array<std::uint8_t, 8>& region, std::uint8_t r, std::uint8_t s) {
     for (int axis = 0; axis < 3; ++axis) {
       bool is_seen = false;
@@ -139,16 +141,16 @@ private:
     return true;
   }
 
-  /// Discs in all curves but i and j, which are joined by an annulus if they exist.
+  /// Adds the sub-case with discs in all curves but i and j, which are joined by an annulus if they exist.
   void add_sub_case(const std::vector<Polygon>& curves, std::size_t i, std::size_t j) {
     Sub_case sub_case;
     sub_case.boundary_curves = int(curves.size());
     for (std::size_t n = 0; n < curves.size(); ++n) {
       if (n == i || n == j || triangulate_disc(curves[n], sub_case.triangles)) continue;
-      const auto centre = std::uint8_t(first_inner_vertex + sub_case.inner_edges.size());
+      const auto center = std::uint8_t(first_inner_vertex + sub_case.inner_edges.size());
       const Polygon& curve = curves[n];
       for (std::size_t m = 0; m < curve.size(); ++m)
-        sub_case.triangles.push_back({curve[m], curve[(m + 1) % curve.size()], centre});
+        sub_case.triangles.push_back({curve[m], curve[(m + 1) % curve.size()], center});
       sub_case.inner_edges.push_back(curve);
     }
     if (i < curves.size()) {

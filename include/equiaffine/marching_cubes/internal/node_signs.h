@@ -14,20 +14,20 @@
 
 namespace equiaffine::internal {
 
-/// Numbers [first, end).
+/// The numbers from `first` up to, but without, `end`.
 struct Index_range {
   std::size_t first = 0, end = 0;
   std::size_t size() const { return end - first; }
 };
 
-/// Nodes of a grid, those in a range along each axis.
+/// The nodes of a grid in a range along each axis.
 using Node_block = std::array<Index_range, 3>;
 
 /// The signs of the nodes of a grid, one bit each, in rows along i that begin with a new word; bits behind the end of a
 /// row are 0. Planes of constant k may be written by different threads.
 ///
-/// Nodes for which only `set_positive` was called, or nothing, are known not to be corners of a cell that meets the
-/// surface.
+/// A node for which `set` was not called must not be a corner of a cell that meets the surface. Its sign is negative
+/// unless `set_positive` was called.
 class Node_signs {
 public:
   using Word = std::uint64_t;
@@ -43,10 +43,10 @@ public:
   const Size& size() const { return size_; }
   std::size_t words() const { return words_; }
 
-  /// Words behind the end of a row may be read, but only bits of cells mean anything then.
+  /// The words of a row. The word behind its end may be read, but is that of another row.
   const Word* row(std::size_t j, std::size_t k) const { return &positive_[(k * size_[1] + j) * words_]; }
 
-  /// Sets the bits of a row from `first` on; all must lie in one word.
+  /// Sets the signs of the nodes of a row from `first` on; the bits of all of them must lie in one word.
   void set(std::size_t first, std::size_t j, std::size_t k, const Sign_word& signs) {
     const std::size_t row = k * size_[1] + j, w = first / 64;
     positive_[row * words_ + w] |= signs.positive << first % 64;
@@ -54,7 +54,7 @@ public:
     if (signs.undefined != 0) set_undefined(first, j, k, signs.undefined);
   }
 
-  /// Sets the bits of all nodes of a block.
+  /// Makes all nodes of a block positive.
   void set_positive(const Node_block& block) {
     const auto& [is, js, ks] = block;
     for (std::size_t w = is.first / 64; 64 * w < is.end; ++w) {
@@ -77,15 +77,15 @@ public:
         visit(64 * m + std::size_t(std::countr_zero(bits)));
   }
 
-  /// The word without its bits behind the end of a row of n.
+  /// Word w of a row without its bits for nodes from n on.
   static Word within(Word word, std::size_t w, std::size_t n) {
     return 64 * (w + 1) <= n ? word : 64 * w >= n ? 0 : word & ((Word(1) << n % 64) - 1);
   }
 
-  /// The word without its bits that are no cells of a row.
+  /// Word w of a row without its bits for nodes at which no cell begins.
   Word cells(Word word, std::size_t w) const { return w + 1 == words_ ? word & cells_of_last_word_ : word; }
 
-  /// Bit i: the cell (i, j, k) exists and its eight nodes have values.
+  /// Bit i of word w says that the cell (64 w + i, j, k) exists and its eight nodes have values.
   Word defined_cells(std::size_t j, std::size_t k, std::size_t w) const {
     if (j + 1 >= size_[1] || k + 1 >= size_[2] || w >= words_) return 0;
     const auto undefined = [&](std::size_t v) {
@@ -108,8 +108,8 @@ public:
           along_j_(j + 1 < signs.size_[1] ? signs.row(j + 1, k) : here_),
           along_k_(k + 1 < signs.size_[2] ? signs.row(j, k + 1) : here_) {}
 
-    /// Along each axis: bit i says that the edge at node 64 w + i has ends of different signs and a cell all of whose
-    /// nodes have values.
+    /// One word for each axis, whose bit i says that the edge at node 64 w + i has ends of different signs and belongs
+    /// to a cell all of whose nodes have values.
     std::array<Word, 3> crossed(std::size_t w) const {
       const Word here = here_[w];
       std::array<Word, 3> crossed = {signs_.cells(here ^ (here >> 1 | here_[w + 1] << 63), w), here ^ along_j_[w],
@@ -132,6 +132,7 @@ private:
     undefined_[k][j * words_ + first / 64] |= bits << first % 64;
   }
 
+  /// Bit i of word w says that the edge along `axis` at the node (64 w + i, j, k) belongs to such a cell.
   Word edges_of_defined_cells(std::size_t axis, std::size_t j, std::size_t k, std::size_t w) const {
     Word word = 0;
     for (std::size_t b = 0; b < (axis == 1 ? 1U : 2U); ++b)
@@ -145,11 +146,12 @@ private:
   }
 
   Size size_;
-  std::size_t words_, masks_; // per row
+  std::size_t words_; // per row
+  std::size_t masks_; // words of evaluated_ per row
   Word cells_of_last_word_;
-  std::vector<Word> positive_;               // and a word behind the end
-  std::vector<Word> evaluated_;              // one bit per word
-  std::vector<std::vector<Word>> undefined_; // per plane; empty: every node has a value
+  std::vector<Word> positive_;               // with one more word behind the end
+  std::vector<Word> evaluated_;              // a bit per word of positive_, which says that `set` was called for it
+  std::vector<std::vector<Word>> undefined_; // per plane; a plane is empty if all its nodes have values
 };
 
 } // namespace equiaffine::internal

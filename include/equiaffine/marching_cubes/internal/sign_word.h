@@ -14,10 +14,10 @@
 
 namespace equiaffine::internal {
 
-/// Signs of 64 numbers and fewer, bit i for number i.
+/// The signs of at most 64 numbers. Bit i belongs to number i.
 struct Sign_word {
-  std::uint64_t positive = 0;  ///< >= isovalue
-  std::uint64_t undefined = 0; ///< NaN
+  std::uint64_t positive = 0;  ///< numbers that are at least the isovalue
+  std::uint64_t undefined = 0; ///< numbers that are NaN
 };
 
 #ifdef __SSE2__
@@ -30,7 +30,7 @@ inline __m128i are_positive(const double* x, double level) {
   return _mm_castps_si128(_mm_shuffle_ps(two(x), two(x + 2), 0x88));
 }
 
-/// Not 0 where one of eight numbers is NaN.
+/// Bits that are all 0 unless one of eight numbers is NaN.
 inline __m128 are_undefined(const float* x) { return _mm_cmpunord_ps(_mm_loadu_ps(x), _mm_loadu_ps(x + 4)); }
 inline __m128 are_undefined(const double* x) {
   const auto four = [](const double* y) { return _mm_cmpunord_pd(_mm_loadu_pd(y), _mm_loadu_pd(y + 2)); };
@@ -46,6 +46,7 @@ std::uint64_t sixteen_signs(const FT* x, FT level, __m128& undefined) {
   return std::uint64_t(unsigned(_mm_movemask_epi8(_mm_packs_epi16(low, high))));
 }
 
+/// Nothing if a number is NaN.
 template <class FT>
 std::optional<Sign_word> sign_word_without_undefined(const FT* values, std::size_t n, FT isovalue) {
   Sign_word word;
@@ -61,7 +62,7 @@ std::optional<Sign_word> sign_word_without_undefined(const FT* values, std::size
 }
 #endif
 
-/// \pre n <= 64
+/// The signs of n numbers. \pre n <= 64
 template <class FT>
 Sign_word sign_word(const FT* values, std::size_t n, const FT& isovalue) {
 #ifdef __SSE2__

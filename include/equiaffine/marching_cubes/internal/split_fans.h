@@ -12,33 +12,40 @@
 
 namespace equiaffine::internal {
 
-/// Gives every fan of triangles a vertex of its own where several fans meet in one vertex, as parts of a surface do
-/// beside nodes without a value. `copy_vertex(v)` appends a copy of vertex v. No edge has more than two triangles.
-template <class Triangles, class CopyVertex>
-void split_fans(Triangles& triangles, std::size_t number_of_vertices, const CopyVertex& copy_vertex) {
-  if (triangles.empty()) return;
-  struct Half_edge {
-    std::uint32_t first, second;             // vertices, the smaller one first
-    std::size_t first_corner, second_corner; // 3 t + m for corner m of triangle t
-    bool operator<(const Half_edge& other) const {
-      return first != other.first ? first < other.first : second < other.second;
-    }
-  };
-  std::vector<Half_edge> edges;
+/// An edge of a triangle. Corner m of triangle t is denoted by 3 t + m.
+struct Triangle_edge {
+  std::uint32_t first, second;             // its vertices, the smaller one first
+  std::size_t first_corner, second_corner; // the corners of the triangle there
+  bool operator<(const Triangle_edge& other) const {
+    return first != other.first ? first < other.first : second < other.second;
+  }
+};
+
+/// The corners of triangles in sets, one for each fan of triangles around a vertex that follow each other by edges.
+template <class Triangles>
+Disjoint_sets<std::size_t> corners_by_fan(const Triangles& triangles) {
+  std::vector<Triangle_edge> edges;
   for (std::size_t c = 0; c < 3 * triangles.size(); ++c) {
     const std::size_t d = c % 3 == 2 ? c - 2 : c + 1;
     const std::uint32_t a = triangles[c / 3][c % 3], b = triangles[d / 3][d % 3];
-    edges.push_back(a < b ? Half_edge{a, b, c, d} : Half_edge{b, a, d, c});
+    edges.push_back(a < b ? Triangle_edge{a, b, c, d} : Triangle_edge{b, a, d, c});
   }
   std::sort(edges.begin(), edges.end());
-
-  Disjoint_sets<std::size_t> fans(3 * triangles.size()); // of corners
+  Disjoint_sets<std::size_t> fans(3 * triangles.size());
   for (std::size_t n = 1; n < edges.size(); ++n) {
     if (edges[n - 1] < edges[n]) continue;
     fans.unite(edges[n].first_corner, edges[n - 1].first_corner);
     fans.unite(edges[n].second_corner, edges[n - 1].second_corner);
   }
+  return fans;
+}
 
+/// Gives every fan of triangles a vertex of its own where several fans meet in one vertex, as parts of a surface do
+/// beside nodes without a value. `copy_vertex(v)` appends a copy of vertex v. No edge has more than two triangles.
+template <class Triangles, class CopyVertex>
+void split_fans(Triangles& triangles, std::size_t number_of_vertices, const CopyVertex& copy_vertex) {
+  if (triangles.empty()) return;
+  Disjoint_sets<std::size_t> fans = corners_by_fan(triangles);
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> vertex_of_fan(3 * triangles.size(), none);
   std::vector<bool> is_taken(number_of_vertices, false);

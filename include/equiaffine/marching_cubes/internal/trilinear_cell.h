@@ -22,7 +22,8 @@
 
 namespace equiaffine::internal {
 
-/// Signs of homogeneous polynomials in numbers of magnitude up to `scale`, certain or known not to be. The tolerances
+/// Signs of homogeneous polynomials in numbers of magnitude up to `scale`; it is known whether all are certain. The
+/// tolerances
 /// are a generous bound of the rounding errors of the expressions in `corners_joined_inside`: with unit roundoff u they
 /// err by less than 80 u scale^2, 400 u scale^3 and 3000 u scale^4, errors of u in the numbers included.
 template <class FT>
@@ -44,6 +45,7 @@ private:
   bool is_certain_ = true;
 };
 
+/// Signs of exact numbers, with the interface of Filtered_sign.
 struct Exact_sign {
   template <class Number>
   int operator()(const Number& x, std::size_t) const {
@@ -52,7 +54,7 @@ struct Exact_sign {
 };
 
 /// Two corners of the same sign that are joined in the horizontal slice in which the saddle of f is extremal, facing
-/// each other diagonally there; nothing if there is no such slice within the cell.
+/// each other diagonally there; nothing if there is no such slice in the cell.
 ///
 /// f is linear on the four vertical edges and bilinear in a slice, whose positive part has as many components as it has
 /// positive corners on vertical edges, but for two diagonal ones, which are joined if D(z) = f00 f11 - f10 f01 says so.
@@ -115,7 +117,8 @@ public:
   }
 
 private:
-  /// Of a face with diagonal signs. The order of the corners is that of their numbers, the same for both cells.
+  /// Whether the positive corners of a face with diagonal signs are joined on it. The order of the corners is that of
+  /// their numbers, so that both cells at the face compute the same.
   bool are_positive_joined_on(int face) const {
     static constexpr std::uint8_t corners[6][4] = {{0, 2, 4, 6}, {1, 3, 5, 7}, {0, 1, 4, 5},
                                                    {2, 3, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}};
@@ -123,7 +126,8 @@ private:
     const Number p = f_[c[0]] * f_[c[3]], q = f_[c[1]] * f_[c[2]];
     const bool is_first_positive = v_[c[0]] >= isovalue_;
     if constexpr (has_exact_signs) {
-      constexpr double relative = 1e-15, absolute = 1e-290; // 9 roundings; products do not underflow
+      // The relative bound covers 9 roundings; above the absolute one, underflow does no harm.
+      constexpr double relative = 1e-15, absolute = 1e-290;
       const double difference = p - q;
       if (!(std::abs(difference) > relative * (std::abs(p) + std::abs(q)) + absolute) ||
           std::abs(difference) > std::numeric_limits<double>::max()) {
@@ -134,6 +138,7 @@ private:
     return is_first_positive ? p >= q : p <= q;
   }
 
+  /// Two corners that a tunnel joins, as in `corners_joined_inside`.
   std::optional<std::pair<std::size_t, std::size_t>> joined_inside() const {
     if constexpr (has_exact_signs) {
       double scale = 0;
@@ -150,8 +155,9 @@ private:
     return corners_joined_inside(f, sign);
   }
 
+  /// The difference of a value and the isovalue; an infinite value counts as the largest number.
   Exact exact(std::size_t c) const {
-    if constexpr (has_exact_signs) { // an infinite value counts as the largest number
+    if constexpr (has_exact_signs) {
       constexpr FT lowest = std::numeric_limits<FT>::lowest(), largest = std::numeric_limits<FT>::max();
       return Exact(double(std::clamp(v_[c], lowest, largest))) - Exact(double(isovalue_));
     } else {

@@ -15,25 +15,26 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
 
-/// A vertex inside a cell.
-template <class FT>
-struct Inner_vertex {
-  std::array<std::size_t, 3> cell;
-  std::array<FT, 3> offset;
+struct Projection_report {
+  std::size_t evaluations;  ///< of the function
+  std::size_t flips_undone; ///< vertices that were put back
+  Grid_rows suspects;       ///< rows of nodes with a vertex, around which triangles may have no area
 };
 
 /// Puts the vertices of a mesh from the linear intersections on the surface of the function. Where that takes away the
 /// area of a triangle or turns it over, away from the side to which its linear version looks, its vertices go back.
 ///
-/// Slabs of planes one after the other, so that linear positions are kept for one slab only. What goes back may turn
-/// other triangles over; they are few, and their linear positions are computed again.
-template <class ConcurrencyTag, class Traits, class Extraction>
+/// Slabs of planes are projected one after the other, so that linear positions are kept for one slab only. Vertices
+/// that go back may turn other triangles over; these are few, and their linear positions are computed again.
+template <class ConcurrencyTag, class Traits>
 class Vertex_projection {
   using FT = typename Traits::FT;
   using Kernel = Kernel_of<Traits>;
@@ -44,59 +45,63 @@ class Vertex_projection {
   static constexpr std::size_t slab = 32; // planes
 
 public:
-  Vertex_projection(const Function& function, Extraction& extraction,
+  Vertex_projection(const Function& function, const Isosurface_plan& plan,
                     const std::vector<Inner_vertex<FT>>& inner_vertices, Isosurface_3<Kernel>& surface)
-      : function_(function), extraction_(extraction), numbering_(extraction.numbering()),
-        inner_vertices_(inner_vertices), surface_(surface), evaluations_(numbering_.number_of_planes()),
-        flipped_(numbering_.number_of_planes()) {
-    Slab linear;
-    for (std::size_t k = 0; k < numbering_.number_of_planes(); k += slab) linear = project(k, linear);
+      : function_(function), plan_(plan), numbering_(plan.numbering), inner_vertices_(inner_vertices),
+        surface_(surface), evaluations_(numbering_.number_of_planes()), flipped_(numbering_.number_of_planes()),
+        suspects_(numbering_.number_of_planes()) {}
+
+  Projection_report run() {
+    const std::size_t planes = numbering_.number_of_planes();
+    Positions linear;
+    for (std::size_t k = 0; k < planes; k += slab) {
+      const std::size_t end = std::min(k + slab, planes);
+      linear = linear_positions(k, end, linear);
+      for_each_plane(k, end, [&](std::size_t plane) { project(plane, linear); });
+      for_each_plane(k > 0 ? k - 1 : 0, end - 1, [&](std::size_t layer) { find_flipped(layer, linear); });
+    }
     undo_flips();
-    surface_.function_evaluations += std::accumulate(evaluations_.begin(), evaluations_.end(), std::size_t(0));
+    return {std::accumulate(evaluations_.begin(), evaluations_.end(), std::size_t(0)), flips_undone_,
+            std::move(suspects_)};
   }
 
 private:
-  /// The linear positions of vertices with successive numbers.
-  struct Slab {
+  /// The positions of vertices with successive numbers.
+  struct Positions {
     std::size_t first = 0;
     std::vector<Point_3> points;
     const Point_3& operator[](std::size_t v) const { return points[v - first]; }
   };
 
-  /// Projects the vertices on edges from plane `first` on and those in the cells below; returns their linear positions.
-  Slab project(std::size_t first, const Slab& below) {
-    const std::size_t end = std::min(first + slab, numbering_.number_of_planes());
+  template <class Visit>
+  static void for_each_plane(std::size_t first, std::size_t end, const Visit& visit) {
+    parallel_for<ConcurrencyTag>(first, end, visit);
+  }
+
+  /// The linear positions of the vertices on edges from plane `first` to plane `end`, which are those that the surface
+  /// has, and of the plane below, which are in `below`.
+  Positions linear_positions(std::size_t first, std::size_t end, const Positions& below) const {
     const auto vertices = [&](std::size_t k) { return numbering_.vertices_of_plane(k); };
     const std::size_t first_kept = vertices(first > 0 ? first - 1 : 0).first;
-    Slab linear{first_kept, {}};
+    Positions linear{first_kept, {}};
     if (first > 0) linear.points.assign(&below[first_kept], &below[first_kept] + (vertices(first).first - first_kept));
     linear.points.insert(linear.points.end(), surface_.points.begin() + std::ptrdiff_t(vertices(first).first),
                          surface_.points.begin() + std::ptrdiff_t(vertices(end - 1).end));
-    parallel_for<ConcurrencyTag>(first, end, [&](std::size_t k) {
-      extraction_.for_each_vertex_of_plane(
-          k, [&](std::size_t v, std::size_t i, std::size_t j, std::size_t, std::size_t axis) {
-            const auto edge = function_.edge({{i, j, k}, axis});
-            evaluations_[k] += Function::evaluations(2);
-            set_projected(v, k, intersect(edge, linear[v]));
-            return edge.ends_at(surface_.points[v]);
-          });
-      const Index_range inner = numbering_.inner_vertices_of_layer(k);
-      for (std::size_t v = inner.first; v < inner.end; ++v) set_projected(v, k, project_within_cell(inner_vertex(v)));
-    });
-    parallel_for<ConcurrencyTag>(first > 0 ? first - 1 : 0, end - 1, [&](std::size_t k) {
-      const Index_range triangles = numbering_.triangles_of_layer(k);
-      for (std::size_t t = triangles.first; t < triangles.end; ++t)
-        if (is_flipped(t, [&](std::size_t v) { return is_inner(v) ? point_of(inner_vertex(v)) : linear[v]; }))
-          flipped_[k].push_back(t);
-    });
     return linear;
   }
 
-  bool is_inner(std::size_t v) const { return v >= numbering_.number_of_edge_vertices(); }
-  const Inner_vertex<FT>& inner_vertex(std::size_t v) const {
-    return inner_vertices_[v - numbering_.number_of_edge_vertices()];
+  /// Projects the vertices on the edges that begin in plane k and those in the cells above it.
+  void project(std::size_t k, const Positions& linear) {
+    for_each_vertex_of_plane(plan_, k, suspects_,
+                             [&](std::size_t v, std::size_t i, std::size_t j, std::size_t, std::size_t axis) {
+                               const auto edge = function_.edge({{i, j, k}, axis});
+                               evaluations_[k] += Function::evaluations(2);
+                               set_projected(v, k, intersect(edge, linear[v]));
+                               return edge.ends_at(surface_.points[v]);
+                             });
+    const Index_range inner = numbering_.inner_vertices_of_layer(k);
+    for (std::size_t v = inner.first; v < inner.end; ++v) set_projected(v, k, project_within_cell(inner_vertex(v)));
   }
-  Point_3 point_of(const Inner_vertex<FT>& vertex) const { return function_.point(vertex.cell, vertex.offset); }
 
   void set_projected(std::size_t v, std::size_t k, const Surface_point_3<Kernel>& projected) {
     if (projected.has_converged) surface_.points[v] = projected.point;
@@ -104,78 +109,24 @@ private:
     evaluations_[k] += projected.evaluations;
   }
 
-  /// In lattice coordinates, so that the image of a surface under an affine map has the images of its vertices.
-  template <class Linear>
-  bool is_flipped(std::size_t t, const Linear& linear_point) const {
-    const auto& steps = function_.lattice().steps();
-    const auto normal = [&](const auto& p) {
-      const auto n = CGAL::cross_product(p[1] - p[0], p[2] - p[0]);
-      return Vector_3(n * steps[0], n * steps[1], n * steps[2]);
-    };
-    std::array<Point_3, 3> points, linear;
-    for (std::size_t m = 0; m < 3; ++m) {
-      points[m] = surface_.points[surface_.triangles[t][m]];
-      linear[m] = linear_point(surface_.triangles[t][m]);
-    }
-    const FT cosine = normal(points) * normal(linear);
-    if (cosine > FT(0)) return false;
-    return (cosine < FT(0) && has_side(linear)) || (have_no_area(points) && !have_no_area(linear));
-  }
-
-  /// Whether a triangle has an area above the rounding of its coordinates.
-  static bool has_side(const std::array<Point_3, 3>& p) {
-    const Vector_3 u = p[1] - p[0], v = p[2] - p[0];
-    const FT length = std::max(u.squared_length(), v.squared_length());
-    return CGAL::cross_product(u, v).squared_length() > squared_rounding(p[0]) * length;
-  }
-
-  static FT squared_rounding(const Point_3& p) {
-    const FT rounding = FT(16) * std::numeric_limits<FT>::epsilon();
-    return rounding * rounding * (p - CGAL::ORIGIN).squared_length();
-  }
-
-  static bool have_no_area(const std::array<Point_3, 3>& p) {
-    const auto at = [](const Point_3& q) { return std::array<FT, 3>{q.x(), q.y(), q.z()}; };
-    return has_zero_area(at(p[0]), at(p[1]), at(p[2]));
-  }
-
-  void undo_flips() {
-    std::vector<std::size_t> suspects;
-    for (const auto& layer : flipped_) suspects.insert(suspects.end(), layer.begin(), layer.end());
-    const auto linear = [&](std::size_t v) {
-      if (is_inner(v)) return point_of(inner_vertex(v));
-      evaluations_[0] += Function::evaluations(2);
-      return function_.edge(*numbering_.edge_of(v)).linear_intersection();
-    };
-    for (std::size_t n = 0; n < suspects.size(); ++n) {
-      if (!is_flipped(suspects[n], linear)) continue;
-      const Triangle& flipped = surface_.triangles[suspects[n]];
-      if (!has_side({linear(flipped[0]), linear(flipped[1]), linear(flipped[2])})) {
-        // Beside a node whose value all but vanishes two vertices are the same but for rounding; the third is not to
-        // blame if they get back what makes them differ.
-        for (const std::size_t v : flipped) {
-          const Point_3 position = linear(v);
-          if ((surface_.points[v] - position).squared_length() <= squared_rounding(position))
-            surface_.points[v] = position;
-        }
-        if (!is_flipped(suspects[n], linear)) continue;
-      }
-      for (const std::size_t v : flipped) {
-        const Point_3 position = linear(v);
-        if (surface_.points[v] == position) continue;
-        surface_.points[v] = position;
-        surface_.vertex_status[v] = Point_status::UNCONVERGED;
-        ++surface_.repairs.flips_undone;
-        const auto node = is_inner(v) ? inner_vertex(v).cell : numbering_.edge_of(v)->node;
-        numbering_.for_each_triangle_around(node[1], node[2], [&](std::size_t t) {
-          const Triangle& triangle = surface_.triangles[t];
-          if (std::find(triangle.begin(), triangle.end(), v) != triangle.end()) suspects.push_back(t);
-        });
-      }
+  Surface_point_3<Kernel> intersect(const typename Function::Edge& edge, const Point_3& linear) const {
+    const auto& traits = function_.traits();
+    const auto& [a, b] = edge.ends;
+    if constexpr (Function::has_samples) {
+      // The spline need not have the signs of the samples: if it has no sign change here, its zero is looked for
+      // nearby.
+      using std::sqrt;
+      const FT fa = traits.value(a), fb = traits.value(b);
+      auto result = is_sign_change(fa, fb) ? intersect_segment(traits, a, b, fa, fb)
+                                           : project_to_surface(traits, linear, FT(sqrt((b - a).squared_length())));
+      result.evaluations += 2;
+      return result;
+    } else {
+      return intersect_segment(traits, a, b, edge.values[0], edge.values[1]);
     }
   }
 
-  /// A zero near a point in a cell: on the way to the wall of the cell along an axis, so that it stays inside.
+  /// A zero near a vertex inside a cell, on the way to a wall of the cell along an axis, so that it stays inside.
   Surface_point_3<Kernel> project_within_cell(const Inner_vertex<FT>& vertex) const {
     const auto& traits = function_.traits();
     const Point_3 p = point_of(vertex);
@@ -202,31 +153,129 @@ private:
     return best;
   }
 
-  Surface_point_3<Kernel> intersect(const typename Function::Edge& edge, const Point_3& linear) const {
-    const auto& traits = function_.traits();
-    const auto& [a, b] = edge.ends;
-    if constexpr (Function::has_samples) {
-      // The spline need not have the signs of the samples: if it has no sign change here, its zero is looked for
-      // nearby.
-      using std::sqrt;
-      const FT fa = traits.value(a), fb = traits.value(b);
-      auto result = is_sign_change(fa, fb) ? intersect_segment(traits, a, b, fa, fb)
-                                           : project_to_surface(traits, linear, FT(sqrt((b - a).squared_length())));
-      result.evaluations += 2;
-      return result;
-    } else {
-      return intersect_segment(traits, a, b, edge.values[0], edge.values[1]);
+  /// Finds the triangles of layer k that projection has turned over.
+  void find_flipped(std::size_t k, const Positions& linear) {
+    const auto linear_position = [&](std::size_t v) { return is_inner(v) ? point_of(inner_vertex(v)) : linear[v]; };
+    const Index_range triangles = numbering_.triangles_of_layer(k);
+    for (std::size_t t = triangles.first; t < triangles.end; ++t)
+      if (is_flipped(t, linear_position)) flipped_[k].push_back(t);
+  }
+
+  /// Whether projection has turned a triangle over or taken away its area. This is decided in lattice coordinates, so
+  /// that the image of a surface under an affine map has the images of its vertices.
+  template <class LinearPosition>
+  bool is_flipped(std::size_t t, const LinearPosition& linear_position) const {
+    const auto& steps = function_.lattice().steps();
+    const auto normal = [&](const auto& p) {
+      const auto n = CGAL::cross_product(p[1] - p[0], p[2] - p[0]);
+      return Vector_3(n * steps[0], n * steps[1], n * steps[2]);
+    };
+    std::array<Point_3, 3> points, linear;
+    for (std::size_t m = 0; m < 3; ++m) {
+      points[m] = surface_.points[surface_.triangles[t][m]];
+      linear[m] = linear_position(surface_.triangles[t][m]);
+    }
+    const FT cosine = normal(points) * normal(linear);
+    if (cosine > FT(0)) return false;
+    return (cosine < FT(0) && has_side(linear)) || (have_no_area(points) && !have_no_area(linear));
+  }
+
+  /// Whether a triangle has an area above the rounding of its coordinates, so that it looks to one side.
+  static bool has_side(const std::array<Point_3, 3>& p) {
+    const Vector_3 u = p[1] - p[0], v = p[2] - p[0];
+    const FT length = std::max(u.squared_length(), v.squared_length());
+    return CGAL::cross_product(u, v).squared_length() > squared_rounding(p[0]) * length;
+  }
+
+  static FT squared_rounding(const Point_3& p) {
+    const FT rounding = FT(16) * std::numeric_limits<FT>::epsilon();
+    return rounding * rounding * (p - CGAL::ORIGIN).squared_length();
+  }
+
+  static bool have_no_area(const std::array<Point_3, 3>& p) {
+    return has_zero_area(Function::coordinates(p[0]), Function::coordinates(p[1]), Function::coordinates(p[2]));
+  }
+
+  /// Puts back the vertices of flipped triangles, and of those that get flipped by that.
+  void undo_flips() {
+    std::vector<std::size_t> suspects;
+    for (const auto& layer : flipped_) suspects.insert(suspects.end(), layer.begin(), layer.end());
+    for (std::size_t n = 0; n < suspects.size(); ++n) {
+      const std::size_t t = suspects[n];
+      if (!is_flipped_now(t)) continue;
+      const Triangle triangle = surface_.triangles[t];
+      if (!has_side({linear_position(triangle[0]), linear_position(triangle[1]), linear_position(triangle[2])})) {
+        // Beside a node whose value all but vanishes two vertices are the same but for rounding. Once they have back
+        // what makes them differ, the third vertex may stay where it is.
+        undo_roundings(triangle);
+        if (!is_flipped_now(t)) continue;
+      }
+      for (const std::size_t v : triangle)
+        if (put_back(v)) append_triangles_around(v, suspects);
     }
   }
 
+  bool is_flipped_now(std::size_t t) {
+    return is_flipped(t, [&](std::size_t v) { return linear_position(v); });
+  }
+
+  /// Computes the linear position of a vertex again.
+  Point_3 linear_position(std::size_t v) {
+    if (is_inner(v)) return point_of(inner_vertex(v));
+    evaluations_[0] += Function::evaluations(2);
+    return function_.edge(*numbering_.edge_of(v)).linear_intersection();
+  }
+
+  /// Puts back the vertices that projection has moved by no more than rounding.
+  void undo_roundings(const Triangle& triangle) {
+    for (const std::size_t v : triangle) {
+      const Point_3 position = linear_position(v);
+      if ((surface_.points[v] - position).squared_length() <= squared_rounding(position)) surface_.points[v] = position;
+    }
+  }
+
+  /// Returns whether the vertex was elsewhere.
+  bool put_back(std::size_t v) {
+    const Point_3 position = linear_position(v);
+    if (surface_.points[v] == position) return false;
+    surface_.points[v] = position;
+    surface_.vertex_status[v] = Point_status::UNCONVERGED;
+    ++flips_undone_;
+    return true;
+  }
+
+  void append_triangles_around(std::size_t v, std::vector<std::size_t>& triangles) const {
+    const auto node = is_inner(v) ? inner_vertex(v).cell : numbering_.edge_of(v)->node;
+    numbering_.for_each_triangle_around(node[1], node[2], [&](std::size_t t) {
+      const Triangle& triangle = surface_.triangles[t];
+      if (std::find(triangle.begin(), triangle.end(), v) != triangle.end()) triangles.push_back(t);
+    });
+  }
+
+  bool is_inner(std::size_t v) const { return v >= numbering_.number_of_edge_vertices(); }
+  const Inner_vertex<FT>& inner_vertex(std::size_t v) const {
+    return inner_vertices_[v - numbering_.number_of_edge_vertices()];
+  }
+  Point_3 point_of(const Inner_vertex<FT>& vertex) const { return function_.point(vertex.cell, vertex.offset); }
+
   const Function& function_;
-  Extraction& extraction_;
+  const Isosurface_plan& plan_;
   const Isosurface_numbering& numbering_;
   const std::vector<Inner_vertex<FT>>& inner_vertices_;
   Isosurface_3<Kernel>& surface_;
   std::vector<std::size_t> evaluations_;          // per plane
   std::vector<std::vector<std::size_t>> flipped_; // triangles per layer
+  Grid_rows suspects_;
+  std::size_t flips_undone_ = 0;
 };
+
+/// Projects the vertices of `surface`, which are at the linear intersections. Changes its points and their status.
+template <class ConcurrencyTag, class Traits>
+Projection_report project_vertices(const Lattice_function<Traits>& function, const Isosurface_plan& plan,
+                                   const std::vector<Inner_vertex<typename Traits::FT>>& inner_vertices,
+                                   Isosurface_3<Kernel_of<Traits>>& surface) {
+  return Vertex_projection<ConcurrencyTag, Traits>(function, plan, inner_vertices, surface).run();
+}
 
 } // namespace equiaffine::internal
 

@@ -45,54 +45,51 @@ bool any_zero_area(const Triangles& triangles, const Coordinates& coordinates) {
 /// without length are contracted while that leaves the topology as it is (link condition: Dey, Edelsbrunner, Guha,
 /// Nekhayev 1999), components without area are dropped, and what is left is given area by moving vertices a little.
 ///
-/// `coordinates(v)` are those of a point, `nudge(v, round)` moves it. Removed triangles get
-/// three equal indices; `remove` takes them out.
+/// `coordinates(v)` are those of a vertex, `nudge(v, round)` moves it a little. `run` gives the triangles to remove
+/// three equal indices, and `remove` takes them out.
 template <class Coordinates, class Nudge>
 class Zero_area_repair {
 public:
   using Index = std::uint32_t;
   using Triangle = std::array<Index, 3>;
 
-  /// `part` holds the numbers of all triangles at points where two vertices coincide.
-  Zero_area_repair(std::span<Triangle> triangles, const std::vector<std::size_t>& part, const Coordinates& coordinates,
-                   const Nudge& nudge)
+  /// `suspects` are the numbers of all triangles that may have no area, and of all triangles that have a vertex in
+  /// common with one that has none.
+  Zero_area_repair(std::span<Triangle> triangles, const std::vector<std::size_t>& suspects,
+                   const Coordinates& coordinates, const Nudge& nudge)
       : triangles_(triangles), coordinates_(coordinates), nudge_(nudge) {
-    for (const std::size_t t : part)
+    for (const std::size_t t : suspects)
       if (is_flat(t)) flat_.push_back(t);
-    if (flat_.empty()) return;
-    Index last = 0;
-    for (const std::size_t t : part) last = std::max({last, triangles_[t][0], triangles_[t][1], triangles_[t][2]});
-    std::vector<bool> has_star(std::size_t(last) + 1);
-    for (const std::size_t t : flat_)
-      for (const Index v : triangles_[t]) has_star[v] = true;
-    for (const std::size_t t : part)
-      for (const Index v : triangles_[t])
-        if (has_star[v]) stars_[v].push_back(t);
+    if (!flat_.empty()) find_stars(suspects);
+  }
+
+  /// Repairs the triangles and says what it did.
+  Isosurface_repairs run() {
+    if (flat_.empty()) return {};
     while (contract_edges()) continue;
     drop_components();
     move_vertices();
+    return repairs_;
   }
 
-  const Isosurface_repairs& repairs() const { return repairs_; }
-
-  /// Removes the vertices that are in no triangle any more from `points...`, arrays with an entry per vertex, and the
-  /// triangles that are gone.
+  /// Removes the triangles that are gone, and the vertices that are in no triangle any more from `points...`, arrays
+  /// with an entry per vertex.
   template <class Triangles, class... Points>
   void remove(const Isosurface_numbering& numbering, Triangles& triangles, Points&... points) {
     sort_and_unite(removed_vertices_);
     sort_and_unite(removed_triangles_);
     const std::size_t n = std::max({points.size()...});
-    std::vector<Index> number(removed_vertices_.size()); // of the last vertices
-    const std::size_t kept = n - number.size();
+    const std::size_t kept = n - removed_vertices_.size();
+    std::vector<Index> new_number(removed_vertices_.size()); // of the vertices from `kept` on
     const auto renumber = [&](std::size_t t) {
       for (Index& v : triangles[t])
-        if (v >= kept) v = number[v - kept];
+        if (v >= kept) v = new_number[v - kept];
     };
-    fill_holes(n, removed_vertices_, [&](std::size_t from, std::size_t to) { number[from - kept] = Index(to); });
-    numbering.for_each_part_with_vertices_from(kept, [&](const Index_range& part) {
-      for (std::size_t t = part.first; t < part.end; ++t) renumber(t);
+    fill_holes(n, removed_vertices_, [&](std::size_t from, std::size_t to) { new_number[from - kept] = Index(to); });
+    numbering.for_each_range_with_vertices_from(kept, [&](const Index_range& range) {
+      for (std::size_t t = range.first; t < range.end; ++t) renumber(t);
     });
-    for (std::size_t v = kept; v < n; ++v) // contraction has brought other triangles there
+    for (std::size_t v = kept; v < n; ++v) // contraction has given these vertices triangles of other ranges
       if (const auto star = stars_.find(Index(v)); star != stars_.end())
         for (const std::size_t t : star->second) renumber(t);
     (remove_from_array(removed_vertices_, points), ...);
@@ -113,6 +110,19 @@ private:
            has_zero_area(coordinates_(triangle[0]), coordinates_(triangle[1]), coordinates_(triangle[2]));
   }
 
+  /// Finds the triangles around the vertices of flat triangles.
+  void find_stars(const std::vector<std::size_t>& suspects) {
+    Index last = 0;
+    for (const std::size_t t : suspects) last = std::max({last, triangles_[t][0], triangles_[t][1], triangles_[t][2]});
+    std::vector<bool> has_star(std::size_t(last) + 1);
+    for (const std::size_t t : flat_)
+      for (const Index v : triangles_[t]) has_star[v] = true;
+    for (const std::size_t t : suspects)
+      for (const Index v : triangles_[t])
+        if (has_star[v]) stars_[v].push_back(t);
+  }
+
+  /// Contracts edges without length where that is possible; false if there was none.
   bool contract_edges() {
     const std::size_t before = repairs_.contracted_edges;
     for (const std::size_t t : flat_)
@@ -123,7 +133,7 @@ private:
     return repairs_.contracted_edges != before;
   }
 
-  /// The vertices around v with the number of triangles at v that have them: 1 on the boundary, else 2.
+  /// The vertices around v, each with the number of triangles at the edge to it: 1 on the boundary, else 2.
   std::unordered_map<Index, int> neighbors(Index v) const {
     std::unordered_map<Index, int> result;
     for (const std::size_t t : stars_.at(v))
@@ -136,6 +146,7 @@ private:
     return std::any_of(around.begin(), around.end(), [](const auto& n) { return n.second == 1; });
   }
 
+  /// Whether contraction of the edge uv leaves the topology as it is and no two triangles the same.
   bool may_contract(Index u, Index v) const {
     const auto around_u = neighbors(u), around_v = neighbors(v);
     const int triangles = around_u.at(v);
@@ -147,18 +158,23 @@ private:
       ++common;
       if (n == 1 && at_v->second == 1) return false; // w has no other triangle
     }
-    if (common != triangles) return false;
-    // No edge may face both u and v: its two triangles would become the same.
+    return common == triangles && !is_edge_facing_both(u, v);
+  }
+
+  /// Whether triangles at u and at v, not the same ones, have the edge opposite to these vertices in common. They would
+  /// become the same triangle.
+  bool is_edge_facing_both(Index u, Index v) const {
     for (const std::size_t s : stars_.at(u)) {
       if (contains(triangles_[s], v)) continue;
       for (const std::size_t t : stars_.at(v)) {
-        const auto faces_both = [&](Index w) { return w == u || contains(triangles_[t], w); };
-        if (std::all_of(triangles_[s].begin(), triangles_[s].end(), faces_both)) return false;
+        const auto is_at_u_or_in_t = [&](Index w) { return w == u || contains(triangles_[t], w); };
+        if (std::all_of(triangles_[s].begin(), triangles_[s].end(), is_at_u_or_in_t)) return true;
       }
     }
-    return true;
+    return false;
   }
 
+  /// Moves the triangles at u to v and removes those at both.
   void contract(Index u, Index v) {
     for (const std::size_t t : stars_[u]) {
       Triangle& triangle = triangles_[t];
@@ -177,11 +193,12 @@ private:
     ++repairs_.contracted_edges;
   }
 
+  /// Drops the closed components without area.
   void drop_components() {
     std::unordered_set<std::size_t> visited;
     for (const std::size_t first : flat_) {
       if (!is_flat(first) || visited.contains(first)) continue;
-      std::vector<std::size_t> component = {first};
+      std::vector<std::size_t> component = {first}; // the flat triangles that are connected with the first
       visited.insert(first);
       bool is_closed_and_flat = true;
       for (std::size_t n = 0; n < component.size(); ++n)
@@ -192,18 +209,22 @@ private:
             else if (visited.insert(t).second) component.push_back(t);
           }
         }
-      if (!is_closed_and_flat) continue;
-      ++repairs_.dropped_components;
-      for (const std::size_t t : component) {
-        removed_vertices_.insert(removed_vertices_.end(), triangles_[t].begin(), triangles_[t].end());
-        triangles_[t].fill(triangles_[t][0]);
-      }
-      removed_triangles_.insert(removed_triangles_.end(), component.begin(), component.end());
+      if (is_closed_and_flat) drop(component);
     }
   }
 
+  void drop(const std::vector<std::size_t>& component) {
+    ++repairs_.dropped_components;
+    for (const std::size_t t : component) {
+      removed_vertices_.insert(removed_vertices_.end(), triangles_[t].begin(), triangles_[t].end());
+      triangles_[t].fill(triangles_[t][0]);
+    }
+    removed_triangles_.insert(removed_triangles_.end(), component.begin(), component.end());
+  }
+
+  /// Gives the remaining flat triangles area.
   void move_vertices() {
-    constexpr int rounds = 4; // of 2.5e-7 at most
+    constexpr int rounds = 4; // a vertex moves by 2.5e-7 at most in each
     std::unordered_set<Index> moved;
     for (int round = 0; round < rounds; ++round) {
       std::vector<Index> vertices;
@@ -212,7 +233,7 @@ private:
       sort_and_unite(vertices);
       for (const Index v : vertices) nudge_(v, round);
       moved.insert(vertices.begin(), vertices.end());
-      flat_.clear(); // what a vertex could have flattened lies around it
+      flat_.clear(); // the move of a vertex may have flattened triangles around it
       for (const Index v : vertices) flat_.insert(flat_.end(), stars_[v].begin(), stars_[v].end());
     }
     repairs_.moved_vertices = moved.size();
@@ -224,18 +245,19 @@ private:
   std::span<Triangle> triangles_;
   const Coordinates& coordinates_;
   const Nudge& nudge_;
-  std::vector<std::size_t> flat_;                             // triangles that have or may have no area
-  std::unordered_map<Index, std::vector<std::size_t>> stars_; // of the vertices of flat triangles
+  std::vector<std::size_t> flat_;                             // triangles that may have no area
+  std::unordered_map<Index, std::vector<std::size_t>> stars_; // the triangles around the vertices of those
   std::vector<Index> removed_vertices_;
   std::vector<std::size_t> removed_triangles_;
   Isosurface_repairs repairs_;
 };
 
-/// move(d) for a small d, at most 2.5e-7 where move(1e-7) differs from p, else few roundings, and not the same for all
-/// vertices and rounds.
+/// A position near p, which is move(0): move(d) for a small d that depends on vertex and round. d is at most 2.5e-7
+/// where move(0.5e-7) differs from p, else a few roundings.
 template <class Point, class Move>
 Point nudged(const Point& p, std::size_t vertex, int round, const Move& move) {
-  const double golden = 0.6180339887498949 * double(vertex) * (round + 1) * (round + 1); // vertices alike differ later
+  // The square makes vertices that move alike in one round move differently in the next.
+  const double golden = 0.6180339887498949 * double(vertex) * (round + 1) * (round + 1);
   double d = 0.5e-7;
   while (move(d) == p && d < 1) d *= 2;
   return move(d * (1 + 4 * (golden - std::floor(golden))));

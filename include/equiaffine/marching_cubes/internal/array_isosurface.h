@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_ARRAY_ISOSURFACE_H
+#define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ARRAY_ISOSURFACE_H
+
+#include <equiaffine/marching_cubes/Array_isosurface_3.h>
+#include <equiaffine/marching_cubes/internal/array_grid.h>
+#include <equiaffine/marching_cubes/internal/isosurface_plan.h>
+#include <equiaffine/marching_cubes/internal/linear_isosurface.h>
+
+#include <array>
+#include <cstddef>
+
+namespace equiaffine::internal {
+
+/// The surface of an array, in which the cases of cells are those of a table.
+template <class ConcurrencyTag, class FT>
+Array_isosurface_3<FT> isosurface_of_array(const Array_grid<FT>& grid, const Case_table& table) {
+  const Node_signs signs = node_signs<ConcurrencyTag>(grid);
+  const Isosurface_plan plan = plan_isosurface<ConcurrencyTag>(signs, grid, table);
+  Array_isosurface_3<FT> surface;
+  surface.points.resize(plan.numbering.number_of_vertices());
+  surface.triangles.resize(plan.numbering.number_of_triangles());
+  const auto keep_none = [](std::size_t, const std::array<std::size_t, 3>&, const std::array<FT, 3>&) {};
+  const Grid_rows suspects =
+      place_linearly<ConcurrencyTag>(grid, plan, surface.points.data(), surface.triangles.data(), keep_none);
+  surface.repairs = repair_mesh(grid, plan, suspects, surface.triangles, surface.points);
+  return surface;
+}
+
+} // namespace equiaffine::internal
+
+#endif

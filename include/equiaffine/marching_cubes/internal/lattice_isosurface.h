@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_LATTICE_ISOSURFACE_H
+#define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LATTICE_ISOSURFACE_H
+
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/marching_cubes/internal/isosurface_plan.h>
+#include <equiaffine/marching_cubes/internal/large_pages.h>
+#include <equiaffine/marching_cubes/internal/lattice_function.h>
+#include <equiaffine/marching_cubes/internal/linear_isosurface.h>
+#include <equiaffine/marching_cubes/internal/sample_signs.h>
+#include <equiaffine/marching_cubes/internal/vertex_projection.h>
+#include <equiaffine/surface/Isosurface_3.h>
+
+#include <CGAL/Real_timer.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// The number of cells that contain the given vertices, which are ordered like their cells.
+template <class FT>
+std::size_t number_of_cells(const std::vector<Inner_vertex<FT>>& vertices) {
+  std::size_t cells = 0;
+  for (std::size_t n = 0; n < vertices.size(); ++n)
+    if (n == 0 || vertices[n].cell != vertices[n - 1].cell) ++cells;
+  return cells;
+}
+
+/// The surface of a function on a lattice: topology from the signs and values at the nodes, then the vertices.
+template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
+Isosurface_3<Kernel_of<Traits>> isosurface_on_lattice(const Lattice_function<Traits>& function,
+                                                      Vertex_position position) {
+  using FT = typename Traits::FT;
+  using Cell = std::array<std::size_t, 3>;
+  CGAL::Real_timer timer;
+  timer.start();
+  const Sampled_signs sampled = sample_signs<ConcurrencyTag, SkipsEmptySpace>(function);
+  const Isosurface_plan plan = plan_isosurface<ConcurrencyTag>(sampled.signs, function, Case_table::instance());
+  const std::size_t vertices = plan.numbering.number_of_vertices();
+  const std::size_t edge_vertices = plan.numbering.number_of_edge_vertices();
+
+  Isosurface_3<Kernel_of<Traits>> surface;
+  resize_with_large_pages(surface.points, vertices);
+  surface.vertex_status.assign(vertices, Point_status::REGULAR);
+  resize_with_large_pages(surface.triangles, plan.numbering.number_of_triangles());
+  std::vector<Inner_vertex<FT>> inner_vertices(vertices - edge_vertices);
+  const auto keep_inner = [&](std::size_t v, const Cell& cell, const std::array<FT, 3>& offset) {
+    inner_vertices[v - edge_vertices] = {cell, offset};
+  };
+  Grid_rows suspects =
+      place_linearly<ConcurrencyTag>(function, plan, surface.points.data(), surface.triangles.data(), keep_inner);
+  const std::size_t evaluated_cells = plan.number_of_ambiguous_cells() + number_of_cells(inner_vertices);
+  surface.function_evaluations =
+      sampled.evaluations + Lattice_function<Traits>::evaluations(2 * edge_vertices + 8 * evaluated_cells);
+  surface.sampling_seconds = timer.time();
+
+  std::size_t flips_undone = 0;
+  if (position == Vertex_position::PROJECTED) {
+    const Projection_report report = project_vertices<ConcurrencyTag>(function, plan, inner_vertices, surface);
+    surface.function_evaluations += report.evaluations;
+    suspects.add(report.suspects);
+    flips_undone = report.flips_undone;
+  }
+  surface.repairs = repair_mesh(function, plan, suspects, surface.triangles, surface.points, surface.vertex_status);
+  surface.repairs.flips_undone = flips_undone;
+  surface.projection_seconds = timer.time() - surface.sampling_seconds;
+  return surface;
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Marching Cubes in passes that are parallel over planes of nodes or layers of cells: plan_isosurface finds the
+// sub-case of every cell and numbers vertices and triangles, place_linearly makes them, and repair_mesh mends what has
+// no area.
+#ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_LINEAR_ISOSURFACE_H
+#define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LINEAR_ISOSURFACE_H
+
+#include <equiaffine/marching_cubes/internal/grid_elements.h>
+#include <equiaffine/marching_cubes/internal/inner_vertex.h>
+#include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
+#include <equiaffine/marching_cubes/internal/split_fans.h>
+#include <equiaffine/marching_cubes/internal/zero_area_repair.h>
+#include <equiaffine/surface/Isosurface_repairs.h>
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace equiaffine::internal {
+
+/// Writes the points of all vertices and the triangles. Calls keep_inner(vertex, cell, offset) for every vertex inside
+/// a cell. Returns the rows of nodes around which triangles may have no area.
+template <class ConcurrencyTag, class Grid, class KeepInner>
+Grid_rows place_linearly(const Grid& grid, const Isosurface_plan& plan, typename Grid::Point* points,
+                         Index_triangle* triangles, const KeepInner& keep_inner) {
+  Grid_rows suspects = for_each_edge_vertex<ConcurrencyTag>(
+      plan, [&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, auto axis) {
+        const auto vertex = grid.edge_vertex({i, j, k}, axis);
+        points[v] = vertex.point;
+        return vertex.is_at_node;
+      });
+  suspects.add(write_triangles<ConcurrencyTag>(
+      plan, triangles, grid.is_left_handed(),
+      [&](std::size_t first, std::size_t i, std::size_t j, std::size_t k, const auto& edges, const auto& written) {
+        const std::array<std::size_t, 3> cell = {i, j, k};
+        auto values = grid.cell_values(cell);
+        for (auto& value : values) value -= grid.isovalue();
+        for (std::size_t n = 0; n < edges.size(); ++n) {
+          const auto offset = inner_vertex(values, edges[n]);
+          points[first + n] = grid.point(cell, offset);
+          keep_inner(first + n, cell, offset);
+        }
+        return any_zero_area(written, [&](std::size_t v) -> decltype(auto) { return grid.coordinates(points[v]); });
+      }));
+  return suspects;
+}
+
+/// Removes triangles without area around the given rows. `properties` are arrays with an entry per vertex.
+template <class Grid, class Triangles, class Points, class... Properties>
+Isosurface_repairs repair_zero_areas(const Grid& grid, const Isosurface_numbering& numbering, const Grid_rows& suspects,
+                                     Triangles& triangles, Points& points, Properties&... properties) {
+  const auto suspected_triangles = numbering.triangles_around(suspects);
+  if (suspected_triangles.empty()) return {};
+  const auto nudge = [&](std::size_t v, int round) {
+    const auto edge = numbering.edge_of(v);
+    const std::size_t axis = edge ? edge->axis : (v + std::size_t(round)) % 3;
+    const auto old = points[v];
+    const bool is_backward = edge && grid.is_nearer_to_end(*edge, old);
+    points[v] = nudged(old, v, round, [&](double d) { return grid.moved(old, axis, is_backward ? -d : d); });
+  };
+  const auto coordinates = [&](std::size_t v) -> decltype(auto) { return grid.coordinates(points[v]); };
+  const std::span all_triangles(triangles);
+  Zero_area_repair repair(all_triangles, suspected_triangles, coordinates, nudge);
+  const Isosurface_repairs repairs = repair.run();
+  repair.remove(numbering, triangles, points, properties...);
+  return repairs;
+}
+
+/// Removes triangles without area around the given rows, then gives parts of the surface that touch beside nodes
+/// without a value vertices of their own. `properties` are arrays with an entry per vertex.
+template <class Grid, class Triangles, class Points, class... Properties>
+Isosurface_repairs repair_mesh(const Grid& grid, const Isosurface_plan& plan, const Grid_rows& suspects,
+                               Triangles& triangles, Points& points, Properties&... properties) {
+  const auto repairs = repair_zero_areas(grid, plan.numbering, suspects, triangles, points, properties...);
+  if (plan.has_undefined) {
+    const auto append_copy = [](auto& array, std::size_t v) {
+      const auto copy = array[v];
+      array.push_back(copy);
+    };
+    split_fans(triangles, points.size(), [&](std::size_t v) {
+      append_copy(points, v);
+      (append_copy(properties, v), ...);
+    });
+  }
+  return repairs;
+}
+
+} // namespace equiaffine::internal
+
+#endif
