@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_LATTICE_ISOSURFACE_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LATTICE_ISOSURFACE_H
 
-#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/marching_cubes/Vertex_position.h>
 #include <equiaffine/marching_cubes/internal/isosurface_plan.h>
 #include <equiaffine/marching_cubes/internal/large_pages.h>
 #include <equiaffine/marching_cubes/internal/lattice_function.h>
