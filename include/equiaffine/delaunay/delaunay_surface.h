@@ -42,16 +42,15 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, con
                                                        const NamedParameters& parameters = {}) {
   internal::check_parameters<NamedParameters, internal::Clip_tag, internal::Facet_sizing_tag,
                              internal::Feature_curves_tag, internal::Parabolic_features_tag>();
-  using Kernel = Kernel_of<Traits>;
   const auto domain = internal::get_parameter<internal::Clip_tag>(parameters, Clip_domain_3(traits.bbox()));
   const auto sizing = internal::get_parameter<internal::Facet_sizing_tag>(parameters, Facet_sizing::UNIFORM);
   const auto curves =
-      internal::get_parameter<internal::Feature_curves_tag>(parameters, std::vector<Polyline_3<Kernel>>());
+      internal::get_parameter<internal::Feature_curves_tag>(parameters, std::vector<Polyline_3<Kernel_of<Traits>>>());
   constexpr bool has_parabolic_features = internal::has_parameter<internal::Parabolic_features_tag, NamedParameters>;
   const Delaunay_criteria completed = criteria.completed(domain);
   CGAL_precondition(completed.angle >= 0 && completed.angle <= 30);
   CGAL_precondition(completed.radius > 0 && completed.distance > 0);
-  return internal::convert_surface<Kernel>(
+  return internal::convert_surface<Kernel_of<Traits>>(
       mesh_surface(Any_function_3::make(traits),
                    {domain, completed, sizing, internal::convert_polylines<Any_function_3::Kernel>(curves),
                     has_parabolic_features}));
