@@ -64,7 +64,7 @@ void refuse_picture_options(const Option_reader& reader) {
 
 bool has_vector(const Attribute_selection& attributes, const std::string& name) {
   return std::count_if(attributes.columns.begin(), attributes.columns.end(),
-                       [&](const Attribute& attribute) { return attribute.group == name; }) == 3;
+                       [&](const Attribute& column) { return attribute_table<double>[column.row].name == name; }) == 3;
 }
 
 bool has_color(const Draft& draft, const std::string& name) {

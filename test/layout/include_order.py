@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Says which include lines of a checkout leave the road: python3 include_order.py ROOT.
+"""Says which include lines of a checkout leave the road, and which headers are no doors: include_order.py ROOT.
 
 A room is a folder. Its headers are what other rooms may include, and those in its folder `internal` are its own.
 cmake/rooms.txt lists the rooms of the library and of the program, lowest first. The headers directly in
@@ -42,6 +42,8 @@ def faults_of_step(order, path, included):
 
 
 def faults_of_library_file(order, path, text):
+    if not is_internal(path) and re.search(r"^namespace (equiaffine::)?internal\b", text, re.MULTILINE):
+        yield f"{path} is no door: a namespace internal belongs to a header of the room's own"
     for library, quoted in INCLUDE.findall(text):
         if quoted:
             yield f'{path} includes "{quoted}": write <equiaffine/...>'

@@ -60,6 +60,9 @@ class IncludeOrder(unittest.TestCase):
     def test_a_quoted_include_in_the_library(self):
         self.assert_fault("write <equiaffine/...>", include__equiaffine__low__a_h='#include "internal/b.h"\n')
 
+    def test_a_public_header_that_is_no_door(self):
+        self.assert_fault("low/a.h is no door", include__equiaffine__low__a_h="namespace equiaffine::internal {\n}\n")
+
     def test_headers_that_include_each_other(self):
         self.assert_fault("circle", include__equiaffine__low__internal__b_h="#include <equiaffine/low/a.h>\n")
 
