@@ -54,7 +54,7 @@ for (const column of facts.columns) {
 function isOffered(column) {
   return !vectors.some(vector => vector.parts.includes(column)) && !/^metric_[xyz]{2}$/.test(column.name);
 }
-const plain = {name: 'plain', label: 'No colour', group: 'Surface'};
+const plain = {name: 'plain', label: 'No color', group: 'Surface'};
 const statusQuantity = {name: 'status', label: 'Status of the points', group: 'Surface'};
 const quantities = facts.columns.filter(column => isOffered(column) || column.name === facts.color)
     .sort((a, b) => a.order - b.order);
@@ -152,7 +152,7 @@ function colorAt(position, range) {
   return table[Math.round(position * (table.length - 1))];
 }
 
-// The numbers of the quantity that are coloured as numbers, sorted, with everything that depends on them only.
+// The numbers of the quantity that are colored as numbers, sorted, with everything that depends on them only.
 function summarize(values, codes) {
   const shown = values.filter((value, i) => codes[i] === 0);
   return {sorted: shown.slice().sort(), magnitudes: shown.map(Math.abs).sort()};

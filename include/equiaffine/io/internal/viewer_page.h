@@ -151,7 +151,7 @@ inline constexpr std::string_view viewer_stage = R"html(
 <tr><td>r</td><td>back to the first view</td></tr>
 <tr><td>x y z</td><td>look along an axis; with shift, from the other side</td></tr>
 <tr><td>n p</td><td>next, previous quantity</td></tr>
-<tr><td>l</td><td>linear or logarithmic colours</td></tr>
+<tr><td>l</td><td>linear or logarithmic colors</td></tr>
 <tr><td>e i v</td><td>edges, isolines, vectors</td></tr>
 <tr><td>s</td><td>save the picture</td></tr>
 <tr><td>h</td><td>show or hide the panel</td></tr>
@@ -168,10 +168,10 @@ inline constexpr std::string_view viewer_controls = R"html(
 <select id="quantity" aria-label="Quantity"></select>
 <figure id="scale">
 <figcaption><span id="scale-title"></span><span id="scale-unit"></span></figcaption>
-<canvas id="histogram" role="img" aria-label="Histogram and colour bar"></canvas>
+<canvas id="histogram" role="img" aria-label="Histogram and color bar"></canvas>
 </figure>
 <div id="mapping">
-<div class="row"><span>Colours</span><div class="segments">
+<div class="row"><span>Colors</span><div class="segments">
 <button id="scale-linear" aria-pressed="true">linear</button>
 <button id="scale-log" aria-pressed="false">logarithmic</button>
 </div></div>
@@ -189,7 +189,7 @@ inline constexpr std::string_view viewer_controls = R"html(
 <div class="checks">
 <label><input type="checkbox" id="edges"> edges</label>
 <label><input type="checkbox" id="isolines"> isolines at ticks</label>
-<label id="marks-label" class="wide"><input type="checkbox" id="marks"> own colours where not regular</label>
+<label id="marks-label" class="wide"><input type="checkbox" id="marks"> own colors where not regular</label>
 </div>
 <div class="row" id="vectors-row"><label for="vectors">Vectors</label><select id="vectors"></select></div>
 <div class="row"><span>Up</span><div class="segments" id="up">

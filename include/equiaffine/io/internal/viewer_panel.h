@@ -66,7 +66,7 @@ function update() {
   updateColors();
 }
 
-// The same numbers, other colours.
+// The same numbers, other colors.
 function updateColors() {
   const {values, codes} = shown, levels = new Float32Array(mesh.size);
   range = values && colorRange(shown.sorted, shown.magnitudes, choice.clip, choice.quantity.resolution);

@@ -103,7 +103,7 @@ function drawPointer(pen, x, base, rim) {
   pen.stroke();
 }
 
-// Histogram over the colour bar: the same axis for both, what is clipped in a bar at each end.
+// Histogram over the color bar: the same axis for both, what is clipped in a bar at each end.
 function drawScale() {
   const {quantity, picked} = choice, canvas = byId('histogram');
   const width = canvas.clientWidth, height = canvas.clientHeight;

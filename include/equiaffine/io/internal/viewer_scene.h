@@ -13,78 +13,108 @@ inline constexpr std::string_view viewer_scene = R"js(
 const bytesOfColor = text => [1, 3, 5].map(i => parseInt(text.slice(i, i + 2), 16));
 const channels = text => bytesOfColor(text).map(byte => byte / 255);
 
-// Returns null without WebGL 2.
-function createScene(canvas) {
-  const gl = canvas.getContext('webgl2', {antialias: true, alpha: true, powerPreference: 'high-performance'});
-  if (!gl) return null;
+// A shader program, with the places of its uniforms by name.
+function createProgram(gl, ...sources) {
+  const result = gl.createProgram();
+  sources.forEach((source, i) => {
+    const shader = gl.createShader(i ? gl.FRAGMENT_SHADER : gl.VERTEX_SHADER);
+    gl.shaderSource(shader, source);
+    gl.compileShader(shader);
+    gl.attachShader(result, shader);
+  });
+  gl.linkProgram(result);
+  if (!gl.getProgramParameter(result, gl.LINK_STATUS))
+    throw new Error(gl.getProgramInfoLog(result) + gl.getAttachedShaders(result).map(s => gl.getShaderInfoLog(s)));
+  const places = new Map();
+  const at = name => {
+    if (!places.has(name)) places.set(name, gl.getUniformLocation(result, name));
+    return places.get(name);
+  };
+  return {use: () => gl.useProgram(result), at};
+}
 
-  function program(...sources) {
-    const result = gl.createProgram();
-    sources.forEach((source, i) => {
-      const shader = gl.createShader(i ? gl.FRAGMENT_SHADER : gl.VERTEX_SHADER);
-      gl.shaderSource(shader, source);
-      gl.compileShader(shader);
-      gl.attachShader(result, shader);
-    });
-    gl.linkProgram(result);
-    if (!gl.getProgramParameter(result, gl.LINK_STATUS))
-      throw new Error(gl.getProgramInfoLog(result) + gl.getAttachedShaders(result).map(s => gl.getShaderInfoLog(s)));
-    const places = new Map();
-    const at = name => {
-      if (!places.has(name)) places.set(name, gl.getUniformLocation(result, name));
-      return places.get(name);
-    };
-    return {use: () => gl.useProgram(result), at};
+// A scene has four programs: the surface, its edges, marks on points, and needles for vectors.
+class Scene {
+  constructor(gl, canvas) {
+    Object.assign(this, {gl, canvas, buffers: {}, arrays: {}, needleCount: 0, markedCount: 0, edgeCount: 0});
+    this.surface = createProgram(gl, surfaceVertex, surfaceFragment);
+    this.edge = createProgram(gl, edgeVertex, edgeFragment);
+    this.mark = createProgram(gl, markVertex, markFragment);
+    this.needle = createProgram(gl, needleVertex, needleFragment);
+    this.colors = {statuses: facts.statuses.slice(1).flatMap(s => channels(s.color)), isMapped: false, isolines: []};
+    this.fillBuffers();
+    gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+    this.setMap([facts.plain]);
   }
 
-  const buffers = {}, arrays = {};
-  function fill(name, data, target = gl.ARRAY_BUFFER) {
+  fillBuffers() {
+    const {gl} = this, position = [0, 'position', 3, gl.FLOAT], code = [3, 'code', 1, gl.UNSIGNED_BYTE];
+    this.fill('position', mesh.positions);
+    this.fill('normal', vertexNormals());
+    this.fill('level', new Float32Array(mesh.size));
+    this.fill('code', new Uint8Array(mesh.size));
+    this.fill('triangles', mesh.triangles, gl.ELEMENT_ARRAY_BUFFER);
+    this.fill('marked', new Uint32Array(0), gl.ELEMENT_ARRAY_BUFFER);
+    this.fill('needles', new Float32Array(0));
+    this.bind('surface', [position, [1, 'normal', 3, gl.SHORT, 8], [2, 'level', 1, gl.FLOAT], code], 'triangles');
+    this.bind('marks', [position, code], 'marked');
+    this.bind('needles', [[0, 'needles', 3, gl.FLOAT, 24, 0, 1], [1, 'needles', 3, gl.FLOAT, 24, 12, 1]]);
+  }
+
+  fill(name, data, target = this.gl.ARRAY_BUFFER) {
+    const {gl} = this;
     gl.bindVertexArray(null);
-    gl.bindBuffer(target, buffers[name] ??= gl.createBuffer());
+    gl.bindBuffer(target, this.buffers[name] ??= gl.createBuffer());
     gl.bufferData(target, data, gl.STATIC_DRAW);
   }
+
   // attributes: [place, buffer, components, type, stride, offset, divisor]
-  function bind(name, attributes, indexBuffer) {
-    gl.bindVertexArray(arrays[name] = gl.createVertexArray());
+  bind(name, attributes, indexBuffer) {
+    const {gl} = this;
+    gl.bindVertexArray(this.arrays[name] = gl.createVertexArray());
     for (const [place, buffer, components, type, stride = 0, offset = 0, divisor = 0] of attributes) {
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffers[buffer]);
+      gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[buffer]);
       gl.enableVertexAttribArray(place);
       if (type === gl.UNSIGNED_BYTE) gl.vertexAttribIPointer(place, components, type, stride, offset);
       else gl.vertexAttribPointer(place, components, type, type === gl.SHORT, stride, offset);
       gl.vertexAttribDivisor(place, divisor);
     }
-    if (indexBuffer) gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers[indexBuffer]);
+    if (indexBuffer) gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.buffers[indexBuffer]);
     gl.bindVertexArray(null);
   }
 
-  const surface = program(surfaceVertex, surfaceFragment), edge = program(edgeVertex, edgeFragment);
-  const mark = program(markVertex, markFragment), needle = program(needleVertex, needleFragment);
-  fill('position', mesh.positions);
-  fill('normal', vertexNormals());
-  fill('level', new Float32Array(mesh.size));
-  fill('code', new Uint8Array(mesh.size));
-  fill('triangles', mesh.triangles, gl.ELEMENT_ARRAY_BUFFER);
-  fill('marked', new Uint32Array(0), gl.ELEMENT_ARRAY_BUFFER);
-  fill('needles', new Float32Array(0));
-  const position = [0, 'position', 3, gl.FLOAT], code = [3, 'code', 1, gl.UNSIGNED_BYTE];
-  bind('surface', [position, [1, 'normal', 3, gl.SHORT, 8], [2, 'level', 1, gl.FLOAT], code], 'triangles');
-  bind('marks', [position, code], 'marked');
-  bind('needles', [[0, 'needles', 3, gl.FLOAT, 24, 0, 1], [1, 'needles', 3, gl.FLOAT, 24, 12, 1]]);
-  const colors = {statuses: facts.statuses.slice(1).flatMap(s => channels(s.color)), isMapped: false, isolines: []};
-  let needleCount = 0, markedCount = 0, edgeCount = 0;
+  setMap(table) {
+    const {gl} = this, texels = new Uint8Array(table.flatMap(text => [...bytesOfColor(text), 255]));
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, table.length, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, texels);
+  }
 
-  gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
-  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
-  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
-  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
-  const setMap = table => gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, table.length, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE,
-      new Uint8Array(table.flatMap(text => [...bytesOfColor(text), 255])));
-  setMap([facts.plain]);
+  // levels in [0, 1] along `table`, or a plain surface without a table; isolines are levels.
+  setColors(levels, codes, table) {
+    this.fill('level', levels);
+    this.fill('code', codes);
+    this.colors.isMapped = Boolean(table);
+    if (table) this.setMap(table);
+    const marked = [];
+    codes.forEach((value, i) => { if (value >= 1 && value <= 4) marked.push(i); });
+    this.markedCount = marked.length <= 3000 ? marked.length : 0;  // more of them are seen without dots
+    this.fill('marked', new Uint32Array(marked.slice(0, this.markedCount)), this.gl.ELEMENT_ARRAY_BUFFER);
+  }
 
-  function place(program, aspect) {
-    const {right, up, back, target, distance} = camera;
+  setIsolines(levels) { this.colors.isolines = levels.slice(0, 24); }
+
+  setNeedles(data) {
+    this.needleCount = data.length / 6;
+    this.fill('needles', data);
+  }
+
+  // Uses a program with the camera of now.
+  place(program) {
+    const {gl, canvas} = this, {right, up, back, target, distance} = camera;
     const center = Math.hypot(...target), far = distance + center + 1.5 * radius;
-    const near = Math.max(distance - center - 1.5 * radius, 0.004 * distance);
+    const near = Math.max(distance - center - 1.5 * radius, 0.004 * distance), aspect = canvas.width / canvas.height;
     program.use();
     gl.uniformMatrix3fv(program.at('turn'), true, [...right, ...up, ...back]);
     gl.uniform3fv(program.at('target'), target);
@@ -93,7 +123,9 @@ function createScene(canvas) {
     gl.uniform1f(program.at('viewDistance'), distance);
   }
 
-  function drawSurface() {
+  drawSurface() {
+    const {gl, surface, colors} = this;
+    this.place(surface);
     gl.uniform1i(surface.at('isMapped'), colors.isMapped);
     gl.uniform3fv(surface.at('plain'), channels(facts.plain));
     gl.uniform3fv(surface.at('undefinedColor'), channels(facts.undefined));
@@ -102,81 +134,79 @@ function createScene(canvas) {
     if (colors.isolines.length) gl.uniform1fv(surface.at('isolines'), colors.isolines);
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1, 1);
-    gl.bindVertexArray(arrays.surface);
+    gl.bindVertexArray(this.arrays.surface);
     gl.drawElements(gl.TRIANGLES, mesh.triangles.length, gl.UNSIGNED_INT, 0);
     gl.disable(gl.POLYGON_OFFSET_FILL);
   }
 
-  function drawMarks(size, isRing, opacity, count, first) {
+  drawEdges() {
+    const {gl, arrays} = this;
+    if (!arrays.edges) {
+      const indices = uniqueEdges();
+      this.edgeCount = indices.length;
+      this.fill('edges', indices, gl.ELEMENT_ARRAY_BUFFER);
+      this.bind('edges', [[0, 'position', 3, gl.FLOAT]], 'edges');
+    }
+    this.place(this.edge);
+    gl.bindVertexArray(arrays.edges);
+    gl.drawElements(gl.LINES, this.edgeCount, gl.UNSIGNED_INT, 0);
+  }
+
+  drawNeedles(pixels, isDark) {
+    const {gl, canvas, needle} = this;
+    this.place(needle);
+    gl.uniform2f(needle.at('viewport'), canvas.width, canvas.height);
+    gl.uniform1f(needle.at('width'), 3.8 * pixels);
+    gl.uniform1i(needle.at('isDark'), isDark);
+    gl.bindVertexArray(this.arrays.needles);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.needleCount);
+  }
+
+  // Dots at `count` marked points, or a ring at the point `first`.
+  drawMarks(size, isRing, opacity, count, first) {
+    const {gl, mark} = this;
     gl.uniform1f(mark.at('size'), size);
     gl.uniform1i(mark.at('isRing'), isRing);
     gl.uniform1f(mark.at('opacity'), opacity);
-    gl.uniform3fv(mark.at('statusColors'), colors.statuses);
-    gl.bindVertexArray(arrays.marks);
+    gl.uniform3fv(mark.at('statusColors'), this.colors.statuses);
+    gl.bindVertexArray(this.arrays.marks);
     if (isRing) gl.drawArrays(gl.POINTS, first, 1);
     else gl.drawElements(gl.POINTS, count, gl.UNSIGNED_INT, 0);
   }
 
-  return {
-    // levels in [0, 1] along `table`, or a plain surface without a table; isolines are levels.
-    setColors(levels, codes, table) {
-      fill('level', levels);
-      fill('code', codes);
-      colors.isMapped = Boolean(table);
-      if (table) setMap(table);
-      const marked = [];
-      codes.forEach((value, i) => { if (value >= 1 && value <= 4) marked.push(i); });
-      markedCount = marked.length <= 3000 ? marked.length : 0;  // more of them are seen without dots
-      fill('marked', new Uint32Array(marked.slice(0, markedCount)), gl.ELEMENT_ARRAY_BUFFER);
-    },
-    setIsolines(levels) { colors.isolines = levels.slice(0, 24); },
-    setNeedles(data) {
-      needleCount = data.length / 6;
-      fill('needles', data);
-    },
+  drawAllMarks(picked, pixels) {
+    const {gl, markedCount} = this;
+    if (markedCount || picked !== null) this.place(this.mark);
+    if (markedCount) this.drawMarks(5 * pixels, false, 1, markedCount, 0);
+    if (picked === null) return;
+    gl.disable(gl.DEPTH_TEST);
+    this.drawMarks(20 * pixels, true, 0.35, 1, picked);
+    gl.enable(gl.DEPTH_TEST);
+    this.drawMarks(20 * pixels, true, 1, 1, picked);
+  }
 
-    draw({edges, picked, pixels, isDark}) {
-      const width = canvas.width, height = canvas.height, aspect = width / height;
-      gl.viewport(0, 0, width, height);
-      gl.clearColor(0, 0, 0, 0);
-      gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-      gl.enable(gl.DEPTH_TEST);
-      gl.depthFunc(gl.LEQUAL);
-      gl.disable(gl.BLEND);
-      place(surface, aspect);
-      drawSurface();
-      gl.enable(gl.BLEND);
-      gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-      if (edges) {
-        if (!arrays.edges) {
-          const indices = uniqueEdges();
-          edgeCount = indices.length;
-          fill('edges', indices, gl.ELEMENT_ARRAY_BUFFER);
-          bind('edges', [position], 'edges');
-        }
-        place(edge, aspect);
-        gl.bindVertexArray(arrays.edges);
-        gl.drawElements(gl.LINES, edgeCount, gl.UNSIGNED_INT, 0);
-      }
-      gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-      if (needleCount) {
-        place(needle, aspect);
-        gl.uniform2f(needle.at('viewport'), width, height);
-        gl.uniform1f(needle.at('width'), 3.8 * pixels);
-        gl.uniform1i(needle.at('isDark'), isDark);
-        gl.bindVertexArray(arrays.needles);
-        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, needleCount);
-      }
-      if (markedCount || picked !== null) place(mark, aspect);
-      if (markedCount) drawMarks(5 * pixels, false, 1, markedCount, 0);
-      if (picked !== null) {
-        gl.disable(gl.DEPTH_TEST);
-        drawMarks(20 * pixels, true, 0.35, 1, picked);
-        gl.enable(gl.DEPTH_TEST);
-        drawMarks(20 * pixels, true, 1, 1, picked);
-      }
-    },
-  };
+  draw({edges, picked, pixels, isDark}) {
+    const {gl, canvas} = this;
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
+    gl.disable(gl.BLEND);
+    this.drawSurface();
+    gl.enable(gl.BLEND);
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    if (edges) this.drawEdges();
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    if (this.needleCount) this.drawNeedles(pixels, isDark);
+    this.drawAllMarks(picked, pixels);
+  }
+}
+
+// Returns null without WebGL 2.
+function createScene(canvas) {
+  const gl = canvas.getContext('webgl2', {antialias: true, alpha: true, powerPreference: 'high-performance'});
+  return gl && new Scene(gl, canvas);
 }
 )js";
 
