@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/contraction.h"
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Local_structure_3.h>
 #include <equiaffine/number/Pack.h>
@@ -55,6 +56,7 @@ TEST(Curvedness, is_one_over_the_radius_on_a_sphere_and_overflows_only_with_the_
 }
 
 TEST(Shape_index_and_curvedness, of_a_lane_have_the_bits_of_those_of_a_number) {
+  SKIP_IF_THE_COMPILER_CONTRACTS();
   using Lanes = Pack<double>;
   for (int n = 1; n < 200; ++n) {
     const auto k2 = [&](std::size_t i) { return std::sin(n + double(i)); };

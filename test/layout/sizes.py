@@ -38,7 +38,7 @@ def functions(text):
     """(first line, number of lines) of each function, lines counted from 1."""
     lines = text.split("\n")
     for n, line in enumerate(lines):
-        if not re.search(r"\)[^;=]*\{$|^\s+[:,].*\{$", line):
+        if not re.search(r"\)[^;=]*\{$|^\s+[:,].*\{$|= \[.*\{$", line):
             continue
         begin = head_of(lines, n)
         head = next((line for line in lines[begin:n + 1] if not line.strip().startswith("template")), "")

@@ -37,6 +37,9 @@ class Sizes(unittest.TestCase):
                 "  int f() const {\n    return 1;\n  }\n};\n")
         self.assertEqual(list(functions(text)), [(3, 4), (7, 3)])
 
+    def test_a_constant_made_by_a_lambda_is_a_function(self):
+        self.assertIn("a function of 61 lines", self.faults(function(61, "inline constexpr int x = [] {"))[0])
+
     def test_a_loop_and_a_class_are_no_functions(self):
         self.assertEqual(list(functions("struct A\n    : B(1) {\n  int x;\n};\nfor (;;) {\n}\n")), [])
 

@@ -55,6 +55,12 @@ void expect_unchanged(const Result& r, std::size_t triangles, std::ptrdiff_t eul
 
 const Triangles antiprism = {{0, 1, 2}, {3, 5, 4}, {0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}, {2, 5, 0}, {0, 5, 3}};
 
+TEST(Zero_area_repair, a_triangle_whose_area_is_too_large_for_a_number_has_one) {
+  const std::array<double, 3> a = {0, 0, 0}, b = {1e160, 2e160, 4e160}, c = {3e160, 4e160, 5e160};
+  EXPECT_FALSE(internal::has_zero_area(a, b, c));
+  EXPECT_TRUE(internal::has_zero_area(a, {1, 2, 4}, {2, 4, 8}));
+}
+
 TEST(Zero_area_repair, an_edge_without_length_is_contracted) {
   const auto r = repaired(antiprism, {{0, 0, 0}, {0, 0, 0}, {1, 2, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}});
   EXPECT_EQ(r.triangles, 6u);

@@ -32,16 +32,10 @@ const Kernel::Aff_transformation_3 shear(0.9, 0, 0.9, 0.1, 0, 2, 0, 0, 1.1, 0, 0
 // Packs of std::experimental::simd, where there is one, and of arrays.
 template <class Lanes>
 class Pack_of : public testing::Test {};
-using All_lanes = testing::Types<
-#ifndef EQUIAFFINE_WITHOUT_SIMD
-    internal::Simd_lanes<double, size>,
-#endif
-    internal::Array_lanes<double, size>>;
+using Arrays = internal::Array_lanes<double, size>;
+using All_lanes = std::conditional_t<internal::has_simd, testing::Types<internal::Simd_lanes<double, size>, Arrays>,
+                                     testing::Types<Arrays>>;
 TYPED_TEST_SUITE(Pack_of, All_lanes);
-
-// Skips a test that compares bits of packs with those of numbers where the two differ by rounding.
-#define SKIP_IF_THE_COMPILER_CONTRACTS()                                                                               \
-  if (compiler_contracts()) GTEST_SKIP() << "packs and numbers are equal to within rounding only"
 
 std::uint64_t bits(double x) { return std::isnan(x) ? 0 : std::bit_cast<std::uint64_t>(x); }
 

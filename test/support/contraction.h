@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_TEST_SUPPORT_CONTRACTION_H
 #define EQUIAFFINE_TEST_SUPPORT_CONTRACTION_H
 
+#include <gtest/gtest.h>
+
 /// The error of the rounded square of x, if the compiler contracts the product and the difference.
 [[gnu::noinline]] inline double error_of_square(double x, double rounded_square) { return x * x - rounded_square; }
 
@@ -12,5 +14,9 @@ inline bool compiler_contracts() {
   const volatile double rounded_square = x * x;
   return error_of_square(x, rounded_square) != 0;
 }
+
+/// Skips a test that compares bits of packs with those of numbers where the two differ by rounding.
+#define SKIP_IF_THE_COMPILER_CONTRACTS()                                                                               \
+  if (compiler_contracts()) GTEST_SKIP() << "packs and numbers are equal to within rounding only"
 
 #endif

@@ -73,7 +73,8 @@ inline Color_range color_range(std::vector<double> values, double clip_percent =
 
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   const double negligible = relative_resolution * largest;
-  if (*least<-negligible&& * greatest> negligible) return {-largest, largest, knee, true};
+  const bool has_both_signs = -negligible > *least && negligible < *greatest;
+  if (has_both_signs) return {-largest, largest, knee, true};
   const double lower = quantile(values, clip_percent);
   const double upper = quantile(values, 100 - clip_percent);
   const double middle = lower + (upper - lower) / 2;

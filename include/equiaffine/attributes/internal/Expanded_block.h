@@ -17,8 +17,9 @@ namespace equiaffine::internal {
 
 /// What is known of f at a block of points: the expansions there and the errors of its second derivatives. Point i is
 /// lane i % Lanes::size of pack i / Lanes::size; the last point stands for those that the last pack lacks.
-struct Expanded_block {
-  using Lanes = Pack<double>;
+template <class Pack_of_numbers>
+struct Expanded_block_of {
+  using Lanes = Pack_of_numbers;
   static constexpr std::size_t packs = 8, points = packs * Lanes::size;
 
   std::size_t number_of_points;
@@ -51,6 +52,9 @@ private:
     return numbers[i / Lanes::size][i % Lanes::size];
   }
 };
+
+/// Translation units for different processors have different packs, and so do the types of their blocks.
+using Expanded_block = Expanded_block_of<Pack<double>>;
 
 /// Sets the jets from the packs of the model, if it has them. Returns false where it has not, or its function branches
 /// differently in the lanes of a pack.

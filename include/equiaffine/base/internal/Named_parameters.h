@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_BASE_INTERNAL_NAMED_PARAMETERS_H
 #define EQUIAFFINE_BASE_INTERNAL_NAMED_PARAMETERS_H
 
-#include <equiaffine/base/named_parameter_list.h>
+#include <equiaffine/base/internal/named_parameter_list.h>
 
 #include <array>
 #include <cstddef>

@@ -29,7 +29,9 @@ bool has_zero_area(const Coordinates& a, const Coordinates& b, const Coordinates
   }
   for (std::size_t m = 0; m < 3; ++m) {
     const std::size_t n = (m + 1) % 3;
-    if (u[m] * v[n] != u[n] * v[m]) return false; // a comparison, which no compiler contracts as it may a difference
+    const double product = u[m] * v[n],
+                 other = u[n] * v[m]; // no compiler contracts a comparison, as it may a difference
+    if (product != other || std::isinf(product)) return false;
   }
   return true;
 }

@@ -5,7 +5,7 @@
 #include <equiaffine/number/internal/elementary_functions.h>
 #include <equiaffine/number/internal/native_lanes.h>
 
-#ifndef EQUIAFFINE_WITHOUT_SIMD
+#if defined(__GLIBCXX__) && __has_include(<experimental/simd>) && !defined(EQUIAFFINE_WITHOUT_SIMD) // has_simd
 
 #include <bit>
 #include <cstddef>

@@ -4,16 +4,17 @@
 #define EQUIAFFINE_NUMBER_INTERNAL_NATIVE_LANES_H
 
 #include <cstddef>
-
-// Users may define EQUIAFFINE_WITHOUT_SIMD to keep std::experimental::simd out. It is defined here where there is none: the
-// standard library of LLVM has a header of this name, but not all of its contents.
-#if !defined(__GLIBCXX__) || !__has_include(<experimental/simd>)
-#ifndef EQUIAFFINE_WITHOUT_SIMD
-#define EQUIAFFINE_WITHOUT_SIMD
-#endif
-#endif
+#include <type_traits>
 
 namespace equiaffine::internal {
+
+/// Whether there is std::experimental::simd. The standard library of LLVM has a header of this name, but not all of its
+/// contents. Users may define EQUIAFFINE_WITHOUT_SIMD to keep it out.
+#if defined(__GLIBCXX__) && __has_include(<experimental/simd>) && !defined(EQUIAFFINE_WITHOUT_SIMD)
+inline constexpr bool has_simd = true;
+#else
+inline constexpr bool has_simd = false;
+#endif
 
 /// Numbers in a std::experimental::simd; Simd_lanes.h defines it.
 template <class T, std::size_t Size>
@@ -36,13 +37,8 @@ inline constexpr std::size_t bytes_per_register = 16;
 template <class T>
 inline constexpr std::size_t native_size = sizeof(T) < bytes_per_register ? bytes_per_register / sizeof(T) : 1;
 
-#ifdef EQUIAFFINE_WITHOUT_SIMD
 template <class T>
-using Native_lanes = Array_lanes<T, native_size<T>>;
-#else
-template <class T>
-using Native_lanes = Simd_lanes<T, native_size<T>>;
-#endif
+using Native_lanes = std::conditional_t<has_simd, Simd_lanes<T, native_size<T>>, Array_lanes<T, native_size<T>>>;
 
 } // namespace equiaffine::internal
 

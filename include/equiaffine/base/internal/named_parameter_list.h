@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The closed list of named parameters: a new one is one function here, and its tag in internal/Named_parameters.h.
-#ifndef EQUIAFFINE_BASE_NAMED_PARAMETER_LIST_H
-#define EQUIAFFINE_BASE_NAMED_PARAMETER_LIST_H
+// The closed list of named parameters: a new one is one function here, and its tag in Named_parameters.h.
+#ifndef EQUIAFFINE_BASE_INTERNAL_NAMED_PARAMETER_LIST_H
+#define EQUIAFFINE_BASE_INTERNAL_NAMED_PARAMETER_LIST_H
 
 /// Defines one function per named parameter. A free function begins a chain of parameters, a member continues one:
 /// `GIVEN` is the chain before, and `CONST` is `const` for members and nothing for free functions.
