@@ -18,8 +18,8 @@
 
 namespace equiaffine {
 
-/// The local structure of the level set of f through p. `sampled_status` is what the sampler says of p: a point that is
-/// UNCONVERGED stays so, with the numbers that exist, unless it is OUTSIDE. Named parameter: `estimator`.
+/// Returns the local structure of the level set of f through p. `sampled_status` is the status that a sampler gave p: a
+/// point that is UNCONVERGED stays so, with the numbers that exist, unless it is OUTSIDE. Named parameter: `estimator`.
 template <ImplicitFunctionTraits_3 Traits, class Parameters = internal::No_parameters>
 Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, const typename Traits::Point_3& p,
                                                           Point_status sampled_status = Point_status::REGULAR,
@@ -31,11 +31,13 @@ Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, 
   return structure;
 }
 
-/// Attributes of points, one column per scalar, in double. One Taylor expansion of order 4 per point, 41 with a norm of
-/// a gradient; the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Points are taken in packs; the
-/// numbers are those of local_structure_at: bit for bit where the compiler rounds each product and each sum
-/// (-ffp-contract=off), else to within rounding.
-/// `sampled_status` is empty or has one entry per point. Named parameter: `estimator`.
+/// Computes the selected attributes of points, one column of doubles per scalar. This takes one Taylor expansion of
+/// order 4 per point, and up to 40 more if the norm of a gradient is selected. CGAL::Sequential_tag and
+/// CGAL::Parallel_tag give the same numbers, bit for bit. Points are computed in packs, and the numbers are those of
+/// local_structure_at: bit for bit if the compiler rounds each product and each sum (-ffp-contract=off), else to within
+/// rounding.
+///
+/// `sampled_status` is empty or has one entry per point, as in local_structure_at. Named parameter: `estimator`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           class Parameters = internal::No_parameters>
 Vertex_attributes compute_attributes(const Traits& traits, std::span<const typename Traits::Point_3> points,

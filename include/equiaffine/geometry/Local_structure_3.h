@@ -16,8 +16,8 @@
 namespace equiaffine {
 
 /// Everything that is known at a point of a level set. A number that does not exist is NaN: all of them when the status
-/// is SINGULAR or OUTSIDE, the affine ones when it is PARABOLIC. A point is SINGULAR, too, where a number of order 1 in
-/// suitable units is beyond the range of FT in those at hand.
+/// is SINGULAR or OUTSIDE, the affine ones when it is PARABOLIC. A point is also SINGULAR if FT cannot hold a number in
+/// the units at hand, although it could in others.
 template <class FT>
 struct Local_structure_3 {
   Point_status status;
@@ -25,36 +25,36 @@ struct Local_structure_3 {
   Affine_structure_3<FT> affine;
 };
 
-/// The local structure at a point that is regular, or at those points of a pack that are.
+/// The local structure at a regular point, or at the regular points of a pack.
 template <class FT>
 struct Regular_structure_3 {
   Local_structure_3<FT> structure;       ///< means nothing at a point that is not regular
   internal::Mask_of<FT> is_regular;      ///< every number exists
   internal::Mask_of<FT> is_steep;        ///< the gradient does not count as zero
-  internal::Mask_of<FT> is_out_of_range; ///< d is not zero, but its powers underflow
+  internal::Mask_of<FT> is_out_of_range; ///< Monge_chart_3::d() is not zero, but its powers underflow
 };
 
-/// Local structure of the level set of f through a point, or through the points of a pack, from the jet of f there. A
-/// gradient that one rounding of the coordinates of `point` could have made counts as zero, and so does K_e where
-/// errors of second derivatives of up to `rounding` could have made it; without a `rounding` such errors are not looked
-/// for. About 500 floating-point operations per number or pack.
+/// Computes the local structure of the level set of f through a point, or through the points of a pack, from the jet of
+/// f there. A gradient counts as zero if one rounding of the coordinates of `point` could have made it. K_e counts as
+/// zero if errors of second derivatives of up to `rounding` could have made it; without a `rounding` this is not
+/// checked. Takes about 500 floating-point operations per number or pack.
 template <class FT>
 Regular_structure_3<FT> regular_structure(const Jet_3<FT>& jet, const std::array<FT, 3>& point,
                                           const std::optional<std::type_identity_t<FT>>& rounding = {}) {
   return internal::regular_structure_of<FT>(jet, point, rounding);
 }
 
-/// The numbers that exist, and the status, at a point that regular_structure() does not call regular; `is_steep` is
-/// what it says. About 1000 floating-point operations.
+/// Computes the status of a point that regular_structure() does not call regular, and the numbers that exist there.
+/// `is_steep` is the one that regular_structure() returned. Takes about 1000 floating-point operations.
 template <class FT>
 Local_structure_3<FT> irregular_structure(const Jet_3<FT>& jet, bool is_steep, const FT& rounding = FT(0)) {
   return internal::irregular_structure_of(jet, is_steep, internal::positive(rounding));
 }
 
-/// Local structure, Euclidean and affine, of the level set of f through a point, from the jet of f there. The point
-/// need not satisfy f = 0. A gradient that one rounding of the coordinates of `point` could have made counts as zero,
-/// and so does K_e where errors of second derivatives of up to `rounding` could have made it. About 500 floating-point
-/// operations, three times as many where the point is not regular.
+/// Computes the Euclidean and affine local structure of the level set of f through a point from the jet of f there. The
+/// point need not satisfy f = 0. A gradient counts as zero if one rounding of the coordinates of `point` could have
+/// made it. K_e counts as zero if errors of second derivatives of up to `rounding` could have made it; for 0 this is
+/// not checked. Takes about 500 floating-point operations, and three times as many if the point is not regular.
 template <class FT>
 Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const std::array<FT, 3>& point = {FT(0), FT(0), FT(0)},
                                       const FT& rounding = FT(0)) {

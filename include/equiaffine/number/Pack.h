@@ -18,7 +18,8 @@
 
 namespace equiaffine {
 
-/// Thrown where one decision is asked of lanes that do not agree: their points have to be taken one by one.
+/// Thrown when code branches on a condition that differs between the lanes of a pack. The caller then has to compute
+/// the points of the pack one by one.
 struct Lanes_disagree : std::exception {
   const char* what() const noexcept override { return "the lanes of a pack disagree"; }
 };
@@ -35,7 +36,8 @@ struct Pack_mask {
 
   bool operator[](std::size_t lane) const { return lanes[lane]; }
 
-  /// What all lanes say, so that code that branches serves packs where they agree. \throw Lanes_disagree
+  /// The value that all lanes have in common: code with branches works for packs whose lanes agree.
+  /// \throw Lanes_disagree if they do not.
   explicit operator bool() const {
     if (Lanes::all(lanes)) return true;
     if (Lanes::any(lanes)) throw Lanes_disagree();
@@ -51,13 +53,13 @@ struct Pack_mask {
   }
 };
 
-/// As many numbers as one vector register holds under the compiler's flags, to be used as one number: a number type for
-/// Jet_3, Monge_chart_3 and what follows. Every operation is that of T in each lane; functions are those of <cmath> but
-/// for exp, sin and cos of doubles (elementary_functions.h). So a lane has the bits that T would have, unless the
-/// compiler contracts products and sums to fused operations (GCC does by default where the processor has them; see
-/// -ffp-contract): then it has them to within rounding.
+/// A pack holds as many numbers as one vector register does under the compiler's flags, and is used like one number, by
+/// Jet_3, Monge_chart_3 and the code that uses these. Every operation is that of T in each lane. Functions are those of
+/// <cmath>, except exp, sin and cos of doubles (elementary_functions.h). So a lane has the same bits as a computation
+/// with T, unless the compiler contracts products and sums to fused operations, which GCC does by default for
+/// processors that have them (see -ffp-contract): then both are equal to within rounding.
 ///
-/// `Lanes` says how lanes are kept: in a std::experimental::simd where there is one, else in an array. Results are the
+/// `Lanes` says how lanes are kept: in a std::experimental::simd if there is one, else in an array. Results are the
 /// same.
 template <class T, class Lanes> // a default is in Pack_fwd.h
 struct Pack {
@@ -72,13 +74,13 @@ struct Pack {
   Pack(const Number& value) requires(std::is_arithmetic_v<Number>) : lanes(static_cast<T>(value)) {}
   Pack(const Vector& values) : lanes(values) {}
 
-  /// Lane i is f(i).
+  /// Returns the pack whose lane i is f(i).
   template <class F>
   static Pack generate(F f) {
     return Lanes::generate(f);
   }
 
-  /// Lane i is f(a[i]).
+  /// Returns the pack whose lane i is f(a[i]).
   template <class F>
   [[gnu::noinline]] static Pack lane_by_lane(const Pack& a, F f) {
     return generate([&](std::size_t i) { return f(a[i]); });
@@ -154,17 +156,18 @@ struct Pack {
   friend Pack sin(const Pack& a) { return sine_and_cosine(a).first; }
   friend Pack cos(const Pack& a) { return sine_and_cosine(a).second; }
 
-  /// The hook of elementary_functions.h, found by argument-dependent lookup.
+  /// Does in each lane what internal::scaled_exponential does for a double. Found by argument-dependent lookup in
+  /// elementary_functions.h.
   [[gnu::always_inline]] friend Pack scaled_exponential(const Pack& k, const Pack& p) {
     return Lanes::scaled_exponential(k.lanes, p.lanes);
   }
 
-  /// a^n as jets of T compute it.
+  /// a^n, with the bits that jets of T have.
   friend Pack natural_power(const Pack& a, unsigned n) {
     return generate([&](std::size_t i) { return internal::natural_power(a[i], n); });
   }
 
-  /// The hook of nonsmooth.h, which does for each lane what is done for an ordered number.
+  /// Does in each lane what internal::branch_or_kink in nonsmooth.h does for a number.
   friend Pack branch_or_kink(const Pack& u, const Pack& v, const Pack& a, const Pack& b, int degree) {
     const Pack at_kink = degree == 0 ? select(u == v, a, u + v) : Pack(std::numeric_limits<T>::quiet_NaN());
     return select(u > v, a, select(v > u, b, at_kink));
@@ -173,7 +176,7 @@ struct Pack {
 
 } // namespace equiaffine
 
-/// The limits of T, which convert to a pack.
+/// The limits of a pack are those of T, which convert to packs.
 template <class T, class Lanes>
 struct std::numeric_limits<equiaffine::Pack<T, Lanes>> : std::numeric_limits<T> {};
 

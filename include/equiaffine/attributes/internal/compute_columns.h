@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Columns of attributes, block by block: f is expanded at the points of a block, the expansions are measured in packs,
-// and points that are not regular are done again one by one.
+// Computes columns of attributes block by block: expands f at the points of a block, computes the attributes of all of
+// them in packs, and computes those of points that are not regular again, one by one.
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_COMPUTE_COLUMNS_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_COMPUTE_COLUMNS_H
 
@@ -20,12 +20,12 @@
 
 namespace equiaffine::internal {
 
-/// Some rows of the columns of a result, one per point of a block.
+/// The rows of the result that belong to the points of one block.
 struct Attribute_rows {
   const std::vector<Attribute>& attributes;
   std::vector<Vertex_attributes::Column>& columns; ///< one per attribute
-  std::span<Point_status> status;                  ///< of these rows
-  std::size_t first;                               ///< of these rows in the columns
+  std::span<Point_status> status;                  ///< one per point of the block
+  std::size_t first;                               ///< the number of the first of these rows in the columns
 
   double& number(std::size_t row, std::size_t column) const { return columns[column].values[first + row]; }
 
@@ -35,7 +35,8 @@ struct Attribute_rows {
   }
 };
 
-/// Fills the rows of the points of a pack that are regular, and does the others one by one, to find out what they are.
+/// Fills the rows of the points of pack n: of regular points all at once, of the others one by one, which also finds
+/// their status.
 inline void measure_pack(const Expanded_block& block, std::size_t n, const Attribute_rows& rows) {
   using Lanes = Expanded_block::Lanes;
   const auto pack = regular_structure(block.jets[n], block.points_of_pack(n), block.rounding_of_pack(n));
@@ -51,7 +52,7 @@ inline void measure_pack(const Expanded_block& block, std::size_t n, const Attri
   }
 }
 
-/// Fills the rows with the estimator in `parameters`. Packs serve our own estimator only.
+/// Fills the rows by the estimator in `parameters`. Only our own estimator, COMPACT, computes in packs.
 template <class Parameters>
 void measure_block(const Expanded_block& block, const Parameters& parameters, const Attribute_rows& rows) {
   if (get_parameter<Estimator_tag>(parameters, Estimator::COMPACT) == Estimator::COMPACT) {
@@ -62,7 +63,7 @@ void measure_block(const Expanded_block& block, const Parameters& parameters, co
   }
 }
 
-/// Fills the columns of norms of gradients, if there are any.
+/// Fills the columns of norms of gradients, if any are selected.
 template <class Traits>
 void measure_gradients(const Traits& traits, std::span<const typename Traits::Point_3> points,
                        const Attribute_rows& rows) {
@@ -76,6 +77,7 @@ void measure_gradients(const Traits& traits, std::span<const typename Traits::Po
   }
 }
 
+/// The work of compute_attributes().
 template <class ConcurrencyTag, class Traits, class Parameters>
 Vertex_attributes compute_columns(const Traits& traits, std::span<const typename Traits::Point_3> points,
                                   const Attribute_selection& selection, std::span<const Point_status> sampled_status,

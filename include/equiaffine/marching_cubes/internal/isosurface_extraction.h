@@ -20,6 +20,7 @@ namespace equiaffine::internal {
 
 using Index_triangle = std::array<Isosurface_numbering::Index, 3>;
 
+/// The work of for_each_vertex_of_plane(), which says what `place` and `rows` are.
 template <bool HasUndefined, class Place>
 void visit_vertices_of_plane(const Isosurface_plan& plan, std::size_t k, Grid_rows& rows, const Place& place) {
   const Node_signs& signs = plan.signs;
@@ -43,15 +44,16 @@ void visit_vertices_of_plane(const Isosurface_plan& plan, std::size_t k, Grid_ro
   }
 }
 
-/// Calls place(vertex, i, j, k, axis) for every vertex on an edge that begins in plane k, where `axis` is a
-/// std::integral_constant. It returns whether the vertex lies at a node; rows with such vertices are added to `rows`.
+/// Calls place(vertex, i, j, k, axis) for every vertex on an edge that begins in plane k. (i, j, k) is the node at
+/// which the edge begins, and `axis` is a std::integral_constant. `place` returns whether the vertex lies at a node;
+/// rows of nodes with such vertices are added to `rows`.
 template <class Place>
 void for_each_vertex_of_plane(const Isosurface_plan& plan, std::size_t k, Grid_rows& rows, const Place& place) {
   plan.has_undefined ? visit_vertices_of_plane<true>(plan, k, rows, place)
                      : visit_vertices_of_plane<false>(plan, k, rows, place);
 }
 
-/// Does so for all planes. Returns the rows with vertices at nodes.
+/// Calls for_each_vertex_of_plane() for all planes. Returns the rows with vertices at nodes.
 template <class ConcurrencyTag, class Place>
 Grid_rows for_each_edge_vertex(const Isosurface_plan& plan, const Place& place) {
   const std::size_t planes = plan.signs.size()[2];
@@ -60,9 +62,9 @@ Grid_rows for_each_edge_vertex(const Isosurface_plan& plan, const Place& place) 
   return rows;
 }
 
-/// Writes the n triangles of a cell, whose vertices have the given slots. As many as most cells have are written
-/// without asking how many there are, where there is room: a wrong guess of the processor costs more than what is
-/// overwritten afterwards.
+/// Writes the n triangles of a cell, whose vertices have the given slots. If there is room, triangles_of_most_cells
+/// triangles are written whatever n is, for speed: a branch that the processor predicts wrongly costs more than
+/// triangles that are overwritten afterwards.
 inline void write_triangles_of_cell(const Cell_vertices& vertices, const std::uint8_t* slot, std::size_t n,
                                     Index_triangle* out, const Index_triangle* end) {
   std::size_t t = 0;
@@ -75,6 +77,7 @@ inline void write_triangles_of_cell(const Cell_vertices& vertices, const std::ui
   while (t < n) write_one();
 }
 
+/// Writes the triangles of the cells between planes k and k + 1. write_triangles() says what the arguments are.
 template <bool HasUndefined, class PlaceInner>
 void write_triangles_of_layer(const Isosurface_plan& plan, std::size_t k, Index_triangle* triangles,
                               bool is_left_handed, Grid_rows& rows, const PlaceInner& place_inner) {
@@ -90,15 +93,15 @@ void write_triangles_of_layer(const Isosurface_plan& plan, std::size_t k, Index_
   vertices.set_first_inner(numbering.inner_vertices_of_layer(k).first);
   for (std::size_t j = 0; j + 1 < plan.signs.size()[1]; ++j) {
     if (numbering.row(j, k).triangles == 0) continue;
-    // If all nodes have values, every vertex of these rows is in a visited cell, and numbers are carried on from cell
-    // to cell. Else some vertices are in cells of other rows only, and numbers are looked up for every cell.
+    // If all nodes have values, every vertex of these rows is in a visited cell, and the numbers of vertices are
+    // counted on from cell to cell. Else some vertices are only in cells of other rows, and every cell looks them up.
     if constexpr (!HasUndefined) vertices.start_at(numbering, 0, j, k);
     for_each_active_cell<HasUndefined>(plan.signs, j, k, [&](std::size_t i, unsigned corner_signs) {
       if constexpr (HasUndefined) vertices.start_at(numbering, i, j, k);
       const auto& crossed = table.crossed[corner_signs];
       vertices.enter_cell(crossed);
       const Case_table::Entry* entry = &table.of_signs[corner_signs];
-      std::size_t sub_case = 0; // only ambiguous cells have inner vertices, for which it is needed
+      std::size_t sub_case = 0; // is used for inner vertices, which only ambiguous cells have
       if (entry->is_ambiguous) {
         sub_case = *next_sub_case++;
         entry = &table.of_sub_case[sub_case];
@@ -116,9 +119,9 @@ void write_triangles_of_layer(const Isosurface_plan& plan, std::size_t k, Index_
 }
 
 /// Writes all triangles, the other way round for a left-handed grid. Calls place_inner(vertex, i, j, k, edges, written)
-/// for every cell with inner vertices: `vertex` is the first of them, each of them lies amid the vertices on the edges
-/// that `edges` has for it, and `written` are the triangles of the cell. It returns whether one of these has no area.
-/// Returns the rows of such cells.
+/// for every cell (i, j, k) with inner vertices: `vertex` is the number of the first of them, edges[n] are the edges of
+/// the cell amid whose vertices inner vertex n lies, and `written` are the triangles of the cell. `place_inner` returns
+/// whether one of these triangles has no area. Returns the rows of the cells that have such a triangle.
 template <class ConcurrencyTag, class PlaceInner>
 Grid_rows write_triangles(const Isosurface_plan& plan, Index_triangle* triangles, bool is_left_handed,
                           const PlaceInner& place_inner) {

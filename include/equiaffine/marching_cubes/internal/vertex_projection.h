@@ -24,16 +24,18 @@
 namespace equiaffine::internal {
 
 struct Projection_report {
-  std::size_t evaluations;  ///< of the function
+  std::size_t evaluations;  ///< the number of evaluations of the function
   std::size_t flips_undone; ///< vertices that were put back
   Grid_rows suspects;       ///< rows of nodes with a vertex, around which triangles may have no area
 };
 
-/// Puts the vertices of a mesh from the linear intersections on the surface of the function. Where that takes away the
-/// area of a triangle or turns it over, away from the side to which its linear version looks, its vertices go back.
+/// Moves the vertices of a mesh from their linear positions, where the linear interpolant along an edge of the lattice
+/// vanishes, onto the surface of the function. If that takes away the area of a triangle or turns the triangle over,
+/// its vertices are moved back.
 ///
-/// Slabs of planes are projected one after the other, so that linear positions are kept for one slab only. Vertices
-/// that go back may turn other triangles over; these are few, and their linear positions are computed again.
+/// Slabs of planes are projected one after the other, so that only the linear positions of one slab are kept in memory.
+/// Vertices that are moved back may turn other triangles over. These are few, and the linear positions of their
+/// vertices are computed again.
 template <class ConcurrencyTag, class Traits>
 class Vertex_projection {
   using FT = typename Traits::FT;
@@ -42,7 +44,7 @@ class Vertex_projection {
   using Vector_3 = typename Traits::Vector_3;
   using Function = Lattice_function<Traits>;
   using Triangle = std::array<std::uint32_t, 3>;
-  static constexpr std::size_t slab = 32; // planes
+  static constexpr std::size_t slab = 32; // the number of planes in a slab
 
 public:
   Vertex_projection(const Function& function, const Isosurface_plan& plan,
@@ -78,8 +80,8 @@ private:
     parallel_for<ConcurrencyTag>(first, end, visit);
   }
 
-  /// The linear positions of the vertices on edges from plane `first` to plane `end`, which are those that the surface
-  /// has, and of the plane below, which are in `below`.
+  /// The linear positions of the vertices on edges that begin in the planes `first` to `end` - 1, which are not yet
+  /// projected, and in the plane below them, which is projected already: its linear positions are in `below`.
   Positions linear_positions(std::size_t first, std::size_t end, const Positions& below) const {
     const auto vertices = [&](std::size_t k) { return numbering_.vertices_of_plane(k); };
     const std::size_t first_kept = vertices(first > 0 ? first - 1 : 0).first;
@@ -126,7 +128,8 @@ private:
     }
   }
 
-  /// A zero near a vertex inside a cell, on the way to a wall of the cell along an axis, so that it stays inside.
+  /// Finds a zero of the function near a vertex inside a cell. It is looked for along each axis, between the vertex and
+  /// a wall a little within the cell, so that the vertex stays inside.
   Surface_point_3<Kernel> project_within_cell(const Inner_vertex<FT>& vertex) const {
     const auto& traits = function_.traits();
     const Point_3 p = point_of(vertex);
@@ -180,7 +183,8 @@ private:
     return (cosine < FT(0) && has_side(linear)) || (have_no_area(points) && !have_no_area(linear));
   }
 
-  /// Whether a triangle has an area above the rounding of its coordinates, so that it looks to one side.
+  /// Whether the area of a triangle is greater than the rounding of its coordinates could make it, so that the
+  /// direction of its normal means something.
   static bool has_side(const std::array<Point_3, 3>& p) {
     const Vector_3 u = p[1] - p[0], v = p[2] - p[0];
     const FT length = std::max(u.squared_length(), v.squared_length());
@@ -196,7 +200,7 @@ private:
     return has_zero_area(Function::coordinates(p[0]), Function::coordinates(p[1]), Function::coordinates(p[2]));
   }
 
-  /// Puts back the vertices of flipped triangles, and of those that get flipped by that.
+  /// Puts back the vertices of flipped triangles, and of those that are flipped once other vertices are back.
   void undo_flips() {
     std::vector<std::size_t> suspects;
     for (const auto& layer : flipped_) suspects.insert(suspects.end(), layer.begin(), layer.end());
@@ -205,8 +209,8 @@ private:
       if (!is_flipped_now(t)) continue;
       const Triangle triangle = surface_.triangles[t];
       if (!has_side({linear_position(triangle[0]), linear_position(triangle[1]), linear_position(triangle[2])})) {
-        // Beside a node whose value all but vanishes two vertices are the same but for rounding. Once they have back
-        // what makes them differ, the third vertex may stay where it is.
+        // Beside a node whose value is almost zero, two vertices are equal up to rounding, and projection may have made
+        // them exactly equal. Once these two are put back, the third one may stay where it is.
         undo_roundings(triangle);
         if (!is_flipped_now(t)) continue;
       }
@@ -234,7 +238,7 @@ private:
     }
   }
 
-  /// Returns whether the vertex was elsewhere.
+  /// Puts a vertex back to its linear position. Returns whether it was elsewhere.
   bool put_back(std::size_t v) {
     const Point_3 position = linear_position(v);
     if (surface_.points[v] == position) return false;
@@ -244,6 +248,7 @@ private:
     return true;
   }
 
+  /// Appends the numbers of the triangles that have v as a vertex.
   void append_triangles_around(std::size_t v, std::vector<std::size_t>& triangles) const {
     const auto node = is_inner(v) ? inner_vertex(v).cell : numbering_.edge_of(v)->node;
     numbering_.for_each_triangle_around(node[1], node[2], [&](std::size_t t) {
@@ -269,7 +274,7 @@ private:
   std::size_t flips_undone_ = 0;
 };
 
-/// Projects the vertices of `surface`, which are at the linear intersections. Changes its points and their status.
+/// Projects the vertices of `surface`, which are at their linear positions: changes its points and their status.
 template <class ConcurrencyTag, class Traits>
 Projection_report project_vertices(const Lattice_function<Traits>& function, const Isosurface_plan& plan,
                                    const std::vector<Inner_vertex<typename Traits::FT>>& inner_vertices,
