@@ -29,8 +29,8 @@ namespace {
 
 using Mesh = Delaunay_surface_3<Any_function_3::Kernel>;
 
-/// Makes one mesh: finds initial points, inserts them, refines the triangulation, and looks what of the surface is not
-/// in the mesh.
+/// Makes one mesh: finds initial points, inserts them, refines the triangulation, and finds the boxes in which a part
+/// of the surface may be missing from the mesh.
 class Surface_mesher {
 public:
   Surface_mesher(const Any_function_3& function, const Meshing_request_3& request,
@@ -54,12 +54,13 @@ public:
   }
 
 private:
-  /// A surface that is sampled densely enough gives a manifold at once (Boissonnat, Oudot); if not, refinement goes on
-  /// until it is one, unless features or undecided boxes may keep it from ever being one.
+  /// Refines the triangulation and returns the mesh. If the surface is sampled densely enough, the mesh is a manifold
+  /// at once (Boissonnat, Oudot). If it is none, refinement goes on until it is one, unless features or undecided boxes
+  /// may keep it from ever being one.
   Facet_mesh refine(const Initial_points& points) {
     if (complex_.triangulation().dimension() < 3) return {};
     const bool is_decided = points.undecided_boxes.empty();
-    const double smallest = is_decided ? 0 : criteria_.radius / 8; // facets near singular points get no smaller
+    const double smallest = is_decided ? 0 : criteria_.radius / 8; // near singular points facets get no smaller
     Facet_mesh mesh = refine(Manifoldness::ANY, smallest);
     if (mesh.topology.is_manifold || mesh.surface.triangles.empty() || !is_decided || points.has_features) return mesh;
     const bool has_boundary = mesh.topology.boundary_edges > 0;
@@ -78,7 +79,8 @@ private:
     improve(mesh.surface, mesh.is_on_feature);
   }
 
-  /// The boxes that the seeding left, and one of the size of a facet around everything that the mesh has lost.
+  /// The boxes that the seeding left undecided, and one around every point that the mesh has lost, which extends from
+  /// it by the radius of a facet.
   std::vector<CGAL::Bbox_3> undecided_boxes(const Initial_points& points, const Inserted_points& inserted,
                                             const Facet_mesh& mesh) const {
     Lost_points lost = inserted.hidden;
@@ -102,7 +104,7 @@ private:
   Surface_complex complex_;
 };
 
-/// A second mesh, of which the parabolic curves of the first one are features.
+/// Makes a second mesh, which has the parabolic curves of the first one as features.
 Mesh follow_parabolic_curves(const Mesh& first, const Any_function_3& function, const Meshing_request_3& request,
                              std::vector<Feature_curve_3> features) {
   auto curves = parabolic_curves(first, function);

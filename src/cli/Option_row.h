@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of options: one row says all of an option, from its help to where its value goes. A new option is a row in
-// source_options.cpp, surface_options.cpp or output_options.cpp.
+// The table of options. A row says everything about one option, from its help to where its value goes. For a new option
+// add a row to source_options.cpp, surface_options.cpp or output_options.cpp.
 #ifndef EQUIAFFINE_SRC_CLI_OPTION_ROW_H
 #define EQUIAFFINE_SRC_CLI_OPTION_ROW_H
 
@@ -13,11 +13,12 @@
 
 namespace equiaffine {
 
-/// The commands of the program; the options of several are a sum.
+/// The commands of the program, as bits: an option of several commands has their sum.
 enum Command : unsigned { MESH = 1, EVALUATE = 2, SAMPLE = 4, VIEW = 8 };
 using Commands = unsigned;
 
-/// The heading in the help below which an option stands. It depends on the command, see title_of().
+/// Says below which heading of the help an option stands. The words of the heading depend on the command: title_of() in
+/// command_line.cpp has them.
 enum class Option_group { INPUT, SOURCE, BOX, SURFACE, SAMPLING, MARCHING_CUBES, DELAUNAY, OUTPUT };
 
 /// How many words follow the name of an option.
@@ -31,16 +32,16 @@ struct Number_of_words {
 constexpr int unlimited = 0;
 
 struct Option_row {
-  std::string names; ///< such as "-o,--output"; a name without dashes is that of a positional
+  std::string names; ///< such as "-o,--output"; a positional argument has a name without dashes
   Commands commands;
   Option_group group;
   Number_of_words words;
   std::string type; ///< how the help writes the words
   std::string help;
-  /// Puts the value of the words into the draft. Throws `Input_error` for words that have none.
+  /// Reads the words and puts their value into the draft. Throws `Input_error` if it cannot read them.
   void (*read)(const Option_words& option, Draft& draft);
 
-  /// The last of its names, which stands for it in messages.
+  /// The last of the names, by which messages call the option.
   std::string name() const { return names.substr(names.find(',') + 1); }
 };
 

@@ -28,7 +28,7 @@ namespace equiaffine {
 
 namespace {
 
-/// A surface with its attributes, which are still missing after it was sampled.
+/// A surface with its attributes. sample() returns one without attributes, and make_surface() adds them.
 struct Annotated_surface {
   Isosurface_3<Kernel> mesh;
   Vertex_attributes attributes;
@@ -38,7 +38,8 @@ struct Annotated_surface {
   std::optional<Parabolic_curves_3<Kernel>> curves; ///< if they were asked for
 };
 
-/// The least and the greatest value of f at the nodes of a grid; in reverse order if all values are NaN.
+/// The least and the greatest value of f at the nodes of a grid. If all values are NaN, they are infinity and
+/// -infinity.
 template <class Traits>
 std::pair<double, double> range_on_grid(const Traits& function) {
   const auto samples = [&] {
@@ -60,8 +61,8 @@ std::pair<double, double> range_on_grid(const Traits& function) {
   return {least, greatest};
 }
 
-/// Throws the error that says why there is no surface: `place` is where it was looked for; `refinement` says what may
-/// find more, and is empty if nothing can.
+/// Throws the error that says why there is no surface. `place` is where it was looked for, "box" or "ball".
+/// `refinement` is what may find more of the surface, such as "a smaller --radius", and is empty if nothing can.
 template <class Traits>
 [[noreturn]] void fail_without_surface(const Traits& function, double isovalue, const std::string& place,
                                        const std::string& refinement) {
@@ -96,7 +97,8 @@ double greatest_coordinate(const CGAL::Bbox_3& box) {
   return greatest;
 }
 
-/// The mesher computes polynomials of degree 6 in lengths, which must not over- or underflow.
+/// Throws if the box is too large or too small: the mesher computes polynomials of degree 6 in lengths, which must
+/// neither overflow nor underflow.
 void check_box_of_delaunay_surface(const CGAL::Bbox_3& box, double diagonal) {
   constexpr double least = 1e-40, greatest = 1e40;
   const double farthest = std::max(diagonal, greatest_coordinate(box));
@@ -107,7 +109,8 @@ void check_box_of_delaunay_surface(const CGAL::Bbox_3& box, double diagonal) {
   throw Input_error(text.str());
 }
 
-/// Throws if facets would be as small as a few units in the last place, where they have no shape.
+/// Throws if facets would be smaller than about a thousand units in the last place of the coordinates, since rounding
+/// would spoil their shape.
 void check_radius_of_delaunay_surface(const CGAL::Bbox_3& box, double radius) {
   const double farthest = greatest_coordinate(box);
   const double least = 1024 * std::numeric_limits<double>::epsilon() * farthest;
@@ -142,11 +145,11 @@ Annotated_surface sample(const Traits& function, const Mesh_options& options, co
   return surface;
 }
 
-/// `function` is the function of `source`, whose type is known here and below.
+/// Samples the surface and computes its attributes. `function` is the one in `source`, with its own type.
 template <class Traits>
 Annotated_surface make_surface(const Traits& function, const Source& source, const Mesh_options& options,
                                Progress& progress) {
-  // The mesh is that of f, so that the orientation changes nothing but the side to which it is turned.
+  // The mesh is made from f whatever the orientation is, which then only decides to which side triangles are turned.
   const Level_set_traits_3<Traits> extracted(function, options.isovalue);
   const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
   progress.begin("extracting the surface");
@@ -159,7 +162,7 @@ Annotated_surface make_surface(const Traits& function, const Source& source, con
   surface.max_distance = max_distance_to_surface<CGAL::Parallel_if_available_tag>(level_set, surface.mesh.points);
   surface.mesh.function_evaluations += surface.mesh.points.size();
   Attribute_selection selection = options.attributes;
-  selection.has_status = true; // also if it is not written: the statistics count it
+  selection.has_status = true; // even if it is not written: the statistics count it
   surface.attributes = compute_attributes(Attribute_task<Traits>{
       function, options.orientation, surface.mesh.points, selection, options.estimator, surface.mesh.vertex_status});
   surface.mesh.function_evaluations += surface.mesh.points.size();
@@ -225,7 +228,7 @@ std::string summary(const Parabolic_curves_3<Kernel>& curves) {
   return text + '\n';
 }
 
-/// The outputs of the command. Making them finds out whether they can be written.
+/// The output files of the command. The constructor throws if one of them cannot be written.
 struct Outputs {
   explicit Outputs(const Mesh_options& options) {
     check_surface_output(options.output);
@@ -240,7 +243,7 @@ struct Outputs {
     return std::any_of(files.begin(), files.end(), [](const Output_file& output) { return output.path() == "-"; });
   }
 
-  std::vector<Output_file> files; // mesh, and if asked for page, picture, curves, statistics
+  std::vector<Output_file> files; // the mesh, then those of page, picture, curves, statistics that were asked for
 };
 
 } // namespace

@@ -18,12 +18,12 @@
 
 namespace equiaffine {
 
-/// Model of CGAL's MeshDomain_3: the part of a clip domain where f < 0, with the zero set of f as its surface. It takes
-/// the place of CGAL::Labeled_mesh_domain_3 in CGAL::make_mesh_3. Vertices on the surface are exact to rounding, every
-/// component that is closed within the clip domain gets initial points, and parts of the surface outside of it do no
-/// harm.
+/// A model of CGAL's MeshDomain_3: the part of a clip domain where f < 0, with the zero set of f as its surface. Use it
+/// in CGAL::make_mesh_3 in place of CGAL::Labeled_mesh_domain_3. Vertices on the surface are exact up to rounding,
+/// every component that is closed within the clip domain gets initial points, and parts of the surface outside of the
+/// clip domain do no harm.
 ///
-/// `Kernel` is that of the mesher; the points of the function are converted. Copies share the function.
+/// `Kernel` is the kernel of the mesher, to which the points of the function are converted. Copies share the function.
 template <ImplicitFunctionTraits_3 Traits, class Kernel = CGAL::Exact_predicates_inexact_constructions_kernel>
 class Implicit_mesh_domain_3 {
   using Oracle = internal::Segment_oracle_3<Traits>;
@@ -45,17 +45,17 @@ public:
   using Surface_patch = Cgal_optional<Surface_patch_index>;
   using Intersection = std::tuple<Point_3, Index, int>;
 
-  /// `facet_size` is the bound of the radii of surface Delaunay balls that will be asked for, 0 for that of
-  /// `Delaunay_criteria`: initial points are that dense, and pairs of intersections are looked for on dual edges that
-  /// are longer than twice that.
+  /// `facet_size` is the bound of the radii of surface Delaunay balls that the mesher will be given, or 0 for the
+  /// default of `Delaunay_criteria`. Initial points are as dense as that, and on dual edges longer than twice that,
+  /// pairs of intersections are looked for.
   Implicit_mesh_domain_3(Traits traits, const Clip_domain_3& domain, double facet_size = 0)
       : facet_size_(facet_size > 0 ? facet_size : Delaunay_criteria::default_radius(domain)),
         oracle_(std::make_shared<const Oracle>(std::move(traits), domain, 2 * facet_size_)) {}
   explicit Implicit_mesh_domain_3(Traits traits) : Implicit_mesh_domain_3(traits, Clip_domain_3(traits.bbox())) {}
 
   struct Construct_initial_points {
-    /// Writes pairs of Point_3 and Index. The number is that which certainty and the facet size need, at least; `n` is
-    /// ignored.
+    /// Writes pairs of Point_3 and Index, as many as certainty and the facet size need. The number of points that the
+    /// mesher asks for is ignored.
     template <class OutputIterator>
     OutputIterator operator()(OutputIterator out, int = 0) const {
       const auto size = [this](const auto&) { return facet_size; };

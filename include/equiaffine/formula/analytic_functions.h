@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Well-known surfaces as functors for Analytic_function_traits_3: {f = 0} is the surface, f is called with any number
-// type. Parameters are double and so is what is computed from them alone: every number type evaluates the same
-// function. Intermediate results are `auto`, so that jets leave out the derivatives that vanish by structure.
+// Well-known surfaces {f = 0} as functors f for Analytic_function_traits_3, which can be called with any number type.
+// Parameters, and what is computed from them alone, are doubles, so that every number type evaluates the same function.
+// Intermediate results are `auto`, so that jets leave out the derivatives that are zero by structure.
 #ifndef EQUIAFFINE_FORMULA_ANALYTIC_FUNCTIONS_H
 #define EQUIAFFINE_FORMULA_ANALYTIC_FUNCTIONS_H
 
@@ -22,7 +22,7 @@ namespace equiaffine {
 /// otherwise.
 namespace analytic_functions {
 
-/// The square of a number; jets and intervals have better ones, found by argument-dependent lookup.
+/// The square of a number. Jets and intervals have better functions of this name, found by argument-dependent lookup.
 template <class T>
 auto square(const T& x) {
   return x * x;
@@ -48,14 +48,14 @@ struct Ellipsoid {
   CGAL::Bbox_3 box() const { return internal::centered_box(1.25 * a, 1.25 * b, 1.25 * c); }
 };
 
-/// z - (x^2 + y^2) / 2. K = H = J = 0: an improper affine sphere, its affine normal is constant (Andrade, Lewiner 2012,
-/// figure 4).
+/// z - (x^2 + y^2) / 2. K = H = J = 0: an improper affine sphere, whose affine normal is constant (Andrade, Lewiner
+/// 2012, figure 4).
 struct Elliptic_paraboloid {
   auto operator()(const auto& x, const auto& y, const auto& z) const { return z - (square(x) + square(y)) * 0.5; }
   CGAL::Bbox_3 box() const { return internal::centered_cube(1); }
 };
 
-/// z - (x^2 - y^2) / 2. K = H = J = 0, with constant affine normal as above.
+/// z - (x^2 - y^2) / 2. K = H = J = 0, and the affine normal is constant, as for Elliptic_paraboloid.
 struct Hyperbolic_paraboloid {
   auto operator()(const auto& x, const auto& y, const auto& z) const { return z - (square(x) - square(y)) * 0.5; }
   CGAL::Bbox_3 box() const { return internal::centered_cube(1); }
@@ -160,8 +160,8 @@ struct Two_spheres {
   CGAL::Bbox_3 box() const { return internal::centered_cube(2 * radius); }
 };
 
-/// t - sum of exp(-|p - c_i|^2 / s^2) over eight centers c_i: positive outside, transcendental, and no symmetry. `size`
-/// is s, `threshold` the pure number t. Blinn: A generalization of algebraic surface drawing, 1982.
+/// t - sum of exp(-|p - c_i|^2 / s^2) over eight centers c_i: transcendental, positive outside, and without symmetry.
+/// `size` is s, and `threshold` is t, which has no unit. Blinn: A generalization of algebraic surface drawing, 1982.
 struct Metaballs {
   std::array<std::array<double, 3>, 8> centers = {{{-0.55, -0.45, -0.5},
                                                    {0.5, -0.55, -0.4},
@@ -209,8 +209,9 @@ struct Chmutov_sextic {
 };
 
 /// 4 (g^2 x^2 - y^2) (g^2 y^2 - z^2) (g^2 z^2 - x^2) - (1 + 2 g) (x^2 + y^2 + z^2 - 1)^2 + c with the golden ratio g.
-/// For c = 0 it has 65 nodes, of which 15 at infinity; (1, 0, 0) is one. A small c > 0 opens them: smooth and
-/// connected. Barth: Two projective surfaces with many nodes, admitting the symmetries of the icosahedron, 1996.
+/// If c = 0, the surface has 65 nodes, 15 of them at infinity; one is (1, 0, 0). A small c > 0 opens them and makes the
+/// surface smooth and connected. Barth: Two projective surfaces with many nodes, admitting the symmetries of the
+/// icosahedron, 1996.
 struct Barth_sextic {
   double c = 0;
 

@@ -22,8 +22,9 @@
 
 namespace equiaffine {
 
-/// The function f o A^-1, whose level sets are the images under A of those of f. A is any invertible affine map. The
-/// function models every refinement that the base models, except batches.
+/// The function f o A^-1, whose level sets are the images under A of the level sets of f. A is any invertible affine
+/// map. The function is a model of every refinement of the concept that the base is a model of, except
+/// BatchImplicitFunctionTraits_3.
 ///
 /// With a = |det A| the affine curvatures change by K' = K / a, H' = H / sqrt(a), J' = J / sqrt(a), the co-normal by
 /// nu' = sqrt(a) A^-T nu and the affine normal by xi' = A xi / sqrt(a).
@@ -59,7 +60,7 @@ public:
     for (auto& jet : jets) jet = substitution_(jet);
   }
 
-  /// Bounds over the axis-parallel box around the preimage of `box`.
+  /// The bounds of the base on the axis-parallel box around the preimage of `box`.
   Interval bounds(const CGAL::Bbox_3& box) const requires BoundedImplicitFunctionTraits_3<Base> {
     return base_.bounds(preimage(box));
   }
@@ -72,8 +73,9 @@ public:
     return substitution_of_bounds_(base_.second_order_bounds(preimage(box)));
   }
 
-  /// By the chain rule a second derivative is a sum of those of the base, each times one entry of A^-1 from the column
-  /// of either variable. The factors add up to the square of the greatest column sum at most.
+  /// The rounding of the base times the square of the greatest sum of magnitudes in a column of A^-1: by the chain rule
+  /// a second derivative is a sum of second derivatives of the base, each times one entry of A^-1 from the column of
+  /// either variable.
   FT rounding(const Point_3& p) const requires internal::Has_rounding<Base> {
     FT greatest_sum(0);
     for (int column = 0; column < 3; ++column) {
@@ -88,7 +90,7 @@ public:
   /// The axis-parallel box around the image of the base's box.
   CGAL::Bbox_3 bbox() const { return Lattice_3<Kernel_of<Base>>({2, 2, 2}, base_.bbox()).transform(map_).bbox(); }
 
-  /// The image of the lattice on which the base would be sampled: it fills the image of the base's box, nothing else.
+  /// The image of the lattice on which the base would be sampled. It fills exactly the image of the base's box.
   Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
     return sampling_lattice(base_, size).transform(map_);
   }

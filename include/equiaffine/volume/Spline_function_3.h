@@ -29,17 +29,19 @@ namespace equiaffine {
 /// The tensor product B-spline of degree 5, 7 or 9 through the samples of a volume, as a function of the points of
 /// space: value, and Taylor expansion to order 4, at any point.
 ///
-/// The support is the whole lattice, borders included, where the scheme keeps its order by extrapolating samples, by
-/// polynomials of degree n or, if the samples are smooth enough, n + 2 (internal/border_degree.h). All numbers are NaN
-/// outside, at every point whose samples include one that is not finite (all samples take part in interpolation), and
-/// everywhere if an axis has no more than `degree` nodes.
+/// The support is the whole lattice with its border. There the scheme keeps its order because it extends the samples by
+/// polynomials of degree n, that of the spline, or of degree n + 2 if the samples are smooth enough
+/// (internal/border_degree.h). All numbers are NaN outside of the support, at every point whose samples include one
+/// that is not finite (all samples take part in interpolation), and everywhere if an axis has no more than `degree`
+/// nodes.
 ///
-/// Derivatives are taken in lattice coordinates and mapped by the inverse of the lattice's matrix: any spacing,
-/// rotation, shear and handedness. The rounding error of a k-th derivative is some 1e-15 max|f| / spacing^k, in the
-/// cells at the border 30 to 70 times that by quasi-interpolation, and the square and cube of it in edges and corners.
-/// Unser, Aldroubi, Eden: B-spline signal processing, 1993; de Boor: Quasiinterpolants, 1990.
+/// Derivatives are computed in lattice coordinates and mapped to space by the inverse of the lattice's matrix, so that
+/// the lattice may have any spacing, rotation, shear and handedness. The rounding error of a k-th derivative is some
+/// 1e-15 max|f| / spacing^k. In the cells at a face of the lattice, quasi-interpolation multiplies it by a factor of 30
+/// to 70, along edges by the square of that factor, and in corners by its cube. See Unser, Aldroubi, Eden: B-spline
+/// signal processing, 1993; de Boor: Quasiinterpolants, 1990.
 ///
-/// Const members may be called from many threads at once. Memory: one number per node and per padding node.
+/// Const members may be called from many threads at once. The function keeps one number per node and per padding node.
 template <class Kernel>
 class Spline_function_3 {
 public:
@@ -85,7 +87,7 @@ public:
   /// Turns an expansion in lattice coordinates into one in those of space.
   Jet_3<FT> to_space(const Jet_3<FT>& jet) const { return substitution_(jet); }
 
-  /// The expansion at p in the coordinates of space, to total order `Order` <= 4; the lower ones cost less.
+  /// The expansion at p in the coordinates of space, to total order `Order` <= 4; lower orders cost less.
   template <int Order = internal::maximal_order>
   Jet_3<FT, Order> taylor(const Point_3& p) const {
     const auto place = locate(p);
@@ -99,9 +101,9 @@ public:
                              : coefficients_.template expansion<Order>(place->cell, place->offset));
   }
 
-  /// Contains the values at all points of the box, also as computed, from the coefficients that count there. The bounds
-  /// are the whole line if a point of the box has no value. Time: proportional to the number of cells that the box
-  /// meets.
+  /// Computes an interval that contains the values at all points of the box, also as value() rounds them, from the
+  /// coefficients that count there. It is the whole line if a point of the box has no value. Takes time proportional to
+  /// the number of cells that the box meets.
   Interval bounds(const CGAL::Bbox_3& box) const {
     const auto common = locate(box);
     if (!common || !common->is_whole_box || bounds_->has_nan(coefficients_.data(), common->box))
@@ -109,10 +111,10 @@ public:
     return bounds_->value(coefficients_.data(), common->box);
   }
 
-  /// Contains the values and the first derivatives in the same sense. In boxes of up to 9 cells along each axis they
-  /// are nearly the ranges: the excess shrinks with the square of the box, down to 2^-12 of a cell. If there are points
-  /// without a value in the box, the bounds of the derivatives are the whole line, and those of the value are of the
-  /// other points; infinity, if none of them has one.
+  /// Computes intervals that contain the values and the first derivatives in the same sense. In boxes of up to 9 cells
+  /// along each axis they are nearly the ranges: the excess shrinks with the square of the side of the box, down to
+  /// 2^-12 of a cell. If a point of the box has no value, the bounds of the derivatives are the whole line, and the
+  /// bounds of the value are those of the points that have one; they are infinity if there are none.
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const {
     const auto common = locate(box);
     std::array<Interval, 4> bounds;
@@ -145,7 +147,7 @@ private:
   std::optional<typename Support::Common_box> locate(const CGAL::Bbox_3& box) const {
     if (!bounds_) return std::nullopt;
     auto common = support_.locate(box);
-    if (common && scheme_ == Spline_scheme::PAPER) { // whose values are means of those at all corners of a cell
+    if (common && scheme_ == Spline_scheme::PAPER) { // its values are means over the corners of a cell
       common->box.begin = {0, 0, 0};
       common->box.end = {1, 1, 1};
     }
@@ -157,7 +159,7 @@ private:
   Support support_;
   Linear_substitution_3<FT> substitution_;
   internal::Spline_coefficients<FT> coefficients_;
-  std::optional<internal::Bspline_bounds<FT>> bounds_; // if the lattice has nodes enough for a spline
+  std::optional<internal::Bspline_bounds<FT>> bounds_; // empty if the lattice has too few nodes for a spline
 };
 
 } // namespace equiaffine

@@ -15,10 +15,10 @@ namespace equiaffine::internal {
 
 inline constexpr std::size_t number_of_attribute_rows = attribute_table<double>.size();
 
-/// A truth value per component of every row of attribute_table.
+/// Whether each component of each row of attribute_table is selected.
 using Selected_components = std::array<std::array<bool, 6>, number_of_attribute_rows>;
 
-/// Whether a name in a list stands for that component of the row.
+/// Whether `name` selects this component of the row.
 constexpr bool is_selected_by(const Attribute_row<double>& row, std::size_t component, std::string_view name) {
   using namespace attribute_lists;
   if (name == "basic") return (row.lists & basic) == basic;
@@ -27,7 +27,7 @@ constexpr bool is_selected_by(const Attribute_row<double>& row, std::size_t comp
   return name == row.name || name == row.column(component);
 }
 
-/// Selects what a name stands for; false where it is the name of nothing.
+/// Selects all components that `name` stands for. Returns false if it is unknown.
 inline bool select_by_name(Selected_components& is_selected, std::string_view name) {
   bool is_known = name == "status";
   for (std::size_t n = 0; n < number_of_attribute_rows; ++n)
@@ -36,7 +36,7 @@ inline bool select_by_name(Selected_components& is_selected, std::string_view na
   return is_known;
 }
 
-/// Reads names with commas between. \throw Input_error for an unknown one.
+/// Reads a list of names with commas between them. \throw Input_error for an unknown name.
 inline Selected_components read_attribute_names(std::string_view list) {
   Selected_components is_selected{};
   for (std::size_t begin = 0; begin <= list.size();) {

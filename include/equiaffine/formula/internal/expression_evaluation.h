@@ -20,8 +20,9 @@
 /// Evaluates a tape for blocks of points.
 namespace equiaffine::internal::expression {
 
-/// Sets result[i] = f(a[i], b[i]) for the first `count` points. The size of a full block is known at compile time,
-/// which compilers need to vectorize at moderate optimization levels; unrolled, GCC's loops take half the time.
+/// Sets result[i] = f(a[i], b[i]) for the first `count` points. The loop over a full block has a size known at compile
+/// time, which compilers need to vectorize it at moderate optimization levels, and is unrolled, which halves its time
+/// with GCC.
 template <std::size_t Block, class T, class Function>
 void for_each_point(const T* __restrict a, const T* __restrict b, T* __restrict result, std::size_t count, Function f) {
   if (Block == 1 || count == Block) {
@@ -52,7 +53,7 @@ void integer_power(const T* a, T* result, std::size_t count, unsigned n) {
   }
 }
 
-/// A number type, or a pack of numbers, with the order that choices need.
+/// A number type whose values can be compared, or a pack of such numbers: execute_choice() needs it.
 template <class T>
 concept Ordered = std::is_floating_point_v<T> || requires {
   typename T::Mask;
@@ -109,8 +110,8 @@ template <std::size_t Block, class T>
   }
 }
 
-/// Executes one instruction for `count` <= Block points. It is inlined into the loop over the instructions with all
-/// arithmetic, which is most of a tape: a call for each would cost as much as what it computes.
+/// Executes one instruction for `count` <= Block points. This function is inlined into the loop over the instructions
+/// with all arithmetic operations, which are most of a tape: a call for each would take as long as the operation.
 template <std::size_t Block, class T>
 [[gnu::always_inline]] inline void execute(const Instruction& instruction, const T* a, const T* b, T* result,
                                            std::size_t count) {
@@ -133,8 +134,8 @@ template <std::size_t Block, class T>
   }
 }
 
-/// The number of points, or of packs of points, in a block: with half a kilobyte per slot a typical tape stays in the
-/// first-level cache. Numbers as large as a Taylor polynomial are evaluated one by one.
+/// The number of points, or of packs of points, in a block. A slot takes half a kilobyte, so that the slots of a
+/// typical tape stay in the first-level cache. If T is as large as a Taylor polynomial, the block is one point.
 template <class T>
 inline constexpr std::size_t block_size = std::max<std::size_t>(1, 512 / sizeof(T));
 

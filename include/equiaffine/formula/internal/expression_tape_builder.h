@@ -20,7 +20,7 @@
 
 namespace equiaffine::internal::expression {
 
-/// Hands out slots for intermediate results and takes them back. The slot that was returned last is reused first.
+/// Hands out slots for intermediate results and takes them back. The slot that was given back last is reused first.
 class Slot_pool {
 public:
   std::uint32_t take() {
@@ -89,7 +89,7 @@ public:
     return value(a) == std::numbers::e ? node(Opcode::EXP, b, b) : node(Opcode::POWER, a, b);
   }
 
-  /// A function of one (a == b) or two arguments.
+  /// The node of a function of two arguments, or of one, in which case a == b.
   Node function(Opcode opcode, Node a, Node b) {
     if (a == b && (opcode == Opcode::MIN || opcode == Opcode::MAX)) return a;
     return opcode == Opcode::POWER ? power(a, b) : node(opcode, a, b);
@@ -163,7 +163,7 @@ private:
     return n == 2 ? node(Opcode::SQUARE, a, a) : node(Opcode::INTEGER_POWER, a, a, n);
   }
 
-  /// For each node the last one that reads it, END for a root, NONE for a node that the roots do not need.
+  /// Returns for each node the last one that reads it: END for a root, and NONE for a node that the roots do not need.
   std::vector<Node> last_readers(std::span<const Node> roots) const {
     std::vector<Node> last_reader(nodes_.size(), NONE);
     for (const Node root : roots) last_reader[root] = END;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The curves in which a surface meets the faces of a cell, and triangles between them. No chord joins two points of one
-// face: the next cell could have the same chord, and the edge would get four triangles.
+// The curves in which a surface meets the faces of a cell, and the triangles between these curves. No edge inside a
+// cell joins two points of the same face: the next cell could have the same edge, which would then be in four
+// triangles.
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_CELL_POLYGONS_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_CELL_POLYGONS_H
 
@@ -47,9 +48,11 @@ constexpr bool share_face(int edge, int other) {
 /// A closed curve through points on edges of the cell.
 using Polygon = std::vector<std::uint8_t>;
 
-/// The boundary curves of the surface. On each face a segment leads from the edge after a run of positive corners to
-/// the edge before it or, where the positive corners of the face are joined, to the edge before the next run. The face
-/// behind an edge traverses it the other way round, so the segments of all faces form closed curves.
+/// The boundary curves of the surface in a cell. Corner c is positive if bit c of `signs` is set, and the positive
+/// corners of a face are joined if its bit in `joined` is set. On each face a segment leads from the edge after a run
+/// of positive corners to the edge before it or, if the positive corners are joined, to the edge before the next run.
+/// The face on the other side of an edge traverses the edge the other way round, so the segments of all faces form
+/// closed curves.
 inline std::vector<Polygon> boundary_curves(unsigned signs, unsigned joined) {
   const auto is_positive = [&](int corner) { return (signs >> corner & 1) != 0; };
   std::array<int, 12> next;
@@ -80,7 +83,7 @@ inline std::vector<Polygon> boundary_curves(unsigned signs, unsigned joined) {
   return curves;
 }
 
-/// Appends a triangulation of a polygon by chords; false if there is none.
+/// Appends a triangulation of a polygon without inner vertices. Returns false if there is none.
 inline bool triangulate_disc(const Polygon& polygon, std::vector<std::array<std::uint8_t, 3>>& triangles) {
   const std::size_t n = polygon.size();
   if (n < 3) return true;
@@ -100,7 +103,7 @@ inline bool triangulate_disc(const Polygon& polygon, std::vector<std::array<std:
   return false;
 }
 
-/// The squared distance between the midpoints of two edges, in half steps.
+/// The squared distance between the midpoints of two edges of a cell whose edges have length 2.
 inline int squared_distance(int edge, int other) {
   int sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -111,9 +114,10 @@ inline int squared_distance(int edge, int other) {
   return sum;
 }
 
-/// Appends an annulus between two curves. Chords alone do not do in most cases, so there is a ring of three inner
-/// vertices first, first + 1, first + 2 between them, each joined to an arc of each curve; the arcs are appended to
-/// `arcs`. The ring runs along a and against b, since the boundaries of an annulus run in opposite directions.
+/// Appends the triangles of an annulus between two curves. In most cases edges between the curves are not enough, so a
+/// ring of three inner vertices first, first + 1, first + 2 lies between the curves. Each is joined to an arc of either
+/// curve, and the vertices of its two arcs are appended to `arcs`. The ring runs along a and against b, since the
+/// boundaries of an annulus run in opposite directions.
 inline void triangulate_annulus(const Polygon& a, const Polygon& b, std::uint8_t first,
                                 std::vector<std::array<std::uint8_t, 3>>& triangles, std::vector<Polygon>& arcs) {
   const auto arc = [](const Polygon& curve, std::size_t offset, std::size_t m) {
