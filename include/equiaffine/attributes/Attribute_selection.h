@@ -15,10 +15,10 @@ namespace equiaffine {
 /// A column of a file: a scalar attribute, or one component of a vector or form.
 struct Attribute {
   std::string_view name;
-  std::size_t row, component; ///< in attribute_table
+  std::size_t row, component; ///< indices in attribute_table
 
-  /// The number in a local structure, or the numbers in one of packs; NaN for the norm of a gradient, which a local
-  /// structure does not know.
+  /// Returns the number from a local structure, or the pack of numbers from a structure of packs. It is NaN for the
+  /// norm of a gradient, which a local structure does not have.
   template <class FT>
   FT get(const Local_structure_3<FT>& structure) const {
     const auto getter = attribute_table<FT>[row].get;

@@ -15,30 +15,30 @@
 
 namespace equiaffine {
 
-/// How far the affine curvatures of a spline may be from those of the function that was sampled.
+/// The estimated differences between the affine curvatures of a spline and those of the function that was sampled.
 template <class FT>
 struct Affine_curvature_error {
   FT gaussian_curvature, mean_curvature;
 };
 
-/// Estimates, at points, the errors of the affine Gaussian and mean curvature of the spline through the samples of a
-/// volume, smoothed or not: twice the sum of the standard deviation that white noise of the samples gives them, and of
-/// the difference to the curvatures from a second scale. That is the scale 6/5 smoothing, where the error that
-/// smoothing makes is 4.3 times as large, and degree 9 (for degree 9, 7), where that of the spline is of another order,
-/// by quasi-interpolation instead of convolution.
+/// Estimates at points the errors of the affine Gaussian and mean curvature of the spline through the samples of a
+/// volume, smoothed or not. The estimate is twice the sum of two numbers: the standard deviation of the curvature that
+/// white noise of the samples causes, and the difference to the curvature of a second spline. The second spline is
+/// smoothed by 6/5 of the scale, which makes the error of smoothing 4.3 times as large; it has degree 9 (or 7, if the
+/// first one has degree 9), which changes the order of the error of the spline; and it uses quasi-interpolation if the
+/// first one uses convolution.
 ///
-/// The deviation follows from how the coefficients of the expansion depend on the samples: 35 independent disturbances
-/// of the expansion, each as large as the noise makes it, go through the curvatures. An estimate does not know of what
-/// both scales miss, such as details below a voxel. It is NaN where a curvature does not exist, and takes some 10
-/// microseconds a point.
+/// The standard deviation is computed from 35 independent disturbances of the expansion, each as large as the noise
+/// makes it, for which the curvatures are computed again. An estimate cannot see what both splines miss, such as
+/// details smaller than a voxel. It is NaN where a curvature does not exist. Takes some 10 microseconds per point.
 template <class Kernel>
 class Curvature_error_3 {
 public:
   using FT = typename Kernel::FT;
   using Point_3 = typename Kernel::Point_3;
 
-  /// `function` belongs to the volume smoothed by the scale `smoothing`, while `volume` holds the samples before that.
-  /// The deviation of the noise is in the unit of the samples, see Sample_noise.
+  /// `function` is the spline through the samples of `volume` after these were smoothed by the scale `smoothing`. The
+  /// deviation of the noise is in the unit of the samples, see Sample_noise.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   Curvature_error_3(const Sampled_function_traits_3<Kernel>& function, const Volume_3<Kernel>& volume,
                     const FT& smoothing, const FT& noise_deviation, ConcurrencyTag tag = {})
@@ -76,7 +76,7 @@ private:
     FT gaussian, mean;
   };
 
-  /// The scheme of the second scale. For convolution it is another one: its error is much the same for all degrees.
+  /// The scheme of the second spline. It is not convolution, whose error is almost the same for all degrees.
   static Spline_scheme other_scheme(Spline_scheme scheme) {
     return scheme == Spline_scheme::INTERPOLATION ? scheme : Spline_scheme::QUASI_INTERPOLATION;
   }

@@ -15,7 +15,7 @@
 
 namespace equiaffine {
 
-/// The mesh of a sampler as a CGAL::Surface_mesh with the property map `v:status` (Point_status).
+/// Makes a CGAL::Surface_mesh, with the property map `v:status` (Point_status), from the mesh of a sampler.
 template <class Kernel>
 CGAL::Surface_mesh<typename Kernel::Point_3> to_surface_mesh(const Isosurface_3<Kernel>& surface) {
   CGAL::Surface_mesh<typename Kernel::Point_3> mesh;
@@ -32,8 +32,8 @@ CGAL::Surface_mesh<typename Kernel::Point_3> to_surface_mesh(const Isosurface_3<
 /// Fills property maps of the vertices of `mesh` with the local structure of the level sets of f through them:
 /// `v:status` (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`, `v:direction1`, `v:direction2` (Vector_3),
 /// and one of FT for every other attribute of attribute_table.h but the norms of gradients: `v:k1`, `v:metric_xx`,
-/// `v:quadric_defect` and so on. A vertex whose `v:status` is UNCONVERGED before the call keeps it. The same for
-/// CGAL::Sequential_tag and CGAL::Parallel_tag. Named parameter: `estimator`.
+/// `v:quadric_defect` and so on. A vertex whose `v:status` is UNCONVERGED before the call keeps that status, unless it
+/// is OUTSIDE. CGAL::Sequential_tag and CGAL::Parallel_tag give the same numbers. Named parameter: `estimator`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           class Parameters = internal::No_parameters>
 void annotate(CGAL::Surface_mesh<typename Traits::Point_3>& mesh, const Traits& traits,

@@ -13,21 +13,21 @@
 
 namespace equiaffine {
 
-/// The named lists that an attribute belongs to, as bits. One that is in none of them is computed only where it is
-/// asked for by its name.
+/// The named lists that an attribute belongs to, as bits. An attribute that is in no list is computed only if it is
+/// selected by its own name.
 namespace attribute_lists {
 
 inline constexpr unsigned none = 0, all = 1, basic = 2 | all, signature = 4;
 
 } // namespace attribute_lists
 
-/// How a scalar attribute is called where people read it.
+/// The words and symbols by which people read of a scalar attribute.
 struct Quantity {
-  std::string_view label;  ///< empty: people read the name
+  std::string_view label;  ///< if it is empty, people read the name of the attribute
   std::string_view symbol; ///< UTF-8
   std::string_view group;
   int weight = 0;      ///< under p -> s p the number is multiplied by s^(weight / 2)
-  int rank = unranked; ///< what has a smaller one is offered first
+  int rank = unranked; ///< attributes with smaller ranks are offered first
 
   static constexpr int unranked = 10; ///< offered after all others, in the order of the columns
 };
@@ -36,12 +36,12 @@ struct Quantity {
 template <class FT>
 struct Attribute_row {
   std::string_view name;
-  std::array<std::string_view, 6> components; ///< their names in files; empty for a scalar, which has that of the row
-  unsigned lists;                             ///< of `attribute_lists`
-  /// The component with the given number. Null for numbers that a local structure does not have.
+  std::array<std::string_view, 6> components; ///< their names in files; empty for a scalar, which is called `name`
+  unsigned lists;                             ///< bits of `attribute_lists`
+  /// Returns the component with the given number. It is null for an attribute that a local structure does not have.
   FT (*get)(const Local_structure_3<FT>&, std::size_t component);
   Quantity quantity = {};
-  std::optional<std::size_t> gradient = {}; ///< the number is the one with this index in affine_gradient_norms()
+  std::optional<std::size_t> gradient = {}; ///< index in the result of affine_gradient_norms()
 
   constexpr bool is_scalar() const { return components[0].empty(); }
 

@@ -9,23 +9,22 @@
 
 namespace equiaffine {
 
-/// What people call the scalar attribute with that name, or null for one that has no label and for one of somebody
-/// else.
+/// Returns the words for the scalar attribute with that name, or null if it has no label or is none of our attributes.
 constexpr const Quantity* find_quantity(std::string_view name) {
   for (const auto& row : attribute_table<double>)
     if (row.name == name && !row.quantity.label.empty()) return &row.quantity;
   return nullptr;
 }
 
-/// The place at which the attribute with that name is offered, among others of a page or picture: smaller ones first.
+/// Returns the rank of the attribute with that name: pages and pictures offer attributes with smaller ranks first.
 constexpr int rank_of_quantity(std::string_view name) {
   const Quantity* const quantity = find_quantity(name);
   return quantity ? quantity->rank : Quantity::unranked;
 }
 
-/// The difference below which two numbers of a column are equal but for rounding, on a surface whose box has that
-/// diagonal: 1e-9 in the surface's own unit of length, the accuracy promised for curvatures. Zero, nothing known, for
-/// an attribute of somebody else.
+/// Returns the difference below which two numbers of a column are equal up to rounding, on a surface whose box has that
+/// diagonal: 1e-9 in the surface's own unit of length, which is the accuracy promised for curvatures. Returns zero for
+/// a column that is none of our attributes, since nothing is known about it.
 inline double rounding_of_quantity(std::string_view name, double diagonal) {
   const Quantity* const quantity = find_quantity(name);
   if (quantity == nullptr || !(diagonal > 0)) return 0;

@@ -15,8 +15,8 @@
 
 namespace equiaffine {
 
-/// Any model of ImplicitFunctionTraits_3 behind one type, so that what is expensive to compile is compiled once. The
-/// model finds a root on a segment within a single virtual call. Copies share the model.
+/// Holds any model of ImplicitFunctionTraits_3 behind one type, so that code that is expensive to compile is compiled
+/// once. The model finds a root on a segment within a single virtual call. Copies share the model.
 class Any_function_3 {
 public:
   using Kernel = CGAL::Simple_cartesian<double>;

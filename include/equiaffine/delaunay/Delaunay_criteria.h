@@ -6,7 +6,7 @@
 
 namespace equiaffine {
 
-/// What every triangle of a Delaunay mesh satisfies. Lengths are absolute.
+/// The criteria that every triangle of a Delaunay mesh satisfies. Lengths are absolute.
 struct Delaunay_criteria {
   double angle = 30;   ///< least angle in degrees, at most 30
   double radius = 0;   ///< bound of the radius of surface Delaunay balls; 0: 1/50 of the diagonal of the clip domain
@@ -14,7 +14,7 @@ struct Delaunay_criteria {
 
   static double default_radius(const Clip_domain_3& domain) { return domain.diagonal() / 50; }
 
-  /// The same criteria with the defaults in place of lengths that are 0.
+  /// Returns these criteria with the defaults in place of lengths that are 0.
   Delaunay_criteria completed(const Clip_domain_3& domain) const {
     Delaunay_criteria result = *this;
     if (result.radius == 0) result.radius = default_radius(domain);

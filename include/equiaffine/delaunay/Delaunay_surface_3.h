@@ -15,11 +15,11 @@ namespace equiaffine {
 template <class Kernel>
 struct Delaunay_surface_3 : Isosurface_3<Kernel> {
   bool is_certified = false; ///< no component of the surface was missed: there are no undecided boxes
-  /// Where a part of the surface may have been missed, since neither its absence nor its regularity could be proved:
-  /// around singular points, where the surface touches the border of the box, beside points where f is not defined, in
-  /// noise that would need too many boxes, or everywhere for a function without bounds of its gradient. Also where a
-  /// part was found and yet got no triangle, or a feature no edge, for being too near to others, where the mesh is not
-  /// a manifold, and where a triangle straddles a parabolic curve that is a feature.
+  /// Boxes in which a part of the surface may have been missed, since neither its absence nor its regularity could be
+  /// proved: around singular points, where the surface touches the border of the box, beside points where f is not
+  /// defined, in noise that would need too many boxes, or everywhere if the function has no bounds of its gradient.
+  /// There are also boxes where a part of the surface got no triangle, or a feature no edge, because it is too near to
+  /// others, where the mesh is not a manifold, and where a triangle straddles a parabolic curve that is a feature.
   std::vector<CGAL::Bbox_3> undecided_boxes;
   Parabolic_curves_3<Kernel> parabolic_curves; ///< if the mesh was asked to follow them
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// For programs that use CGAL's package 3D Surface Mesh Generation, which is deprecated since CGAL 6: new ones are
-// better off with delaunay_surface.h, or with Implicit_mesh_domain_3.h and CGAL::make_mesh_3. No other header includes
-// this one, and it includes none of that package.
+// This header is for programs that use CGAL's package 3D Surface Mesh Generation, which is deprecated since CGAL 6. For
+// a new program, use delaunay_surface.h, or Implicit_mesh_domain_3.h and CGAL::make_mesh_3. No other header includes
+// this one, and it includes no header of that package.
 #ifndef EQUIAFFINE_DELAUNAY_IMPLICIT_SURFACE_ORACLE_3_H
 #define EQUIAFFINE_DELAUNAY_IMPLICIT_SURFACE_ORACLE_3_H
 
@@ -16,14 +16,14 @@
 
 namespace equiaffine {
 
-/// Model of CGAL's SurfaceMeshTraits_3 for CGAL::make_surface_mesh, whose surface is the zero set of an
-/// `Implicit_mesh_domain_3`. It takes the place of CGAL::Implicit_surface_3 and its traits:
+/// A model of CGAL's SurfaceMeshTraits_3 for CGAL::make_surface_mesh, whose surface is the zero set of an
+/// `Implicit_mesh_domain_3`. Use it in place of CGAL::Implicit_surface_3 and its traits:
 ///
 ///     const Domain surface(traits, clip_domain, facet_size);
 ///     CGAL::make_surface_mesh(complex, surface, Implicit_surface_oracle_3<Domain>(), criteria, CGAL::Manifold_tag());
 ///
-/// Vertices are exact to rounding, there are initial points on every component that is closed within the clip domain,
-/// and parts of the surface outside of it do no harm. Stateless.
+/// Vertices are exact up to rounding, there are initial points on every component that is closed within the clip
+/// domain, and parts of the surface outside of the clip domain do no harm. The oracle has no state.
 template <class Domain>
 class Implicit_surface_oracle_3 {
 public:
@@ -45,7 +45,7 @@ public:
   };
 
   struct Construct_initial_points {
-    /// Writes points; their number is that which certainty and the facet size need, at least, and `n` is ignored.
+    /// Writes points, as many as certainty and the facet size need. The number that the mesher asks for is ignored.
     template <class OutputIterator>
     OutputIterator operator()(const Surface_3& surface, OutputIterator out, int = 0) const {
       std::vector<std::pair<Point_3, typename Surface_3::Index>> points;

@@ -21,15 +21,15 @@ class Seed_grid_3 {
 public:
   struct Seed {
     Point_3 point;
-    Vector_3 normal; // zero at a singular point
+    Vector_3 normal; // is zero at a singular point
     double spacing;
-    bool is_fixed = false; // then denser seeds keep its spacing, too
+    bool is_fixed = false; // if true, denser seeds keep its spacing, too
   };
 
   const std::vector<Seed>& seeds() const { return seeds_; }
 
-  /// Whether a seed is nearer to the candidate than the smaller one of their spacings, and their normals form no obtuse
-  /// angle: each side of a thin part of a surface has its own seeds.
+  /// Whether a seed is nearer to the candidate than the smaller one of their spacings, while their normals form no
+  /// obtuse angle: the two sides of a thin part of a surface have seeds of their own.
   bool is_crowded(const Seed& candidate) {
     if (latest_ < seeds_.size() && is_near(seeds_[latest_], candidate)) return true;
     for (const int level : levels_) {
@@ -48,7 +48,7 @@ public:
 
   /// Whether there is a seed in a box. Seeds whose spacing is below about 1/8 of the box are ignored.
   bool has_seed_in(const CGAL::Bbox_3& box) const {
-    constexpr double most_cells = 8; // that are visited along an axis
+    constexpr double most_cells = 8; // so many are visited along an axis
     for (const int level : levels_) {
       if (std::ldexp(most_cells, level) < std::max({box.x_span(), box.y_span(), box.z_span()})) continue;
       const auto first = cell_of({box.xmin(), box.ymin(), box.zmin()}, level);
@@ -80,7 +80,7 @@ private:
     return (seed.point - candidate.point).squared_length() < spacing * spacing && seed.normal * candidate.normal >= 0;
   }
 
-  /// The side of the cells of a level is 2^level. That of a seed is the smallest one above its spacing.
+  /// The level of a seed: the smallest one whose cells, with the side 2^level, are larger than its spacing.
   static int level_of(const Seed& seed) { return std::ilogb(seed.spacing) + 1; }
 
   static Cell cell_of(const Point_3& p, int level) {
@@ -110,7 +110,7 @@ private:
   std::vector<Seed> seeds_;
   std::uint32_t latest_ =
       none;                 // the seed that the latest crowded candidate was near; the next one is often near it, too
-  std::vector<int> levels_; // all that seeds have
+  std::vector<int> levels_; // the levels that seeds have
   std::vector<std::uint32_t> heads_ = std::vector<std::uint32_t>(1024, none); // first seed of a bucket
   std::vector<std::uint32_t> next_;                                           // next seed of the same bucket, per seed
 };

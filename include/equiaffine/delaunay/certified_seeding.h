@@ -11,14 +11,15 @@
 
 namespace equiaffine {
 
-/// Points on every component of the zero set of f in a domain, so dense that a Delaunay mesh can begin with them.
+/// Finds points on every component of the zero set of f in a domain, so dense that a Delaunay mesh can begin with them.
 /// `size(p)` bounds the circumradius of facets near p, and is at most `largest_size`.
 ///
-/// Subdivides the box of the domain into an octree until every cell has no surface, or has gradients that pairwise form
-/// acute angles. By a theorem of Plantinga and Vegter (Isotopic approximation of implicit curves and surfaces, 2004) a
-/// component of the surface cannot hide in such a cell from the signs at the corners of the octree. Cells at the border
-/// of the box must satisfy the same within its faces and edges. The cells with surface are then subdivided to the local
-/// facet size and packed with points, which keep their clearance from `vertices`. Deterministic.
+/// The box of the domain is subdivided into an octree until every cell either has no surface or has gradients that
+/// pairwise form acute angles. By a theorem of Plantinga and Vegter (Isotopic approximation of implicit curves and
+/// surfaces, 2004) a component of the surface cannot lie in such cells without a change of sign between corners of the
+/// octree. Cells at the border of the box must satisfy the same within its faces and edges. The cells with surface are
+/// then subdivided to the local facet size and packed with points, which keep their clearance from `vertices`. The
+/// points are the same on every run.
 template <ImplicitFunctionTraits_3 Traits, class Sizing>
 Seeding_3<typename Traits::Point_3>
 certified_seeding(const Traits& traits, const Clip_domain_3& domain, const Sizing& size, double largest_size,

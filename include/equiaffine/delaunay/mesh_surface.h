@@ -13,7 +13,7 @@
 
 namespace equiaffine {
 
-/// What `delaunay_surface` was asked for, apart from the function.
+/// The arguments of `delaunay_surface`, apart from the function.
 struct Meshing_request_3 {
   Clip_domain_3 domain;
   Delaunay_criteria criteria; ///< all lengths are positive

@@ -15,8 +15,8 @@
 
 namespace equiaffine::internal {
 
-/// What is known of f at a block of points: the expansions there and the errors of its second derivatives. Point i is
-/// lane i % Lanes::size of pack i / Lanes::size; the last point stands for those that the last pack lacks.
+/// The expansions of f at a block of points, and the errors of its second derivatives there. Point i is lane
+/// i % Lanes::size of pack i / Lanes::size; copies of the last point fill up the last pack.
 template <class Pack_of_numbers>
 struct Expanded_block_of {
   using Lanes = Pack_of_numbers;
@@ -25,7 +25,7 @@ struct Expanded_block_of {
   std::size_t number_of_points;
   std::array<Lanes, packs> x, y, z, roundings;
   std::array<Jet_3<Lanes>, packs> jets;
-  bool has_roundings; ///< else second derivatives are exact but for roundings of their own size
+  bool has_roundings; ///< if false, second derivatives are exact up to roundings of their own size
 
   std::size_t number_of_packs() const { return (number_of_points + Lanes::size - 1) / Lanes::size; }
 
@@ -56,8 +56,8 @@ private:
 /// Translation units for different processors have different packs, and so do the types of their blocks.
 using Expanded_block = Expanded_block_of<Pack<double>>;
 
-/// Sets the jets from the packs of the model, if it has them. Returns false where it has not, or its function branches
-/// differently in the lanes of a pack.
+/// Sets the jets by the model's own taylor_packs(). Returns false if the model has no such member, or if the function
+/// branches differently in the lanes of a pack.
 template <class Traits>
 bool expand_in_packs(const Traits& traits, Expanded_block& block) {
   if constexpr (PackImplicitFunctionTraits_3<Traits>) {

@@ -54,7 +54,7 @@ public:
   }
 
 private:
-  /// The map of that name, made if the mesh has none.
+  /// Returns the map of that name, and adds it if the mesh has none.
   template <class T>
   static Map<T> add(Mesh& mesh, std::string_view name) {
     return mesh.template add_property_map<Vertex_index, T>("v:" + std::string(name), T()).first;

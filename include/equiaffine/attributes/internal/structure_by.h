@@ -11,7 +11,8 @@
 
 namespace equiaffine::internal {
 
-/// Computes the structure with the estimator in `parameters`; without one, the paper's are not instantiated.
+/// Computes the structure by the estimator in `parameters`. If there is none, the paper's estimators are not
+/// instantiated.
 template <class Parameters, class FT>
 Local_structure_3<FT> structure_by(const Parameters& parameters, const Jet_3<FT>& jet, const std::array<FT, 3>& point,
                                    const FT& rounding) {

@@ -10,7 +10,7 @@
 
 namespace equiaffine::internal {
 
-/// The types by which a function asks for its parameters.
+/// Tags: the types by which a function asks for its parameters.
 struct Number_of_nodes_tag {};
 struct Vertex_position_tag {};
 struct Skip_empty_space_tag {};

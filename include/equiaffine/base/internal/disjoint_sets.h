@@ -22,7 +22,7 @@ public:
     return a;
   }
 
-  /// Unites the sets of `a` and `b`; false if they are the same set already.
+  /// Unites the sets of `a` and `b`. Returns false if they are the same set already.
   bool unite(Index a, Index b) {
     a = find(a);
     b = find(b);

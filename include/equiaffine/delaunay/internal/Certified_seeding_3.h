@@ -51,8 +51,8 @@ public:
 
 private:
   static constexpr int maximal_level = 24;
-  static constexpr double seeded_size = 4;  // side of the cells that are seeded / bound of circumradii
-  static constexpr double coarsening = 1.4; // a cell that had to be small has seeds at this distance in sides
+  static constexpr double seeded_size = 4;  // largest side of cells that are seeded / bound of circumradii
+  static constexpr double coarsening = 1.4; // distance of the seeds of a cell that had to be small / its side
 
   /// Seeds the cells of a level that are small enough, drops those without surface, and returns the children of the
   /// others.
@@ -85,10 +85,10 @@ private:
     return next;
   }
 
-  /// Whether undecided cells of side h, smaller than facets, are too many for another try. A singular point leaves few
-  /// at each level, a singular curve twice as many each time.
+  /// Whether there are too many undecided cells of side h, smaller than facets, to subdivide them once more. A singular
+  /// point leaves few undecided cells at each level, a singular curve twice as many at each level as before.
   bool is_hopeless(double undecided, double h) const {
-    constexpr double largest_fraction = 0.125; // of the box that undecided cells may fill
+    constexpr double largest_fraction = 0.125; // undecided cells may fill this part of the box
     constexpr double maximal_undecided_cells = 200'000;
     const CGAL::Bbox_3& box = octree_.box();
     const bool fills_box =
@@ -113,8 +113,8 @@ private:
     packing_.cover(box, 2 * side, Packing::packing * size_(center(box)));
   }
 
-  /// Whether a seed is nearer to others than a sixteenth of a facet and at most two cells away from one that was given
-  /// up. Seeds get the denser the nearer they are to a singular point, but the mesh may end there.
+  /// Whether a seed is nearer to others than a sixteenth of a facet, and at most two cells away from a cell that was
+  /// given up. Seeds get denser towards a singular point, but are not needed there, where the mesh may end.
   bool is_superfluous(const Seed& seed) const {
     if (given_up_.empty() || seed.spacing >= Packing::packing * largest_size_ / 16) return false;
     std::array<std::int64_t, 3> cell;

@@ -12,8 +12,8 @@
 
 namespace equiaffine::internal {
 
-/// Where the cells of an octree lie. The root, at level 0, is a cube that contains a box and has its lower corner in
-/// common with it. The cells of level n have sides 2^n times smaller, and are cut off where the box ends.
+/// Computes the places of the cells of an octree. The root, at level 0, is a cube that contains a box and has its lower
+/// corner in common with it. The cells of level n have sides 2^n times smaller, and are cut off where the box ends.
 class Octree_3 {
 public:
   using Position = std::array<std::uint32_t, 3>; ///< number of the cell of its level along x, y and z

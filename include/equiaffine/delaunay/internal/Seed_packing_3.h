@@ -161,8 +161,8 @@ private:
   const Clip_domain_3& domain_;
   Sizing size_;
   Grid grid_;
-  std::size_t spread_seeds_ = 0; // so many first seeds are surrounded
-  std::uint64_t state_ = 1;      // of the random numbers
+  std::size_t spread_seeds_ = 0; // so many of the first seeds are surrounded by others
+  std::uint64_t state_ = 1;      // the state of the random numbers
 };
 
 } // namespace equiaffine::internal

@@ -79,7 +79,7 @@ private:
     return is_urgent || tight_cells_ < least_tight_cells || 3 * settled_tight_cells_ >= tight_cells_;
   }
 
-  /// Takes over what bounds of f and its gradient in the cell tell, and returns whether they exclude a zero. `value` is
+  /// Stores what bounds of f and its gradient tell about the cell, and returns whether they exclude a zero. `value` is
   /// |f| at the center.
   bool learn(Cell& cell, const CGAL::Bbox_3& box, double value, const Jet_3<Interval, 1>& jet) const {
     cell.is_decided = has_acute_gradients(traits_, jet, box, outer_);
@@ -89,8 +89,8 @@ private:
     return !jet.value().contains(0) || is_far(cell, box, value);
   }
 
-  /// Whether |f| at the center of a cell, `value`, is so large that the slope allows no zero in the cell. What seems to
-  /// be so is proved with bounds of the rounding errors, which take longer.
+  /// Whether |f| at the center of a cell, `value`, is so large that the slope allows no zero in the cell. If that seems
+  /// to be so, bounds of the rounding errors, which take longer, prove it.
   bool is_far(const Cell& cell, const CGAL::Bbox_3& box, double value) const {
     const auto offset = offset_from_center(box, center_of(box));
     double reach = 0;
@@ -106,8 +106,8 @@ private:
   const CGAL::Bbox_3 outer_;
   const double largest_tight_side_;
   const Known_bounds known_;
-  std::size_t tight_cells_ = 0;         // of this level, on which tight bounds were tried
-  std::size_t settled_tight_cells_ = 0; // those of them that tight bounds proved to be empty, or decided
+  std::size_t tight_cells_ = 0;         // the cells of this level on which tight bounds were tried
+  std::size_t settled_tight_cells_ = 0; // those of them that tight bounds decided or proved to be empty
 };
 
 } // namespace equiaffine::internal

@@ -86,7 +86,7 @@ private:
     return std::nullopt;
   }
 
-  /// False if f is proved to be monotone on the segment from a to b = a + d, or to have no zero in its box.
+  /// Returns false if f is proved to be monotone on the segment from a to b = a + d, or to have no zero in its box.
   bool may_have_two_roots(const Point_3& a, const Point_3& b, const Vector_3& d) const {
     const auto jet = first_order_bounds(traits_, a.bbox() + b.bbox());
     const auto& c = jet.coefficients();

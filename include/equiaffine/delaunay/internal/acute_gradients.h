@@ -19,10 +19,10 @@ inline bool has_acute_gradients(const Jet_3<Interval, 1>& jet, const std::array<
   double largest = 0;
   for (std::size_t a = 0; a < 3; ++a) largest = std::max(largest, abs(jet.coefficients()[1 + a]).upper());
   if (!(largest > 0 && std::isfinite(largest))) return false;
-  const Interval scale(std::ldexp(1.0, -std::ilogb(largest))); // so that no product over- or underflows
+  const Interval scale(std::ldexp(1.0, -std::ilogb(largest))); // so that no product overflows or underflows
   Interval product(0);
   for (std::size_t a = 0; a < 3; ++a) {
-    const Interval g = jet.coefficients()[1 + a] * scale, independent = g; // two gradients, not one twice
+    const Interval g = jet.coefficients()[1 + a] * scale, independent = g; // bounds of two gradients, not of one twice
     if (axes[a]) product += g * independent;
   }
   return product.lower() > 0;
@@ -33,11 +33,11 @@ struct Cell_side_3 {
   enum Extent { WHOLE, LOWER, UPPER };
   std::array<Extent, 3> extents;
 
-  /// All 27, the cell itself first.
+  /// Side n of the 27, of which number 0 is the cell itself.
   static Cell_side_3 number(int n) { return {{Extent(n % 3), Extent(n / 3 % 3), Extent(n / 9)}}; }
 
   std::array<bool, 3> axes() const {
-    return {extents[0] == WHOLE, extents[1] == WHOLE, extents[2] == WHOLE}; // along which it extends
+    return {extents[0] == WHOLE, extents[1] == WHOLE, extents[2] == WHOLE}; // the axes along which this part extends
   }
 
   bool is_corner() const { return axes() == std::array<bool, 3>{false, false, false}; }
@@ -51,7 +51,7 @@ struct Cell_side_3 {
     return CGAL::Bbox_3(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]);
   }
 
-  /// Whether it lies in the same side of another box.
+  /// Whether this part of a cell lies in the same side of another box.
   bool touches(const CGAL::Bbox_3& cell, const CGAL::Bbox_3& outer) const {
     for (int a = 0; a < 3; ++a) {
       const Extent extent = extents[std::size_t(a)];

@@ -20,7 +20,7 @@ std::vector<typename Kernel::Point_3> convert_points(const std::vector<Point_3>&
   return converted;
 }
 
-/// The range of polylines as a vector of polylines of another kernel.
+/// Returns a range of polylines as a vector of polylines of another kernel.
 template <class Kernel, class Polylines>
 std::vector<Polyline_3<Kernel>> convert_polylines(const Polylines& curves) {
   std::vector<Polyline_3<Kernel>> converted;
