@@ -16,8 +16,8 @@
 
 namespace equiaffine {
 
-/// Model of FirstOrderImplicitFunctionTraits_3 and, if the function takes Interval, of
-/// FirstOrderBoundedImplicitFunctionTraits_3 for a function given as code: `f(x, y, z)`, templated on its number type,
+/// A model of FirstOrderImplicitFunctionTraits_3 and, if the function takes Interval, of
+/// FirstOrderBoundedImplicitFunctionTraits_3, for a function given as code: `f(x, y, z)`, templated on its number type,
 /// const and callable from several threads.
 ///
 ///     struct Sphere {
@@ -25,7 +25,7 @@ namespace equiaffine {
 ///     };
 ///     Analytic_function_traits_3<Kernel, Sphere> traits(Sphere(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
 ///
-/// It is called with FT, Interval, jets of both and, by compute_attributes, jets of Pack<FT>. Elementary functions must
+/// f is called with FT, Interval, jets of both and, by compute_attributes, jets of Pack<FT>. Elementary functions must
 /// be found by argument-dependent lookup (`using std::exp; return exp(x);`). With three template parameters, or `auto`,
 /// for the arguments and `auto` for intermediate results it computes only the derivatives that its structure leaves
 /// nonzero.
@@ -36,7 +36,7 @@ public:
   using Point_3 = typename Kernel::Point_3;
   using Vector_3 = typename Kernel::Vector_3;
 
-  /// The level set is looked for in `box`; f may be called outside of it.
+  /// The level set is sought in `box`. f may be called outside of it.
   Analytic_function_traits_3(Function function, const CGAL::Bbox_3& box) : function_(std::move(function)), box_(box) {}
 
   FT value(const Point_3& p) const { return function_(p.x(), p.y(), p.z()); }
@@ -79,7 +79,7 @@ private:
   CGAL::Bbox_3 box_;
 };
 
-/// The model for `function`, whose type is deduced: `make_analytic_traits<Kernel>(f, box)`.
+/// Returns the model for `function`, whose type is deduced: `make_analytic_traits<Kernel>(f, box)`.
 template <class Kernel, class Function>
 Analytic_function_traits_3<Kernel, Function> make_analytic_traits(Function function, const CGAL::Bbox_3& box) {
   return {std::move(function), box};

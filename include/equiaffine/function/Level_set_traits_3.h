@@ -14,15 +14,16 @@
 
 namespace equiaffine {
 
-/// On which side of a level set its normals point.
+/// The side of a level set to which its normals point.
 enum class Orientation_of_level_set {
   ALONG_GRADIENT,  ///< towards larger values, the default
   AGAINST_GRADIENT ///< towards smaller values, for volumes that are bright inside
 };
 
-/// The function f - v, or v - f against the gradient, whose zero set is the level set f = v with the chosen
-/// orientation. It models every refinement that the base models, except batches. Reversing the orientation changes the
-/// sign of nu, xi, H, J, H_e and of the metric; K and K_e stay.
+/// The function f - v, or v - f for AGAINST_GRADIENT, whose zero set is the level set f = v with the chosen
+/// orientation. It is a model of every refinement of the concept that the base is a model of, except
+/// BatchImplicitFunctionTraits_3. Reversing the orientation changes the sign of nu, xi, H, J, H_e and of the metric,
+/// and keeps K and K_e.
 template <ImplicitFunctionTraits_3 Base>
 class Level_set_traits_3 {
 public:

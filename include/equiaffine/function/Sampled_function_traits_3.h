@@ -15,11 +15,12 @@
 
 namespace equiaffine {
 
-/// A volume as a function: its tensor product spline for values and expansions, its samples for the signs at nodes.
-/// With the convolution scheme, which smooths, the spline's value at a node differs from the sample there.
+/// A volume as a function: values and expansions are those of the tensor product spline through its samples, and the
+/// signs at nodes are those of the samples. The convolution scheme smooths, so that the spline's value at a node
+/// differs from the sample there.
 ///
-/// Models ImplicitFunctionTraits_3 with first-order bounds and expansions, and a lattice. Copies share the immutable
-/// data.
+/// This is a model of ImplicitFunctionTraits_3 with first-order bounds and expansions, and with a lattice. Copies share
+/// the immutable data.
 template <class Kernel>
 class Sampled_function_traits_3 {
 public:
@@ -45,8 +46,8 @@ public:
   Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); }
   Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); }
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return spline_->first_order_bounds(box); }
-  /// How far rounding may change second derivatives at p, rounding of the samples to float included if all are floats; 0
-  /// outside the support of the spline.
+  /// The greatest change of second derivatives at p by rounding. It includes the rounding of the samples to float if
+  /// all samples are floats, and is 0 outside the support of the spline.
   FT rounding(const Point_3& p) const {
     const auto cell = spline_->cell_of(p);
     return cell ? (*rounding_)(*cell) : FT(0);

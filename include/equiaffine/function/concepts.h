@@ -117,8 +117,8 @@ Jet_3<typename Traits::FT, 1> first_order(const Traits& traits, const typename T
   }
 }
 
-/// The lattice of the given size on which to sample a function: the one the model chooses by a member
-/// `lattice(size)`, else the axis-parallel one of its box.
+/// Returns the lattice of the given size on which to sample a function: the one that the model chooses by a member
+/// `lattice(size)`, if it has one, else the axis-parallel one of its box.
 template <ImplicitFunctionTraits_3 Traits>
 Lattice_3<Kernel_of<Traits>> sampling_lattice(const Traits& traits,
                                               const typename Lattice_3<Kernel_of<Traits>>::Size& size) {

@@ -4,9 +4,9 @@
 
 namespace equiaffine {
 
-/// Ways from the 34 derivatives of f at a point to the affine structure: our own, and those of Andrade, Lewiner:
-/// Affine-invariant curvature estimators for implicit surfaces, 2012, with the errata of doc/errata.md corrected. Theirs
-/// are there to compare with, being longer, slower and less accurate.
+/// The ways to compute the affine structure from the 34 derivatives of f at a point: our own, and those of Andrade,
+/// Lewiner: Affine-invariant curvature estimators for implicit surfaces, 2012, with the errata of doc/errata.md
+/// corrected. Theirs are longer, slower and less accurate, and are there to compare with.
 enum class Estimator {
   COMPACT,        ///< pivot and shear: affine_structure()
   TRANSFORMATION, ///< section 3: an affine map after which the formulas are short

@@ -10,10 +10,10 @@
 
 namespace equiaffine {
 
-/// Equi-affine (Blaschke) structure of an oriented surface at a point: what volume-preserving affine maps leave
-/// invariant (curvatures, Pick invariant) or carry along (metric, co-normal, normal). See Andrade, Lewiner:
-/// Affine-invariant curvature estimators for implicit surfaces, 2012, section 2; Nomizu, Sasaki: Affine Differential
-/// Geometry, 1994, chapter II.
+/// The equi-affine (Blaschke) structure of an oriented surface at a point: the numbers that volume-preserving affine
+/// maps keep (curvatures, Pick invariant) and the forms and vectors that they carry along (metric, co-normal, normal).
+/// See Andrade, Lewiner: Affine-invariant curvature estimators for implicit surfaces, 2012, section 2; Nomizu, Sasaki:
+/// Affine Differential Geometry, 1994, chapter II.
 ///
 /// Conventions: nu(xi) = 1, dxi(X) = -B X. A sphere of radius r with outward gradient has K = r^-3, H = -r^(-3/2), J =
 /// 0. -f instead of f changes the sign of nu, xi, H, J and of the metric; c f with c > 0 nothing. Units: K length^-3, H

@@ -9,9 +9,9 @@
 
 namespace equiaffine {
 
-/// Euclidean structure of an oriented surface at a point. The shape operator is S with dn(X) = -S X for the unit normal
-/// n along the gradient: a sphere of radius r with outward gradient has k1 = k2 = -1/r, Gaussian curvature 1/r^2 and
-/// mean curvature -1/r. Units: curvatures 1/length, Gaussian curvature 1/length^2.
+/// The Euclidean structure of an oriented surface at a point. The shape operator is S with dn(X) = -S X for the unit
+/// normal n along the gradient: a sphere of radius r with outward gradient has k1 = k2 = -1/r, Gaussian curvature 1/r^2
+/// and mean curvature -1/r. Units: curvatures 1/length, Gaussian curvature 1/length^2.
 template <class FT>
 struct Euclidean_structure_3 {
   std::array<FT, 3> normal;
@@ -20,7 +20,7 @@ struct Euclidean_structure_3 {
   FT gaussian_curvature, mean_curvature;    ///< k1 k2, (k1 + k2) / 2
 };
 
-/// Euclidean structure from the second derivatives of a chart.
+/// Computes the Euclidean structure from the second derivatives of a chart.
 template <class FT>
 Euclidean_structure_3<FT> euclidean_structure(const Monge_chart_3<FT>& chart) {
   return internal::euclidean_structure_of(chart);

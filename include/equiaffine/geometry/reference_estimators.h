@@ -11,15 +11,15 @@
 
 namespace equiaffine {
 
-/// Co-normal, normal and curvatures by the given estimator. They are not finite where they do not exist.
+/// Computes co-normal, normal and curvatures by the given estimator. They are not finite where they do not exist.
 template <class FT>
 Affine_estimate_3<FT> affine_estimate(const Jet_3<FT>& jet, Estimator estimator) {
   return internal::estimate_by(jet, estimator);
 }
 
-/// As local_structure(jet, point, rounding), with co-normal, normal, Gaussian and mean curvature of the affine
-/// structure by the given estimator. Where the estimator alone fails, which is where f_z vanishes or nearly so for
-/// DIRECT_Z, the point is OUTSIDE what the estimator can do, and nothing exists.
+/// Does the same as local_structure(jet, point, rounding), but the co-normal, normal, Gaussian and mean curvature of
+/// the affine structure are those of the given estimator. If only the estimator fails, as DIRECT_Z does where f_z is
+/// zero or nearly so, the status is OUTSIDE, and all numbers are NaN.
 template <class FT>
 Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const std::array<FT, 3>& point, const FT& rounding,
                                       Estimator estimator) {

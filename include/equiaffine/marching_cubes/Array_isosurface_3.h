@@ -11,7 +11,7 @@
 
 namespace equiaffine {
 
-/// A triangle mesh as plain arrays, triangles counterclockwise seen from the side of the greater values.
+/// A triangle mesh as plain arrays. Triangles are counterclockwise seen from the side of the greater values.
 template <class FT>
 struct Array_isosurface_3 {
   std::vector<std::array<FT, 3>, internal::Output_allocator<std::array<FT, 3>>> points;

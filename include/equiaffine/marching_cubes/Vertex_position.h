@@ -4,7 +4,7 @@
 
 namespace equiaffine {
 
-/// Where Marching Cubes puts its vertices.
+/// The places at which Marching Cubes can put its vertices.
 enum class Vertex_position {
   PROJECTED, ///< on the surface, to the last digits
   LINEAR     ///< where linear interpolation of the values at the ends of the grid edge vanishes, as the paper does

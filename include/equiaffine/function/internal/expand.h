@@ -10,8 +10,8 @@
 
 namespace equiaffine::internal {
 
-/// The jet of the coordinate of an axis. Its type has room for two coefficients, the value and the derivative along the
-/// axis, so that all others are known to vanish when code is compiled.
+/// The jet of the coordinate along an axis. Its type holds two coefficients only, the value and the derivative along
+/// the axis, so that the compiler knows that all others are zero.
 template <class FT, int Order, int Axis>
 auto sparse_variable(const FT& value) {
   constexpr Monomial_set constant = 1, coordinate = Monomial_set(2) << Axis;

@@ -32,9 +32,9 @@ inline std::size_t index_of_product(std::size_t axis, std::size_t other_axis) {
 }
 
 /// Bounds of value and gradient on a box by the mean value theorem: f lies in f(c) + sum of f_a offset_a, and its
-/// derivative f_a along axis a in f_a(c) + sum of f_ab offset_b. Here c is a point of the box, `at_point` has the
-/// bounds at c, `on_box` those of the derivatives on the box, and `offset` the vectors from c to the points of the box.
-/// Where the bounds of `on_box` are tighter, they are kept.
+/// derivative f_a along axis a lies in f_a(c) + sum of f_ab offset_b. Here c is a point of the box, `at_point` has the
+/// bounds at c, `on_box` has the bounds on the box, and `offset` the vectors from c to the points of the box. The
+/// result is the intersection of these bounds with those in `on_box`.
 inline Jet_3<Interval, 1> mean_value_bounds(const Jet_3<Interval, 2>& on_box, const Jet_3<Interval, 1>& at_point,
                                             const std::array<Interval, 3>& offset) {
   const auto& derivatives = on_box.coefficients();

@@ -6,15 +6,16 @@
 
 namespace equiaffine::internal {
 
-/// A model whose second derivatives have errors beyond roundings of their own size, such as those of a spline.
+/// A model that tells how large the errors of its second derivatives are, because these are larger than roundings of
+/// the derivatives, as for a spline.
 template <class Traits>
 concept Has_rounding = requires(const Traits& traits, const typename Traits::Point_3& p) {
   traits.rounding(p);
 };
 
-/// How large errors of second derivatives at p can be, beyond some roundings of their own size. The optional member
-/// `rounding(p)` of a model tells; without it there are none. A Gaussian curvature that such errors could produce
-/// counts as zero.
+/// The greatest error of second derivatives at p, apart from some roundings of the derivatives: what the optional
+/// member `rounding(p)` of the model returns, or 0 if the model has no such member. A Gaussian curvature that such
+/// errors could produce counts as zero.
 template <ImplicitFunctionTraits_3 Traits>
 typename Traits::FT rounding(const Traits& traits, const typename Traits::Point_3& p) {
   if constexpr (Has_rounding<Traits>) return traits.rounding(p);

@@ -13,12 +13,12 @@
 
 namespace equiaffine::internal {
 
-/// A unit of f, which makes the largest |f_i| about 1, and one of length, which makes the largest second derivative
-/// about 1. Both are powers of 2, the exponent of length a multiple of 4, so that changing units changes no bit of a
-/// number in range.
+/// A unit of f that makes the largest |f_i| about 1, and a unit of length that makes the largest second derivative
+/// about 1. Both are powers of 2, and the exponent of the unit of length is a multiple of 4, so that changing units is
+/// exact for numbers in the range of FT.
 template <class FT>
 struct Natural_units_3 {
-  int of_f = 0, of_length = 0; ///< exponents
+  int of_f = 0, of_length = 0; ///< binary exponents of the units
 
   explicit Natural_units_3(const Jet_3<FT>& jet) {
     const int first = exponent(jet, 1, 4), second = exponent(jet, 4, 10);
@@ -41,7 +41,7 @@ struct Natural_units_3 {
     return ldexp(x, 2 * of_length - of_f);
   }
 
-  /// Back to the old units, by the weights of doc/conventions.md.
+  /// Returns numbers to the old units, by the weights of doc/conventions.md.
   void restore(Euclidean_structure_3<FT>& e, Affine_structure_3<FT>& a) const {
     using std::ldexp;
     const auto restore_all = [&](int quarters, auto&... x) { ((x = ldexp(x, of_length / 4 * quarters)), ...); };

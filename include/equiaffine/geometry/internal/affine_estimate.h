@@ -9,7 +9,7 @@
 
 namespace equiaffine {
 
-/// What the paper estimates, in the conventions of Affine_structure_3.
+/// The quantities that the paper estimates, in the conventions of Affine_structure_3.
 template <class FT>
 struct Affine_estimate_3 {
   std::array<FT, 3> conormal, normal;

@@ -12,7 +12,7 @@
 
 namespace equiaffine::internal {
 
-/// The axis that plays z in a chart.
+/// The axis that takes the part of z in a chart.
 template <class FT>
 struct Pivot_3 {
   Mask_of<FT> is_x, is_y;

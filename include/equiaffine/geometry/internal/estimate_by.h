@@ -12,8 +12,8 @@
 
 namespace equiaffine::internal {
 
-/// f times a power of 2 that makes the largest |f_i| about 1: the paper's formulas raise derivatives to the power of 7
-/// and more, which soon leaves the range of FT. The surface does not depend on the factor.
+/// Returns the jet of f times a power of 2 that makes the largest |f_i| about 1: the paper's formulas raise derivatives
+/// to the power of 7 and more, which soon leaves the range of FT. The surface does not depend on the factor.
 template <class FT>
 Jet_3<FT> with_gradient_about_one(Jet_3<FT> jet) {
   using std::abs;
@@ -49,7 +49,8 @@ Affine_estimate_3<FT> estimate_by(const Jet_3<FT>& jet_of_any_size, Estimator es
   }
 }
 
-/// The structure `s` with what the estimator says in place of its affine numbers; OUTSIDE where the estimator fails.
+/// Returns the structure `s` with the numbers of the estimator in place of its affine ones, or the status OUTSIDE if
+/// the estimator fails.
 template <class FT>
 Local_structure_3<FT> with_estimate(Local_structure_3<FT> s, const Jet_3<FT>& jet, Estimator estimator) {
   if (s.status != Point_status::REGULAR || estimator == Estimator::COMPACT) return s;

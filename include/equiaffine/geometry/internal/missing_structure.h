@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stands for numbers that do not exist, and how such are found.
+// Structures of NaN for numbers that do not exist, and the test whether all numbers are finite.
 #ifndef EQUIAFFINE_GEOMETRY_INTERNAL_MISSING_STRUCTURE_H
 #define EQUIAFFINE_GEOMETRY_INTERNAL_MISSING_STRUCTURE_H
 
@@ -29,8 +29,8 @@ Affine_structure_3<FT> no_affine_structure() {
           nan};
 }
 
-/// Whether all numbers are finite. Every coefficient of the jet, and every power of d, takes part in some of those that
-/// are looked at.
+/// Whether all numbers are finite. Only some are tested, but every coefficient of the jet, and every power of d, takes
+/// part in one of these.
 template <class FT>
 Mask_of<FT> is_finite(const Affine_invariants_3<FT>& s) {
   FT sum = s.gaussian_curvature + s.mean_curvature + s.pick_invariant;

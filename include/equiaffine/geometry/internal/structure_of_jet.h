@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the jet at a point to its structure: directly where the point is regular, else in natural units.
+// Computes the structure at a point from the jet there: directly if the point is regular, else in natural units.
 #ifndef EQUIAFFINE_GEOMETRY_INTERNAL_STRUCTURE_OF_JET_H
 #define EQUIAFFINE_GEOMETRY_INTERNAL_STRUCTURE_OF_JET_H
 
@@ -22,14 +22,14 @@ struct Regular_structure_3;
 
 namespace internal {
 
-/// The rounding, if there is any.
+/// Returns the rounding if it is positive, else nothing.
 template <class FT>
 std::optional<FT> positive(const FT& rounding) {
   if (rounding > FT(0)) return rounding;
   return std::nullopt;
 }
 
-/// The chart in which a gradient and a d that rounding could have made count as zero.
+/// Returns the chart in which the gradient, and d, count as zero if rounding could have made them.
 template <class FT>
 Monge_chart_3<FT> chart_within_rounding(const Jet_3<FT>& jet, const std::array<FT, 3>& point,
                                         const std::optional<FT>& rounding) {
@@ -39,13 +39,13 @@ Monge_chart_3<FT> chart_within_rounding(const Jet_3<FT>& jet, const std::array<F
   return chart;
 }
 
-/// Nothing here branches on values of FT.
+/// The work of regular_structure(). Nothing here branches on values of FT, so that it works for packs.
 template <class FT>
 Regular_structure_3<FT> regular_structure_of(const Jet_3<FT>& jet, const std::array<FT, 3>& point,
                                              const std::optional<FT>& rounding) {
   const Monge_chart_3<FT> chart = chart_within_rounding(jet, point, rounding);
   Regular_structure_3<FT> s{{Point_status::REGULAR, euclidean_structure(chart), affine_structure(chart)}, {}, {}, {}};
-  // Where d^2 underflows, products of as high a degree would, too, and unlike infinity would not be seen.
+  // If d^2 underflows, so do other products of that degree, and unlike overflow this leaves no trace in the result.
   const Mask_of<FT> has_room = chart.determinant * chart.determinant >= FT(std::numeric_limits<FT>::min());
   s.is_steep = chart.is_steep;
   s.is_out_of_range = chart.is_curved && !has_room;
@@ -54,7 +54,8 @@ Regular_structure_3<FT> regular_structure_of(const Jet_3<FT>& jet, const std::ar
   return s;
 }
 
-/// In natural units d decides what the point is, and no unit does; intermediate numbers stay in the range of FT.
+/// The work of irregular_structure(). It computes in natural units, so that the status does not depend on the units of
+/// the function and of space, and intermediate numbers stay in the range of FT.
 template <class FT>
 Local_structure_3<FT> irregular_structure_of(const Jet_3<FT>& jet, bool is_steep, const std::optional<FT>& rounding) {
   Local_structure_3<FT> nothing{Point_status::SINGULAR, no_euclidean_structure<FT>(), no_affine_structure<FT>()};

@@ -11,8 +11,8 @@
 
 namespace equiaffine::internal {
 
-/// The numbers of the vertices of one cell, in the slots of Case_table, kept up to date on the way along a row of
-/// cells. The number in the slot of an edge without a vertex is that of the next vertex of its kind.
+/// The numbers of the vertices of one cell, in the slots of Case_table. They are kept up to date on the way along a row
+/// of cells. The slot of an edge without a vertex has the number of the next vertex along the row on such an edge.
 class Cell_vertices {
 public:
   using Index = Isosurface_numbering::Index;

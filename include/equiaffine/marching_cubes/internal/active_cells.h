@@ -60,7 +60,7 @@ template <bool HasUndefined, class Visit>
 void for_each_active_cell(const Node_signs& signs, std::size_t j, std::size_t k, const Visit& visit) {
   using Word = Node_signs::Word;
   const Word* const rows[4] = {signs.row(j, k), signs.row(j + 1, k), signs.row(j, k + 1), signs.row(j + 1, k + 1)};
-  const auto differ = [&](std::size_t w) { // nodes of which the four rows have different signs
+  const auto differ = [&](std::size_t w) { // the nodes at which the four rows have different signs
     return (rows[0][w] ^ rows[1][w]) | (rows[0][w] ^ rows[2][w]) | (rows[0][w] ^ rows[3][w]);
   };
   // Bit i of a shifted word belongs to node i + 1.

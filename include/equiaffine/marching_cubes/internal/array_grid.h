@@ -70,7 +70,7 @@ public:
   }
 
 private:
-  /// From a node to the next one along each axis.
+  /// The distance in `values_` from a node to the next one along each axis.
   Node stride() const { return {1, size_[0], size_[0] * size_[1]}; }
 
   std::span<const FT> values_;
@@ -79,7 +79,7 @@ private:
   Point origin_, spacing_;
 };
 
-/// Asks for the 64 numbers that are read a page after these: what the processor fetches by itself ends with the page.
+/// Prefetches the 64 numbers one page after these: the processor by itself does not prefetch beyond the end of a page.
 template <class FT>
 void fetch_ahead([[maybe_unused]] const FT* values) {
 #ifdef __GNUC__

@@ -12,7 +12,7 @@
 
 namespace equiaffine::internal {
 
-/// The surface of an array, in which the cases of cells are those of a table.
+/// Computes the surface of an array with the cases of the given table.
 template <class ConcurrencyTag, class FT>
 Array_isosurface_3<FT> isosurface_of_array(const Array_grid<FT>& grid, const Case_table& table) {
   const Node_signs signs = node_signs<ConcurrencyTag>(grid);

@@ -18,7 +18,8 @@ namespace equiaffine::internal {
 struct Case_table {
   static constexpr std::size_t first_lower_slot = 4, first_upper_slot = 8, first_inner_slot = 12, number_of_slots = 16;
 
-  /// For the edges of the first eight slots, which begin at the lower end of the cell: 1 if it is crossed, else 0.
+  /// One number for each edge of the first eight slots, which begin at the lower end of the cell: 1 if the edge is
+  /// crossed, else 0.
   using Crossed_edges = std::array<std::uint32_t, 8>;
 
   struct Entry {
@@ -27,7 +28,7 @@ struct Case_table {
     bool is_ambiguous;
   };
 
-  /// Few cells have more triangles. The slots of so many may be read from any entry on.
+  /// Few cells have more triangles than this. The slots of so many triangles may be read from any entry on.
   static constexpr std::size_t triangles_of_most_cells = 4;
 
   static const Case_table& instance() {
@@ -58,7 +59,7 @@ struct Case_table {
   }
 
   std::vector<Entry> of_sub_case;
-  std::array<Entry, 256> of_signs; ///< for all signs of the corners; where they are ambiguous, only that counts
+  std::array<Entry, 256> of_signs; ///< for all signs of the corners; if is_ambiguous is set, only that is valid
   std::array<std::vector<std::uint8_t>, 2> slots; ///< three per triangle; slots[1] has them the other way round
   std::array<Crossed_edges, 256> crossed;         ///< for all signs of the corners
 };

@@ -32,8 +32,8 @@ public:
 
   /// A row of nodes along i, and the row of cells that begins there.
   struct Row {
-    std::array<Index, 3> first{}; ///< the first vertex on an edge along each axis; at the beginning, how many there are
-    Index triangles = 0;          ///< how many the row of cells has
+    std::array<Index, 3> first{}; ///< the first vertex on an edge along each axis; before that, their number
+    Index triangles = 0;          ///< the number of triangles in the row of cells
   };
   /// The cells between two planes of nodes.
   struct Layer {
@@ -162,7 +162,7 @@ private:
   }
 
   const Node_signs& signs_;
-  std::vector<Row> rows_; // with one more behind the last
+  std::vector<Row> rows_; // one more follows the last
   std::vector<Layer> layers_;
   std::size_t number_of_vertices_ = 0, number_of_triangles_ = 0;
 };

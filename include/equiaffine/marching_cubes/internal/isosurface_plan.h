@@ -16,15 +16,15 @@
 
 namespace equiaffine::internal {
 
-/// What is known of an isosurface before its vertices and triangles are made: their numbers, so that planes of nodes
-/// and layers of cells can be worked on in any order, and the sub-cases of cells that their signs leave open, which
-/// take 2 bytes each.
+/// The plan by which the vertices and triangles of an isosurface are made: their numbers, so that planes of nodes and
+/// layers of cells can be worked on in any order, and the sub-cases of cells whose signs are ambiguous, which take 2
+/// bytes each.
 struct Isosurface_plan {
   const Node_signs& signs;
   const Case_table& table;
   bool has_undefined; ///< whether a node has no value
   Isosurface_numbering numbering;
-  std::vector<std::vector<std::uint16_t>> sub_cases; ///< for each layer those of its ambiguous cells, in their order
+  std::vector<std::vector<std::uint16_t>> sub_cases; ///< for each layer, one per ambiguous cell in the order of cells
 
   std::size_t number_of_ambiguous_cells() const {
     std::size_t sum = 0;
@@ -72,7 +72,7 @@ void plan_layer(Isosurface_plan& plan, std::size_t k, const Choose& choose) {
   }
 }
 
-/// The plan of the surface in a grid. What the table leaves open is decided by the trilinear interpolant. The plan keeps
+/// Makes the plan of the surface in a grid. In ambiguous cells the trilinear interpolant decides. The plan keeps
 /// references to the signs and the table.
 template <class ConcurrencyTag, class Grid>
 Isosurface_plan plan_isosurface(const Node_signs& signs, const Grid& grid, const Case_table& table) {

@@ -19,7 +19,7 @@
 
 namespace equiaffine::internal {
 
-/// The number of cells that contain the given vertices, which are ordered like their cells.
+/// Counts the cells that contain the given vertices, which are ordered like their cells.
 template <class FT>
 std::size_t number_of_cells(const std::vector<Inner_vertex<FT>>& vertices) {
   std::size_t cells = 0;
@@ -28,7 +28,8 @@ std::size_t number_of_cells(const std::vector<Inner_vertex<FT>>& vertices) {
   return cells;
 }
 
-/// The surface of a function on a lattice: topology from the signs and values at the nodes, then the vertices.
+/// Computes the surface of a function on a lattice: first the topology from the signs and values at the nodes, then the
+/// vertices.
 template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
 Isosurface_3<Kernel_of<Traits>> isosurface_on_lattice(const Lattice_function<Traits>& function,
                                                       Vertex_position position) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Marching Cubes in passes that are parallel over planes of nodes or layers of cells: plan_isosurface finds the
-// sub-case of every cell and numbers vertices and triangles, place_linearly makes them, and repair_mesh mends what has
-// no area.
+// sub-case of every cell and numbers vertices and triangles, place_linearly makes them, and repair_mesh removes
+// triangles without area.
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_LINEAR_ISOSURFACE_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LINEAR_ISOSURFACE_H
 

@@ -38,10 +38,11 @@ public:
     int boundary_curves = 0, tunnels = 0;
   };
 
-  /// What the faces leave open: the regions of the corners, and which of them may be joined inside.
+  /// The regions of the corners for one choice on the faces, and the pairs of regions that may be joined inside the
+  /// cell.
   struct Variant {
     std::array<std::uint8_t, 8> region{};
-    std::uint16_t sub_case = 0; ///< the sub-case without a tunnel; that with tunnel n is sub_case + 1 + n
+    std::uint16_t sub_case = 0; ///< the sub-case without a tunnel; sub_case + 1 + n has tunnel n
     std::vector<std::pair<std::uint8_t, std::uint8_t>> tunnels; ///< the two regions of each, the smaller first
   };
 

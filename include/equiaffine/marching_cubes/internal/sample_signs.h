@@ -36,14 +36,14 @@ CGAL::Bbox_3 box_around(const Lattice_3<Kernel>& lattice, const Node_block& bloc
           coordinate(0, true),  coordinate(1, true),  coordinate(2, true)};
 }
 
-/// Samples the signs at the nodes of blocks, one thread's work. Values are computed in batches and not kept.
+/// Samples the signs at the nodes of blocks in one thread. Values are computed in batches and not kept.
 template <class Traits>
 class Block_sampler {
   using FT = typename Traits::FT;
   using Point_3 = typename Traits::Point_3;
   using Function = Lattice_function<Traits>;
   static constexpr bool has_samples = Function::has_samples;
-  static constexpr std::size_t batch = 64, smallest_block = 4; // nodes in all, and along an axis
+  static constexpr std::size_t batch = 64, smallest_block = 4; // the number of nodes in all, and along an axis
 
 public:
   Block_sampler(const Function& function, Node_signs& signs) : function_(function), signs_(signs) {}
@@ -118,8 +118,8 @@ struct Sampled_signs {
   std::size_t evaluations;
 };
 
-/// With SkipsEmptySpace the function is evaluated near its zero set only. A function that has its values at the nodes
-/// already has nothing to skip.
+/// If SkipsEmptySpace, the function is evaluated near its zero set only. This does not apply to functions that already
+/// have their values at the nodes.
 template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
 Sampled_signs sample_signs(const Lattice_function<Traits>& function) {
   constexpr std::size_t planes_per_slab = 8;

@@ -46,7 +46,7 @@ std::uint64_t sixteen_signs(const FT* x, FT level, __m128& undefined) {
   return std::uint64_t(unsigned(_mm_movemask_epi8(_mm_packs_epi16(low, high))));
 }
 
-/// Nothing if a number is NaN.
+/// Returns nothing if a number is NaN.
 template <class FT>
 std::optional<Sign_word> sign_word_without_undefined(const FT* values, std::size_t n, FT isovalue) {
   Sign_word word;

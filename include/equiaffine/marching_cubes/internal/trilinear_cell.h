@@ -22,10 +22,10 @@
 
 namespace equiaffine::internal {
 
-/// Signs of homogeneous polynomials in numbers of magnitude up to `scale`; it is known whether all are certain. The
-/// tolerances
-/// are a generous bound of the rounding errors of the expressions in `corners_joined_inside`: with unit roundoff u they
-/// err by less than 80 u scale^2, 400 u scale^3 and 3000 u scale^4, errors of u in the numbers included.
+/// Computes signs of homogeneous polynomials in numbers of magnitude up to `scale`, and remembers whether all were
+/// certain. The tolerances are generous bounds of the rounding errors of the expressions in `corners_joined_inside`:
+/// with unit roundoff u these err by less than 80 u scale^2, 400 u scale^3 and 3000 u scale^4, errors of u in the
+/// numbers included.
 template <class FT>
 class Filtered_sign {
 public:
@@ -45,7 +45,7 @@ private:
   bool is_certain_ = true;
 };
 
-/// Signs of exact numbers, with the interface of Filtered_sign.
+/// Computes signs of exact numbers, with the interface of Filtered_sign.
 struct Exact_sign {
   template <class Number>
   int operator()(const Number& x, std::size_t) const {

@@ -82,7 +82,7 @@ public:
     sort_and_unite(removed_triangles_);
     const std::size_t n = std::max({points.size()...});
     const std::size_t kept = n - removed_vertices_.size();
-    std::vector<Index> new_number(removed_vertices_.size()); // of the vertices from `kept` on
+    std::vector<Index> new_number(removed_vertices_.size()); // one for each vertex from `kept` on
     const auto renumber = [&](std::size_t t) {
       for (Index& v : triangles[t])
         if (v >= kept) v = new_number[v - kept];
@@ -124,7 +124,7 @@ private:
         if (has_star[v]) stars_[v].push_back(t);
   }
 
-  /// Contracts edges without length where that is possible; false if there was none.
+  /// Contracts edges without length where that is possible. Returns false if there was none.
   bool contract_edges() {
     const std::size_t before = repairs_.contracted_edges;
     for (const std::size_t t : flat_)
