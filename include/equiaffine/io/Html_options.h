@@ -9,12 +9,12 @@
 
 namespace equiaffine {
 
-/// What a page of `write_HTML` says and shows first. All text is UTF-8.
+/// Options for a page of `write_HTML`: the text on it and what it shows first. All text is UTF-8.
 struct Html_options {
   std::string title = "Equi-affine curvatures";
   /// The attribute shown first, or `status`, or `plain`; empty: the first quantity of the library that is there.
   std::string color = {};
-  /// Shown as a table: what the surface is and how it was made.
+  /// A table that says what the surface is and how it was made.
   std::vector<std::pair<std::string, std::string>> description = {};
   /// The direction that is up in the first view and around which dragging turns.
   std::array<double, 3> up = {0, 0, 1};

@@ -14,7 +14,7 @@
 
 namespace equiaffine {
 
-/// A closed box or ball: a surface is looked for inside and cut off at its border.
+/// A closed box or ball, in which a surface is sought and at whose border it is cut off.
 class Clip_domain_3 {
 public:
   /// \pre the box has an interior
@@ -40,8 +40,8 @@ public:
   }
 
   bool is_ball() const { return radius_ > 0; }
-  const std::array<double, 3>& center() const { return center_; } ///< of the ball
-  double radius() const { return radius_; }                       ///< of the ball; 0 for a box
+  const std::array<double, 3>& center() const { return center_; } ///< center of the ball
+  double radius() const { return radius_; }                       ///< radius of the ball; 0 for a box
   const CGAL::Bbox_3& bbox() const { return box_; }
   double diagonal() const { return std::hypot(box_.x_span(), box_.y_span(), box_.z_span()); }
 
@@ -66,7 +66,7 @@ public:
     return is_ball() && squared_distance > radius_ * radius_;
   }
 
-  /// The part of the line p + t d inside the domain, as first and last t, within the given ones.
+  /// Returns the first and last t, within the given ones, of the part of the line p + t d inside the domain.
   template <class Point_3, class Vector_3>
   std::optional<std::pair<double, double>> clip(const Point_3& p, const Vector_3& d, double first, double last) const {
     for (int a = 0; a < 3; ++a) {

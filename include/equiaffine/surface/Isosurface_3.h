@@ -11,10 +11,11 @@
 
 namespace equiaffine {
 
-/// What a sampler makes of the zero set of a function: a mesh and what is known about it.
+/// The result of sampling the zero set of a function: a mesh and facts about it.
 template <class Kernel>
 struct Isosurface_3 : Indexed_triangle_mesh_3<Kernel> {
-  /// Per point: REGULAR, or UNCONVERGED where it could not be put on the surface and stays at the linear intersection.
+  /// One per point: REGULAR, or UNCONVERGED if the point could not be put on the surface and stays at its linear
+  /// position.
   std::vector<Point_status> vertex_status;
   Isosurface_repairs repairs;
   std::size_t function_evaluations = 0; ///< of f, with or without derivatives

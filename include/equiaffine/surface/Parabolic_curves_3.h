@@ -14,7 +14,7 @@ namespace equiaffine {
 template <class Kernel>
 struct Parabolic_curves_3 {
   std::vector<Polyline_3<Kernel>> polylines;
-  std::size_t unconverged_points = 0; ///< left at the linear intersection with an edge of the mesh
+  std::size_t unconverged_points = 0; ///< points left where linear interpolation along an edge of the mesh puts them
 };
 
 } // namespace equiaffine

@@ -6,12 +6,12 @@
 
 namespace equiaffine {
 
-/// A point sought on the zero set of f, and what it took.
+/// The result of a search for a point on the zero set of f.
 template <class Kernel>
 struct Surface_point_3 {
   typename Kernel::Point_3 point;
-  bool has_converged;      ///< false: no zero was found, `point` is the best guess
-  std::size_t evaluations; ///< of f with its gradient
+  bool has_converged;      ///< if false, no zero was found, and `point` is the best guess
+  std::size_t evaluations; ///< the number of evaluations of f with its gradient
 };
 
 } // namespace equiaffine

@@ -17,7 +17,7 @@ Vector_3 gradient_of(const Jet& jet) {
 /// the gradients are parallel.
 template <class Vector_3, class Jet_f, class Jet_g>
 Vector_3 step_to_curve(const Jet_f& f, const Jet_g& g) {
-  // Gradients are scaled so that no product of four of them over- or underflows.
+  // Gradients are scaled so that no product of four of them overflows or underflows.
   const auto scale_of = [](const auto& jet) {
     const auto& c = jet.coefficients();
     using std::abs;

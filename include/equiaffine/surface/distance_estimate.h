@@ -10,8 +10,8 @@
 
 namespace equiaffine {
 
-/// |f| / |grad f|: to first order the distance from a point to the zero set. 0 where f is 0, infinite where only the
-/// gradient vanishes, NaN where f is undefined.
+/// |f| / |grad f|: to first order the distance from a point to the zero set. It is 0 where f is 0, infinite where only
+/// the gradient is 0, and NaN where f is undefined.
 template <class FT>
 FT distance_estimate(const Jet_3<FT, 1>& jet) {
   using std::abs;

@@ -16,8 +16,8 @@
 namespace equiaffine {
 
 /// The greatest |f| / |grad f| over the points: to first order their distance from the zero set of f. Points where f is
-/// undefined do not count; NaN if no point counts. One evaluation with gradient per point; the same for
-/// CGAL::Sequential_tag and CGAL::Parallel_tag.
+/// undefined do not count, and the result is NaN if no point counts. Takes one evaluation with gradient per point.
+/// CGAL::Sequential_tag and CGAL::Parallel_tag give the same result.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits>
 typename Traits::FT max_distance_to_surface(const Traits& traits, std::span<const typename Traits::Point_3> points) {
   using FT = typename Traits::FT;

@@ -8,11 +8,12 @@
 
 namespace equiaffine {
 
-/// A zero of f on the segment ab, at whose ends f has the values fa and fb of different signs (0 counts as positive):
-/// by Newton's method where the model has derivatives that cost less than `taylor`, else by Chandrupatla's, both from
-/// the linear interpolation and kept within the bracket. The result is accurate to a few roundings of the coordinates.
-/// A sign change without a zero, at a pole or a jump, is told by |f| getting neither smaller than at both ends nor
-/// negligible: not converged. A model with a member of this name is asked instead.
+/// Finds a zero of f on the segment ab, at whose ends f has the values fa and fb of different signs (0 counts as
+/// positive). This is done by Newton's method if the model has derivatives that cost less than `taylor`, else by
+/// Chandrupatla's method. Both start from linear interpolation and stay within the bracket. The result is accurate to a
+/// few roundings of the coordinates. If |f| neither gets smaller than at both ends nor negligible, the sign changes
+/// without a zero, at a pole or a jump, and the result has not converged. If the model has a member of this name, that
+/// member is called instead.
 template <ImplicitFunctionTraits_3 Traits>
 Surface_point_3<Kernel_of<Traits>> intersect_segment(const Traits& traits, const typename Traits::Point_3& a,
                                                      const typename Traits::Point_3& b, const typename Traits::FT& fa,

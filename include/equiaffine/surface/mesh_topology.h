@@ -15,7 +15,7 @@
 
 namespace equiaffine {
 
-/// What a list of triangles is as a topological space.
+/// The topology of a list of triangles.
 struct Mesh_topology {
   /// Every edge is in one triangle, or in two that pass it in opposite directions, and the triangles around every point
   /// form one fan or one closed ring. Points in no triangle and triangles with a repeated index violate this.
@@ -26,9 +26,8 @@ struct Mesh_topology {
   std::ptrdiff_t euler_characteristic = 0; ///< points - edges + triangles
 };
 
-/// Topology from the indices alone: points with equal coordinates are different points. Time nearly linear, memory 32
-/// bytes per triangle.
-/// \pre indices are below `number_of_points`
+/// Computes the topology from the indices alone: points with equal coordinates are different points. Takes nearly
+/// linear time and 32 bytes of memory per triangle. \pre indices are below `number_of_points`
 inline Mesh_topology mesh_topology(std::span<const std::array<std::uint32_t, 3>> triangles,
                                    std::size_t number_of_points) {
   CGAL_precondition(std::all_of(triangles.begin(), triangles.end(), [&](const auto& t) {

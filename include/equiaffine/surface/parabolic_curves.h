@@ -12,11 +12,11 @@
 
 namespace equiaffine {
 
-/// The parabolic curves of the zero set of f, as polylines with a point for every edge of `mesh` at whose ends K_e has
-/// different signs, that end where they cross. `mesh` is what a sampler made of the zero set; its resolution decides
-/// which curves are found, and their points lie on f = 0 and K_e = 0 to rounding whatever it is. Curves where K_e
-/// touches zero without a change of sign are not found. The same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit
-/// for bit.
+/// Finds the parabolic curves of the zero set of f. The polylines have a point for every edge of `mesh` at whose ends
+/// K_e has different signs, and end where they cross. `mesh` is the mesh that a sampler made of the zero set. Its
+/// resolution decides which curves are found, but does not affect the accuracy of their points, which lie on f = 0 and
+/// K_e = 0 up to rounding. Curves where K_e touches zero without a change of sign are not found. CGAL::Sequential_tag
+/// and CGAL::Parallel_tag give the same curves, bit for bit.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits>
 Parabolic_curves_3<Kernel_of<Traits>> parabolic_curves(const Indexed_triangle_mesh_3<Kernel_of<Traits>>& mesh,
                                                        const Traits& traits) {

@@ -10,8 +10,8 @@
 
 namespace equiaffine {
 
-/// The zero of f nearest to p along the line through p in the direction of the gradient, at most `maximal_distance`
-/// away. `jet` is the expansion of f at p; evaluations are counted from there.
+/// Finds the zero of f nearest to p along the line through p in the direction of the gradient, at most
+/// `maximal_distance` away. `jet` is the expansion of f at p, which does not count as an evaluation.
 template <ImplicitFunctionTraits_3 Traits>
 Surface_point_3<Kernel_of<Traits>> project_to_surface(const Traits& traits, const typename Traits::Point_3& p,
                                                       const typename Traits::FT& maximal_distance,
@@ -19,7 +19,7 @@ Surface_point_3<Kernel_of<Traits>> project_to_surface(const Traits& traits, cons
   return internal::search_along_gradient(traits, p, maximal_distance, jet);
 }
 
-/// The same, where the expansion at p is computed and counts as an evaluation.
+/// Does the same, but computes the expansion at p, which counts as an evaluation.
 template <ImplicitFunctionTraits_3 Traits>
 Surface_point_3<Kernel_of<Traits>> project_to_surface(const Traits& traits, const typename Traits::Point_3& p,
                                                       const typename Traits::FT& maximal_distance) {

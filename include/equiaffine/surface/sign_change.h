@@ -11,8 +11,8 @@ bool is_sign_change(const FT& first, const FT& second) {
   return (first < FT(0) && second >= FT(0)) || (first >= FT(0) && second < FT(0));
 }
 
-/// Where the linear interpolant of the values at the ends of a segment vanishes, as a fraction of the segment; halfway
-/// if they are infinite. \pre `is_sign_change(first, second)`
+/// Returns the place where the linear interpolant of the values at the ends of a segment is zero, as a fraction of the
+/// segment; it is halfway if the values are infinite. \pre `is_sign_change(first, second)`
 template <class FT>
 FT linear_zero(const FT& first, const FT& second) {
   const FT t = first / (first - second);

@@ -14,7 +14,7 @@ namespace equiaffine {
 /// Calls visit(link) for every vertex of a list of triangles, ascending. `link.vertex()` is its index,
 /// `link.is_path_or_circle()` says whether the mesh is an oriented manifold there, and
 /// `link.for_each_neighbor(visit_neighbor)` calls visit_neighbor(neighbor, n) for every edge of the vertex, which is in
-/// n triangles. Time nearly linear, memory 32 bytes per triangle.
+/// n triangles. Takes nearly linear time and 32 bytes of memory per triangle.
 /// \pre indices are below `number_of_vertices`
 template <class Visit>
 void for_each_vertex_link(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t number_of_vertices,

@@ -49,7 +49,7 @@ public:
     return origin_ + (u * steps_[0] + v * steps_[1] + w * steps_[2]);
   }
 
-  /// Volume of a cell, negative for a left-handed lattice.
+  /// The volume of a cell, which is negative for a left-handed lattice.
   FT determinant() const {
     return CGAL::determinant(steps_[0].x(), steps_[0].y(), steps_[0].z(), steps_[1].x(), steps_[1].y(), steps_[1].z(),
                              steps_[2].x(), steps_[2].y(), steps_[2].z());

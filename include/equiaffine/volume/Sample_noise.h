@@ -23,9 +23,9 @@ struct Sample_noise {
 
 /// Estimates the noise beside the level set f = isovalue, or everywhere if there is none, from differences of order 12
 /// along the axes, which are next to nothing for a smooth function: their median, in units of the median for white
-/// noise of deviation 1. Details of the function of such a wavelength count as noise. Integers have at least the noise
-/// of rounding, 1 / sqrt(12). The deviation is 0 for other samples of a volume with less than 13 nodes along an axis.
-/// Time: that of some passes over the samples.
+/// noise of deviation 1. Details of the function with a wavelength of a few samples count as noise, too. Integers have
+/// at least the noise of rounding, 1 / sqrt(12). For other samples the deviation is 0 if the volume has less than 13
+/// nodes along an axis. Takes the time of some passes over the samples.
 template <class Kernel>
 Sample_noise estimate_noise(const Volume_3<Kernel>& volume,
                             std::optional<typename Kernel::FT> isovalue = std::nullopt) {
@@ -43,8 +43,8 @@ Sample_noise estimate_noise(const Volume_3<Kernel>& volume,
 /// level set. A scale and all larger ones are left out if in more than a tenth of these cells the value changes by more
 /// than hypot(2 s, g): s is the standard deviation of the change that noise explains (the discrepancy principle:
 /// Morozov, On the solution of functional equations by the method of regularization, 1966), g the slope times a tenth
-/// of a voxel, below which details are interpolated anyway. Fourth derivatives of a scan that has details of a few
-/// voxels are wrong at every scale, the larger ones wear the details away.
+/// of a voxel, below which details are interpolated anyway. Fourth derivatives of a scan with details of a few voxels
+/// are wrong at every scale, and the larger scales would smooth the details away.
 ///
 /// Scales whose window does not fit into the volume are left out, and 0 is chosen where there is no spline.
 template <class Kernel>

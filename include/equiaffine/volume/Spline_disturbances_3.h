@@ -13,9 +13,9 @@
 
 namespace equiaffine {
 
-/// What white noise of the samples does to the expansions of a spline: 35 independent disturbances of the expansion in
-/// the middle of a cell, one per Taylor coefficient. Multiplied by independent normal variables and added up, they have
-/// the covariance of the Taylor coefficients under the noise.
+/// Computes the effect of white noise of the samples on the expansions of a spline, as 35 independent disturbances of
+/// the expansion in the middle of a cell, one per Taylor coefficient. The sum of the disturbances, each multiplied by
+/// an independent normal variable, has the covariance that the noise gives the Taylor coefficients.
 ///
 /// The spline is a tensor product, and so is the covariance: the disturbances are the columns of its Cholesky factor,
 /// which is the product of one factor of order 5 per axis. Cells of the same kind share them.
@@ -24,8 +24,8 @@ class Spline_disturbances_3 {
 public:
   using FT = typename Kernel::FT;
 
-  /// Disturbances of a spline through samples that have been smoothed by the scale `smoothing`, by noise of a standard
-  /// deviation in the unit of the samples before.
+  /// The samples of the spline have been smoothed by the scale `smoothing`. Before that, they had noise with the given
+  /// standard deviation, in their unit.
   Spline_disturbances_3(const Spline_function_3<Kernel>& spline, const FT& smoothing, const FT& noise_deviation) {
     const internal::Spline_rule<FT> rule{spline.degree(), spline.scheme(), spline.border_degree(), smoothing};
     for (std::size_t a = 0; a < 3; ++a)

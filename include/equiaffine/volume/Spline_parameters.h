@@ -6,8 +6,8 @@
 
 namespace equiaffine {
 
-/// How samples become a spline. The defaults are good for samples without much noise; name what differs:
-/// `{.degree = 5}`.
+/// Parameters that say how samples become a spline. The defaults are good for samples without much noise. Name only the
+/// members that differ from them: `{.degree = 5}`.
 struct Spline_parameters {
   int degree = 7; ///< 5, 7 or 9
   Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;

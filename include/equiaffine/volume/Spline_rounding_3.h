@@ -14,7 +14,7 @@
 
 namespace equiaffine {
 
-/// How large samples are, and of which type they may have been: both decide how they have been rounded.
+/// The size of samples and the type that they may have had: both decide how the samples have been rounded.
 template <class FT>
 struct Sample_format {
   FT greatest = 0; ///< the greatest magnitude of a sample that is finite
@@ -68,8 +68,8 @@ public:
   }
 
 private:
-  /// How far errors of magnitude 1, of all terms or of all samples, can change the value and the first two derivatives
-  /// along one axis.
+  /// The greatest change of the value and of the first two derivatives along one axis by errors of magnitude 1, of all
+  /// terms or of all samples.
   struct Gains {
     std::array<FT, 3> terms, samples;
   };

@@ -10,8 +10,8 @@
 namespace equiaffine {
 
 /// The centered cardinal B-spline of odd degree n <= 9 at t. Its knots are the integers from -(n + 1) / 2 to
-/// (n + 1) / 2, beyond which it vanishes; its shifts by integers sum to 1. The polynomials on cells that the splines of
-/// this library are made of are evaluated.
+/// (n + 1) / 2, beyond which it is 0; its shifts by integers sum to 1. It is evaluated by the polynomials on cells of
+/// which the splines of this library are made.
 template <int Degree, class FT>
 FT bspline(FT t) {
   static constexpr auto basis = internal::bspline_basis_polynomials<FT, Degree, Degree + 1>();

@@ -22,7 +22,7 @@
 // The elements of a PLY file become points with columns, and triangles.
 namespace equiaffine::internal {
 
-/// Where the properties of a vertex go.
+/// The use of each property of a vertex.
 struct Ply_vertex_layout {
   std::array<std::optional<std::size_t>, 3> coordinates; ///< which properties are x, y and z
   std::vector<std::optional<std::size_t>> columns; ///< the column of each property; coordinates and lists have none
@@ -48,7 +48,7 @@ inline Ply_vertex_layout lay_out_vertices(const Ply_element& element, Vertex_att
   return layout;
 }
 
-/// Turns a column `status` into the status of the points, unless it has numbers that are none.
+/// Turns a column `status` into the status of the points, unless some of its numbers are no status.
 inline void extract_status(Vertex_attributes& attributes) {
   const auto column = std::find_if(attributes.columns.begin(), attributes.columns.end(),
                                    [](const auto& c) { return c.name == "status"; });

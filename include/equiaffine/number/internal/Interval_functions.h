@@ -13,7 +13,7 @@
 
 namespace equiaffine {
 
-/// How far a computed function may be from the true value, in units in the last place.
+/// The greatest error of a computed function, in units in the last place.
 inline constexpr int function_error_ulps = 8;
 
 namespace internal {
@@ -23,12 +23,12 @@ Interval increasing(F f, const Interval& a) {
   return Interval::widened(f(a.lower()), f(a.upper()), function_error_ulps);
 }
 
-/// The part of a between two numbers; the whole line if there is none.
+/// The part of interval a between two numbers, or the whole line if there is none.
 inline Interval clamped(const Interval& a, double lower, double upper) {
   return Interval(std::max(a.lower(), lower), std::min(a.upper(), upper));
 }
 
-/// Whether a contains offset + period n for an integer n; errs on the side of true.
+/// Whether interval a contains offset + period n for an integer n. It may be true by mistake, but never false.
 inline bool contains_multiple(const Interval& a, double offset, double period) {
   const Interval n = (a - Interval::widened(offset, offset)) / Interval::widened(period, period);
   return std::floor(n.upper()) >= std::ceil(n.lower());
@@ -36,7 +36,8 @@ inline bool contains_multiple(const Interval& a, double offset, double period) {
 
 } // namespace internal
 
-/// The hook of nonsmooth.h for kinks, found by argument-dependent lookup.
+/// Does for intervals what the function of this name in nonsmooth.h does for numbers. Found there by argument-dependent
+/// lookup.
 inline Interval branch_or_kink(const Interval& u, const Interval& v, const Interval& a, const Interval& b, int degree) {
   if (u.lower() > v.upper()) return a;
   if (v.lower() > u.upper()) return b;
@@ -72,8 +73,8 @@ inline Interval log(const Interval& a) {
   return internal::increasing([](double u) { return std::log(u); }, Interval(std::max(a.lower(), 0.0), a.upper()));
 }
 
-/// a^n, monotone in a or, for even n, in |a|. It also is the hook for the powers in Jet_functions_3.h, where repeated
-/// squaring would take the factors for independent.
+/// a^n, which is monotone in a or, for even n, in |a|. The powers in Jet_functions_3.h call it, too, since repeated
+/// squaring would treat the factors as independent numbers.
 inline Interval natural_power(const Interval& a, unsigned n) {
   if (n == 0) return Interval(1);
   if (n == 1) return a;
@@ -89,8 +90,8 @@ inline Interval pow(const Interval& a, int n) {
   return n < 0 ? Interval(1) / natural_power(a, 0u - unsigned(n)) : natural_power(a, unsigned(n));
 }
 
-/// Real power. It bounds the powers of the numbers in a that are not negative, and of the others where b contains a whole
-/// number.
+/// Real power. It bounds the powers of the numbers in a that are not negative, and of the others where b contains a
+/// whole number.
 inline Interval pow(const Interval& a, const Interval& b) {
   const double n = std::floor(b.upper()); // the largest whole number that b can contain
   const bool is_whole = b.lower() == n && b.upper() == n && std::abs(n) <= std::numeric_limits<int>::max();
@@ -142,7 +143,8 @@ inline Interval atan(const Interval& a) {
   return internal::increasing([](double u) { return std::atan(u); }, a);
 }
 
-/// The hook of nonsmooth.h for jumps: derivatives are unbounded where the box meets the jump.
+/// Does for intervals what the function of this name in nonsmooth.h does for numbers: derivatives are unbounded if the
+/// box meets the jump.
 inline Interval factor_for_jump(const Interval& y, const Interval& x) {
   return x.lower() <= 0 && y.contains(0) ? Interval::whole() : Interval(1);
 }

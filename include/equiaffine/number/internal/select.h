@@ -10,7 +10,7 @@
 
 namespace equiaffine::internal {
 
-/// What a comparison of two numbers yields: bool, or one truth value per lane.
+/// The type of the result of comparing two numbers: bool, or one truth value per lane.
 template <class FT>
 using Mask_of = decltype(std::declval<const FT&>() < std::declval<const FT&>());
 

@@ -27,8 +27,8 @@
 
 namespace equiaffine::internal {
 
-/// The solution of f = 0, d = 0 that Newton's method with steps of least length finds from p; nothing if one of them
-/// leads too far away.
+/// Returns the solution of f = 0, d = 0 that Newton's method with steps of least length finds from p, or nothing if a
+/// step leads too far away.
 template <ImplicitFunctionTraits_3 Traits>
 std::optional<typename Traits::Point_3> project_to_parabolic_curve(const Traits& traits,
                                                                    const typename Traits::Point_3& start,
@@ -118,8 +118,8 @@ private:
     }
   }
 
-  /// Puts the point of an edge on the curve, not further from the linear intersection than the edge is long; false if
-  /// it stays there.
+  /// Moves the point of an edge from its linear position onto the curve, by at most the length of the edge. Returns
+  /// false if it stays there.
   bool place_point(std::size_t e) {
     const auto [a, b] = edges_[e];
     const Vector_3 edge = mesh_.points[b] - mesh_.points[a];

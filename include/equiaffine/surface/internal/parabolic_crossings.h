@@ -13,9 +13,9 @@
 
 namespace equiaffine::internal {
 
-/// A point where two branches of the curve f = d = 0 cross, not further than `reach` from `start`: a saddle of d on
-/// f = 0, found by Newton's method for f = 0, grad d = m grad f. `jets(p)` is the pair of the jets of f and d, of order
-/// 2 at least.
+/// Finds a point where two branches of the curve f = d = 0 cross, not further than `reach` from `start`. It is a saddle
+/// of d on f = 0, found by Newton's method for f = 0, grad d = m grad f. `jets(p)` is the pair of the jets of f and d,
+/// of order 2 at least.
 template <class Point_3, class Vector_3, class Jets>
 std::optional<Point_3> crossing_near(const Point_3& start, double reach, const Jets& jets) {
   constexpr int maximal_iterations = 20;
@@ -39,7 +39,7 @@ std::optional<Point_3> crossing_near(const Point_3& start, double reach, const J
     if (!(CGAL::to_double(CGAL::squared_distance(p, start)) <= reach * reach)) return std::nullopt; // also NaN
     const double length = step.head<3>().norm();
     if (length > 1e-9 * reach) continue;
-    // With the unit normal in place of the gradient of f, minus the determinant is that of the Hessian of d within the
+    // If the gradient of f is replaced by the unit normal, minus the determinant is that of the Hessian of d within the
     // tangent plane, which is negative at a saddle.
     jacobian.topRightCorner<3, 1>() = f1 / norm;
     jacobian.bottomLeftCorner<1, 3>() = f1.transpose() / norm;

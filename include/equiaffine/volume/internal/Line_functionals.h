@@ -14,7 +14,8 @@
 
 namespace equiaffine::internal {
 
-/// How the samples of a line become a spline: smoothed by a scale in steps (0 for none), then by a scheme and degrees.
+/// The rule by which the samples of a line become a spline: they are smoothed by a scale in steps (0 for none), then a
+/// scheme with two degrees gives the coefficients.
 template <class FT>
 struct Spline_rule {
   int degree;
@@ -37,9 +38,9 @@ struct Cell_kinds {
   }
 };
 
-/// What one axis of a tensor product spline makes of the samples of a line: the Taylor coefficients of order 0 .. 4 in
-/// the middle of a cell are linear functions of the samples, and this class has their coefficients. A line that is
-/// longer than both borders reach is represented by a shorter one.
+/// The effect of the samples of a line on a tensor product spline along one axis: the Taylor coefficients of order 0 ..
+/// 4 in the middle of a cell are linear functions of the samples, and this class has the coefficients of these
+/// functions. A line that is longer than both borders reach is represented by a shorter one.
 template <class FT>
 class Line_functionals {
 public:
@@ -73,7 +74,7 @@ public:
   }
 
   /// The sum of the magnitudes of all terms of the Taylor coefficient of order d, for samples of magnitude 1: how much
-  /// rounding can change it. It is at least the sum over the row, in which terms have cancelled.
+  /// rounding can change it. It is at least the sum over the row, in which terms have canceled.
   FT gain(std::size_t kind, std::size_t d) const {
     FT sum = 0;
     for (std::size_t r = 0; r < basis_[d].size(); ++r)

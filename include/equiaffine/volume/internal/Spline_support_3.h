@@ -33,10 +33,10 @@ public:
     std::array<FT, 3> offset;
   };
 
-  /// What the support and a box have in common.
+  /// The part of a box that is in the support.
   struct Common_box {
     Bspline_box<FT> box;
-    bool is_whole_box = true; ///< else the box leaves the support
+    bool is_whole_box = true; ///< if false, a part of the box is outside of the support
   };
 
   explicit Spline_support_3(const Lattice& lattice) : lattice_(lattice), to_lattice_(inverse_matrix(lattice)) {
@@ -48,7 +48,7 @@ public:
   /// The linear part of the map from space to lattice coordinates.
   const Matrix& to_lattice() const { return to_lattice_; }
 
-  /// How far rounding may move the lattice coordinates of a point of the lattice.
+  /// The greatest change of the lattice coordinates of a point of the lattice by rounding.
   const std::array<FT, 3>& slack() const { return slack_; }
 
   /// The place of a point, if it is in the support.

@@ -31,7 +31,7 @@ constexpr FT relative_error_of_value() {
   return FT(3 * (5 * Degree + 3)) * std::numeric_limits<FT>::epsilon() * sum * sum * sum;
 }
 
-/// The bounds of no values at all: infinity, which no value is.
+/// The bounds of an empty set of values: infinity, which is never a value.
 inline Interval no_values() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return Interval(infinity, infinity);
@@ -51,7 +51,7 @@ public:
     for (const FT s : slack) slack_ += 2 * s; // the point and the box are rounded
   }
 
-  /// Contains the values at those points of the box that have one.
+  /// Returns an interval that contains the values at those points of the box that have one.
   Interval value(const FT* c, const Box& box) const {
     const Range<FT> range = range_of(c, box.first, count_of(box));
     if (range.has_nan() && has_no_values(c, box)) return no_values();
