@@ -90,7 +90,7 @@ private:
     return largest;
   }
 
-  /// Whether the triangles around vertex v would have the distance and the size that are asked for if it were at p.
+  /// Whether the triangles around vertex v would satisfy the criteria of distance and size if v were at p.
   bool satisfies_other_criteria(const Surface& surface, std::uint32_t v, const Point_3& p) const {
     return std::all_of(stars_[v].begin(), stars_[v].end(), [&](const auto& edge) {
       const Point_3 center = CGAL::circumcenter(p, surface.points[edge[0]], surface.points[edge[1]]);
@@ -126,7 +126,8 @@ private:
     }
   }
 
-  /// The best place on the surface at about the distance `step` from a vertex; nothing if none is clearly better.
+  /// Returns the best place on the surface at about the distance `step` from a vertex, or nothing if none is clearly
+  /// better.
   std::optional<Place> best_place_around(const Surface& surface, std::uint32_t v, const Place& here,
                                          const Vector_3& gradient, double step) const {
     constexpr int directions = 8;

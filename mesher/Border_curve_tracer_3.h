@@ -36,7 +36,7 @@ public:
   Border_curve_tracer_3(const Traits& traits, const Border& border, double step, double reach)
       : traits_(traits), border_(border), step_(step), reach_(reach) {}
 
-  /// The point of the curve near p; nothing if there is none within reach.
+  /// Returns the point of the curve near p, or nothing if there is none within reach.
   std::optional<Point_3> project(Point_3 p, int axis) const {
     constexpr int maximal_iterations = 20;
     constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
@@ -75,8 +75,8 @@ public:
 
 private:
   struct Half_curve {
-    std::vector<Point_3> points; // without the start
-    bool leads_back;             // to the start
+    std::vector<Point_3> points; // the start is left out
+    bool leads_back;             // whether the end is the start
   };
 
   /// Goes from a point in one direction along the tangent to an end of the curve, or around it.
@@ -113,7 +113,7 @@ private:
     return {std::move(points), false};
   }
 
-  /// Whether a step along tangent t ended near the curve, whose tangent there is nearly the same.
+  /// Whether a step along tangent t ended near the curve and the tangent of the curve there is nearly t.
   static bool is_good_step(const Point_3& guess, const Point_3& q, const Vector_3& t, const Vector_3& next, double h) {
     constexpr double smallest_cosine = 0.95;
     return CGAL::squared_distance(q, guess) < h * h / 16 && next * t > smallest_cosine;

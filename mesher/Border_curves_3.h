@@ -29,9 +29,9 @@ struct Border_curve_3 : Polyline_3<Kernel> {
 };
 
 /// The curves in which a surface meets the border of a clip domain, as polylines of short segments with vertices on
-/// both. On an edge of a box a curve ends; the curves on both sides of the edge have that end in common.
+/// both. A curve ends on an edge of a box, and the curves on both sides of the edge have that end in common.
 ///
-/// A curve that winds within less than `spacing`, and a closed one that small, may be missed.
+/// A curve with bends smaller than `spacing`, and a closed curve smaller than that, may be missed.
 template <ImplicitFunctionTraits_3 Traits>
 class Border_curves_3 {
   using Kernel = Kernel_of<Traits>;
@@ -59,7 +59,8 @@ public:
     return std::move(curves_);
   }
 
-  /// The point of a curve near p, where `axis` is that of the curve; nothing if there is none within half the spacing.
+  /// Returns the point of a curve near p, or nothing if there is none within half the spacing. `axis` is the axis of
+  /// the curve.
   std::optional<Point_3> project(const Point_3& p, int axis) const { return tracer_.project(p, axis); }
 
 private:

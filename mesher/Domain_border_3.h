@@ -15,8 +15,8 @@
 
 namespace equiaffine::internal {
 
-/// The border of a clip domain: the faces of a box, or a sphere, onto which the faces of a cube are projected from its
-/// center.
+/// The border of a clip domain: the faces of a box, or a sphere, onto which the faces of a cube are projected from the
+/// center of the sphere.
 template <class Kernel>
 class Domain_border_3 {
   using Point_3 = typename Kernel::Point_3;
@@ -63,7 +63,7 @@ public:
     return Point_3(x[0], x[1], x[2]);
   }
 
-  /// The axes along the faces normal to `axis` in which p is outside of the box; none for a sphere.
+  /// Returns the axes other than `axis` along which p is outside of the box. There are none for a sphere.
   std::vector<int> axes_beyond(const Point_3& p, int axis) const {
     std::vector<int> axes;
     for (int b = 0; b < 3 && !is_sphere(); ++b)

@@ -32,7 +32,7 @@ struct Facet_mesh {
   bool has(Surface_vertex vertex) const { return find(vertex) != numbers.end(); }
 };
 
-/// The number of a vertex, which gets the next one when it comes for the first time.
+/// Returns the number of a vertex. A vertex gets the next number when this is called for it for the first time.
 inline std::uint32_t number_of(Surface_vertex vertex, Facet_mesh& mesh) {
   const auto [entry, is_new] = mesh.numbers.try_emplace(&*vertex, std::uint32_t(mesh.numbers.size()));
   if (is_new) {
@@ -43,8 +43,8 @@ inline std::uint32_t number_of(Surface_vertex vertex, Facet_mesh& mesh) {
   return entry->second;
 }
 
-/// The facets as triangles that are counterclockwise seen from where f is positive. Beside a crease, where the
-/// gradients do not tell that, a triangle is oriented as its neighbors are.
+/// Returns the facets as triangles that are counterclockwise seen from where f is positive. Beside a crease, where
+/// gradients do not show that side, a triangle is oriented as its neighbors are.
 inline Facet_mesh read_facets(const Surface_complex& complex, const Memoized_function_3& function) {
   using Vector_3 = Any_function_3::Vector_3;
   Facet_mesh mesh;

@@ -24,7 +24,7 @@ public:
     const auto structure = local_structure(function_.taylor(Any_function_3::Point_3(p.x(), p.y(), p.z())));
     const double size = sizing_ == Facet_sizing::EUCLIDEAN ? euclidean(structure) : affine(structure);
     if (size < radius_ / 16) return radius_ / 16;
-    return size >= radius_ / 16 ? std::min(size, radius_) : radius_; // the radius for NaN, too
+    return size >= radius_ / 16 ? std::min(size, radius_) : radius_; // NaN gives the radius, too
   }
 
 private:
@@ -34,7 +34,8 @@ private:
     return 0.25 / std::max(std::abs(e.k1), std::abs(e.k2));
   }
 
-  /// Facets of equal affine area; the radius where the Gaussian curvature is that of a sphere that fills the domain.
+  /// The size that gives facets of equal affine area. It is the radius where the Gaussian curvature is that of a sphere
+  /// that fills the domain.
   double affine(const Local_structure_3<double>& s) const {
     return radius_ * std::pow(std::abs(s.euclidean.gaussian_curvature) * extent_ * extent_, -0.125);
   }

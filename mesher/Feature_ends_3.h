@@ -102,7 +102,7 @@ private:
     bool is_upper;
   };
 
-  /// The side that p is furthest beyond.
+  /// The side beyond which p is furthest.
   Side side_beyond(const Point_3& p) const {
     const CGAL::Bbox_3& box = domain_.bbox();
     Side side{0, false};
@@ -126,8 +126,8 @@ private:
     return domain_.radius() - std::sqrt(CGAL::squared_distance(p, Point_3(c[0], c[1], c[2])));
   }
 
-  /// Where the curve, which comes from `before` to its last point p, leaves the domain; nothing if it does not within
-  /// the size of a facet.
+  /// Returns the point where the curve, which comes from `before` to its last point p, leaves the domain, or nothing if
+  /// it does not leave it within the size of a facet.
   std::optional<Point_3> end_on_border(const Feature_curve_3& curve, const Point_3& before, const Point_3& p) const {
     const Vector_3 direction = p - before;
     const Point_3 guess = p + size_ / std::sqrt(direction.squared_length()) * direction;
@@ -136,8 +136,8 @@ private:
     return intersect_side(curve, p, *beyond);
   }
 
-  /// Where the curve between a point inside and one outside of the domain meets its border: by the Illinois variant of
-  /// regula falsi.
+  /// Returns the point where the curve between a point inside and one outside of the domain meets the border. It is
+  /// found by the Illinois variant of regula falsi.
   std::optional<Point_3> intersect_side(const Feature_curve_3& curve, Point_3 a, Point_3 b) const {
     constexpr int maximal_iterations = 60;
     const Side side = side_beyond(b);
@@ -161,7 +161,7 @@ private:
     return {};
   }
 
-  /// p, moved into a side of the box; for a ball p itself.
+  /// Returns p, moved into a side of the box; for a ball it returns p itself.
   Point_3 on_side(const Point_3& p, const Side& side) const {
     if (domain_.is_ball()) return p;
     std::array<double, 3> x = {p.x(), p.y(), p.z()};
@@ -172,7 +172,7 @@ private:
 
   const Clip_domain_3& domain_;
   const double size_;
-  std::vector<Point_3> ends_; // of the curves that were extended, on the border
+  std::vector<Point_3> ends_; // ends on the border of the curves that were extended
 };
 
 } // namespace equiaffine::internal

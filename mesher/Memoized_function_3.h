@@ -13,7 +13,7 @@
 namespace equiaffine::internal {
 
 /// A function that remembers its latest values and counts its evaluations: the mesher asks for each circumcenter up to
-/// four times. Copies share the memory, which must outlive them; for one thread.
+/// four times. Copies share the memory, which must outlive them. They are for one thread only.
 class Memoized_function_3 {
 public:
   using FT = Any_function_3::FT;
@@ -60,7 +60,7 @@ public:
     return memory_->function_.taylor(p);
   }
 
-  /// Asked by `equiaffine::intersect_segment`: the model iterates itself, and only the number of evaluations is kept.
+  /// `equiaffine::intersect_segment` calls this. The model iterates itself, and only the number of evaluations is kept.
   Surface_point_3<Any_function_3::Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa,
                                                             double fb) const {
     const auto found = memory_->function_.intersect_segment(a, b, fa, fb);

@@ -65,7 +65,7 @@ public:
 
   /// Sets the radii when all curves are covered, and adds balls where neighbors would not overlap.
   void complete() {
-    constexpr int rounds = 6; // each of which halves the distances that are left
+    constexpr int rounds = 6; // each one halves the distances that are left
     for (int round = 0; round == 0 || (round < rounds && fill_gaps()); ++round) {
       set_radii();
       separate();
@@ -90,7 +90,7 @@ private:
   static std::vector<Point_3> divide(const Polyline_3<Kernel>& curve, const Sizing& size) {
     std::vector<Point_3> points = curve.points;
     if (curve.is_closed) points.push_back(points.front());
-    std::vector<double> length = {0}; // from the first point, in sizes
+    std::vector<double> length = {0}; // lengths from the first point, in sizes
     for (std::size_t n = 1; n < points.size(); ++n)
       length.push_back(length.back() +
                        distance(points[n - 1], points[n]) / size(CGAL::midpoint(points[n - 1], points[n])));
@@ -210,7 +210,7 @@ private:
     return is_added;
   }
 
-  static constexpr double gap = 0.98; // sum of radii / distance, at most, of balls that are no neighbors
+  static constexpr double gap = 0.98; // largest sum of radii / distance of balls that are no neighbors
 
   std::vector<Ball> balls_;
   std::vector<std::vector<std::size_t>> neighbors_; // along curves, per ball

@@ -10,8 +10,8 @@
 
 namespace equiaffine::internal {
 
-/// The domain that is given to CGAL's mesher. It has a surface and no interior, so that the function is never asked on
-/// which side of the surface a point is.
+/// The domain for CGAL's mesher. It has a surface and no interior, so that the mesher never asks on which side of the
+/// surface a point is.
 struct Surface_domain_3 : Implicit_mesh_domain_3<Memoized_function_3> {
   using Implicit_mesh_domain_3::Implicit_mesh_domain_3;
 

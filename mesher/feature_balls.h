@@ -22,7 +22,7 @@ using Feature_balls = Protecting_balls_3<Any_function_3::Kernel>;
 inline Feature_balls cover_features(const Memoized_function_3& function, const Clip_domain_3& domain, double radius,
                                     const Facet_sizing_field& size, const std::vector<Feature_curve_3>& given) {
   using Point_3 = Any_function_3::Point_3;
-  constexpr double spacing_in_sizes = 0.8; // then the facets beside features can have the angles of others
+  constexpr double spacing_in_sizes = 0.8; // lets the facets beside features have the angles of others
   const auto spacing = [&](const Point_3& p) { return spacing_in_sizes * size(p); };
   const auto keep = [](const Point_3& p) { return std::optional(p); };
   Feature_balls balls;

@@ -16,7 +16,7 @@
 
 namespace equiaffine::internal {
 
-/// What is inserted into the triangulation before it is refined.
+/// The points that are inserted into the triangulation before it is refined.
 struct Initial_points {
   using Point_3 = Any_function_3::Point_3;
 

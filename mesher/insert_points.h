@@ -12,13 +12,13 @@
 
 namespace equiaffine::internal {
 
-/// What `insert_points` tells about the vertices on the surface.
+/// The result of `insert_points`: facts about the vertices on the surface.
 struct Inserted_points {
   std::vector<std::pair<Surface_vertex, Surface_vertex>> feature_edges; ///< neighbors on features
   std::vector<Surface_domain_3::Point_3> hidden; ///< centers and seeds that the ball of another vertex hides
 };
 
-/// No vertex if the ball of another one hides the point.
+/// Inserts a point and returns its vertex, or no vertex if the ball of another one hides the point.
 inline Surface_vertex insert_point(Surface_complex& complex, const Surface_triangulation::Weighted_point& p,
                                    int dimension, Surface_triangulation::Cell_handle hint = {}) {
   const Surface_vertex vertex = complex.triangulation().insert(p, hint);
@@ -43,7 +43,7 @@ insert_sorted(Surface_complex& complex, const std::vector<Any_function_3::Point_
   return hidden;
 }
 
-/// Inserts the initial points into an empty triangulation. Without any on the surface it stays empty.
+/// Inserts the initial points into an empty triangulation. It stays empty if none of them is on the surface.
 inline Inserted_points insert_points(Surface_complex& complex, const Initial_points& points) {
   Inserted_points inserted;
   if (points.seeds.empty() && points.balls.empty()) return inserted;

@@ -15,7 +15,7 @@ namespace equiaffine::internal {
 /// Two triangles with a common edge, which is in no third one.
 struct Adjacent_triangle {
   std::size_t triangle; ///< index of the other one
-  bool agrees;          ///< both pass the edge in opposite directions
+  bool agrees;          ///< whether both pass the edge in opposite directions
 };
 
 /// The triangles across the edges of each triangle.

@@ -7,7 +7,7 @@
 
 namespace equiaffine::internal {
 
-/// What the facets must be as a topological space.
+/// The topology that the facets must have.
 enum class Manifoldness { ANY, MANIFOLD, MANIFOLD_WITH_BOUNDARY };
 
 /// Refines the facets, and nothing else, from the points that are in the triangulation. The calls of CGAL 5 and CGAL 6

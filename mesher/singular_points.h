@@ -16,8 +16,8 @@
 
 namespace equiaffine::internal {
 
-/// The isolated singular point of a surface near a point, as the apex of a cone: f and its gradient vanish there, and
-/// its Hessian is regular. Found by Newton's method for a critical point of f, not further away than `reach`.
+/// Finds the isolated singular point of a surface near a point, such as the apex of a cone: f and its gradient are 0
+/// there, and its Hessian is regular. Newton's method finds it as a critical point of f, not further away than `reach`.
 template <ImplicitFunctionTraits_3 Traits>
 std::optional<typename Traits::Point_3> singular_point_near(const Traits& traits, const typename Traits::Point_3& start,
                                                             double reach) {

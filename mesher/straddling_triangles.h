@@ -11,8 +11,8 @@
 
 namespace equiaffine::internal {
 
-/// The sign of the Gaussian curvature of the surface at a point; 0 where it is negligible beside the curvatures k1 and
-/// k2, or beside the curvature 1/radius of a facet's ball.
+/// The sign of the Gaussian curvature of the surface at a point. It is 0 where the curvature is negligible beside k1
+/// and k2, or beside the curvature 1/radius of a facet's ball.
 inline int sign_of_gaussian_curvature(const Any_function_3& function, const Any_function_3::Point_3& p, double radius) {
   constexpr double negligible = 1e-8;
   const auto e = local_structure(function.taylor(p)).euclidean;
@@ -20,7 +20,8 @@ inline int sign_of_gaussian_curvature(const Any_function_3& function, const Any_
   return (e.gaussian_curvature > least) - (e.gaussian_curvature < -least);
 }
 
-/// Triangles with vertices on both sides of a parabolic curve take the certificate of a mesh away.
+/// Adds undecided boxes for triangles with vertices on both sides of a parabolic curve, so that the mesh is not
+/// certified.
 inline void report_straddling_triangles(const Any_function_3& function, double radius,
                                         Delaunay_surface_3<Any_function_3::Kernel>& mesh) {
   std::vector<int> sign;

@@ -15,7 +15,8 @@
 
 namespace equiaffine {
 
-/// What compute_attributes needs: points of level sets of f, which pass through them whatever the value there.
+/// The arguments of compute_attributes(). Attributes at a point are those of the level set through it, whatever the
+/// value of f there.
 template <class Traits>
 struct Attribute_task {
   const Traits& function; ///< one of the models of Source_function
@@ -40,7 +41,7 @@ struct Attribute_functions_of<std::variant<Traits...>> {
 /// compute_attributes of the library for each model of Source_function, compiled for one instruction set.
 using Attribute_functions = Attribute_functions_of<Source_function>::type;
 
-/// Which vector instructions are used. All have the same results, bit for bit.
+/// The vector instructions that can be used. All of them give the same results, bit for bit.
 enum class Instruction_set { BASELINE, AVX2, AVX512 };
 
 /// The instruction sets that this program was compiled for and this processor has, the narrowest first.

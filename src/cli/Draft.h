@@ -10,7 +10,8 @@
 
 namespace equiaffine {
 
-/// What the options of any command say; each command takes its part. Here are the defaults that a request has not.
+/// The values of the options of all commands; each command takes its part. The defaults that the structs of requests do
+/// not have are here.
 struct Draft {
   std::optional<std::size_t> threads;
   Source_options source;

@@ -11,8 +11,8 @@
 
 namespace equiaffine {
 
-/// Reads the options of a command line into a draft, by their rows in the table. Of several errors the one that is met
-/// first is told, so the order of the calls matters to users.
+/// Reads the options of a command line into a draft, by their rows in the table. Only the first error is reported, so
+/// the order of the calls matters to users.
 class Option_reader {
 public:
   explicit Option_reader(const Command_line& line) : line_(line) {}

@@ -18,7 +18,7 @@ std::string joined(const Names& names, const std::string& separator) {
   return text;
 }
 
-/// The words of a text in as few lines as hold them.
+/// Breaks a text into as few lines as can hold its words.
 std::string wrapped(const std::string& text, std::size_t width) {
   std::istringstream words(text);
   std::string result, line;

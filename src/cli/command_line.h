@@ -12,7 +12,7 @@
 
 namespace equiaffine {
 
-/// What stands on the command line: the words of every option that is given, not yet their meaning.
+/// The words on the command line: those of every option that is given, before their meaning is read.
 struct Command_line {
   Command command = MESH;
   std::map<std::string, Words> options;   ///< by the name() of the option's row

@@ -4,8 +4,8 @@
 
 namespace equiaffine {
 
-// What stands above and below the list of options in the help of the program and of its commands. The first line of a
-// command's description is what the program's help says of it.
+// The texts above and below the list of options in the help of the program and of its commands. The first line of a
+// command's description is also its line in the help of the program.
 
 inline constexpr const char* program_description =
     R"(equiaffine - affine curvatures of implicit surfaces

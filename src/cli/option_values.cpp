@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* axis_names = "XYZ";
 
-/// The whole word as a number, whatever the locale.
+/// Reads the whole word as a number, whatever the locale.
 template <class Number>
 std::optional<Number> parse_number(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
@@ -29,7 +29,7 @@ std::optional<Number> parse_number(std::string_view word) {
   return number;
 }
 
-/// Insertions, deletions, replacements and swaps of neighbors that make one word of the other.
+/// The number of insertions, deletions, replacements and swaps of neighbors that turn one word into the other.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
   std::iota(last.begin(), last.end(), std::size_t(0));
@@ -114,7 +114,7 @@ CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& opti
     const double norm = std::hypot(m[3 * row], m[3 * row + 1], m[3 * row + 2]);
     for (std::size_t i = 3 * row; i < 3 * row + 3; ++i) n[i] = norm > 0 ? m[i] / norm : 0;
   }
-  // With rows of length one the determinant is the volume they span: below rounding they lie in a plane.
+  // For rows of length one the determinant is the volume that they span. If only rounding made it, they lie in a plane.
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   if (!(std::abs(CGAL::determinant(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8])) > rounding))
     fail_option(name, "the matrix is singular", "give nine numbers, row by row, of a matrix with an inverse");

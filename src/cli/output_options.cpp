@@ -27,7 +27,7 @@ Words split(const std::string& text, char separator) {
   return parts;
 }
 
-/// Error estimates are not among the attributes of the library: the source is told of them.
+/// Reads the list of attributes. Estimates of errors are not attributes of the library: the source computes them.
 void read_attributes(const Option_words& option, Draft& draft) {
   bool& estimates_errors = draft.source.spline.estimates_errors;
   std::string list;

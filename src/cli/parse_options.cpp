@@ -16,7 +16,7 @@ namespace equiaffine {
 
 namespace {
 
-/// Names of the same file are equal after this, whatever links and dots lead there.
+/// Makes names of the same file equal, whatever links and dots lead there.
 std::filesystem::path canonical_output(const std::string& path) {
   if (path == "-") return path;
   std::error_code error;
@@ -90,7 +90,7 @@ void check_page(const Option_reader& reader) {
                 "name one of them, such as affine_mean_curvature, or add it to --attributes");
 }
 
-/// The expansions of the paper's scheme are those of no function, which other ways to find a surface need.
+/// Throws if the paper's scheme is used in a way that needs a function, since its expansions are not those of one.
 void check_scheme(const Draft& draft) {
   if (draft.source.spline.scheme != Spline_scheme::PAPER) return;
   if (draft.is_delaunay || draft.marching_cubes.vertices != Vertex_position::LINEAR || draft.curves)

@@ -9,7 +9,7 @@
 
 namespace equiaffine {
 
-/// Reads the command line, without the program's name. Throws `Input_error` for everything that cannot be meant.
+/// Reads the command line, without the program's name. Throws `Input_error` for everything that makes no sense.
 Options parse_options(const std::vector<std::string>& arguments);
 
 } // namespace equiaffine

@@ -52,7 +52,7 @@ void read_spline(Option_reader& reader) {
 
 /// Reads what a file `.raw` does not say itself; the options are refused for others.
 void read_raw_layout(Option_reader& reader) {
-  if (reader.command() == SAMPLE) return; // its --type is that of what it writes
+  if (reader.command() == SAMPLE) return; // its --type is the type that it writes
   const Source_options& source = reader.draft().source;
   const bool is_raw = source.kind == Source_kind::VOLUME && has_extension(source.text, ".raw");
   if (!is_raw)

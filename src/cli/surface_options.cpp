@@ -46,7 +46,7 @@ void read_method(const Option_words& option, Draft& draft) {
 }
 
 void read_threads(const Option_words& option, Draft& draft) {
-  constexpr std::size_t most = 1024; // what a thread pool of any computer today takes without harm
+  constexpr std::size_t most = 1024; // any computer of today can run a pool of so many threads
   draft.threads = parse_count(option.name, option.word(), 1);
   if (*draft.threads > most)
     fail_option(option.name, "'" + option.word() + "' is more than " + std::to_string(most),

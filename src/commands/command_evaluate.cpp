@@ -26,7 +26,7 @@ Mesh_format output_format(const std::string& path) {
   return *format;
 }
 
-/// A point that is nowhere is outside, whatever the function makes of its coordinates.
+/// Makes points with infinite or NaN coordinates OUTSIDE, whatever the function returns for them.
 void mark_points_at_infinity(const std::vector<Kernel::Point_3>& points, Vertex_attributes& attributes) {
   if (!attributes.status) return;
   for (std::size_t i = 0; i < points.size(); ++i) {

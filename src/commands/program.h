@@ -8,15 +8,16 @@
 
 namespace equiaffine {
 
-/// Where the program speaks to people. Data that go to standard output do so by themselves.
+/// The streams for texts that people read. Data for standard output are written elsewhere.
 struct Streams {
   std::ostream& out;
   std::ostream& error;
-  bool error_is_terminal = false; ///< then a long computation shows its progress there
+  bool error_is_terminal = false; ///< if true, a long computation shows its progress there
 };
 
-/// The program: does what the arguments (without the program's name) say and returns the exit status. 0; 2 for an error
-/// of the user, told in one line on `error`, more lines if they show the place; 1 for a defect.
+/// Runs the program with the arguments (without the program's name) and returns the exit status. It is 0 for success, 2
+/// for an error of the user, which is written to `error` in one line, or in more lines if they show the place, and 1
+/// for a defect of the program.
 int run(const std::vector<std::string>& arguments, const Streams& streams);
 
 } // namespace equiaffine

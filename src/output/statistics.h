@@ -17,13 +17,13 @@
 
 namespace equiaffine {
 
-/// What a method that looks for all components of a surface says of its search.
+/// The result of a method's search for all components of a surface.
 struct Completeness {
   bool is_certified = false;
   std::vector<CGAL::Bbox_3> undecided_boxes;
 };
 
-/// What is known about a mesh that was made.
+/// The facts about a mesh that the program reports.
 struct Statistics {
   std::string source;
   double isovalue = 0;
@@ -42,7 +42,7 @@ std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_st
 /// One object, see `equiaffine mesh --help`. A distance that is not a finite number is null.
 std::string to_JSON(const Statistics& statistics);
 
-/// Says the most important of it in a few lines.
+/// Says the most important statistics in a few lines.
 std::string summary(const Statistics& statistics);
 
 } // namespace equiaffine

@@ -34,7 +34,7 @@ void write_picture(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mes
                    const Page_options& options, const Picture_options& picture,
                    const std::vector<Polyline_3<Kernel>>& curves = {});
 
-/// What a page says about its surface, in rows of two cells.
+/// The table of a page about its surface, in rows of two cells.
 using Description = std::vector<std::pair<std::string, std::string>>;
 
 /// Writes the page, without committing. `options.color` is a column, `status`, `plain`, or empty.

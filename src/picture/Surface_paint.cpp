@@ -22,7 +22,7 @@ bool is_component(const std::string& name) {
                              name == "ny" || name == "nz" || name.starts_with("metric_"));
 }
 
-/// What the page shows first.
+/// Returns the name of the column that the page shows first.
 std::string default_color(const Vertex_attributes& attributes) {
   const auto place = [](const Vertex_attributes::Column& column) {
     return is_component(column.name) ? Quantity::unranked + 1 : rank_of_quantity(column.name);

@@ -15,7 +15,7 @@
 
 namespace equiaffine {
 
-/// What the colors of a picture mean.
+/// The meaning of the colors of a picture.
 struct Color_legend {
   std::string label; ///< the name of the number, with its unit if that is known
   Color_range range;

@@ -17,7 +17,7 @@
 
 namespace equiaffine {
 
-/// How a surface is shown.
+/// Options that say how a surface is shown.
 struct Surface_view {
   std::string color;                          ///< a column, `status`, `plain`, or empty for the page's choice
   std::array<double, 3> up = {0, 0, 1};       ///< the direction that points up

@@ -12,7 +12,7 @@ namespace equiaffine {
 inline constexpr std::array<std::string_view, 10> raw_types = {"uint8", "int8",   "uint16", "int16", "uint32",
                                                                "int32", "uint64", "int64",  "float", "double"};
 
-/// What a file of samples without a header does not say itself.
+/// The facts about a file of samples that would be in a header, for a file without one.
 struct Raw_layout {
   std::array<std::size_t, 3> dims = {};
   std::array<double, 3> spacing = {1, 1, 1}, origin = {0, 0, 0};

@@ -26,7 +26,7 @@ namespace equiaffine {
 
 enum class Source_kind { FUNCTION, VOLUME, DISTANCE };
 
-/// Where derivatives come from: the formula, or a spline through samples.
+/// The origin of derivatives: the formula, or a spline through samples.
 enum class Derivatives { JETS, SPLINE };
 
 /// How samples become a function.
@@ -35,7 +35,7 @@ struct Spline_options {
   Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
   std::optional<double> smoothing = 0; ///< a scale in voxels; without a value the noise decides
   std::optional<double> isovalue;      ///< noise is measured beside this level set, or everywhere
-  bool estimates_errors = false;       ///< estimates those of affine curvatures
+  bool estimates_errors = false;       ///< whether the errors of affine curvatures are estimated
 };
 
 /// SOURCE of the command line, with what changes the function itself.
@@ -58,7 +58,7 @@ struct Page_options {
   std::array<double, 3> up = {0, 0, 1};
 };
 
-/// What is asked of a picture and not of a page.
+/// Options for a picture that a page does not have.
 struct Picture_options {
   std::array<std::size_t, 2> size = {1000, 800};
   std::optional<std::array<double, 2>> range; ///< the numbers that have the end colors
@@ -73,7 +73,7 @@ struct Delaunay_options {
   double angle = 30;               ///< the least angle of triangles, in degrees
   double radius = 0, distance = 0; ///< as in Delaunay_criteria; 0 stands for the default
   Facet_sizing sizing = Facet_sizing::UNIFORM;
-  bool clips_to_ball = false; ///< cuts off at the largest ball in the box, not at the box
+  bool clips_to_ball = false; ///< whether the surface is cut off at the largest ball in the box, not at the box
 };
 
 struct Mesh_options {

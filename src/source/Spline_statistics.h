@@ -7,7 +7,7 @@
 
 namespace equiaffine {
 
-/// How samples became a spline, and what they are like.
+/// The facts about samples, and about the spline that was made from them, that the program reports.
 struct Spline_statistics {
   int degree = 0;
   Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;

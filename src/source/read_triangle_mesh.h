@@ -12,7 +12,7 @@ namespace equiaffine {
 
 /// Reads `.off .ply .obj .stl`, or OFF from standard input for "-".
 /// Equal points become one, faces get triangulated and a common orientation. Throws
-/// `Input_error` for what is not a mesh of finite numbers.
+/// `Input_error` if the file is not a mesh with finite coordinates.
 CGAL::Surface_mesh<Kernel::Point_3> read_triangle_mesh(const std::string& path);
 
 } // namespace equiaffine

@@ -18,12 +18,12 @@ namespace equiaffine {
 
 struct Source {
   Source_function function;
-  std::size_t function_evaluations = 0;            ///< the number that making the source took
+  std::size_t function_evaluations = 0;            ///< the number that it took to make the source
   std::optional<Spline_statistics> spline;         ///< if derivatives are those of a spline
   std::optional<Curvature_error_3<Kernel>> errors; ///< if estimates were asked for
 };
 
-/// Makes the function, which may mean to read a volume, to measure distances, and to fit a spline. Throws
+/// Makes the function. This may include reading a volume, measuring distances, and fitting a spline. Throws
 /// `Input_error`.
 Source make_source(const Source_options& options, Progress& progress);
 

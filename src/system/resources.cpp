@@ -21,7 +21,7 @@ std::string gigabytes(double bytes) {
   return text.data();
 }
 
-/// `reason` is what needs the memory, `purpose` what it is for.
+/// Throws if this computer has less memory than needed. `reason` is what needs it, and `purpose` what it is for.
 void check_memory(double needed, const std::string& reason, const std::string& purpose, const std::string& advice) {
   const double pages = double(::sysconf(_SC_PHYS_PAGES)), page_size = double(::sysconf(_SC_PAGE_SIZE));
   if (pages > 0 && page_size > 0 && needed > pages * page_size)

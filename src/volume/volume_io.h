@@ -23,7 +23,7 @@ void check_volume_output(const std::string& path);
 /// Writes `.nrrd .mhd .mha .nii .nii.gz` through ITK or `.vti` through VTK, as float or double, without committing
 /// `file`. NIfTI holds its geometry in single precision and only perpendicular steps: where it would move a node by
 /// more than a thousandth of the shortest step, it is refused by an `Input_error`. The other formats hold any lattice.
-/// What ITK wrote is read back once, because it does not notice a full disk.
+/// A file that ITK wrote is read back once, because ITK does not notice a full disk.
 void write_volume(Output_file& file, const Volume_3<Kernel>& volume, bool as_float);
 
 /// Writes the volume to a file of its own and commits it.

@@ -34,10 +34,10 @@ namespace {
 using Point_3 = Kernel::Point_3;
 using Vector_3 = Kernel::Vector_3;
 
-/// How far a written node may lie from where it belongs, in shortest steps.
+/// The largest distance of a written node from its true place, in shortest steps.
 constexpr double largest_shift_in_cells = 1e-3;
 
-/// How far the distance of two DICOM slices may be from the mean one, relative to it: places are rounded decimals.
+/// The largest relative deviation of the distance of two DICOM slices from the mean: places are rounded decimals.
 constexpr double largest_deviation_of_slices = 1e-2;
 
 constexpr std::int32_t nifti_header_size = 348;
@@ -59,9 +59,9 @@ itk::ImageIOBase::Pointer make_image_io(Volume_format format) {
   }
 }
 
-/// What an ITK exception says, without the places in ITK and the libraries below it where it was found: the last line,
-/// after "): " and after "[library] function: ". The text is empty for "Reason: ", with which MetaImage introduces the
-/// last error of the system, whatever that was about.
+/// The text of an ITK exception, without the places in ITK and the libraries below it where it was found: the last
+/// line, after "): " and after "[library] function: ". The text is empty for "Reason: ", with which MetaImage
+/// introduces the last error of the system, whatever that was about.
 std::string reason_of(const itk::ExceptionObject& exception) {
   std::string text = exception.GetDescription();
   text.erase(text.find_last_not_of(" .\n") + 1);
@@ -236,8 +236,8 @@ Volume_3<Kernel> read_dicom_series(const std::string& folder) {
 
 namespace {
 
-/// What was written is read back, for two reasons. ITK does not notice a disk that fills up under MetaImage or NIfTI.
-/// And formats differ in the lattices they hold (NIfTI: perpendicular steps, single precision).
+/// Reads back a file that was written, for two reasons. ITK does not notice a disk that fills up under MetaImage or
+/// NIfTI, and some formats cannot hold every lattice (NIfTI holds perpendicular steps only, in single precision).
 void check_written(const std::string& path, Volume_format format, const Lattice_3<Kernel>& lattice) {
   const Lattice_3<Kernel> stored = [&] {
     try {

@@ -12,8 +12,8 @@
 
 namespace equiaffine {
 
-/// Writes OBJ: the points of the curves with 17 significant digits and one `l` line per curve; a closed one ends with its
-/// first point.
+/// Writes OBJ: the points of the curves with 17 significant digits, and one `l` line per curve. The line of a closed
+/// curve ends with its first point.
 template <class Kernel>
 void write_OBJ(std::ostream& stream, const Parabolic_curves_3<Kernel>& curves) {
   internal::Buffered_output out(stream);

@@ -2,9 +2,8 @@
 #ifndef EQUIAFFINE_IO_WRITE_MESH_H
 #define EQUIAFFINE_IO_WRITE_MESH_H
 
-// Writes an indexed triangle mesh and the numbers at its vertices to files. Text has 17 significant digits and `nan` for
-// numbers that do not exist. All functions write to a stream (opened as binary for PLY and STL); errors are in its
-// state.
+// Writes an indexed triangle mesh and the numbers at its vertices. Text has 17 significant digits and `nan` for numbers
+// that do not exist. All functions write to a stream, which has to be binary for PLY and STL. Errors are in its state.
 
 #include <equiaffine/io/input_file.h>
 #include <equiaffine/io/internal/buffered_output.h>

@@ -8,15 +8,15 @@
 
 namespace equiaffine::internal {
 
-/// The coefficient of max(u, v), NaN exactly at the kink, when u has `a` and v has `b`, for a monomial of the given
-/// degree.
+/// The coefficient of a monomial of the given degree in the jet of max(u, v), where the jets of u and v have the
+/// coefficients `a` and `b`. At the kink, where u = v, the coefficient of degree 0 is right and the others are NaN.
 template <class T>
 T branch_or_kink(const T& u, const T& v, const T& a, const T& b, int degree) {
   return u > v ? a : v > u ? b : degree == 0 ? (u == v ? a : T(u + v)) : std::numeric_limits<T>::quiet_NaN();
 }
 
-/// The factor that the derivatives of atan2(y, x) get for its jump along the negative x-axis. That of a number is 1, since
-/// a point lies on one side of the jump.
+/// The factor by which the derivatives of atan2(y, x) are multiplied because of its jump along the negative x-axis. For
+/// numbers it is 1, since a point lies on one side of the jump.
 template <class T>
 T factor_for_jump(const T&, const T&) {
   return T(1);
