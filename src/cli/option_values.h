@@ -37,7 +37,7 @@ double parse_finite_number(const std::string& option, const std::string& word);
 /// The only word of the option as a number.
 inline double parse_number(const Option_words& option) { return parse_finite_number(option.name, option.word()); }
 
-/// Word by word.
+/// The words of the option as numbers.
 std::array<double, 3> parse_triple(const Option_words& option);
 
 /// A length above 0.

@@ -19,8 +19,8 @@ struct Picture {
   std::vector<unsigned char> rgb;
 };
 
-/// Where a point of space is seen: pixels to the right and downwards, and the reciprocal of its distance, which is
-/// linear along straight lines of a picture in perspective.
+/// The place at which a point of space is seen: pixels to the right and downwards, and the reciprocal of its distance,
+/// which is linear along straight lines of a picture in perspective.
 struct Screen_point {
   double x, y, nearness;
 };

@@ -52,7 +52,7 @@ struct Source_options {
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
 };
 
-/// What a page shows first.
+/// The first view of a page.
 struct Page_options {
   std::string color; ///< an attribute, `status`, `plain`, or empty
   std::array<double, 3> up = {0, 0, 1};

@@ -18,25 +18,26 @@
 
 namespace equiaffine {
 
-/// The zero set of a function, by Delaunay refinement (Boissonnat, Oudot: Provably good sampling and meshing of
-/// surfaces, 2005): a triangle mesh with vertices on the surface, angles of at least `criteria.angle`, and normals
-/// along the gradient. Link with equiaffine::mesher.
+/// Meshes the zero set of a function by Delaunay refinement (Boissonnat, Oudot: Provably good sampling and meshing of
+/// surfaces, 2005). The result is a triangle mesh with vertices on the surface, angles of at least `criteria.angle`,
+/// and normals along the gradient. Link with equiaffine::mesher.
 ///
-/// The refinement is that of CGAL's 3D Mesh Generation. It starts from points on every component of the surface, which
-/// a subdivision of the domain into boxes finds with the interval bounds of the function: when `is_certified`, none was
-/// missed, however small. A closed regular surface gives a closed oriented 2-manifold.
+/// CGAL's 3D Mesh Generation refines the mesh. It starts from points on every component of the surface, which are found
+/// by subdividing the domain into boxes with the interval bounds of the function. If the result `is_certified`, no
+/// component was missed, however small. A closed regular surface gives a closed oriented 2-manifold.
 ///
 /// Features are made of edges of the mesh: the curves where the surface meets the border of the clip domain,
 /// `feature_curves`, and the parabolic curves, with their crossings and their ends on the border, if they are asked
 /// for. Where features are nearer to each other than the radius, or meet in sharp corners, edges are shorter, and
 /// angles at the corners smaller. Features nearer to each other than a fiftieth of the radius may lose edges; the mesh
 /// is then not certified, and need not be manifold there. Features much smaller than the radius may be missed.
-/// Nodes of the surface, as the apex of a cone, are vertices; near other singular points the mesh ends in facets of
-/// radius/8, whatever their angles, and so it does where f ceases to be defined.
+/// Nodes of the surface, such as the apex of a cone, are vertices. Near other singular points, and where f ceases to be
+/// defined, the mesh ends in facets of radius/8, whatever their angles.
 ///
 /// Named parameters: `clip` (the box of the function), `facet_sizing` (UNIFORM), `feature_curves` (none),
 /// `parabolic_features` (no).
-/// Deterministic; one thread. Time: for 20,000 triangles about 0.2 seconds and 10 to 40 evaluations per triangle.
+/// The result is the same on every run. One thread computes it: 20,000 triangles take about 0.2 seconds, and 10 to 40
+/// evaluations per triangle.
 template <ImplicitFunctionTraits_3 Traits, class NamedParameters = internal::No_parameters>
 Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, const Delaunay_criteria& criteria = {},
                                                        const NamedParameters& parameters = {}) {

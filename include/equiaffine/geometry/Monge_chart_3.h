@@ -73,9 +73,9 @@ struct Monge_chart_3 {
                abs(c[3]) > xz * x + yz * y + two * abs(c[9]) * z;
   }
 
-  /// Makes `is_curved` false where errors of up to `error` in the second derivatives of the jet could have made d.
-  /// The errors that this gives the coefficients of Q are those of a frame with a = b = 0, times 1 + |a| for each u and
-  /// 1 + |b| for each v.
+  /// Makes `is_curved` false where errors of up to `error` in the second derivatives of the jet could have made d. The
+  /// resulting errors of the coefficients of Q are those in a frame with a = b = 0, times 1 + |a| for each u and 1 +
+  /// |b| for each v.
   void take_d_within_error_for_zero(const Jet_3<FT>& jet, const FT& error) {
     using internal::select;
     using std::abs;
@@ -92,7 +92,7 @@ struct Monge_chart_3 {
   FT h_uv() const { return FT(-2) * quadratic[1]; }
   FT h_vv() const { return FT(-2) * quadratic[2]; }
 
-  /// det of the affine fundamental form.
+  /// The determinant of the affine fundamental form.
   FT d() const { return FT(4) * determinant; }
 
   /// A vector or covector given in the permuted coordinates, in the original ones.

@@ -9,14 +9,14 @@
 
 namespace equiaffine {
 
-/// What is known about the local structure at a point of a level set. The numbers are those of the
-/// attribute `status` in files.
+/// Says which parts of the local structure exist at a point of a level set. Files store these numbers as the attribute
+/// `status`.
 enum class Point_status : std::uint8_t {
   REGULAR,    ///< every quantity exists
   PARABOLIC,  ///< the affine metric is degenerate (d = 0): only the Euclidean quantities exist
   SINGULAR,   ///< the gradient vanishes, f is not four times differentiable, or numbers overflow: nothing exists
   OUTSIDE,    ///< outside the domain of f, of the support of its spline, or of the chosen `Estimator`: nothing exists
-  UNCONVERGED ///< the point could not be moved onto the surface: quantities of the level set through it
+  UNCONVERGED ///< the point could not be moved onto the surface: quantities are those of the level set through it
 };
 
 inline constexpr std::size_t number_of_point_statuses = 5;

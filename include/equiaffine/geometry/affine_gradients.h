@@ -9,15 +9,16 @@
 
 namespace equiaffine {
 
-/// The norms of the gradients of K, H and J on the surface in the affine metric, in this order: with K, H and J
-/// themselves the signature of the surface at p, which affine maps of determinant 1 keep. A norm is the root of the
-/// absolute value of |K_e|^(1/4) (a^2 / k1 + b^2 / k2), a and b the derivatives along the principal directions; on
-/// hyperbolic surfaces, where the metric is indefinite, it also vanishes for gradients along an asymptotic direction.
-/// Units: length^(-15/4), length^(-9/4), length^(-9/4).
+/// Computes the norms of the gradients of K, H and J on the surface in the affine metric, in this order. Together with
+/// K, H and J they are the signature of the surface at p, which affine maps of determinant 1 keep. A norm is the root
+/// of the absolute value of |K_e|^(1/4) (a^2 / k1 + b^2 / k2), where a and b are the derivatives along the principal
+/// directions. On hyperbolic surfaces the metric is indefinite, and the norm is 0 for gradients along an asymptotic
+/// direction, too. Units: length^(-15/4), length^(-9/4), length^(-9/4).
 ///
-/// These are derivatives of order 5, while expansions have order 4: differences of invariants of neighboring level
-/// sets, with some 9 digits where the invariants change slowly over a tenth of the smaller radius of curvature. NaN
-/// where p is not regular, and where no neighborhood of it is, as on the border of a volume. Up to 40 expansions.
+/// These are derivatives of order 5, while expansions have order 4. So they are computed from differences of invariants
+/// of neighboring level sets, with some 9 digits where the invariants change slowly over a tenth of the smaller radius
+/// of curvature. They are NaN if p is not regular, or if no neighborhood of p is, as on the border of a volume. Takes
+/// up to 40 expansions.
 template <ImplicitFunctionTraits_3 Traits>
 std::array<typename Traits::FT, 3> affine_gradient_norms(const Traits& traits, const typename Traits::Point_3& p) {
   return internal::affine_gradient_norms_at(traits, p);

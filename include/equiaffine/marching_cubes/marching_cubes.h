@@ -16,22 +16,23 @@
 
 namespace equiaffine {
 
-/// The zero set of a function, by Marching Cubes (Lorensen, Cline 1987): a triangle mesh with a vertex on every edge of
-/// a node grid at whose ends the function has different signs. A value of zero counts as positive. The grid is the
-/// lattice of a model of LatticeImplicitFunctionTraits_3, else `sampling_lattice(traits, number_of_nodes)`.
+/// Meshes the zero set of a function by Marching Cubes (Lorensen, Cline 1987). The result is a triangle mesh with a
+/// vertex on every edge of a node grid at whose ends the function has different signs. A value of zero counts as
+/// positive. The grid is the lattice of a model of LatticeImplicitFunctionTraits_3, else
+/// `sampling_lattice(traits, number_of_nodes)`.
 ///
 /// The mesh is an oriented 2-manifold for every input, with boundary where the surface leaves the grid or meets a node
-/// without a value (NaN); parts that touch there have vertices of their own. Normals point along the gradient. Its
-/// topology is exactly that of the zero set of the values' trilinear interpolant, zeros taken as positive; cells whose
-/// signs leave it open have vertices inside where a tunnel or a curved disc needs them. Projection does not change it,
-/// and undoes moves that turn a triangle over or leave it without area. Where the surface passes through nodes,
-/// triangles without area are contracted or opened and components without area dropped. All this is counted in
-/// `repairs`. Nothing is found where the surface crosses no grid edge.
+/// without a value (NaN); parts that touch there have vertices of their own. Normals point along the gradient. The
+/// topology is exactly that of the zero set of the trilinear interpolant of the values, where zero counts as positive.
+/// To have it, ambiguous cells get vertices inside for a tunnel or a curved disc. Projection does not change the
+/// topology: a move that would turn a triangle over or leave it without area is undone. Where the surface passes
+/// through nodes, triangles without area are contracted or opened, and components without area are dropped. `repairs`
+/// counts all this. Parts of the surface that cross no edge of the grid are not found.
 ///
 /// Named parameters: `number_of_nodes` (64), `vertex_position` (PROJECTED), `skip_empty_space` (not given).
-/// The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Time: one evaluation per node,
-/// of those near the surface when empty space is skipped; 4 more per vertex, and 4 to 6 with gradient. Memory: output,
-/// one bit per node, and what some planes of nodes need.
+/// The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Takes one evaluation per node
+/// (if empty space is skipped, per node near the surface), and per vertex 4 more and 4 to 6 with gradient. The memory
+/// in use is the output, one bit per node, and a buffer for some planes of nodes.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           class NamedParameters = internal::No_parameters>
 Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const NamedParameters& parameters = {}) {

@@ -15,10 +15,10 @@
 
 namespace equiaffine {
 
-/// Marching Cubes on a plain array: the surface where `values`, float or double with i fastest, pass `isovalue`. Node
-/// (i, j, k) lies at origin + (i, j, k) * spacing. Topology and conventions of values at the isovalue and of NaN are
-/// those of `marching_cubes`; vertices are the linear intersections.
-/// \pre as many values as nodes, at least two nodes along each axis, positive spacing
+/// Runs Marching Cubes on a plain array: meshes the surface where `values`, float or double with i fastest, pass
+/// `isovalue`. Node (i, j, k) lies at origin + (i, j, k) * spacing. The topology, and the meaning of NaN and of values
+/// equal to the isovalue, are those of `marching_cubes`. Vertices lie where linear interpolation along edges puts them.
+/// \pre there are as many values as nodes, at least two nodes along each axis, and the spacing is positive
 template <class ConcurrencyTag = CGAL::Sequential_tag, class FT>
 Array_isosurface_3<FT> marching_cubes_of_array(std::span<const FT> values, const std::array<std::size_t, 3>& size,
                                                FT isovalue, const std::array<FT, 3>& origin = {0, 0, 0},

@@ -14,9 +14,9 @@
 
 namespace equiaffine {
 
-/// The distance to a closed triangle mesh at every node of a lattice: negative inside, positive outside, 0 on the
-/// surface. A point is inside if an odd number of the mesh's components encloses it, whatever their orientations, so
-/// that a shell within a shell is a cavity.
+/// Computes the distance to a closed triangle mesh at every node of a lattice. It is negative inside, positive outside,
+/// and 0 on the surface. A point is inside if an odd number of the mesh's components encloses it, whatever their
+/// orientations, so that a shell within a shell is a cavity.
 ///
 /// Signs are exact for the given coordinates, distances correct to a few units in the last place of the coordinates.
 /// The result does not depend on the number of threads. `on_progress(n)` is called after every n nodes, from any
@@ -36,7 +36,7 @@ Volume_3<Kernel> signed_distance_volume(const TriangleMesh& mesh, const Lattice_
   return {lattice, internal::signed_distances<ConcurrencyTag>(sampler, lattice, on_progress, band)};
 }
 
-/// The same without a report of the progress and with a value at every node.
+/// Does the same without reports of progress, and with a value at every node.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class Kernel>
 Volume_3<Kernel> signed_distance_volume(const TriangleMesh& mesh, const Lattice_3<Kernel>& lattice) {
   return signed_distance_volume<ConcurrencyTag>(mesh, lattice, [](std::size_t) {});

@@ -15,13 +15,14 @@
 
 namespace equiaffine {
 
-/// A volume with less noise: along each axis every sample is replaced by the value of the polynomial of degree 7 that
-/// fits its neighbors by least squares, weighted by a bell of standard deviation `scale` >= 0, in steps of the lattice,
-/// that ends at 3.3 times this (Savitzky, Golay 1964 with other weights). What is smooth changes by O(h^8), since
-/// polynomials of degree 7 are kept, at the border too; a scale of 1 or less changes nothing. White noise in fourth
-/// derivatives falls as scale^-5.5. A node whose window has a sample that is not finite gets one that is not finite.
+/// Returns a volume with less noise: along each axis every sample is replaced by the value of the polynomial of degree
+/// 7 that fits its neighbors by least squares. Neighbors are weighted by a bell with the standard deviation `scale` >=
+/// 0, in steps of the lattice, that ends at 3.3 times this (Savitzky, Golay 1964 with other weights). Smooth functions
+/// change by O(h^8), since polynomials of degree 7 do not change, at the border too. A scale of 1 or less changes
+/// nothing. White noise in fourth derivatives falls as scale^-5.5. A node whose window has a sample that is not finite
+/// gets one that is not finite.
 ///
-/// Time: 20 scale operations per node. The result does not depend on the number of threads.
+/// Takes 20 scale operations per node. The result does not depend on the number of threads.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_3<Kernel> smooth_volume(Volume_3<Kernel> volume, const typename Kernel::FT& scale) {
   using FT = typename Kernel::FT;

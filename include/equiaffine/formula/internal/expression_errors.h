@@ -43,7 +43,7 @@ inline std::string character(char c) {
                        digits.substr(code / 16, 1), digits.substr(code % 16, 1)});
 }
 
-/// For instance "2 or more arguments".
+/// The number of arguments of a function in words, for instance "2 or more arguments".
 inline std::string arity(const Function& f) {
   const bool is_open = f.maximal_arguments == any_number, is_single = f.maximal_arguments == 1;
   return concatenated(

@@ -30,7 +30,8 @@
 
 namespace equiaffine::internal {
 
-/// The kernel of the distances: these are rounded in any kernel of floating-point numbers, and faster in this one.
+/// The kernel in which distances are computed. They are rounded in every kernel of floating-point numbers, and this one
+/// is faster.
 using Distance_kernel = CGAL::Simple_cartesian<double>;
 
 #if CGAL_VERSION_NR >= 1060000000
@@ -49,7 +50,7 @@ public:
   explicit Signed_distance_sampler(const Distance_mesh& mesh)
       : triangles_(copy_triangles(mesh)), distance_tree_(triangles_.begin(), triangles_.end()),
         side_tree_(faces(mesh).first, faces(mesh).second, mesh), side_((side_tree_.build(), side_tree_)) {
-    distance_tree_.build(); // else the first query builds it, and several threads may be the first
+    distance_tree_.build(); // otherwise the first query builds it, and several threads may be first
     distance_tree_.accelerate_distance_queries();
   }
 

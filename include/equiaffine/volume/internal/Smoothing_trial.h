@@ -80,7 +80,7 @@ public:
 
 private:
   Spline_probe<Kernel> probe_;
-  std::vector<std::array<double, 4>> measured_; ///< by the probe, in each cell
+  std::vector<std::array<double, 4>> measured_; ///< the numbers of the probe in each cell
 };
 
 /// The scale with the least risk at a site; `rule` says how samples become a spline without smoothing. Scales are tried

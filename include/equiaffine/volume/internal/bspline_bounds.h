@@ -63,8 +63,8 @@ public:
     });
   }
 
-  /// Contains the values and the first derivatives along the axes. If the box has points without a value, the bounds of
-  /// the derivatives are the whole line.
+  /// Returns intervals that contain the values and the first derivatives along the axes. If the box has points without
+  /// a value, the bounds of the derivatives are the whole line.
   std::array<Interval, 4> first_order(const FT* c, const Box& box) const {
     std::array<Interval, 4> bounds;
     bounds.fill(Interval::whole());
@@ -93,7 +93,7 @@ private:
 
   static constexpr std::size_t most_cells = Bspline_on_box<5, FT>::most_cells;
 
-  /// How many coefficients count somewhere in the box, along each axis.
+  /// The number of coefficients along each axis that count somewhere in the box.
   Size count_of(const Box& box) const {
     Size count = box.cells;
     for (std::size_t& n : count) n += std::size_t(degree_);

@@ -36,8 +36,8 @@ struct Spline_pack {
   static constexpr int round_up(int n) { return (n + lanes - 1) / lanes * lanes; }
 };
 
-/// How many numbers beyond the last coefficient an evaluation may read, whose values have no influence: the largest
-/// pack of any target.
+/// The number of entries beyond the last coefficient that an evaluation may read, whose values have no influence. It is
+/// the size of the largest pack of any target.
 inline constexpr std::size_t overread = 16;
 
 /// Calls f(0), ..., f(N - 1) with constant arguments, so that arrays indexed by them live in registers.

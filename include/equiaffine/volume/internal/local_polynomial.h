@@ -71,7 +71,7 @@ public:
     for (std::size_t i = 0; i < count; ++i) {
       FT* const row = result + i * stride;
       std::fill_n(row, width, FT(0));
-      const bool is_near_end = i + radius_ >= count; // then samples are taken in reverse
+      const bool is_near_end = i + radius_ >= count; // if true, samples are taken in reverse
       const std::vector<FT>& weights = weights_[std::min({i, count - 1 - i, radius_})];
       const std::size_t first = is_near_end ? count - 1 : i < radius_ ? 0 : i - radius_;
       for (std::size_t j = 0; j < weights.size(); ++j) {
