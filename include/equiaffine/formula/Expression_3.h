@@ -39,17 +39,18 @@ namespace equiaffine {
 ///
 /// Numbers, constants and what is computed from them alone are rounded to double for every number type, so that all
 /// types evaluate the same function. For double, operators and functions are those of the language and of <cmath>,
-/// except that an integer exponent (up to 2^30 in magnitude) means repeated multiplication and `^0.5` means sqrt, and
-/// that min and max are NaN when an argument is. Domain errors (log(-1), 0/0) give what T gives: NaN for double.
+/// except that exp, sin and cos are computed by number/elementary_functions.h, that an integer exponent (up to 2^30 in
+/// magnitude) means repeated multiplication and `^0.5` means sqrt, and that min and max are NaN when an argument is.
+/// Domain errors (log(-1), 0/0) give what T gives: NaN for double.
 ///
 /// A number type T is regular, constructible from double and has + - * / and unary -; the functions above are found by
 /// argument-dependent lookup. Those with substitutes: hypot, min and max (`<` and `!=` decide), pow (exp(b * log(a)),
 /// and products for integer exponents). Used where they exist: square(T), pow(T, double), pow(T, int), and the four
 /// operators with a double on either side.
 ///
-/// Equal subexpressions are evaluated once. Evaluation costs one instruction per remaining operation, and no memory on
-/// the heap when T is trivially default constructible and at most 16 intermediate results are alive at once. Calls from
-/// several threads are safe.
+/// Equal subexpressions are evaluated once. Evaluation costs one instruction per remaining operation. It takes no
+/// memory on the heap if T is trivially default constructible and 32 slots for intermediate results are enough. Calls
+/// from several threads are safe.
 class Expression_3 {
 public:
   /// Parses n characters in O(n log n). Throws Input_error, with the column in what() and a caret under it in
@@ -68,8 +69,8 @@ public:
     return *slots.result();
   }
 
-  /// out[i] = value at (x[i], y[i], z[i]), bit for bit that of the single call. The spans have equal sizes; `out` may
-  /// be one of the others but must not overlap them otherwise.
+  /// Sets out[i] to the value at (x[i], y[i], z[i]), bit for bit that of the single call. The spans have equal sizes;
+  /// `out` may be one of the others but must not overlap them otherwise.
   template <class T>
   void operator()(std::span<const T> x, std::span<const T> y, std::span<const T> z, std::span<T> out) const {
     CGAL_precondition(x.size() == out.size() && y.size() == out.size() && z.size() == out.size());
@@ -89,7 +90,8 @@ public:
     return jet;
   }
 
-  /// out[i] = Taylor polynomial at (x[i], y[i], z[i]), bit for bit that of the single call. The spans have equal sizes.
+  /// Sets out[i] to the Taylor polynomial at (x[i], y[i], z[i]), bit for bit that of the single call. The spans have
+  /// equal sizes.
   template <internal::expression::Ordered T>
   void taylor(std::span<const T> x, std::span<const T> y, std::span<const T> z, std::span<Jet_3<T>> out) const {
     CGAL_precondition(x.size() == out.size() && y.size() == out.size() && z.size() == out.size());
