@@ -76,8 +76,9 @@ struct Cubic_parts {
   Binary_form<FT, 3> t;
 
   Cubic_parts(const Monge_chart_3<FT>& chart, const Inverse_form<FT>& inverse) {
-    const auto &p = chart.quadratic, trace = inverse.trace(chart.cubic);
+    const auto& p = chart.quadratic;
     const auto& c = chart.cubic;
+    const auto trace = inverse.trace(c);
     v = {trace[0] * FT(0.25), trace[1] * FT(0.25)};
     v_thrice = {v[0] * FT(3), v[1] * FT(3)};
     const FT p1_twice = p[1] + p[1];
