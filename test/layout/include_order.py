@@ -9,7 +9,7 @@ import re
 import sys
 
 LIBRARY = "include/equiaffine"
-INCLUDE = re.compile(r'^ *# *include +(?:<equiaffine/([^>]+)>|"([^"]+)")', re.MULTILINE)
+INCLUDE = re.compile(r'^ *# *include +(?:[<"]equiaffine/([^>"]+)[>"]|"([^"]+)")', re.MULTILINE)
 
 
 def read_rooms(root):

@@ -70,6 +70,10 @@ class IncludeOrder(unittest.TestCase):
         self.assert_fault("src/main.cpp includes low/internal/b.h",
                           src__main_cpp="#include <equiaffine/low/internal/b.h>\n")
 
+    def test_the_program_reaching_into_a_room_with_quotes(self):
+        self.assert_fault("that header is its room's own",
+                          src__above__task_h='#include "equiaffine/low/internal/b.h"\n')
+
     def test_the_program_including_upwards(self):
         self.assert_fault("the room above is above below", src__below__file_h='#include "above/task.h"\n')
 

@@ -1,8 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// rounding(traits, p): the one place where a model is asked how large errors of its second derivatives can be.
-#ifndef EQUIAFFINE_FUNCTION_ROUNDING_H
-#define EQUIAFFINE_FUNCTION_ROUNDING_H
+#ifndef EQUIAFFINE_FUNCTION_INTERNAL_ROUNDING_H
+#define EQUIAFFINE_FUNCTION_INTERNAL_ROUNDING_H
 
-#include <equiaffine/function/internal/rounding.h> // IWYU pragma: export
+#include <equiaffine/function/concepts.h>
+
+namespace equiaffine::internal {
+
+/// A model that tells how large the errors of its second derivatives are, because these are larger than roundings of
+/// the derivatives, as for a spline.
+template <class Traits>
+concept Has_rounding = requires(const Traits& traits, const typename Traits::Point_3& p) {
+  traits.rounding(p);
+};
+
+/// The greatest error of second derivatives at p, apart from some roundings of the derivatives: what the optional
+/// member `rounding(p)` of the model returns, or 0 if the model has no such member. A Gaussian curvature that such
+/// errors could produce counts as zero.
+template <ImplicitFunctionTraits_3 Traits>
+typename Traits::FT rounding(const Traits& traits, const typename Traits::Point_3& p) {
+  if constexpr (Has_rounding<Traits>) return traits.rounding(p);
+  else return typename Traits::FT(0);
+}
+
+} // namespace equiaffine::internal
 
 #endif

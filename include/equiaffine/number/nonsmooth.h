@@ -1,9 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Defines derivatives where functions have kinks and jumps: branch_or_kink and factor_for_jump, both in
-// equiaffine::internal.
-#ifndef EQUIAFFINE_NUMBER_NONSMOOTH_H
-#define EQUIAFFINE_NUMBER_NONSMOOTH_H
+// Derivatives where functions have kinks and jumps. Argument-dependent lookup finds the overloads of
+// Interval_functions.h, whose ranges may contain kinks and jumps, and those of Pack.h.
+#ifndef EQUIAFFINE_NUMBER_INTERNAL_NONSMOOTH_H
+#define EQUIAFFINE_NUMBER_INTERNAL_NONSMOOTH_H
 
-#include <equiaffine/number/internal/nonsmooth.h> // IWYU pragma: export
+#include <limits>
+
+namespace equiaffine::internal {
+
+/// The coefficient of a monomial of the given degree in the jet of max(u, v), where the jets of u and v have the
+/// coefficients `a` and `b`. At the kink, where u = v, the coefficient of degree 0 is right and the others are NaN.
+template <class T>
+T branch_or_kink(const T& u, const T& v, const T& a, const T& b, int degree) {
+  return u > v ? a : v > u ? b : degree == 0 ? (u == v ? a : T(u + v)) : std::numeric_limits<T>::quiet_NaN();
+}
+
+/// The factor by which the derivatives of atan2(y, x) are multiplied because of its jump along the negative x-axis. For
+/// numbers it is 1, since a point lies on one side of the jump.
+template <class T>
+T factor_for_jump(const T&, const T&) {
+  return T(1);
+}
+
+} // namespace equiaffine::internal
 
 #endif
