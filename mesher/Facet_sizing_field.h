@@ -4,7 +4,7 @@
 
 #include <equiaffine/delaunay/Any_function_3.h>
 #include <equiaffine/delaunay/Facet_sizing.h>
-#include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/geometry/local_structure.h>
 #include <equiaffine/surface/Clip_domain_3.h>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include <equiaffine/delaunay/Any_function_3.h>
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
-#include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/geometry/local_structure.h>
 
 #include <algorithm>
 #include <vector>

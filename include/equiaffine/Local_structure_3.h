@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/geometry/Local_structure_3.h> // IWYU pragma: export
+#include <equiaffine/geometry/local_structure.h> // IWYU pragma: export

@@ -24,7 +24,7 @@ void add_error_columns(const Source& source, const Source_options& options, std:
                                         to_source.m(1, 1), to_source.m(1, 2), to_source.m(2, 0), to_source.m(2, 1),
                                         to_source.m(2, 2)));
   }
-  internal::parallel_for<CGAL::Parallel_if_available_tag>(
+  parallel_for<CGAL::Parallel_if_available_tag>(
       0, points.size(),
       [&](std::size_t i) {
         const auto error = (*source.errors)(to_source(points[i]));

@@ -503,7 +503,7 @@ TEST(Delaunay_surface, a_cap_cut_off_by_the_border_is_found) {
   EXPECT_EQ(topology(surface).components, 1u);
 }
 
-/// Where the surface meets the line through the circumcentre of a triangle, orthogonal to it: the centre of its surface
+/// Where the surface meets the line through the circumcenter of a triangle, orthogonal to it: the center of its surface
 /// Delaunay ball.
 template <class Traits>
 Point_3 center_of_ball(const Traits& traits, const Point_3& p, const Point_3& q, const Point_3& r) {

@@ -47,7 +47,7 @@ Traits sampled(const Function& f, int degree, Spline_scheme scheme, const Treatm
 
 template <class Function>
 Point_status status(const Function& function, const Point_3& p) {
-  return local_structure(function.taylor(p), {p.x(), p.y(), p.z()}, internal::rounding(function, p)).status;
+  return local_structure(function.taylor(p), {p.x(), p.y(), p.z()}, equiaffine::rounding(function, p)).status;
 }
 
 std::vector<Point_3> points_of(const Lattice_3<Kernel>& lattice) {
@@ -122,7 +122,7 @@ TEST(Rounding, a_function_that_says_nothing_has_none) {
     using Traits::Traits;
     void rounding() const = delete;
   };
-  static_assert(internal::Has_rounding<Traits> && internal::Has_rounding<Level_set_traits_3<Traits>>);
-  static_assert(internal::Has_rounding<Transformed_function_traits_3<Traits>>);
-  static_assert(!internal::Has_rounding<Silent>);
+  static_assert(Has_rounding<Traits> && Has_rounding<Level_set_traits_3<Traits>>);
+  static_assert(Has_rounding<Transformed_function_traits_3<Traits>>);
+  static_assert(!Has_rounding<Silent>);
 }

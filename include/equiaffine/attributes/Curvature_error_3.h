@@ -3,7 +3,7 @@
 #define EQUIAFFINE_ATTRIBUTES_CURVATURE_ERROR_3_H
 
 #include <equiaffine/function/Sampled_function_traits_3.h>
-#include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/geometry/local_structure.h>
 #include <equiaffine/volume/Spline_disturbances_3.h>
 #include <equiaffine/volume/Spline_function_3.h>
 

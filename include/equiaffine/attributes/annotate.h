@@ -42,7 +42,7 @@ void annotate(CGAL::Surface_mesh<typename Traits::Point_3>& mesh, const Traits& 
   using Mesh = CGAL::Surface_mesh<typename Traits::Point_3>;
   using Vertex_index = typename Mesh::Vertex_index;
   internal::Property_maps<Mesh> maps(mesh);
-  internal::parallel_for<ConcurrencyTag>(
+  parallel_for<ConcurrencyTag>(
       0, mesh.num_vertices() + mesh.number_of_removed_vertices(),
       [&](std::size_t i) {
         const Vertex_index v{static_cast<typename Vertex_index::size_type>(i)};

@@ -5,6 +5,7 @@
 #define EQUIAFFINE_ATTRIBUTES_ATTRIBUTE_TABLE_H
 
 #include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/geometry/euclidean_structure.h>
 
 #include <array>
 #include <cstddef>

@@ -26,7 +26,7 @@ Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, 
                                                           const Parameters& parameters = {}) {
   internal::check_parameters<Parameters, internal::Estimator_tag>();
   auto structure = internal::structure_by<Parameters, typename Traits::FT>(
-      parameters, traits.taylor(p), {p.x(), p.y(), p.z()}, internal::rounding(traits, p));
+      parameters, traits.taylor(p), {p.x(), p.y(), p.z()}, equiaffine::rounding(traits, p));
   structure.status = status_after_sampling(structure.status, sampled_status);
   return structure;
 }

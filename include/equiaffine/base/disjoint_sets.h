@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_BASE_INTERNAL_DISJOINT_SETS_H
-#define EQUIAFFINE_BASE_INTERNAL_DISJOINT_SETS_H
+#ifndef EQUIAFFINE_BASE_DISJOINT_SETS_H
+#define EQUIAFFINE_BASE_DISJOINT_SETS_H
 
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <vector>
 
-namespace equiaffine::internal {
+namespace equiaffine {
 
 /// A partition of the numbers below n into sets that can be united, stored as a forest with path halving (Tarjan, van
 /// Leeuwen: Worst-case analysis of set union algorithms, 1984).
@@ -34,6 +34,6 @@ private:
   std::vector<Index> parent_;
 };
 
-} // namespace equiaffine::internal
+} // namespace equiaffine
 
 #endif

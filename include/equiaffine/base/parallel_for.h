@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_BASE_INTERNAL_PARALLEL_FOR_H
-#define EQUIAFFINE_BASE_INTERNAL_PARALLEL_FOR_H
+#ifndef EQUIAFFINE_BASE_PARALLEL_FOR_H
+#define EQUIAFFINE_BASE_PARALLEL_FOR_H
 
 #include <CGAL/tags.h>
 
@@ -12,7 +12,7 @@
 #include <tbb/parallel_for.h>
 #endif
 
-namespace equiaffine::internal {
+namespace equiaffine {
 
 /// Calls f(i) for every i in [begin, end), in any order: on the threads of TBB for CGAL::Parallel_tag when CGAL is used
 /// with TBB, else one after the other. Ranges of `grain` calls or fewer are not split between threads.
@@ -30,6 +30,6 @@ void parallel_for(std::size_t begin, std::size_t end, F f, [[maybe_unused]] std:
   for (std::size_t i = begin; i < end; ++i) f(i);
 }
 
-} // namespace equiaffine::internal
+} // namespace equiaffine
 
 #endif

@@ -56,7 +56,7 @@ public:
   second_order_bounds(const CGAL::Bbox_3& box) const requires SecondOrderBoundedImplicitFunctionTraits_3<Base> {
     return shifted_bounds(base_.second_order_bounds(box));
   }
-  FT rounding(const Point_3& p) const requires internal::Has_rounding<Base> { return base_.rounding(p); }
+  FT rounding(const Point_3& p) const requires Has_rounding<Base> { return base_.rounding(p); }
   CGAL::Bbox_3 bbox() const { return base_.bbox(); }
   Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
     return sampling_lattice(base_, size);

@@ -76,7 +76,7 @@ public:
   /// The rounding of the base times the square of the greatest sum of magnitudes in a column of A^-1: by the chain rule
   /// a second derivative is a sum of second derivatives of the base, each times one entry of A^-1 from the column of
   /// either variable.
-  FT rounding(const Point_3& p) const requires internal::Has_rounding<Base> {
+  FT rounding(const Point_3& p) const requires Has_rounding<Base> {
     FT greatest_sum(0);
     for (int column = 0; column < 3; ++column) {
       using std::abs;

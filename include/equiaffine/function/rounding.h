@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_FUNCTION_INTERNAL_ROUNDING_H
-#define EQUIAFFINE_FUNCTION_INTERNAL_ROUNDING_H
+#ifndef EQUIAFFINE_FUNCTION_ROUNDING_H
+#define EQUIAFFINE_FUNCTION_ROUNDING_H
 
 #include <equiaffine/function/concepts.h>
 
-namespace equiaffine::internal {
+namespace equiaffine {
 
 /// A model that tells how large the errors of its second derivatives are, because these are larger than roundings of
 /// the derivatives, as for a spline.
@@ -22,6 +22,6 @@ typename Traits::FT rounding(const Traits& traits, const typename Traits::Point_
   else return typename Traits::FT(0);
 }
 
-} // namespace equiaffine::internal
+} // namespace equiaffine
 
 #endif

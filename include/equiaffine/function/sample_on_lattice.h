@@ -23,7 +23,7 @@ Volume_3<Kernel_of<Traits>> sample_on_lattice(const Traits& traits, const Lattic
   const Batch_function_traits_3<Traits> batch(traits);
   const auto [nx, ny, nz] = lattice.size();
   Volume_3<Kernel_of<Traits>> volume{lattice, std::vector<FT>(lattice.number_of_nodes())};
-  internal::parallel_for<ConcurrencyTag>(0, ny * nz, [&, nx = nx, ny = ny](std::size_t row) {
+  parallel_for<ConcurrencyTag>(0, ny * nz, [&, nx = nx, ny = ny](std::size_t row) {
     std::vector<typename Traits::Point_3> points;
     points.reserve(nx);
     for (std::size_t i = 0; i < nx; ++i)

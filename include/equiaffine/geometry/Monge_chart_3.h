@@ -35,7 +35,7 @@ namespace equiaffine {
 /// FT is a number or a pack of numbers; nothing here branches on values but the choice of the pivot of a number.
 template <class FT>
 struct Monge_chart_3 {
-  using Mask = internal::Mask_of<FT>;
+  using Mask = Mask_of<FT>;
 
   Mask pivot_is_x, pivot_is_y; ///< which axis plays z; the next two, cyclically, play x and y
   Mask is_steep;               ///< the gradient counts as not zero, see `take_gradient_within_rounding_for_zero`
@@ -77,7 +77,6 @@ struct Monge_chart_3 {
   /// resulting errors of the coefficients of Q are those in a frame with a = b = 0, times 1 + |a| for each u and 1 +
   /// |b| for each v.
   void take_d_within_error_for_zero(const Jet_3<FT>& jet, const FT& error) {
-    using internal::select;
     using std::abs;
     const auto& c = jet.coefficients();
     const FT pivot = select(pivot_is_x, c[1], select(pivot_is_y, c[2], c[3]));
@@ -97,7 +96,6 @@ struct Monge_chart_3 {
 
   /// A vector or covector given in the permuted coordinates, in the original ones.
   std::array<FT, 3> unpermuted(const FT& x, const FT& y, const FT& z) const {
-    using internal::select;
     return {select(pivot_is_x, z, select(pivot_is_y, y, x)), select(pivot_is_x, x, select(pivot_is_y, z, y)),
             select(pivot_is_x, y, select(pivot_is_y, x, z))};
   }
@@ -116,13 +114,11 @@ private:
   /// The coefficient that plays x^I y^J z^K, when it is known which axis plays z, or (Pivot == 3) lane by lane.
   template <int Pivot, int I, int J, int K>
   [[gnu::always_inline]] FT f(const Jet_3<FT>& jet) const {
-    using internal::select;
     if constexpr (Pivot < 3) return jet.template at<played_by(Pivot, I, J, K)>();
     else return select(pivot_is_x, f<0, I, J, K>(jet), select(pivot_is_y, f<1, I, J, K>(jet), f<2, I, J, K>(jet)));
   }
 
   void expand_around_pivot(const Jet_3<FT>& jet, const std::array<FT, 3>& reciprocals) {
-    using internal::select;
     const FT r = select(pivot_is_x, reciprocals[0], select(pivot_is_y, reciprocals[1], reciprocals[2]));
     if constexpr (!std::is_same_v<Mask, bool>) expand<3>(jet, r);
     else if (pivot_is_x) expand<0>(jet, r);
@@ -136,7 +132,6 @@ private:
   /// of 4.
   template <int P>
   void expand(const Jet_3<FT>& jet, const FT& r) {
-    using internal::select;
     sign = select(r > FT(0), FT(1), FT(-1));
     a = f<P, 1, 0, 0>(jet) * r;
     b = f<P, 0, 1, 0>(jet) * r;
@@ -171,7 +166,7 @@ private:
   /// Sets C and D. The form c_n is the coefficient of z^(3 - n) before the division.
   template <int P>
   [[gnu::always_inline]] void expand_third_order(const Jet_3<FT>& jet, const FT& r, const FT& r2) {
-    const FT r3 = r * internal::fraction<1, 3, FT>();
+    const FT r3 = r * fraction<1, 3, FT>();
     const Form<0> c0 = {f<P, 0, 0, 3>(jet)};
     Form<1> c1 = {f<P, 1, 0, 2>(jet), f<P, 0, 1, 2>(jet)};
     Form<2> c2 = {f<P, 2, 0, 1>(jet), f<P, 1, 1, 1>(jet), f<P, 0, 2, 1>(jet)};
@@ -190,7 +185,7 @@ private:
   /// Sets R. The form s_n is the coefficient of z^(4 - n) before the division.
   template <int P>
   [[gnu::always_inline]] void expand_fourth_order(const Jet_3<FT>& jet, const FT& r) {
-    const FT r4 = r * FT(0.25), r6 = r * internal::fraction<1, 6, FT>();
+    const FT r4 = r * FT(0.25), r6 = r * fraction<1, 6, FT>();
     const Form<0> s0 = {f<P, 0, 0, 4>(jet)};
     Form<1> s1 = {f<P, 1, 0, 3>(jet), f<P, 0, 1, 3>(jet)};
     Form<2> s2 = {f<P, 2, 0, 2>(jet), f<P, 1, 1, 2>(jet), f<P, 0, 2, 2>(jet)};

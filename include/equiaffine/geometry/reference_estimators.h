@@ -3,9 +3,9 @@
 #define EQUIAFFINE_GEOMETRY_REFERENCE_ESTIMATORS_H
 
 #include <equiaffine/geometry/Estimator.h>
-#include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/geometry/internal/affine_estimate.h>
 #include <equiaffine/geometry/internal/estimate_by.h>
+#include <equiaffine/geometry/local_structure.h>
 
 #include <array>
 

@@ -7,7 +7,7 @@
 #include <equiaffine/number/internal/Simd_lanes.h>
 #include <equiaffine/number/internal/elementary_functions.h>
 #include <equiaffine/number/internal/natural_power.h>
-#include <equiaffine/number/internal/select.h>
+#include <equiaffine/number/select.h>
 
 #include <cmath>
 #include <cstddef>
@@ -167,7 +167,7 @@ struct Pack {
     return generate([&](std::size_t i) { return internal::natural_power(a[i], n); });
   }
 
-  /// Does in each lane what internal::branch_or_kink in nonsmooth.h does for a number.
+  /// Does in each lane what branch_or_kink in nonsmooth.h does for a number.
   friend Pack branch_or_kink(const Pack& u, const Pack& v, const Pack& a, const Pack& b, int degree) {
     const Pack at_kink = degree == 0 ? select(u == v, a, u + v) : Pack(std::numeric_limits<T>::quiet_NaN());
     return select(u > v, a, select(v > u, b, at_kink));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives where functions have kinks and jumps. Argument-dependent lookup finds the overloads of
 // Interval_functions.h, whose ranges may contain kinks and jumps, and those of Pack.h.
-#ifndef EQUIAFFINE_NUMBER_INTERNAL_NONSMOOTH_H
-#define EQUIAFFINE_NUMBER_INTERNAL_NONSMOOTH_H
+#ifndef EQUIAFFINE_NUMBER_NONSMOOTH_H
+#define EQUIAFFINE_NUMBER_NONSMOOTH_H
 
 #include <limits>
 
-namespace equiaffine::internal {
+namespace equiaffine {
 
 /// The coefficient of a monomial of the given degree in the jet of max(u, v), where the jets of u and v have the
 /// coefficients `a` and `b`. At the kink, where u = v, the coefficient of degree 0 is right and the others are NaN.
@@ -22,6 +22,6 @@ T factor_for_jump(const T&, const T&) {
   return T(1);
 }
 
-} // namespace equiaffine::internal
+} // namespace equiaffine
 
 #endif

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Choices without branches, so that one formula serves a number and a pack of numbers. Argument-dependent lookup finds
 // the overloads of Pack.h.
-#ifndef EQUIAFFINE_NUMBER_INTERNAL_SELECT_H
-#define EQUIAFFINE_NUMBER_INTERNAL_SELECT_H
+#ifndef EQUIAFFINE_NUMBER_SELECT_H
+#define EQUIAFFINE_NUMBER_SELECT_H
 
 #include <cmath>
 #include <limits>
 #include <utility>
 
-namespace equiaffine::internal {
+namespace equiaffine {
 
 /// The type of the result of comparing two numbers: bool, or one truth value per lane.
 template <class FT>
@@ -43,6 +43,6 @@ FT fraction() {
   }
 }
 
-} // namespace equiaffine::internal
+} // namespace equiaffine
 
 #endif

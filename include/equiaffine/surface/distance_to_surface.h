@@ -22,7 +22,7 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 
 typename Traits::FT max_distance_to_surface(const Traits& traits, std::span<const typename Traits::Point_3> points) {
   using FT = typename Traits::FT;
   std::vector<FT> distances(points.size());
-  internal::parallel_for<ConcurrencyTag>(
+  parallel_for<ConcurrencyTag>(
       0, points.size(), [&](std::size_t i) { distances[i] = distance_estimate(first_order(traits, points[i])); }, 256);
   FT greatest = std::numeric_limits<FT>::quiet_NaN();
   for (const FT& distance : distances)

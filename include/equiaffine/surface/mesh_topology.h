@@ -43,7 +43,7 @@ inline Mesh_topology mesh_topology(std::span<const std::array<std::uint32_t, 3>>
     });
   });
   topology.components = number_of_points;
-  internal::Disjoint_sets<std::uint32_t> connected_points(number_of_points);
+  Disjoint_sets<std::uint32_t> connected_points(number_of_points);
   for (const auto& [a, b, c] : triangles) {
     if (connected_points.unite(a, b)) --topology.components;
     if (connected_points.unite(a, c)) --topology.components;

@@ -4,7 +4,7 @@
 
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/geometry/Estimator.h>
-#include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/geometry/local_structure.h>
 #include <equiaffine/geometry/reference_estimators.h>
 
 #include <array>

@@ -62,7 +62,6 @@ concept Ordered = std::is_floating_point_v<T> || requires {
 /// Executes the instructions that choose Taylor coefficients where abs, min or max have a kink.
 template <std::size_t Block, class T>
 void execute_choice(const Instruction& instruction, const T* a, const T* b, T* result, std::size_t count) {
-  using internal::branch_or_kink;
   const auto apply = [&](auto f) { for_each_point<Block>(a, b, result, count, f); };
   const T zero(0), one(1);
   switch (instruction.opcode) {

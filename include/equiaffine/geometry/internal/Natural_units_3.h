@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_GEOMETRY_INTERNAL_NATURAL_UNITS_3_H
 #define EQUIAFFINE_GEOMETRY_INTERNAL_NATURAL_UNITS_3_H
 
-#include <equiaffine/geometry/affine_structure.h>
-#include <equiaffine/geometry/euclidean_structure.h>
+#include <equiaffine/geometry/Affine_structure_3.h>
+#include <equiaffine/geometry/Euclidean_structure_3.h>
 #include <equiaffine/number/Jet_3.h>
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 #ifndef EQUIAFFINE_GEOMETRY_INTERNAL_AFFINE_STEPS_H
 #define EQUIAFFINE_GEOMETRY_INTERNAL_AFFINE_STEPS_H
 
+#include <equiaffine/geometry/Affine_structure_3.h>
 #include <equiaffine/geometry/Monge_chart_3.h>
 #include <equiaffine/number/select.h>
 
@@ -12,12 +13,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace equiaffine {
-
-template <class FT>
-struct Affine_invariants_3;
-
-namespace internal {
+namespace equiaffine::internal {
 
 /// A form of the given degree in two variables, by its symmetric coefficients.
 template <class FT, std::size_t Degree>
@@ -210,8 +206,6 @@ FT quadric_defect(const Affine_invariants_3<FT>& s, const Monge_chart_3<FT>& cha
   return FT(1.5) * length * cubic / (q11 * q11 + FT(2) * q12 * q12 + q22 * q22);
 }
 
-} // namespace internal
-
-} // namespace equiaffine
+} // namespace equiaffine::internal
 
 #endif

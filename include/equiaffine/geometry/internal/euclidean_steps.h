@@ -3,6 +3,7 @@
 #ifndef EQUIAFFINE_GEOMETRY_INTERNAL_EUCLIDEAN_STEPS_H
 #define EQUIAFFINE_GEOMETRY_INTERNAL_EUCLIDEAN_STEPS_H
 
+#include <equiaffine/geometry/Euclidean_structure_3.h>
 #include <equiaffine/geometry/Monge_chart_3.h>
 #include <equiaffine/geometry/internal/root_of_squares.h>
 
@@ -10,12 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace equiaffine {
-
-template <class FT>
-struct Euclidean_structure_3;
-
-namespace internal {
+namespace equiaffine::internal {
 
 /// The orthonormal tangent basis t1 = e_u / sqrt(e), t2 = (e_v - f e_u) sqrt(e) / w of a chart.
 template <class FT>
@@ -113,8 +109,6 @@ FT curvedness_of(const FT& k1, const FT& k2) {
   return root_of_squares(FT(half1 + half2), FT(half1 - half2));
 }
 
-} // namespace internal
-
-} // namespace equiaffine
+} // namespace equiaffine::internal
 
 #endif

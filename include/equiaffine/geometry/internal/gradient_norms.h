@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_GEOMETRY_INTERNAL_GRADIENT_NORMS_H
 #define EQUIAFFINE_GEOMETRY_INTERNAL_GRADIENT_NORMS_H
 
-#include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/geometry/local_structure.h>
 
 #include <algorithm>
 #include <array>

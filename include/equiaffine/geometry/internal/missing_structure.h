@@ -3,8 +3,8 @@
 #ifndef EQUIAFFINE_GEOMETRY_INTERNAL_MISSING_STRUCTURE_H
 #define EQUIAFFINE_GEOMETRY_INTERNAL_MISSING_STRUCTURE_H
 
-#include <equiaffine/geometry/affine_structure.h>
-#include <equiaffine/geometry/euclidean_structure.h>
+#include <equiaffine/geometry/Affine_structure_3.h>
+#include <equiaffine/geometry/Euclidean_structure_3.h>
 #include <equiaffine/number/select.h>
 
 #include <cstddef>

@@ -3,8 +3,11 @@
 #ifndef EQUIAFFINE_GEOMETRY_INTERNAL_STRUCTURE_OF_JET_H
 #define EQUIAFFINE_GEOMETRY_INTERNAL_STRUCTURE_OF_JET_H
 
+#include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/geometry/Monge_chart_3.h>
 #include <equiaffine/geometry/Point_status.h>
+#include <equiaffine/geometry/affine_structure.h>
+#include <equiaffine/geometry/euclidean_structure.h>
 #include <equiaffine/geometry/internal/Natural_units_3.h>
 #include <equiaffine/geometry/internal/missing_structure.h>
 
@@ -13,14 +16,7 @@
 #include <limits>
 #include <optional>
 
-namespace equiaffine {
-
-template <class FT>
-struct Local_structure_3;
-template <class FT>
-struct Regular_structure_3;
-
-namespace internal {
+namespace equiaffine::internal {
 
 /// Returns the rounding if it is positive, else nothing.
 template <class FT>
@@ -78,8 +74,6 @@ Local_structure_3<FT> irregular_structure_of(const Jet_3<FT>& jet, bool is_steep
   return s;
 }
 
-} // namespace internal
-
-} // namespace equiaffine
+} // namespace equiaffine::internal
 
 #endif

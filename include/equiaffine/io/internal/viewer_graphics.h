@@ -27,7 +27,7 @@ for (let i = 0; i < mesh.size; ++i)
 if (!(radius > 0)) radius = 1;
 
 // Looks at `target` from `distance` along `back`; right, up, back are orthonormal; dragging turns around `axis`.
-// Positions are relative to the centre.
+// Positions are relative to the center.
 const camera = {
   target: [0, 0, 0], right: [1, 0, 0], up: [0, 1, 0], back: [0, 0, 1], distance: 4 * radius, axis: unit(facts.up),
 };

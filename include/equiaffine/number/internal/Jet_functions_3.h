@@ -6,7 +6,7 @@
 #include <equiaffine/number/internal/elementary_functions.h>
 #include <equiaffine/number/internal/jet.h>
 #include <equiaffine/number/internal/natural_power.h>
-#include <equiaffine/number/internal/select.h>
+#include <equiaffine/number/select.h>
 
 #include <array>
 #include <cmath>
@@ -76,7 +76,7 @@ auto log(const Jet_3<T, Order, A>& a) {
   const T l = log(a.value());
   const T one = T(1) + T(0) * l; // NaN where l is not finite: there 1 / a_0 alone could be
   return compose(a * T(T(1) / a.value()),
-                 std::array<T, 5>{l, one, one * T(-0.5), one * internal::fraction<1, 3, T>(), one * T(-0.25)});
+                 std::array<T, 5>{l, one, one * T(-0.5), one * fraction<1, 3, T>(), one * T(-0.25)});
 }
 
 /// The root s from a = s^2, degree by degree: 2 s_0 s_n = a_n - (the products of lower parts).

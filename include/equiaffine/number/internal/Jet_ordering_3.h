@@ -4,7 +4,7 @@
 #define EQUIAFFINE_NUMBER_INTERNAL_JET_ORDERING_3_H
 
 #include <equiaffine/number/internal/jet.h>
-#include <equiaffine/number/internal/nonsmooth.h>
+#include <equiaffine/number/nonsmooth.h>
 
 #include <cmath>
 #include <cstddef>
@@ -35,7 +35,6 @@ EQUIAFFINE_JET_COMPARISON(>=)
 /// the ranges overlap: the whole line for second and higher derivatives, the hull of both for the first).
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto max(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
-  using internal::branch_or_kink;
   Jet_3<T, Order, (A | B | 1)> r;
   r.for_each_monomial([&](auto n) __attribute__((always_inline)) {
     constexpr int degree = internal::monomials[std::size_t(n())].degree();

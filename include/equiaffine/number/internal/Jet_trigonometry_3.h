@@ -7,8 +7,8 @@
 #include <equiaffine/number/internal/Jet_ordering_3.h>
 #include <equiaffine/number/internal/elementary_functions.h>
 #include <equiaffine/number/internal/jet.h>
-#include <equiaffine/number/internal/nonsmooth.h>
-#include <equiaffine/number/internal/select.h>
+#include <equiaffine/number/nonsmooth.h>
+#include <equiaffine/number/select.h>
 
 #include <array>
 #include <cmath>
@@ -19,16 +19,14 @@ template <class T, int Order, Monomial_set A>
 auto sin(const Jet_3<T, Order, A>& a) {
   using internal::sine_and_cosine;
   const auto [s, c] = sine_and_cosine(a.value());
-  return compose(
-      a, std::array<T, 5>{s, c, s * T(-0.5), c * internal::fraction<-1, 6, T>(), s * internal::fraction<1, 24, T>()});
+  return compose(a, std::array<T, 5>{s, c, s * T(-0.5), c * fraction<-1, 6, T>(), s * fraction<1, 24, T>()});
 }
 
 template <class T, int Order, Monomial_set A>
 auto cos(const Jet_3<T, Order, A>& a) {
   using internal::sine_and_cosine;
   const auto [s, c] = sine_and_cosine(a.value());
-  return compose(
-      a, std::array<T, 5>{c, -s, c * T(-0.5), s * internal::fraction<1, 6, T>(), c * internal::fraction<1, 24, T>()});
+  return compose(a, std::array<T, 5>{c, -s, c * T(-0.5), s * fraction<1, 6, T>(), c * fraction<1, 24, T>()});
 }
 
 template <class T, int Order, Monomial_set A>
@@ -43,8 +41,7 @@ auto sinh(const Jet_3<T, Order, A>& a) {
   using std::cosh;
   using std::sinh;
   const T s = sinh(a.value()), c = cosh(a.value());
-  return compose(
-      a, std::array<T, 5>{s, c, s * T(0.5), c * internal::fraction<1, 6, T>(), s * internal::fraction<1, 24, T>()});
+  return compose(a, std::array<T, 5>{s, c, s * T(0.5), c * fraction<1, 6, T>(), s * fraction<1, 24, T>()});
 }
 
 template <class T, int Order, Monomial_set A>
@@ -52,8 +49,7 @@ auto cosh(const Jet_3<T, Order, A>& a) {
   using std::cosh;
   using std::sinh;
   const T s = sinh(a.value()), c = cosh(a.value());
-  return compose(
-      a, std::array<T, 5>{c, s, c * T(0.5), s * internal::fraction<1, 6, T>(), c * internal::fraction<1, 24, T>()});
+  return compose(a, std::array<T, 5>{c, s, c * T(0.5), s * fraction<1, 6, T>(), c * fraction<1, 24, T>()});
 }
 
 /// tanh' = 1 / cosh^2: 1 - tanh^2 would lose all digits for large arguments.
@@ -105,7 +101,7 @@ auto atan(const Jet_3<T, Order, A>& a) {
 /// an arctangent at zero in every quadrant.
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto atan2(const Jet_3<T, Order, A>& y, const Jet_3<T, Order, B>& x) {
-  using std::abs, std::atan2, internal::factor_for_jump;
+  using std::abs, std::atan2;
   const T scale = T(1) / (abs(x.value()) + abs(y.value()));
   const auto c = x * scale;
   const auto s = y * scale;

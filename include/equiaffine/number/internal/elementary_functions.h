@@ -6,7 +6,7 @@
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_ELEMENTARY_FUNCTIONS_H
 #define EQUIAFFINE_NUMBER_INTERNAL_ELEMENTARY_FUNCTIONS_H
 
-#include <equiaffine/number/internal/select.h>
+#include <equiaffine/number/select.h>
 
 #include <array>
 #include <bit>
