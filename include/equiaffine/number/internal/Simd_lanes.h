@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <experimental/simd>
+#include <type_traits>
 
 namespace equiaffine::internal {
 
@@ -45,13 +46,18 @@ struct Simd_lanes {
   [[gnu::always_inline]] static Vector scaled_exponential(const Vector& k, const Vector& p) {
     using Integers = std::experimental::rebind_simd_t<std::int64_t, Vector>;
     using Table = Exponential_table;
-    const auto bits = std::bit_cast<Integers>(k);
-    const Integers n = bits & (Table::size - 1);
-    const Vector high([&](auto i) { return exponential_table.high[std::size_t(n[i])]; });
-    const Vector low([&](auto i) { return exponential_table.low[std::size_t(n[i])]; });
-    const Vector e = high + (low + high * p);
-    return std::bit_cast<Vector>(std::bit_cast<Integers>(e) +
-                                 ((bits >> std::countr_zero(unsigned(Table::size))) << 52));
+    // A processor with AVX and without AVX2 has no register for the integers.
+    if constexpr (!std::is_trivially_copyable_v<Integers>)
+      return generate([&](std::size_t i) { return internal::scaled_exponential(k[i], p[i]); });
+    else {
+      const auto bits = std::bit_cast<Integers>(k);
+      const Integers n = bits & (Table::size - 1);
+      const Vector high([&](auto i) { return exponential_table.high[std::size_t(n[i])]; });
+      const Vector low([&](auto i) { return exponential_table.low[std::size_t(n[i])]; });
+      const Vector e = high + (low + high * p);
+      return std::bit_cast<Vector>(std::bit_cast<Integers>(e) +
+                                   ((bits >> std::countr_zero(unsigned(Table::size))) << 52));
+    }
   }
 };
 
