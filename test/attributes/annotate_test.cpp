@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/contraction.h"
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/annotate.h>
@@ -54,6 +55,7 @@ TEST(Annotate, property_maps_hold_the_local_structure_of_their_vertices) {
 }
 
 TEST(Annotate, columns_and_maps_hold_the_same_numbers_for_any_number_of_threads) {
+  SKIP_IF_THE_COMPILER_CONTRACTS();
   const auto traits = torus();
   const auto surface = marching_cubes(traits, parameters::number_of_nodes(20));
   Mesh mesh = to_surface_mesh(surface);
