@@ -4,13 +4,8 @@
 #include <equiaffine/Input_error.h>
 
 #include <cerrno>
-#include <csignal>
-#include <cstdlib>
 #include <iostream>
-#include <mutex>
-#include <set>
 #include <system_error>
-#include <thread>
 #include <unistd.h>
 
 namespace equiaffine {
@@ -24,50 +19,9 @@ namespace {
                     advice);
 }
 
-/// The temporary folders that exist. It is never destroyed, because a signal may come at any time.
-struct Existing_folders {
-  std::mutex mutex;
-  std::set<fs::path> paths;
-};
-
-Existing_folders& existing_folders() {
-  static auto& folders = *new Existing_folders;
-  return folders;
-}
-
-/// Waits for one of the signals and ends the process. The mutex stays locked, so that threads that
-/// make or remove folders wait for that end.
-void end_at(const sigset_t& signals) {
-  int signal = 0;
-  ::sigwait(&signals, &signal);
-  Existing_folders& existing = existing_folders();
-  existing.mutex.lock();
-  std::error_code ignored;
-  for (const fs::path& path : existing.paths) fs::remove_all(path, ignored);
-  if (::isatty(STDERR_FILENO)) std::cerr << std::endl; // the line that shows the progress ends here
-  ::_exit(128 + signal);
-}
-
 std::string message(int error_number) { return std::generic_category().message(error_number); }
 
 } // namespace
-
-Output_file::Temporary_folder::Temporary_folder(const fs::path& parent) {
-  Existing_folders& existing = existing_folders();
-  const std::lock_guard lock(existing.mutex);
-  std::string name = (parent / ".equiaffine-XXXXXX").string();
-  if (!::mkdtemp(name.data())) throw std::system_error(errno, std::generic_category());
-  path = name;
-  existing.paths.insert(path);
-}
-
-Output_file::Temporary_folder::~Temporary_folder() {
-  Existing_folders& existing = existing_folders();
-  const std::lock_guard lock(existing.mutex);
-  std::error_code ignored;
-  fs::remove_all(path, ignored);
-  existing.paths.erase(path);
-}
 
 Output_file::Output_file(const std::string& path) : path_(path), target_(path), has_to_be_copied_(path == "-") {
   if (path.empty()) throw Input_error("cannot write the output: its name is empty; name a file");
@@ -95,7 +49,7 @@ Output_file::Output_file(const std::string& path) : path_(path), target_(path), 
 }
 
 fs::path Output_file::temporary_path() const {
-  return folder_->path / (is_standard_output() ? fs::path("standard_output") : target_.filename());
+  return folder_->path() / (is_standard_output() ? fs::path("standard_output") : target_.filename());
 }
 
 std::ostream& Output_file::stream() {
@@ -138,7 +92,7 @@ void Output_file::rename_to_target() {
     return !error;
   };
   bool is_replaced = true;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_->path))
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_->path()))
     if (entry.path() != temporary_path())
       is_replaced = is_replaced && replace(entry.path(), target_.parent_path() / entry.path().filename());
   if (!is_replaced || !replace(temporary_path(), target_)) fail(path_, error.message(), "choose another file");
@@ -149,17 +103,6 @@ void commit_all(std::span<Output_file> files) {
   for (const bool copied : {true, false})
     for (Output_file& file : files)
       if (file.has_to_be_copied() == copied) file.commit();
-}
-
-void remove_temporary_folders_when_interrupted() {
-  sigset_t signals;
-  ::sigemptyset(&signals);
-  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
-    struct sigaction action;
-    if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) ::sigaddset(&signals, signal);
-  }
-  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr); // in all threads to come, so that one of them can wait for these
-  std::thread(end_at, signals).detach();
 }
 
 } // namespace equiaffine

@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_SRC_SYSTEM_ATOMIC_FILE_H
 #define EQUIAFFINE_SRC_SYSTEM_ATOMIC_FILE_H
 
+#include "system/Temporary_folder.h"
+
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -38,14 +40,6 @@ public:
   void commit();
 
 private:
-  struct Temporary_folder {
-    explicit Temporary_folder(const std::filesystem::path& parent);
-    ~Temporary_folder();
-    Temporary_folder(const Temporary_folder&) = delete;
-    Temporary_folder& operator=(const Temporary_folder&) = delete;
-    std::filesystem::path path;
-  };
-
   bool is_standard_output() const { return path_ == "-"; }
   void copy_to_target();
   void rename_to_target();
@@ -60,10 +54,6 @@ private:
 /// Commits several outputs after all of them were closed without error. Those that are renamed, which hardly fails,
 /// come last: a device that refuses its copy leaves every file as it was.
 void commit_all(std::span<Output_file> files);
-
-/// From now on, a signal that asks the process to end (SIGHUP, SIGINT, SIGTERM; unless it was ignored before) also
-/// removes the temporary folders; the exit status is 128 + the number of the signal. Call it before there are threads.
-void remove_temporary_folders_when_interrupted();
 
 } // namespace equiaffine
 
