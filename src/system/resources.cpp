@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -23,10 +24,9 @@ std::string gigabytes(double bytes) {
 
 /// Throws if this computer has less memory than needed. `reason` is what needs it, and `purpose` what it is for.
 void check_memory(double needed, const std::string& reason, const std::string& purpose, const std::string& advice) {
-  const double pages = double(::sysconf(_SC_PHYS_PAGES)), page_size = double(::sysconf(_SC_PAGE_SIZE));
-  if (pages > 0 && page_size > 0 && needed > pages * page_size)
+  if (needed > physical_memory())
     throw Input_error(reason + " need about " + gigabytes(needed) + " of memory for " + purpose +
-                      ", and this computer has " + gigabytes(pages * page_size) + "; " + advice);
+                      ", and this computer has " + gigabytes(physical_memory()) + "; " + advice);
 }
 
 void check_memory(double needed, const std::array<std::size_t, 3>& n, const std::string& purpose) {
@@ -37,6 +37,11 @@ void check_memory(double needed, const std::array<std::size_t, 3>& n, const std:
 }
 
 } // namespace
+
+double physical_memory() {
+  const double pages = double(::sysconf(_SC_PHYS_PAGES)), page_size = double(::sysconf(_SC_PAGE_SIZE));
+  return pages > 0 && page_size > 0 ? pages * page_size : std::numeric_limits<double>::infinity();
+}
 
 void check_memory_of_volume(const std::array<std::size_t, 3>& resolution) {
   constexpr double bytes_per_node = 16; // sample and coefficient

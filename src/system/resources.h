@@ -7,6 +7,9 @@
 
 namespace equiaffine {
 
+/// The bytes of memory that this computer has, or infinity if it does not tell.
+double physical_memory();
+
 /// Throws `Input_error` if this computer has less memory than a volume of that many nodes and its spline need.
 void check_memory_of_volume(const std::array<std::size_t, 3>& resolution);
 

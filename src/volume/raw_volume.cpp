@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume/raw_volume.h"
 
+#include "volume/sample_type.h"
 #include "volume/volume_formats.h"
 
 #include <cstdint>
@@ -9,27 +10,6 @@
 #include <vector>
 
 namespace equiaffine {
-
-namespace {
-
-/// Calls f(T()), where T is the type at this position of raw_types.
-template <class F>
-auto with_type(std::size_t type, const F& f) {
-  switch (type) {
-  case 0: return f(std::uint8_t());
-  case 1: return f(std::int8_t());
-  case 2: return f(std::uint16_t());
-  case 3: return f(std::int16_t());
-  case 4: return f(std::uint32_t());
-  case 5: return f(std::int32_t());
-  case 6: return f(std::uint64_t());
-  case 7: return f(std::int64_t());
-  case 8: return f(float());
-  default: return f(double());
-  }
-}
-
-} // namespace
 
 Volume_3<Kernel> read_raw_volume(const std::string& path, const Raw_layout& layout) {
   const auto& [dx, dy, dz] = layout.spacing;
@@ -40,7 +20,7 @@ Volume_3<Kernel> read_raw_volume(const std::string& path, const Raw_layout& layo
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   if (error) fail_to_read_volume(path, "there is no such file", "check the path");
-  const std::size_t width = with_type(layout.type, [](auto number) { return sizeof number; });
+  const std::size_t width = size_of_sample(layout.type);
   const double expected = double(layout.dims[0]) * double(layout.dims[1]) * double(layout.dims[2]) * double(width);
   if (double(size) != expected)
     fail_to_read_volume(path,
@@ -50,7 +30,7 @@ Volume_3<Kernel> read_raw_volume(const std::string& path, const Raw_layout& layo
                         "correct --dims or --type");
   std::ifstream file(path, std::ios::binary);
   Volume_3<Kernel> volume{lattice, std::vector<double>(lattice.number_of_nodes())};
-  with_type(layout.type, [&](auto number) {
+  with_sample_type(layout.type, [&](auto number) {
     using T = decltype(number);
     std::vector<T> row(layout.dims[0]);
     for (std::size_t n = 0; n < volume.values.size() && file; n += row.size()) {

@@ -5,6 +5,7 @@
 // The readers and writers that volume_io.h chooses from. Those of a library exist only in a program built with it.
 
 #include "system/kernel.h"
+#include "volume/Shared_volume.h"
 #include <equiaffine/Volume_3.h>
 
 #include <array>
@@ -17,10 +18,10 @@ namespace equiaffine {
 
 enum class Volume_format { NRRD, META, NIFTI, INR, VTI };
 
-Volume_3<Kernel> read_itk_volume(const std::string& path, Volume_format format);
-Volume_3<Kernel> read_dicom_series(const std::string& folder);
-Volume_3<Kernel> read_inr_volume(const std::string& path);
-Volume_3<Kernel> read_vti_volume(const std::string& path);
+void read_itk_volume(const std::string& path, Volume_format format, Shared_volume& volume);
+void read_dicom_series(const std::string& folder, Shared_volume& volume);
+void read_inr_volume(const std::string& path, Shared_volume& volume);
+void read_vti_volume(const std::string& path, Shared_volume& volume);
 
 void write_itk_volume(const std::string& path, Volume_format format, const Volume_3<Kernel>& volume, bool as_float);
 void write_vti_volume(std::ostream& stream, const Volume_3<Kernel>& volume, bool as_float);
@@ -30,6 +31,9 @@ void write_vti_volume(std::ostream& stream, const Volume_3<Kernel>& volume, bool
 
 /// Throws `Input_error` for a file that ends before its data, or whose data are damaged.
 [[noreturn]] void fail_to_read_volume_data(const std::string& path);
+
+/// Throws `Input_error` for a file whose samples are no numbers that this program knows.
+[[noreturn]] void fail_to_read_volume_type(const std::string& path);
 
 /// The lattice of a file; throws `Input_error` for what a file may hold and a lattice may not.
 Lattice_3<Kernel> make_lattice(const std::string& path, const Lattice_3<Kernel>::Size& size,

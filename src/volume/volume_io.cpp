@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume/volume_io.h"
 
+#include "system/child_process.h"
+#include "system/resources.h"
+#include "volume/Shared_volume.h"
 #include "volume/volume_formats.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/io/input_file.h>
@@ -103,6 +106,10 @@ void fail_to_read_volume_data(const std::string& path) {
                       "get the complete file again");
 }
 
+void fail_to_read_volume_type(const std::string& path) {
+  fail_to_read_volume(path, "its type of numbers is not supported", "convert it to float or double");
+}
+
 Lattice_3<Kernel> make_lattice(const std::string& path, const Lattice_3<Kernel>::Size& size,
                                const Kernel::Point_3& origin, const std::array<Kernel::Vector_3, 3>& steps) {
   const std::string size_text =
@@ -110,6 +117,9 @@ Lattice_3<Kernel> make_lattice(const std::string& path, const Lattice_3<Kernel>:
   if (*std::min_element(size.begin(), size.end()) < 2)
     fail_to_read_volume(path, "it has " + size_text + " nodes",
                         "a volume needs at least 2 nodes along each of its axes");
+  if (sizeof(double) * double(size[0]) * double(size[1]) * double(size[2]) > physical_memory())
+    fail_to_read_volume(path, "it has " + size_text + " nodes and does not fit into memory",
+                        "check its header or crop it");
   const double determinant = CGAL::determinant(steps[0], steps[1], steps[2]);
   const bool is_finite =
       std::isfinite(determinant) && std::isfinite(origin.x()) && std::isfinite(origin.y()) && std::isfinite(origin.z());
@@ -139,12 +149,64 @@ std::string Captured_standard_error::text() const {
   return text;
 }
 
+namespace {
+
+/// Reads a file or a folder with the reader of its format; `extension` is null for a folder.
+void read_here(const std::string& path, const Extension* extension, Shared_volume& volume) {
+  if constexpr (has_itk)
+    if (!extension) return read_dicom_series(path, volume);
+  if constexpr (has_vtk)
+    if (extension->format == Volume_format::VTI) return read_vti_volume(path, volume);
+  if constexpr (has_itk)
+    if (extension->format != Volume_format::INR) return read_itk_volume(path, extension->format, volume);
+  read_inr_volume(path, volume);
+}
+
+/// The bytes of all files in a folder. Those of one that cannot be read count for nothing.
+double size_of_folder(const fs::path& folder) {
+  double size = 0;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code unknown;
+    if (const auto bytes = entry->file_size(unknown); !unknown) size += double(bytes);
+  }
+  return size;
+}
+
+/// The bytes that a reader may have to look at: the file, or the folder of slices or of a header and its data.
+double size_of_input(const std::string& path, const Extension* extension) {
+  if (!extension) return size_of_folder(path);
+  if (extension->text == ".mhd" || extension->text == ".nhdr") return size_of_folder(fs::absolute(path).parent_path());
+  std::error_code error;
+  const auto bytes = fs::file_size(path, error);
+  return error ? 0 : double(bytes);
+}
+
+Volume_3<Kernel> read_in_child(const std::string& path, const Extension* extension) {
+  constexpr double seconds = 10, bytes_per_second = 20e6; // a reader takes a tenth of that
+  constexpr double memory_for_header = 1 << 29, copies = 4;
+  const double size = size_of_input(path, extension);
+  try {
+    Shared_volume volume;
+    run_in_child([&] { read_here(path, extension, volume); },
+                 {seconds + size / bytes_per_second, memory_for_header + copies * size});
+    return volume.to_volume();
+  } catch (const Child_failure& failure) {
+    fail_to_read_volume(path, std::string("the library that reads this format ") + failure.what(),
+                        "the file is probably damaged, get the complete file again");
+  } catch (const std::bad_alloc&) {
+    fail_to_read_volume(path, "it does not fit into memory", "check its header or crop it");
+  }
+}
+
+} // namespace
+
 Volume_3<Kernel> read_volume(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) fail_to_read_volume(path, "there is no such file", "check the path");
   if (fs::is_directory(status)) {
-    if constexpr (has_itk) return read_dicom_series(path);
+    if constexpr (has_itk) return read_in_child(path, nullptr);
     else fail_to_read_volume_without("ITK", path);
   }
   const std::optional<Extension> extension = find_extension(path);
@@ -156,15 +218,7 @@ Volume_3<Kernel> read_volume(const std::string& path) {
   if (::access(path.c_str(), R_OK) != 0) fail_to_read_volume(path, "permission denied", "make it readable");
   if (fs::is_regular_file(status) && fs::file_size(path, error) == 0)
     fail_to_read_volume(path, "it is empty", "get the complete file again");
-  try {
-    if constexpr (has_vtk)
-      if (extension->format == Volume_format::VTI) return read_vti_volume(path);
-    if constexpr (has_itk)
-      if (extension->format != Volume_format::INR) return read_itk_volume(path, extension->format);
-    return read_inr_volume(path);
-  } catch (const std::bad_alloc&) {
-    fail_to_read_volume(path, "it does not fit into memory", "check its header or crop it");
-  }
+  return read_in_child(path, &*extension);
 }
 
 void check_volume_output(const std::string& path) { find_written_extension(path); }

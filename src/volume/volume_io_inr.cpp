@@ -1,37 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/header_checks.h"
+#include "volume/sample_type.h"
 #include "volume/volume_formats.h"
 
 #include <CGAL/Image_3.h>
 
-#include <cstdint>
-#include <vector>
+#include <cstring>
 
 namespace equiaffine {
 
 namespace {
 
-template <class Word>
-std::vector<double> to_doubles(const CGAL::Image_3& image) {
-  const Word* const words = static_cast<const Word*>(image.data());
-  return {words, words + image.size()};
-}
-
-std::vector<double> values_of(const CGAL::Image_3& image) {
+std::size_t sample_type_of(const CGAL::Image_3& image) {
   using namespace CGAL; // where CGAL 6 has the constants, which are global in CGAL 5
-  const std::size_t bytes = image.image()->wdim;
-  if (image.image()->wordKind == WK_FLOAT) return bytes == 4 ? to_doubles<float>(image) : to_doubles<double>(image);
-  const bool is_signed = image.image()->sign == SGN_SIGNED;
-  switch (bytes) {
-  case 1: return is_signed ? to_doubles<std::int8_t>(image) : to_doubles<std::uint8_t>(image);
-  case 2: return is_signed ? to_doubles<std::int16_t>(image) : to_doubles<std::uint16_t>(image);
-  case 4: return is_signed ? to_doubles<std::int32_t>(image) : to_doubles<std::uint32_t>(image);
-  default: return is_signed ? to_doubles<std::int64_t>(image) : to_doubles<std::uint64_t>(image);
-  }
+  const auto& header = *image.image();
+  return header.wordKind == WK_FLOAT ? floating_sample_type(header.wdim)
+                                     : integer_sample_type(header.wdim, header.sign == SGN_SIGNED);
 }
 
 } // namespace
 
-Volume_3<Kernel> read_inr_volume(const std::string& path) {
+void read_inr_volume(const std::string& path, Shared_volume& volume) {
+  check_inr_header(path);
   CGAL::Image_3 image;
   bool has_been_read = false;
   {
@@ -46,10 +36,11 @@ Volume_3<Kernel> read_inr_volume(const std::string& path) {
   if (header.rx != 0 || header.ry != 0 || header.rz != 0)
     fail_to_read_volume(path, "its axes are rotated (RX, RY, RZ), which .inr readers ignore",
                         "convert it to .nrrd or .mha");
-  return {make_lattice(path, {header.xdim, header.ydim, header.zdim}, Kernel::Point_3(header.tx, header.ty, header.tz),
-                       {Kernel::Vector_3(header.vx, 0, 0), Kernel::Vector_3(0, header.vy, 0),
-                        Kernel::Vector_3(0, 0, header.vz)}),
-          values_of(image)};
+  const Lattice_3<Kernel> lattice = make_lattice(
+      path, {header.xdim, header.ydim, header.zdim}, Kernel::Point_3(header.tx, header.ty, header.tz),
+      {Kernel::Vector_3(header.vx, 0, 0), Kernel::Vector_3(0, header.vy, 0), Kernel::Vector_3(0, 0, header.vz)});
+  const std::size_t type = sample_type_of(image);
+  std::memcpy(volume.allocate(lattice, type), image.data(), lattice.number_of_nodes() * size_of_sample(type));
 }
 
 } // namespace equiaffine

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/header_checks.h"
+#include "volume/sample_type.h"
 #include "volume/volume_formats.h"
 #include <equiaffine/Input_error.h>
 
@@ -10,21 +12,14 @@
 #include <itkMetaImageIO.h>
 #include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <limits>
-#include <memory>
 #include <string>
-#include <system_error>
-#include <type_traits>
 #include <vector>
 
 namespace equiaffine {
@@ -39,8 +34,6 @@ constexpr double largest_shift_in_cells = 1e-3;
 
 /// The largest relative deviation of the distance of two DICOM slices from the mean: places are rounded decimals.
 constexpr double largest_deviation_of_slices = 1e-2;
-
-constexpr std::int32_t nifti_header_size = 348;
 
 constexpr const char* could_not_be_stored =
     "not everything could be stored; make room on the disk or choose another one";
@@ -100,75 +93,31 @@ itk::ImageIORegion whole_region(const itk::ImageIOBase& io) {
   return region;
 }
 
-template <class Word>
-std::vector<double> read_words(itk::ImageIOBase& io) {
-  std::vector<Word> words(std::size_t(io.GetImageSizeInPixels()));
-  io.Read(words.data());
-  if constexpr (std::is_same_v<Word, double>) return words;
-  else return {words.begin(), words.end()};
-}
-
-std::vector<double> read_values(const std::string& path, itk::ImageIOBase& io) {
-  using Word = itk::IOComponentEnum;
+std::size_t sample_type_of(const std::string& path, const itk::ImageIOBase& io) {
+  using Type = itk::IOComponentEnum;
+  const auto bytes = std::size_t(io.GetComponentSize());
   switch (io.GetComponentType()) {
-  case Word::UCHAR: return read_words<unsigned char>(io);
-  case Word::CHAR: return read_words<signed char>(io);
-  case Word::USHORT: return read_words<unsigned short>(io);
-  case Word::SHORT: return read_words<short>(io);
-  case Word::UINT: return read_words<unsigned>(io);
-  case Word::INT: return read_words<int>(io);
-  case Word::ULONG: return read_words<unsigned long>(io);
-  case Word::LONG: return read_words<long>(io);
-  case Word::ULONGLONG: return read_words<unsigned long long>(io);
-  case Word::LONGLONG: return read_words<long long>(io);
-  case Word::FLOAT: return read_words<float>(io);
-  case Word::DOUBLE: return read_words<double>(io);
-  default: fail_to_read_volume(path, "its type of numbers is not supported", "convert it to float or double");
+  case Type::FLOAT:
+  case Type::DOUBLE: return floating_sample_type(bytes);
+  case Type::UCHAR:
+  case Type::USHORT:
+  case Type::UINT:
+  case Type::ULONG:
+  case Type::ULONGLONG: return integer_sample_type(bytes, false);
+  case Type::CHAR:
+  case Type::SHORT:
+  case Type::INT:
+  case Type::LONG:
+  case Type::LONGLONG: return integer_sample_type(bytes, true);
+  default: fail_to_read_volume_type(path);
   }
-}
-
-/// A number in the header of a NIfTI-1 file, which begins with its own length in the byte order of the file.
-template <class Number>
-Number nifti_field(const std::vector<char>& header, std::size_t position) {
-  std::array<char, sizeof(Number)> bytes;
-  std::copy_n(header.begin() + std::ptrdiff_t(position), bytes.size(), bytes.begin());
-  if (std::int32_t length; std::memcpy(&length, header.data(), sizeof length), length != nifti_header_size)
-    std::reverse(bytes.begin(), bytes.end());
-  return std::bit_cast<Number>(bytes);
-}
-
-/// ITK's NIfTI reader says nothing when a file ends early, so its length is compared with its header (`bitpix` at byte
-/// 72, `vox_offset` at byte 108). zlib reads plain files as they are.
-void check_nifti_length(const std::string& path, std::size_t number_of_nodes) {
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
-  std::vector<char> bytes(std::size_t(1) << 20);
-  if (!file || gzread(file.get(), bytes.data(), nifti_header_size) != nifti_header_size) fail_to_read_volume_data(path);
-  const double expected = double(nifti_field<float>(bytes, 108)) +
-                          double(nifti_field<std::int16_t>(bytes, 72)) / 8 * double(number_of_nodes);
-  double length = nifti_header_size;
-  int count = 0;
-  while ((count = gzread(file.get(), bytes.data(), unsigned(bytes.size()))) > 0) length += count;
-  int error = Z_OK;
-  gzerror(file.get(), &error);
-  if (error != Z_OK || !(length >= expected)) fail_to_read_volume_data(path);
-}
-
-/// Fails if the header of a MetaImage names a file with the data that does not exist. `LOCAL` and `LIST` are not
-/// names of files, and a name with a % stands for several files.
-void check_data_file(const std::string& path, itk::ImageIOBase& io) {
-  auto* const meta = dynamic_cast<itk::MetaImageIO*>(&io);
-  if (!meta) return;
-  const std::filesystem::path name = meta->GetMetaImagePointer()->ElementDataFileName();
-  if (!name.has_extension() || name.string().find('%') != std::string::npos) return;
-  std::error_code error;
-  if (!std::filesystem::exists(std::filesystem::path(path).parent_path() / name, error))
-    fail_to_read_volume(path, "the file with its data, '" + name.string() + "', is missing",
-                        "put it beside the header");
 }
 
 } // namespace
 
-Volume_3<Kernel> read_itk_volume(const std::string& path, Volume_format format) {
+void read_itk_volume(const std::string& path, Volume_format format, Shared_volume& volume) {
+  if (format == Volume_format::NIFTI) check_nifti_header(path);
+  if (format == Volume_format::META) check_meta_header(path);
   const Captured_standard_error standard_error;
   const itk::ImageIOBase::Pointer io = make_image_io(format);
   io->SetFileName(path);
@@ -178,25 +127,22 @@ Volume_3<Kernel> read_itk_volume(const std::string& path, Volume_format format) 
     fail_to_read_volume(path, "its header is not understood" + reason_of(exception),
                         "check that the extension is right and the file complete");
   }
-  check_data_file(path, *io);
   check_scalars(path, *io);
   const Lattice_3<Kernel> lattice = lattice_of(path, *io);
-  if (format == Volume_format::NIFTI) check_nifti_length(path, lattice.number_of_nodes());
   io->SetIORegion(whole_region(*io));
   try {
-    Volume_3<Kernel> volume{lattice, read_values(path, *io)};
+    io->Read(volume.allocate(lattice, sample_type_of(path, *io)));
     // ITK 5.2 reports MetaImage data that end early or do not decompress on standard error only.
     const std::string report = standard_error.text();
     if (report.find("not read completely") != std::string::npos ||
         report.find("Uncompress failed") != std::string::npos)
       fail_to_read_volume_data(path);
-    return volume;
   } catch (const itk::ExceptionObject&) {
     fail_to_read_volume_data(path);
   }
 }
 
-Volume_3<Kernel> read_dicom_series(const std::string& folder) {
+void read_dicom_series(const std::string& folder, Shared_volume& volume) {
   using Image = itk::Image<double, 3>;
   const Captured_standard_error standard_error;
   try {
@@ -226,8 +172,10 @@ Volume_3<Kernel> read_dicom_series(const std::string& folder) {
                                                         image.GetDirection()(2, axis));
     const auto size = image.GetLargestPossibleRegion().GetSize();
     const auto origin = image.GetOrigin();
-    return {make_lattice(folder, {size[0], size[1], size[2]}, Point_3(origin[0], origin[1], origin[2]), steps),
-            {image.GetBufferPointer(), image.GetBufferPointer() + size[0] * size[1] * size[2]}};
+    const Lattice_3<Kernel> lattice =
+        make_lattice(folder, {size[0], size[1], size[2]}, Point_3(origin[0], origin[1], origin[2]), steps);
+    std::memcpy(volume.allocate(lattice, floating_sample_type(sizeof(double))), image.GetBufferPointer(),
+                lattice.number_of_nodes() * sizeof(double));
   } catch (const itk::ExceptionObject& exception) {
     fail_to_read_volume(folder, "a file of the series is not understood" + reason_of(exception),
                         "get the complete series again or convert it");
@@ -241,7 +189,9 @@ namespace {
 void check_written(const std::string& path, Volume_format format, const Lattice_3<Kernel>& lattice) {
   const Lattice_3<Kernel> stored = [&] {
     try {
-      return read_itk_volume(path, format).lattice;
+      Shared_volume volume;
+      read_itk_volume(path, format, volume);
+      return volume.lattice();
     } catch (const Input_error&) {
       throw Input_error(could_not_be_stored);
     }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/write_vtk_xml.h"
+#include "volume/header_checks.h"
+#include "volume/sample_type.h"
 #include "volume/volume_formats.h"
 
 #include <vtkCallbackCommand.h>
@@ -18,9 +20,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <ostream>
 #include <string>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
 namespace equiaffine {
@@ -58,6 +61,27 @@ vtkDataArray& scalars_of(const std::string& path, vtkImageData& image) {
   return *array;
 }
 
+std::size_t sample_type_of(const std::string& path, vtkDataArray& array) {
+  const auto bytes = std::size_t(array.GetDataTypeSize());
+  switch (array.GetDataType()) {
+  case VTK_FLOAT:
+  case VTK_DOUBLE: return floating_sample_type(bytes);
+  case VTK_UNSIGNED_CHAR:
+  case VTK_UNSIGNED_SHORT:
+  case VTK_UNSIGNED_INT:
+  case VTK_UNSIGNED_LONG:
+  case VTK_UNSIGNED_LONG_LONG: return integer_sample_type(bytes, false);
+  case VTK_CHAR: return integer_sample_type(bytes, std::is_signed_v<char>);
+  case VTK_SIGNED_CHAR:
+  case VTK_SHORT:
+  case VTK_INT:
+  case VTK_LONG:
+  case VTK_LONG_LONG:
+  case VTK_ID_TYPE: return integer_sample_type(bytes, true);
+  default: fail_to_read_volume_type(path);
+  }
+}
+
 Lattice_3<Kernel> lattice_of(const std::string& path, vtkImageData& image) {
   Lattice_3<Kernel>::Size size;
   std::array<Kernel::Vector_3, 3> steps;
@@ -85,7 +109,8 @@ void set_scalars(vtkImageData& image, const std::vector<double>& values) {
 
 } // namespace
 
-Volume_3<Kernel> read_vti_volume(const std::string& path) {
+void read_vti_volume(const std::string& path, Shared_volume& volume) {
+  check_vti_header(path);
   vtkNew<vtkXMLImageDataReader> reader;
   const Error_flag errors(*reader);
   {
@@ -98,9 +123,9 @@ Volume_3<Kernel> read_vti_volume(const std::string& path) {
   const Lattice_3<Kernel> lattice = lattice_of(path, image);
   vtkDataArray& array = scalars_of(path, image);
   if (std::size_t(array.GetNumberOfTuples()) != lattice.number_of_nodes()) fail_to_read_volume_data(path);
-  std::vector<double> values(lattice.number_of_nodes());
-  for (std::size_t node = 0; node < values.size(); ++node) values[node] = array.GetComponent(vtkIdType(node), 0);
-  return {lattice, std::move(values)};
+  const std::size_t type = sample_type_of(path, array);
+  std::memcpy(volume.allocate(lattice, type), array.GetVoidPointer(0),
+              lattice.number_of_nodes() * size_of_sample(type));
 }
 
 void write_vti_volume(std::ostream& stream, const Volume_3<Kernel>& volume, bool as_float) {

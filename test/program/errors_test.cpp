@@ -282,6 +282,18 @@ TEST_F(Program_errors, a_mesh_to_measure_from_is_closed) {
   expect_error({"mesh", "--distance-to", "text.stl", "-o", "out.ply"}, {"text.stl"});
 }
 
+TEST_F(Program_errors, a_face_has_vertices_that_exist) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (const char* face : {"f 1 2 4\n", "f 1 2 99999999\n", "f 1 2 -4\n", "f 0 1 2\n"}) {
+    add_input("bad.obj", triangle + face);
+    expect_error({"mesh", "--distance-to", "bad.obj", "-o", "out.ply"}, {"'bad.obj'"});
+  }
+  for (const char* face : {"f 1 2 2.5\n", "# f\n f 1/1/1 2//2 3x\n", "f 1 - 2\n"}) {
+    add_input("bad.obj", triangle + face);
+    expect_error({"mesh", "--distance-to", "bad.obj", "-o", "out.ply"}, {"'bad.obj'", "line", "no integer"});
+  }
+}
+
 #ifdef EQUIAFFINE_WITH_ITK
 TEST_F(Program_errors, a_volume_is_complete) {
   run_well(Arguments{"sample", "--function", "x", "--resolution", "9", "-o", "v.nrrd"} + box);

@@ -284,6 +284,27 @@ TEST_F(Program_volume_io, an_inr_file_may_have_integers_but_no_vectors_and_no_ro
   expect_reading_error("r.inr", "rotated");
 }
 
+TEST_F(Program_volume_io, an_inr_header_is_told_what_is_wrong_with_which_field) {
+  const std::string data = bytes_of(std::vector<float>(24, 1.5F));
+  const std::string size = inr_size, type = "VDIM=1\nTYPE=float\nPIXSIZE=32 bits\nCPU=decm\n";
+  write_file("right.inr", inr(size + type, data));
+  EXPECT_EQ(read_volume(path("right.inr")).values, std::vector<double>(24, 1.5));
+  const auto expect_error_at = [&](const std::string& fields, const std::string& part) {
+    write_file("wrong.inr", inr(fields, data));
+    expect_reading_error("wrong.inr", part);
+  };
+  expect_error_at("XDIM=3\nYDIM=3\nZDIM=2\n" + type, "XDIM, YDIM, ZDIM"); // the file has more data than these
+  expect_error_at("XDIM=5\nYDIM=3\nZDIM=2\n" + type, "end before 120 bytes");
+  expect_error_at("XDIM=-4\nYDIM=3\nZDIM=2\n" + type, "XDIM '-4'");
+  expect_error_at("YDIM=3\nZDIM=2\n" + type, "no XDIM");
+  expect_error_at(size + "TYPE=flxxt\nPIXSIZE=32 bits\nCPU=decm\n", "TYPE 'flxxt'");
+  expect_error_at(size + "TYPE=float\nPIXSIZE=many\nCPU=decm\n", "PIXSIZE 'many'");
+  expect_error_at(size + "TYPE=float\nPIXSIZE=32 bits\nCPU=cray\n", "CPU 'cray'");
+  for (const char* spacing : {"VX=0", "VY=-1", "VZ=nan", "VX=1e999", "VX="})
+    expect_error_at(size + spacing + "\n" + type, std::string(spacing, 2) + " '");
+  expect_error_at(size + "TY=inf\n" + type, "TY 'inf'");
+}
+
 #ifdef EQUIAFFINE_WITH_ITK
 
 std::string nrrd(const std::string& type, const std::string& sizes, const std::string& directions,
@@ -334,6 +355,62 @@ TEST_F(Program_volume_io, a_nifti_file_may_have_a_fourth_axis_of_one_volume_and_
   for (std::size_t node = 0; node < volume.values.size(); ++node)
     EXPECT_NEAR(scaled.values[node], 2 * volume.values[node] - 3,
                 4 * float_epsilon * std::abs(volume.values[node]) + 1e-6);
+}
+
+/// Replaces a number in the header of a NIfTI file.
+template <class Number>
+std::string with_number(std::string bytes, std::size_t place, Number number) {
+  std::memcpy(&bytes[place], &number, sizeof number);
+  return bytes;
+}
+
+TEST_F(Program_volume_io, a_nifti_header_with_a_damaged_frame_is_refused) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  write_volume(path("a.nii"), sampled(rotated_lattice()), false);
+  const std::string bytes = read_file("a.nii");
+  const auto expect_error_of = [&](const std::string& damaged, const std::string& part) {
+    write_file("damaged.nii", damaged);
+    expect_reading_error("damaged.nii", part);
+  };
+  for (const float number : {nan, infinity, -infinity}) {
+    expect_error_of(with_number(bytes, 80, number), "pixdim");
+    expect_error_of(with_number(bytes, 108, number), "vox_offset");
+    expect_error_of(with_number(bytes, 256, number), "quatern");
+    expect_error_of(with_number(bytes, 280, number), "srow");
+    expect_error_of(with_number(bytes, 292, number), "srow");
+  }
+  expect_error_of(with_number(bytes, 288, -1.7e38F), "srow"); // niftilib never ends
+  expect_error_of(with_number(bytes, 108, -352.F), "vox_offset '-352'");
+  expect_error_of(with_number(bytes, 0, std::int32_t(540)), "sizeof_hdr");
+  expect_error_of(with_number(bytes, 40, std::int16_t(-3)), "dim[0] '-3'");
+  expect_error_of(with_number(bytes, 42, std::int16_t(0)), "dim[1] '0'");
+  expect_error_of(bytes.substr(0, 100), "end before");
+}
+
+TEST_F(Program_volume_io, a_meta_header_with_damaged_fields_is_refused) {
+  const std::string data(8 * sizeof(float), '\0');
+  const auto header = [](const std::string& axes, const std::string& size, const std::string& spacing,
+                         const std::string& file) {
+    return "ObjectType = Image\nNDims = " + axes +
+           "\nBinaryData = True\nBinaryDataByteOrderMSB = False\nDimSize = " + size + "\nElementSpacing = " + spacing +
+           "\nElementType = MET_FLOAT\nElementDataFile = " + file + "\n";
+  };
+  const auto expect_error_of = [&](const std::string& text, const std::string& part) {
+    write_file("wrong.mha", text + data);
+    expect_reading_error("wrong.mha", part);
+  };
+  write_file("right.mha", header("3", "2 2 2", "1 1 1", "LOCAL") + data);
+  EXPECT_EQ(read_volume(path("right.mha")).values, std::vector<double>(8, 0));
+  for (const char* axes : {"4294967296", "-1", "0", "three", "11"}) // MetaIO takes memory for the first without end
+    expect_error_of(header(axes, "2 2 2", "1 1 1", "LOCAL"), "NDims '" + std::string(axes) + "'");
+  for (const char* size : {"2 2", "2 2 0", "2 2 -2", "2 2 99999999999", "2 2 2.5"})
+    expect_error_of(header("3", size, "1 1 1", "LOCAL"), "DimSize '" + std::string(size) + "'");
+  for (const char* spacing : {"1 1", "1 1 nan", "1 1 inf", "1 1 1e999", "1 1 x"})
+    expect_error_of(header("3", "2 2 2", spacing, "LOCAL"), "ElementSpacing '" + std::string(spacing) + "'");
+  write_file("list.mhd", header("3", "2 2 2", "1 1 1", "LIST"));
+  expect_reading_error("list.mhd", "names no file");
+  write_file("list.mhd", header("3", "2 2 2", "1 1 1", "LIST") + "slice.raw\n");
+  expect_reading_error("list.mhd", "'slice.raw', is missing");
 }
 
 TEST_F(Program_volume_io, coordinates_far_from_the_origin_are_refused_by_nifti) {
@@ -425,6 +502,34 @@ TEST_F(Program_volume_io, a_vti_file_has_its_extent_and_directions) {
   // Node (1, 3, -1) of the extent; x and y are exchanged by the directions.
   EXPECT_EQ(volume.lattice.point(0, 0, 0), Point_3(10 + 3 * 1.5, 20 + 0.5, 30 - 2));
   EXPECT_EQ(volume.lattice.point(1, 1, 2), Point_3(10 + 4 * 1.5, 20 + 2 * 0.5, 30 + 2));
+}
+
+TEST_F(Program_volume_io, a_vti_header_with_damaged_fields_is_refused) {
+  const auto vti = [](const std::string& extent, const std::string& spacing, const std::string& type) {
+    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+           "<ImageData WholeExtent=\"" +
+           extent + "\" Origin=\"0 0 0\" Spacing=\"" + spacing +
+           "\">"
+           "<Piece Extent=\"" +
+           extent + "\"><PointData Scalars=\"f\"><DataArray type=\"" + type +
+           "\" Name=\"f\" format=\"ascii\">1 2 3 4 5 6 7 8</DataArray></PointData></Piece></ImageData></VTKFile>\n";
+  };
+  const auto expect_error_of = [&](const std::string& text, const std::string& part) {
+    write_file("wrong.vti", text);
+    expect_reading_error("wrong.vti", part);
+  };
+  const std::string unit = "0 1 0 1 0 1";
+  write_file("right.vti", vti(unit, "1 1 1", "Float32"));
+  EXPECT_EQ(read_volume(path("right.vti")).values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8}));
+  const std::string largest = "0 2147483647 ";
+  expect_error_of(vti(largest + largest + largest, "1 1 1", "Float32"), "does not fit into memory");
+  expect_error_of(vti("1 0 0 1 0 1", "1 1 1", "Float32"), "0 x 2 x 2 nodes");
+  expect_error_of(vti("0 1 0 1", "1 1 1", "Float32"), "WholeExtent");
+  expect_error_of(vti("0 1 0 1 0 4294967297", "1 1 1", "Float32"), "WholeExtent");
+  for (const char* spacing : {"1 1 nan", "1 1 inf", "1 1", "1 1 x"})
+    expect_error_of(vti(unit, spacing, "Float32"), "Spacing '" + std::string(spacing) + "'");
+  expect_error_of(vti(unit, "1 1 1", "String"), "the library that reads this format crashed");
+  expect_error_of("this is no XML", "no element ImageData");
 }
 
 TEST_F(Program_volume_io, a_vti_file_needs_one_array_of_scalars_at_its_points) {

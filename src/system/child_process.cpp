@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "system/child_process.h"
+
+#include "system/signals.h"
+#include <equiaffine/Input_error.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <new>
+#include <poll.h>
+#include <string>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+namespace equiaffine {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The first letter of what a child tells its parent; an Input_error is followed by its two texts.
+constexpr char done = 'd', input_error = 'i', no_memory = 'm', other_exception = 'e';
+
+bool is_child = false;
+
+void set_limit(int resource, double amount) {
+  struct rlimit limit;
+  if (::getrlimit(decltype(RLIMIT_AS)(resource), &limit) != 0) return;
+  const bool fits = limit.rlim_max == RLIM_INFINITY || amount < double(limit.rlim_max);
+  limit.rlim_cur = fits ? rlim_t(amount) : limit.rlim_max;
+  ::setrlimit(decltype(RLIMIT_AS)(resource), &limit);
+}
+
+/// The size of this process's address space in bytes, or zero where the system does not tell.
+double address_space() {
+  double pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * double(::sysconf(_SC_PAGE_SIZE));
+}
+
+void write_all(int descriptor, const std::string& text) {
+  for (std::size_t written = 0; written < text.size();) {
+    const ssize_t count = ::write(descriptor, text.data() + written, text.size() - written);
+    if (count <= 0) return; // the parent is gone
+    written += std::size_t(count);
+  }
+}
+
+std::string answer_of(const std::function<void()>& task) {
+  try {
+    task();
+    return {done};
+  } catch (const Input_error& error) {
+    return input_error + std::string(error.what()) + '\0' + error.excerpt();
+  } catch (const std::bad_alloc&) {
+    return {no_memory};
+  } catch (const std::exception& error) {
+    return other_exception + std::string(error.what());
+  } catch (...) {
+    return {other_exception};
+  }
+}
+
+/// The life of the child. It leaves by _exit, so that nothing of its parent's is flushed, removed or waited for.
+[[noreturn]] void live(const std::function<void()>& task, const Child_limits& limits, int answer) {
+#ifdef __linux__
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+  forget_signals();
+  if (const int nothing = ::open("/dev/null", O_RDWR); nothing != -1) {
+    ::dup2(nothing, STDOUT_FILENO);
+    ::dup2(nothing, STDERR_FILENO);
+  }
+  is_child = true;
+  set_limit(RLIMIT_CORE, 0);
+  set_limit(RLIMIT_CPU, std::ceil(limits.seconds));
+  allow_memory(limits.memory);
+  write_all(answer, answer_of(task));
+  ::_exit(0);
+}
+
+/// Reads from the pipe until the child closes it; false if that is not before the deadline.
+bool read_until_closed(int pipe, Clock::time_point deadline, std::string& text) {
+  std::array<char, 4096> buffer;
+  while (true) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    if (left <= 0) return false;
+    pollfd request = {pipe, POLLIN, 0};
+    if (::poll(&request, 1, int(std::min<long long>(left, 1000))) <= 0) continue;
+    const ssize_t count = ::read(pipe, buffer.data(), buffer.size());
+    if (count == 0) return true;
+    if (count > 0) text.append(buffer.data(), std::size_t(count));
+    else if (errno != EINTR) return true;
+  }
+}
+
+std::string too_slow(const Child_limits& limits) {
+  return "took longer than " + std::to_string(std::llround(limits.seconds)) + " s";
+}
+
+[[noreturn]] void throw_answer(const std::string& answer, int status, const Child_limits& limits) {
+  if (answer.empty() && WIFSIGNALED(status)) {
+    if (WTERMSIG(status) == SIGXCPU) throw Child_failure(too_slow(limits));
+    throw Child_failure("crashed (" + std::string(::strsignal(WTERMSIG(status))) + ")");
+  }
+  const std::string text = answer.empty() ? answer : answer.substr(1);
+  if (answer.starts_with(no_memory)) throw std::bad_alloc();
+  if (answer.starts_with(input_error)) {
+    const std::size_t end = text.find('\0');
+    throw Input_error(text.substr(0, end), text.substr(end + 1));
+  }
+  throw Child_failure("gave up" + (text.empty() ? "" : " (" + text + ")"));
+}
+
+} // namespace
+
+void allow_memory(double bytes) {
+  if (const double used = address_space(); is_child && used > 0) set_limit(RLIMIT_AS, used + bytes);
+}
+
+void run_in_child(const std::function<void()>& task, const Child_limits& limits) {
+  std::array<int, 2> pipe;
+  const bool has_pipe = ::pipe(pipe.data()) == 0;
+  const pid_t child = has_pipe ? ::fork() : -1;
+  if (child == -1) {
+    const std::string reason = std::generic_category().message(errno);
+    if (has_pipe)
+      for (const int end : pipe) ::close(end);
+    throw Input_error("cannot make a process to read in (" + reason + "); end other programs or raise the limit");
+  }
+  if (child == 0) {
+    ::close(pipe[0]);
+    live(task, limits, pipe[1]);
+  }
+  ::close(pipe[1]);
+  std::string answer;
+  const auto patience = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(2 * limits.seconds));
+  const bool has_ended = read_until_closed(pipe[0], Clock::now() + patience, answer);
+  ::close(pipe[0]);
+  if (!has_ended) ::kill(child, SIGKILL);
+  int status = 0;
+  while (::waitpid(child, &status, 0) == -1 && errno == EINTR) {
+  }
+  if (!has_ended) throw Child_failure(too_slow(limits));
+  if (answer != std::string{done}) throw_answer(answer, status, limits);
+}
+
+} // namespace equiaffine

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_SYSTEM_CHILD_PROCESS_H
+#define EQUIAFFINE_SRC_SYSTEM_CHILD_PROCESS_H
+
+#include <functional>
+#include <stdexcept>
+
+namespace equiaffine {
+
+/// What a child process may use before it is ended.
+struct Child_limits {
+  double seconds; ///< of processor time; the child may sleep as long again
+  double memory;  ///< bytes beside what its parent has
+};
+
+/// A child process ended without an answer. what() continues a sentence: "crashed (Segmentation fault)".
+class Child_failure : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Runs `task` in a child process and waits for its end. The child has a copy of everything that its parent has, and
+/// nothing of what it changes comes back but `Shared_memory`. What it prints is lost. Where the task throws
+/// `Input_error` or `std::bad_alloc`, so does this function.
+/// \throws Child_failure if the child crashed, exceeded its limits, or threw another exception
+void run_in_child(const std::function<void()>& task, const Child_limits& limits);
+
+/// In a child process, allows this many bytes from now on beside what it has; elsewhere nothing is limited.
+void allow_memory(double bytes);
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/header_checks.h"
+#include "volume/header_text.h"
+#include "volume/volume_formats.h"
+
+#include <climits>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace equiaffine {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr long long largest_number_of_axes = 10; // that of the MetaIO library
+constexpr std::size_t longest_header = 1 << 20;
+
+/// Removes the first line from a text and returns it without the spaces at its ends.
+std::string_view take_line(std::string_view& text) {
+  std::string_view line = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(line.size() + 1, text.size()));
+  line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
+  return line.substr(0, line.find_last_not_of(" \t\r") + 1);
+}
+
+void check_file(const std::string& path, const std::string& name) {
+  std::error_code error;
+  if (!fs::exists(fs::path(path).parent_path() / name, error))
+    fail_to_read_volume(path, "the file with its data, '" + name + "', is missing", "put it beside the header");
+}
+
+/// Checks that the files with the data exist. A name with a % stands for several files, which ITK looks for.
+void check_data_files(const std::string& path, std::string_view content, std::string_view following_lines) {
+  if (content == "LOCAL" || content == "Local" || content == "local" || content.find('%') != std::string_view::npos)
+    return;
+  if (!content.starts_with("LIST")) return check_file(path, std::string(content));
+  std::size_t count = 0;
+  while (!following_lines.empty())
+    if (const std::string_view name = take_line(following_lines); !name.empty()) {
+      check_file(path, std::string(name));
+      ++count;
+    }
+  if (count == 0)
+    fail_to_read_volume(path, "its header has ElementDataFile LIST and names no file", "add the names of the slices");
+}
+
+/// Checks a field that holds numbers, one per axis or, for a matrix, one per pair of axes.
+void check_numbers(const std::string& path, std::string_view field, std::string_view content, std::size_t axes) {
+  for (const std::string_view name : {"ElementSpacing", "ElementSize", "Offset", "Position", "Origin"})
+    if (field == name && !to_numbers(content, axes))
+      fail_at_field(path, field, content, "write " + std::to_string(axes) + " finite numbers");
+  for (const std::string_view name : {"TransformMatrix", "Rotation", "Orientation"})
+    if (field == name && !to_numbers(content, axes * axes))
+      fail_at_field(path, field, content, "write " + std::to_string(axes * axes) + " finite numbers");
+  if (field != "DimSize") return;
+  const auto sizes = words_of(content);
+  const bool are_sizes = std::all_of(sizes.begin(), sizes.end(),
+                                     [](std::string_view size) { return to_integer(size, 1, INT_MAX).has_value(); });
+  if (sizes.size() != axes || !are_sizes)
+    fail_at_field(path, field, content, "write " + std::to_string(axes) + " positive integers");
+}
+
+} // namespace
+
+void check_meta_header(const std::string& path) {
+  const std::string header = beginning_of(path, longest_header);
+  std::string_view rest = header;
+  std::size_t axes = 0;
+  while (!rest.empty()) {
+    const std::string_view line = take_line(rest);
+    const std::size_t equals = line.find('=');
+    if (equals == std::string_view::npos) continue;
+    const std::string_view field = line.substr(0, line.find_last_not_of(" \t", equals - 1) + 1);
+    std::string_view content = line.substr(equals + 1);
+    content = take_line(content);
+    if (field == "NDims") {
+      const std::optional<long long> count = to_integer(content, 1, largest_number_of_axes);
+      if (!count) fail_at_field(path, field, content, "write the number of axes, which is 3");
+      axes = std::size_t(*count);
+    } else if (field == "ElementDataFile") return check_data_files(path, content, rest);
+    else if (axes > 0) check_numbers(path, field, content, axes);
+  }
+}
+
+} // namespace equiaffine

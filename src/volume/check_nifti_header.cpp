@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/header_checks.h"
+#include "volume/header_text.h"
+#include "volume/volume_formats.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+namespace equiaffine {
+
+namespace {
+
+constexpr std::int32_t size_of_header = 348;
+
+/// The places of fields in the header, in bytes.
+enum Place : std::size_t {
+  DIM = 40,
+  BITPIX = 72,
+  PIXDIM = 76,
+  VOX_OFFSET = 108,
+  QFORM = 252,
+  QUATERNION = 256,
+  SROW = 280
+};
+
+/// The header of a NIfTI-1 file, which begins with its own length in the byte order of the file.
+class Nifti_header {
+public:
+  explicit Nifti_header(const std::string& path) : path_(path), bytes_(beginning_of(path, size_of_header)) {
+    if (bytes_.size() < size_of_header) fail_to_read_volume_data(path);
+    is_swapped_ = number<std::int32_t>(0) != size_of_header;
+    if (number<std::int32_t>(0) != size_of_header)
+      fail_at("sizeof_hdr", number<std::int32_t>(0), "convert it to NIfTI-1, where that is 348");
+  }
+
+  void check_frame() const {
+    if (const double offset = number<float>(VOX_OFFSET); !(offset >= 0 && std::isfinite(offset)))
+      fail_at("vox_offset", offset, "correct it to the number of bytes before the data");
+    for (std::size_t axis = 1; axis <= 3; ++axis)
+      if (!std::isfinite(number<float>(PIXDIM, axis)))
+        fail_at("pixdim", number<float>(PIXDIM, axis), "correct it to the distance of two nodes");
+    if (number<std::int16_t>(QFORM) > 0)
+      for (std::size_t i = 0; i < 6; ++i)
+        if (!std::isfinite(number<float>(QUATERNION, i)))
+          fail_at("in quatern or qoffset", number<float>(QUATERNION, i), "correct it to a finite number");
+    if (number<std::int16_t>(QFORM, 1) > 0) check_matrix();
+  }
+
+  /// The bytes from the beginning of the file to the end of the data.
+  double size_of_file() const {
+    const std::int16_t axes = number<std::int16_t>(DIM);
+    if (axes < 1 || axes > 7) fail_at("dim[0]", axes, "correct it to the number of axes");
+    double nodes = 1;
+    for (std::size_t axis = 1; axis <= std::size_t(axes); ++axis) {
+      const std::int16_t size = number<std::int16_t>(DIM, axis);
+      if (size < 1) fail_at("dim[" + std::to_string(axis) + "]", size, "correct it to a number of nodes");
+      nodes *= size;
+    }
+    return double(number<float>(VOX_OFFSET)) + nodes * number<std::int16_t>(BITPIX) / 8;
+  }
+
+private:
+  template <class Number>
+  Number number(std::size_t place, std::size_t index = 0) const {
+    std::array<char, sizeof(Number)> bytes;
+    std::copy_n(bytes_.begin() + std::ptrdiff_t(place + index * sizeof(Number)), bytes.size(), bytes.begin());
+    if (is_swapped_) std::reverse(bytes.begin(), bytes.end());
+    return std::bit_cast<Number>(bytes);
+  }
+
+  /// niftilib takes the matrix apart in single precision, by an iteration that overflows for very unequal steps.
+  void check_matrix() const {
+    constexpr double largest_ratio = 1e6; // that single precision can still tell
+    double shortest = HUGE_VAL, longest = 0;
+    for (std::size_t column = 0; column < 3; ++column) {
+      const double step =
+          std::hypot(number<float>(SROW, column), number<float>(SROW, 4 + column), number<float>(SROW, 8 + column));
+      if (!(step > 0 && std::isfinite(step))) fail_at("in srow a step of", step, "correct it to a finite length");
+      shortest = std::min(shortest, step);
+      longest = std::max(longest, step);
+    }
+    if (longest > largest_ratio * shortest)
+      fail_at("in srow a step of", longest, "correct it, the shortest one is a million times smaller");
+    for (std::size_t row = 0; row < 3; ++row)
+      if (!std::isfinite(number<float>(SROW, 4 * row + 3)))
+        fail_at("in srow an offset of", number<float>(SROW, 4 * row + 3), "correct it to a finite number");
+  }
+
+  [[noreturn]] void fail_at(const std::string& field, double content, const std::string& advice) const {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%g", content);
+    fail_at_field(path_, field, text.data(), advice);
+  }
+
+  std::string path_, bytes_;
+  bool is_swapped_ = false;
+};
+
+} // namespace
+
+void check_nifti_header(const std::string& path) {
+  const Nifti_header header(path);
+  header.check_frame();
+  const double expected = header.size_of_file();
+  // ITK's NIfTI reader says nothing when a file ends early.
+  const std::optional<double> size = decompressed_size(path);
+  if (!size || *size < expected) fail_to_read_volume_data(path);
+}
+
+} // namespace equiaffine

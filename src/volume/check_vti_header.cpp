@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/header_checks.h"
+#include "volume/header_text.h"
+#include "volume/volume_formats.h"
+
+#include <climits>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace equiaffine {
+
+namespace {
+
+/// The content of an attribute of an XML element, or nothing if the element has none of that name.
+std::optional<std::string_view> attribute_of(std::string_view element, std::string_view name) {
+  for (std::size_t at = 0; (at = element.find(name, at)) != std::string_view::npos; ++at) {
+    std::string_view rest = element.substr(at + name.size());
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t\r\n"), rest.size()));
+    if (at == 0 || std::string_view(" \t\r\n").find(element[at - 1]) == std::string_view::npos ||
+        !rest.starts_with('='))
+      continue;
+    rest.remove_prefix(1);
+    rest.remove_prefix(std::min(rest.find_first_of("\"'"), rest.size()));
+    if (rest.empty()) return std::nullopt;
+    const std::size_t end = rest.find(rest[0], 1);
+    if (end == std::string_view::npos) return std::nullopt;
+    return rest.substr(1, end - 1);
+  }
+  return std::nullopt;
+}
+
+Kernel::Vector_3 vector_in(const std::string& path, std::string_view element, const std::string& name,
+                           double otherwise) {
+  const std::optional<std::string_view> content = attribute_of(element, name);
+  if (!content) return {otherwise, otherwise, otherwise};
+  const auto numbers = to_numbers(*content, 3);
+  if (!numbers) fail_at_field(path, name, *content, "write 3 finite numbers");
+  return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+}
+
+Lattice_3<Kernel>::Size size_in(const std::string& path, std::string_view element) {
+  const std::string_view content = attribute_of(element, "WholeExtent").value_or("");
+  const std::vector<std::string_view> words = words_of(content);
+  std::array<long long, 6> extent;
+  for (std::size_t i = 0; i < extent.size(); ++i) {
+    const auto number = words.size() == extent.size() ? to_integer(words[i], INT_MIN, INT_MAX) : std::nullopt;
+    if (!number) fail_at_field(path, "WholeExtent", content, "write 6 integers of 32 bits");
+    extent[i] = *number;
+  }
+  Lattice_3<Kernel>::Size size;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    size[axis] = std::size_t(std::max(extent[2 * axis + 1] - extent[2 * axis] + 1, 0LL));
+  return size;
+}
+
+} // namespace
+
+void check_vti_header(const std::string& path) {
+  constexpr std::size_t longest_beginning = 1 << 16;
+  const std::string beginning = beginning_of(path, longest_beginning);
+  const std::size_t begin = beginning.find("<ImageData");
+  if (begin == std::string::npos)
+    fail_to_read_volume(path, "its header is damaged, it has no element ImageData", "get the complete file again");
+  const std::string_view element = std::string_view(beginning).substr(begin, beginning.find('>', begin) - begin);
+  const Kernel::Vector_3 spacing = vector_in(path, element, "Spacing", 1),
+                         origin = vector_in(path, element, "Origin", 0);
+  if (const auto direction = attribute_of(element, "Direction"); direction && !to_numbers(*direction, 9))
+    fail_at_field(path, "Direction", *direction, "write 9 finite numbers");
+  make_lattice(
+      path, size_in(path, element), CGAL::ORIGIN + origin,
+      {Kernel::Vector_3(spacing.x(), 0, 0), Kernel::Vector_3(0, spacing.y(), 0), Kernel::Vector_3(0, 0, spacing.z())});
+}
+
+} // namespace equiaffine

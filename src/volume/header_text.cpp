@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/header_text.h"
+
+#include "volume/volume_formats.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <system_error>
+
+namespace equiaffine {
+
+namespace {
+
+constexpr std::string_view spaces = " \t\r\n";
+
+using Gzip_file = std::unique_ptr<gzFile_s, int (*)(gzFile)>;
+
+/// zlib reads plain files as they are.
+Gzip_file open_gzip(const std::string& path) { return {gzopen(path.c_str(), "rb"), gzclose}; }
+
+template <class Number>
+std::optional<Number> parse(std::string_view text) {
+  Number number;
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+} // namespace
+
+std::string beginning_of(const std::string& path, std::size_t size) {
+  const Gzip_file file = open_gzip(path);
+  std::string bytes(size, '\0');
+  const int count = file ? gzread(file.get(), bytes.data(), unsigned(size)) : 0;
+  bytes.resize(std::size_t(std::max(count, 0)));
+  return bytes;
+}
+
+std::optional<double> decompressed_size(const std::string& path) {
+  const Gzip_file file = open_gzip(path);
+  if (!file) return std::nullopt;
+  std::string bytes(std::size_t(1) << 20, '\0');
+  double size = 0;
+  int count = 0;
+  while ((count = gzread(file.get(), bytes.data(), unsigned(bytes.size()))) > 0) size += count;
+  int error = Z_OK;
+  gzerror(file.get(), &error);
+  if (error != Z_OK) return std::nullopt;
+  return size;
+}
+
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  while (true) {
+    text.remove_prefix(std::min(text.find_first_not_of(spaces), text.size()));
+    if (text.empty()) return words;
+    words.push_back(text.substr(0, text.find_first_of(spaces)));
+    text.remove_prefix(words.back().size());
+  }
+}
+
+std::optional<double> to_number(std::string_view text) {
+  const std::optional<double> number = parse<double>(text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
+std::optional<long long> to_integer(std::string_view text, long long lowest, long long highest) {
+  const std::optional<long long> number = parse<long long>(text);
+  return number && lowest <= *number && *number <= highest ? number : std::nullopt;
+}
+
+std::optional<std::vector<double>> to_numbers(std::string_view text, std::size_t count) {
+  std::vector<double> numbers;
+  for (const std::string_view word : words_of(text)) {
+    const std::optional<double> number = to_number(word);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  if (numbers.size() != count) return std::nullopt;
+  return numbers;
+}
+
+void fail_at_field(const std::string& path, std::string_view field, std::string_view content,
+                   const std::string& advice) {
+  constexpr std::size_t longest = 60;
+  std::string text(content.substr(0, longest));
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+  if (content.size() > longest) text += "...";
+  fail_to_read_volume(path, "its header has " + std::string(field) + " '" + text + "'", advice);
+}
+
+} // namespace equiaffine

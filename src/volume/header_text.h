@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_VOLUME_HEADER_TEXT_H
+#define EQUIAFFINE_SRC_VOLUME_HEADER_TEXT_H
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace equiaffine {
+
+/// The first bytes of a file, at most `size`; those of a file that gzip compressed are decompressed.
+std::string beginning_of(const std::string& path, std::size_t size);
+
+/// The number of bytes in a file, decompressed if gzip compressed it; nothing if it cannot be decompressed to its end.
+std::optional<double> decompressed_size(const std::string& path);
+
+/// The words of a text, which spaces, tabs and ends of lines separate.
+std::vector<std::string_view> words_of(std::string_view text);
+
+/// The finite number that a text is, and nothing but that.
+std::optional<double> to_number(std::string_view text);
+
+/// The integer in [lowest, highest] that a text is, and nothing but that.
+std::optional<long long> to_integer(std::string_view text, long long lowest, long long highest);
+
+/// The finite numbers that a text is, separated by spaces; nothing if there are not exactly `count`.
+std::optional<std::vector<double>> to_numbers(std::string_view text, std::size_t count);
+
+/// Throws `Input_error` that says what a field of a header holds and gives the advice.
+[[noreturn]] void fail_at_field(const std::string& path, std::string_view field, std::string_view content,
+                                const std::string& advice);
+
+} // namespace equiaffine
+
+#endif

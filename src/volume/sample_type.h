@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_VOLUME_SAMPLE_TYPE_H
+#define EQUIAFFINE_SRC_VOLUME_SAMPLE_TYPE_H
+
+#include "request/Raw_layout.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace equiaffine {
+
+/// Calls f(T()), where T is the type at this position of raw_types.
+template <class F>
+auto with_sample_type(std::size_t type, const F& f) {
+  switch (type) {
+  case 0: return f(std::uint8_t());
+  case 1: return f(std::int8_t());
+  case 2: return f(std::uint16_t());
+  case 3: return f(std::int16_t());
+  case 4: return f(std::uint32_t());
+  case 5: return f(std::int32_t());
+  case 6: return f(std::uint64_t());
+  case 7: return f(std::int64_t());
+  case 8: return f(float());
+  default: return f(double());
+  }
+}
+
+inline std::size_t size_of_sample(std::size_t type) {
+  return with_sample_type(type, [](auto number) { return sizeof number; });
+}
+
+/// The position in raw_types of the integers of 1, 2, 4 or 8 bytes.
+constexpr std::size_t integer_sample_type(std::size_t bytes, bool is_signed) {
+  return (bytes == 1 ? 0 : bytes == 2 ? 2 : bytes == 4 ? 4 : 6) + std::size_t(is_signed);
+}
+
+/// The position in raw_types of float, with 4 bytes, and double.
+constexpr std::size_t floating_sample_type(std::size_t bytes) { return bytes == 4 ? 8 : 9; }
+
+} // namespace equiaffine
+
+#endif

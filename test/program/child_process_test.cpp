@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "system/Shared_memory.h"
+#include "system/child_process.h"
+#include <equiaffine/Input_error.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <iostream>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using equiaffine::Child_failure;
+using equiaffine::Input_error;
+using equiaffine::run_in_child;
+using equiaffine::Shared_memory;
+
+constexpr double megabyte = 1 << 20;
+constexpr equiaffine::Child_limits generous = {60, 1024 * megabyte};
+
+std::string failure_of(const std::function<void()>& task, const equiaffine::Child_limits& limits = generous) {
+  try {
+    run_in_child(task, limits);
+  } catch (const Child_failure& failure) {
+    return failure.what();
+  }
+  return "no failure";
+}
+
+TEST(Program_child_process, writes_to_shared_memory_and_changes_nothing_else) {
+  Shared_memory memory;
+  std::string text = "old";
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  run_in_child(
+      [&] {
+        text = "new";
+        std::cout << "lost" << std::endl;
+        std::cerr << "lost" << std::endl;
+        std::memcpy(memory.allocate(4), "abc", 4);
+        std::memcpy(memory.allocate(8), "12345", 6);
+      },
+      generous);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(text, "old");
+  EXPECT_STREQ(reinterpret_cast<const char*>(memory.data()), "12345");
+}
+
+TEST(Program_child_process, leaves_no_memory_if_it_allocates_none) {
+  Shared_memory memory;
+  run_in_child([] {}, generous);
+  EXPECT_EQ(memory.data(), nullptr);
+}
+
+TEST(Program_child_process, hands_on_errors_of_input_with_their_excerpts) {
+  try {
+    run_in_child([] { throw Input_error("what", "excerpt\n^"); }, generous);
+    FAIL() << "no error";
+  } catch (const Input_error& error) {
+    EXPECT_STREQ(error.what(), "what");
+    EXPECT_EQ(error.excerpt(), "excerpt\n^");
+  }
+}
+
+TEST(Program_child_process, fails_if_it_crashes_or_throws) {
+  EXPECT_EQ(failure_of([] { std::raise(SIGSEGV); }), "crashed (Segmentation fault)");
+  EXPECT_EQ(failure_of([] { std::abort(); }), "crashed (Aborted)");
+  EXPECT_EQ(failure_of([] { throw std::runtime_error("reason"); }), "gave up (reason)");
+  EXPECT_EQ(failure_of([] { throw 1; }), "gave up");
+  EXPECT_EQ(failure_of([] { std::_Exit(0); }), "gave up");
+}
+
+TEST(Program_child_process, fails_if_it_takes_too_long) {
+  volatile bool is_endless = true;
+  const auto compute = [&] {
+    while (is_endless) {
+    }
+  };
+  EXPECT_EQ(failure_of(compute, {1, megabyte}), "took longer than 1 s");
+}
+
+TEST(Program_child_process, has_no_more_memory_than_it_is_allowed) {
+  const auto take = [](double bytes) {
+    std::vector<char> block(std::size_t(bytes), 'x');
+    if (std::count(block.begin(), block.end(), 'x') != std::ptrdiff_t(block.size())) throw std::logic_error("lost");
+  };
+  EXPECT_NO_THROW(run_in_child([&] { take(100 * megabyte); }, {60, 300 * megabyte}));
+  EXPECT_THROW(run_in_child([&] { take(400 * megabyte); }, {60, 300 * megabyte}), std::bad_alloc);
+  const auto take_what_is_allowed_later = [&] {
+    equiaffine::allow_memory(600 * megabyte);
+    take(400 * megabyte);
+  };
+  EXPECT_NO_THROW(run_in_child(take_what_is_allowed_later, {60, 300 * megabyte}));
+}
+
+} // namespace
