@@ -3,6 +3,22 @@
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
+# Without this check an installation would fail half way and leave a prefix that find_package takes for a package.
+set(built_files)
+if(EQUIAFFINE_BUILD_MESHER)
+  list(APPEND built_files $<TARGET_FILE:equiaffine_mesher>)
+endif()
+if(EQUIAFFINE_BUILD_PROGRAM)
+  list(APPEND built_files $<TARGET_FILE:equiaffine_executable>)
+endif()
+install(
+  CODE "foreach(file IN ITEMS ${built_files})
+  if(NOT EXISTS \"\${file}\")
+    message(FATAL_ERROR \"\${file} is not built: run cmake --build first, or install the headers alone with \"
+                        \"-DEQUIAFFINE_BUILD_MESHER=OFF -DEQUIAFFINE_BUILD_PROGRAM=OFF\")
+  endif()
+endforeach()")
+
 set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/equiaffine)
 install(TARGETS equiaffine EXPORT equiaffineTargets FILE_SET porch FILE_SET doors FILE_SET internal)
 install(EXPORT equiaffineTargets NAMESPACE equiaffine:: DESTINATION ${package_dir})

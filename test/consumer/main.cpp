@@ -23,6 +23,8 @@ int main() {
   const auto curvature = mesh.add_property_map<Vertex_index, double>("v:affine_gaussian_curvature").first;
   for (const Vertex_index v : mesh.vertices())
     if (!(std::abs(curvature[v] - 0.5) < 1e-12)) return EXIT_FAILURE;
+#ifndef HEADERS_ALONE
   if (!equiaffine::delaunay_surface(traits).is_certified) return EXIT_FAILURE;
+#endif
   return mesh.number_of_vertices() > 1000 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
