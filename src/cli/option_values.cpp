@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/option_values.h"
 
+#include <equiaffine/Expression_3.h>
 #include <equiaffine/Input_error.h>
 
 #include <CGAL/determinant.h>
@@ -44,6 +45,18 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     last = row;
   }
   return last.back();
+}
+
+/// A finite number, written as such or as arithmetic with numbers.
+double parse_arithmetic(const std::string& option, const std::string& word) {
+  if (parse_number<double>(word)) return parse_finite_number(option, word);
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  try {
+    // The value is NaN if it depends on x, y or z.
+    if (const double value = Expression_3(word)(unknown, unknown, unknown); std::isfinite(value)) return value;
+  } catch (const Input_error&) {
+  }
+  fail_option(option, "'" + word + "' is not a number", "write it like 2, -.5, 1e-3 or 2*pi/3");
 }
 
 } // namespace
@@ -118,6 +131,8 @@ CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& opti
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   if (!(std::abs(CGAL::determinant(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8])) > rounding))
     fail_option(name, "the matrix is singular", "give nine numbers, row by row, of a matrix with an inverse");
+  if (!std::isnormal(CGAL::determinant(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8])))
+    fail_option(name, "the determinant is too large or too small for a number of the computer", "choose another unit");
   return {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]};
 }
 
@@ -125,7 +140,7 @@ std::pair<std::string, double> parse_constant(const std::string& option, const s
   const std::size_t equals = word.find('=');
   if (equals == std::string::npos || equals == 0)
     fail_option(option, "'" + word + "' is not of the form name=value", "write it like R=2");
-  return {word.substr(0, equals), parse_finite_number(option + " " + word, word.substr(equals + 1))};
+  return {word.substr(0, equals), parse_arithmetic(option + " " + word, word.substr(equals + 1))};
 }
 
 std::size_t parse_choice(const Option_words& option, std::span<const std::string_view> choices) {
@@ -139,6 +154,9 @@ std::size_t parse_choice(const Option_words& option, std::span<const std::string
 }
 
 std::string suggestion(const std::string& word, const Words& candidates) {
+  const auto starts_so = [&](const std::string& candidate) { return candidate.starts_with(word); };
+  if (std::count_if(candidates.begin(), candidates.end(), starts_so) == 1)
+    return ", did you mean '" + *std::find_if(candidates.begin(), candidates.end(), starts_so) + "'?";
   const std::string* best = nullptr;
   std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates)

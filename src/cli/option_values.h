@@ -55,7 +55,7 @@ CGAL::Bbox_3 parse_box(const Option_words& option);
 /// Nine numbers, row by row, of a matrix that is not singular, rounding considered.
 CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& option);
 
-/// name=value
+/// name=value, where the value is a number or arithmetic with numbers.
 std::pair<std::string, double> parse_constant(const std::string& option, const std::string& word);
 
 /// The position of the only word of the option in `choices`.
@@ -69,7 +69,8 @@ Value parse_choice(const Option_words& option, std::initializer_list<std::pair<s
   return (choices.begin() + parse_choice(option, names))->second;
 }
 
-/// ", did you mean 'candidate'?" for the candidate with the fewest typing errors, if they are few; else nothing.
+/// ", did you mean 'candidate'?" for the only candidate that begins with the word, or else the one with the fewest
+/// typing errors, if they are few; else nothing.
 std::string suggestion(const std::string& word, const Words& candidates);
 
 } // namespace equiaffine

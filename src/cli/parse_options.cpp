@@ -3,6 +3,7 @@
 
 #include "attributes/error_columns.h"
 #include "cli/Option_reader.h"
+#include "cli/formula_file.h"
 #include "cli/read_source.h"
 #include <equiaffine/Input_error.h>
 
@@ -25,12 +26,34 @@ std::filesystem::path canonical_output(const std::string& path) {
   return error ? absolute.lexically_normal() : canonical;
 }
 
-void check_outputs(const std::vector<std::optional<std::string>>& paths) {
+/// The paths of the files that the command line says to read.
+std::vector<std::string> input_files(const Option_reader& reader) {
+  std::vector<std::string> files;
+  for (const char* option : {"--volume", "--distance-to", "--points", "MESH.ply"})
+    if (reader.has(option)) files.push_back(reader.word(option));
+  if (reader.has("--function"))
+    if (const auto file = formula_file(reader.word("--function"))) files.push_back(*file);
+  return files;
+}
+
+/// Whether two paths lead to the same file, by symbolic or hard links, too.
+bool are_same_file(const std::string& path, const std::string& other) {
+  std::error_code error;
+  return canonical_output(path) == canonical_output(other) || std::filesystem::equivalent(path, other, error);
+}
+
+/// Throws if an output would replace what is read, or another output.
+void check_outputs(const Option_reader& reader, const std::vector<std::optional<std::string>>& paths) {
   std::set<std::filesystem::path> outputs;
-  for (const auto& path : paths)
-    if (path && !outputs.insert(canonical_output(*path)).second)
+  for (const auto& path : paths) {
+    if (!path) continue;
+    if (!outputs.insert(canonical_output(*path)).second)
       throw Input_error("two outputs go to " + (path == "-" ? "standard output" : "'" + *path + "'") +
                         "; give each its own name");
+    for (const std::string& input : input_files(reader))
+      if (path != "-" && input != "-" && are_same_file(*path, input))
+        throw Input_error("the output '" + *path + "' would replace the file that is read; give it another name");
+  }
 }
 
 void read_delaunay_options(Option_reader& reader) {
@@ -110,7 +133,7 @@ Mesh_options read_mesh_options(Option_reader& reader) {
   check_page(reader);
   Draft& draft = reader.draft();
   check_scheme(draft);
-  check_outputs({draft.output, draft.html, draft.png, draft.curves, draft.stats});
+  check_outputs(reader, {draft.output, draft.html, draft.png, draft.curves, draft.stats});
 
   Mesh_options options;
   options.source = std::move(draft.source);
@@ -139,6 +162,7 @@ Evaluate_options read_evaluate_options(Option_reader& reader) {
   const Draft& draft = reader.draft();
   if (draft.source.kind == Source_kind::DISTANCE && draft.source.text == "-" && draft.points == "-")
     throw Input_error("--distance-to and --points both read standard input; name a file for one of them");
+  check_outputs(reader, {draft.output});
   return {draft.source, draft.orientation, draft.attributes, draft.estimator, draft.points, *draft.output};
 }
 
@@ -147,6 +171,7 @@ Sample_options read_sample_options(Option_reader& reader) {
   reader.read_rest();
   need_output(reader);
   const Draft& draft = reader.draft();
+  check_outputs(reader, {draft.output});
   return {draft.source, draft.samples_are_float, *draft.output};
 }
 
@@ -158,7 +183,7 @@ View_options read_view_options(Option_reader& reader) {
   const Draft& draft = reader.draft();
   if (!draft.output && !draft.png)
     throw Input_error("no output is given; name the page, -o PAGE.html, or the picture, --png FILE.png");
-  check_outputs({draft.output, draft.png});
+  check_outputs(reader, {draft.output, draft.png});
   return {draft.mesh, draft.output, draft.png, draft.page, draft.picture};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/Option_row.h"
+#include "cli/formula_file.h"
 
 namespace equiaffine {
 
@@ -10,6 +11,11 @@ using enum Option_group;
 void read_source(Source_kind kind, const Option_words& option, Draft& draft) {
   draft.source.kind = kind;
   draft.source.text = option.word();
+}
+
+void read_function(const Option_words& option, Draft& draft) {
+  read_source(Source_kind::FUNCTION, option, draft);
+  if (const auto file = formula_file(option.word())) draft.source.text = read_formula(*file);
 }
 
 void read_constants(const Option_words& option, Draft& draft) {
@@ -36,14 +42,15 @@ void read_raw_dims(const Option_words& option, Draft& draft) {
 const std::vector<Option_row> rows = {
     {"--function", MESH | EVALUATE | SAMPLE, SOURCE, 1, "EXPR",
      "a formula in x, y, z: + - * / ^ ( ) pi e sqrt cbrt exp log sin cos tan\n"
-     "asin acos atan atan2 sinh cosh tanh abs min max hypot pow; lhs = rhs means lhs - rhs",
-     [](const Option_words& option, Draft& draft) { read_source(Source_kind::FUNCTION, option, draft); }},
+     "asin acos atan atan2 sinh cosh tanh abs min max hypot pow; lhs = rhs means lhs - rhs;\n"
+     "@FILE reads it from a file",
+     read_function},
     {"--set",
      MESH | EVALUATE | SAMPLE,
      SOURCE,
      {1, unlimited},
      "NAME=VALUE ...",
-     "constants of the formula",
+     "constants of the formula: numbers, or arithmetic such as 2*pi/3",
      read_constants},
     {"--distance-to", MESH | EVALUATE | SAMPLE, SOURCE, 1, "MESH",
      "the signed distance, negative inside, to a closed mesh: .off .ply .obj .stl; - reads\n"

@@ -4,6 +4,7 @@
 #include "commands/commands.h"
 #include "output/statistics.h"
 #include "source/source.h"
+#include "source/warn_of_outside.h"
 #include "system/atomic_file.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/io/read_points.h>
@@ -60,6 +61,9 @@ void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& 
   else write_PLY(output.stream(), table.mesh, merge_attributes(table.attributes, attributes));
   progress.end();
   output.commit();
+  if (attributes.status)
+    warn_of_outside(options.source, source, count(*attributes.status)[std::size_t(Point_status::OUTSIDE)],
+                    points.size(), "points", progress);
   if (options.output == "-") return;
   out << points.size() << " points";
   if (attributes.status) {

@@ -5,6 +5,7 @@
 #include "output/statistics.h"
 #include "output/surface_output.h"
 #include "source/source.h"
+#include "source/warn_of_outside.h"
 #include "system/atomic_file.h"
 #include "system/resources.h"
 #include <equiaffine/Input_error.h>
@@ -232,8 +233,10 @@ std::string summary(const Parabolic_curves_3<Kernel>& curves) {
 struct Outputs {
   explicit Outputs(const Mesh_options& options) {
     check_surface_output(options.output);
+    if (options.html) check_page_output(*options.html);
     if (options.png) check_picture_output(*options.png);
     if (options.curves) check_curves_output(*options.curves);
+    if (options.stats) check_statistics_output(*options.stats);
     files.emplace_back(options.output);
     for (const auto& output : {options.html, options.png, options.curves, options.stats})
       if (output) files.emplace_back(*output);
@@ -275,6 +278,9 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   if (options.stats) file->stream() << to_JSON(statistics);
   progress.end();
   commit_all(outputs.files);
+  if (!options.attributes.columns.empty())
+    warn_of_outside(options.source, source, surface.status[std::size_t(Point_status::OUTSIDE)],
+                    surface.mesh.points.size(), "vertices", progress);
   if (!outputs.use_standard_output()) {
     out << summary(statistics);
     if (options.curves) out << summary(*surface.curves);

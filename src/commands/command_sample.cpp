@@ -4,6 +4,9 @@
 #include "system/atomic_file.h"
 #include "volume/volume_io.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace equiaffine {
 
 void run_sample(const Sample_options& options, std::ostream& out, Progress& progress) {
@@ -15,7 +18,11 @@ void run_sample(const Sample_options& options, std::ostream& out, Progress& prog
   progress.end();
   output.commit();
   const auto [nx, ny, nz] = volume.lattice.size();
-  out << nx << " x " << ny << " x " << nz << " nodes\nwrote " << options.output << '\n';
+  out << nx << " x " << ny << " x " << nz << " nodes";
+  const auto unknown =
+      std::count_if(volume.values.begin(), volume.values.end(), [](double v) { return std::isnan(v); });
+  if (unknown > 0) out << ", " << unknown << " without a value";
+  out << "\nwrote " << options.output << '\n';
 }
 
 } // namespace equiaffine

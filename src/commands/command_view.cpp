@@ -3,6 +3,7 @@
 #include "output/surface_output.h"
 #include "picture/draw_surface.h"
 #include "system/atomic_file.h"
+#include "system/name_of_file.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/io/input_file.h>
 #include <equiaffine/io/read_PLY.h>
@@ -40,18 +41,19 @@ void check_arrows(const std::string& arrows, const Vertex_attributes& attributes
 } // namespace
 
 void run_view(const View_options& options, std::ostream& out) {
+  if (options.html) check_page_output(*options.html);
   if (options.png) check_picture_output(*options.png);
   std::vector<Output_file> outputs;
   for (const auto& path : {options.html, options.png})
     if (path) outputs.emplace_back(*path);
+  const std::string name = options.mesh == "-" ? "standard input" : name_of_file(options.mesh);
   const Annotated_mesh_3<Kernel> surface = read_mesh(options.mesh);
-  if (surface.mesh.triangles.empty())
-    throw Input_error("cannot show '" + options.mesh + "': it has no faces; give a mesh");
+  if (surface.mesh.triangles.empty()) throw Input_error("cannot show '" + name + "': it has no faces; give a mesh");
   check_color(options.page.color, surface.attributes);
   check_arrows(options.picture.arrows, surface.attributes);
   if (options.html)
     write_page(outputs.front(), surface.mesh, surface.attributes, options.page,
-               {{"File", options.mesh},
+               {{"File", name},
                 {"Vertices", std::to_string(surface.mesh.points.size())},
                 {"Triangles", std::to_string(surface.mesh.triangles.size())}});
   if (options.png) write_picture(outputs.back(), surface.mesh, surface.attributes, options.page, options.picture);

@@ -4,6 +4,7 @@
 #include "cli/parse_options.h"
 #include "commands/commands.h"
 #include "request/options.h"
+#include "system/printable.h"
 #include "system/progress.h"
 #include <equiaffine/Input_error.h>
 
@@ -11,7 +12,6 @@
 #include <tbb/global_control.h>
 #endif
 
-#include <algorithm>
 #include <exception>
 #include <memory>
 #include <new>
@@ -34,7 +34,12 @@ void run_command(const Options& options, const Streams& streams) {
   struct Runner {
     std::ostream& out;
     Progress& progress;
-    void operator()(const Information& information) const { out << information.text; }
+    void operator()(const Information& information) const {
+      out << information.text << std::flush;
+      if (!out)
+        throw Input_error("cannot write standard output: not everything was accepted; make sure that the receiver is "
+                          "ready");
+    }
     void operator()(const Mesh_options& o) const { run_mesh(o, out, progress); }
     void operator()(const Evaluate_options& o) const { run_evaluate(o, out, progress); }
     void operator()(const Sample_options& o) const { run_sample(o, out, progress); }
@@ -44,9 +49,8 @@ void run_command(const Options& options, const Streams& streams) {
 }
 
 /// Reports the text in one line, even if it has several.
-void report(std::ostream& stream, const std::string& kind, std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  stream << "equiaffine: " << kind << ": " << text << '\n';
+void report(std::ostream& stream, const std::string& kind, const std::string& text) {
+  stream << "equiaffine: " << kind << ": " << printable(text) << '\n';
 }
 
 } // namespace

@@ -9,7 +9,11 @@
 #include <equiaffine/io/write_curves.h>
 #include <equiaffine/io/write_mesh.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <initializer_list>
 #include <optional>
+#include <string_view>
 
 namespace equiaffine {
 
@@ -30,6 +34,15 @@ void check_output(const std::string& path, bool is_known, const std::string& kno
   throw Input_error("cannot write '" + path +
                     "': " + (is_VTP(path) ? "this equiaffine was built without VTK" : "its extension is not known") +
                     "; use one of " + known_extensions);
+}
+
+/// Throws if the file has an extension and it is none of those: what looks like a mesh is not to become a page.
+void check_extension(const std::string& path, std::initializer_list<std::string_view> extensions,
+                     const std::string& kind, const std::string& advised) {
+  const bool is_right = std::any_of(extensions.begin(), extensions.end(),
+                                    [&](std::string_view extension) { return has_extension(path, extension); });
+  if (is_right || path == "-" || !std::filesystem::path(path).has_extension()) return;
+  throw Input_error("cannot write '" + path + "': it is to be " + kind + "; give it the extension " + advised);
 }
 
 } // namespace
@@ -55,6 +68,12 @@ void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves) {
   if (is_VTP(file.path())) return write_VTP(file.stream(), curves);
 #endif
   write_OBJ(file.stream(), curves);
+}
+
+void check_page_output(const std::string& path) { check_extension(path, {".html", ".htm"}, "a page", ".html"); }
+
+void check_statistics_output(const std::string& path) {
+  check_extension(path, {".json"}, "a file of statistics", ".json");
 }
 
 void check_picture_output(const std::string& path) {

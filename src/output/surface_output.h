@@ -34,6 +34,12 @@ void write_picture(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mes
                    const Page_options& options, const Picture_options& picture,
                    const std::vector<Polyline_3<Kernel>>& curves = {});
 
+/// Throws `Input_error` if the path has an extension that is not that of a page.
+void check_page_output(const std::string& path);
+
+/// Throws `Input_error` if the path has an extension that is not .json.
+void check_statistics_output(const std::string& path);
+
 /// The table of a page about its surface, in rows of two cells.
 using Description = std::vector<std::pair<std::string, std::string>>;
 

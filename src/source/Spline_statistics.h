@@ -5,6 +5,8 @@
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_scheme.h>
 
+#include <cstddef>
+
 namespace equiaffine {
 
 /// The facts about samples, and about the spline that was made from them, that the program reports.
@@ -13,6 +15,7 @@ struct Spline_statistics {
   Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
   double smoothing = 0;
   Sample_noise noise = {};
+  std::size_t least_nodes = 0; ///< along the axis that has the fewest
 };
 
 } // namespace equiaffine

@@ -2,6 +2,7 @@
 #include "source/source.h"
 
 #include "source/read_triangle_mesh.h"
+#include "system/name_of_file.h"
 #include "system/resources.h"
 #include "volume/raw_volume.h"
 #include "volume/volume_io.h"
@@ -99,7 +100,7 @@ Fit fit_spline(const Source_options& source, Progress& progress) {
   const Sample_noise noise = estimate_noise(volume, isovalue);
   const double smoothing = scale ? *scale : choose_smoothing(volume, noise, degree, scheme, isovalue);
   progress.begin("fitting a spline");
-  const Spline_statistics statistics = {degree, scheme, smoothing, noise};
+  const Spline_statistics statistics = {degree, scheme, smoothing, noise, std::ranges::min(volume.lattice.size())};
   const Spline_parameters parameters = {.degree = degree, .scheme = scheme, .smoothing = smoothing};
   if (!estimates_errors) return {Spline_traits(std::move(volume), parameters), statistics, {}};
   Fit fit = {Spline_traits(volume, parameters), statistics, {}};
@@ -140,8 +141,9 @@ Source make_source(const Source_options& options, Progress& progress) {
 std::string describe(const Source_options& options) {
   switch (options.kind) {
   case Source_kind::FUNCTION: return "the formula " + options.text;
-  case Source_kind::VOLUME: return "the volume '" + options.text + "'";
-  default: return "the distance to " + (options.text == "-" ? "standard input" : "'" + options.text + "'");
+  case Source_kind::VOLUME: return "the volume '" + name_of_file(options.text) + "'";
+  default:
+    return "the distance to " + (options.text == "-" ? "standard input" : "'" + name_of_file(options.text) + "'");
   }
 }
 

@@ -33,7 +33,8 @@ std::array<std::size_t, 3> default_resolution(Source_kind kind);
 /// The samples of a source that is not a volume.
 Volume_3<Kernel> sample_source(const Source_options& options, Progress& progress);
 
-/// "the formula x^2 + y^2 = 1", "the volume 'skull.nrrd'", "the distance to 'bunny.off'"
+/// "the formula x^2 + y^2 = 1", "the volume 'skull.nrrd'", "the distance to 'bunny.off'": files by their names, without
+/// folders.
 std::string describe(const Source_options& options);
 
 } // namespace equiaffine

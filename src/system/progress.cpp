@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/progress.h"
 
+#include "system/printable.h"
+
 #include <algorithm>
 
 namespace equiaffine {
@@ -26,6 +28,11 @@ void Progress::end() {
   }
   ended_.notify_one();
   if (thread_.joinable()) thread_.join();
+}
+
+void Progress::warn(const std::string& text) {
+  end();
+  terminal_ << "equiaffine: warning: " << printable(text) << '\n';
 }
 
 void Progress::show_until_ended() {

@@ -14,7 +14,7 @@
 namespace equiaffine {
 
 /// A line on a terminal that says what a long computation is doing. It appears after a second and is wiped away at the
-/// end; where there is no terminal it never appears.
+/// end; where there is no terminal it never appears. Warnings follow it.
 class Progress {
 public:
   using Clock = std::chrono::steady_clock;
@@ -32,6 +32,9 @@ public:
 
   /// Wipes the line away; nothing is shown any more.
   void end();
+
+  /// Ends and writes a line about what the user did not expect, whether there is a terminal or not.
+  void warn(const std::string& text);
 
 private:
   void show_until_ended();

@@ -86,6 +86,16 @@ TEST(Read_points, columns_that_are_computed_again_are_replaced) {
   EXPECT_EQ(rewritten(table, {}), "k1,x,\"status\",y,z\n9,1,outside,2,3\n");
 }
 
+TEST(Read_points, cells_may_be_separated_by_semicolons_or_tabs_and_axes_be_capitals) {
+  const Table semicolons = csv("\nX;Y;Z;name\n1;2;3;a, b\n");
+  EXPECT_EQ(semicolons.mesh.points, std::vector<Point_3>{Point_3(1, 2, 3)});
+  EXPECT_EQ(rewritten(semicolons, {{{"k1", {0.5}}}, {{Point_status::REGULAR}}}),
+            "X;Y;Z;name;k1;status\n1;2;3;a, b;0.5;regular\n");
+  const Table tabs = csv("x\ty\tz\tX\n1\t2\t3\t9\n");
+  EXPECT_EQ(tabs.mesh.points, std::vector<Point_3>{Point_3(1, 2, 3)});
+  EXPECT_EQ(rewritten(tabs, {{{"k1", {0.5}}}, {}}), "x\ty\tz\tX\tk1\n1\t2\t3\t9\t0.5\n");
+}
+
 TEST(Read_points, a_csv_file_may_have_no_rows) {
   const Table table = csv("x,y,z\n");
   EXPECT_TRUE(table.mesh.points.empty());
@@ -114,7 +124,8 @@ TEST(Read_points, mistakes_in_csv_are_told_with_line_and_column) {
   EXPECT_NE(error_of(csv, "n,x,y,z\n\"a\nb\",1,2,3\nc,1,2,?\n").find("line 4"), std::string::npos);
   EXPECT_NE(error_of(csv, "x,y,z,n\n1,2,3,\"a\n4,5,6,b\n").find("line 2 opens a quote"), std::string::npos);
   EXPECT_NE(error_of(csv, "1,2,3\n").find("no single column 'x'"), std::string::npos);
-  EXPECT_NE(error_of(csv, "x;y;z\n1;2;3\n").find("separated by commas"), std::string::npos);
+  EXPECT_NE(error_of(csv, "x y z\n1 2 3\n").find("separated by commas, semicolons or tabs"), std::string::npos);
+  EXPECT_NE(error_of(csv, "x;y;z\n1;2;3;4\n").find("put quotes around ';'"), std::string::npos);
   EXPECT_NE(error_of(csv, "x,y,z,x\n1,2,3,4\n").find("no single column 'x'"), std::string::npos);
   EXPECT_NE(error_of(csv, "").find("no single column 'x'"), std::string::npos);
 }

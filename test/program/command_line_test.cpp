@@ -650,11 +650,40 @@ TEST_F(Program_command_line, a_volume_sampled_and_read_again_gives_the_same_surf
 TEST_F(Program_command_line, a_volume_of_two_nodes_per_axis_is_extracted_without_attributes) {
   run_well({"sample", "--function", "x + y + z", "--box", "0", "1", "0", "1", "0", "1", "--resolution", "2", "-o",
             "v.nrrd"});
-  const Json stats = stats_of({"--volume", "v.nrrd", "--isovalue", "1.5"});
+  const Json stats = stats_of({"--volume", "v.nrrd", "--isovalue", "1.5", "--attributes", "none"});
   EXPECT_EQ(stats["vertices"], 6);
   EXPECT_EQ(stats["status"]["outside"], 6);
   EXPECT_EQ(stats["euler_characteristic"], 1);
   EXPECT_TRUE(stats["max_distance_to_surface"].is_null());
+  const Result result = run({"mesh", "--volume", "v.nrrd", "--isovalue", "1.5", "-o", "out.ply"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.error, "equiaffine: warning: 6 of 6 vertices are outside and have no attributes: a spline of degree "
+                          "7 needs 8 nodes along each axis, and there are 2 along one; give more nodes\n");
+}
+
+TEST_F(Program_command_line, constants_are_arithmetic_and_formulas_may_come_from_a_file) {
+  write_file(folder_ / "formula", "x^2 + y^2\n  + z^2 = r^2\n");
+  const auto mesh = [&](const std::string& function, const std::string& radius) {
+    return run_well({"mesh", "--function", function, "--set", "r=" + radius, "--box", "-2", "2", "-2", "2", "-2", "2",
+                     "--resolution", "9", "-o", "-"});
+  };
+  const std::string sphere = mesh("x^2 + y^2 + z^2 = r^2", "1.5");
+  EXPECT_EQ(sphere, mesh("@formula", "1.5"));
+  EXPECT_EQ(sphere, mesh("@formula", "3*cos(0*pi)/2"));
+}
+
+TEST_F(Program_command_line, files_are_named_without_the_folders_above_them) {
+  std::filesystem::create_directory(folder_ / "private");
+  run_well({"mesh", "--function", "x^2+y^2+z^2-1", "--box", "-2", "2", "-2", "2", "-2", "2", "--resolution", "9", "-o",
+            "private/s.ply"});
+  const std::string path = (folder_ / "private/s.ply").string();
+  EXPECT_EQ(stats_of({"--distance-to", path, "--resolution", "12", "--html", "page.html"})["source"],
+            "the distance to 's.ply'");
+  run_well({"view", path, "-o", "view.html"});
+  for (const char* page : {"page.html", "view.html"}) {
+    EXPECT_EQ(file(page).find("private"), std::string::npos) << page;
+    EXPECT_NE(file(page).find("s.ply"), std::string::npos) << page;
+  }
 }
 
 TEST_F(Program_command_line, distances_are_sampled_in_the_box_of_the_mesh_and_a_tenth_around_it) {

@@ -68,6 +68,7 @@ TEST_F(Program_errors, an_unknown_command_or_option_is_named_and_the_nearest_sug
   expect_error({"mehs"}, {"'mehs'", "did you mean 'mesh'?", "equiaffine --help"});
   expect_error(mesh_of("x") + box + Arguments{"--resolutoin", "64"},
                {"'--resolutoin'", "did you mean '--resolution'?", "equiaffine mesh --help"});
+  expect_error(mesh_of("x") + box + Arguments{"--res", "64"}, {"'--res'", "did you mean '--resolution'?"});
   expect_error(mesh_of("x") + box + Arguments{"--isovalu=1"}, {"'--isovalu=1'", "did you mean '--isovalue'?"});
   expect_error({"--isovalue", "1", "mesh"}, {"'--isovalue'", "before the command"});
   expect_error(mesh_of("x") + box + Arguments{"stray"}, {"'stray' is not expected"});
@@ -138,6 +139,9 @@ TEST_F(Program_errors, constants_are_numbers_with_names) {
   expect_error(mesh_of("a*x") + box + Arguments{"--set", "a=b"}, {"--set a=b", "'b' is not a number"});
   expect_error(mesh_of("a*x") + box + Arguments{"--set", "a=1", "a=2"}, {"--set a=2", "has a value already"});
   expect_error(mesh_of("a*x") + box + Arguments{"--set", "a=inf"}, {"'inf' is not a finite number"});
+  for (const char* bad : {"2*y", "1/0", "2*", "pi*b"})
+    expect_error(mesh_of("a*x") + box + Arguments{"--set", std::string("a=").append(bad)},
+                 {std::string("'").append(bad).append("' is not a number"), "2*pi/3"});
 }
 
 TEST_F(Program_errors, a_transform_has_an_inverse) {
@@ -147,6 +151,9 @@ TEST_F(Program_errors, a_transform_has_an_inverse) {
                {"singular"});
   expect_error(mesh_of("x") + box + Arguments{"--transform", "0", "0", "0", "0", "1", "0", "0", "0", "1"},
                {"singular"});
+  for (const char* scale : {"1e200", "1e-200"})
+    expect_error(mesh_of("x") + box + Arguments{"--transform", scale, "0", "0", "0", scale, "0", "0", "0", scale},
+                 {"--transform", "determinant", "choose another unit"});
   expect_error(mesh_of("x") + box + Arguments{"--transform", "1", "2"}, {"--transform", "it needs A11"});
 }
 
@@ -236,6 +243,54 @@ TEST_F(Program_errors, an_output_that_cannot_be_written_is_found_out) {
   const Result full = run(Arguments{"mesh", "--function", "x", "-o", "-"} + box, "", "/dev/full");
   EXPECT_EQ(full.status, 2);
   EXPECT_TRUE(full.error.starts_with("equiaffine: error: cannot write standard output")) << full.error;
+  const Result help = run({"--help"}, "", "/dev/full");
+  EXPECT_EQ(help.status, 2);
+  EXPECT_TRUE(help.error.starts_with("equiaffine: error: cannot write standard output")) << help.error;
+}
+
+TEST_F(Program_errors, an_output_does_not_replace_what_is_read) {
+  const Arguments same = {"would replace the file that is read", "give it another name"};
+  run_well(Arguments{"mesh", "--function", "x^2+y^2+z^2-1", "--resolution", "9", "-o", "s.ply"} + box);
+  std::filesystem::create_symlink("s.ply", folder_ / "symbolic.html");
+  std::filesystem::create_hard_link(folder_ / "s.ply", folder_ / "hard.html");
+  add_input("p.csv", "x,y,z\n1,2,3\n");
+  add_input("f.json", "x");
+  for (const char* page : {"s.ply", "./s.ply", "symbolic.html", "hard.html"})
+    expect_error({"view", "s.ply", "-o", page}, same + Arguments{std::string("'").append(page).append("'")});
+  expect_error({"mesh", "--distance-to", "s.ply", "-o", "../work/s.ply"}, same);
+  expect_error({"sample", "--distance-to", "s.ply", "-o", "s.ply"}, same);
+  expect_error({"evaluate", "--function", "x", "--points", "p.csv", "-o", "p.csv"}, same);
+  expect_error(mesh_of("@f.json") + box + Arguments{"--stats", "f.json"}, same);
+}
+
+TEST_F(Program_errors, what_looks_like_another_file_is_no_page_and_no_statistics) {
+  run_well(Arguments{"mesh", "--function", "x", "--resolution", "3", "-o", "s.ply"} + box);
+  before_ = names();
+  expect_error({"view", "s.ply", "-o", "t.ply"}, {"'t.ply'", "a page", ".html"});
+  expect_error(mesh_of("x") + box + Arguments{"--html", "t.png"}, {"'t.png'", "a page", ".html"});
+  expect_error(mesh_of("x") + box + Arguments{"--stats", "t.html"}, {"'t.html'", "statistics", ".json"});
+}
+
+TEST_F(Program_errors, a_formula_may_come_from_a_file_that_holds_one) {
+  add_input("blank", " \n\n");
+  add_input("wrong", "x +\n foo\n");
+  add_input("large", std::string(2'000'000, ' '));
+  expect_error(mesh_of("@none") + box, {"'none'", "no such file"});
+  expect_error(mesh_of("@") + box, {"--function", "no file name after the @"});
+  expect_error(mesh_of("@..") + box, {"'..'", "it is a folder"});
+  expect_error(mesh_of("@blank") + box, {"'blank'", "it holds no formula"});
+  expect_error(mesh_of("@large") + box, {"'large'", "a million bytes"});
+  expect_error(mesh_of("@wrong") + box, {"foo"}, "x +  foo\n     ^\n");
+}
+
+TEST_F(Program_errors, bytes_that_could_upset_a_terminal_are_shown_as_codes) {
+  const auto method = [&](const std::string& word) { return mesh_of("x") + box + Arguments{"--method", word}; };
+  expect_error(method("\x1b[31m\a"), {"'\\x1b[31m\\x07'"});
+  expect_error(method("\xff\xc3"), {"'\\xff\\xc3'"});
+  expect_error(method("\xc0\xaf\xed\xa0\x80"), {"'\\xc0\\xaf\\xed\\xa0\\x80'"}); // overlong, surrogate
+  expect_error(method("\xc2\x9b\xe2\x80\xae"), {"'\\xc2\\x9b\\xe2\\x80\\xae'"}); // control, direction
+  expect_error(method("w\u00fcrfel \u4e16\U0001f600"), {"'w\u00fcrfel \u4e16\U0001f600'"});
+  expect_error(method("two\nlines"), {"'two lines'"});
 }
 
 TEST_F(Program_errors, an_output_that_refuses_its_bytes_leaves_the_others_as_they_were) {

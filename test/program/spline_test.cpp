@@ -207,7 +207,9 @@ TEST_F(Program_spline, a_volume_without_a_header_is_described_by_options) {
   };
   const Arguments layout = {"--dims", "3", "2", "4", "--spacing", "0.5", "1", "0.25", "--origin", "1", "2", "3"};
   const auto expect_plane = [&](const std::string& type, const std::string& isovalue) {
-    run_well(Arguments{"mesh", "--volume", "v.raw", "--type", type, "--isovalue", isovalue, "-o", "out.csv"} + layout);
+    run_well(Arguments{"mesh", "--volume", "v.raw", "--type", type, "--isovalue", isovalue, "-o", "out.csv",
+                       "--attributes", "none"} +
+             layout);
     const Table table = columns(file("out.csv"));
     EXPECT_EQ(table.at("z").size(), 6U) << type;
     for (const double z : table.at("z")) EXPECT_NEAR(z, 3 + 0.25 * 1.5, 1e-6) << type;
@@ -246,6 +248,12 @@ TEST_F(Program_spline, distances_may_be_measured_in_a_narrow_band) {
   const Arguments source = {"--distance-to", "sphere.off", "--resolution", "60", "--attributes", "mean_curvature"};
   const Table whole = mesh(source), narrow = mesh(source + Arguments{"--narrow-band", "16"});
   for (const char* name : {"x", "y", "z", "mean_curvature"}) EXPECT_EQ(whole.at(name), narrow.at(name));
+  const Result tight = run(Arguments{"mesh", "-o", "out.ply", "--narrow-band", "2"} + source);
+  EXPECT_EQ(tight.status, 0);
+  EXPECT_NE(tight.error.find("vertices are outside and have no attributes: distances are known in the band of "
+                             "--narrow-band 2 only"),
+            std::string::npos)
+      << tight.error;
   const Result result = run(Arguments{"mesh", "-o", "out.ply", "--narrow-band", "0.5"} + source);
   EXPECT_EQ(result.status, 2);
   EXPECT_NE(result.error.find("--narrow-band"), std::string::npos) << result.error;

@@ -30,14 +30,17 @@
 namespace equiaffine {
 
 /// Points as they came from a file. `attributes` holds the columns of numbers other than x, y, z. From CSV there are
-/// also the names of all columns and the cells as they were written (blanks and quotes included), row by row.
+/// also the names of all columns, the cells as they were written (blanks and quotes included), row by row, and the
+/// character between them.
 template <class Kernel>
 struct Point_table_3 : Annotated_mesh_3<Kernel> {
-  std::vector<std::string> header;
-  std::vector<std::string> cells;
+  std::vector<std::string> header = {};
+  std::vector<std::string> cells = {};
+  char separator = ',';
 };
 
-/// Reads a CSV file whose header names x, y, z in any places. `name` stands for the file in messages. Throws
+/// Reads a CSV file whose header names x, y, z (or X, Y, Z) in any places. Cells are separated by commas, semicolons or
+/// tabs, whatever the header has most. `name` stands for the file in messages. Throws
 /// `Input_error` with line and column for a cell that is missing, and for a coordinate that is not a number. The words
 /// nan and inf are numbers: no function has a value at such a point.
 template <class Kernel>
@@ -45,6 +48,7 @@ Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
   const std::string text = internal::read_all(stream);
   internal::Csv_scanner scanner(text, name);
   Point_table_3<Kernel> table;
+  table.separator = scanner.separator();
   for (const std::string_view cell : scanner.next_row()) table.header.emplace_back(cell);
   const auto coordinates = internal::find_coordinates(scanner, table.header);
   for (auto row = scanner.next_row(); !row.empty(); row = scanner.next_row()) {
@@ -62,8 +66,8 @@ Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
 template <class Kernel>
 Point_table_3<Kernel> read_points(const std::string& path) {
   const auto read = [](std::istream& stream, const std::string& name, std::string_view extension) {
-    if (extension == ".ply") return Point_table_3<Kernel>{read_PLY<Kernel>(stream, name), {}, {}};
-    if (extension == ".off") return Point_table_3<Kernel>{{read_OFF<Kernel>(stream, name), {}}, {}, {}};
+    if (extension == ".ply") return Point_table_3<Kernel>{read_PLY<Kernel>(stream, name)};
+    if (extension == ".off") return Point_table_3<Kernel>{{read_OFF<Kernel>(stream, name), {}}};
     return read_CSV<Kernel>(stream, name);
   };
   if (path == "-") {
@@ -90,7 +94,7 @@ inline Vertex_attributes merge_attributes(Vertex_attributes first, const Vertex_
   return first;
 }
 
-/// Writes the rows of `table` as they came, then the columns of `attributes` and the status; these replace columns of
+/// Writes the rows of `table` as they came, with their separator, then the columns of `attributes` and the status; these replace columns of
 /// the same names.
 template <class Kernel>
 void write_CSV(std::ostream& stream, const Point_table_3<Kernel>& table, const Vertex_attributes& attributes) {
@@ -98,10 +102,13 @@ void write_CSV(std::ostream& stream, const Point_table_3<Kernel>& table, const V
   const std::vector<std::size_t> kept = internal::columns_to_keep(table.header, attributes);
   internal::Buffered_output out(stream);
   const auto write_row = [&](const std::vector<std::string>& cells, std::size_t begin) {
-    for (std::size_t i = 0; i < kept.size(); ++i) out << (i == 0 ? "" : ",") << cells[begin + kept[i]];
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      if (i > 0) out << table.separator;
+      out << cells[begin + kept[i]];
+    }
   };
   write_row(table.header, 0);
-  internal::write_CSV_rows(out, table.mesh.points.size(), attributes,
+  internal::write_CSV_rows(out, table.mesh.points.size(), attributes, table.separator,
                            [&](std::size_t row) { write_row(table.cells, row * table.header.size()); });
 }
 

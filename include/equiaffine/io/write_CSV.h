@@ -20,7 +20,7 @@ template <class Point_3>
 void write_CSV(std::ostream& stream, const std::vector<Point_3>& points, const Vertex_attributes& attributes = {}) {
   internal::Buffered_output out(stream);
   out << "x,y,z";
-  internal::write_CSV_rows(out, points.size(), attributes, [&](std::size_t row) {
+  internal::write_CSV_rows(out, points.size(), attributes, ',', [&](std::size_t row) {
     const Point_3& p = points[row];
     out << CGAL::to_double(p.x()) << ',' << CGAL::to_double(p.y()) << ',' << CGAL::to_double(p.z());
   });

@@ -5,6 +5,7 @@
 #include <equiaffine/io/internal/fail_to_read.h>
 #include <equiaffine/io/internal/text_input.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -24,12 +25,27 @@ inline std::string unquote(std::string_view cell) {
   return text;
 }
 
-/// Takes the rows off the text of a CSV file. A quoted cell may hold commas and line ends.
+/// The character that separates the cells of a file with this header: the one of comma, semicolon and tab that it has
+/// most often.
+inline char separator_of(std::string_view header) {
+  const auto count = [&](char c) { return std::count(header.begin(), header.end(), c); };
+  char separator = ',';
+  for (const char c : {';', '\t'})
+    if (count(c) > count(separator)) separator = c;
+  return separator;
+}
+
+/// Takes the rows off the text of a CSV file. A quoted cell may hold separators and line ends.
 class Csv_scanner {
 public:
   Csv_scanner(std::string_view text, const std::string& name) : rest_(text), name_(name) {
     if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
+    const std::size_t first = std::min(rest_.find_first_not_of("\r\n"), rest_.size());
+    separator_ = separator_of(rest_.substr(first, rest_.find('\n', first) - first));
   }
+
+  /// The character between cells.
+  char separator() const { return separator_; }
 
   [[noreturn]] void fail(const std::string& reason, const std::string& advice) const {
     fail_to_read(name_, reason, advice);
@@ -65,8 +81,8 @@ private:
     return rest_.size();
   }
 
-  /// The cells between the commas of a row.
-  static std::vector<std::string_view> split(std::string_view text) {
+  /// The cells between the separators of a row.
+  std::vector<std::string_view> split(std::string_view text) const {
     if (text.ends_with('\n')) text.remove_suffix(1);
     if (text.ends_with('\r')) text.remove_suffix(1);
     std::vector<std::string_view> cells;
@@ -75,7 +91,7 @@ private:
     std::size_t begin = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
       if (text[i] == '"') is_quoted = !is_quoted;
-      if (text[i] != ',' || is_quoted) continue;
+      if (text[i] != separator_ || is_quoted) continue;
       cells.push_back(text.substr(begin, i - begin));
       begin = i + 1;
     }
@@ -85,6 +101,7 @@ private:
 
   std::string_view rest_;
   const std::string& name_;
+  char separator_ = ',';
   std::size_t line_number_ = 1;
   std::size_t next_line_number_ = 1;
 };

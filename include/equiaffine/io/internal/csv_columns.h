@@ -17,16 +17,21 @@
 
 namespace equiaffine::internal {
 
-/// The columns named x, y and z. Fails unless there is one of each.
+/// The columns named x, y and z, or else X, Y and Z. Fails unless there is one of each.
 inline std::array<std::size_t, 3> find_coordinates(const Csv_scanner& scanner, const std::vector<std::string>& header) {
   std::array<std::size_t, 3> places{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::string name(1, "xyz"[axis]);
-    const auto is_name = [&](const std::string& cell) { return unquote(cell) == name; };
-    if (std::count_if(header.begin(), header.end(), is_name) != 1)
-      scanner.fail("its header has no single column '" + name + "'",
-                   "the first line names the columns, with x, y and z among them, separated by commas");
-    places[axis] = std::size_t(std::find_if(header.begin(), header.end(), is_name) - header.begin());
+    const auto columns = [&](const std::string& name) {
+      return std::count_if(header.begin(), header.end(), [&](const auto& cell) { return unquote(cell) == name; });
+    };
+    const std::string lower(1, "xyz"[axis]), upper(1, "XYZ"[axis]), &name = columns(lower) == 0 ? upper : lower;
+    if (columns(name) != 1)
+      scanner.fail("its header has no single column '" + lower + "'",
+                   "the first line names the columns, with x, y and z among them, separated by commas, semicolons or "
+                   "tabs");
+    places[axis] = std::size_t(
+        std::find_if(header.begin(), header.end(), [&](const auto& cell) { return unquote(cell) == name; }) -
+        header.begin());
   }
   return places;
 }
@@ -39,7 +44,8 @@ inline void check_length(const Csv_scanner& scanner, const std::vector<std::stri
     scanner.fail(line + ", column '" + unquote(header[row.size()]) + "': the cell is missing",
                  "write as many cells as the header has");
   if (row.size() > header.size())
-    scanner.fail(line + " has more cells than the header", "write as many, or put quotes around commas");
+    scanner.fail(line + " has more cells than the header",
+                 std::string("write as many, or put quotes around '") + scanner.separator() + "'");
 }
 
 /// The point in the row taken last, whose coordinates are in the columns `places`.

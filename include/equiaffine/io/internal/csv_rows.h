@@ -15,14 +15,15 @@ namespace equiaffine::internal {
 /// `attributes` and the word for the status follow.
 template <class WriteRow>
 void write_CSV_rows(Buffered_output& out, std::size_t number_of_rows, const Vertex_attributes& attributes,
-                    const WriteRow& write) {
+                    char separator, const WriteRow& write) {
   CGAL_precondition(attributes.has_length(number_of_rows));
-  for (const auto& column : attributes.columns) out << ',' << column.name;
-  out << (attributes.status ? ",status\n" : "\n");
+  for (const auto& column : attributes.columns) out << separator << column.name;
+  if (attributes.status) out << separator << "status";
+  out << '\n';
   for (std::size_t row = 0; row < number_of_rows; ++row) {
     write(row);
-    for (const auto& column : attributes.columns) out << ',' << column.values[row];
-    if (attributes.status) out << ',' << to_string((*attributes.status)[row]);
+    for (const auto& column : attributes.columns) out << separator << column.values[row];
+    if (attributes.status) out << separator << to_string((*attributes.status)[row]);
     out << '\n';
   }
   out.flush();
