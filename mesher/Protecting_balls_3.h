@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_MESHER_PROTECTING_BALLS_3_H
 #define EQUIAFFINE_MESHER_PROTECTING_BALLS_3_H
 
+#include <equiaffine/delaunay/Seed_grid_3.h>
 #include <equiaffine/surface/Polyline_3.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
@@ -34,6 +35,7 @@ struct Protecting_ball_3 {
 template <class Kernel>
 class Protecting_balls_3 {
   using Point_3 = typename Kernel::Point_3;
+  using Vector_3 = typename Kernel::Vector_3;
 
 public:
   using Ball = Protecting_ball_3<Kernel>;
@@ -45,18 +47,26 @@ public:
     std::size_t curve;         ///< index of the curve, in the order of `cover`
   };
 
+  /// Centers keep the distance `least_distance` from each other. Without it, curves that coincide but for rounding
+  /// would get balls, and the mesh around them facets, of the size of rounding errors.
+  explicit Protecting_balls_3(double least_distance) : least_distance_(least_distance) {}
+
   /// Puts centers on a curve at distances of at most `size(p)`. A polyline of short segments lies near the curve;
   /// `project(p)` is a point of the curve near a point of the polyline, or nothing, and so is `project_end(p)` near an
   /// end of an open one.
   template <class Sizing>
   void cover(const Polyline_3<Kernel>& curve, const Sizing& size, Projection project, const Projection& project_end) {
     std::vector<std::size_t> chain;
+    const auto append = [&](const Point_3& p, std::optional<std::size_t> ball) {
+      if (ball) chain.push_back(*ball);
+      else omitted_.push_back(p);
+    };
     const auto append_corner = [&](const Point_3& p) {
-      if (const auto end = project_end(p)) chain.push_back(corner(*end));
+      if (const auto end = project_end(p)) append(*end, corner(*end));
     };
     if (!curve.is_closed) append_corner(curve.points.front());
     for (const Point_3& p : divide(curve, size))
-      if (const auto q = project(p)) chain.push_back(add(*q, 1));
+      if (const auto q = project(p)) append(*q, add(*q, 1));
     if (!curve.is_closed) append_corner(curve.points.back());
     for (std::size_t n = 1; n < chain.size(); ++n) join(chain[n - 1], chain[n]);
     if (curve.is_closed && chain.size() > 2) join(chain.back(), chain.front());
@@ -76,8 +86,12 @@ public:
 
   const std::vector<Ball>& balls() const { return balls_; }
   const std::vector<Segment>& segments() const { return segments_; }
+  const std::vector<Point_3>& omitted() const { return omitted_; } ///< points that are too near to other centers
+  double least_distance() const { return least_distance_; }
 
 private:
+  using Grid = Seed_grid_3<Point_3, Vector_3>;
+
   static double distance(const Point_3& p, const Point_3& q) { return std::sqrt(CGAL::squared_distance(p, q)); }
   double distance(std::size_t n, std::size_t m) const { return distance(balls_[n].center, balls_[m].center); }
   bool overlap(const Segment& s) const {
@@ -105,19 +119,24 @@ private:
     return divisions;
   }
 
-  std::size_t add(const Point_3& p, int dimension) {
+  /// Adds a ball and returns its index, or nothing if p is too near to another center.
+  std::optional<std::size_t> add(const Point_3& p, int dimension) {
+    const typename Grid::Seed center{p, Vector_3(0, 0, 0), least_distance_};
+    if (centers_.is_crowded(center)) return std::nullopt;
+    centers_.insert(center);
     balls_.push_back({p, dimension});
     neighbors_.emplace_back();
     return balls_.size() - 1;
   }
 
   /// The ball at a corner, which all curves that end there have in common.
-  std::size_t corner(const Point_3& p) {
+  std::optional<std::size_t> corner(const Point_3& p) {
     const auto known =
         std::find_if(corners_.begin(), corners_.end(), [&](std::size_t n) { return balls_[n].center == p; });
     if (known != corners_.end()) return *known;
-    corners_.push_back(add(p, 0));
-    return corners_.back();
+    const auto added = add(p, 0);
+    if (added) corners_.push_back(*added);
+    return added;
   }
 
   /// Makes two balls neighbors on the curve that is being covered.
@@ -199,12 +218,13 @@ private:
       const double length = distance(a, b);
       const auto p = projections_[curve](CGAL::midpoint(balls_[a].center, balls_[b].center));
       if (!p || !(std::max(distance(*p, balls_[a].center), distance(*p, balls_[b].center)) < length)) continue;
-      const std::size_t n = add(*p, 1);
-      std::replace(neighbors_[a].begin(), neighbors_[a].end(), b, n);
-      std::replace(neighbors_[b].begin(), neighbors_[b].end(), a, n);
-      neighbors_[n] = {a, b};
-      segments_[s].second = n;
-      segments_.push_back({n, b, curve});
+      const auto n = add(*p, 1);
+      if (!n) continue;
+      std::replace(neighbors_[a].begin(), neighbors_[a].end(), b, *n);
+      std::replace(neighbors_[b].begin(), neighbors_[b].end(), a, *n);
+      neighbors_[*n] = {a, b};
+      segments_[s].second = *n;
+      segments_.push_back({*n, b, curve});
       is_added = true;
     }
     return is_added;
@@ -212,6 +232,9 @@ private:
 
   static constexpr double gap = 0.98; // largest sum of radii / distance of balls that are no neighbors
 
+  const double least_distance_;
+  Grid centers_;
+  std::vector<Point_3> omitted_;
   std::vector<Ball> balls_;
   std::vector<std::vector<std::size_t>> neighbors_; // along curves, per ball
   std::vector<std::size_t> corners_;                // indices of balls

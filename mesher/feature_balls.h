@@ -18,14 +18,14 @@ namespace equiaffine::internal {
 using Feature_balls = Protecting_balls_3<Any_function_3::Kernel>;
 
 /// Balls along all features: the given curves, and the curves in which the surface meets the border of the domain.
-/// `radius` bounds the size of facets.
+/// `radius` bounds the size of facets. Points of features that are nearer to others than a thousandth of it are left out.
 inline Feature_balls cover_features(const Memoized_function_3& function, const Clip_domain_3& domain, double radius,
                                     const Facet_sizing_field& size, const std::vector<Feature_curve_3>& given) {
   using Point_3 = Any_function_3::Point_3;
   constexpr double spacing_in_sizes = 0.8; // lets the facets beside features have the angles of others
   const auto spacing = [&](const Point_3& p) { return spacing_in_sizes * size(p); };
   const auto keep = [](const Point_3& p) { return std::optional(p); };
-  Feature_balls balls;
+  Feature_balls balls(radius / 1000);
   Feature_ends_3 ends(domain, radius);
   for (Feature_curve_3 curve : given) {
     if (curve.reaches_border) ends.extend(curve);

@@ -24,6 +24,7 @@ struct Initial_points {
   std::vector<Feature_balls::Segment> segments; ///< between balls that are neighbors on a feature
   std::vector<Point_3> seeds;                   ///< on the surface
   std::vector<Point_3> scaffold;                ///< away from the surface
+  std::vector<Point_3> omitted;                 ///< on features, but too near to others to become vertices
   std::vector<CGAL::Bbox_3> undecided_boxes;    ///< where a part of the surface may have been missed
   bool has_features = false;
 };
@@ -47,15 +48,14 @@ inline Initial_points find_initial_points(const Memoized_function_3& function, c
   constexpr double clearance_in_sizes = 0.7, clearance_in_radii = 1.7;
   const Feature_balls covered = cover_features(function, domain, radius, size, features);
   std::vector<Fixed_vertex_3<Any_function_3::Point_3>> vertices;
-  for (const auto& ball : covered.balls())
-    vertices.push_back(
-        {ball.center, std::min(clearance_in_sizes * size(ball.center), clearance_in_radii * ball.radius)});
+  for (const auto& ball : covered.balls()) {
+    const double clearance = std::min(clearance_in_sizes * size(ball.center), clearance_in_radii * ball.radius);
+    vertices.push_back({ball.center, std::max(clearance, covered.least_distance())});
+  }
   auto seeding = certified_seeding(function, domain, size, radius, vertices);
-  Initial_points points{covered.balls(),
-                        covered.segments(),
-                        std::move(seeding.seeds),
-                        std::move(seeding.scaffold),
-                        std::move(seeding.undecided_boxes),
+  Initial_points points{covered.balls(),          covered.segments(),
+                        std::move(seeding.seeds), std::move(seeding.scaffold),
+                        covered.omitted(),        std::move(seeding.undecided_boxes),
                         !covered.balls().empty()};
   for (const auto& p : singular_points_in(function, points.undecided_boxes))
     if (domain.contains(p)) protect_singular_point(p, size(p), points);

@@ -15,8 +15,10 @@ namespace equiaffine::internal {
 /// The result of `insert_points`: facts about the vertices on the surface.
 struct Inserted_points {
   std::vector<std::pair<Surface_vertex, Surface_vertex>> feature_edges; ///< neighbors on features
-  std::vector<Surface_domain_3::Point_3> hidden; ///< centers and seeds that the ball of another vertex hides
+  std::vector<Surface_domain_3::Point_3> hidden; ///< points of features and seeds that other vertices leave no room for
 };
+
+inline Surface_domain_3::Point_3 to_mesher(const Any_function_3::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
 /// Inserts a point and returns its vertex, or no vertex if the ball of another one hides the point.
 inline Surface_vertex insert_point(Surface_complex& complex, const Surface_triangulation::Weighted_point& p,
@@ -32,7 +34,7 @@ inline Surface_vertex insert_point(Surface_complex& complex, const Surface_trian
 inline std::vector<Surface_domain_3::Point_3>
 insert_sorted(Surface_complex& complex, const std::vector<Any_function_3::Point_3>& points, int dimension) {
   std::vector<Surface_domain_3::Point_3> sorted, hidden;
-  for (const auto& p : points) sorted.emplace_back(p.x(), p.y(), p.z());
+  for (const auto& p : points) sorted.push_back(to_mesher(p));
   CGAL::spatial_sort(sorted.begin(), sorted.end());
   Surface_triangulation::Cell_handle hint;
   for (const auto& p : sorted) {
@@ -47,9 +49,10 @@ insert_sorted(Surface_complex& complex, const std::vector<Any_function_3::Point_
 inline Inserted_points insert_points(Surface_complex& complex, const Initial_points& points) {
   Inserted_points inserted;
   if (points.seeds.empty() && points.balls.empty()) return inserted;
+  for (const auto& p : points.omitted) inserted.hidden.push_back(to_mesher(p));
   std::vector<Surface_vertex> vertices;
   for (const auto& ball : points.balls) {
-    const Surface_domain_3::Point_3 center(ball.center.x(), ball.center.y(), ball.center.z());
+    const Surface_domain_3::Point_3 center = to_mesher(ball.center);
     const Surface_triangulation::Weighted_point weighted(center, ball.radius * ball.radius);
     vertices.push_back(insert_point(complex, weighted, ball.dimension));
     if (vertices.back() == Surface_vertex()) inserted.hidden.push_back(center);

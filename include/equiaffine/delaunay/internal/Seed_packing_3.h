@@ -151,10 +151,10 @@ private:
     if (domain_.contains(seed.point) && !grid_.is_crowded(seed)) grid_.insert(seed);
   }
 
-  /// v with the length 1. The vector zero, which a singular point has in place of a normal, is left as it is.
+  /// v with the length 1, or the vector zero if v has no direction: at a singular point, or where f has no derivatives.
   static Vector_3 unit(const Vector_3& v) {
     const double norm = std::sqrt(CGAL::to_double(v.squared_length()));
-    return norm > 0 ? v / FT(norm) : v;
+    return norm > 0 && std::isfinite(norm) ? v / FT(norm) : Vector_3(FT(0), FT(0), FT(0));
   }
 
   const Traits& traits_;
