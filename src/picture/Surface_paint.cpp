@@ -12,11 +12,6 @@ namespace equiaffine {
 
 namespace {
 
-Light light_of(const CGAL::IO::Color& color) {
-  const auto light = [](unsigned char byte) { return float(std::pow(byte / 255., 2.2)); };
-  return {light(color.red()), light(color.green()), light(color.blue())};
-}
-
 bool is_component(const std::string& name) {
   return name.size() > 1 && (name.ends_with("_x") || name.ends_with("_y") || name.ends_with("_z") || name == "nx" ||
                              name == "ny" || name == "nz" || name.starts_with("metric_"));
@@ -44,6 +39,11 @@ std::string label_of(const std::string& name) {
 
 } // namespace
 
+Light light_of(const CGAL::IO::Color& color) {
+  const auto light = [](unsigned char byte) { return float(std::pow(byte / 255., 2.2)); };
+  return {light(color.red()), light(color.green()), light(color.blue())};
+}
+
 const Vertex_attributes::Column* find_column(const Vertex_attributes& attributes, const std::string& name) {
   for (const auto& column : attributes.columns)
     if (column.name == name) return &column;
@@ -54,33 +54,57 @@ Surface_paint::Surface_paint(const Vertex_attributes& attributes, const std::str
                              const std::optional<std::array<double, 2>>& range, double diagonal) {
   if (attributes.status && name != "plain")
     for (const Point_status status : *attributes.status) codes_.push_back(static_cast<std::uint8_t>(status));
-  if (const auto* column = find_column(attributes, name.empty() ? default_color(attributes) : name))
-    use(*column, range, diagonal);
+  const auto* column = find_column(attributes, name.empty() ? default_color(attributes) : name);
+  if (column == nullptr) return;
+  use(*column, range, diagonal);
+  if (is_infinite_at_parabolic_points(column->name)) find_sides(attributes);
 }
 
 Light Surface_paint::operator()(const std::array<std::uint32_t, 3>& triangle,
                                 const std::array<double, 3>& weights) const {
-  double level = 0, regular = 0;
+  double curvature = 0;
+  if (!sides_.empty())
+    for (std::size_t k = 0; k < 3; ++k) curvature += weights[k] * sides_[triangle[k]];
+  Weighted_level all, same_side;
   std::array<double, number_of_point_statuses + 1> irregular{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint8_t code = codes_.empty() ? std::uint8_t(0) : codes_[triangle[k]];
+    const std::uint32_t vertex = triangle[k];
+    const std::uint8_t code = codes_.empty() ? std::uint8_t(0) : codes_[vertex];
     if (code == 0) {
-      regular += weights[k];
-      if (legend_) level += weights[k] * levels_[triangle[k]];
+      const double level = legend_ ? levels_[vertex] : 0;
+      all.add(level, weights[k]);
+      if (is_convex(vertex) == (curvature >= 0)) same_side.add(level, weights[k]);
     } else irregular[code] += weights[k];
   }
+  if (!sides_.empty() && all.weight > 0) irregular[std::size_t(Point_status::PARABOLIC)] = 0; // a line shows them
   const auto most = std::max_element(irregular.begin(), irregular.end());
-  if (*most > regular) {
+  if (*most > all.weight) {
     const auto code = std::size_t(most - irregular.begin());
     return light_of(code == no_number ? undefined_color() : status_color(static_cast<Point_status>(code)));
   }
   if (!legend_) return light_of(plain_color());
-  const double place = std::clamp(level / regular, 0., 1.) * double(table_.size() - 1);
+  const Weighted_level& known = same_side.weight > 0 ? same_side : all;
+  return color_of(known.sum / known.weight);
+}
+
+Light Surface_paint::color_of(double level) const {
+  const double place = std::clamp(level, 0., 1.) * double(table_.size() - 1);
   const auto below = std::min(std::size_t(place), table_.size() - 2);
   Light light;
   for (std::size_t n = 0; n < 3; ++n)
     light[n] = table_[below][n] + float(place - double(below)) * (table_[below + 1][n] - table_[below][n]);
   return light;
+}
+
+void Surface_paint::find_sides(const Vertex_attributes& attributes) {
+  const auto* column = find_column(attributes, "gaussian_curvature");
+  if (column == nullptr) return;
+  for (std::size_t i = 0; i < column->values.size(); ++i) {
+    const bool is_known = std::isfinite(column->values[i]) && codes_[i] != std::uint8_t(Point_status::PARABOLIC);
+    sides_.push_back(is_known ? column->values[i] : 0);
+  }
+  const auto [least, greatest] = std::minmax_element(sides_.begin(), sides_.end());
+  legend_->has_parabolic_lines = *least < 0 && *greatest >= 0;
 }
 
 void Surface_paint::use(const Vertex_attributes::Column& column, const std::optional<std::array<double, 2>>& given,
@@ -98,7 +122,7 @@ void Surface_paint::use(const Vertex_attributes::Column& column, const std::opti
     range = {lower, upper, 1, lower == -upper};
     scale = Color_scale::LINEAR;
   }
-  legend_ = {label_of(column.name), range, scale};
+  legend_ = {label_of(column.name), range, scale, false};
   for (const double value : column.values) {
     const double t = std::isfinite(value) ? map_position(value, range, scale) : 0;
     levels_.push_back(range.is_diverging ? (t + 1) / 2 : t);

@@ -20,7 +20,10 @@ struct Color_legend {
   std::string label; ///< the name of the number, with its unit if that is known
   Color_range range;
   Color_scale scale;
+  bool has_parabolic_lines; ///< whether lines separate numbers that grow without bound on both sides
 };
+
+Light light_of(const CGAL::IO::Color& color);
 
 /// The column of that name, or null.
 const Vertex_attributes::Column* find_column(const Vertex_attributes& attributes, const std::string& name);
@@ -37,16 +40,34 @@ public:
   const std::optional<Color_legend>& legend() const { return legend_; }
 
   /// The color at barycentric weights, as on the page: vertices with a number compete by their weights with those of
-  /// each status; the number is interpolated between the vertices that have one.
+  /// each status; the number is interpolated between the vertices that have one. A number that is infinite on a
+  /// parabolic curve is interpolated on each side of it from the vertices of that side only.
   Light operator()(const std::array<std::uint32_t, 3>& triangle, const std::array<double, 3>& weights) const;
 
+  /// The Gaussian curvature per vertex, zero where it is not known or the vertex is parabolic, if the number is infinite
+  /// where that changes its sign; else empty.
+  const std::vector<double>& sides() const { return sides_; }
+
 private:
+  /// Numbers at some of the corners of a triangle, as their weighted sum and the sum of their weights.
+  struct Weighted_level {
+    double sum = 0, weight = 0;
+    void add(double level, double its_weight) {
+      sum += its_weight * level;
+      weight += its_weight;
+    }
+  };
+
   static constexpr std::uint8_t no_number = number_of_point_statuses;
 
   void use(const Vertex_attributes::Column& column, const std::optional<std::array<double, 2>>& range, double diagonal);
+  void find_sides(const Vertex_attributes& attributes);
+  bool is_convex(std::uint32_t vertex) const { return sides_.empty() || sides_[vertex] >= 0; }
+  Light color_of(double level) const;
 
   std::vector<std::uint8_t> codes_; // per vertex 0 if its number is shown, else its status or no_number; empty: all 0
   std::vector<double> levels_;      // the number of each vertex as a place in [0, 1]
+  std::vector<double> sides_;
   std::vector<Light> table_;
   std::optional<Color_legend> legend_;
 };

@@ -32,8 +32,8 @@ struct Surface_picture {
   std::optional<Color_legend> legend;
 };
 
-/// The rows at the bottom of a picture that are left free for its legend, if it has one.
-inline constexpr std::size_t legend_height = 56;
+/// The rows at the bottom of a picture that are left free for its legend, if it has one, and for each note above that.
+inline constexpr std::size_t legend_height = 56, note_height = 18;
 
 /// The columns NAME_x, NAME_y, NAME_z, or nx, ny, nz for the name `normal`; nothing if one of them is missing.
 std::optional<std::array<const std::vector<double>*, 3>> vector_columns(const Vertex_attributes& attributes,

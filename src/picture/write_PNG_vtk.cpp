@@ -20,6 +20,8 @@ namespace equiaffine {
 
 namespace {
 
+constexpr std::size_t margin = 16, bar_height = 10;
+
 enum class Alignment { LEFT, CENTER, RIGHT };
 
 /// Writes dark text of 13 pixels whose baseline is at row `y`.
@@ -67,20 +69,34 @@ double number_at(const Color_legend& legend, double t) {
   return knee * std::sinh(low + t * (high - low));
 }
 
+void fill(Picture& picture, std::size_t left, std::size_t top, std::size_t width, std::size_t height,
+          const CGAL::IO::Color& color) {
+  for (std::size_t row = top; row < top + height; ++row)
+    for (std::size_t column = left; column < left + width; ++column) {
+      unsigned char* const to = &picture.rgb[3 * (row * picture.width + column)];
+      to[0] = color.red();
+      to[1] = color.green();
+      to[2] = color.blue();
+    }
+}
+
+/// Writes what `color` stands for in the row above `bottom`.
+void draw_note(Picture& picture, const CGAL::IO::Color& color, const std::string& text, std::size_t bottom) {
+  fill(picture, margin, bottom - note_height / 2, 2 * bar_height, 2, color);
+  draw_text(picture, text, margin + 2 * bar_height + 8, bottom - note_height / 2 + 5, Alignment::LEFT);
+}
+
 void draw_legend(Picture& picture, const Color_legend& legend) {
-  constexpr std::size_t margin = 16, bar_height = 10;
   const std::size_t left = margin, width = std::min<std::size_t>(300, picture.width - 2 * margin);
   const std::size_t top = picture.height - margin - 20;
   for (std::size_t i = 0; i < width; ++i) {
     const double t = double(i) / double(width - 1);
     const CGAL::IO::Color color = legend.range.is_diverging ? diverging_color(2 * t - 1) : sequential_color(t);
-    for (std::size_t row = top; row < top + bar_height; ++row) {
-      unsigned char* const to = &picture.rgb[3 * (row * picture.width + left + i)];
-      to[0] = color.red();
-      to[1] = color.green();
-      to[2] = color.blue();
-    }
+    fill(picture, left + i, top, 1, bar_height, color);
   }
+  if (legend.has_parabolic_lines)
+    draw_note(picture, status_color(Point_status::PARABOLIC), "parabolic curve: infinite on both sides",
+              picture.height - legend_height);
   draw_text(picture, legend.label, left, top - 7, Alignment::LEFT);
   const auto number = [&](std::size_t i, std::size_t last) {
     return short_number(number_at(legend, double(i) / double(last)), legend.range);

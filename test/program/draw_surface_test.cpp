@@ -92,6 +92,49 @@ TEST(Program_draw_surface, what_has_no_number_has_the_color_of_its_status) {
               shaded(status_color(Point_status::PARABOLIC)));
 }
 
+TEST(Program_draw_surface, a_number_that_is_infinite_on_a_curve_does_not_pass_through_zero) {
+  Surface_view options = small;
+  options.range = {{-5, 5}};
+  const auto row_of = [&](double left, double right) {
+    Vertex_attributes attributes;
+    attributes.columns = {{"affine_gaussian_curvature", {left, right, right, left}},
+                          {"gaussian_curvature", {1, -1, -1, 1}}};
+    const auto drawn = draw_surface(facing_square(), attributes, options);
+    EXPECT_TRUE(drawn.legend && drawn.legend->has_parabolic_lines);
+    const auto first = drawn.picture.rgb.begin() + std::ptrdiff_t(3 * 101 * ((101 - legend_height - note_height) / 2));
+    return std::vector<unsigned char>(first, first + 3 * 101);
+  };
+  const auto blue = row_of(-5, -5), red = row_of(5, 5), both = row_of(-5, 5);
+  for (std::size_t i = 0; i < both.size(); ++i) EXPECT_EQ(both[i], i < both.size() / 2 ? blue[i] : red[i]) << i;
+  const CGAL::IO::Color line = status_color(Point_status::PARABOLIC);
+  expect_near({both[150], both[151], both[152]}, {line.red(), line.green(), line.blue()});
+  EXPECT_NE(blue[3 * 45], red[3 * 45]);
+}
+
+TEST(Program_draw_surface, a_parabolic_vertex_has_a_line_and_no_share_of_the_triangles) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  using enum Point_status;
+  Vertex_attributes attributes;
+  attributes.columns = {{"affine_gaussian_curvature", {nan, 5, nan, 5}}, {"gaussian_curvature", {0, 1, 0, -1}}};
+  attributes.status = {PARABOLIC, REGULAR, PARABOLIC, REGULAR};
+  const auto drawn = draw_surface(facing_square(), attributes, small);
+  const std::size_t row = (101 - legend_height - note_height) / 2;
+  std::size_t lines = 0, numbers = 0;
+  for (std::size_t column = 0; column < 101; ++column) {
+    const unsigned char* const first = &drawn.picture.rgb[3 * (row * drawn.picture.width + column)];
+    const std::array<int, 3> color = {first[0], first[1], first[2]}, number = shaded(sequential_color(0.5));
+    const CGAL::IO::Color line = status_color(PARABOLIC);
+    const auto is_near = [&](const std::array<int, 3>& other) {
+      return std::abs(color[0] - other[0]) + std::abs(color[1] - other[1]) + std::abs(color[2] - other[2]) < 12;
+    };
+    lines += is_near({line.red(), line.green(), line.blue()});
+    numbers += is_near(number);
+  }
+  EXPECT_LE(lines, 3u);
+  EXPECT_GT(lines, 0u);
+  EXPECT_GT(numbers, 15u);
+}
+
 TEST(Program_draw_surface, curves_and_arrows_are_dark_lines_on_it) {
   const Mesh mesh = facing_square();
   const auto is_dark = [](const Surface_picture& drawn) { return middle(drawn.picture, 50)[0] < 30; };

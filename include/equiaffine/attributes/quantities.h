@@ -22,6 +22,13 @@ constexpr int rank_of_quantity(std::string_view name) {
   return quantity ? quantity->rank : Quantity::unranked;
 }
 
+/// Returns whether numbers of that attribute do not exist where the Gaussian curvature is zero, and grow without bound
+/// on both sides of such a curve.
+constexpr bool is_infinite_at_parabolic_points(std::string_view name) {
+  const Quantity* const quantity = find_quantity(name);
+  return quantity != nullptr && quantity->group == "Affine";
+}
+
 /// Returns the difference below which two numbers of a column are equal up to rounding, on a surface whose box has that
 /// diagonal: 1e-9 in the surface's own unit of length, which is the accuracy promised for curvatures. Returns zero for
 /// a column that is none of our attributes, since nothing is known about it.

@@ -104,10 +104,22 @@ function vertexAreas() {
   return total > 0 ? areas : areas.fill(1);
 }
 
-// What every vertex is drawn as: 0 by its number, 1 to 4 by its status, 5 because it has no number.
-function vertexCodes(values, withStatus) {
+// The Gaussian curvature, scaled, 0 where it is not known or the vertex is parabolic, if the quantity is infinite where
+// that changes its sign; else null.
+function vertexSides(quantity) {
+  const curvature = quantity.isInfiniteAtParabolicPoints && columnNamed('gaussian_curvature')?.values();
+  if (!curvature) return null;
+  const known = curvature.map((value, i) => mesh.status[i] === 1 || !isFinite(value) ? 0 : value);
+  const largest = known.reduce((most, value) => Math.max(most, Math.abs(value)), 0) || 1;
+  return known.map(value => value / largest);
+}
+
+// What every vertex is drawn as: 0 by its number, 1 to 4 by its status, 5 because it has no number. With sides,
+// parabolic vertices are those that a line is drawn through.
+function vertexCodes(values, withStatus, sides) {
   const codes = new Uint8Array(mesh.size);
   if (withStatus) codes.set(mesh.status);
+  else if (sides) mesh.status.forEach((status, i) => { codes[i] = Number(status === 1); });
   if (values)
     for (let i = 0; i < codes.length; ++i) if (codes[i] === 0 && !isFinite(values[i])) codes[i] = 5;
   return codes;

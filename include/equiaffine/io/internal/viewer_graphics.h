@@ -122,12 +122,15 @@ vec4 projected(vec3 q) { return vec4(lens.x * q.x, lens.y * q.y, lens.z * q.z + 
 
 const surfaceVertex = placing + `
 layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal;
-layout(location = 2) in float level; layout(location = 3) in uint code;
-out vec3 vPosition, vNormal; out vec2 vLevel; out vec4 vStatus; out float vUndefined;
+layout(location = 2) in float level; layout(location = 3) in uint code; layout(location = 4) in float side;
+out vec3 vPosition, vNormal; out vec2 vConvex, vSaddle; out vec4 vStatus; out float vUndefined, vSide;
 void main() {
   vPosition = seen(position);
   vNormal = turn * normal;
-  vLevel = code == 0u ? vec2(level, 1) : vec2(0);  // only vertices with a number take part in the interpolation
+  vec2 known = code == 0u ? vec2(level, 1) : vec2(0);  // only vertices with a number take part in the interpolation
+  vConvex = side >= 0.0 ? known : vec2(0);
+  vSaddle = known - vConvex;
+  vSide = side;
   vStatus = vec4(equal(uvec4(code), uvec4(1u, 2u, 3u, 4u)));
   vUndefined = float(code == 5u);
   gl_Position = projected(vPosition);
@@ -135,18 +138,24 @@ void main() {
 
 const surfaceFragment = `#version 300 es
 precision highp float;
-in vec3 vPosition, vNormal; in vec2 vLevel; in vec4 vStatus; in float vUndefined;
+in vec3 vPosition, vNormal; in vec2 vConvex, vSaddle; in vec4 vStatus; in float vUndefined, vSide;
 uniform sampler2D map; uniform bool isMapped; uniform vec3 plain, undefinedColor, statusColors[4];
-uniform float isolines[24]; uniform int isolineCount;
+uniform float isolines[24], pixels; uniform int isolineCount; uniform bool hasSides;
 out vec4 color;
 void main() {
-  float level = vLevel.x / max(vLevel.y, 1e-6), entries = float(textureSize(map, 0).x);
+  // A number that is infinite where vSide is 0 is interpolated on each side of that line by itself.
+  vec2 all = vConvex + vSaddle, same = vSide >= 0.0 ? vConvex : vSaddle, known = same.y > 0.0 ? same : all;
+  float level = known.x / max(known.y, 1e-6), entries = float(textureSize(map, 0).x);
   float slope = fwidth(level);
   vec3 base = isMapped ? texture(map, vec2((0.5 + level * (entries - 1.0)) / entries, 0.5)).rgb : plain;
-  float line = 0.0, most = vLevel.y;
+  float line = 0.0, most = all.y, parabolic = 0.0;
   for (int i = 0; i < isolineCount; ++i)
     if (slope > 1e-6) line = max(line, 1.0 - smoothstep(0.5, 1.3, abs(level - isolines[i]) / slope));
-  for (int i = 0; i < 4; ++i) if (vStatus[i] > most) { most = vStatus[i]; base = statusColors[i]; line = 0.0; }
+  if (hasSides) parabolic = 1.0 - smoothstep(0.6, 1.2, abs(vSide) / max(fwidth(vSide) * pixels, 1e-30));
+  base = mix(base, statusColors[0], parabolic);
+  line *= 1.0 - parabolic;
+  for (int i = hasSides && all.y > 0.0 ? 1 : 0; i < 4; ++i)
+    if (vStatus[i] > most) { most = vStatus[i]; base = statusColors[i]; line = 0.0; }
   if (vUndefined > most) { base = undefinedColor; line = 0.0; }
   vec3 n = normalize(vNormal), view = normalize(-vPosition), light = normalize(vec3(-0.35, 0.5, 1.0));
   float side = gl_FrontFacing ? 1.0 : -1.0;

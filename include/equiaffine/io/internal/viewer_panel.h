@@ -14,7 +14,7 @@ const clipSteps = [0, 0.1, 0.2, 0.5, 1, 2, 3, 5, 10, 15, 20, 25];
 const canvas = byId('view'), stage = byId('stage');
 const choice = {quantity: plain, isLog: false, isScaleChosen: false, clip: facts.clip, hasMarks: true, edges: false,
                 isolines: false, vectors: null, picked: null};
-// shown: {values, codes, sorted, magnitudes} of the quantity.
+// shown: {values, codes, sides, sorted, magnitudes} of the quantity.
 let scene = null, range = null, shown = null, areas = null;
 const aspect = () => canvas.width / canvas.height;
 
@@ -56,8 +56,9 @@ function element(tag, className, text = '') {
 // The quantity changed, or which points count.
 function update() {
   const {quantity} = choice, values = quantity.values?.() ?? null;
-  const codes = vertexCodes(values, mesh.status.length && (quantity === statusQuantity || (values && choice.hasMarks)));
-  shown = {values, codes, ...(values && summarize(values, codes))};
+  const withStatus = mesh.status.length && (quantity === statusQuantity || (values && choice.hasMarks));
+  const sides = vertexSides(quantity), codes = vertexCodes(values, withStatus, sides);
+  shown = {values, codes, sides, ...(values && summarize(values, codes))};
   byId('quantity').value = quantity.name;
   byId('mapping').hidden = byId('scale').hidden = !values;
   byId('marks-label').hidden = !mesh.status.length;
@@ -68,12 +69,12 @@ function update() {
 
 // The same numbers, other colors.
 function updateColors() {
-  const {values, codes} = shown, levels = new Float32Array(mesh.size);
+  const {values, codes, sides} = shown, levels = new Float32Array(mesh.size);
   range = values && colorRange(shown.sorted, shown.magnitudes, choice.clip, choice.quantity.resolution);
   if (values && !choice.isScaleChosen) choice.isLog = prefersLog(range);
   if (values)
     for (let i = 0; i < levels.length; ++i) if (codes[i] === 0) levels[i] = mapPosition(values[i], range, choice.isLog);
-  scene.setColors(levels, codes, values && (range.isDiverging ? facts.diverging : facts.sequential));
+  scene.setColors({levels, codes, sides}, values && (range.isDiverging ? facts.diverging : facts.sequential));
   for (const [id, isOn] of [['scale-linear', !choice.isLog], ['scale-log', choice.isLog]])
     byId(id).setAttribute('aria-pressed', isOn);
   byId('clip').value = clipSteps.indexOf(choice.clip);
@@ -111,6 +112,8 @@ function showLegend() {
       const isColored = withColors && (i > 0 || choice.quantity === statusQuantity);
       if (counts[i] || i === 0) addRow(table, isColored ? [swatch(color), word] : word, counts[i].toLocaleString('en'));
     });
+  if (shown.sides?.some(side => side < 0) && shown.sides.some(side => side >= 0))
+    addRow(table, [swatch(facts.statuses[1].color), 'parabolic curve'], 'infinite');
   const missing = shown.codes.reduce((sum, code) => sum + (code === 5), 0);
   if (missing) addRow(table, [swatch(facts.undefined), 'no number'], missing.toLocaleString('en'));
 }

@@ -41,7 +41,8 @@ class Scene {
     this.edge = createProgram(gl, edgeVertex, edgeFragment);
     this.mark = createProgram(gl, markVertex, markFragment);
     this.needle = createProgram(gl, needleVertex, needleFragment);
-    this.colors = {statuses: facts.statuses.slice(1).flatMap(s => channels(s.color)), isMapped: false, isolines: []};
+    this.colors = {statuses: facts.statuses.slice(1).flatMap(s => channels(s.color)), isMapped: false,
+                   hasSides: false, isolines: []};
     this.fillBuffers();
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
@@ -56,10 +57,12 @@ class Scene {
     this.fill('normal', vertexNormals());
     this.fill('level', new Float32Array(mesh.size));
     this.fill('code', new Uint8Array(mesh.size));
+    this.fill('side', new Float32Array(mesh.size));
     this.fill('triangles', mesh.triangles, gl.ELEMENT_ARRAY_BUFFER);
     this.fill('marked', new Uint32Array(0), gl.ELEMENT_ARRAY_BUFFER);
     this.fill('needles', new Float32Array(0));
-    this.bind('surface', [position, [1, 'normal', 3, gl.SHORT, 8], [2, 'level', 1, gl.FLOAT], code], 'triangles');
+    this.bind('surface', [position, [1, 'normal', 3, gl.SHORT, 8], [2, 'level', 1, gl.FLOAT], code,
+                          [4, 'side', 1, gl.FLOAT]], 'triangles');
     this.bind('marks', [position, code], 'marked');
     this.bind('needles', [[0, 'needles', 3, gl.FLOAT, 24, 0, 1], [1, 'needles', 3, gl.FLOAT, 24, 12, 1]]);
   }
@@ -91,14 +94,16 @@ class Scene {
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, table.length, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, texels);
   }
 
-  // levels in [0, 1] along `table`, or a plain surface without a table; isolines are levels.
-  setColors(levels, codes, table) {
+  // levels in [0, 1] along `table`, or a plain surface without a table; isolines are levels. `sides` is null, or
+  // separates the surface where it is 0.
+  setColors({levels, codes, sides}, table) {
     this.fill('level', levels);
     this.fill('code', codes);
-    this.colors.isMapped = Boolean(table);
+    this.fill('side', sides ?? new Float32Array(mesh.size));
+    Object.assign(this.colors, {isMapped: Boolean(table), hasSides: Boolean(sides)});
     if (table) this.setMap(table);
     const marked = [];
-    codes.forEach((value, i) => { if (value >= 1 && value <= 4) marked.push(i); });
+    codes.forEach((value, i) => { if (value >= (sides ? 2 : 1) && value <= 4) marked.push(i); });
     this.markedCount = marked.length <= 3000 ? marked.length : 0;  // more of them are seen without dots
     this.fill('marked', new Uint32Array(marked.slice(0, this.markedCount)), this.gl.ELEMENT_ARRAY_BUFFER);
   }
@@ -123,9 +128,11 @@ class Scene {
     gl.uniform1f(program.at('viewDistance'), distance);
   }
 
-  drawSurface() {
+  drawSurface(pixels) {
     const {gl, surface, colors} = this;
     this.place(surface);
+    gl.uniform1f(surface.at('pixels'), pixels);
+    gl.uniform1i(surface.at('hasSides'), colors.hasSides);
     gl.uniform1i(surface.at('isMapped'), colors.isMapped);
     gl.uniform3fv(surface.at('plain'), channels(facts.plain));
     gl.uniform3fv(surface.at('undefinedColor'), channels(facts.undefined));
@@ -193,7 +200,7 @@ class Scene {
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     gl.disable(gl.BLEND);
-    this.drawSurface();
+    this.drawSurface(pixels);
     gl.enable(gl.BLEND);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     if (edges) this.drawEdges();
