@@ -4,9 +4,9 @@
 #include "cli/parse_options.h"
 #include "commands/commands.h"
 #include "request/options.h"
-#include "system/printable.h"
 #include "system/progress.h"
 #include <equiaffine/Input_error.h>
+#include <equiaffine/base/printable.h>
 
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/global_control.h>

@@ -10,7 +10,8 @@ namespace {
 using equiaffine::Input_error;
 
 TEST(Input_error, is_one_line_without_control_characters_whatever_it_quotes) {
-  EXPECT_STREQ(Input_error("column 'a\nb\r\t\x1b[31m\x7f': no number").what(), "column 'a?b???[31m?': no number");
+  EXPECT_STREQ(Input_error("column 'a\nb\r\t\x1b[31m\x7f': no number").what(),
+               "column 'a b  \\x1b[31m\\x7f': no number");
   EXPECT_STREQ(Input_error("file 'Fläche.csv': it is empty").what(), "file 'Fläche.csv': it is empty");
 }
 

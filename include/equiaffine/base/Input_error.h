@@ -2,7 +2,8 @@
 #ifndef EQUIAFFINE_BASE_INPUT_ERROR_H
 #define EQUIAFFINE_BASE_INPUT_ERROR_H
 
-#include <algorithm>
+#include <equiaffine/base/printable.h>
+
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -10,24 +11,17 @@
 namespace equiaffine {
 
 /// The one exception of the library: a text or a file that cannot be used.
-/// `what()` is one line that says what is wrong, where, and what to do about it. It may quote the text or file: a control
-/// character there becomes a question mark.
+/// `what()` is one line that says what is wrong, where, and what to do about it. What it quotes of the text or file is
+/// `printable`.
 /// `excerpt()` is empty or shows the place: the offending text and, below it, a caret.
 class Input_error : public std::runtime_error {
 public:
   explicit Input_error(const std::string& what, std::string excerpt = {})
-      : std::runtime_error(without_control_characters(what)), excerpt_(std::move(excerpt)) {}
+      : std::runtime_error(printable(what)), excerpt_(std::move(excerpt)) {}
 
   const std::string& excerpt() const { return excerpt_; }
 
 private:
-  static std::string without_control_characters(std::string text) {
-    constexpr char erase = '\x7f';
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == erase; }, '?');
-    return text;
-  }
-
   std::string excerpt_;
 };
 

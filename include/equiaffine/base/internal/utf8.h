@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "system/printable.h"
+#ifndef EQUIAFFINE_BASE_INTERNAL_UTF8_H
+#define EQUIAFFINE_BASE_INTERNAL_UTF8_H
 
 #include <cstddef>
+#include <string_view>
 
-namespace equiaffine {
-
-namespace {
+namespace equiaffine::internal {
 
 /// A character and the number of its bytes; no bytes if there is no valid UTF-8.
-struct Character {
+struct Utf8_character {
   char32_t code = 0;
   std::size_t bytes = 0;
 };
 
 /// The bytes of a character whose first byte is `lead`, or 0 if none starts with it.
-std::size_t number_of_bytes(unsigned lead) {
+inline std::size_t number_of_bytes(unsigned lead) {
   if (lead < 0x80) return 1;
   if (lead >= 0xC2 && lead < 0xE0) return 2;
   if (lead >= 0xE0 && lead < 0xF0) return 3;
   return lead >= 0xF0 && lead < 0xF5 ? 4 : 0;
 }
 
-Character first_character(std::string_view text) {
+inline Utf8_character first_character(std::string_view text) {
   const unsigned lead = static_cast<unsigned char>(text.front());
   const std::size_t bytes = number_of_bytes(lead);
   if (bytes == 1) return {lead, 1};
@@ -34,10 +34,11 @@ Character first_character(std::string_view text) {
   }
   constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
   const bool is_surrogate = code >= 0xD800 && code < 0xE000;
-  return code < least[bytes] || code > 0x10FFFF || is_surrogate ? Character{} : Character{code, bytes};
+  return code < least[bytes] || code > 0x10FFFF || is_surrogate ? Utf8_character{} : Utf8_character{code, bytes};
 }
 
-bool is_harmless(char32_t code) {
+/// Whether a terminal shows the character and stays as it is.
+inline bool is_harmless(char32_t code) {
   const bool is_control = code < 0x20 || (code >= 0x7F && code < 0xA0);
   const bool breaks_lines = code == 0x2028 || code == 0x2029;
   const bool turns_direction =
@@ -45,21 +46,6 @@ bool is_harmless(char32_t code) {
   return !is_control && !breaks_lines && !turns_direction;
 }
 
-} // namespace
+} // namespace equiaffine::internal
 
-std::string printable(std::string_view text) {
-  constexpr const char* digits = "0123456789abcdef";
-  std::string result;
-  while (!text.empty()) {
-    const auto [code, bytes] = first_character(text);
-    const std::size_t taken = bytes == 0 ? 1 : bytes;
-    if (bytes == 1 && (code == '\n' || code == '\r' || code == '\t')) result += ' ';
-    else if (bytes > 0 && is_harmless(code)) result += text.substr(0, bytes);
-    else
-      for (const unsigned char c : text.substr(0, taken)) result += {'\\', 'x', digits[c / 16], digits[c % 16]};
-    text.remove_prefix(taken);
-  }
-  return result;
-}
-
-} // namespace equiaffine
+#endif
