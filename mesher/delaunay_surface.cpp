@@ -5,7 +5,7 @@
 #include "Facet_sizing_field.h"
 #include "Feature_curve_3.h"
 #include "Memoized_function_3.h"
-#include "Silent_warnings.h"
+#include "Silent_messages.h"
 #include "Surface_complex.h"
 #include "Surface_criteria_3.h"
 #include "initial_points.h"
@@ -17,6 +17,7 @@
 #include <equiaffine/surface/parabolic_curves.h>
 
 #include <CGAL/Real_timer.h>
+#include <CGAL/exceptions.h>
 
 #include <utility>
 #include <vector>
@@ -62,15 +63,23 @@ private:
     const bool is_decided = points.undecided_boxes.empty();
     const double smallest = is_decided ? 0 : criteria_.radius / 8; // near singular points facets get no smaller
     Facet_mesh mesh = refine(Manifoldness::ANY, smallest);
-    if (mesh.topology.is_manifold || mesh.surface.triangles.empty() || !is_decided || points.has_features) return mesh;
+    if (mesh.topology.is_manifold || mesh.surface.triangles.empty() || !is_decided || points.has_features ||
+        !is_refined_)
+      return mesh;
     const bool has_boundary = mesh.topology.boundary_edges > 0;
     return refine(has_boundary ? Manifoldness::MANIFOLD_WITH_BOUNDARY : Manifoldness::MANIFOLD, smallest);
   }
 
+  /// CGAL's mesher gives up where the segment between the circumcenters beside a facet leads to another sheet of the
+  /// surface, as it may where facets are much larger than the bends of the surface. The mesh then stays as it is.
   Facet_mesh refine(Manifoldness manifoldness, double smallest) {
-    const Silent_warnings silence;
-    refine_facets(complex_, domain_, Surface_criteria_3<Surface_triangulation>(criteria_, size_, smallest),
-                  manifoldness);
+    const Silent_messages silence;
+    try {
+      refine_facets(complex_, domain_, Surface_criteria_3<Surface_triangulation>(criteria_, size_, smallest),
+                    manifoldness);
+    } catch (const CGAL::Assertion_exception&) {
+      is_refined_ = false;
+    }
     return read_facets(complex_, function_);
   }
 
@@ -79,8 +88,8 @@ private:
     improve(mesh.surface, mesh.is_on_feature);
   }
 
-  /// The boxes that the seeding left undecided, and one around every point that the mesh has lost, which extends from
-  /// it by the radius of a facet.
+  /// The boxes that the seeding left undecided, one around every point that the mesh has lost, which extends from it by
+  /// the radius of a facet, and the whole box if the mesher gave up.
   std::vector<CGAL::Bbox_3> undecided_boxes(const Initial_points& points, const Inserted_points& inserted,
                                             const Facet_mesh& mesh) const {
     Lost_points lost = inserted.hidden;
@@ -88,6 +97,7 @@ private:
     append_isolated_vertices(complex_.triangulation(), mesh, lost);
     append_missing_feature_edges(inserted, mesh, lost);
     std::vector<CGAL::Bbox_3> boxes = points.undecided_boxes;
+    if (!is_refined_) boxes.push_back(domain_.bbox());
     for (const auto& p : lost) {
       const double r = size_(p);
       boxes.emplace_back(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r);
@@ -102,6 +112,7 @@ private:
   Facet_sizing_field size_;
   const std::vector<Feature_curve_3>& features_;
   Surface_complex complex_;
+  bool is_refined_ = true; // whether all facets satisfy the criteria
 };
 
 /// Makes a second mesh, which has the parabolic curves of the first one as features.

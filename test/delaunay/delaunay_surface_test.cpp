@@ -271,6 +271,15 @@ TEST(Delaunay_surface, parabolic_curves_that_coincide_but_for_rounding_end_in_un
   }
 }
 
+TEST(Delaunay_surface, where_CGAL_gives_up_the_whole_box_is_undecided) {
+  const CGAL::Bbox_3 box(-4, -4, -4, 4, 4, 4);
+  const auto surface =
+      delaunay_surface(make_analytic_traits<Kernel>(Expression_3("z-x*y*sin(x*y)"), box), {30, 0.1, 0});
+  EXPECT_FALSE(surface.is_certified);
+  EXPECT_EQ(std::count(surface.undecided_boxes.begin(), surface.undecided_boxes.end(), box), 1);
+  EXPECT_FALSE(surface.triangles.empty());
+}
+
 TEST(Delaunay_surface, a_surface_that_touches_the_box_in_an_edge_ends) {
   const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
   for (const char* text : {"x+y-2", "x^2+y^2-2", "x-y"})
