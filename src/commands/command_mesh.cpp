@@ -88,7 +88,8 @@ Annotated_surface sample(const Traits& function, const Mesh_options& options, co
       function, parameters::vertex_position(method.vertices)
                     .number_of_nodes(options.source.resolution.value_or(default_resolution(options.source.kind))));
   if (surface.mesh.triangles.empty())
-    fail_without_surface(function.base(), options.isovalue, "box", "a finer --resolution");
+    fail_without_surface(function.base(), options.isovalue, "box",
+                         surface.mesh.repairs.vertices_at_poles > 0 ? "" : "a finer --resolution");
   return surface;
 }
 
@@ -160,7 +161,8 @@ Annotated_surface make_surface(const Traits& function, const Source& source, con
     for (auto& triangle : surface.mesh.triangles) std::swap(triangle[1], triangle[2]);
   const Stopwatch stopwatch;
   progress.begin("computing attributes");
-  surface.max_distance = max_distance_to_surface<CGAL::Parallel_if_available_tag>(level_set, surface.mesh.points);
+  surface.max_distance = max_distance_to_surface<CGAL::Parallel_if_available_tag>(level_set, surface.mesh.points,
+                                                                                  surface.mesh.vertex_status);
   surface.mesh.function_evaluations += surface.mesh.points.size();
   Attribute_selection selection = options.attributes;
   selection.has_status = true; // even if it is not written: the statistics count it

@@ -78,6 +78,8 @@ std::string summary(const Statistics& s) {
   text << "\ndistance from the surface: ";
   if (s.max_distance_to_surface == s.max_distance_to_surface) text << "at most " << s.max_distance_to_surface;
   else text << "unknown";
+  if (const std::size_t n = s.status[std::size_t(Point_status::UNCONVERGED)]; n > 0)
+    text << "; nothing is known of the " << n << " unconverged " << (n == 1 ? "vertex" : "vertices");
   text << '\n';
   if (s.spline && s.spline->smoothing > 0)
     text << "noise in the samples: " << s.spline->noise.deviation << ", smoothed by " << s.spline->smoothing

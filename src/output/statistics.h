@@ -30,7 +30,8 @@ struct Statistics {
   std::size_t vertices = 0, faces = 0;
   Mesh_topology topology;
   std::array<std::size_t, number_of_point_statuses> status{};
-  double max_distance_to_surface = 0; ///< in the unit of the coordinates; NaN if f is defined at no vertex
+  double max_distance_to_surface =
+      0; ///< in the unit of the coordinates, of vertices that are not UNCONVERGED; NaN if f is defined at none
   double sample_seconds = 0, project_seconds = 0, annotate_seconds = 0, write_seconds = 0;
   std::size_t function_evaluations = 0;
   std::optional<Completeness> completeness; ///< is set by methods that look for all components

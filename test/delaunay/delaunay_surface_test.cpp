@@ -271,6 +271,15 @@ TEST(Delaunay_surface, parabolic_curves_that_coincide_but_for_rounding_end_in_un
   }
 }
 
+TEST(Delaunay_surface, poles_are_no_surfaces) {
+  const CGAL::Bbox_3 box(-2, -2, -2, 2, 2, 2);
+  const Delaunay_criteria criteria{30, 0.2, 0};
+  EXPECT_TRUE(delaunay_surface(make_analytic_traits<Kernel>(Expression_3("1/x"), box), criteria).points.empty());
+  const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3("1/x+y"), box), criteria);
+  EXPECT_FALSE(surface.triangles.empty());
+  for (const Point_3& p : surface.points) ASSERT_NEAR(p.x() * p.y(), -1, 1e-13) << p;
+}
+
 TEST(Delaunay_surface, where_CGAL_gives_up_the_whole_box_is_undecided) {
   const CGAL::Bbox_3 box(-4, -4, -4, 4, 4, 4);
   const auto surface =

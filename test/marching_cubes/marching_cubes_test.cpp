@@ -13,9 +13,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 namespace {
 
@@ -238,12 +240,44 @@ TEST(Marching_cubes, a_surface_that_leaves_the_box_has_a_boundary_there) {
   EXPECT_GT(t.boundary_edges, 0);
 }
 
-TEST(Marching_cubes, poles_and_jumps_are_not_taken_for_surfaces) {
-  for (const char* text : {"1/(x-0.01)", "(x-0.01)/abs(x-0.01)"}) {
+TEST(Marching_cubes, poles_are_no_surfaces) {
+  // Poles halfway between nodes and elsewhere, steep and flat ones, that of a logarithm, and those of a plane across the
+  // grid, of planes that cross, and of a sphere.
+  for (const char* text : {"1/x", "1/(x-0.01)", "1/x^3", "x/abs(x)^1.25", "x/abs(x)*log(abs(x)/3)", "1/(x-y)",
+                           "tan(x+1.5)", "1/(x*y*z)", "1/(x^2+y^2+z^2-0.5)"}) {
+    const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+    const auto surface = marching_cubes<CGAL::Parallel_if_available_tag>(traits, parameters::number_of_nodes(20));
+    EXPECT_EQ(surface.points.size(), 0u) << text;
+    EXPECT_EQ(surface.triangles.size(), 0u) << text;
+    EXPECT_GT(surface.repairs.vertices_at_poles, 0u) << text;
+  }
+}
+
+TEST(Marching_cubes, a_surface_ends_beside_a_pole) {
+  for (const char* text : {"1/x+y", "z/x", "tan(x)-y", "1/(x-.3)+y", "x*y*z/(x-.3)"}) {
+    const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
+    const auto surface = marching_cubes(traits, parameters::number_of_nodes(40));
+    const auto t = topology(surface);
+    EXPECT_TRUE(t.is_manifold) << text;
+    EXPECT_GT(surface.triangles.size(), 1000u) << text;
+    EXPECT_GT(surface.repairs.vertices_at_poles, 1000u) << text;
+    ASSERT_EQ(surface.vertex_status.size(), surface.points.size());
+    for (std::size_t v = 0; v < surface.points.size(); ++v) {
+      if (surface.vertex_status[v] != Point_status::REGULAR) continue;
+      const auto jet = traits.first_order(surface.points[v]);
+      ASSERT_LE(std::abs(jet.value()), 1e-13 * (1 + std::abs(jet.coefficients()[1])))
+          << text << ' ' << surface.points[v];
+    }
+  }
+}
+
+TEST(Marching_cubes, vertices_at_a_jump_are_unconverged) {
+  for (const char* text : {"(x-0.01)/abs(x-0.01)", "(x-0.01)/abs(x-0.01)*(2-abs(x))"}) {
     const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
     const auto surface = marching_cubes(traits, parameters::number_of_nodes(8));
     EXPECT_FALSE(surface.points.empty());
     for (Point_status status : surface.vertex_status) EXPECT_EQ(status, Point_status::UNCONVERGED) << text;
+    EXPECT_EQ(surface.repairs.vertices_at_poles, 0u);
   }
 }
 

@@ -686,6 +686,17 @@ TEST_F(Program_command_line, files_are_named_without_the_folders_above_them) {
   }
 }
 
+TEST_F(Program_command_line, no_distance_is_claimed_of_unconverged_vertices) {
+  const auto summary = run_well({"mesh", "--function", "z + (x-.01)/abs(x-.01)", "--box", "-2", "2", "-2", "2", "-2",
+                                 "2", "--resolution", "16", "-o", "m.ply", "--stats", "stats.json"});
+  const Json stats = Json::parse(file("stats.json"));
+  EXPECT_GT(stats["status"]["unconverged"], 0); // at the jump, between the planes z = 1 and z = -1
+  EXPECT_LE(stats["max_distance_to_surface"], 1e-15);
+  const std::string text =
+      "nothing is known of the " + to_string(stats["status"]["unconverged"]) + " unconverged vertices";
+  EXPECT_NE(summary.find(text), std::string::npos) << summary;
+}
+
 TEST_F(Program_command_line, distances_are_sampled_in_the_box_of_the_mesh_and_a_tenth_around_it) {
   write_file(folder_ / "slab.off", "OFF\n8 6 0\n0 0 0\n4 0 0\n4 2 0\n0 2 0\n0 0 1\n4 0 1\n4 2 1\n0 2 1\n"
                                    "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");

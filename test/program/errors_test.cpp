@@ -225,6 +225,12 @@ TEST_F(Program_errors, a_surface_outside_the_box_is_none) {
   expect_error(mesh_of("log(-1 - x^2)") + box, {"undefined"});
 }
 
+TEST_F(Program_errors, a_pole_is_no_surface) {
+  for (const Arguments& method : {Arguments{}, Arguments{"--method", "delaunay", "--radius", "0.3"}})
+    expect_error(mesh_of("1/x") + box + method, {"f = 0", "in the box"});
+  expect_error(mesh_of("1/x") + box, {"no surface f = 0", "choose another --isovalue or box"});
+}
+
 TEST_F(Program_errors, an_output_that_cannot_be_written_is_found_out) {
   expect_error(Arguments{"mesh", "--function", "x", "-o", "no/such/out.ply"} + box,
                {"'no/such/out.ply'", "does not exist"});

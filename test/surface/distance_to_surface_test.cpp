@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 namespace {
@@ -40,6 +41,17 @@ TEST(Distance_to_surface, skips_points_where_f_is_undefined) {
 TEST(Distance_to_surface, does_not_exist_without_a_point_where_f_is_defined) {
   EXPECT_TRUE(std::isnan(equiaffine::max_distance_to_surface(square_root, std::vector<Point_3>{{-1, 0, 0}})));
   EXPECT_TRUE(std::isnan(equiaffine::max_distance_to_surface(square_root, std::vector<Point_3>{})));
+}
+
+TEST(Distance_to_surface, skips_points_that_are_unconverged) {
+  using equiaffine::Point_status;
+  const std::vector<Point_3> points = {{0, 0, 5}, {3, 4, 1}, {-6, -8, 0}};
+  std::vector<Point_status> status = {Point_status::REGULAR, Point_status::SINGULAR, Point_status::UNCONVERGED};
+  EXPECT_DOUBLE_EQ(equiaffine::max_distance_to_surface(scaled_plane, points, status), 5);
+  status.assign(3, Point_status::UNCONVERGED);
+  EXPECT_TRUE(std::isnan(equiaffine::max_distance_to_surface(scaled_plane, points, status)));
+  status.pop_back();
+  EXPECT_THROW(equiaffine::max_distance_to_surface(scaled_plane, points, status), std::invalid_argument);
 }
 
 TEST(Distance_to_surface, does_not_depend_on_threads) {

@@ -68,8 +68,11 @@ TEST(Intersect_segment, poles_and_jumps_are_not_roots) {
   for (const char* text : {"1/(x-0.01)", "(x-0.01)/abs(x-0.01)"}) {
     const Expression_3 f(text);
     const double fa = f(-1.0, 0.0, 0.0), fb = f(1.0, 0.0, 0.0);
-    EXPECT_FALSE(intersect_segment(with_derivatives(f), a, b, fa, fb).has_converged) << text;
-    EXPECT_FALSE(intersect_segment(Values_only<Expression_3>{f}, a, b, fa, fb).has_converged) << text;
+    for (const auto& root : {intersect_segment(with_derivatives(f), a, b, fa, fb),
+                             intersect_segment(Values_only<Expression_3>{f}, a, b, fa, fb)}) {
+      EXPECT_FALSE(root.has_converged) << text;
+      EXPECT_EQ(root.is_at_pole, text[0] == '1') << text;
+    }
   }
 }
 

@@ -29,6 +29,11 @@ namespace equiaffine {
 /// through nodes, triangles without area are contracted or opened, and components without area are dropped. `repairs`
 /// counts all this. Parts of the surface that cross no edge of the grid are not found.
 ///
+/// Where the sign changes along an edge at a pole, which projection finds since |f| grows towards it, the vertex is
+/// removed with the triangles around it: the surface ends there, and the mesh is empty if there are only poles. With
+/// LINEAR vertices poles are not told from zeros. A vertex that could not be projected, as at a jump, stays at its linear
+/// position, is UNCONVERGED, and may be far from the surface.
+///
 /// Named parameters: `number_of_nodes` (64), `vertex_position` (PROJECTED), `skip_empty_space` (not given).
 /// The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Takes one evaluation per node
 /// (if empty space is skipped, per node near the surface), and per vertex 4 more and 4 to 6 with gradient. The memory

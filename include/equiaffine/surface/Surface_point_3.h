@@ -12,6 +12,7 @@ struct Surface_point_3 {
   typename Kernel::Point_3 point;
   bool has_converged;      ///< if false, no zero was found, and `point` is the best guess
   std::size_t evaluations; ///< the number of evaluations of f with its gradient
+  bool is_at_pole = false; ///< no zero was found since f changes its sign at a pole, which is `point`
 };
 
 } // namespace equiaffine

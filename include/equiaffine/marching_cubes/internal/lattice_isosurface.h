@@ -7,6 +7,7 @@
 #include <equiaffine/marching_cubes/internal/large_pages.h>
 #include <equiaffine/marching_cubes/internal/lattice_function.h>
 #include <equiaffine/marching_cubes/internal/linear_isosurface.h>
+#include <equiaffine/marching_cubes/internal/pole_removal.h>
 #include <equiaffine/marching_cubes/internal/sample_signs.h>
 #include <equiaffine/marching_cubes/internal/vertex_projection.h>
 #include <equiaffine/surface/Isosurface_3.h>
@@ -15,6 +16,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -26,6 +28,22 @@ std::size_t number_of_cells(const std::vector<Inner_vertex<FT>>& vertices) {
   for (std::size_t n = 0; n < vertices.size(); ++n)
     if (n == 0 || vertices[n].cell != vertices[n - 1].cell) ++cells;
   return cells;
+}
+
+/// Repairs the mesh, then removes the vertices at poles, which the repairs may renumber.
+template <class Function, class Kernel>
+Isosurface_repairs repair_and_remove_poles(const Function& function, const Isosurface_plan& plan,
+                                           const Grid_rows& suspects, const std::vector<std::size_t>& poles,
+                                           Isosurface_3<Kernel>& surface) {
+  auto& [points, triangles] = static_cast<Indexed_triangle_mesh_3<Kernel>&>(surface);
+  auto& status = surface.vertex_status;
+  if (poles.empty()) return repair_mesh(function, plan, suspects, triangles, points, status);
+  std::vector<std::uint8_t> is_at_pole(points.size(), 0);
+  for (const std::size_t v : poles) is_at_pole[v] = 1;
+  Isosurface_repairs repairs = repair_mesh(function, plan, suspects, triangles, points, status, is_at_pole);
+  remove_poles(surface, is_at_pole);
+  repairs.vertices_at_poles = poles.size();
+  return repairs;
 }
 
 /// Computes the surface of a function on a lattice: first the topology from the signs and values at the nodes, then the
@@ -58,13 +76,15 @@ Isosurface_3<Kernel_of<Traits>> isosurface_on_lattice(const Lattice_function<Tra
   surface.sampling_seconds = timer.time();
 
   std::size_t flips_undone = 0;
+  std::vector<std::size_t> poles;
   if (position == Vertex_position::PROJECTED) {
     const Projection_report report = project_vertices<ConcurrencyTag>(function, plan, inner_vertices, surface);
     surface.function_evaluations += report.evaluations;
     suspects.add(report.suspects);
     flips_undone = report.flips_undone;
+    poles = report.poles;
   }
-  surface.repairs = repair_mesh(function, plan, suspects, surface.triangles, surface.points, surface.vertex_status);
+  surface.repairs = repair_and_remove_poles(function, plan, suspects, poles, surface);
   surface.repairs.flips_undone = flips_undone;
   surface.projection_seconds = timer.time() - surface.sampling_seconds;
   return surface;

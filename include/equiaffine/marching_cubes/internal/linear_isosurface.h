@@ -8,9 +8,9 @@
 #include <equiaffine/marching_cubes/internal/grid_elements.h>
 #include <equiaffine/marching_cubes/internal/inner_vertex.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
-#include <equiaffine/marching_cubes/internal/split_fans.h>
 #include <equiaffine/marching_cubes/internal/zero_area_repair.h>
 #include <equiaffine/surface/Isosurface_repairs.h>
+#include <equiaffine/surface/split_fans.h>
 
 #include <array>
 #include <cstddef>
@@ -66,22 +66,27 @@ Isosurface_repairs repair_zero_areas(const Grid& grid, const Isosurface_numberin
   return repairs;
 }
 
+/// Gives parts of a surface that touch in a vertex vertices of their own. `properties` are arrays with an entry per
+/// vertex.
+template <class Triangles, class Points, class... Properties>
+void split_parts(Triangles& triangles, Points& points, Properties&... properties) {
+  const auto append_copy = [](auto& array, std::size_t v) {
+    const auto copy = array[v];
+    array.push_back(copy);
+  };
+  split_fans(triangles, points.size(), [&](std::size_t v) {
+    append_copy(points, v);
+    (append_copy(properties, v), ...);
+  });
+}
+
 /// Removes triangles without area around the given rows, then gives parts of the surface that touch beside nodes
 /// without a value vertices of their own. `properties` are arrays with an entry per vertex.
 template <class Grid, class Triangles, class Points, class... Properties>
 Isosurface_repairs repair_mesh(const Grid& grid, const Isosurface_plan& plan, const Grid_rows& suspects,
                                Triangles& triangles, Points& points, Properties&... properties) {
   const auto repairs = repair_zero_areas(grid, plan.numbering, suspects, triangles, points, properties...);
-  if (plan.has_undefined) {
-    const auto append_copy = [](auto& array, std::size_t v) {
-      const auto copy = array[v];
-      array.push_back(copy);
-    };
-    split_fans(triangles, points.size(), [&](std::size_t v) {
-      append_copy(points, v);
-      (append_copy(properties, v), ...);
-    });
-  }
+  if (plan.has_undefined) split_parts(triangles, points, properties...);
   return repairs;
 }
 

@@ -24,9 +24,10 @@
 namespace equiaffine::internal {
 
 struct Projection_report {
-  std::size_t evaluations;  ///< the number of evaluations of the function
-  std::size_t flips_undone; ///< vertices that were put back
-  Grid_rows suspects;       ///< rows of nodes with a vertex, around which triangles may have no area
+  std::size_t evaluations;        ///< the number of evaluations of the function
+  std::size_t flips_undone;       ///< vertices that were put back
+  Grid_rows suspects;             ///< rows of nodes with a vertex, around which triangles may have no area
+  std::vector<std::size_t> poles; ///< vertices on edges along which the function has a pole and no zero
 };
 
 /// Moves the vertices of a mesh from their linear positions, where the linear interpolant along an edge of the lattice
@@ -51,7 +52,7 @@ public:
                     const std::vector<Inner_vertex<FT>>& inner_vertices, Isosurface_3<Kernel>& surface)
       : function_(function), plan_(plan), numbering_(plan.numbering), inner_vertices_(inner_vertices),
         surface_(surface), evaluations_(numbering_.number_of_planes()), flipped_(numbering_.number_of_planes()),
-        suspects_(numbering_.number_of_planes()) {}
+        poles_(numbering_.number_of_planes()), suspects_(numbering_.number_of_planes()) {}
 
   Projection_report run() {
     const std::size_t planes = numbering_.number_of_planes();
@@ -64,7 +65,7 @@ public:
     }
     undo_flips();
     return {std::accumulate(evaluations_.begin(), evaluations_.end(), std::size_t(0)), flips_undone_,
-            std::move(suspects_)};
+            std::move(suspects_), joined(poles_)};
   }
 
 private:
@@ -108,6 +109,7 @@ private:
   void set_projected(std::size_t v, std::size_t k, const Surface_point_3<Kernel>& projected) {
     if (projected.has_converged) surface_.points[v] = projected.point;
     else surface_.vertex_status[v] = Point_status::UNCONVERGED;
+    if (projected.is_at_pole) poles_[k].push_back(v);
     evaluations_[k] += projected.evaluations;
   }
 
@@ -202,8 +204,7 @@ private:
 
   /// Puts back the vertices of flipped triangles, and of those that are flipped once other vertices are back.
   void undo_flips() {
-    std::vector<std::size_t> suspects;
-    for (const auto& layer : flipped_) suspects.insert(suspects.end(), layer.begin(), layer.end());
+    std::vector<std::size_t> suspects = joined(flipped_);
     for (std::size_t n = 0; n < suspects.size(); ++n) {
       const std::size_t t = suspects[n];
       if (!is_flipped_now(t)) continue;
@@ -257,6 +258,12 @@ private:
     });
   }
 
+  static std::vector<std::size_t> joined(const std::vector<std::vector<std::size_t>>& parts) {
+    std::vector<std::size_t> all;
+    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }
+
   bool is_inner(std::size_t v) const { return v >= numbering_.number_of_edge_vertices(); }
   const Inner_vertex<FT>& inner_vertex(std::size_t v) const {
     return inner_vertices_[v - numbering_.number_of_edge_vertices()];
@@ -270,6 +277,7 @@ private:
   Isosurface_3<Kernel>& surface_;
   std::vector<std::size_t> evaluations_;          // per plane
   std::vector<std::vector<std::size_t>> flipped_; // triangles per layer
+  std::vector<std::vector<std::size_t>> poles_;   // vertices per plane
   Grid_rows suspects_;
   std::size_t flips_undone_ = 0;
 };

@@ -49,6 +49,26 @@ struct Bracket_3 {
   FT smaller_end, negligible;
 };
 
+/// Whether f has a pole where a search that has not converged has narrowed a change of sign: towards that point |f|
+/// grows, from 3e5 times the tolerance to the tolerance, at least by a tenth per factor of 256. A logarithm grows more;
+/// at a jump |f| has limits on both sides.
+template <class Kernel, class Traits>
+bool is_pole(const Traits& traits, const Bracket_3<Kernel>& bracket, const typename Kernel::Point_3& p) {
+  using FT = typename Kernel::FT;
+  using std::abs;
+  const auto magnitude = [&](const FT& t) {
+    const FT f = abs(traits.value(p + t * bracket.direction));
+    return f == f ? f : FT(0); // f may be undefined on one side
+  };
+  FT nearer = std::numeric_limits<FT>::infinity(), distance = FT(4) * bracket.tolerance;
+  for (int n = 0; n < 3; ++n, distance *= FT(256)) {
+    const FT here = std::max(magnitude(distance), magnitude(-distance));
+    if (!(nearer - nearer != FT(0) || nearer > FT(1.1) * here)) return false; // the farther ones may overflow, too
+    nearer = here;
+  }
+  return true;
+}
+
 /// Newton's method on the restriction of f, kept within the bracket by bisection whenever a step would leave it or not
 /// halve the last one (Press et al., Numerical Recipes, 2007, section 9.4).
 template <class Kernel, class Traits>
