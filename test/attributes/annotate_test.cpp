@@ -9,9 +9,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -51,6 +54,42 @@ TEST(Annotate, property_maps_hold_the_local_structure_of_their_vertices) {
     ASSERT_EQ(vector("normal")[v].y(), s.euclidean.normal[1]);
     ASSERT_EQ(vector("conormal")[v].z(), s.affine.conormal[2]);
     ASSERT_EQ(vector("affine_normal")[v].x(), s.affine.normal[0]);
+  }
+}
+
+Kernel::Vector_3 normal(const std::vector<Kernel::Point_3>& points, const std::array<std::uint32_t, 3>& t) {
+  return CGAL::normal(points[t[0]], points[t[1]], points[t[2]]);
+}
+
+TEST(Annotate, no_face_is_lost_where_a_mesh_is_not_a_manifold) {
+  const std::vector<Kernel::Point_3> points = {{0, 0, 0},  {0, 0, 1},  {1, 0, 0},  {0, 1, 0},
+                                               {-1, 0, 0}, {0, -1, 0}, {0, -1, 1}, {1, 1, 1}};
+  const std::vector<std::vector<std::array<std::uint32_t, 3>>> meshes = {
+      {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {0, 1, 5}}, // four triangles at an edge, which all pass it alike
+      {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 0, 5}}, // two pass it each way
+      {{0, 1, 2}, {0, 3, 4}, {0, 5, 6}},            // three fans at a vertex
+      {{0, 1, 2}, {0, 1, 3}},                       // neighbors that are oriented differently
+      // Three triangles at the edge 01, the first two of which are in one fan around both of its ends.
+      {{0, 1, 2}, {0, 2, 3}, {1, 3, 2}, {1, 0, 3}, {0, 1, 4}}};
+  for (const auto& triangles : meshes) {
+    Isosurface_3<Kernel> surface;
+    surface.points = points;
+    surface.triangles = triangles;
+    surface.vertex_status.assign(points.size(), Point_status::REGULAR);
+    surface.vertex_status[0] = Point_status::UNCONVERGED;
+    const Mesh mesh = to_surface_mesh(surface);
+    ASSERT_TRUE(mesh.is_valid(false));
+    ASSERT_EQ(mesh.number_of_faces(), triangles.size());
+    EXPECT_GT(mesh.number_of_vertices(), points.size());
+    for (std::size_t v = 0; v < points.size(); ++v) EXPECT_EQ(mesh.point(Vertex_index(unsigned(v))), points[v]);
+    const auto status = mesh.property_map<Vertex_index, Point_status>("v:status").first;
+    for (const Vertex_index v : mesh.vertices())
+      EXPECT_EQ(status[v] == Point_status::UNCONVERGED, mesh.point(v) == points[0]);
+    for (const auto face : mesh.faces()) {
+      std::vector<Kernel::Point_3> corners;
+      for (const Vertex_index v : mesh.vertices_around_face(mesh.halfedge(face))) corners.push_back(mesh.point(v));
+      EXPECT_EQ(normal(corners, {0, 1, 2}), normal(points, triangles[std::size_t(face)]));
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <equiaffine/attributes/attributes.h>
 #include <equiaffine/attributes/internal/Property_maps.h>
+#include <equiaffine/attributes/internal/surface_mesh_of.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/base/parallel_for.h>
 #include <equiaffine/surface/Isosurface_3.h>
@@ -15,18 +16,14 @@
 
 namespace equiaffine {
 
-/// Makes a CGAL::Surface_mesh, with the property map `v:status` (Point_status), from the mesh of a sampler.
+/// Makes a CGAL::Surface_mesh, with the property map `v:status` (Point_status), from the mesh of a sampler. It has all
+/// triangles, in the same order. Vertex i is point i; where the mesh is not a manifold, as a Delaunay mesh of x y z = 0
+/// is along the axes, copies of vertices follow, which have the same point and status, so that the parts of the surface
+/// that meet there come apart. `surface.points` and `surface.triangles` are the mesh in which they are joined, and can be
+/// given to CGAL's functions for polygon soups.
 template <class Kernel>
 CGAL::Surface_mesh<typename Kernel::Point_3> to_surface_mesh(const Isosurface_3<Kernel>& surface) {
-  CGAL::Surface_mesh<typename Kernel::Point_3> mesh;
-  using Vertex_index = typename CGAL::Surface_mesh<typename Kernel::Point_3>::Vertex_index;
-  using Size = typename Vertex_index::size_type;
-  mesh.reserve(Size(surface.points.size()), Size(surface.triangles.size() * 3 / 2), Size(surface.triangles.size()));
-  auto status = mesh.template add_property_map<Vertex_index, Point_status>("v:status", Point_status::REGULAR).first;
-  for (std::size_t i = 0; i < surface.points.size(); ++i)
-    status[mesh.add_vertex(surface.points[i])] = surface.vertex_status[i];
-  for (const auto& t : surface.triangles) mesh.add_face(Vertex_index(t[0]), Vertex_index(t[1]), Vertex_index(t[2]));
-  return mesh;
+  return internal::surface_mesh_of(surface);
 }
 
 /// Fills property maps of the vertices of `mesh` with the local structure of the level sets of f through them:
