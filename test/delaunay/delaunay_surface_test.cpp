@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
+#include <equiaffine/Implicit_mesh_domain_3.h>
 #include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
 #include <equiaffine/analytic_functions.h>
@@ -19,9 +20,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -278,6 +281,29 @@ TEST(Delaunay_surface, poles_are_no_surfaces) {
   const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3("1/x+y"), box), criteria);
   EXPECT_FALSE(surface.triangles.empty());
   for (const Point_3& p : surface.points) ASSERT_NEAR(p.x() * p.y(), -1, 1e-13) << p;
+}
+
+TEST(Delaunay_surface, arguments_without_a_result_are_refused_in_every_build) {
+  constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  const auto sphere = traits_of(functions::Sphere());
+  for (const Delaunay_criteria& criteria : {Delaunay_criteria{31, 0.1, 0},
+                                            {-1, 0.1, 0},
+                                            {nan, 0.1, 0},
+                                            {30, -1, 0},
+                                            {30, nan, 0},
+                                            {30, infinity, 0},
+                                            {30, 0.1, -1},
+                                            {30, 0.1, infinity}})
+    EXPECT_THROW(delaunay_surface(sphere, criteria), std::invalid_argument);
+  const CGAL::Bbox_3 space(-infinity, -infinity, -infinity, infinity, infinity, infinity);
+  EXPECT_THROW(delaunay_surface(make_analytic_traits<Kernel>(Expression_3("x"), space)), std::invalid_argument);
+  const Clip_domain_3 domain(sphere.bbox());
+  for (const double size : {-1.0, nan, infinity}) {
+    EXPECT_THROW(Implicit_mesh_domain_3(sphere, domain, size), std::invalid_argument);
+    EXPECT_THROW(certified_seeding(
+                     sphere, domain, [](const Point_3&) { return 1.0; }, size),
+                 std::invalid_argument);
+  }
 }
 
 TEST(Delaunay_surface, where_CGAL_gives_up_the_whole_box_is_undecided) {

@@ -17,6 +17,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
+#include <stdexcept>
 #include <vector>
 
 namespace {
@@ -279,6 +281,22 @@ TEST(Marching_cubes, vertices_at_a_jump_are_unconverged) {
     for (Point_status status : surface.vertex_status) EXPECT_EQ(status, Point_status::UNCONVERGED) << text;
     EXPECT_EQ(surface.repairs.vertices_at_poles, 0u);
   }
+}
+
+TEST(Marching_cubes, arguments_without_a_result_are_refused_in_every_build) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto sphere = traits_of(surfaces[0]);
+  for (const std::size_t n : {0, 1})
+    EXPECT_THROW(marching_cubes(sphere, parameters::number_of_nodes(n)), std::invalid_argument);
+  const CGAL::Bbox_3 space(-infinity, -infinity, -infinity, infinity, infinity, infinity);
+  EXPECT_THROW(marching_cubes(make_analytic_traits<Kernel>(Expression_3("x"), space)), std::invalid_argument);
+  const std::vector<double> values(8);
+  const std::span<const double> all(values);
+  EXPECT_NO_THROW(marching_cubes_of_array(all, {2, 2, 2}, 0.5));
+  EXPECT_THROW(marching_cubes_of_array(all, {2, 2, 3}, 0.5), std::invalid_argument);
+  EXPECT_THROW(marching_cubes_of_array(all, {8, 1, 1}, 0.5), std::invalid_argument);
+  EXPECT_THROW(marching_cubes_of_array(all, {2, 2, 2}, 0.5, {0, 0, 0}, {1, 0, 1}), std::invalid_argument);
+  EXPECT_THROW(marching_cubes_of_array(all, {2, 2, 2}, 0.5, {0, 0, 0}, {1, 1, infinity}), std::invalid_argument);
 }
 
 TEST(Marching_cubes, vertices_around_a_sample_that_the_spline_smooths_away_are_unconverged) {

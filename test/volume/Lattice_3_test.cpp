@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <stdexcept>
+
 namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -22,6 +25,21 @@ Lattice_3 left_handed_lattice() {
 }
 
 } // namespace
+
+TEST(Lattice_3, what_is_no_lattice_is_refused_in_every_build) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const CGAL::Bbox_3 box(0, 0, 0, 1, 1, 1);
+  const std::size_t many = std::size_t(1) << 31;
+  for (const Lattice_3::Size& size : {Lattice_3::Size{0, 0, 0}, {1, 2, 2}, {2, 2, 1}, {many, many, 4}})
+    EXPECT_THROW(Lattice_3(size, box), std::invalid_argument) << size[0];
+  for (const CGAL::Bbox_3& no_box : {CGAL::Bbox_3(), CGAL::Bbox_3(-infinity, 0, 0, infinity, 1, 1),
+                                     CGAL::Bbox_3(0, 0, 0, 1, 0, 1), CGAL::Bbox_3(-1e308, 0, 0, 1e308, 1, 1)})
+    EXPECT_THROW(Lattice_3({3, 3, 3}, no_box), std::invalid_argument) << no_box;
+  const Vector_3 x(1, 0, 0), y(0, 1, 0);
+  EXPECT_THROW(Lattice_3({3, 3, 3}, Point_3(0, 0, 0), {x, y, x + y}), std::invalid_argument);
+  EXPECT_NO_THROW(Lattice_3({3, 3, 3}, CGAL::Bbox_3(0, 0, 0, 1e-150, 1e-150, 1e-150)));
+  EXPECT_NO_THROW(Lattice_3({3, 3, 3}, CGAL::Bbox_3(0, 0, 0, 1e150, 1e150, 1e150)));
+}
 
 TEST(Lattice_3, a_node_lies_at_the_origin_plus_its_steps) {
   const Lattice_3 lattice = skew_lattice();

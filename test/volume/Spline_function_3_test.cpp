@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -556,6 +557,19 @@ TEST(Spline_function_3, parameters_are_named_and_smoothing_is_that_of_smooth_vol
   EXPECT_EQ(smooth.scheme(), Spline_function_3(volume).scheme());
   EXPECT_EQ(smooth.taylor(p).coefficients(), expected.taylor(p).coefficients());
   EXPECT_NE(smooth.value(p), Spline_function_3(volume, {.degree = 5}).value(p));
+}
+
+TEST(Spline_function_3, arguments_without_a_result_are_refused_in_every_build) {
+  Volume_3 volume = random_volume(skew_lattice(12, 13, 14));
+  for (const int degree : {-1, 0, 6, 11})
+    EXPECT_THROW(Spline_function_3(volume, {.degree = degree}), std::invalid_argument);
+  for (const double scale : {-1., double(INFINITY), double(NAN)}) {
+    EXPECT_THROW(Spline_function_3(volume, {.smoothing = scale}), std::invalid_argument) << scale;
+    EXPECT_THROW(equiaffine::smooth_volume(volume, scale), std::invalid_argument) << scale;
+  }
+  volume.values.pop_back();
+  EXPECT_THROW(Spline_function_3{volume}, std::invalid_argument);
+  EXPECT_THROW(equiaffine::smooth_volume(volume, 2.), std::invalid_argument);
 }
 
 #ifdef CGAL_LINKED_WITH_TBB

@@ -10,7 +10,7 @@
 
 namespace equiaffine {
 
-/// The one exception of the library: a text or a file that cannot be used.
+/// The exception for a text or a file that cannot be used.
 /// `what()` is one line that says what is wrong, where, and what to do about it. What it quotes of the text or file is
 /// `printable`.
 /// `excerpt()` is empty or shows the place: the offending text and, below it, a caret.

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_DELAUNAY_IMPLICIT_MESH_DOMAIN_3_H
 #define EQUIAFFINE_DELAUNAY_IMPLICIT_MESH_DOMAIN_3_H
 
+#include <equiaffine/base/check_argument.h>
 #include <equiaffine/delaunay/Cgal_optional.h>
 #include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/delaunay/certified_seeding.h>
@@ -11,6 +12,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/tags.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <tuple>
@@ -47,10 +49,13 @@ public:
 
   /// `facet_size` is the bound of the radii of surface Delaunay balls that the mesher will be given, or 0 for the
   /// default of `Delaunay_criteria`. Initial points are as dense as that, and on dual edges longer than twice that,
-  /// pairs of intersections are looked for.
+  /// pairs of intersections are looked for. \throw std::invalid_argument if it is negative or not finite
   Implicit_mesh_domain_3(Traits traits, const Clip_domain_3& domain, double facet_size = 0)
       : facet_size_(facet_size > 0 ? facet_size : Delaunay_criteria::default_radius(domain)),
-        oracle_(std::make_shared<const Oracle>(std::move(traits), domain, 2 * facet_size_)) {}
+        oracle_(std::make_shared<const Oracle>(std::move(traits), domain, 2 * facet_size_)) {
+    check_argument(facet_size >= 0 && std::isfinite(facet_size),
+                   "the facet size of a mesh domain is not a positive length: choose one, or 0 for the default");
+  }
   explicit Implicit_mesh_domain_3(Traits traits) : Implicit_mesh_domain_3(traits, Clip_domain_3(traits.bbox())) {}
 
   struct Construct_initial_points {

@@ -2,8 +2,9 @@
 #ifndef EQUIAFFINE_SURFACE_CLIP_DOMAIN_3_H
 #define EQUIAFFINE_SURFACE_CLIP_DOMAIN_3_H
 
+#include <equiaffine/base/check_argument.h>
+
 #include <CGAL/Bbox_3.h>
-#include <CGAL/assertions.h>
 
 #include <algorithm>
 #include <array>
@@ -17,10 +18,10 @@ namespace equiaffine {
 /// A closed box or ball, in which a surface is sought and at whose border it is cut off.
 class Clip_domain_3 {
 public:
-  /// \pre the box has an interior
+  /// \throw std::invalid_argument unless the box has an interior and finite sides
   explicit Clip_domain_3(const CGAL::Bbox_3& box) : box_(box) { check(); }
 
-  /// A ball of positive radius.
+  /// \throw std::invalid_argument unless the radius is positive and all coordinates are finite
   Clip_domain_3(const std::array<double, 3>& center, double radius)
       : box_(center[0] - radius, center[1] - radius, center[2] - radius, center[0] + radius, center[1] + radius,
              center[2] + radius),
@@ -105,8 +106,11 @@ private:
   }
 
   void check() const {
-    CGAL_precondition(box_.x_span() > 0 && box_.y_span() > 0 && box_.z_span() > 0);
-    CGAL_precondition(std::isfinite(diagonal()));
+    check_argument(
+        box_.x_span() > 0 && box_.y_span() > 0 && box_.z_span() > 0,
+        "a clip domain has no interior: choose a box whose upper bounds are greater than the lower ones, or a "
+        "positive radius");
+    check_argument(std::isfinite(diagonal()), "a clip domain is not bounded: choose finite coordinates");
   }
 
   CGAL::Bbox_3 box_;

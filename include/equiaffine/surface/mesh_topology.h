@@ -2,10 +2,9 @@
 #ifndef EQUIAFFINE_SURFACE_MESH_TOPOLOGY_H
 #define EQUIAFFINE_SURFACE_MESH_TOPOLOGY_H
 
+#include <equiaffine/base/check_argument.h>
 #include <equiaffine/base/disjoint_sets.h>
 #include <equiaffine/surface/vertex_links.h>
-
-#include <CGAL/assertions.h>
 
 #include <algorithm>
 #include <array>
@@ -27,12 +26,13 @@ struct Mesh_topology {
 };
 
 /// Computes the topology from the indices alone: points with equal coordinates are different points. Takes nearly
-/// linear time and 32 bytes of memory per triangle. \pre indices are below `number_of_points`
+/// linear time and 32 bytes of memory per triangle. \throw std::invalid_argument unless indices are below
+/// `number_of_points`
 inline Mesh_topology mesh_topology(std::span<const std::array<std::uint32_t, 3>> triangles,
                                    std::size_t number_of_points) {
-  CGAL_precondition(std::all_of(triangles.begin(), triangles.end(), [&](const auto& t) {
-    return t[0] < number_of_points && t[1] < number_of_points && t[2] < number_of_points;
-  }));
+  const auto is_valid = [&](const auto& t) { return std::max({t[0], t[1], t[2]}) < number_of_points; };
+  check_argument(std::all_of(triangles.begin(), triangles.end(), is_valid),
+                 "a triangle has the index of no point: give all points of the mesh");
   Mesh_topology topology;
   for_each_vertex_link(triangles, number_of_points, [&](const auto& link) {
     if (!link.is_path_or_circle()) topology.is_manifold = false;

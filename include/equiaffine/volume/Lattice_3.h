@@ -2,18 +2,23 @@
 #ifndef EQUIAFFINE_VOLUME_LATTICE_3_H
 #define EQUIAFFINE_VOLUME_LATTICE_3_H
 
+#include <equiaffine/base/check_argument.h>
+
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Bbox_3.h>
-#include <CGAL/assertions.h>
+#include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/determinant.h>
+#include <CGAL/number_utils.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 namespace equiaffine {
 
 /// A grid of nx x ny x nz nodes in space: node (i, j, k) lies at origin + i e0 + j e1 + k e2. The steps e0, e1, e2 may
-/// have any lengths and directions, left-handed ones included; the precondition is a determinant that is not zero.
+/// have any lengths and directions, left-handed ones included, as long as their determinant is not zero.
 /// Nodes are stored with i fastest. Lengths are those of the user's coordinates.
 template <class Kernel>
 class Lattice_3 {
@@ -24,10 +29,18 @@ public:
   using Aff_transformation_3 = typename Kernel::Aff_transformation_3;
   using Size = std::array<std::size_t, 3>;
 
+  /// \throw std::invalid_argument unless there are two nodes or more along each axis, and no more than can be numbered,
+  /// all coordinates are finite and the steps span space
   Lattice_3(const Size& size, const Point_3& origin, const std::array<Vector_3, 3>& steps)
       : size_(size), origin_(origin), steps_(steps) {
-    CGAL_precondition(size[0] >= 2 && size[1] >= 2 && size[2] >= 2);
-    CGAL_precondition(determinant() != FT(0));
+    check_argument(size[0] >= 2 && size[1] >= 2 && size[2] >= 2,
+                   "a lattice has less than two nodes along an axis: choose a larger size");
+    check_argument(size[0] <= std::numeric_limits<std::size_t>::max() / size[1] / size[2],
+                   "a lattice has more nodes than can be numbered: choose a smaller size");
+    check_argument(is_finite(origin) && is_finite(steps[0]) && is_finite(steps[1]) && is_finite(steps[2]),
+                   "a coordinate or a step of a lattice is not finite: choose a box with finite sides");
+    check_argument(span_space(steps),
+                   "the steps of a lattice do not span space: choose a box with an interior, or independent steps");
   }
 
   /// The axis-parallel lattice whose corner nodes are the corners of `box`.
@@ -78,6 +91,19 @@ public:
   }
 
 private:
+  /// Whether the coordinates of a point or a vector are finite.
+  template <class Coordinates>
+  static bool is_finite(const Coordinates& c) {
+    return c.x() - c.x() == FT(0) && c.y() - c.y() == FT(0) && c.z() - c.z() == FT(0);
+  }
+
+  /// Whether three vectors are independent. They are scaled first, so that no product underflows.
+  static bool span_space(std::array<Vector_3, 3> v) {
+    for (Vector_3& u : v) u = u / std::max({CGAL::abs(u.x()), CGAL::abs(u.y()), CGAL::abs(u.z())});
+    const FT volume = CGAL::cross_product(v[0], v[1]) * v[2];
+    return volume < FT(0) || volume > FT(0); // a vector zero makes it NaN
+  }
+
   Size size_;
   Point_3 origin_;
   std::array<Vector_3, 3> steps_;

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_SPLINE_FUNCTION_3_H
 #define EQUIAFFINE_VOLUME_SPLINE_FUNCTION_3_H
 
+#include <equiaffine/base/check_argument.h>
 #include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/number/Linear_substitution_3.h>
@@ -14,7 +15,6 @@
 #include <equiaffine/volume/smooth_volume.h>
 
 #include <CGAL/Bbox_3.h>
-#include <CGAL/assertions.h>
 #include <CGAL/tags.h>
 
 #include <array>
@@ -51,15 +51,16 @@ public:
   using Matrix = typename Linear_substitution_3<FT>::Matrix;
   static_assert(std::is_floating_point_v<FT>);
 
-  /// The coefficients do not depend on the number of threads that compute them.
+  /// The coefficients do not depend on the number of threads that compute them. \throw std::invalid_argument unless the
+  /// degree is 5, 7 or 9, the smoothing is finite and not negative, and there are as many values as nodes
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Spline_function_3(const Volume_3<Kernel>& volume, const Spline_parameters& parameters = {},
                              ConcurrencyTag = {})
-      : degree_(parameters.degree), border_degree_(parameters.degree), scheme_(parameters.scheme),
+      : degree_(checked_degree(parameters.degree)), border_degree_(parameters.degree), scheme_(parameters.scheme),
         support_(volume.lattice), substitution_(support_.to_lattice()),
         coefficients_(volume.lattice.size(), parameters.degree) {
-    CGAL_precondition(degree_ == 5 || degree_ == 7 || degree_ == 9);
-    CGAL_precondition(volume.values.size() == lattice().number_of_nodes());
+    check_argument(volume.values.size() == lattice().number_of_nodes(),
+                   "a volume has not as many values as its lattice has nodes: choose the lattice that it has");
     for (const std::size_t nodes : lattice().size())
       if (nodes <= std::size_t(degree_)) return;
     if (parameters.smoothing == 0) fit<ConcurrencyTag>(volume.values);
@@ -130,6 +131,12 @@ public:
   }
 
 private:
+  static int checked_degree(int degree) {
+    check_argument(degree == 5 || degree == 7 || degree == 9,
+                   "the degree of a spline is not 5, 7 or 9: choose one of these");
+    return degree;
+  }
+
   using Support = internal::Spline_support_3<Kernel>;
 
   template <class ConcurrencyTag>

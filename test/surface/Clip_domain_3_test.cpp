@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/Clip_domain_3.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+namespace {
+
+using equiaffine::Clip_domain_3;
+
+TEST(Clip_domain, what_bounds_nothing_is_refused_in_every_build) {
+  constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  for (const CGAL::Bbox_3& box : {CGAL::Bbox_3(), CGAL::Bbox_3(0, 0, 0, 1, 0, 1), CGAL::Bbox_3(0, 0, 0, infinity, 1, 1),
+                                  CGAL::Bbox_3(0, 0, 0, 1, nan, 1)})
+    EXPECT_THROW(Clip_domain_3{box}, std::invalid_argument) << box;
+  for (const double radius : {-1.0, 0.0, infinity, nan})
+    EXPECT_THROW(Clip_domain_3({0, 0, 0}, radius), std::invalid_argument) << radius;
+  EXPECT_THROW(Clip_domain_3({0, infinity, 0}, 1), std::invalid_argument);
+}
+
+} // namespace
