@@ -221,6 +221,13 @@ TEST(Spline_function_3, smooth_samples_are_extended_by_two_more_degrees_noise_an
   EXPECT_EQ(Spline_function_3(masked).border_degree(), 9) << "lines without a number have no vote";
 }
 
+TEST(Spline_function_3, lines_that_end_at_zero_do_not_vote_by_their_rounding_errors) {
+  const Lattice_3 lattice = unit_lattice(12, 40, 12);
+  // Along x the samples are linear, and zero up to rounding at the end of most lines, which are more than those along y.
+  const auto f = [](double x, double y, double) { return (x - 11) / 7 * std::sin(y / 4) + 1e-16 * std::cos(y); };
+  EXPECT_EQ(Spline_function_3(sample(lattice, f), {.degree = 7}).border_degree(), 9);
+}
+
 TEST(Spline_function_3, derivatives_are_those_in_space_for_a_rotated_anisotropic_left_handed_lattice) {
   ASSERT_LT(skew_lattice(8, 8, 8).determinant(), 0);
   const auto inverse = skew_lattice(8, 8, 8).transformation().inverse();

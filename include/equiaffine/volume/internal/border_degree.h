@@ -27,12 +27,15 @@ FT error_of_prediction(const FT* samples, std::ptrdiff_t stride, int d) {
 }
 
 /// The vote of the end of a line that begins at `*end`: 1 if the greater degree predicts the sample there better than
-/// the lesser one, else -1; 0 if the lesser one predicts it up to rounding, or if the sample is NaN.
+/// the lesser one, else -1; 0 if the lesser one predicts it up to the rounding of the samples it takes, or if one of them
+/// is NaN.
 template <class FT>
 int vote_for_greater_degree(const FT* end, std::ptrdiff_t stride, int lesser, int greater) {
   const FT of_lesser = error_of_prediction(end, stride, lesser);
   const FT of_greater = error_of_prediction(end, stride, greater);
-  if (!(of_lesser > 1000 * std::numeric_limits<FT>::epsilon() * std::abs(*end))) return 0;
+  FT largest = 0; // the last sample alone may be nearly 0
+  for (int j = 0; j <= lesser + 1; ++j) largest = std::max(largest, std::abs(end[j * stride]));
+  if (!(of_lesser > 1000 * std::numeric_limits<FT>::epsilon() * largest)) return 0;
   return of_greater < of_lesser ? 1 : -1;
 }
 
