@@ -138,6 +138,7 @@ private:
       if (!(CGAL::squared_distance(end, p) <= 4 * step_ * step_)) return std::nullopt;
       if (n > 0 && std::abs(step) <= rounding * std::abs(Border::at(x, c))) break;
     }
+    if (!border_.axes_beyond(end, axis).empty()) return std::nullopt; // the curve leaves the box elsewhere
     for (const Point_3& known : ends_)
       if (CGAL::squared_distance(known, end) < 1e-12 * step_ * step_) return known;
     ends_.push_back(end);

@@ -61,7 +61,10 @@ public:
 
   /// Returns the point of a curve near p, or nothing if there is none within half the spacing. `axis` is the axis of
   /// the curve.
-  std::optional<Point_3> project(const Point_3& p, int axis) const { return tracer_.project(p, axis); }
+  std::optional<Point_3> project(const Point_3& p, int axis) const {
+    const auto q = tracer_.project(p, axis);
+    return q && border_.axes_beyond(*q, axis).empty() ? q : std::nullopt;
+  }
 
 private:
   using Range = std::pair<double, double>;
@@ -89,7 +92,7 @@ private:
       if (!is_sign_change(value[n], value[m])) continue;
       const auto root = intersect_segment(traits_, corners[n], corners[m], value[n], value[m]);
       if (!root.has_converged) continue;
-      const auto start = tracer_.project(root.point, face.axis);
+      const auto start = project(root.point, face.axis);
       if (start && !is_traced(*start, face.axis)) add({tracer_.trace(*start, face.axis), face.axis});
     }
   }

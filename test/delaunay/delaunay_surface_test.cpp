@@ -145,6 +145,14 @@ TEST(Delaunay_surface, the_boundary_lies_on_the_faces_of_the_box_and_has_vertice
   expect_vertices_on_surface(traits, surface, Clip_domain_3(box).diagonal());
 }
 
+TEST(Delaunay_surface, no_vertex_is_outside_of_the_box_where_a_surface_leaves_it_in_fine_waves) {
+  const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
+  const auto surface =
+      delaunay_surface(make_analytic_traits<Kernel>(Expression_3("x-z+1e-3*sin(1e3*y)"), box), {30, 0.1, 0});
+  EXPECT_FALSE(surface.triangles.empty());
+  for (const Point_3& p : surface.points) ASSERT_TRUE(Clip_domain_3(box).contains(p)) << p;
+}
+
 TEST(Delaunay_surface, curves_on_the_border_nearer_than_facets_are_large_are_kept_apart) {
   const CGAL::Bbox_3 box(-3, -3, -3, 3, 3, 3);
   const auto traits = make_analytic_traits<Kernel>(Expression_3("sin(3*x)*sin(3*y)*sin(3*z)-0.2"), box);
