@@ -33,10 +33,10 @@ public:
   bool is_crowded(const Seed& candidate) {
     if (latest_ < seeds_.size() && is_near(seeds_[latest_], candidate)) return true;
     for (const int level : levels_) {
-      const auto cell = cell_of(candidate.point, level);
-      for (std::int64_t k = -1; k <= 1; ++k)
-        for (std::int64_t j = -1; j <= 1; ++j)
-          for (std::int64_t i = -1; i <= 1; ++i)
+      const auto cell = cell_of(candidate.point, level, -0.5); // the spacing of seeds is less than half a side
+      for (std::int64_t k = 0; k <= 1; ++k)
+        for (std::int64_t j = 0; j <= 1; ++j)
+          for (std::int64_t i = 0; i <= 1; ++i)
             for (auto s = heads_[bucket({cell[0] + i, cell[1] + j, cell[2] + k}, level)]; s != none; s = next_[s])
               if (is_near(seeds_[s], candidate)) {
                 latest_ = s;
@@ -50,7 +50,7 @@ public:
   bool has_seed_in(const CGAL::Bbox_3& box) const {
     constexpr double most_cells = 8; // so many are visited along an axis
     for (const int level : levels_) {
-      if (std::ldexp(most_cells, level) < std::max({box.x_span(), box.y_span(), box.z_span()})) continue;
+      if (std::ldexp(most_cells, level - 1) < std::max({box.x_span(), box.y_span(), box.z_span()})) continue;
       const auto first = cell_of({box.xmin(), box.ymin(), box.zmin()}, level);
       const auto last = cell_of({box.xmax(), box.ymax(), box.zmax()}, level);
       for (std::int64_t k = first[2]; k <= last[2]; ++k)
@@ -80,11 +80,13 @@ private:
     return (seed.point - candidate.point).squared_length() < spacing * spacing && seed.normal * candidate.normal >= 0;
   }
 
-  /// The level of a seed: the smallest one whose cells, with the side 2^level, are larger than its spacing.
-  static int level_of(const Seed& seed) { return std::ilogb(seed.spacing) + 1; }
+  /// The level of a seed: the smallest one whose cells, with the side 2^level, are larger than twice its spacing, so that
+  /// a ball of that radius meets two cells along each axis at most.
+  static int level_of(const Seed& seed) { return std::ilogb(seed.spacing) + 2; }
 
-  static Cell cell_of(const Point_3& p, int level) {
-    const auto index = [level](double x) { return std::int64_t(std::floor(std::ldexp(x, -level))); };
+  /// The cell of a level that contains p, shifted along all axes by `shift` sides of a cell.
+  static Cell cell_of(const Point_3& p, int level, double shift = 0) {
+    const auto index = [=](double x) { return std::int64_t(std::floor(std::ldexp(x, -level) + shift)); };
     return {index(p.x()), index(p.y()), index(p.z())};
   }
 
