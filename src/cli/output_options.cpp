@@ -72,7 +72,7 @@ void read_range(const Option_words& option, Draft& draft) {
   const double low = parse_finite_number(name, words[0]), high = parse_finite_number(name, words[1]);
   if (!(low < high))
     fail_option(name, "'" + words[0] + "' is not less than '" + words[1] + "'", "give the smaller number first");
-  draft.picture.range = {low, high};
+  draft.page.range = {low, high};
 }
 
 void read_output(const Option_words& option, Draft& draft) { draft.output = option.word(); }
@@ -109,7 +109,7 @@ const std::vector<Option_row> rows = {
     {"--up", MESH | VIEW, OUTPUT, 1, "x|y|z", "the axis that points up on them, by default z", read_up},
     {"--size", MESH | VIEW, OUTPUT, 2, "WIDTH HEIGHT", "of the picture in pixels, by default 1000 800", read_size},
     {"--range", MESH | VIEW, OUTPUT, 2, "LOW HIGH",
-     "the numbers of the end colors of the picture, by default quantiles as on the page;\n"
+     "the numbers of the end colors of page and picture, by default quantiles;\n"
      "blue and red about white if LOW is -HIGH",
      read_range},
     {"--arrows", MESH | VIEW, OUTPUT, 1, "VECTOR", "arrows on the picture, such as affine_normal",

@@ -82,7 +82,7 @@ void need_output(const Option_reader& reader) { reader.need("--output", "name th
 
 void refuse_picture_options(const Option_reader& reader) {
   if (!reader.has("--png"))
-    reader.refuse({"--size", "--range", "--arrows"}, "it is for the picture of --png", "add --png or leave it out");
+    reader.refuse({"--size", "--arrows"}, "it is for the picture of --png", "add --png or leave it out");
 }
 
 bool has_vector(const Attribute_selection& attributes, const std::string& name) {
@@ -101,7 +101,7 @@ bool has_color(const Draft& draft, const std::string& name) {
 /// Checks that there is a page or picture, and that it will have the attributes it is to show.
 void check_page(const Option_reader& reader) {
   if (!reader.has("--html") && !reader.has("--png"))
-    reader.refuse({"--color", "--up"}, "it is for the page of --html and the picture of --png",
+    reader.refuse({"--color", "--up", "--range"}, "it is for the page of --html and the picture of --png",
                   "add one of them or leave it out");
   const Draft& draft = reader.draft();
   const std::string &arrows = draft.picture.arrows, &color = draft.page.color;

@@ -270,7 +270,8 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   auto file = outputs.files.begin();
   write_surface(*file++, surface.mesh, surface.attributes);
   if (options.html)
-    write_page(*file++, surface.mesh, surface.attributes, options.page, make_description(options, statistics));
+    write_page(*file++, surface.mesh, surface.attributes, options.page, page_title(options.output, statistics.source),
+               make_description(options, statistics));
   if (options.png)
     write_picture(*file++, surface.mesh, surface.attributes, options.page, options.picture,
                   surface.curves ? surface.curves->polylines : std::vector<Polyline_3<Kernel>>());

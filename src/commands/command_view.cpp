@@ -52,7 +52,7 @@ void run_view(const View_options& options, std::ostream& out) {
   check_color(options.page.color, surface.attributes);
   check_arrows(options.picture.arrows, surface.attributes);
   if (options.html)
-    write_page(outputs.front(), surface.mesh, surface.attributes, options.page,
+    write_page(outputs.front(), surface.mesh, surface.attributes, options.page, page_title(options.mesh, "Surface"),
                {{"File", name},
                 {"Vertices", std::to_string(surface.mesh.points.size())},
                 {"Triangles", std::to_string(surface.mesh.triangles.size())}});

@@ -87,14 +87,20 @@ void write_picture([[maybe_unused]] Output_file& file, [[maybe_unused]] const In
                    [[maybe_unused]] const Picture_options& picture,
                    [[maybe_unused]] const std::vector<Polyline_3<Kernel>>& curves) {
 #ifdef EQUIAFFINE_WITH_VTK
-  const Surface_view view = {options.color, options.up, picture.size, picture.range, picture.arrows};
+  const Surface_view view = {options.color, options.up, picture.size, options.range, picture.arrows};
   write_PNG(file.stream(), draw_surface(mesh, attributes, view, curves));
 #endif
 }
 
+std::string page_title(const std::string& path, const std::string& otherwise) {
+  return path == "-" ? otherwise : std::filesystem::path(path).stem().string();
+}
+
 void write_page(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                const Page_options& options, const Description& description) {
+                const Page_options& options, const std::string& title, const Description& description) {
   Html_options page;
+  page.title = title;
+  page.range = options.range;
   page.color = attributes.columns.empty() && !attributes.status ? "plain" : options.color;
   page.up = options.up;
   page.description = description;

@@ -43,9 +43,12 @@ void check_statistics_output(const std::string& path);
 /// The table of a page about its surface, in rows of two cells.
 using Description = std::vector<std::pair<std::string, std::string>>;
 
+/// Returns what a page of the surface in that file is called: the name of the file, or `otherwise` if that is "-".
+std::string page_title(const std::string& path, const std::string& otherwise);
+
 /// Writes the page, without committing. `options.color` is a column, `status`, `plain`, or empty.
 void write_page(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                const Page_options& options, const Description& description);
+                const Page_options& options, const std::string& title, const Description& description);
 
 } // namespace equiaffine
 

@@ -95,7 +95,7 @@ void draw_legend(Picture& picture, const Color_legend& legend) {
     fill(picture, left + i, top, 1, bar_height, color);
   }
   if (legend.has_parabolic_lines)
-    draw_note(picture, status_color(Point_status::PARABOLIC), "parabolic curve: infinite on both sides",
+    draw_note(picture, status_color(Point_status::PARABOLIC), "parabolic curve: infinite",
               picture.height - legend_height);
   draw_text(picture, legend.label, left, top - 7, Alignment::LEFT);
   const auto number = [&](std::size_t i, std::size_t last) {

@@ -52,17 +52,17 @@ struct Source_options {
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
 };
 
-/// The first view of a page.
+/// The first view of a page, which is also that of a picture.
 struct Page_options {
   std::string color; ///< an attribute, `status`, `plain`, or empty
   std::array<double, 3> up = {0, 0, 1};
+  std::optional<std::array<double, 2>> range; ///< the numbers that have the end colors
 };
 
 /// Options for a picture that a page does not have.
 struct Picture_options {
   std::array<std::size_t, 2> size = {1000, 800};
-  std::optional<std::array<double, 2>> range; ///< the numbers that have the end colors
-  std::string arrows;                         ///< a vector among the attributes, or empty
+  std::string arrows; ///< a vector among the attributes, or empty
 };
 
 struct Marching_cubes_options {

@@ -256,7 +256,9 @@ TEST(Write_HTML, the_first_color_and_the_up_direction_are_passed_on) {
   options.color = "gaussian_curvature";
   options.up = {0, 1, 0};
   const std::string text = page(tetrahedron(), some_attributes(), options);
-  EXPECT_NE(text.find("\"up\":[0,1,0],\"color\":\"gaussian_curvature\""), std::string::npos);
+  EXPECT_NE(text.find("\"up\":[0,1,0],\"color\":\"gaussian_curvature\",\"range\":null"), std::string::npos);
+  options.range = {{-0.5, 2}};
+  EXPECT_NE(page(tetrahedron(), some_attributes(), options).find("\"range\":[-0.5,2]"), std::string::npos);
 }
 
 TEST(Write_HTML, misuse_is_refused) {
@@ -277,6 +279,9 @@ TEST(Write_HTML, misuse_is_refused) {
   options.color = "k1";
   EXPECT_THROW(write_HTML(out, tetrahedron(), {}, options), CGAL::Precondition_exception);
   options.color = "status";
+  EXPECT_THROW(write_HTML(out, tetrahedron(), {}, options), CGAL::Precondition_exception);
+  options = {};
+  options.range = {{1, 1}};
   EXPECT_THROW(write_HTML(out, tetrahedron(), {}, options), CGAL::Precondition_exception);
   options = {};
   options.up = {0, 0, 0};

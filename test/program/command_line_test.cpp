@@ -352,6 +352,14 @@ TEST_F(Program_command_line, a_page_is_made_with_the_mesh_or_from_it_later) {
   EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
   EXPECT_NE(page.find("x^2 + y^2 + z^2 = 1"), std::string::npos);
   EXPECT_EQ(data(page), data(later));
+  EXPECT_NE(page.find("<title>s</title>"), std::string::npos);
+}
+
+TEST_F(Program_command_line, two_pages_can_share_a_range) {
+  run_well(Arguments{"mesh", "-o", "s.ply", "--html", "s.html", "--resolution", "8", "--range", "-3", "0.5"} + sphere);
+  run_well({"view", "s.ply", "-o", "later.html", "--range", "-3", "0.5"});
+  for (const char* name : {"s.html", "later.html"})
+    EXPECT_NE(file(name).find("\"range\":[-3,0.5]"), std::string::npos) << name;
 }
 
 #ifdef EQUIAFFINE_WITH_VTK

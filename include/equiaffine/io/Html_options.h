@@ -3,6 +3,7 @@
 #define EQUIAFFINE_IO_HTML_OPTIONS_H
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,9 +12,11 @@ namespace equiaffine {
 
 /// Options for a page of `write_HTML`: the text on it and what it shows first. All text is UTF-8.
 struct Html_options {
-  std::string title = "Equi-affine curvatures";
+  std::string title = "Equi-affine curvatures"; ///< files that are saved from the page are named after it
   /// The attribute shown first, or `status`, or `plain`; empty: the first quantity of the library that is there.
   std::string color = {};
+  /// The numbers of the end colors of the attribute shown first; nothing: quantiles of its numbers.
+  std::optional<std::array<double, 2>> range = {};
   /// A table that says what the surface is and how it was made.
   std::vector<std::pair<std::string, std::string>> description = {};
   /// The direction that is up in the first view and around which dragging turns.

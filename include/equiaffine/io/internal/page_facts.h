@@ -61,8 +61,10 @@ inline std::string page_facts(const Vertex_attributes& attributes, const Html_op
   json.imbue(std::locale::classic());
   json.precision(17);
   json << "{\"center\":[" << center[0] << ',' << center[1] << ',' << center[2] << "],\"up\":[" << options.up[0] << ','
-       << options.up[1] << ',' << options.up[2] << "],\"color\":" << json_string(options.color)
-       << ",\"clip\":" << default_clip_percent << ",\n\"columns\":[";
+       << options.up[1] << ',' << options.up[2] << "],\"color\":" << json_string(options.color) << ",\"range\":";
+  if (options.range) json << '[' << (*options.range)[0] << ',' << (*options.range)[1] << ']';
+  else json << "null";
+  json << ",\"clip\":" << default_clip_percent << ",\n\"columns\":[";
   write_column_facts(json, attributes, diagonal);
   json << "],\n\"statuses\":[";
   write_status_facts(json);

@@ -5,7 +5,7 @@
 #include <string_view>
 
 /// \file
-/// The page's script, seventh and last part: pointer, keyboard, the address, and the start.
+/// The page's script, tenth and last part: pointer, keyboard, and the start.
 
 namespace equiaffine::internal {
 
@@ -99,9 +99,20 @@ canvas.addEventListener('wheel', event => {
   redraw();
 }, {passive: false});
 
-function setQuantity(quantity) {
-  choice.quantity = quantity;
+function setQuantity(quantity, range = null) {
+  Object.assign(choice, {quantity, range});
   update();
+}
+function setRange(range) {
+  choice.range = range;
+  updateColors();
+}
+function chooseCut(word, share) {
+  choice.cut = [word, share];
+  [byId('cut').value, byId('cut-place').value] = choice.cut;
+  byId('cut-place').disabled = word === 'none';
+  setCut(word, share);
+  redraw();
 }
 function stepQuantity(step) {
   const n = quantities.length;
@@ -117,16 +128,6 @@ function setUp(letter) {
 }
 function showUp() {
   [...byId('up').children].forEach((button, k) => button.setAttribute('aria-pressed', camera.axis[k] === 1));
-}
-function savePicture() {
-  drawNow();
-  canvas.toBlob(blob => {
-    const anchor = document.createElement('a');
-    anchor.href = URL.createObjectURL(blob);
-    anchor.download = document.title.replace(/[^\p{L}\p{N}]+/gu, '-') + '.png';
-    anchor.click();
-    setTimeout(() => URL.revokeObjectURL(anchor.href), 1000);
-  });
 }
 function toggle(name) {
   choice[name] = !choice[name];
@@ -162,12 +163,13 @@ const keys = {
   '+': () => zoom(0.85, 0, 0, aspect()), '=': () => zoom(0.85, 0, 0, aspect()),
   '-': () => zoom(1 / 0.85, 0, 0, aspect()),
   r: resetView, e: () => toggle('edges'), i: () => toggle('isolines'), l: () => chooseScale(!choice.isLog),
-  v: nextVectors, n: () => stepQuantity(1), p: () => stepQuantity(-1), s: savePicture, h: togglePanel, '?': toggleHelp,
+  v: nextVectors, m: measureFromPicked, n: () => stepQuantity(1), p: () => stepQuantity(-1), s: savePicture,
+  h: togglePanel, '?': toggleHelp,
   x: () => lookAlong(0, 1), y: () => lookAlong(1, 1), z: () => lookAlong(2, 1),
   X: () => lookAlong(0, -1), Y: () => lookAlong(1, -1), Z: () => lookAlong(2, -1), Escape: () => pick(null),
 };
 document.addEventListener('keydown', event => {
-  const isTyping = /^(SELECT|TEXTAREA)$/.test(event.target.tagName) || event.target.type === 'range';
+  const isTyping = /^(SELECT|TEXTAREA)$/.test(event.target.tagName) || /^(range|number)$/.test(event.target.type);
   if (!scene || isTyping || event.ctrlKey || event.metaKey || event.altKey || !Object.hasOwn(keys, event.key)) return;
   event.preventDefault();
   keys[event.key]();
@@ -184,7 +186,15 @@ on('isolines', 'change', () => toggle('isolines'));
 on('marks', 'change', () => toggle('hasMarks'));
 on('vectors', 'change', event => { setVectors(vectors.find(v => v.name === event.target.value) ?? null); redraw(); });
 on('reset', 'click', resetView);
+on('cut', 'change', event => chooseCut(event.target.value, Number(byId('cut-place').value)));
+on('cut-place', 'input', event => chooseCut(choice.cut[0], Number(event.target.value)));
+on('lowest', 'change', takeTypedRange);
+on('highest', 'change', takeTypedRange);
+on('range-auto', 'click', () => setRange(null));
 on('save', 'click', savePicture);
+on('save-csv', 'click', saveCSV);
+on('save-ply', 'click', savePLY);
+on('picked-measure', 'click', measureFromPicked);
 on('link', 'click', event => copyText(location.href.split('#')[0] + fragment(), event.target));
 on('help-toggle', 'click', toggleHelp);
 on('panel-toggle', 'click', togglePanel);
@@ -193,50 +203,6 @@ on('picked-copy', 'click', event => copyText(
     event.target));
 for (const button of byId('up').children)
   button.addEventListener('click', () => { setUp(button.textContent); resetView(); });
-
-// The address says what is shown. Words it does not know are ignored.
-function fragment() {
-  const list = (values, digits) => values.map(value => Number(value.toPrecision(digits))).join(',');
-  const parts = {
-    color: encodeURIComponent(choice.quantity.name), clip: choice.clip,
-    scale: choice.isScaleChosen ? (choice.isLog ? 'log' : 'linear') : 'auto',
-    view: list([...camera.back, ...camera.up], 5), target: list(add(facts.center, camera.target), 9),
-    zoom: list([4 * radius / camera.distance], 5), edges: Number(choice.edges),
-    isolines: Number(choice.isolines), marks: Number(choice.hasMarks),
-    vectors: encodeURIComponent(choice.vectors?.name ?? ''), pick: choice.picked ?? '',
-    panel: Number(!document.body.classList.contains('no-panel')),
-  };
-  return '#' + Object.entries(parts).map(([name, value]) => name + '=' + value).join('&');
-}
-
-function followAddress() {
-  const asked = new URLSearchParams(location.hash.slice(1));
-  const isOn = (name, otherwise) => asked.has(name) ? asked.get(name) === '1' : otherwise;
-  const numbers = name => asked.has(name) ? asked.get(name).split(',').map(Number) : [];
-  const isFine = (values, ...sizes) => sizes.includes(values.length) && values.every(Number.isFinite);
-  if (/^(dark|light)$/.test(asked.get('theme') ?? '')) document.documentElement.dataset.theme = asked.get('theme');
-  showPanel(isOn('panel', true));
-  resize();
-  if (/^[xyz]$/.test(asked.get('up') ?? '')) setUp(asked.get('up'));
-  firstView();
-  const view = numbers('view'), target = numbers('target'), zoomed = Number(asked.get('zoom'));
-  if (isFine(view, 3, 6) && Math.hypot(...view.slice(0, 3)) > 0)
-    lookFrom(view.slice(0, 3), view.length === 6 ? view.slice(3) : camera.axis);
-  fitDistance(aspect());
-  if (isFine(target, 3)) camera.target = add(target, facts.center, -1);
-  if (zoomed > 0) camera.distance = 4 * radius / zoomed;
-  choice.isScaleChosen = /^(linear|log)$/.test(asked.get('scale') ?? '');
-  choice.isLog = asked.get('scale') === 'log';
-  if (Number(asked.get('clip') ?? NaN) >= 0) setClip(Number(asked.get('clip')));
-  choice.edges = isOn('edges', false);
-  choice.isolines = isOn('isolines', false);
-  choice.hasMarks = isOn('marks', true);
-  setVectors(vectors.find(vector => vector.name === asked.get('vectors')) ?? null);
-  const vertex = Number(asked.get('pick') || 'none');
-  choice.picked = Number.isInteger(vertex) && vertex >= 0 && vertex < mesh.size ? vertex : null;
-  const named = name => quantities.find(quantity => quantity.name === name);
-  setQuantity(named(asked.get('color')) ?? named(facts.color) ?? quantities[0]);
-}
 
 function resize() {
   const pixels = Math.min(window.devicePixelRatio || 1, 3);
@@ -259,6 +225,8 @@ function fillSelects() {
   byId('vectors').append(new Option('none', ''), ...vectors.map(({label, name}) => new Option(label, name)));
   byId('vectors-row').hidden = !vectors.length;
   byId('clip').max = clipSteps.length - 1;
+  byId('cut').append(...cutWords.map(word => new Option(word.replace('-', '−'), word)));
+  chooseCut(...choice.cut);
 }
 
 function start() {

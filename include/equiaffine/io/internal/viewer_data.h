@@ -147,6 +147,10 @@ function colorRange(sorted, magnitudes, clip, resolution) {
   return {lower: middle - halfWidth, upper: middle + halfWidth, knee, isDiverging: false};
 }
 
+// A range that was typed: it depends on nothing else, so that two pages can share it.
+const givenRange = (lower, upper) =>
+    ({lower, upper, knee: Math.max(Math.abs(lower), Math.abs(upper)) / 100, isDiverging: lower === -upper});
+
 // Whether preferred_scale of io/color_map.h is ASINH.
 const prefersLog = range => Math.max(Math.abs(range.lower), Math.abs(range.upper)) > 100 * range.knee;
 

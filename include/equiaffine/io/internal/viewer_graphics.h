@@ -5,7 +5,7 @@
 #include <string_view>
 
 /// \file
-/// The page's script, second part: camera, shaders, drawing, and the ray that finds the vertex under the pointer.
+/// The page's script, second part: camera, the cut, the ray that finds the vertex under the pointer, edges and needles.
 
 namespace equiaffine::internal {
 
@@ -83,6 +83,26 @@ function pan(dx, dy, aspect) {
   camera.target = add(add(camera.target, camera.right, -dx * aspect * reach), camera.up, -dy * reach);
 }
 
+// What is beyond the plane `cut.normal` * p = `cut.place` is not drawn.
+const cut = {normal: [0, 0, 0], place: 1};
+const isCutOff = p => dot(cut.normal, p) > cut.place;
+
+// The side of the surface in direction `word` (such as -x) goes away, beyond this share of the way towards it.
+const cutWords = ['none', 'x', 'y', 'z', '-x', '-y', '-z'];
+function setCut(word, share) {
+  const k = 'xyz'.indexOf(word.at(-1)), sign = word.startsWith('-') ? -1 : 1;
+  Object.assign(cut, {normal: [0, 0, 0], place: 1});
+  if (k < 0 || word.length > 2) return;
+  let low = Infinity, high = -Infinity;
+  for (let i = k; i < mesh.positions.length; i += 3) {
+    const height = sign * mesh.positions[i];
+    low = Math.min(low, height);
+    high = Math.max(high, height);
+  }
+  cut.normal[k] = sign;
+  cut.place = low + share * (high - low);
+}
+
 // The first triangle hit by the ray through (x, y): the point and the vertex nearest to it, or null.
 function cast(x, y, aspect) {
   const eye = add(camera.target, camera.back, camera.distance);
@@ -104,122 +124,12 @@ function cast(x, y, aspect) {
     const v = (dx * qx + dy * qy + dz * qz) / determinant;
     if (v < 0 || u + v > 1) continue;
     const far = (vx * qx + vy * qy + vz * qz) / determinant;
-    if (far <= 0 || far >= nearest) continue;
+    if (far <= 0 || far >= nearest || isCutOff(add(eye, direction, far))) continue;
     nearest = far;
     hit = t + (u > v ? (u > 1 - u - v ? 1 : 0) : (v > 1 - u - v ? 2 : 0));
   }
   return hit === null ? null : {point: add(eye, direction, nearest), vertex: triangles[hit]};
 }
-
-const placing = `#version 300 es
-precision highp float;
-uniform mat3 turn; uniform vec3 target;
-uniform vec4 lens;  // horizontal and vertical scale, depth scale and shift
-uniform float viewDistance;
-vec3 seen(vec3 p) { vec3 q = turn * (p - target); q.z -= viewDistance; return q; }
-vec4 projected(vec3 q) { return vec4(lens.x * q.x, lens.y * q.y, lens.z * q.z + lens.w, -q.z); }
-`;
-
-const surfaceVertex = placing + `
-layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal;
-layout(location = 2) in float level; layout(location = 3) in uint code; layout(location = 4) in float side;
-out vec3 vPosition, vNormal; out vec2 vConvex, vSaddle; out vec4 vStatus; out float vUndefined, vSide;
-void main() {
-  vPosition = seen(position);
-  vNormal = turn * normal;
-  vec2 known = code == 0u ? vec2(level, 1) : vec2(0);  // only vertices with a number take part in the interpolation
-  vConvex = side >= 0.0 ? known : vec2(0);
-  vSaddle = known - vConvex;
-  vSide = side;
-  vStatus = vec4(equal(uvec4(code), uvec4(1u, 2u, 3u, 4u)));
-  vUndefined = float(code == 5u);
-  gl_Position = projected(vPosition);
-}`;
-
-const surfaceFragment = `#version 300 es
-precision highp float;
-in vec3 vPosition, vNormal; in vec2 vConvex, vSaddle; in vec4 vStatus; in float vUndefined, vSide;
-uniform sampler2D map; uniform bool isMapped; uniform vec3 plain, undefinedColor, statusColors[4];
-uniform float isolines[24], pixels; uniform int isolineCount; uniform bool hasSides;
-out vec4 color;
-void main() {
-  // A number that is infinite where vSide is 0 is interpolated on each side of that line by itself.
-  vec2 all = vConvex + vSaddle, same = vSide >= 0.0 ? vConvex : vSaddle, known = same.y > 0.0 ? same : all;
-  float level = known.x / max(known.y, 1e-6), entries = float(textureSize(map, 0).x);
-  float slope = fwidth(level);
-  vec3 base = isMapped ? texture(map, vec2((0.5 + level * (entries - 1.0)) / entries, 0.5)).rgb : plain;
-  float line = 0.0, most = all.y, parabolic = 0.0;
-  for (int i = 0; i < isolineCount; ++i)
-    if (slope > 1e-6) line = max(line, 1.0 - smoothstep(0.5, 1.3, abs(level - isolines[i]) / slope));
-  if (hasSides) parabolic = 1.0 - smoothstep(0.6, 1.2, abs(vSide) / max(fwidth(vSide) * pixels, 1e-30));
-  base = mix(base, statusColors[0], parabolic);
-  line *= 1.0 - parabolic;
-  for (int i = hasSides && all.y > 0.0 ? 1 : 0; i < 4; ++i)
-    if (vStatus[i] > most) { most = vStatus[i]; base = statusColors[i]; line = 0.0; }
-  if (vUndefined > most) { base = undefinedColor; line = 0.0; }
-  vec3 n = normalize(vNormal), view = normalize(-vPosition), light = normalize(vec3(-0.35, 0.5, 1.0));
-  float side = gl_FrontFacing ? 1.0 : -1.0;
-  float diffuse = 0.5 + 0.5 * side * dot(n, light);
-  float shade = (0.36 + 0.67 * diffuse * diffuse) * (gl_FrontFacing ? 1.0 : 0.5);
-  float glint = 0.03 * pow(max(dot(side * n, normalize(light + view)), 0.0), 40.0);
-  vec3 linear = pow(mix(base, vec3(0.05), 0.75 * line), vec3(2.2)) * shade + glint;
-  color = vec4(pow(linear, vec3(1.0 / 2.2)), 1);
-}`;
-
-const edgeVertex = placing + `
-layout(location = 0) in vec3 position;
-void main() { gl_Position = projected(seen(position)); }`;
-const edgeFragment = `#version 300 es
-precision highp float;
-out vec4 color;
-void main() { color = vec4(0.0, 0.0, 0.0, 0.3); }`;
-
-const markVertex = placing + `
-layout(location = 0) in vec3 position; layout(location = 3) in uint code;
-uniform float size; uniform vec3 statusColors[4];
-flat out vec3 vColor;
-void main() {
-  vColor = code >= 1u && code <= 4u ? statusColors[code - 1u] : vec3(0);
-  gl_Position = projected(seen(position));
-  gl_Position.z -= 1e-3 * gl_Position.w;
-  gl_PointSize = size;
-}`;
-const markFragment = `#version 300 es
-precision highp float;
-flat in vec3 vColor;
-uniform bool isRing; uniform float opacity, size;
-out vec4 color;
-void main() {
-  float r = length(gl_PointCoord - 0.5) * size, rim = 0.5 * size;
-  float inside = 1.0 - smoothstep(rim - 1.0, rim, r);
-  float dark = isRing ? smoothstep(0.48, 0.56, r / rim) * (1.0 - smoothstep(0.78, 0.86, r / rim)) : 0.0;
-  float hole = isRing ? smoothstep(0.30, 0.40, r / rim) : 1.0;
-  color = isRing ? vec4(mix(vec3(1), vec3(0.05), dark), inside * hole * opacity) : vec4(vColor, inside);
-  color.rgb *= color.a;
-}`;
-
-const needleVertex = placing + `
-layout(location = 0) in vec3 base; layout(location = 1) in vec3 span;
-uniform vec2 viewport; uniform float width;
-out float vAcross;
-void main() {
-  float along = float(gl_VertexID / 2), side = float(gl_VertexID % 2) * 2.0 - 1.0;
-  vec4 a = projected(seen(base)), b = projected(seen(base + span)), c = along > 0.5 ? b : a;
-  vec2 way = (b.xy / b.w - a.xy / a.w) * viewport;
-  vec2 across = length(way) > 0.0 ? normalize(vec2(-way.y, way.x)) : vec2(1, 0);
-  gl_Position = c + vec4(side * width * across / viewport * c.w, -5e-4 * c.w, 0);
-  vAcross = side * width;
-}`;
-const needleFragment = `#version 300 es
-precision highp float;
-in float vAcross;
-uniform float width; uniform bool isDark;
-out vec4 color;
-void main() {
-  float r = abs(vAcross) / width, core = 1.0 - smoothstep(0.35, 0.60, r), edge = 1.0 - smoothstep(0.7, 1.0, r);
-  color = vec4(vec3(isDark ? 0.1 + 0.9 * core : 1.0 - 0.9 * core), edge);
-  color.rgb *= color.a;
-}`;
 
 function uniqueEdges() {
   const {triangles, size} = mesh, starts = new Uint32Array(size + 1), ends = new Uint32Array(triangles.length);

@@ -50,7 +50,8 @@ body.no-panel #panel, .no-scene #tools, .no-scene #axes, .no-scene #hint { displ
 #axes line { stroke: var(--quiet); stroke-width: 1.6; stroke-linecap: round; }
 #hint {
   position: absolute; left: 50%; bottom: 16px; transform: translateX(-50%); color: var(--quiet); font-size: 13px;
-  pointer-events: none; transition: opacity .6s; text-align: center; width: max-content; max-width: 60%;
+  pointer-events: none; transition: opacity .6s; text-align: center; width: max-content;
+  max-width: calc(100% - 210px);
 }
 #tools { position: absolute; right: 10px; top: 10px; display: flex; gap: 6px; }
 #tools button { width: 34px; height: 34px; padding: 0; font-size: 16px; }
@@ -79,8 +80,23 @@ button, select {
   font: inherit; color: inherit; background: var(--soft); border: 1px solid var(--line); border-radius: 7px;
   padding: 5px 10px; cursor: pointer;
 }
-select { width: 100%; }
+select { width: 100%; min-width: 0; }
 button:hover, select:hover { border-color: var(--quiet); }
+input[type=number] {
+  font: inherit; color: inherit; background: var(--panel); border: 1px solid var(--line); border-radius: 7px;
+  padding: 4px 7px; width: 0; flex: 1; min-width: 0; appearance: textfield;
+}
+input[aria-invalid=true] { border-color: #c8102e; }
+#range-auto { padding: 4px 8px; }
+#cut { width: 88px; flex: none; }
+#picture-message { margin: 6px 0 0; }
+#hint .touch { display: none; }
+@media (pointer: coarse) {
+  #hint .mouse { display: none; }
+  #hint .touch { display: inline; }
+  #tools button { width: 44px; height: 44px; }
+  #help { top: 62px; }
+}
 :focus-visible { outline: 2px solid var(--accent); outline-offset: 1px; }
 #view:focus-visible { outline: 2px solid var(--accent); outline-offset: -3px; }
 h2 button { padding: 1px 8px; font-size: 12px; letter-spacing: 0; text-transform: none; }
@@ -134,7 +150,8 @@ inline constexpr std::string_view viewer_stage = R"html(
 <svg id="axes" viewBox="-42 -42 84 84" aria-hidden="true">
 <line></line><line></line><line></line><text>x</text><text>y</text><text>z</text>
 </svg>
-<div id="hint">Drag to turn · wheel to zoom · click a point to read its numbers</div>
+<div id="hint"><span class="mouse">Drag to turn · wheel to zoom · click a point to read its numbers</span>
+<span class="touch">Drag turns · pinch zooms · a tap reads numbers</span></div>
 <div id="message" role="status">Loading the surface …</div>
 <noscript>This page draws the surface with JavaScript and WebGL 2. Please allow scripts.</noscript>
 <div id="tools">
@@ -153,12 +170,14 @@ inline constexpr std::string_view viewer_stage = R"html(
 <tr><td>n p</td><td>next, previous quantity</td></tr>
 <tr><td>l</td><td>linear or logarithmic colors</td></tr>
 <tr><td>e i v</td><td>edges, isolines, vectors</td></tr>
+<tr><td>m</td><td>measure distances from the picked vertex</td></tr>
 <tr><td>s</td><td>save the picture</td></tr>
 <tr><td>h</td><td>show or hide the panel</td></tr>
 </table>
 <p>The address takes the same choices: #color=NAME, view=X,Y,Z (from where; three more numbers: what is up),
 target=X,Y,Z, zoom=1, scale=linear or log, clip=PERCENT, edges=1, isolines=1, marks=0, vectors=NAME, up=z, pick=VERTEX,
-panel=0, theme=dark or light, joined by &amp;.</p>
+from=VERTEX (to measure from), range=LOW,HIGH, cut=-x,0.5 (which side, and where), panel=0, theme=dark or light, joined
+by &amp;.</p>
 <p>Numbers are stored in single precision: seven digits are true.</p>
 </div>
 </main>
@@ -177,10 +196,15 @@ inline constexpr std::string_view viewer_controls = R"html(
 </div></div>
 <div class="row"><label for="clip">Clip</label><input type="range" id="clip" min="0" step="1">
 <output id="clip-text" for="clip"></output></div>
+<div class="row"><label for="lowest">Range</label>
+<input type="number" step="any" id="lowest" aria-label="Lowest number">
+<input type="number" step="any" id="highest" aria-label="Highest number">
+<button id="range-auto" title="Quantiles of the numbers">auto</button></div>
 <table id="statistics"></table>
 </div>
 <section id="picked" aria-live="polite" hidden>
-<h2><span id="picked-title"></span><button id="picked-copy">copy</button></h2>
+<h2><span id="picked-title"></span><span><button id="picked-measure">measure from here</button>
+<button id="picked-copy">copy</button></span></h2>
 <table id="picked-table"></table>
 </section>
 <h2>Points</h2>
@@ -195,8 +219,16 @@ inline constexpr std::string_view viewer_controls = R"html(
 <div class="row"><span>Up</span><div class="segments" id="up">
 <button>x</button><button>y</button><button>z</button>
 </div></div>
-<div class="buttons"><button id="reset">Reset view</button><button id="save">Save picture</button>
-<button id="link">Copy link</button></div>
+<div class="row"><label for="cut">Cut off</label><select id="cut"></select>
+<input type="range" id="cut-place" min="0" max="1" step="0.002" aria-label="Place of the cut"></div>
+<div class="buttons"><button id="reset">Reset view</button><button id="link">Copy link</button></div>
+<h2>Save</h2>
+<div class="row"><label for="picture-width">Pixels</label>
+<input type="number" id="picture-width" min="100" max="10000" value="1600" aria-label="Width in pixels">
+<input type="number" id="picture-height" min="100" max="10000" value="1200" aria-label="Height in pixels"></div>
+<div class="buttons"><button id="save">Picture</button><button id="save-csv">CSV</button>
+<button id="save-ply">PLY</button></div>
+<p id="picture-message" class="quiet" role="status"></p>
 )html";
 
 } // namespace equiaffine::internal

@@ -5,7 +5,7 @@
 #include <string_view>
 
 /// \file
-/// The page's script, fourth part: what is chosen, and the parts of the panel that change with it.
+/// The page's script, fifth part: what is chosen, and the parts of the panel that change with it.
 
 namespace equiaffine::internal {
 
@@ -13,7 +13,7 @@ inline constexpr std::string_view viewer_panel = R"js(
 const clipSteps = [0, 0.1, 0.2, 0.5, 1, 2, 3, 5, 10, 15, 20, 25];
 const canvas = byId('view'), stage = byId('stage');
 const choice = {quantity: plain, isLog: false, isScaleChosen: false, clip: facts.clip, hasMarks: true, edges: false,
-                isolines: false, vectors: null, picked: null};
+                isolines: false, vectors: null, picked: null, origin: null, range: null, cut: ['none', 0.5]};
 // shown: {values, codes, sides, sorted, magnitudes} of the quantity.
 let scene = null, range = null, shown = null, areas = null;
 const aspect = () => canvas.width / canvas.height;
@@ -25,10 +25,11 @@ function redraw() {
   requestAnimationFrame(() => { isDrawPending = false; drawNow(); });
 }
 function drawNow() {
-  const {edges, picked} = choice, isDark = getComputedStyle(byId('panel')).color.match(/\d+/g)[0] > 128;
-  scene.draw({edges, picked, isDark, pixels: canvas.width / canvas.clientWidth});
+  const {edges} = choice, isDark = getComputedStyle(byId('panel')).color.match(/\d+/g)[0] > 128;
+  scene.draw({edges, isDark, ringed: ringedVertices(), pixels: canvas.width / canvas.clientWidth});
   drawAxes();
 }
+const ringedVertices = () => [choice.origin, choice.picked].filter(vertex => vertex !== null);
 
 function drawAxes() {
   const axes = byId('axes'), lines = axes.querySelectorAll('line'), names = axes.querySelectorAll('text');
@@ -70,7 +71,9 @@ function update() {
 // The same numbers, other colors.
 function updateColors() {
   const {values, codes, sides} = shown, levels = new Float32Array(mesh.size);
-  range = values && colorRange(shown.sorted, shown.magnitudes, choice.clip, choice.quantity.resolution);
+  const {quantity, clip} = choice;
+  range = values && (choice.range ? givenRange(...choice.range)
+                                  : colorRange(shown.sorted, shown.magnitudes, clip, quantity.resolution));
   if (values && !choice.isScaleChosen) choice.isLog = prefersLog(range);
   if (values)
     for (let i = 0; i < levels.length; ++i) if (codes[i] === 0) levels[i] = mapPosition(values[i], range, choice.isLog);
@@ -82,9 +85,32 @@ function updateColors() {
   for (const [id, isOn] of [['edges', choice.edges], ['isolines', choice.isolines], ['marks', choice.hasMarks]])
     byId(id).checked = isOn;
   byId('vectors').value = choice.vectors?.name ?? '';
+  showRange();
   drawScale();
   showPicked();
   redraw();
+}
+
+function showRange() {
+  byId('clip').disabled = Boolean(choice.range);
+  if (!range) return;
+  [['lowest', range.lower], ['highest', range.upper]].forEach(([id, bound], k) => {
+    byId(id).value = choice.range ? choice.range[k] : '';
+    byId(id).placeholder = bound.toPrecision(3);
+    byId(id).removeAttribute('aria-invalid');
+  });
+}
+
+// A bound that is left empty stays what it is.
+function takeTypedRange() {
+  const typed = ['lowest', 'highest'].map((id, k) => {
+    const text = byId(id).value.trim();
+    return text ? Number(text) : [range.lower, range.upper][k];
+  });
+  const isFine = typed.every(Number.isFinite) && typed[0] < typed[1];
+  for (const id of ['lowest', 'highest']) byId(id).setAttribute('aria-invalid', !isFine);
+  if (!isFine) return;
+  setRange(typed);
 }
 
 function showStatistics() {
@@ -94,28 +120,36 @@ function showStatistics() {
     addRow(table, element('span', 'quiet', name), sorted.length ? readable(quantile(sorted, percent)) : '–');
 }
 
-function showLegend() {
-  const table = byId('legend'), total = mesh.size.toLocaleString('en');
-  table.replaceChildren();
-  addRow(table, element('span', 'quiet', 'vertices'), total);
-  addRow(table, element('span', 'quiet', 'triangles'), (mesh.triangles.length / 3).toLocaleString('en'));
-  const withColors = choice.quantity !== plain && (choice.hasMarks || choice.quantity === statusQuantity);
-  const counts = facts.statuses.map(() => 0);
+// The colors of points without a number, as [color, text, number of points]; the last is missing for a curve.
+function legendEntries() {
+  const isStatus = choice.quantity === statusQuantity, counts = facts.statuses.map(() => 0), entries = [];
   for (const status of mesh.status) ++counts[status];
-  const swatch = color => {
-    const result = element('span', 'swatch');
-    result.style.background = color;
-    return result;
-  };
-  if (mesh.status.length)
+  if (choice.quantity !== plain && (choice.hasMarks || isStatus))
     facts.statuses.forEach(({word, color}, i) => {
-      const isColored = withColors && (i > 0 || choice.quantity === statusQuantity);
-      if (counts[i] || i === 0) addRow(table, isColored ? [swatch(color), word] : word, counts[i].toLocaleString('en'));
+      if (counts[i] && (i > 0 || isStatus)) entries.push([color, word, counts[i]]);
     });
   if (shown.sides?.some(side => side < 0) && shown.sides.some(side => side >= 0))
-    addRow(table, [swatch(facts.statuses[1].color), 'parabolic curve'], 'infinite');
+    entries.push([facts.statuses[1].color, 'parabolic curve: infinite']);
   const missing = shown.codes.reduce((sum, code) => sum + (code === 5), 0);
-  if (missing) addRow(table, [swatch(facts.undefined), 'no number'], missing.toLocaleString('en'));
+  if (missing) entries.push([facts.undefined, 'no number', missing]);
+  return entries;
+}
+
+function showLegend() {
+  const table = byId('legend'), count = number => number.toLocaleString('en');
+  table.replaceChildren();
+  addRow(table, element('span', 'quiet', 'vertices'), count(mesh.size));
+  addRow(table, element('span', 'quiet', 'triangles'), count(mesh.triangles.length / 3));
+  const entries = legendEntries(), words = entries.map(([, word]) => word);
+  facts.statuses.forEach(({word}, i) => {
+    const number = mesh.status.reduce((sum, status) => sum + (status === i), 0);
+    if (mesh.status.length && (number || i === 0) && !words.includes(word)) addRow(table, word, count(number));
+  });
+  for (const [color, text, number] of entries) {
+    const swatch = element('span', 'swatch');
+    swatch.style.background = color;
+    addRow(table, [swatch, text], number === undefined ? '' : count(number));
+  }
 }
 )js";
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 /// \file
-/// The page's script, sixth part: the numbers of the picked vertex, vectors, and showing the panel.
+/// The page's script, seventh part: the numbers of the picked vertex, vectors, and showing the panel.
 
 namespace equiaffine::internal {
 
@@ -21,15 +21,22 @@ function numbersOf(vertex) {
   return rows;
 }
 
+// The shown quantity stands first.
 function showPicked() {
-  const {picked} = choice;
+  const {picked, origin, quantity} = choice;
   byId('picked').hidden = picked === null;
   if (picked === null) return;
   byId('picked-title').textContent = 'Vertex ' + picked;
   const table = byId('picked-table');
   table.replaceChildren();
+  if (origin !== null && origin !== picked) {
+    const distance = Math.hypot(...add(positionOf(picked), positionOf(origin), -1));
+    addRow(table, element('span', 'quiet', 'distance from vertex ' + origin), readable(distance));
+  }
   if (mesh.status.length) addRow(table, element('span', 'quiet', 'status'), facts.statuses[mesh.status[picked]].word);
-  for (const [{label, symbol, values}, value, digits] of numbersOf(picked))
+  const rows = numbersOf(picked);
+  for (const [{label, symbol, values}, value, digits] of
+       [...rows.filter(([column]) => column === quantity), ...rows.filter(([column]) => column !== quantity)])
     addRow(table, element('span', 'quiet', label.replaceAll('_', ' ') + (symbol ? ' ' + symbol : '')),
            readable(value, values ? 6 : digits));
 }
@@ -53,14 +60,23 @@ function copyText(text, button) {
 
 function pick(vertex) {
   choice.picked = vertex;
+  if (vertex === null) choice.origin = null;
   showPicked();
   drawScale();
+  redraw();
+  const top = byId('picked').getBoundingClientRect().top, panel = byId('panel').getBoundingClientRect();
+  if (vertex !== null && !(panel.top <= top && top + 150 <= panel.bottom)) byId('picked').scrollIntoView();
+}
+
+function measureFromPicked() {
+  choice.origin = choice.picked;
+  showPicked();
   redraw();
 }
 
 function setVectors(vector) {
   choice.vectors = vector;
-  scene.setNeedles(vector ? needles(vector) : new Float32Array(0));
+  scene.setNeedles(vector ? needles(vector) : new Float32Array(0), !vector?.isLine);
 }
 
 function showPanel(isShown) {

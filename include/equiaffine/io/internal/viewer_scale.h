@@ -5,16 +5,22 @@
 #include <string_view>
 
 /// \file
-/// The page's script, fifth part: the histogram over the color bar, with ticks and unit.
+/// The page's script, sixth part: the histogram over the color bar, with ticks and unit.
 
 namespace equiaffine::internal {
 
 inline constexpr std::string_view viewer_scale = R"js(
+const dimensionOf = weight => (weight % 2 ? `${weight}/2` : `${weight / 2}`).replace('-', '−');
 function showUnit(power) {
   const {weight} = choice.quantity, unit = byId('scale-unit');
   unit.replaceChildren(power ? '· ' + powerOfTen(power) + ' ' : '');
-  const dimension = (weight % 2 ? `${weight}/2` : `${weight / 2}`).replace('-', '−');
-  if (weight) unit.append('length', element('sup', '', dimension));
+  if (weight) unit.append('length', element('sup', '', dimensionOf(weight)));
+}
+// The same as text, after a title.
+function unitText(power) {
+  const {weight} = choice.quantity, dimension = dimensionOf(weight);
+  return (power ? ' · ' + powerOfTen(power) : '') +
+         (weight ? ', length' + (weight % 2 ? `^(${dimension})` : superscript(dimension.replace('−', '-'))) : '');
 }
 
 // Without long rows of zeros: the ticks of a logarithmic scale are round, but of any size.

@@ -5,7 +5,7 @@
 #include <string_view>
 
 /// \file
-/// The page's script, third part: the WebGL 2 objects and the drawing of one picture.
+/// The page's script, fourth part: the WebGL 2 objects and the drawing of one picture.
 
 namespace equiaffine::internal {
 
@@ -110,7 +110,8 @@ class Scene {
 
   setIsolines(levels) { this.colors.isolines = levels.slice(0, 24); }
 
-  setNeedles(data) {
+  setNeedles(data, hasHeads) {
+    this.hasHeads = hasHeads;
     this.needleCount = data.length / 6;
     this.fill('needles', data);
   }
@@ -126,6 +127,7 @@ class Scene {
     gl.uniform4f(program.at('lens'), 1 / (tanHalfView * aspect), 1 / tanHalfView, -(far + near) / (far - near),
                  -2 * far * near / (far - near));
     gl.uniform1f(program.at('viewDistance'), distance);
+    gl.uniform4f(program.at('cut'), ...cut.normal, cut.place);
   }
 
   drawSurface(pixels) {
@@ -164,9 +166,10 @@ class Scene {
     this.place(needle);
     gl.uniform2f(needle.at('viewport'), canvas.width, canvas.height);
     gl.uniform1f(needle.at('width'), 3.8 * pixels);
+    gl.uniform1i(needle.at('hasHeads'), this.hasHeads);
     gl.uniform1i(needle.at('isDark'), isDark);
     gl.bindVertexArray(this.arrays.needles);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.needleCount);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, this.hasHeads ? 7 : 4, this.needleCount);
   }
 
   // Dots at `count` marked points, or a ring at the point `first`.
@@ -181,18 +184,20 @@ class Scene {
     else gl.drawElements(gl.POINTS, count, gl.UNSIGNED_INT, 0);
   }
 
-  drawAllMarks(picked, pixels) {
+  // A ring that is hidden by the surface is seen faintly.
+  drawAllMarks(ringed, pixels) {
     const {gl, markedCount} = this;
-    if (markedCount || picked !== null) this.place(this.mark);
+    this.place(this.mark);
     if (markedCount) this.drawMarks(5 * pixels, false, 1, markedCount, 0);
-    if (picked === null) return;
-    gl.disable(gl.DEPTH_TEST);
-    this.drawMarks(20 * pixels, true, 0.35, 1, picked);
-    gl.enable(gl.DEPTH_TEST);
-    this.drawMarks(20 * pixels, true, 1, 1, picked);
+    for (const vertex of ringed) {
+      gl.disable(gl.DEPTH_TEST);
+      this.drawMarks(20 * pixels, true, 0.35, 1, vertex);
+      gl.enable(gl.DEPTH_TEST);
+      this.drawMarks(20 * pixels, true, 1, 1, vertex);
+    }
   }
 
-  draw({edges, picked, pixels, isDark}) {
+  draw({edges, ringed, pixels, isDark}) {
     const {gl, canvas} = this;
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clearColor(0, 0, 0, 0);
@@ -206,7 +211,7 @@ class Scene {
     if (edges) this.drawEdges();
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     if (this.needleCount) this.drawNeedles(pixels, isDark);
-    this.drawAllMarks(picked, pixels);
+    this.drawAllMarks(ringed, pixels);
   }
 }
 
