@@ -15,6 +15,8 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <optional>
+#include <variant>
 
 namespace equiaffine {
 
@@ -48,6 +50,20 @@ void run_command(const Options& options, const Streams& streams) {
   std::visit(Runner{streams.out, progress}, options.command);
 }
 
+/// Says what to do where a command needs too much memory.
+std::string advice_on_memory(const Options& options) {
+  struct Advice {
+    std::string operator()(const Information&) const { return "end other programs"; }
+    std::string operator()(const Mesh_options&) const {
+      return "use a smaller --resolution, input or --size, or a larger --radius";
+    }
+    std::string operator()(const Evaluate_options&) const { return "use a smaller --resolution or input"; }
+    std::string operator()(const Sample_options&) const { return "use a smaller --resolution"; }
+    std::string operator()(const View_options&) const { return "use a smaller --size, or a mesh with fewer triangles"; }
+  };
+  return std::visit(Advice(), options.command);
+}
+
 /// Reports the text in one line, even if it has several.
 void report(std::ostream& stream, const std::string& kind, const std::string& text) {
   stream << "equiaffine: " << kind << ": " << printable(text) << '\n';
@@ -57,8 +73,10 @@ void report(std::ostream& stream, const std::string& kind, const std::string& te
 
 int run(const std::vector<std::string>& arguments, const Streams& streams) {
   constexpr int success = 0, defect = 1, error_of_user = 2;
+  std::optional<Options> options;
   try {
-    run_command(parse_options(arguments), streams);
+    options = parse_options(arguments);
+    run_command(*options, streams);
     streams.out.flush();
     return success;
   } catch (const Input_error& error) {
@@ -67,7 +85,7 @@ int run(const std::vector<std::string>& arguments, const Streams& streams) {
     return error_of_user;
   } catch (const std::bad_alloc&) {
     report(streams.error, "error",
-           "the memory of this computer is not enough; use a smaller --resolution or input, or a larger --radius");
+           "the memory of this computer is not enough; " + advice_on_memory(options.value_or(Options())));
     return error_of_user;
   } catch (const std::exception& error) {
     report(streams.error, "internal error", error.what());

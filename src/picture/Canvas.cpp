@@ -3,23 +3,28 @@
 
 namespace equiaffine {
 
-Canvas::Canvas(std::size_t width, std::size_t height)
-    : width_(samples_per_axis * width), height_(samples_per_axis * height), nearness_(width_ * height_, 0.F),
-      light_(width_ * height_, Light{1, 1, 1}) {}
+Canvas::Canvas(std::size_t width, std::size_t height, std::size_t first_row)
+    : width_(samples_per_axis * width), height_(samples_per_axis * height), first_row_(samples_per_axis * first_row),
+      nearness_(width_ * height_, 0.F), light_(width_ * height_, Light{1, 1, 1}) {}
+
+std::size_t Canvas::rows_of_band(std::size_t width) {
+  constexpr std::size_t bytes_per_pixel = samples_per_axis * samples_per_axis * (sizeof(float) + sizeof(Light));
+  return std::max<std::size_t>(64'000'000 / (bytes_per_pixel * width), 1);
+}
 
 void Canvas::draw_stroke(const Screen_point& a, const Screen_point& b, double first, double last, const Light& light,
                          double lift) {
   const double widest = std::max(first, last), dx = b.x - a.x, dy = b.y - a.y, squared_length = dx * dx + dy * dy;
   if (!std::isfinite(squared_length)) return;
-  const Range columns(std::min(a.x, b.x) - widest, std::max(a.x, b.x) + widest, width_);
-  const Range rows(std::min(a.y, b.y) - widest, std::max(a.y, b.y) + widest, height_);
+  const Range columns(std::min(a.x, b.x) - widest, std::max(a.x, b.x) + widest, 0, width_);
+  const Range rows(std::min(a.y, b.y) - widest, std::max(a.y, b.y) + widest, first_row_, height_);
   for (std::size_t row = rows.begin; row < rows.end; ++row)
     for (std::size_t column = columns.begin; column < columns.end; ++column) {
       const double x = center(column) - a.x, y = center(row) - a.y;
       const double along = squared_length > 0 ? std::clamp((x * dx + y * dy) / squared_length, 0., 1.) : 0.;
       if (std::hypot(x - along * dx, y - along * dy) > first + along * (last - first)) continue;
       const double nearness = (a.nearness + along * (b.nearness - a.nearness)) * (1 + lift);
-      const std::size_t sample = row * width_ + column;
+      const std::size_t sample = index(row, column);
       if (!(float(nearness) > nearness_[sample])) continue;
       nearness_[sample] = float(nearness);
       light_[sample] = light;

@@ -27,9 +27,16 @@ struct Screen_point {
 
 /// A white picture on which what is nearer hides what is behind it, in any order of drawing. Every pixel is the mean of
 /// 3 x 3 samples. No display, graphics processor or thread is involved: the same bytes everywhere.
+///
+/// A canvas may be a band of the rows of a larger picture: bands need less memory, one after the other, and have the same
+/// bytes as the whole.
 class Canvas {
 public:
-  Canvas(std::size_t width, std::size_t height);
+  /// Has the rows from `first_row` on.
+  Canvas(std::size_t width, std::size_t height, std::size_t first_row = 0);
+
+  /// The rows of that width that take 64 MB, at least one.
+  static std::size_t rows_of_band(std::size_t width);
 
   /// `shade(weights, is_front)` is the light at the point of the triangle with these barycentric weights, in space;
   /// the front is the side from which the corners are counterclockwise.
@@ -46,18 +53,23 @@ public:
 private:
   static constexpr std::size_t samples_per_axis = 3;
 
-  /// The samples whose centers lie in [low, high], in pixels.
+  /// The samples from `first` on whose centers lie in [low, high], in pixels.
   struct Range {
     std::size_t begin, end;
-    Range(double low, double high, std::size_t size) {
-      const auto clamped = [&](double index) { return std::size_t(std::clamp(index, 0., double(size))); };
+    Range(double low, double high, std::size_t first, std::size_t size) {
+      const auto clamped = [&](double index) {
+        return std::size_t(std::clamp(index, double(first), double(first + size)));
+      };
       begin = clamped(std::ceil(low * samples_per_axis - 0.5));
       end = clamped(std::floor(high * samples_per_axis - 0.5) + 1);
     }
   };
   static double center(std::size_t sample) { return (double(sample) + 0.5) / samples_per_axis; }
 
-  std::size_t width_, height_; // in samples
+  /// The place in memory of a sample.
+  std::size_t index(std::size_t row, std::size_t column) const { return (row - first_row_) * width_ + column; }
+
+  std::size_t width_, height_, first_row_; // in samples
   std::vector<float> nearness_;
   std::vector<Light> light_;
 };
@@ -70,7 +82,7 @@ void Canvas::draw_triangle(const std::array<Screen_point, 3>& corners, Shade sha
   if (!(std::abs(area) > 0)) return; // NaN is refused, too
   const auto [left, right] = std::minmax({a.x, b.x, c.x});
   const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
-  const Range columns(left, right, width_), rows(top, bottom, height_);
+  const Range columns(left, right, 0, width_), rows(top, bottom, first_row_, height_);
   for (std::size_t row = rows.begin; row < rows.end; ++row)
     for (std::size_t column = columns.begin; column < columns.end; ++column) {
       const double x = center(column), y = center(row);
@@ -79,7 +91,7 @@ void Canvas::draw_triangle(const std::array<Screen_point, 3>& corners, Shade sha
       const double w = 1 - u - v;
       if (std::min({u, v, w}) < -rounding) continue;
       const double nearness = u * a.nearness + v * b.nearness + w * c.nearness;
-      const std::size_t sample = row * width_ + column;
+      const std::size_t sample = index(row, column);
       if (!(float(nearness) > nearness_[sample])) continue;
       nearness_[sample] = float(nearness);
       const std::array<double, 3> weights = {u * a.nearness / nearness, v * b.nearness / nearness,

@@ -38,6 +38,7 @@ Line_drawing zero_strokes(const Camera& camera, const Indexed_triangle_mesh_3<Ke
                           const std::vector<double>& numbers) {
   constexpr double half_width = 0.8;
   Line_drawing strokes;
+  if (numbers.empty()) return strokes;
   for (const auto& triangle : mesh.triangles) {
     std::vector<Kernel::Point_3> ends;
     for (std::size_t k = 0; k < 3; ++k) {

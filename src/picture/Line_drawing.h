@@ -38,7 +38,7 @@ private:
 
 Line_drawing curve_strokes(const Camera& camera, std::span<const Polyline_3<Kernel>> curves);
 
-/// The lines on which the linear interpolation of a number per vertex changes its sign.
+/// The lines on which the linear interpolation of a number per vertex changes its sign; none without numbers.
 Line_drawing zero_strokes(const Camera& camera, const Indexed_triangle_mesh_3<Kernel>& mesh,
                           const std::vector<double>& numbers);
 

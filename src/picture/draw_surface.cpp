@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace equiaffine {
 
@@ -46,24 +47,35 @@ Light lit(const Light& base, const Vector& normal, const Vector& view, bool is_f
   return light;
 }
 
-void draw_triangles(Canvas& canvas, const Camera& camera, const Indexed_triangle_mesh_3<Kernel>& mesh,
-                    const std::vector<Vector>& normals, const Surface_paint& paint) {
-  std::vector<Screen_point> seen;
-  std::vector<Vector> turned, views;
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    seen.push_back(camera(mesh.points[i]));
-    turned.push_back(camera.turned(normals[i]));
-    views.push_back(camera.turned(camera.towards_eye(mesh.points[i])));
+/// A mesh from the place of a camera.
+class Seen_surface {
+public:
+  Seen_surface(const Camera& camera, const Indexed_triangle_mesh_3<Kernel>& mesh, const std::vector<Vector>& normals)
+      : triangles_(mesh.triangles) {
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+      places_.push_back(camera(mesh.points[i]));
+      normals_.push_back(camera.turned(normals[i]));
+      views_.push_back(camera.turned(camera.towards_eye(mesh.points[i])));
+    }
   }
-  for (const auto& triangle : mesh.triangles) {
-    const auto& [a, b, c] = triangle;
-    canvas.draw_triangle({seen[a], seen[b], seen[c]}, [&](const std::array<double, 3>& weights, bool is_front) {
-      const auto& [u, v, w] = weights;
-      return lit(paint(triangle, weights), u * turned[a] + v * turned[b] + w * turned[c],
-                 u * views[a] + v * views[b] + w * views[c], is_front);
-    });
+
+  void draw(Canvas& canvas, const Surface_paint& paint) const {
+    for (const auto& triangle : triangles_) {
+      const auto& [a, b, c] = triangle;
+      const auto shade = [&](const std::array<double, 3>& weights, bool is_front) {
+        const auto& [u, v, w] = weights;
+        return lit(paint(triangle, weights), u * normals_[a] + v * normals_[b] + w * normals_[c],
+                   u * views_[a] + v * views_[b] + w * views_[c], is_front);
+      };
+      canvas.draw_triangle({places_[a], places_[b], places_[c]}, shade);
+    }
   }
-}
+
+private:
+  std::span<const std::array<std::uint32_t, 3>> triangles_;
+  std::vector<Screen_point> places_;
+  std::vector<Vector> normals_, views_; // in the directions of the camera
+};
 
 } // namespace
 
@@ -87,14 +99,23 @@ Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const 
   const auto& legend = paint.legend();
   const std::size_t reserved = legend ? legend_height + (legend->has_parabolic_lines ? note_height : 0) : 0;
   const Camera camera(mesh.points, view.up, width, height - reserved, !view.arrows.empty());
-  Canvas canvas(width, height);
-  draw_triangles(canvas, camera, mesh, vertex_normals(mesh, attributes), paint);
-  if (!paint.sides().empty())
-    zero_strokes(camera, mesh, paint.sides()).draw(canvas, light_of(status_color(Point_status::PARABOLIC)));
-  curve_strokes(camera, curves).draw_with_rim(canvas);
-  if (const auto columns = vector_columns(attributes, view.arrows))
-    arrow_strokes(camera, mesh.points, *columns).draw_with_rim(canvas);
-  return {canvas.picture(), legend};
+  const Seen_surface surface(camera, mesh, vertex_normals(mesh, attributes));
+  const Line_drawing parabolic_lines = zero_strokes(camera, mesh, paint.sides()), drawn = curve_strokes(camera, curves);
+  const auto columns = vector_columns(attributes, view.arrows);
+  const Line_drawing arrows = columns ? arrow_strokes(camera, mesh.points, *columns) : Line_drawing();
+  Picture picture{width, height, {}};
+  picture.rgb.reserve(3 * width * height);
+  const std::size_t rows = Canvas::rows_of_band(width);
+  for (std::size_t first = 0; first < height; first += rows) {
+    Canvas band(width, std::min(rows, height - first), first);
+    surface.draw(band, paint);
+    parabolic_lines.draw(band, light_of(status_color(Point_status::PARABOLIC)));
+    drawn.draw_with_rim(band);
+    arrows.draw_with_rim(band);
+    const auto bytes = band.picture().rgb;
+    picture.rgb.insert(picture.rgb.end(), bytes.begin(), bytes.end());
+  }
+  return {std::move(picture), legend};
 }
 
 } // namespace equiaffine

@@ -9,7 +9,7 @@
 namespace equiaffine {
 
 /// Writes the picture, with a bar of its colors in the lower left corner if they are those of a number, as a PNG file.
-void write_PNG(std::ostream& stream, const Surface_picture& picture);
+void write_PNG(std::ostream& stream, Surface_picture picture);
 
 } // namespace equiaffine
 

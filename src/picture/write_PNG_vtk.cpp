@@ -113,8 +113,8 @@ void draw_legend(Picture& picture, const Color_legend& legend) {
 
 } // namespace
 
-void write_PNG(std::ostream& stream, const Surface_picture& surface) {
-  Picture picture = surface.picture;
+void write_PNG(std::ostream& stream, Surface_picture surface) {
+  Picture& picture = surface.picture;
   if (surface.legend) draw_legend(picture, *surface.legend);
   vtkNew<vtkImageData> image;
   image->SetDimensions(int(picture.width), int(picture.height), 1);

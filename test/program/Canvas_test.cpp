@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <vector>
 
 namespace {
 
@@ -122,6 +124,32 @@ TEST(Program_Canvas, what_is_not_a_number_is_not_drawn) {
   canvas.draw_triangle({Screen_point{0, 0, 1}, {10, NAN, 1}, {0, 10, 1}}, paint(black));
   canvas.draw_stroke({0, 0, 1}, {INFINITY, 5, 1}, 2, 2, black, 0);
   EXPECT_EQ(dark_area(canvas.picture()), 0);
+}
+
+TEST(Program_Canvas, bands_have_the_bytes_of_the_whole) {
+  const auto drawn = [](Canvas canvas) {
+    canvas.draw_triangle({Screen_point{3.3, 2, 1}, {38, 7.7, 2}, {11, 37.1, 3}}, paint(red));
+    canvas.draw_triangle({Screen_point{20, 5, 2.5}, {35, 30, 1}, {2, 21.3, 1}}, paint(green));
+    canvas.draw_stroke({5, 35, 3}, {36.5, 3, 3}, 2.5, 0.5, black, 0.1);
+    return canvas.picture().rgb;
+  };
+  const auto whole = drawn(Canvas(40, 40));
+  for (const std::size_t rows : {1u, 7u, 39u}) {
+    std::vector<unsigned char> bytes;
+    for (std::size_t first = 0; first < 40; first += rows) {
+      const auto band = drawn(Canvas(40, std::min<std::size_t>(rows, 40 - first), first));
+      bytes.insert(bytes.end(), band.begin(), band.end());
+    }
+    EXPECT_EQ(bytes, whole) << rows;
+  }
+}
+
+TEST(Program_Canvas, bands_need_little_memory_however_large_the_picture_is) {
+  for (const std::size_t width : {100u, 4000u, 10000u}) {
+    const std::size_t samples = 9 * width * Canvas::rows_of_band(width);
+    EXPECT_LE(samples * (sizeof(float) + sizeof(Light)), 64'000'000u);
+    EXPECT_GE(Canvas::rows_of_band(width), 1u);
+  }
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/program.h"
 #include "support/run_program.h"
+#include "system/child_process.h"
+#include <equiaffine/Input_error.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -402,6 +404,27 @@ TEST_F(Program_errors, a_page_shows_what_the_mesh_has) {
     expect_error(mesh_of("x") + box + Arguments{option, "x"}, {option, "page", "--html", "--png"});
   expect_error({"view", "in.ply"}, {"no output", "-o PAGE.html", "--png"});
 }
+
+#ifdef EQUIAFFINE_WITH_VTK
+TEST_F(Program_errors, too_little_memory_for_a_picture_has_an_advice_that_view_can_follow) {
+  run_well(Arguments{"mesh", "--function", "x", "--resolution", "3", "-o", "in.ply", "--attributes", "normal"} + box);
+  const Arguments view = {"view", folder_ / "in.ply", "--png", folder_ / "p.png", "--size", "10000", "10000"};
+  const auto task = [&] {
+    std::ostringstream out, error;
+    equiaffine::run(view, {out, error});
+    throw equiaffine::Input_error(error.str());
+  };
+  try {
+    equiaffine::run_in_child(task, {60, 1e8}); // the bytes of the picture alone are 3e8
+    FAIL() << "it fits";
+  } catch (const equiaffine::Input_error& error) {
+    EXPECT_STREQ(error.what(),
+                 "equiaffine: error: the memory of this computer is not enough; use a smaller --size, or a "
+                 "mesh with fewer triangles\n");
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "p.png"));
+}
+#endif
 
 TEST_F(Program_errors, a_picture_has_a_size_a_range_and_vectors_that_exist) {
   const Arguments picture = mesh_of("x") + box;
