@@ -90,10 +90,13 @@ bool has_vector(const Attribute_selection& attributes, const std::string& name) 
                        [&](const Attribute& column) { return attribute_table<double>[column.row].name == name; }) == 3;
 }
 
-bool has_color(const Draft& draft, const std::string& name) {
+bool has_column(const Draft& draft, const std::string& name) {
   const auto& columns = draft.attributes.columns;
-  return name == "plain" || (name == "status" && draft.attributes.has_status) ||
-         std::any_of(columns.begin(), columns.end(), [&](const Attribute& column) { return column.name == name; }) ||
+  return std::any_of(columns.begin(), columns.end(), [&](const Attribute& column) { return column.name == name; });
+}
+
+bool has_color(const Draft& draft, const std::string& name) {
+  return name == "plain" || (name == "status" && draft.attributes.has_status) || has_column(draft, name) ||
          (draft.source.spline.estimates_errors &&
           std::find(error_attributes.begin(), error_attributes.end(), name) != error_attributes.end());
 }
@@ -142,6 +145,10 @@ Mesh_options read_mesh_options(Option_reader& reader) {
   options.orientation = draft.orientation;
   if (draft.is_delaunay) options.method = draft.delaunay;
   else options.method = draft.marching_cubes;
+  options.writes_errors = options.source.spline.estimates_errors;
+  if (draft.html || draft.png)
+    options.source.spline.estimates_errors |=
+        has_column(draft, "affine_gaussian_curvature") || has_column(draft, "affine_mean_curvature");
   options.attributes = std::move(draft.attributes);
   options.estimator = draft.estimator;
   options.output = *draft.output;

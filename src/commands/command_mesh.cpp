@@ -170,7 +170,7 @@ Annotated_surface make_surface(const Traits& function, const Source& source, con
       function, options.orientation, surface.mesh.points, selection, options.estimator, surface.mesh.vertex_status});
   surface.mesh.function_evaluations += surface.mesh.points.size();
   surface.status = count(*surface.attributes.status);
-  add_error_columns(source, options.source, surface.mesh.points, surface.attributes);
+  if (options.writes_errors) add_error_columns(source, options.source, surface.mesh.points, surface.attributes);
   if (!options.attributes.has_status) surface.attributes.status.reset();
   surface.annotation_seconds = stopwatch.seconds();
   if (options.curves && !surface.curves) {
@@ -260,7 +260,7 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   const Stopwatch source_stopwatch;
   const Source source = make_source(options.source, progress);
   const double source_seconds = source_stopwatch.seconds();
-  const Annotated_surface surface = std::visit(
+  Annotated_surface surface = std::visit(
       [&](const auto& function) { return make_surface(function, source, options, progress); }, source.function);
 
   const Stopwatch write_stopwatch;
@@ -269,6 +269,8 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   statistics.sample_seconds += source_seconds;
   auto file = outputs.files.begin();
   write_surface(*file++, surface.mesh, surface.attributes);
+  // Pages and pictures show what can be trusted, even if the mesh does not get the estimates of errors.
+  if (!options.writes_errors) add_error_columns(source, options.source, surface.mesh.points, surface.attributes);
   if (options.html)
     write_page(*file++, surface.mesh, surface.attributes, options.page, page_title(options.output, statistics.source),
                make_description(options, statistics));

@@ -2,6 +2,7 @@
 #include "picture/Surface_paint.h"
 
 #include <equiaffine/attributes/quantities.h>
+#include <equiaffine/io/trust.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,22 +12,6 @@
 namespace equiaffine {
 
 namespace {
-
-bool is_component(const std::string& name) {
-  return name.size() > 1 && (name.ends_with("_x") || name.ends_with("_y") || name.ends_with("_z") || name == "nx" ||
-                             name == "ny" || name == "nz" || name.starts_with("metric_"));
-}
-
-/// Returns the name of the column that the page shows first.
-std::string default_color(const Vertex_attributes& attributes) {
-  const auto place = [](const Vertex_attributes::Column& column) {
-    return is_component(column.name) ? Quantity::unranked + 1 : rank_of_quantity(column.name);
-  };
-  const auto first = std::min_element(attributes.columns.begin(), attributes.columns.end(),
-                                      [&](const auto& a, const auto& b) { return place(a) < place(b); });
-  if (first != attributes.columns.end() && !is_component(first->name)) return first->name;
-  return attributes.status ? "status" : "plain";
-}
 
 std::string label_of(const std::string& name) {
   const Quantity* const quantity = find_quantity(name);
@@ -44,19 +29,14 @@ Light light_of(const CGAL::IO::Color& color) {
   return {light(color.red()), light(color.green()), light(color.blue())};
 }
 
-const Vertex_attributes::Column* find_column(const Vertex_attributes& attributes, const std::string& name) {
-  for (const auto& column : attributes.columns)
-    if (column.name == name) return &column;
-  return nullptr;
-}
-
 Surface_paint::Surface_paint(const Vertex_attributes& attributes, const std::string& name,
                              const std::optional<std::array<double, 2>>& range, double diagonal) {
   if (attributes.status && name != "plain")
     for (const Point_status status : *attributes.status) codes_.push_back(static_cast<std::uint8_t>(status));
-  const auto* column = find_column(attributes, name.empty() ? default_color(attributes) : name);
+  const auto* column = find_column(attributes, name.empty() ? first_shown(attributes) : name);
   if (column == nullptr) return;
   use(*column, range, diagonal);
+  if (const auto* errors = find_errors(attributes, column->name)) find_doubts(*column, *errors);
   if (is_infinite_at_parabolic_points(column->name)) find_sides(attributes);
 }
 
@@ -71,9 +51,9 @@ Light Surface_paint::operator()(const std::array<std::uint32_t, 3>& triangle,
     const std::uint32_t vertex = triangle[k];
     const std::uint8_t code = codes_.empty() ? std::uint8_t(0) : codes_[vertex];
     if (code == 0) {
-      const double level = legend_ ? levels_[vertex] : 0;
-      all.add(level, weights[k]);
-      if (is_convex(vertex) == (curvature >= 0)) same_side.add(level, weights[k]);
+      const double level = legend_ ? levels_[vertex] : 0, doubt = doubts_.empty() ? 0 : doubts_[vertex];
+      all.add(level, doubt, weights[k]);
+      if (is_convex(vertex) == (curvature >= 0)) same_side.add(level, doubt, weights[k]);
     } else irregular[code] += weights[k];
   }
   if (!sides_.empty() && all.weight > 0) irregular[std::size_t(Point_status::PARABOLIC)] = 0; // a line shows them
@@ -84,16 +64,24 @@ Light Surface_paint::operator()(const std::array<std::uint32_t, 3>& triangle,
   }
   if (!legend_) return light_of(plain_color());
   const Weighted_level& known = same_side.weight > 0 ? same_side : all;
-  return color_of(known.sum / known.weight);
+  return color_of(known.level / known.weight, known.doubt / known.weight);
 }
 
-Light Surface_paint::color_of(double level) const {
+Light Surface_paint::color_of(double level, double doubt) const {
   const double place = std::clamp(level, 0., 1.) * double(table_.size() - 1);
   const auto below = std::min(std::size_t(place), table_.size() - 2);
   Light light;
   for (std::size_t n = 0; n < 3; ++n)
     light[n] = table_[below][n] + float(place - double(below)) * (table_[below + 1][n] - table_[below][n]);
+  const float gray = 0.2126F * light[0] + 0.7152F * light[1] + 0.0722F * light[2];
+  for (float& channel : light) channel += float(doubt) * (gray - channel);
   return light;
+}
+
+void Surface_paint::find_doubts(const Vertex_attributes::Column& column, const Vertex_attributes::Column& errors) {
+  for (std::size_t i = 0; i < column.values.size(); ++i)
+    doubts_.push_back(color_doubt(column.values[i], errors.values[i], legend_->range, legend_->scale));
+  legend_->notes.push_back({doubt_color(), "grayer where the estimated error is larger"});
 }
 
 void Surface_paint::find_sides(const Vertex_attributes& attributes) {
@@ -104,7 +92,8 @@ void Surface_paint::find_sides(const Vertex_attributes& attributes) {
     sides_.push_back(is_known ? column->values[i] : 0);
   }
   const auto [least, greatest] = std::minmax_element(sides_.begin(), sides_.end());
-  legend_->has_parabolic_lines = *least < 0 && *greatest >= 0;
+  if (*least < 0 && *greatest >= 0)
+    legend_->notes.push_back({status_color(Point_status::PARABOLIC), "parabolic curve: infinite"});
 }
 
 void Surface_paint::use(const Vertex_attributes::Column& column, const std::optional<std::array<double, 2>>& given,
@@ -122,7 +111,7 @@ void Surface_paint::use(const Vertex_attributes::Column& column, const std::opti
     range = {lower, upper, 1, lower == -upper};
     scale = Color_scale::LINEAR;
   }
-  legend_ = {label_of(column.name), range, scale, false};
+  legend_ = {label_of(column.name), range, scale, {}};
   for (const double value : column.values) {
     const double t = std::isfinite(value) ? map_position(value, range, scale) : 0;
     levels_.push_back(range.is_diverging ? (t + 1) / 2 : t);

@@ -20,13 +20,14 @@ struct Color_legend {
   std::string label; ///< the name of the number, with its unit if that is known
   Color_range range;
   Color_scale scale;
-  bool has_parabolic_lines; ///< whether lines separate numbers that grow without bound on both sides
+  struct Note {
+    CGAL::IO::Color color;
+    std::string text;
+  };
+  std::vector<Note> notes; ///< what other colors mean
 };
 
 Light light_of(const CGAL::IO::Color& color);
-
-/// The column of that name, or null.
-const Vertex_attributes::Column* find_column(const Vertex_attributes& attributes, const std::string& name);
 
 /// The color of a surface at its vertices and between them.
 class Surface_paint {
@@ -41,7 +42,8 @@ public:
 
   /// The color at barycentric weights, as on the page: vertices with a number compete by their weights with those of
   /// each status; the number is interpolated between the vertices that have one. A number that is infinite on a
-  /// parabolic curve is interpolated on each side of it from the vertices of that side only.
+  /// parabolic curve is interpolated on each side of it from the vertices of that side only. Colors are grayer where the
+  /// estimated error is larger.
   Light operator()(const std::array<std::uint32_t, 3>& triangle, const std::array<double, 3>& weights) const;
 
   /// The Gaussian curvature per vertex, zero where it is not known or the vertex is parabolic, if the number is infinite
@@ -49,11 +51,12 @@ public:
   const std::vector<double>& sides() const { return sides_; }
 
 private:
-  /// Numbers at some of the corners of a triangle, as their weighted sum and the sum of their weights.
+  /// Weighted sums over some of the corners of a triangle, and the sum of their weights.
   struct Weighted_level {
-    double sum = 0, weight = 0;
-    void add(double level, double its_weight) {
-      sum += its_weight * level;
+    double level = 0, doubt = 0, weight = 0;
+    void add(double its_level, double its_doubt, double its_weight) {
+      level += its_weight * its_level;
+      doubt += its_weight * its_doubt;
       weight += its_weight;
     }
   };
@@ -61,13 +64,15 @@ private:
   static constexpr std::uint8_t no_number = number_of_point_statuses;
 
   void use(const Vertex_attributes::Column& column, const std::optional<std::array<double, 2>>& range, double diagonal);
+  void find_doubts(const Vertex_attributes::Column& column, const Vertex_attributes::Column& errors);
   void find_sides(const Vertex_attributes& attributes);
   bool is_convex(std::uint32_t vertex) const { return sides_.empty() || sides_[vertex] >= 0; }
-  Light color_of(double level) const;
+  Light color_of(double level, double doubt) const;
 
   std::vector<std::uint8_t> codes_; // per vertex 0 if its number is shown, else its status or no_number; empty: all 0
   std::vector<double> levels_;      // the number of each vertex as a place in [0, 1]
   std::vector<double> sides_;
+  std::vector<double> doubts_; // color_doubt per vertex, if errors are known
   std::vector<Light> table_;
   std::optional<Color_legend> legend_;
 };

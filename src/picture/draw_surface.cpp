@@ -3,6 +3,7 @@
 
 #include "picture/Camera.h"
 #include "picture/Line_drawing.h"
+#include <equiaffine/io/trust.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -97,7 +98,7 @@ Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const 
   const CGAL::Bbox_3 box = box_of(mesh.points);
   const Surface_paint paint(attributes, view.color, view.range, std::hypot(box.x_span(), box.y_span(), box.z_span()));
   const auto& legend = paint.legend();
-  const std::size_t reserved = legend ? legend_height + (legend->has_parabolic_lines ? note_height : 0) : 0;
+  const std::size_t reserved = legend ? legend_height + note_height * legend->notes.size() : 0;
   const Camera camera(mesh.points, view.up, width, height - reserved, !view.arrows.empty());
   const Seen_surface surface(camera, mesh, vertex_normals(mesh, attributes));
   const Line_drawing parabolic_lines = zero_strokes(camera, mesh, paint.sides()), drawn = curve_strokes(camera, curves);

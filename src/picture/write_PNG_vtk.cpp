@@ -94,9 +94,8 @@ void draw_legend(Picture& picture, const Color_legend& legend) {
     const CGAL::IO::Color color = legend.range.is_diverging ? diverging_color(2 * t - 1) : sequential_color(t);
     fill(picture, left + i, top, 1, bar_height, color);
   }
-  if (legend.has_parabolic_lines)
-    draw_note(picture, status_color(Point_status::PARABOLIC), "parabolic curve: infinite",
-              picture.height - legend_height);
+  for (std::size_t i = 0; i < legend.notes.size(); ++i)
+    draw_note(picture, legend.notes[i].color, legend.notes[i].text, picture.height - legend_height - i * note_height);
   draw_text(picture, legend.label, left, top - 7, Alignment::LEFT);
   const auto number = [&](std::size_t i, std::size_t last) {
     return short_number(number_at(legend, double(i) / double(last)), legend.range);

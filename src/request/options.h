@@ -82,6 +82,8 @@ struct Mesh_options {
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
   std::variant<Marching_cubes_options, Delaunay_options> method;
   Attribute_selection attributes;
+  bool writes_errors =
+      false; ///< whether the mesh gets the errors that are estimated, or the page and the picture alone
   Estimator estimator = Estimator::COMPACT;
   std::string output;
   std::optional<std::string> html, png, curves, stats;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -100,7 +101,7 @@ TEST(Program_draw_surface, a_number_that_is_infinite_on_a_curve_does_not_pass_th
     attributes.columns = {{"affine_gaussian_curvature", {left, right, right, left}},
                           {"gaussian_curvature", {1, -1, -1, 1}}};
     const auto drawn = draw_surface(facing_square(), attributes, options);
-    EXPECT_TRUE(drawn.legend && drawn.legend->has_parabolic_lines);
+    EXPECT_TRUE(drawn.legend && drawn.legend->notes.size() == 1);
     const auto first = drawn.picture.rgb.begin() + std::ptrdiff_t(3 * 101 * ((101 - legend_height - note_height) / 2));
     return std::vector<unsigned char>(first, first + 3 * 101);
   };
@@ -133,6 +134,25 @@ TEST(Program_draw_surface, a_parabolic_vertex_has_a_line_and_no_share_of_the_tri
   EXPECT_LE(lines, 3u);
   EXPECT_GT(lines, 0u);
   EXPECT_GT(numbers, 15u);
+}
+
+TEST(Program_draw_surface, a_number_in_doubt_is_gray_and_as_light_as_its_color) {
+  const auto middle_for = [](double error) {
+    Vertex_attributes attributes;
+    attributes.columns = {{"pick_invariant", {1, 1, 1, 1}}, {"pick_invariant_error", std::vector<double>(4, error)}};
+    Surface_view options = small;
+    options.color = "pick_invariant";
+    options.range = {{-2, 2}};
+    const auto drawn = draw_surface(facing_square(), attributes, options);
+    EXPECT_TRUE(drawn.legend && drawn.legend->notes.size() == 1);
+    return middle(drawn.picture, (101 - legend_height - note_height) / 2);
+  };
+  const auto [red, green, blue] = middle_for(10);
+  EXPECT_LE(std::max({red, green, blue}) - std::min({red, green, blue}), 1);
+  const auto trusted = middle_for(0);
+  expect_near(trusted, shaded(diverging_color(0.5)));
+  const auto light = [](int byte) { return std::pow(byte / 255., 2.2); };
+  EXPECT_NEAR(light(red), 0.2126 * light(trusted[0]) + 0.7152 * light(trusted[1]) + 0.0722 * light(trusted[2]), 0.02);
 }
 
 TEST(Program_draw_surface, curves_and_arrows_are_dark_lines_on_it) {

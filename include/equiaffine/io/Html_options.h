@@ -13,7 +13,8 @@ namespace equiaffine {
 /// Options for a page of `write_HTML`: the text on it and what it shows first. All text is UTF-8.
 struct Html_options {
   std::string title = "Equi-affine curvatures"; ///< files that are saved from the page are named after it
-  /// The attribute shown first, or `status`, or `plain`; empty: the first quantity of the library that is there.
+  /// The attribute shown first, or `status`, or `plain`; empty: the first quantity of the library
+  /// that is there and trusted (`first_shown`).
   std::string color = {};
   /// The numbers of the end colors of the attribute shown first; nothing: quantiles of its numbers.
   std::optional<std::array<double, 2>> range = {};

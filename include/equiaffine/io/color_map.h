@@ -106,6 +106,9 @@ inline CGAL::IO::Color undefined_color() { return CGAL::IO::Color(157, 157, 163)
 /// The color of a surface without a quantity, and of regular points where the status is shown.
 inline CGAL::IO::Color plain_color() { return CGAL::IO::Color(201, 209, 220); }
 
+/// The gray of colors that say nothing, in legends: a color in doubt keeps its own lightness.
+inline CGAL::IO::Color doubt_color() { return CGAL::IO::Color(136, 136, 136); }
+
 /// The diverging map, for t in [-1, 1]: blue, near-white at 0, red; gray for NaN.
 inline CGAL::IO::Color diverging_color(double t) {
   CGAL_precondition(!(std::abs(t) > 1));

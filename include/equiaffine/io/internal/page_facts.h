@@ -6,6 +6,7 @@
 #include <equiaffine/io/Html_options.h>
 #include <equiaffine/io/color_map.h>
 #include <equiaffine/io/internal/html_text.h>
+#include <equiaffine/io/trust.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <array>
@@ -61,7 +62,9 @@ inline std::string page_facts(const Vertex_attributes& attributes, const Html_op
   json.imbue(std::locale::classic());
   json.precision(17);
   json << "{\"center\":[" << center[0] << ',' << center[1] << ',' << center[2] << "],\"up\":[" << options.up[0] << ','
-       << options.up[1] << ',' << options.up[2] << "],\"color\":" << json_string(options.color) << ",\"range\":";
+       << options.up[1] << ',' << options.up[2]
+       << "],\"color\":" << json_string(options.color.empty() ? first_shown(attributes) : options.color)
+       << ",\"range\":";
   if (options.range) json << '[' << (*options.range)[0] << ',' << (*options.range)[1] << ']';
   else json << "null";
   json << ",\"clip\":" << default_clip_percent << ",\n\"columns\":[";
@@ -69,7 +72,7 @@ inline std::string page_facts(const Vertex_attributes& attributes, const Html_op
   json << "],\n\"statuses\":[";
   write_status_facts(json);
   json << "],\n\"plain\":\"" << hexadecimal(plain_color()) << "\",\"undefined\":\"" << hexadecimal(undefined_color())
-       << "\",\n\"diverging\":" << color_table(diverging_color, -1)
+       << "\",\"doubt\":\"" << hexadecimal(doubt_color()) << "\",\n\"diverging\":" << color_table(diverging_color, -1)
        << ",\n\"sequential\":" << color_table(sequential_color, 0) << '}';
   return json.str();
 }

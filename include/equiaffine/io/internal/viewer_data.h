@@ -114,6 +114,16 @@ function vertexSides(quantity) {
   return known.map(value => value / largest);
 }
 
+// The estimated errors of a quantity, or undefined.
+const errorsOf = quantity => columnNamed(quantity.name + '_error')?.values();
+
+// color_doubt of io/trust.h.
+function colorDoubt(value, error, range, isLog) {
+  if (!isFinite(error)) return 1;
+  const span = mapPosition(value + error, range, isLog) - mapPosition(value - error, range, isLog);
+  return Math.min(1, 2 * span);
+}
+
 // What every vertex is drawn as: 0 by its number, 1 to 4 by its status, 5 because it has no number. With sides,
 // parabolic vertices are those that a line is drawn through.
 function vertexCodes(values, withStatus, sides) {
@@ -201,10 +211,20 @@ function ticks(range, isLog, most) {
 
 const superscript = text => text.replace(/./g, c => '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'['-0123456789'.indexOf(c)]);
 const powerOfTen = exponent => '10' + superscript(String(Number(exponent)));
+// No digit beyond those asked for is shown: what has more places before the point gets a power of ten.
 function readable(value, digits = 6) {
   if (Number.isNaN(value)) return '–';
   if (!isFinite(value)) return value > 0 ? '∞' : '−∞';
-  return scientific(String(Number(value.toPrecision(digits))));
+  const rounded = Number(value.toPrecision(digits)), places = rounded.toExponential().split('e')[1];
+  return scientific(places >= digits || places < -5 ? rounded.toExponential() : String(rounded));
+}
+// With the digits that the estimated error leaves.
+function readableWithin(value, error) {
+  if (error === undefined || !isFinite(value)) return readable(value);
+  if (!isFinite(error)) return 'not known';
+  if (!(error > 0)) return readable(value);
+  const place = number => Math.floor(Math.log10(Math.abs(number))), digits = place(value) - place(error) + 1;
+  return (digits >= 1 ? readable(value, Math.min(digits, 6)) : '0') + ' ± ' + readable(error, 2);
 }
 function scientific(text) {
   const [mantissa, exponent] = text.split('e');

@@ -14,7 +14,7 @@ const clipSteps = [0, 0.1, 0.2, 0.5, 1, 2, 3, 5, 10, 15, 20, 25];
 const canvas = byId('view'), stage = byId('stage');
 const choice = {quantity: plain, isLog: false, isScaleChosen: false, clip: facts.clip, hasMarks: true, edges: false,
                 isolines: false, vectors: null, picked: null, origin: null, range: null, cut: ['none', 0.5]};
-// shown: {values, codes, sides, sorted, magnitudes} of the quantity.
+// shown: {values, codes, sides, errors, sorted, magnitudes} of the quantity.
 let scene = null, range = null, shown = null, areas = null;
 const aspect = () => canvas.width / canvas.height;
 
@@ -59,7 +59,7 @@ function update() {
   const {quantity} = choice, values = quantity.values?.() ?? null;
   const withStatus = mesh.status.length && (quantity === statusQuantity || (values && choice.hasMarks));
   const sides = vertexSides(quantity), codes = vertexCodes(values, withStatus, sides);
-  shown = {values, codes, sides, ...(values && summarize(values, codes))};
+  shown = {values, codes, sides, errors: values && errorsOf(quantity), ...(values && summarize(values, codes))};
   byId('quantity').value = quantity.name;
   byId('mapping').hidden = byId('scale').hidden = !values;
   byId('marks-label').hidden = !mesh.status.length;
@@ -70,14 +70,19 @@ function update() {
 
 // The same numbers, other colors.
 function updateColors() {
-  const {values, codes, sides} = shown, levels = new Float32Array(mesh.size);
+  const {values, codes, sides, errors} = shown, levels = new Float32Array(mesh.size);
+  const doubts = new Float32Array(mesh.size);
   const {quantity, clip} = choice;
   range = values && (choice.range ? givenRange(...choice.range)
                                   : colorRange(shown.sorted, shown.magnitudes, clip, quantity.resolution));
   if (values && !choice.isScaleChosen) choice.isLog = prefersLog(range);
   if (values)
-    for (let i = 0; i < levels.length; ++i) if (codes[i] === 0) levels[i] = mapPosition(values[i], range, choice.isLog);
-  scene.setColors({levels, codes, sides}, values && (range.isDiverging ? facts.diverging : facts.sequential));
+    for (let i = 0; i < levels.length; ++i) {
+      if (codes[i] !== 0) continue;
+      levels[i] = mapPosition(values[i], range, choice.isLog);
+      if (errors) doubts[i] = colorDoubt(values[i], errors[i], range, choice.isLog);
+    }
+  scene.setColors({levels, doubts, codes, sides}, values && (range.isDiverging ? facts.diverging : facts.sequential));
   for (const [id, isOn] of [['scale-linear', !choice.isLog], ['scale-log', choice.isLog]])
     byId(id).setAttribute('aria-pressed', isOn);
   byId('clip').value = clipSteps.indexOf(choice.clip);
@@ -114,10 +119,14 @@ function takeTypedRange() {
 }
 
 function showStatistics() {
-  const {sorted} = shown, table = byId('statistics');
+  const {sorted, values, errors} = shown, table = byId('statistics');
+  const errorOf = number => errors?.[values.indexOf(number)];  // of the vertex that has the extreme
   table.replaceChildren();
-  for (const [name, percent] of [['minimum', 0], ['median', 50], ['maximum', 100]])
-    addRow(table, element('span', 'quiet', name), sorted.length ? readable(quantile(sorted, percent)) : '–');
+  for (const [name, percent] of [['minimum', 0], ['median', 50], ['maximum', 100]]) {
+    const number = sorted.length ? quantile(sorted, percent) : NaN;
+    const error = percent === 50 && errors ? quantile(errors.slice().sort(), 50) : errorOf(number);
+    addRow(table, element('span', 'quiet', name), readableWithin(number, error));
+  }
 }
 
 // The colors of points without a number, as [color, text, number of points]; the last is missing for a curve.
@@ -130,6 +139,7 @@ function legendEntries() {
     });
   if (shown.sides?.some(side => side < 0) && shown.sides.some(side => side >= 0))
     entries.push([facts.statuses[1].color, 'parabolic curve: infinite']);
+  if (shown.errors) entries.push([facts.doubt, 'grayer where the estimated error is larger']);
   const missing = shown.codes.reduce((sum, code) => sum + (code === 5), 0);
   if (missing) entries.push([facts.undefined, 'no number', missing]);
   return entries;

@@ -35,10 +35,12 @@ function showPicked() {
   }
   if (mesh.status.length) addRow(table, element('span', 'quiet', 'status'), facts.statuses[mesh.status[picked]].word);
   const rows = numbersOf(picked);
-  for (const [{label, symbol, values}, value, digits] of
-       [...rows.filter(([column]) => column === quantity), ...rows.filter(([column]) => column !== quantity)])
+  rows.sort(([a], [b]) => Number(b === quantity) - Number(a === quantity));
+  for (const [column, value, digits] of rows) {
+    const {label, symbol, values} = column;
     addRow(table, element('span', 'quiet', label.replaceAll('_', ' ') + (symbol ? ' ' + symbol : '')),
-           readable(value, values ? 6 : digits));
+           values ? readableWithin(value, errorsOf(column)?.[picked]) : readable(value, digits));
+  }
 }
 
 function copyText(text, button) {

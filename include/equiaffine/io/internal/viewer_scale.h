@@ -85,7 +85,7 @@ function drawHistogram(pen, left, right, base, quiet) {
   pen.setLineDash([]);
   [['left', left - tail - 2], ['right', right + tail + 2]].forEach(([align, x], k) => {
     pen.textAlign = align;
-    if (tails[k]) pen.fillText(readable(100 * tails[k], 2) + ' %', x, 10);
+    if (tails[k]) pen.fillText(readable(100 * tails[k], 3) + ' %', x, 10);
   });
 }
 

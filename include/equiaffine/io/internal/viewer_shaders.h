@@ -24,12 +24,14 @@ vec4 projected(vec3 q) { return vec4(lens.x * q.x, lens.y * q.y, lens.z * q.z + 
 const surfaceVertex = placing + `
 layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal;
 layout(location = 2) in float level; layout(location = 3) in uint code; layout(location = 4) in float side;
-out vec3 vPosition, vNormal; out vec2 vConvex, vSaddle; out vec4 vStatus; out float vUndefined, vSide, vKept;
+layout(location = 5) in float doubt;
+out vec3 vPosition, vNormal, vConvex, vSaddle; out vec4 vStatus; out float vUndefined, vSide, vKept;
 void main() {
   vPosition = seen(position);
   vNormal = turn * normal;
-  vec2 known = code == 0u ? vec2(level, 1) : vec2(0);  // only vertices with a number take part in the interpolation
-  vConvex = side >= 0.0 ? known : vec2(0);
+  // Only vertices with a number take part in the interpolation.
+  vec3 known = code == 0u ? vec3(level, 1, doubt) : vec3(0);
+  vConvex = side >= 0.0 ? known : vec3(0);
   vSaddle = known - vConvex;
   vSide = side;
   vKept = kept(position);
@@ -40,17 +42,20 @@ void main() {
 
 const surfaceFragment = `#version 300 es
 precision highp float;
-in vec3 vPosition, vNormal; in vec2 vConvex, vSaddle; in vec4 vStatus; in float vUndefined, vSide, vKept;
+in vec3 vPosition, vNormal, vConvex, vSaddle; in vec4 vStatus; in float vUndefined, vSide, vKept;
 uniform sampler2D map; uniform bool isMapped; uniform vec3 plain, undefinedColor, statusColors[4];
 uniform float isolines[24], pixels; uniform int isolineCount; uniform bool hasSides;
 out vec4 color;
 void main() {
   if (vKept < 0.0) discard;
   // A number that is infinite where vSide is 0 is interpolated on each side of that line by itself.
-  vec2 all = vConvex + vSaddle, same = vSide >= 0.0 ? vConvex : vSaddle, known = same.y > 0.0 ? same : all;
+  vec3 all = vConvex + vSaddle, same = vSide >= 0.0 ? vConvex : vSaddle, known = same.y > 0.0 ? same : all;
   float level = known.x / max(known.y, 1e-6), entries = float(textureSize(map, 0).x);
   float slope = fwidth(level);
   vec3 base = isMapped ? texture(map, vec2((0.5 + level * (entries - 1.0)) / entries, 0.5)).rgb : plain;
+  vec3 light = pow(base, vec3(2.2));
+  float doubted = known.z / max(known.y, 1e-6);
+  base = pow(mix(light, vec3(dot(light, vec3(0.2126, 0.7152, 0.0722))), isMapped ? doubted : 0.0), vec3(1.0 / 2.2));
   float line = 0.0, most = all.y, parabolic = 0.0;
   for (int i = 0; i < isolineCount; ++i)
     if (slope > 1e-6) line = max(line, 1.0 - smoothstep(0.5, 1.3, abs(level - isolines[i]) / slope));
@@ -60,11 +65,11 @@ void main() {
   for (int i = hasSides && all.y > 0.0 ? 1 : 0; i < 4; ++i)
     if (vStatus[i] > most) { most = vStatus[i]; base = statusColors[i]; line = 0.0; }
   if (vUndefined > most) { base = undefinedColor; line = 0.0; }
-  vec3 n = normalize(vNormal), view = normalize(-vPosition), light = normalize(vec3(-0.35, 0.5, 1.0));
+  vec3 n = normalize(vNormal), view = normalize(-vPosition), lamp = normalize(vec3(-0.35, 0.5, 1.0));
   float side = gl_FrontFacing ? 1.0 : -1.0;
-  float diffuse = 0.5 + 0.5 * side * dot(n, light);
+  float diffuse = 0.5 + 0.5 * side * dot(n, lamp);
   float shade = (0.36 + 0.67 * diffuse * diffuse) * (gl_FrontFacing ? 1.0 : 0.5);
-  float glint = 0.03 * pow(max(dot(side * n, normalize(light + view)), 0.0), 40.0);
+  float glint = 0.03 * pow(max(dot(side * n, normalize(lamp + view)), 0.0), 40.0);
   vec3 linear = pow(mix(base, vec3(0.05), 0.75 * line), vec3(2.2)) * shade + glint;
   color = vec4(pow(linear, vec3(1.0 / 2.2)), 1);
 }`;

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_TRUST_H
+#define EQUIAFFINE_IO_TRUST_H
+
+#include <equiaffine/attributes/quantities.h>
+#include <equiaffine/io/color_map.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+/// \file
+/// How far pictures trust the numbers of a column: the column NAME_error has estimates of the errors of those in NAME.
+
+namespace equiaffine {
+
+/// Returns the column of that name, or null.
+inline const Vertex_attributes::Column* find_column(const Vertex_attributes& attributes, std::string_view name) {
+  for (const auto& column : attributes.columns)
+    if (column.name == name) return &column;
+  return nullptr;
+}
+
+inline const Vertex_attributes::Column* find_errors(const Vertex_attributes& attributes, const std::string& name) {
+  return find_column(attributes, name + "_error");
+}
+
+/// Returns whether at least half of the numbers are known to one digit: the estimated error is at most half of the
+/// number. Numbers without estimates are trusted, unless they are affine ones beside others that are not: they are made
+/// of the same derivatives.
+inline bool is_trusted(const Vertex_attributes::Column& column, const Vertex_attributes& attributes) {
+  if (const auto* errors = find_errors(attributes, column.name)) {
+    std::size_t known = 0, all = 0;
+    for (std::size_t i = 0; i < column.values.size(); ++i) {
+      if (!std::isfinite(column.values[i])) continue;
+      ++all;
+      known += errors->values[i] <= std::abs(column.values[i]) / 2;
+    }
+    return 2 * known >= all;
+  }
+  const auto is_affine = [](const auto& other) {
+    const Quantity* const quantity = find_quantity(other.name);
+    return quantity != nullptr && quantity->group == "Affine";
+  };
+  return !is_affine(column) ||
+         std::all_of(attributes.columns.begin(), attributes.columns.end(), [&](const auto& other) {
+           return !is_affine(other) || !find_errors(attributes, other.name) || is_trusted(other, attributes);
+         });
+}
+
+/// Returns whether a column is shown on request only: a component of a vector or of the metric, or errors.
+inline bool is_component_or_error(const std::string& name, const Vertex_attributes& attributes) {
+  if (name.ends_with("_error") && find_column(attributes, name.substr(0, name.size() - 6))) return true;
+  return name.size() > 1 && (name.ends_with("_x") || name.ends_with("_y") || name.ends_with("_z") || name == "nx" ||
+                             name == "ny" || name == "nz" || name.starts_with("metric_"));
+}
+
+/// Returns what pages and pictures show first: of the columns that are trusted the one of the least rank, or of all if
+/// none is; else `status` or `plain`.
+inline std::string first_shown(const Vertex_attributes& attributes) {
+  const Vertex_attributes::Column* first = nullptr;
+  bool first_is_trusted = false;
+  for (const auto& column : attributes.columns) {
+    if (is_component_or_error(column.name, attributes)) continue;
+    const bool trusted = is_trusted(column, attributes);
+    const bool is_better =
+        first == nullptr || trusted > first_is_trusted ||
+        (trusted == first_is_trusted && rank_of_quantity(column.name) < rank_of_quantity(first->name));
+    if (!is_better) continue;
+    first = &column;
+    first_is_trusted = trusted;
+  }
+  if (first != nullptr) return first->name;
+  return attributes.status ? "status" : "plain";
+}
+
+/// Returns how little the color of a number says, from 0 for an exact one to 1 if the numbers within the error take half
+/// of the color bar or more. An error that is not known is infinite.
+inline double color_doubt(double value, double error, const Color_range& range, Color_scale scale) {
+  if (!std::isfinite(value)) return 0;
+  if (!std::isfinite(error)) return 1;
+  const double span = map_position(value + error, range, scale) - map_position(value - error, range, scale);
+  return std::min(1., range.is_diverging ? span : 2 * span);
+}
+
+} // namespace equiaffine
+
+#endif

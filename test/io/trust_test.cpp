@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/io/trust.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using Columns = std::vector<Vertex_attributes::Column>;
+
+std::string first_of(Columns columns) {
+  Vertex_attributes attributes;
+  attributes.columns = std::move(columns);
+  return first_shown(attributes);
+}
+
+const Vertex_attributes::Column affine = {"affine_gaussian_curvature", {1, -2, 3}},
+                                pick = {"pick_invariant", {1, 1, 1}}, gaussian = {"gaussian_curvature", {4, 5, 6}},
+                                mean = {"mean_curvature", {7, 8, 9}}, normal = {"nx", {1, 0, 0}};
+
+Vertex_attributes::Column errors(std::vector<double> values) {
+  return {"affine_gaussian_curvature_error", std::move(values)};
+}
+
+TEST(Trust, numbers_without_errors_are_shown_by_rank) {
+  EXPECT_EQ(first_of({normal, gaussian, mean, pick, affine}), "affine_gaussian_curvature");
+  EXPECT_EQ(first_of({normal, gaussian, mean, pick}), "pick_invariant");
+}
+
+TEST(Trust, numbers_smaller_than_their_errors_are_not_shown_first_nor_what_is_made_of_the_same_derivatives) {
+  EXPECT_EQ(first_of({normal, gaussian, mean, affine, pick, errors({0.1, 5, 7})}), "mean_curvature");
+  EXPECT_EQ(first_of({normal, gaussian, mean, affine, pick, errors({0.1, 5, 0.1})}), "affine_gaussian_curvature");
+  const double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(first_of({gaussian, affine, errors({infinity, nan, 0.1})}), "gaussian_curvature");
+}
+
+TEST(Trust, something_is_shown_even_if_nothing_is_trusted) {
+  EXPECT_EQ(first_of({normal, affine, errors({9, 9, 9})}), "affine_gaussian_curvature");
+  EXPECT_EQ(first_of({normal}), "plain");
+  Vertex_attributes attributes;
+  attributes.status.emplace(3, Point_status::REGULAR);
+  EXPECT_EQ(first_shown(attributes), "status");
+}
+
+TEST(Trust, a_color_is_in_doubt_by_the_share_of_the_bar_that_the_error_takes) {
+  const Color_range diverging = {-4, 4, 1, true}, sequential = {0, 8, 1, false};
+  for (const Color_range& range : {diverging, sequential}) {
+    EXPECT_EQ(color_doubt(2, 0, range, Color_scale::LINEAR), 0);
+    EXPECT_DOUBLE_EQ(color_doubt(2, 1, range, Color_scale::LINEAR), 0.5);
+    EXPECT_EQ(color_doubt(2, 2, range, Color_scale::LINEAR), 1);
+    EXPECT_EQ(color_doubt(2, std::numeric_limits<double>::infinity(), range, Color_scale::LINEAR), 1);
+    EXPECT_EQ(color_doubt(100, 50, range, Color_scale::LINEAR), 0) << "the whole interval has the end color";
+  }
+}
+
+} // namespace
