@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Any bytes are a mesh in PLY or OFF or refused. What is accepted, CGAL makes a valid mesh of triangles.
+#include "source/read_triangle_mesh.h"
+#include "support/Scratch_file.h"
+#include "support/fuzz_target.h"
+
+#include <CGAL/boost/graph/helpers.h>
+
+EQUIAFFINE_FUZZ_TARGET(triangle_mesh) {
+  using namespace equiaffine;
+  static const test::Scratch_file ply("mesh.ply"), off("mesh.off");
+  const std::string path = (input.starts_with("ply") ? ply : off).write(input);
+  test::accepts([&] {
+    const auto mesh = read_triangle_mesh(path);
+    test::expect(mesh.is_valid() && CGAL::is_triangle_mesh(mesh), "a mesh is valid and has triangles only");
+  });
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The checks of headers of volumes accept or refuse any bytes.
+#include "support/Scratch_file.h"
+#include "support/fuzz_target.h"
+#include "volume/header_checks.h"
+
+EQUIAFFINE_FUZZ_TARGET(volume_headers) {
+  using namespace equiaffine;
+  static const test::Scratch_file file("volume");
+  const std::string path = file.write(input);
+  for (const auto check : {check_inr_header, check_meta_header, check_nifti_header, check_vti_header})
+    test::accepts([&] { check(path); });
+}
