@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/Shared_memory.h"
 
+#include <equiaffine/Input_error.h>
+
+#include <cerrno>
 #include <cstdio>
 #include <new>
+#include <string>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -36,7 +40,12 @@ Shared_memory::~Shared_memory() {
 }
 
 std::byte* Shared_memory::allocate(std::size_t size) {
-  if (::ftruncate(descriptor_, off_t(size)) != 0) throw std::bad_alloc();
+  if (::ftruncate(descriptor_, off_t(size)) != 0) {
+    if (errno == EFBIG)
+      throw Input_error("the limit of the size of files is below " + std::to_string(size) +
+                        " bytes, which have to pass from one process to another; raise it with ulimit -f");
+    throw std::bad_alloc();
+  }
   map(size);
   return data_;
 }

@@ -15,7 +15,8 @@ public:
   Shared_memory(const Shared_memory&) = delete;
   Shared_memory& operator=(const Shared_memory&) = delete;
 
-  /// Makes room for this many bytes, which are zero at first, and returns the first of them.
+  /// Makes room for this many bytes, which are zero at first, and returns the first of them. Throws `Input_error` where
+  /// the limit of the size of files forbids that, since the system takes these bytes for a file.
   std::byte* allocate(std::size_t size);
 
   /// The bytes that this process or a child of it made room for; null if there are none.
