@@ -321,15 +321,14 @@ TEST_F(Program_command_line, orientation_against_the_gradient_changes_signs) {
 }
 
 TEST_F(Program_command_line, the_number_of_threads_changes_no_bit) {
-  for (const std::string threads : {"1", "2"}) {
-    run_well(Arguments{"mesh", "-o", threads + ".ply", "--html", threads + ".html", "--threads", threads} + sphere);
-    run_well(Arguments{"mesh", "--derivatives", "spline", "--resolution", "24", "-o", threads + ".csv", "--threads",
+  for (const std::string threads : {"1", "2"}) { // a page is named after the mesh
+    std::filesystem::create_directory(folder_ / threads);
+    run_well(Arguments{"mesh", "-o", threads + "/s.ply", "--html", threads + "/s.html", "--threads", threads} + sphere);
+    run_well(Arguments{"mesh", "--derivatives", "spline", "--resolution", "24", "-o", threads + "/s.csv", "--threads",
                        threads} +
              sphere);
   }
-  EXPECT_EQ(file("1.ply"), file("2.ply"));
-  EXPECT_EQ(file("1.html"), file("2.html"));
-  EXPECT_EQ(file("1.csv"), file("2.csv"));
+  for (const std::string name : {"s.ply", "s.html", "s.csv"}) EXPECT_EQ(file("1/" + name), file("2/" + name)) << name;
 }
 
 TEST_F(Program_command_line, standard_output_carries_one_file_and_nothing_else) {

@@ -412,15 +412,14 @@ TEST_F(Program_errors, too_little_memory_for_a_picture_has_an_advice_that_view_c
   const auto task = [&] {
     std::ostringstream out, error;
     equiaffine::run(view, {out, error});
-    throw equiaffine::Input_error(error.str());
+    throw equiaffine::Input_error("", error.str());
   };
   try {
     equiaffine::run_in_child(task, {60, 1e8}); // the bytes of the picture alone are 3e8
     FAIL() << "it fits";
   } catch (const equiaffine::Input_error& error) {
-    EXPECT_STREQ(error.what(),
-                 "equiaffine: error: the memory of this computer is not enough; use a smaller --size, or a "
-                 "mesh with fewer triangles\n");
+    EXPECT_EQ(error.excerpt(), "equiaffine: error: the memory of this computer is not enough; use a smaller --size, or "
+                               "a mesh with fewer triangles\n");
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "p.png"));
 }

@@ -25,15 +25,15 @@ struct Bracket_3 {
     const FT length = std::max({abs(direction.x()), abs(direction.y()), abs(direction.z())});
     const FT magnitude = std::max({abs(a.x()), abs(a.y()), abs(a.z()), length});
     tolerance = FT(2) * std::numeric_limits<FT>::epsilon() * magnitude / length;
-    smaller_end = std::min(abs(fa), abs(fb));
-    const FT larger_end = std::max(abs(fa), abs(fb));
+    const FT smaller_end = std::min(abs(fa), abs(fb)), larger_end = std::max(abs(fa), abs(fb));
+    smaller_than_ends = (FT(1) - FT(1e-6)) * smaller_end; // by more than rounding, which changes values beside a jump
     negligible = FT(1e-6) * (larger_end - larger_end == FT(0) ? larger_end : smaller_end);
   }
 
   /// A pole or a jump has no such value.
   bool is_plausible(const FT& value) const {
     using std::abs;
-    return abs(value) < smaller_end || abs(value) <= negligible;
+    return abs(value) < smaller_than_ends || abs(value) <= negligible;
   }
 
   Surface_point_3<Kernel> point(const FT& t, bool has_converged, int evaluations) const {
@@ -46,7 +46,7 @@ struct Bracket_3 {
   typename Kernel::Vector_3 direction;
   FT fa, fb;
   FT tolerance; // of fractions of the segment
-  FT smaller_end, negligible;
+  FT smaller_than_ends, negligible;
 };
 
 /// Whether f has a pole where a search that has not converged has narrowed a change of sign: towards that point |f|
