@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/Expression_3.h>
 #include <equiaffine/Local_structure_3.h>
 #include <equiaffine/io/write_curves.h>
 #include <equiaffine/marching_cubes.h>
@@ -41,6 +42,30 @@ TEST(Parabolic_curves, those_of_a_torus_are_its_two_highest_circles) {
       length += std::sqrt(CGAL::squared_distance(p, line.points[(i + 1) % line.points.size()]));
     }
     EXPECT_NEAR(length, CGAL_PI, 0.01) << "neighbors in the list are neighbors on the circle";
+  }
+}
+
+TEST(Parabolic_curves, points_are_exact_where_a_curve_crosses_a_line_of_double_zeros) {
+  // K is a positive multiple of (12 x^2 - 0.6) y^2: it changes its sign where x is +- sqrt(0.05), and not where y is 0.
+  const auto traits =
+      make_analytic_traits<Kernel>(Expression_3("z-x^4-y^4+.3*x^2-.2"), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  for (const std::size_t nodes : {29, 30, 41}) { // an odd grid has vertices on the line y = 0
+    const auto curves = parabolic_curves(marching_cubes(traits, parameters::number_of_nodes(nodes)), traits);
+    EXPECT_EQ(curves.unconverged_points, 0u) << nodes;
+    EXPECT_EQ(curves.polylines.size(), 2u) << nodes;
+    for (const auto& line : curves.polylines)
+      for (const Point_3& p : line.points) {
+        if (std::abs(p.y()) < 1e-15) continue;
+        EXPECT_NEAR(std::abs(p.x()), std::sqrt(0.05), 1e-9) << p;
+      }
+  }
+}
+
+TEST(Parabolic_curves, where_the_curvature_is_zero_but_for_rounding_there_are_none) {
+  for (const char* text : {"z^2-x^2-y^2", "(x+.3*z)^2+(y-.2*x)^2-.5", "z-sin(x+2*y)"}) {
+    const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+    const auto surface = marching_cubes(traits, parameters::number_of_nodes(30));
+    EXPECT_TRUE(parabolic_curves(surface, traits).polylines.empty()) << text;
   }
 }
 

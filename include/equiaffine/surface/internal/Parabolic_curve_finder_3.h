@@ -7,10 +7,13 @@
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 #include <equiaffine/surface/Parabolic_curves_3.h>
 #include <equiaffine/surface/curve_step.h>
+#include <equiaffine/surface/eigen_derivatives.h>
 #include <equiaffine/surface/internal/parabolic_crossings.h>
 #include <equiaffine/surface/parabolic_function.h>
+#include <equiaffine/surface/project_to_surface.h>
 #include <equiaffine/surface/sign_change.h>
 
+#include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
 
@@ -63,9 +66,10 @@ public:
 
   Parabolic_curves_3<Kernel> find() {
     values_.resize(mesh_.points.size());
+    is_negligible_.resize(mesh_.points.size());
     parallel_for<ConcurrencyTag>(
-        0, values_.size(),
-        [&](std::size_t v) { values_[v] = parabolic_function(traits_.taylor(mesh_.points[v])).value(); }, 256);
+        0, values_.size(), [&](std::size_t v) { evaluate(v); }, 256);
+    look_beside_negligible_values();
     connect_edges(find_segments());
     points_.resize(edges_.size());
     std::vector<std::uint8_t> has_converged(edges_.size());
@@ -82,13 +86,42 @@ public:
 private:
   using Segment = std::array<Edge, 2>;
 
-  /// A segment of a curve lies in every triangle with different signs at its vertices, between two of its edges.
+  /// Computes the value at vertex v, which is negligible if rounding may have made it out of its terms, products of two
+  /// first and two second derivatives. On a cone or a cylinder all values are.
+  void evaluate(std::size_t v) {
+    constexpr double negligible = 1e-12;
+    const auto jet = traits_.taylor(mesh_.points[v]);
+    values_[v] = parabolic_function(jet).value();
+    const double slope = eigen_gradient(jet).norm(), bend = eigen_hessian(jet).norm(), scale = slope * bend;
+    is_negligible_[v] = std::abs(CGAL::to_double(values_[v])) <= negligible * scale * scale;
+  }
+
+  /// Replaces every negligible value by one beside the vertex, a little way into a triangle. Where the curvature has a
+  /// double zero at the vertex, it has one sign around it, and no curve passes.
+  void look_beside_negligible_values() {
+    constexpr double fraction = 1e-3; // of the way to the center of the triangle
+    std::vector<bool> is_replaced(values_.size(), false);
+    for (const auto& t : mesh_.triangles)
+      for (const Index v : t) {
+        if (!is_negligible_[v] || is_replaced[v]) continue;
+        const Point_3& p = mesh_.points[v];
+        const Vector_3 step =
+            FT(fraction) * (CGAL::centroid(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]) - p);
+        const FT length(std::sqrt(CGAL::to_double(step.squared_length())));
+        const auto beside = project_to_surface(traits_, p + step, length);
+        if (beside.has_converged) values_[v] = parabolic_function(traits_.taylor(beside.point)).value();
+        is_replaced[v] = true;
+      }
+  }
+
+  /// A segment of a curve lies in every triangle with different signs at its vertices, not all of which are negligible,
+  /// between two of its edges.
   std::vector<Segment> find_segments() const {
     std::vector<Segment> segments;
     for (const auto& t : mesh_.triangles) {
       Segment ends;
       std::size_t n = 0;
-      bool is_defined = true;
+      bool is_defined = !(is_negligible_[t[0]] && is_negligible_[t[1]] && is_negligible_[t[2]]);
       for (std::size_t m = 0; m < 3; ++m) {
         const Index a = t[m], b = t[(m + 1) % 3];
         is_defined = is_defined && values_[a] - values_[a] == FT(0);
@@ -118,15 +151,35 @@ private:
     }
   }
 
-  /// Moves the point of an edge from its linear position onto the curve, by at most the length of the edge. Returns
+  /// Moves the point of an edge from its linear position onto the curve, by about the length of the edge at most. Returns
   /// false if it stays there.
   bool place_point(std::size_t e) {
     const auto [a, b] = edges_[e];
     const Vector_3 edge = mesh_.points[b] - mesh_.points[a];
     points_[e] = mesh_.points[a] + linear_zero(values_[a], values_[b]) * edge;
-    const auto p = project_to_parabolic_curve(traits_, points_[e], edge.squared_length());
+    auto p = project_to_parabolic_curve(traits_, points_[e], edge.squared_length());
+    if (!p) p = bisect(a, edge);
     if (p) points_[e] = *p;
     return p.has_value();
+  }
+
+  /// Returns the point of the surface at which the function changes its sign on the way from vertex v along an edge, or
+  /// nothing if the surface is not found beside the edge. Newton's method fails where the gradient of the function
+  /// vanishes on the curve, as where the curvature has a double zero across it.
+  std::optional<Point_3> bisect(Index v, const Vector_3& edge) const {
+    constexpr int halvings = std::numeric_limits<FT>::digits;
+    const FT length(std::sqrt(CGAL::to_double(edge.squared_length())));
+    FT lower(0), upper(1);
+    std::optional<Point_3> middle;
+    for (int n = 0; n < halvings; ++n) {
+      const FT t = (lower + upper) / FT(2);
+      const auto found = project_to_surface(traits_, mesh_.points[v] + t * edge, length);
+      if (!found.has_converged) return std::nullopt;
+      middle = found.point;
+      const FT value = parabolic_function(traits_.taylor(*middle)).value();
+      ((value < FT(0)) == (values_[v] < FT(0)) ? lower : upper) = t;
+    }
+    return middle;
   }
 
   /// Appends the points where curves cross to the others. Returns the squared radius of the neighborhood of each, in
@@ -209,6 +262,7 @@ private:
   const Indexed_triangle_mesh_3<Kernel>& mesh_;
   const Traits& traits_;
   std::vector<FT> values_;                      // of the parabolic function at the vertices of the mesh
+  std::vector<std::uint8_t> is_negligible_;     // whether these values may be mere rounding
   std::vector<Edge> edges_;                     // edges of the mesh that curves cross, ascending
   std::vector<std::array<Index, 2>> neighbors_; // for each edge the indices of points along the curve
   std::vector<bool> is_at_crossing_;            // whether a crossing stands for the point of the edge
