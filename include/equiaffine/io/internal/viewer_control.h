@@ -229,6 +229,20 @@ function fillSelects() {
   chooseCut(...choice.cut);
 }
 
+// Paper is white, whatever the screen is.
+function printLight() {
+  const root = document.documentElement;
+  let onScreen;
+  const setTheme = theme => {
+    if (theme) root.dataset.theme = theme;
+    else delete root.dataset.theme;
+    drawScale();
+    drawNow();
+  };
+  window.addEventListener('beforeprint', () => { onScreen = root.dataset.theme; setTheme('light'); });
+  window.addEventListener('afterprint', () => setTheme(onScreen));
+}
+
 function start() {
   const say = text => { byId('message').hidden = false; byId('message').textContent = text; };
   try {
@@ -250,6 +264,7 @@ function start() {
   new ResizeObserver(resize).observe(canvas);
   new ResizeObserver(drawScale).observe(byId('histogram'));
   window.addEventListener('hashchange', followAddress);
+  printLight();
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { drawScale(); redraw(); });
 }
 start();

@@ -137,6 +137,13 @@ sup { line-height: 0; }
 dl { display: grid; grid-template-columns: auto minmax(0, 1fr); gap: 2px 12px; margin: 0; }
 dt { color: var(--quiet); }
 dd { margin: 0; overflow-wrap: anywhere; }
+@media print {
+  html, body, #panel { height: auto; overflow: visible; }
+  #tools, #hint, #help, .buttons, .row, .checks, #panel select, #panel input, h2:has(~ .buttons) { display: none; }
+  body, body.no-panel { display: block; }
+  #stage { height: 130mm; }
+  #panel { border: 0; }
+}
 @media (max-width: 720px) {
   body { grid-template-columns: 1fr; grid-template-rows: minmax(0, 1fr) 42%; }
   body.no-panel { grid-template-columns: 1fr; grid-template-rows: 1fr; }
