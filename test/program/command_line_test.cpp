@@ -354,6 +354,20 @@ TEST_F(Program_command_line, a_page_is_made_with_the_mesh_or_from_it_later) {
   EXPECT_NE(page.find("<title>s</title>"), std::string::npos);
 }
 
+TEST_F(Program_command_line, a_page_of_samples_has_the_errors_that_the_mesh_gets_on_request_only) {
+  const Arguments mesh = Arguments{"mesh", "-o", "s.ply", "--html", "s.html", "--resolution", "16"} + sphere;
+  const std::string errors = "affine_gaussian_curvature_error";
+  const auto has_errors = [&](const char* name) { return file(name).find(errors) != std::string::npos; };
+  run_well(mesh + Arguments{"--derivatives", "spline"});
+  EXPECT_TRUE(has_errors("s.html"));
+  EXPECT_FALSE(has_errors("s.ply"));
+  run_well(mesh + Arguments{"--derivatives", "spline", "--attributes", "affine_gaussian_curvature," + errors});
+  EXPECT_TRUE(has_errors("s.html"));
+  EXPECT_TRUE(has_errors("s.ply"));
+  run_well(mesh);
+  EXPECT_FALSE(has_errors("s.html"));
+}
+
 TEST_F(Program_command_line, two_pages_can_share_a_range) {
   run_well(Arguments{"mesh", "-o", "s.ply", "--html", "s.html", "--resolution", "8", "--range", "-3", "0.5"} + sphere);
   run_well({"view", "s.ply", "-o", "later.html", "--range", "-3", "0.5"});
