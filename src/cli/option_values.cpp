@@ -76,7 +76,7 @@ std::size_t parse_count(const std::string& option, const std::string& word, std:
   const std::optional<std::size_t> number = parse_number<std::size_t>(word);
   if (!number || *number < minimum)
     fail_option(option, "'" + word + "' is not a whole number from " + std::to_string(minimum) + " on",
-                "give one, such as " + std::to_string(minimum < 2 ? 2 : 64));
+                "give one, such as " + std::to_string(minimum < 2 ? 2 : std::max<std::size_t>(minimum, 64)));
   return *number;
 }
 

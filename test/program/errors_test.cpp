@@ -432,7 +432,7 @@ TEST_F(Program_errors, a_picture_has_a_size_a_range_and_vectors_that_exist) {
   expect_error(picture + Arguments{"--arrows", "normal"}, {"--arrows", "picture", "--png"});
 #ifdef EQUIAFFINE_WITH_VTK
   const Arguments png = picture + Arguments{"--png", "p.png"};
-  expect_error(png + Arguments{"--size", "200", "99"}, {"--size", "'99'", "100"});
+  expect_error(png + Arguments{"--size", "200", "99"}, {"--size", "'99'", "such as 100"});
   expect_error(png + Arguments{"--size", "20000", "200"}, {"--size", "'20000'", "10000"});
   expect_error(png + Arguments{"--range", "2", "2"}, {"--range", "'2'", "smaller number first"});
   expect_error(png + Arguments{"--arrows", "metric"}, {"--arrows", "'metric'", "affine_normal"});
