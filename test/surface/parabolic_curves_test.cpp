@@ -103,7 +103,7 @@ TEST(Parabolic_curves, curves_that_cross_end_where_they_do) {
   EXPECT_EQ(curves.unconverged_points, 0u);
 }
 
-TEST(Parabolic_curves, curves_end_where_the_surface_leaves_the_box) {
+TEST(Parabolic_curves, curves_end_where_the_surface_leaves_the_box_and_threads_change_nothing) {
   const auto wave = [](const auto& x, const auto& y, const auto& z) {
     using std::sin;
     return z - 0.3 * sin(3.0 * x) * (1.0 + 0.1 * y * y) - 0.3 * y * y;
