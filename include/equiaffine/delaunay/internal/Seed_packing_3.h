@@ -69,8 +69,9 @@ public:
 
   /// Points are random since a regular arrangement would make the triangulation degenerate.
   Point_3 random_point(const CGAL::Bbox_3& b) {
-    return Point_3(FT(b.xmin() + random() * b.x_span()), FT(b.ymin() + random() * b.y_span()),
-                   FT(b.zmin() + random() * b.z_span()));
+    // Compilers differ in the order in which they evaluate arguments, and all are to make the same mesh.
+    const double z = random(), y = random(), x = random();
+    return Point_3(FT(b.xmin() + x * b.x_span()), FT(b.ymin() + y * b.y_span()), FT(b.zmin() + z * b.z_span()));
   }
 
   /// A number in [0, 1); the sequence is the same on every machine (Vigna: splitmix64, 2015).
