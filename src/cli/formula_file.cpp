@@ -24,8 +24,10 @@ std::string read_formula(const std::string& path) {
   text.resize(std::size_t(file.read(text.data(), std::streamsize(text.size())).gcount()));
   if (text.size() > most)
     throw Input_error("cannot read '" + path + "': it has more than a million bytes; give a file with one formula");
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3); // the byte order mark of editors
+  std::erase(text, '\r');
   std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
   text.erase(std::find_if(text.rbegin(), text.rend(), [](char c) { return c != ' '; }).base(), text.end());
   if (text.empty()) throw Input_error("cannot read '" + path + "': it holds no formula; write one into it");
   return text;

@@ -18,7 +18,7 @@ namespace equiaffine {
 namespace {
 
 /// Makes names of the same file equal, whatever links and dots lead there.
-std::filesystem::path canonical_output(const std::string& path) {
+std::filesystem::path canonical_path(const std::string& path) {
   if (path == "-") return path;
   std::error_code error;
   const std::filesystem::path absolute = std::filesystem::absolute(path, error),
@@ -39,7 +39,7 @@ std::vector<std::string> input_files(const Option_reader& reader) {
 /// Whether two paths lead to the same file, by symbolic or hard links, too.
 bool are_same_file(const std::string& path, const std::string& other) {
   std::error_code error;
-  return canonical_output(path) == canonical_output(other) || std::filesystem::equivalent(path, other, error);
+  return canonical_path(path) == canonical_path(other) || std::filesystem::equivalent(path, other, error);
 }
 
 /// Throws if an output would replace what is read, or another output.
@@ -47,7 +47,7 @@ void check_outputs(const Option_reader& reader, const std::vector<std::optional<
   std::set<std::filesystem::path> outputs;
   for (const auto& path : paths) {
     if (!path) continue;
-    if (!outputs.insert(canonical_output(*path)).second)
+    if (!outputs.insert(canonical_path(*path)).second)
       throw Input_error("two outputs go to " + (path == "-" ? "standard output" : "'" + *path + "'") +
                         "; give each its own name");
     for (const std::string& input : input_files(reader))

@@ -71,7 +71,8 @@ void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& 
     for (std::size_t i = 0; i < counts.size(); ++i)
       if (counts[i] > 0) out << ", " << counts[i] << ' ' << to_string(Point_status(i));
   }
-  out << "\nwrote " << options.output << '\n';
+  out << '\n';
+  report_written(out, {&output, 1});
 }
 
 } // namespace equiaffine

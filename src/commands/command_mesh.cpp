@@ -289,7 +289,7 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   if (!outputs.use_standard_output()) {
     out << summary(statistics);
     if (options.curves) out << summary(*surface.curves);
-    for (const Output_file& output : outputs.files) out << "wrote " << output.path() << '\n';
+    report_written(out, outputs.files);
   }
 }
 

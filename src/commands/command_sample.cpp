@@ -22,7 +22,8 @@ void run_sample(const Sample_options& options, std::ostream& out, Progress& prog
   const auto unknown =
       std::count_if(volume.values.begin(), volume.values.end(), [](double v) { return std::isnan(v); });
   if (unknown > 0) out << ", " << unknown << " without a value";
-  out << "\nwrote " << options.output << '\n';
+  out << '\n';
+  report_written(out, {&output, 1});
 }
 
 } // namespace equiaffine

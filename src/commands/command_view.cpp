@@ -60,7 +60,7 @@ void run_view(const View_options& options, std::ostream& out) {
   for (Output_file& output : outputs) output.close();
   commit_all(outputs);
   if (options.html == "-" || options.png == "-") return;
-  for (const Output_file& output : outputs) out << "wrote " << output.path() << '\n';
+  report_written(out, outputs);
 }
 
 } // namespace equiaffine

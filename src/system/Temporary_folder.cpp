@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view prefix = ".equiaffine-", pattern = "XXXXXX";
+constexpr std::string_view prefix = ".equiaffine-temporary-", pattern = "XXXXXX";
 
 /// The temporary folders that exist. It is never destroyed, because a signal may come at any time.
 struct Existing_folders {
@@ -40,6 +41,12 @@ int lock(const fs::path& folder) {
   return -1;
 }
 
+/// Whether the open folder has the owner and the permissions of those that we make.
+bool is_ours(int descriptor) {
+  struct stat facts;
+  return ::fstat(descriptor, &facts) == 0 && facts.st_uid == ::geteuid() && (facts.st_mode & 07777) == S_IRWXU;
+}
+
 void remove_if_nobody_uses(const fs::path& folder) {
   constexpr auto time_until_locked = std::chrono::minutes(1); // after its creation a folder is not locked yet
   std::error_code error;
@@ -47,7 +54,7 @@ void remove_if_nobody_uses(const fs::path& folder) {
   if (error || fs::file_time_type::clock::now() - time < time_until_locked) return;
   const int descriptor = lock(folder);
   if (descriptor == -1) return;
-  fs::remove_all(folder, error);
+  if (is_ours(descriptor)) fs::remove_all(folder, error);
   ::close(descriptor);
 }
 

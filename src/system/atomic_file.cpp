@@ -2,6 +2,7 @@
 #include "system/atomic_file.h"
 
 #include <equiaffine/Input_error.h>
+#include <equiaffine/base/printable.h>
 
 #include <cerrno>
 #include <iostream>
@@ -103,6 +104,10 @@ void commit_all(std::span<Output_file> files) {
   for (const bool copied : {true, false})
     for (Output_file& file : files)
       if (file.has_to_be_copied() == copied) file.commit();
+}
+
+void report_written(std::ostream& out, std::span<const Output_file> files) {
+  for (const Output_file& file : files) out << "wrote " << printable(file.path()) << '\n';
 }
 
 } // namespace equiaffine

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <ostream>
 #include <span>
 #include <string>
 
@@ -54,6 +55,9 @@ private:
 /// Commits several outputs after all of them were closed without error. Those that are renamed, which hardly fails,
 /// come last: a device that refuses its copy leaves every file as it was.
 void commit_all(std::span<Output_file> files);
+
+/// Tells people which files were written, a line each.
+void report_written(std::ostream& out, std::span<const Output_file> files);
 
 } // namespace equiaffine
 

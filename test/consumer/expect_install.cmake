@@ -13,7 +13,7 @@ endfunction()
 configure()
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} RESULT_VARIABLE result OUTPUT_QUIET
                 ERROR_VARIABLE error)
-if(result EQUAL 0 OR EXISTS ${prefix} OR NOT error MATCHES "is not built: run[ \n]+cmake --build first")
+if(result EQUAL 0 OR EXISTS ${prefix} OR NOT error MATCHES "EQUIAFFINE_BUILD_MESHER=OFF")
   message(FATAL_ERROR "an unbuilt mesher: status ${result}, ${error}")
 endif()
 

@@ -125,6 +125,7 @@ TEST(Read_points, mistakes_in_csv_are_told_with_line_and_column) {
   EXPECT_NE(error_of(csv, "x,y,z,n\n1,2,3,\"a\n4,5,6,b\n").find("line 2 opens a quote"), std::string::npos);
   EXPECT_NE(error_of(csv, "1,2,3\n").find("no single column 'x'"), std::string::npos);
   EXPECT_NE(error_of(csv, "x y z\n1 2 3\n").find("separated by commas, semicolons or tabs"), std::string::npos);
+  EXPECT_NE(error_of(csv, "x;y;z\n1;2;0,5\n").find("'0,5' is not a number; write decimal points"), std::string::npos);
   EXPECT_NE(error_of(csv, "x;y;z\n1;2;3;4\n").find("put quotes around ';'"), std::string::npos);
   EXPECT_NE(error_of(csv, "x,y,z,x\n1,2,3,4\n").find("no single column 'x'"), std::string::npos);
   EXPECT_NE(error_of(csv, "").find("no single column 'x'"), std::string::npos);

@@ -683,7 +683,7 @@ TEST_F(Program_command_line, a_volume_of_two_nodes_per_axis_is_extracted_without
 }
 
 TEST_F(Program_command_line, constants_are_arithmetic_and_formulas_may_come_from_a_file) {
-  write_file(folder_ / "formula", "x^2 + y^2\n  + z^2 = r^2\n");
+  write_file(folder_ / "formula", "\xef\xbb\xbfx^2 + y^2\r\n  + z^2 = r^2\r\n");
   const auto mesh = [&](const std::string& function, const std::string& radius) {
     return run_well({"mesh", "--function", function, "--set", "r=" + radius, "--box", "-2", "2", "-2", "2", "-2", "2",
                      "--resolution", "9", "-o", "-"});
@@ -691,6 +691,12 @@ TEST_F(Program_command_line, constants_are_arithmetic_and_formulas_may_come_from
   const std::string sphere = mesh("x^2 + y^2 + z^2 = r^2", "1.5");
   EXPECT_EQ(sphere, mesh("@formula", "1.5"));
   EXPECT_EQ(sphere, mesh("@formula", "3*cos(0*pi)/2"));
+}
+
+TEST_F(Program_command_line, names_of_files_that_could_upset_a_terminal_are_shown_as_codes) {
+  const std::string sampled = run_well(
+      {"sample", "--function", "x", "--box", "0", "1", "0", "1", "0", "1", "--resolution", "2", "-o", "a\x1b[31m.vti"});
+  EXPECT_EQ(sampled, "2 x 2 x 2 nodes\nwrote a\\x1b[31m.vti\n");
 }
 
 TEST_F(Program_command_line, files_are_named_without_the_folders_above_them) {

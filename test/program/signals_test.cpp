@@ -70,18 +70,21 @@ TEST_F(Program_signals_DeathTest, that_were_ignored_stay_ignored) {
 }
 
 TEST_F(Program_signals, a_folder_that_a_killed_process_left_is_removed_by_the_next_one) {
-  const fs::path abandoned = folder_ / ".equiaffine-abcdef", recent = folder_ / ".equiaffine-ghijkl",
-                 other = folder_ / ".equiaffine-of-a-user";
+  const fs::path abandoned = folder_ / ".equiaffine-temporary-abcdef",
+                 recent = folder_ / ".equiaffine-temporary-ghijkl", backup = folder_ / ".equiaffine-backup",
+                 open_to_all = folder_ / ".equiaffine-temporary-mnopqr";
   const Temporary_folder used(folder_);
-  for (const fs::path& path : {abandoned, recent, other, used.path()}) {
+  for (const fs::path& path : {abandoned, recent, backup, open_to_all, used.path()}) {
     fs::create_directory(path);
+    fs::permissions(path, path == open_to_all ? fs::perms(0755) : fs::perms::owner_all);
     std::ofstream(path / "file") << "text";
   }
   const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(1);
-  for (const fs::path& path : {abandoned, other, used.path()}) fs::last_write_time(path, long_ago);
+  for (const fs::path& path : {abandoned, backup, open_to_all, used.path()}) fs::last_write_time(path, long_ago);
   const Temporary_folder next(folder_);
   EXPECT_FALSE(fs::exists(abandoned));
-  for (const fs::path& path : {recent, other, used.path(), next.path()}) EXPECT_TRUE(fs::exists(path)) << path;
+  for (const fs::path& path : {recent, backup, open_to_all, used.path(), next.path()})
+    EXPECT_TRUE(fs::exists(path)) << path;
 }
 
 } // namespace

@@ -23,7 +23,8 @@ inline void expect(bool holds, const std::string& what_holds) {
   if (!holds) throw std::logic_error("it does not hold that " + what_holds);
 }
 
-/// Runs `read` and returns whether it accepts its input. What it refuses, it has to refuse with one line.
+/// Runs `read` and returns whether it accepts its input. What it refuses, it has to refuse with what is wrong and, after
+/// a colon or semicolon, what to do.
 template <class Read>
 bool accepts(const Read& read) {
   try {
@@ -31,7 +32,7 @@ bool accepts(const Read& read) {
     return true;
   } catch (const Input_error& error) {
     const std::string_view text = error.what();
-    expect(!text.empty() && text.find('\n') == std::string_view::npos, "a message is one line: " + std::string(text));
+    expect(text.find_first_of(":;") != std::string_view::npos, "a message has an advice: " + std::string(text));
     return false;
   }
 }

@@ -58,7 +58,7 @@ inline std::array<double, 3> parse_point(const Csv_scanner& scanner, const std::
     if (!value)
       scanner.fail("line " + std::to_string(scanner.line_number()) + ", column '" + "xyz"[axis] + "': '" + cell +
                        "' is not a number",
-                   "correct the cell");
+                   cell.find(',') == std::string::npos ? "correct the cell" : "write decimal points, as in 0.5");
     p[axis] = *value;
   }
   return p;
