@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <set>
 #include <utility>
@@ -34,12 +33,22 @@ Line_drawing curve_strokes(const Camera& camera, std::span<const Polyline_3<Kern
   return strokes;
 }
 
+bool changes_sign(const std::vector<double>& numbers, const std::array<std::uint32_t, 3>& triangle) {
+  std::size_t negative = 0;
+  for (const std::uint32_t vertex : triangle) {
+    if (std::isnan(numbers[vertex])) return false;
+    negative += numbers[vertex] < 0;
+  }
+  return negative == 1 || negative == 2;
+}
+
 Line_drawing zero_strokes(const Camera& camera, const Indexed_triangle_mesh_3<Kernel>& mesh,
                           const std::vector<double>& numbers) {
   constexpr double half_width = 0.8;
   Line_drawing strokes;
   if (numbers.empty()) return strokes;
   for (const auto& triangle : mesh.triangles) {
+    if (!changes_sign(numbers, triangle)) continue;
     std::vector<Kernel::Point_3> ends;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t i = triangle[k], j = triangle[(k + 1) % 3];
@@ -48,7 +57,7 @@ Line_drawing zero_strokes(const Camera& camera, const Indexed_triangle_mesh_3<Ke
       const double part = numbers[low] / (numbers[low] - numbers[high]);
       ends.push_back(mesh.points[low] + part * (mesh.points[high] - mesh.points[low]));
     }
-    if (!ends.empty()) strokes.add(camera(ends[0]), camera(ends[1]), half_width, half_width);
+    strokes.add(camera(ends[0]), camera(ends[1]), half_width, half_width);
   }
   return strokes;
 }

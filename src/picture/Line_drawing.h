@@ -9,6 +9,7 @@
 #include <equiaffine/surface/Polyline_3.h>
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -38,7 +39,11 @@ private:
 
 Line_drawing curve_strokes(const Camera& camera, std::span<const Polyline_3<Kernel>> curves);
 
-/// The lines on which the linear interpolation of a number per vertex changes its sign; none without numbers.
+/// Returns whether the linear interpolation of a number per vertex changes its sign in a triangle. Where the number of
+/// a corner is not known, it returns false.
+bool changes_sign(const std::vector<double>& numbers, const std::array<std::uint32_t, 3>& triangle);
+
+/// The lines on which that interpolation changes its sign; none without numbers.
 Line_drawing zero_strokes(const Camera& camera, const Indexed_triangle_mesh_3<Kernel>& mesh,
                           const std::vector<double>& numbers);
 

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture/Surface_paint.h"
 
+#include "picture/Camera.h"
+#include "picture/Line_drawing.h"
 #include <equiaffine/attributes/quantities.h>
 #include <equiaffine/io/trust.h>
+
+#include <CGAL/Bbox_3.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace equiaffine {
@@ -29,22 +34,28 @@ Light light_of(const CGAL::IO::Color& color) {
   return {light(color.red()), light(color.green()), light(color.blue())};
 }
 
-Surface_paint::Surface_paint(const Vertex_attributes& attributes, const std::string& name,
-                             const std::optional<std::array<double, 2>>& range, double diagonal) {
+Surface_paint::Surface_paint(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
+                             const std::string& name, const std::optional<std::array<double, 2>>& range) {
   if (attributes.status && name != "plain")
     for (const Point_status status : *attributes.status) codes_.push_back(static_cast<std::uint8_t>(status));
   const auto* column = find_column(attributes, name.empty() ? first_shown(attributes) : name);
   if (column == nullptr) return;
-  use(*column, range, diagonal);
+  const CGAL::Bbox_3 box = box_of(mesh.points);
+  use(*column, range, std::hypot(box.x_span(), box.y_span(), box.z_span()));
   if (const auto* errors = find_errors(attributes, column->name)) find_doubts(*column, *errors);
   if (is_infinite_at_parabolic_points(column->name)) find_sides(attributes);
+  if (has_line(mesh)) legend_->notes.push_back({status_color(Point_status::PARABOLIC), "parabolic curve: infinite"});
 }
 
 Light Surface_paint::operator()(const std::array<std::uint32_t, 3>& triangle,
                                 const std::array<double, 3>& weights) const {
-  double curvature = 0;
-  if (!sides_.empty())
-    for (std::size_t k = 0; k < 3; ++k) curvature += weights[k] * sides_[triangle[k]];
+  double curvature = 0; // of the corners where it is known
+  bool can_have_line = !sides_.empty();
+  for (std::size_t k = 0; k < 3 && !sides_.empty(); ++k) {
+    const double side = sides_[triangle[k]];
+    if (std::isnan(side)) can_have_line = false;
+    else curvature += weights[k] * side;
+  }
   Weighted_level all, same_side;
   std::array<double, number_of_point_statuses + 1> irregular{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -56,7 +67,7 @@ Light Surface_paint::operator()(const std::array<std::uint32_t, 3>& triangle,
       if (is_convex(vertex) == (curvature >= 0)) same_side.add(level, doubt, weights[k]);
     } else irregular[code] += weights[k];
   }
-  if (!sides_.empty() && all.weight > 0) irregular[std::size_t(Point_status::PARABOLIC)] = 0; // a line shows them
+  if (can_have_line && all.weight > 0) irregular[std::size_t(Point_status::PARABOLIC)] = 0; // a line shows them
   const auto most = std::max_element(irregular.begin(), irregular.end());
   if (*most > all.weight) {
     const auto code = std::size_t(most - irregular.begin());
@@ -88,12 +99,15 @@ void Surface_paint::find_sides(const Vertex_attributes& attributes) {
   const auto* column = find_column(attributes, "gaussian_curvature");
   if (column == nullptr) return;
   for (std::size_t i = 0; i < column->values.size(); ++i) {
-    const bool is_known = std::isfinite(column->values[i]) && codes_[i] != std::uint8_t(Point_status::PARABOLIC);
-    sides_.push_back(is_known ? column->values[i] : 0);
+    if (codes_[i] == std::uint8_t(Point_status::PARABOLIC)) sides_.push_back(0);
+    else
+      sides_.push_back(std::isfinite(column->values[i]) ? column->values[i] : std::numeric_limits<double>::quiet_NaN());
   }
-  const auto [least, greatest] = std::minmax_element(sides_.begin(), sides_.end());
-  if (*least < 0 && *greatest >= 0)
-    legend_->notes.push_back({status_color(Point_status::PARABOLIC), "parabolic curve: infinite"});
+}
+
+bool Surface_paint::has_line(const Indexed_triangle_mesh_3<Kernel>& mesh) const {
+  return !sides_.empty() && std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
+                                        [&](const auto& triangle) { return changes_sign(sides_, triangle); });
 }
 
 void Surface_paint::use(const Vertex_attributes::Column& column, const std::optional<std::array<double, 2>>& given,

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_SRC_PICTURE_SURFACE_PAINT_H
 
 #include "picture/Canvas.h"
+#include "system/kernel.h"
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/io/color_map.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
@@ -33,9 +34,9 @@ Light light_of(const CGAL::IO::Color& color);
 class Surface_paint {
 public:
   /// `name` is a column, `status`, `plain`, or empty for what the page shows first; `range` has the numbers of the end
-  /// colors, in place of quantiles; `diagonal` is that of the box of the surface.
-  Surface_paint(const Vertex_attributes& attributes, const std::string& name,
-                const std::optional<std::array<double, 2>>& range, double diagonal);
+  /// colors, in place of quantiles.
+  Surface_paint(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
+                const std::string& name, const std::optional<std::array<double, 2>>& range);
 
   /// Is set if the colors show a number.
   const std::optional<Color_legend>& legend() const { return legend_; }
@@ -46,8 +47,8 @@ public:
   /// estimated error is larger.
   Light operator()(const std::array<std::uint32_t, 3>& triangle, const std::array<double, 3>& weights) const;
 
-  /// The Gaussian curvature per vertex, zero where it is not known or the vertex is parabolic, if the number is infinite
-  /// where that changes its sign; else empty.
+  /// The Gaussian curvature per vertex, zero where the vertex is parabolic and NaN where it is not known, if the number
+  /// is infinite where that changes its sign; else empty.
   const std::vector<double>& sides() const { return sides_; }
 
 private:
@@ -66,7 +67,8 @@ private:
   void use(const Vertex_attributes::Column& column, const std::optional<std::array<double, 2>>& range, double diagonal);
   void find_doubts(const Vertex_attributes::Column& column, const Vertex_attributes::Column& errors);
   void find_sides(const Vertex_attributes& attributes);
-  bool is_convex(std::uint32_t vertex) const { return sides_.empty() || sides_[vertex] >= 0; }
+  bool has_line(const Indexed_triangle_mesh_3<Kernel>& mesh) const;
+  bool is_convex(std::uint32_t vertex) const { return sides_.empty() || !(sides_[vertex] < 0); }
   Light color_of(double level, double doubt) const;
 
   std::vector<std::uint8_t> codes_; // per vertex 0 if its number is shown, else its status or no_number; empty: all 0

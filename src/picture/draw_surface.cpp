@@ -5,8 +5,6 @@
 #include "picture/Line_drawing.h"
 #include <equiaffine/io/trust.h>
 
-#include <CGAL/Bbox_3.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -95,8 +93,7 @@ std::optional<std::array<const std::vector<double>*, 3>> vector_columns(const Ve
 Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
                              const Surface_view& view, std::span<const Polyline_3<Kernel>> curves) {
   const auto [width, height] = view.size;
-  const CGAL::Bbox_3 box = box_of(mesh.points);
-  const Surface_paint paint(attributes, view.color, view.range, std::hypot(box.x_span(), box.y_span(), box.z_span()));
+  const Surface_paint paint(mesh, attributes, view.color, view.range);
   const auto& legend = paint.legend();
   const std::size_t reserved = legend ? legend_height + note_height * legend->notes.size() : 0;
   const Camera camera(mesh.points, view.up, width, height - reserved, !view.arrows.empty());

@@ -136,6 +136,32 @@ TEST(Program_draw_surface, a_parabolic_vertex_has_a_line_and_no_share_of_the_tri
   EXPECT_GT(numbers, 15u);
 }
 
+std::ptrdiff_t green_pixels(const Picture& picture) {
+  std::ptrdiff_t result = 0;
+  for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
+    result += picture.rgb[i + 1] > 120 && picture.rgb[i] < 100 && picture.rgb[i + 2] < 110;
+  return result;
+}
+
+TEST(Program_draw_surface, there_is_no_parabolic_line_beside_a_vertex_whose_curvature_is_not_known) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  using enum Point_status;
+  Vertex_attributes attributes;
+  attributes.columns = {{"affine_gaussian_curvature", {5, 5, nan, 5}}, {"gaussian_curvature", {-1, -1, nan, -1}}};
+  attributes.status = {REGULAR, REGULAR, OUTSIDE, REGULAR};
+  const auto has_note = [](const Surface_picture& drawn) {
+    return std::any_of(drawn.legend->notes.begin(), drawn.legend->notes.end(),
+                       [](const auto& note) { return note.color == status_color(PARABOLIC); });
+  };
+  const auto saddle = draw_surface(facing_square(), attributes, small);
+  EXPECT_EQ(green_pixels(saddle.picture), 0);
+  EXPECT_FALSE(has_note(saddle));
+  attributes.columns[1].values[2] = 1;
+  const auto crossed = draw_surface(facing_square(), attributes, small);
+  EXPECT_GT(green_pixels(crossed.picture), 0);
+  EXPECT_TRUE(has_note(crossed));
+}
+
 TEST(Program_draw_surface, a_number_in_doubt_is_gray_and_as_light_as_its_color) {
   const auto middle_for = [](double error) {
     Vertex_attributes attributes;

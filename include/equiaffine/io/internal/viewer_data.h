@@ -104,14 +104,23 @@ function vertexAreas() {
   return total > 0 ? areas : areas.fill(1);
 }
 
-// The Gaussian curvature, scaled, 0 where it is not known or the vertex is parabolic, if the quantity is infinite where
-// that changes its sign; else null.
+// The Gaussian curvature, scaled, 0 where the vertex is parabolic and NaN where it is not known, if the quantity is
+// infinite where that changes its sign; else null.
 function vertexSides(quantity) {
   const curvature = quantity.isInfiniteAtParabolicPoints && columnNamed('gaussian_curvature')?.values();
   if (!curvature) return null;
-  const known = curvature.map((value, i) => mesh.status[i] === 1 || !isFinite(value) ? 0 : value);
-  const largest = known.reduce((most, value) => Math.max(most, Math.abs(value)), 0) || 1;
-  return known.map(value => value / largest);
+  const sides = curvature.map((value, i) => mesh.status[i] === 1 ? 0 : isFinite(value) ? value : NaN);
+  const largest = sides.reduce((most, side) => isNaN(side) ? most : Math.max(most, Math.abs(side)), 0) || 1;
+  return sides.map(side => side / largest);
+}
+
+// Whether the sides have different signs in a triangle where all three are known.
+function hasParabolicLine(sides) {
+  for (let t = 0; t < mesh.triangles.length; t += 3) {
+    const corners = [0, 1, 2].map(k => sides[mesh.triangles[t + k]]);
+    if (!corners.some(isNaN) && corners.some(side => side < 0) && corners.some(side => side >= 0)) return true;
+  }
+  return false;
 }
 
 // The estimated errors of a quantity, or undefined.

@@ -137,7 +137,7 @@ function legendEntries() {
     facts.statuses.forEach(({word, color}, i) => {
       if (counts[i] && (i > 0 || isStatus)) entries.push([color, word, counts[i]]);
     });
-  if (shown.sides?.some(side => side < 0) && shown.sides.some(side => side >= 0))
+  if (shown.sides && hasParabolicLine(shown.sides))
     entries.push([facts.statuses[1].color, 'parabolic curve: infinite']);
   if (shown.errors) entries.push([facts.doubt, 'grayer where the estimated error is larger']);
   const missing = shown.codes.reduce((sum, code) => sum + (code === 5), 0);

@@ -58,12 +58,14 @@ class Scene {
     this.fill('level', new Float32Array(mesh.size));
     this.fill('code', new Uint8Array(mesh.size));
     this.fill('side', new Float32Array(mesh.size));
+    this.fill('hasNoSide', new Uint8Array(mesh.size));
     this.fill('doubt', new Float32Array(mesh.size));
     this.fill('triangles', mesh.triangles, gl.ELEMENT_ARRAY_BUFFER);
     this.fill('marked', new Uint32Array(0), gl.ELEMENT_ARRAY_BUFFER);
     this.fill('needles', new Float32Array(0));
     this.bind('surface', [position, [1, 'normal', 3, gl.SHORT, 8], [2, 'level', 1, gl.FLOAT], code,
-                          [4, 'side', 1, gl.FLOAT], [5, 'doubt', 1, gl.FLOAT]], 'triangles');
+                          [4, 'side', 1, gl.FLOAT], [5, 'doubt', 1, gl.FLOAT],
+                          [6, 'hasNoSide', 1, gl.UNSIGNED_BYTE]], 'triangles');
     this.bind('marks', [position, code], 'marked');
     this.bind('needles', [[0, 'needles', 3, gl.FLOAT, 24, 0, 1], [1, 'needles', 3, gl.FLOAT, 24, 12, 1]]);
   }
@@ -96,12 +98,14 @@ class Scene {
   }
 
   // levels in [0, 1] along `table`, grayer where `doubts` are near 1, or a plain surface without a table; isolines are
-  // levels. `sides` is null, or separates the surface where it is 0.
+  // levels. `sides` is null, or separates the surface where it is 0; it is NaN where it is not known.
   setColors({levels, doubts, codes, sides}, table) {
     this.fill('level', levels);
     this.fill('doubt', doubts);
     this.fill('code', codes);
-    this.fill('side', sides ?? new Float32Array(mesh.size));
+    const hasNoSide = Uint8Array.from({length: mesh.size}, (_, i) => Number(sides !== null && isNaN(sides[i])));
+    this.fill('side', sides?.map(side => isNaN(side) ? 0 : side) ?? new Float32Array(mesh.size));
+    this.fill('hasNoSide', hasNoSide);
     Object.assign(this.colors, {isMapped: Boolean(table), hasSides: Boolean(sides)});
     if (table) this.setMap(table);
     const marked = [];

@@ -24,8 +24,8 @@ vec4 projected(vec3 q) { return vec4(lens.x * q.x, lens.y * q.y, lens.z * q.z + 
 const surfaceVertex = placing + `
 layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal;
 layout(location = 2) in float level; layout(location = 3) in uint code; layout(location = 4) in float side;
-layout(location = 5) in float doubt;
-out vec3 vPosition, vNormal, vConvex, vSaddle; out vec4 vStatus; out float vUndefined, vSide, vKept;
+layout(location = 5) in float doubt; layout(location = 6) in uint hasNoSide;
+out vec3 vPosition, vNormal, vConvex, vSaddle; out vec4 vStatus; out float vUndefined, vSide, vNoSide, vKept;
 void main() {
   vPosition = seen(position);
   vNormal = turn * normal;
@@ -34,6 +34,7 @@ void main() {
   vConvex = side >= 0.0 ? known : vec3(0);
   vSaddle = known - vConvex;
   vSide = side;
+  vNoSide = float(hasNoSide);
   vKept = kept(position);
   vStatus = vec4(equal(uvec4(code), uvec4(1u, 2u, 3u, 4u)));
   vUndefined = float(code == 5u);
@@ -42,7 +43,7 @@ void main() {
 
 const surfaceFragment = `#version 300 es
 precision highp float;
-in vec3 vPosition, vNormal, vConvex, vSaddle; in vec4 vStatus; in float vUndefined, vSide, vKept;
+in vec3 vPosition, vNormal, vConvex, vSaddle; in vec4 vStatus; in float vUndefined, vSide, vNoSide, vKept;
 uniform sampler2D map; uniform bool isMapped; uniform vec3 plain, undefinedColor, statusColors[4];
 uniform float isolines[24], pixels; uniform int isolineCount; uniform bool hasSides;
 out vec4 color;
@@ -59,10 +60,11 @@ void main() {
   float line = 0.0, most = all.y, parabolic = 0.0;
   for (int i = 0; i < isolineCount; ++i)
     if (slope > 1e-6) line = max(line, 1.0 - smoothstep(0.5, 1.3, abs(level - isolines[i]) / slope));
-  if (hasSides) parabolic = 1.0 - smoothstep(0.5, 1.0, abs(vSide) / max(fwidth(vSide) * pixels, 1e-30));
+  bool hasLine = hasSides && vNoSide == 0.0;  // a triangle with a corner whose side is not known has none
+  if (hasLine) parabolic = 1.0 - smoothstep(0.5, 1.0, abs(vSide) / max(fwidth(vSide) * pixels, 1e-30));
   base = mix(base, statusColors[0], parabolic);
   line *= 1.0 - parabolic;
-  for (int i = hasSides && all.y > 0.0 ? 1 : 0; i < 4; ++i)
+  for (int i = hasLine && all.y > 0.0 ? 1 : 0; i < 4; ++i)
     if (vStatus[i] > most) { most = vStatus[i]; base = statusColors[i]; line = 0.0; }
   if (vUndefined > most) { base = undefinedColor; line = 0.0; }
   vec3 n = normalize(vNormal), view = normalize(-vPosition), lamp = normalize(vec3(-0.35, 0.5, 1.0));
