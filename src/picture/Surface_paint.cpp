@@ -27,6 +27,10 @@ std::string label_of(const std::string& name) {
                                             : ", length^(" + std::to_string(quantity->weight) + "/2)");
 }
 
+CGAL::IO::Color color_of_code(std::size_t code) {
+  return code < number_of_point_statuses ? status_color(static_cast<Point_status>(code)) : undefined_color();
+}
+
 } // namespace
 
 Light light_of(const CGAL::IO::Color& color) {
@@ -38,24 +42,21 @@ Surface_paint::Surface_paint(const Indexed_triangle_mesh_3<Kernel>& mesh, const 
                              const std::string& name, const std::optional<std::array<double, 2>>& range) {
   if (attributes.status && name != "plain")
     for (const Point_status status : *attributes.status) codes_.push_back(static_cast<std::uint8_t>(status));
-  const auto* column = find_column(attributes, name.empty() ? first_shown(attributes) : name);
-  if (column == nullptr) return;
-  const CGAL::Bbox_3 box = box_of(mesh.points);
-  use(*column, range, std::hypot(box.x_span(), box.y_span(), box.z_span()));
-  if (const auto* errors = find_errors(attributes, column->name)) find_doubts(*column, *errors);
-  if (is_infinite_at_parabolic_points(column->name)) find_sides(attributes);
-  if (has_line(mesh)) legend_->notes.push_back({status_color(Point_status::PARABOLIC), "parabolic curve: infinite"});
+  if (const auto* column = find_column(attributes, name.empty() ? first_shown(attributes) : name)) {
+    const CGAL::Bbox_3 box = box_of(mesh.points);
+    use(*column, range, std::hypot(box.x_span(), box.y_span(), box.z_span()));
+    const auto* errors = find_errors(attributes, column->name);
+    if (errors != nullptr && legend_) find_doubts(*column, *errors);
+    if (is_infinite_at_parabolic_points(column->name)) find_sides(attributes);
+  }
+  find_notes(mesh.triangles);
 }
 
 Light Surface_paint::operator()(const std::array<std::uint32_t, 3>& triangle,
                                 const std::array<double, 3>& weights) const {
   double curvature = 0; // of the corners where it is known
-  bool can_have_line = !sides_.empty();
-  for (std::size_t k = 0; k < 3 && !sides_.empty(); ++k) {
-    const double side = sides_[triangle[k]];
-    if (std::isnan(side)) can_have_line = false;
-    else curvature += weights[k] * side;
-  }
+  for (std::size_t k = 0; k < 3 && !sides_.empty(); ++k)
+    if (!std::isnan(sides_[triangle[k]])) curvature += weights[k] * sides_[triangle[k]];
   Weighted_level all, same_side;
   std::array<double, number_of_point_statuses + 1> irregular{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -67,11 +68,12 @@ Light Surface_paint::operator()(const std::array<std::uint32_t, 3>& triangle,
       if (is_convex(vertex) == (curvature >= 0)) same_side.add(level, doubt, weights[k]);
     } else irregular[code] += weights[k];
   }
-  if (can_have_line && all.weight > 0) irregular[std::size_t(Point_status::PARABOLIC)] = 0; // a line shows them
+  if (all.weight > 0 && can_have_line(triangle))
+    irregular[std::size_t(Point_status::PARABOLIC)] = 0; // a line shows them
   const auto most = std::max_element(irregular.begin(), irregular.end());
   if (*most > all.weight) {
     const auto code = std::size_t(most - irregular.begin());
-    return light_of(code == no_number ? undefined_color() : status_color(static_cast<Point_status>(code)));
+    return light_of(color_of_code(code));
   }
   if (!legend_) return light_of(plain_color());
   const Weighted_level& known = same_side.weight > 0 ? same_side : all;
@@ -92,7 +94,6 @@ Light Surface_paint::color_of(double level, double doubt) const {
 void Surface_paint::find_doubts(const Vertex_attributes::Column& column, const Vertex_attributes::Column& errors) {
   for (std::size_t i = 0; i < column.values.size(); ++i)
     doubts_.push_back(color_doubt(column.values[i], errors.values[i], legend_->range, legend_->scale));
-  legend_->notes.push_back({doubt_color(), "grayer where the estimated error is larger"});
 }
 
 void Surface_paint::find_sides(const Vertex_attributes& attributes) {
@@ -105,9 +106,32 @@ void Surface_paint::find_sides(const Vertex_attributes& attributes) {
   }
 }
 
-bool Surface_paint::has_line(const Indexed_triangle_mesh_3<Kernel>& mesh) const {
-  return !sides_.empty() && std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
-                                        [&](const auto& triangle) { return changes_sign(sides_, triangle); });
+/// Returns whether the Gaussian curvature is known at all corners, so that a line shows where it is zero.
+bool Surface_paint::can_have_line(const Triangle& triangle) const {
+  return !sides_.empty() && std::none_of(triangle.begin(), triangle.end(),
+                                         [&](std::uint32_t vertex) { return std::isnan(sides_[vertex]); });
+}
+
+void Surface_paint::find_notes(std::span<const Triangle> triangles) {
+  bool has_line = false;
+  std::array<bool, no_number + 1> is_seen{};
+  for (const Triangle& triangle : triangles) {
+    has_line = has_line || (!sides_.empty() && changes_sign(sides_, triangle));
+    if (codes_.empty()) continue;
+    const auto has_code = [&](Point_status status) {
+      return std::any_of(triangle.begin(), triangle.end(),
+                         [&](std::uint32_t vertex) { return codes_[vertex] == std::uint8_t(status); });
+    };
+    const bool is_line_only = has_code(Point_status::REGULAR) && can_have_line(triangle);
+    for (const std::uint32_t vertex : triangle)
+      if (codes_[vertex] != std::uint8_t(Point_status::PARABOLIC) || !is_line_only) is_seen[codes_[vertex]] = true;
+  }
+  if (has_line) notes_.push_back({status_color(Point_status::PARABOLIC), "parabolic curve: infinite"});
+  if (!doubts_.empty()) notes_.push_back({doubt_color(), "grayer where the estimated error is larger"});
+  for (std::size_t code = legend_ ? 1 : 0; code < is_seen.size(); ++code)
+    if (is_seen[code])
+      notes_.push_back({color_of_code(code),
+                        code == no_number ? "no number" : std::string(to_string(static_cast<Point_status>(code)))});
 }
 
 void Surface_paint::use(const Vertex_attributes::Column& column, const std::optional<std::array<double, 2>>& given,
@@ -118,6 +142,7 @@ void Surface_paint::use(const Vertex_attributes::Column& column, const std::opti
     if (codes_[i] == 0 && !std::isfinite(column.values[i])) codes_[i] = no_number;
     if (codes_[i] == 0) shown.push_back(column.values[i]);
   }
+  if (shown.empty()) return;
   Color_range range = color_range(std::move(shown), default_clip_percent, rounding_of_quantity(column.name, diagonal));
   Color_scale scale = preferred_scale(range);
   if (given) {
@@ -125,7 +150,7 @@ void Surface_paint::use(const Vertex_attributes::Column& column, const std::opti
     range = {lower, upper, 1, lower == -upper};
     scale = Color_scale::LINEAR;
   }
-  legend_ = {label_of(column.name), range, scale, {}};
+  legend_ = {label_of(column.name), range, scale};
   for (const double value : column.values) {
     const double t = std::isfinite(value) ? map_position(value, range, scale) : 0;
     levels_.push_back(range.is_diverging ? (t + 1) / 2 : t);

@@ -11,21 +11,23 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace equiaffine {
 
-/// The meaning of the colors of a picture.
+/// The numbers that the colors of a picture stand for.
 struct Color_legend {
   std::string label; ///< the name of the number, with its unit if that is known
   Color_range range;
   Color_scale scale;
-  struct Note {
-    CGAL::IO::Color color;
-    std::string text;
-  };
-  std::vector<Note> notes; ///< what other colors mean
+};
+
+/// The meaning of a color that stands for no number.
+struct Color_note {
+  CGAL::IO::Color color;
+  std::string text;
 };
 
 Light light_of(const CGAL::IO::Color& color);
@@ -38,8 +40,11 @@ public:
   Surface_paint(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
                 const std::string& name, const std::optional<std::array<double, 2>>& range);
 
-  /// Is set if the colors show a number.
+  /// Is set if there is a vertex whose color shows a number.
   const std::optional<Color_legend>& legend() const { return legend_; }
+
+  /// One for each other color that the surface has somewhere, the most important one first.
+  const std::vector<Color_note>& notes() const { return notes_; }
 
   /// The color at barycentric weights, as on the page: vertices with a number compete by their weights with those of
   /// each status; the number is interpolated between the vertices that have one. A number that is infinite on a
@@ -62,12 +67,15 @@ private:
     }
   };
 
+  using Triangle = std::array<std::uint32_t, 3>;
+
   static constexpr std::uint8_t no_number = number_of_point_statuses;
 
   void use(const Vertex_attributes::Column& column, const std::optional<std::array<double, 2>>& range, double diagonal);
   void find_doubts(const Vertex_attributes::Column& column, const Vertex_attributes::Column& errors);
   void find_sides(const Vertex_attributes& attributes);
-  bool has_line(const Indexed_triangle_mesh_3<Kernel>& mesh) const;
+  void find_notes(std::span<const Triangle> triangles);
+  bool can_have_line(const Triangle& triangle) const;
   bool is_convex(std::uint32_t vertex) const { return sides_.empty() || !(sides_[vertex] < 0); }
   Light color_of(double level, double doubt) const;
 
@@ -77,6 +85,7 @@ private:
   std::vector<double> doubts_; // color_doubt per vertex, if errors are known
   std::vector<Light> table_;
   std::optional<Color_legend> legend_;
+  std::vector<Color_note> notes_;
 };
 
 } // namespace equiaffine

@@ -94,9 +94,10 @@ Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const 
                              const Surface_view& view, std::span<const Polyline_3<Kernel>> curves) {
   const auto [width, height] = view.size;
   const Surface_paint paint(mesh, attributes, view.color, view.range);
-  const auto& legend = paint.legend();
-  const std::size_t reserved = legend ? legend_height + note_height * legend->notes.size() : 0;
-  const Camera camera(mesh.points, view.up, width, height - reserved, !view.arrows.empty());
+  std::vector<Color_note> notes = paint.notes();
+  const std::size_t below = paint.legend() ? legend_height : notes.empty() ? 0 : note_margin;
+  notes.resize(std::min(notes.size(), (height - height / 4 - below) / note_height));
+  const Camera camera(mesh.points, view.up, width, height - below - note_height * notes.size(), !view.arrows.empty());
   const Seen_surface surface(camera, mesh, vertex_normals(mesh, attributes));
   const Line_drawing parabolic_lines = zero_strokes(camera, mesh, paint.sides()), drawn = curve_strokes(camera, curves);
   const auto columns = vector_columns(attributes, view.arrows);
@@ -113,7 +114,7 @@ Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const 
     const auto bytes = band.picture().rgb;
     picture.rgb.insert(picture.rgb.end(), bytes.begin(), bytes.end());
   }
-  return {std::move(picture), legend};
+  return {std::move(picture), paint.legend(), std::move(notes)};
 }
 
 } // namespace equiaffine

@@ -26,14 +26,16 @@ struct Surface_view {
   std::string arrows;                         ///< a vector among the columns, or empty
 };
 
-/// A picture of a surface and what its colors mean, if they are those of a number.
+/// A picture of a surface and what its colors mean.
 struct Surface_picture {
   Picture picture;
-  std::optional<Color_legend> legend;
+  std::optional<Color_legend> legend; ///< if there are colors of a number
+  std::vector<Color_note> notes;      ///< from the bottom to the top, as many as leave a quarter of the height
 };
 
 /// The rows at the bottom of a picture that are left free for its legend, if it has one, and for each note above that.
-inline constexpr std::size_t legend_height = 56, note_height = 18;
+/// Without a legend notes begin `note_margin` above the bottom.
+inline constexpr std::size_t legend_height = 56, note_height = 18, note_margin = 8;
 
 /// The columns NAME_x, NAME_y, NAME_z, or nx, ny, nz for the name `normal`; nothing if one of them is missing.
 std::optional<std::array<const std::vector<double>*, 3>> vector_columns(const Vertex_attributes& attributes,

@@ -94,8 +94,6 @@ void draw_legend(Picture& picture, const Color_legend& legend) {
     const CGAL::IO::Color color = legend.range.is_diverging ? diverging_color(2 * t - 1) : sequential_color(t);
     fill(picture, left + i, top, 1, bar_height, color);
   }
-  for (std::size_t i = 0; i < legend.notes.size(); ++i)
-    draw_note(picture, legend.notes[i].color, legend.notes[i].text, picture.height - legend_height - i * note_height);
   draw_text(picture, legend.label, left, top - 7, Alignment::LEFT);
   const auto number = [&](std::size_t i, std::size_t last) {
     return short_number(number_at(legend, double(i) / double(last)), legend.range);
@@ -115,6 +113,9 @@ void draw_legend(Picture& picture, const Color_legend& legend) {
 void write_PNG(std::ostream& stream, Surface_picture surface) {
   Picture& picture = surface.picture;
   if (surface.legend) draw_legend(picture, *surface.legend);
+  const std::size_t bottom = picture.height - (surface.legend ? legend_height : note_margin);
+  for (std::size_t i = 0; i < surface.notes.size(); ++i)
+    draw_note(picture, surface.notes[i].color, surface.notes[i].text, bottom - i * note_height);
   vtkNew<vtkImageData> image;
   image->SetDimensions(int(picture.width), int(picture.height), 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);

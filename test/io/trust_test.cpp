@@ -47,6 +47,14 @@ TEST(Trust, something_is_shown_even_if_nothing_is_trusted) {
   EXPECT_EQ(first_shown(attributes), "status");
 }
 
+TEST(Trust, a_column_without_numbers_is_not_shown_first) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Vertex_attributes::Column none = {"affine_gaussian_curvature", {nan, nan, nan}};
+  EXPECT_EQ(first_of({none, gaussian}), "gaussian_curvature");
+  EXPECT_EQ(first_of({none, errors({nan, nan, nan}), gaussian}), "gaussian_curvature");
+  EXPECT_EQ(first_of({none}), "plain");
+}
+
 TEST(Trust, a_color_is_in_doubt_by_the_share_of_the_bar_that_the_error_takes) {
   const Color_range diverging = {-4, 4, 1, true}, sequential = {0, 8, 1, false};
   for (const Color_range& range : {diverging, sequential}) {

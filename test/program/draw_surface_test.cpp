@@ -86,10 +86,12 @@ TEST(Program_draw_surface, what_has_no_number_has_the_color_of_its_status) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Vertex_attributes attributes;
   attributes.columns = {{"k1", {nan, nan, nan, nan}}};
-  const std::size_t row = (101 - legend_height) / 2;
-  expect_near(middle(draw_surface(facing_square(), attributes, small).picture, row), shaded(undefined_color()));
+  Surface_view options = small;
+  options.color = "k1";
+  const std::size_t row = (101 - note_margin - note_height) / 2;
+  expect_near(middle(draw_surface(facing_square(), attributes, options).picture, row), shaded(undefined_color()));
   attributes.status.emplace(4, Point_status::PARABOLIC);
-  expect_near(middle(draw_surface(facing_square(), attributes, small).picture, row),
+  expect_near(middle(draw_surface(facing_square(), attributes, options).picture, row),
               shaded(status_color(Point_status::PARABOLIC)));
 }
 
@@ -101,7 +103,7 @@ TEST(Program_draw_surface, a_number_that_is_infinite_on_a_curve_does_not_pass_th
     attributes.columns = {{"affine_gaussian_curvature", {left, right, right, left}},
                           {"gaussian_curvature", {1, -1, -1, 1}}};
     const auto drawn = draw_surface(facing_square(), attributes, options);
-    EXPECT_TRUE(drawn.legend && drawn.legend->notes.size() == 1);
+    EXPECT_TRUE(drawn.legend && drawn.notes.size() == 1);
     const auto first = drawn.picture.rgb.begin() + std::ptrdiff_t(3 * 101 * ((101 - legend_height - note_height) / 2));
     return std::vector<unsigned char>(first, first + 3 * 101);
   };
@@ -150,7 +152,7 @@ TEST(Program_draw_surface, there_is_no_parabolic_line_beside_a_vertex_whose_curv
   attributes.columns = {{"affine_gaussian_curvature", {5, 5, nan, 5}}, {"gaussian_curvature", {-1, -1, nan, -1}}};
   attributes.status = {REGULAR, REGULAR, OUTSIDE, REGULAR};
   const auto has_note = [](const Surface_picture& drawn) {
-    return std::any_of(drawn.legend->notes.begin(), drawn.legend->notes.end(),
+    return std::any_of(drawn.notes.begin(), drawn.notes.end(),
                        [](const auto& note) { return note.color == status_color(PARABOLIC); });
   };
   const auto saddle = draw_surface(facing_square(), attributes, small);
@@ -162,6 +164,36 @@ TEST(Program_draw_surface, there_is_no_parabolic_line_beside_a_vertex_whose_curv
   EXPECT_TRUE(has_note(crossed));
 }
 
+TEST(Program_draw_surface, colors_that_show_no_number_have_notes_and_no_bar) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  using enum Point_status;
+  Vertex_attributes attributes;
+  attributes.columns = {{"affine_gaussian_curvature", {nan, nan, nan, nan}}, {"gaussian_curvature", {0, 0, 0, nan}}};
+  attributes.status = {PARABOLIC, PARABOLIC, PARABOLIC, OUTSIDE};
+  for (const char* name : {"", "affine_gaussian_curvature", "status"}) {
+    Surface_view options = small;
+    options.color = name;
+    const auto drawn = draw_surface(facing_square(), attributes, options);
+    EXPECT_FALSE(drawn.legend) << name;
+    ASSERT_EQ(drawn.notes.size(), 2u) << name;
+    EXPECT_EQ(drawn.notes[0].text, "parabolic");
+    EXPECT_EQ(drawn.notes[1].text, "outside");
+    EXPECT_EQ(drawn.notes[1].color, status_color(OUTSIDE));
+  }
+}
+
+TEST(Program_draw_surface, notes_leave_room_for_the_surface) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  using enum Point_status;
+  Vertex_attributes attributes;
+  attributes.columns = {{"k1", {1, nan, nan, nan}}};
+  attributes.status = {REGULAR, SINGULAR, OUTSIDE, UNCONVERGED};
+  Surface_view options = small;
+  EXPECT_EQ(draw_surface(facing_square(), attributes, options).notes.size(), 1u);
+  options.size = {101, 201};
+  EXPECT_EQ(draw_surface(facing_square(), attributes, options).notes.size(), 3u);
+}
+
 TEST(Program_draw_surface, a_number_in_doubt_is_gray_and_as_light_as_its_color) {
   const auto middle_for = [](double error) {
     Vertex_attributes attributes;
@@ -170,7 +202,7 @@ TEST(Program_draw_surface, a_number_in_doubt_is_gray_and_as_light_as_its_color) 
     options.color = "pick_invariant";
     options.range = {{-2, 2}};
     const auto drawn = draw_surface(facing_square(), attributes, options);
-    EXPECT_TRUE(drawn.legend && drawn.legend->notes.size() == 1);
+    EXPECT_TRUE(drawn.legend && drawn.notes.size() == 1);
     return middle(drawn.picture, (101 - legend_height - note_height) / 2);
   };
   const auto [red, green, blue] = middle_for(10);

@@ -58,13 +58,15 @@ inline bool is_component_or_error(const std::string& name, const Vertex_attribut
                              name == "ny" || name == "nz" || name.starts_with("metric_"));
 }
 
-/// Returns what pages and pictures show first: of the columns that are trusted the one of the least rank, or of all if
-/// none is; else `status` or `plain`.
+/// Returns what pages and pictures show first: of the columns with numbers that are trusted the one of the least rank,
+/// or of all with numbers if none is trusted; else `status` or `plain`.
 inline std::string first_shown(const Vertex_attributes& attributes) {
   const Vertex_attributes::Column* first = nullptr;
   bool first_is_trusted = false;
   for (const auto& column : attributes.columns) {
-    if (is_component_or_error(column.name, attributes)) continue;
+    const bool has_numbers =
+        std::any_of(column.values.begin(), column.values.end(), [](double value) { return std::isfinite(value); });
+    if (!has_numbers || is_component_or_error(column.name, attributes)) continue;
     const bool trusted = is_trusted(column, attributes);
     const bool is_better =
         first == nullptr || trusted > first_is_trusted ||

@@ -56,9 +56,10 @@ function element(tag, className, text = '') {
 
 // The quantity changed, or which points count.
 function update() {
-  const {quantity} = choice, values = quantity.values?.() ?? null;
-  const withStatus = mesh.status.length && (quantity === statusQuantity || (values && choice.hasMarks));
-  const sides = vertexSides(quantity), codes = vertexCodes(values, withStatus, sides);
+  const {quantity} = choice, numbers = quantity.values?.() ?? null;
+  const withStatus = mesh.status.length && (quantity === statusQuantity || (numbers && choice.hasMarks));
+  const sides = vertexSides(quantity), codes = vertexCodes(numbers, withStatus, sides);
+  const values = codes.includes(0) ? numbers : null;  // no bar without a color that shows a number
   shown = {values, codes, sides, errors: values && errorsOf(quantity), ...(values && summarize(values, codes))};
   byId('quantity').value = quantity.name;
   byId('mapping').hidden = byId('scale').hidden = !values;
