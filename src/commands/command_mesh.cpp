@@ -2,6 +2,7 @@
 #include "attributes/attribute_task.h"
 #include "attributes/error_columns.h"
 #include "commands/commands.h"
+#include "commands/fail_without_surface.h"
 #include "output/statistics.h"
 #include "output/surface_output.h"
 #include "source/source.h"
@@ -11,7 +12,6 @@
 #include <equiaffine/Input_error.h>
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/delaunay_surface.h>
-#include <equiaffine/function/sample_on_lattice.h>
 #include <equiaffine/marching_cubes.h>
 #include <equiaffine/parabolic_curves.h>
 #include <equiaffine/surface/distance_to_surface.h>
@@ -39,48 +39,6 @@ struct Annotated_surface {
   std::optional<Parabolic_curves_3<Kernel>> curves; ///< if they were asked for
 };
 
-/// The least and the greatest value of f at the nodes of a grid. If all values are NaN, they are infinity and
-/// -infinity.
-template <class Traits>
-std::pair<double, double> range_on_grid(const Traits& function) {
-  const auto samples = [&] {
-    if constexpr (LatticeImplicitFunctionTraits_3<Traits>) {
-      Volume_3<Kernel> volume{function.lattice(), {}};
-      const auto [nx, ny, nz] = volume.lattice.size();
-      for (std::size_t k = 0; k < nz; ++k)
-        for (std::size_t j = 0; j < ny; ++j)
-          for (std::size_t i = 0; i < nx; ++i) volume.values.push_back(function.sample(i, j, k));
-      return volume;
-    } else
-      return sample_on_lattice<CGAL::Parallel_if_available_tag>(function, sampling_lattice(function, {33, 33, 33}));
-  }();
-  double least = std::numeric_limits<double>::infinity(), greatest = -least;
-  for (const double value : samples.values) {
-    if (value < least) least = value; // std::min would keep a NaN
-    if (value > greatest) greatest = value;
-  }
-  return {least, greatest};
-}
-
-/// Throws the error that says why there is no surface. `place` is where it was looked for, "box" or "ball".
-/// `refinement` is what may find more of the surface, such as "a smaller --radius", and is empty if nothing can.
-template <class Traits>
-[[noreturn]] void fail_without_surface(const Traits& function, double isovalue, const std::string& place,
-                                       const std::string& refinement) {
-  const auto [least, greatest] = range_on_grid(function);
-  const bool is_defined = least <= greatest;
-  std::ostringstream surface, reason;
-  surface << "surface f = " << isovalue;
-  reason << " in the " << place << ": at the nodes of a grid f ";
-  if (is_defined) reason << "lies between " << least << " and " << greatest << "; choose ";
-  else reason << "is undefined; choose ";
-  if (!refinement.empty() && least < isovalue && greatest > isovalue)
-    throw Input_error("no part of the " + surface.str() + " was found" + reason.str() + refinement);
-  const std::string choice = "another --isovalue or box";
-  throw Input_error("no " + surface.str() + reason.str() +
-                    (is_defined && !refinement.empty() ? choice + ", or " + refinement : choice));
-}
-
 template <class Traits>
 Annotated_surface sample(const Traits& function, const Mesh_options& options, const Marching_cubes_options& method) {
   Annotated_surface surface;
@@ -88,8 +46,8 @@ Annotated_surface sample(const Traits& function, const Mesh_options& options, co
       function, parameters::vertex_position(method.vertices)
                     .number_of_nodes(options.source.resolution.value_or(default_resolution(options.source.kind))));
   if (surface.mesh.triangles.empty())
-    fail_without_surface(function.base(), options.isovalue, "box",
-                         surface.mesh.repairs.vertices_at_poles > 0 ? "" : "a finer --resolution");
+    fail_without_surface(function.base(), options,
+                         {"box", "a finer --resolution", surface.mesh.repairs.vertices_at_poles > 0});
   return surface;
 }
 
@@ -138,8 +96,9 @@ Annotated_surface sample(const Traits& function, const Mesh_options& options, co
   auto mesh = options.curves ? delaunay_surface(function, criteria, parameters.parabolic_features())
                              : delaunay_surface(function, criteria, parameters);
   if (mesh.triangles.empty())
-    fail_without_surface(function.base(), options.isovalue, method.clips_to_ball ? "ball" : "box",
-                         mesh.is_certified ? "" : "a smaller --radius");
+    fail_without_surface(function.base(), options,
+                         {method.clips_to_ball ? "ball" : "box", mesh.is_certified ? "" : "a smaller --radius",
+                          changes_sign_at_poles_only(function)});
   Annotated_surface surface;
   surface.completeness = {mesh.is_certified, std::move(mesh.undecided_boxes)};
   if (options.curves) surface.curves = std::move(mesh.parabolic_curves);

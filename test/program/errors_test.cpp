@@ -228,9 +228,10 @@ TEST_F(Program_errors, a_surface_outside_the_box_is_none) {
 }
 
 TEST_F(Program_errors, a_pole_is_no_surface) {
-  for (const Arguments& method : {Arguments{}, Arguments{"--method", "delaunay", "--radius", "0.3"}})
-    expect_error(mesh_of("1/x") + box + method, {"f = 0", "in the box"});
-  expect_error(mesh_of("1/x") + box, {"no surface f = 0", "choose another --isovalue or box"});
+  const Arguments delaunay = {"--method", "delaunay", "--radius", "0.3"};
+  const Arguments words = {"no surface f = 0 in the box", "at poles or jumps only; choose another --isovalue or box"};
+  for (const Arguments& method : {Arguments{}, delaunay}) expect_error(mesh_of("1/x") + box + method, words);
+  expect_error(mesh_of("abs(x)/x*(1+y^2)") + box + delaunay, words);
 }
 
 TEST_F(Program_errors, an_output_that_cannot_be_written_is_found_out) {

@@ -254,6 +254,11 @@ TEST_F(Program_spline, distances_may_be_measured_in_a_narrow_band) {
                              "--narrow-band 2 only"),
             std::string::npos)
       << tight.error;
+  const Result beyond = run(Arguments{"mesh", "-o", "no.ply", "--narrow-band", "2", "--isovalue", ".3"} + source);
+  EXPECT_EQ(beyond.status, 2);
+  EXPECT_NE(beyond.error.find("in the band of --narrow-band 2; choose a wider band, another --isovalue or box"),
+            std::string::npos)
+      << beyond.error;
   const Result result = run(Arguments{"mesh", "-o", "out.ply", "--narrow-band", "0.5"} + source);
   EXPECT_EQ(result.status, 2);
   EXPECT_NE(result.error.find("--narrow-band"), std::string::npos) << result.error;

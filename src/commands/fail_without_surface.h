@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_COMMANDS_FAIL_WITHOUT_SURFACE_H
+#define EQUIAFFINE_COMMANDS_FAIL_WITHOUT_SURFACE_H
+
+#include "request/options.h"
+#include <equiaffine/Input_error.h>
+#include <equiaffine/function/sample_on_lattice.h>
+#include <equiaffine/marching_cubes.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace equiaffine {
+
+/// What is known of a search for a surface that found none.
+struct Vain_search {
+  std::string place;      ///< where it was looked for, "box" or "ball"
+  std::string refinement; ///< what may find more of the surface, such as "a smaller --radius"; empty if nothing can
+  bool met_poles;         ///< whether f changes its sign at poles or jumps only
+};
+
+/// The least and the greatest value of f at the nodes of a grid. If all values are NaN, they are infinity and
+/// -infinity.
+template <class Traits>
+std::pair<double, double> range_on_grid(const Traits& function) {
+  const auto samples = [&] {
+    if constexpr (LatticeImplicitFunctionTraits_3<Traits>) {
+      Volume_3<Kernel> volume{function.lattice(), {}};
+      const auto [nx, ny, nz] = volume.lattice.size();
+      for (std::size_t k = 0; k < nz; ++k)
+        for (std::size_t j = 0; j < ny; ++j)
+          for (std::size_t i = 0; i < nx; ++i) volume.values.push_back(function.sample(i, j, k));
+      return volume;
+    } else
+      return sample_on_lattice<CGAL::Parallel_if_available_tag>(function, sampling_lattice(function, {33, 33, 33}));
+  }();
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (const double value : samples.values) {
+    if (value < least) least = value; // std::min would keep a NaN
+    if (value > greatest) greatest = value;
+  }
+  return {least, greatest};
+}
+
+/// Whether f changes its sign between the nodes of a grid at poles and jumps, and nowhere else.
+template <class Traits>
+bool changes_sign_at_poles_only(const Traits& function) {
+  const auto surface =
+      marching_cubes<CGAL::Parallel_if_available_tag>(function, parameters::number_of_nodes({32, 32, 32}));
+  const auto& status = surface.vertex_status;
+  return surface.repairs.vertices_at_poles + status.size() > 0 &&
+         std::count(status.begin(), status.end(), Point_status::UNCONVERGED) == std::ptrdiff_t(status.size());
+}
+
+/// Throws the error that says why there is no surface, and what to choose instead.
+template <class Traits>
+[[noreturn]] void fail_without_surface(const Traits& function, const Mesh_options& options, const Vain_search& search) {
+  const double isovalue = options.isovalue;
+  const auto [least, greatest] = range_on_grid(function);
+  const bool is_defined = least <= greatest;
+  std::ostringstream surface, reason;
+  surface << "surface f = " << isovalue;
+  reason << " in the " << search.place << ": at the nodes of a grid f ";
+  if (is_defined) reason << "lies between " << least << " and " << greatest;
+  else reason << "is undefined";
+  if (options.source.narrow_band) reason << " in the band of --narrow-band " << *options.source.narrow_band;
+  if (search.met_poles) reason << ", and changes its sign at poles or jumps only";
+  reason << "; choose ";
+  const bool may_help = !search.refinement.empty() && !search.met_poles;
+  if (may_help && least < isovalue && greatest > isovalue)
+    throw Input_error("no part of the " + surface.str() + " was found" + reason.str() + search.refinement);
+  if (options.source.narrow_band) reason << "a wider band, another --isovalue or box";
+  else if (is_defined && may_help) reason << "another --isovalue or box, or " << search.refinement;
+  else reason << "another --isovalue or box";
+  throw Input_error("no " + surface.str() + reason.str());
+}
+
+} // namespace equiaffine
+
+#endif
