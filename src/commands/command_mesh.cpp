@@ -122,7 +122,7 @@ Annotated_surface make_surface(const Traits& function, const Source& source, con
   progress.begin("computing attributes");
   surface.max_distance = max_distance_to_surface<CGAL::Parallel_if_available_tag>(level_set, surface.mesh.points,
                                                                                   surface.mesh.vertex_status);
-  surface.mesh.function_evaluations += surface.mesh.points.size();
+  surface.mesh.function_evaluations += 2 * surface.mesh.points.size();
   Attribute_selection selection = options.attributes;
   selection.has_status = true; // even if it is not written: the statistics count it
   surface.attributes = compute_attributes(Attribute_task<Traits>{

@@ -682,6 +682,13 @@ TEST_F(Program_command_line, a_volume_of_two_nodes_per_axis_is_extracted_without
                           "7 needs 8 nodes along each axis, and there are 2 along one; give more nodes\n");
 }
 
+TEST_F(Program_command_line, no_distance_is_claimed_of_linear_vertices_at_a_pole) {
+  const Arguments pole = {"--function", "1/x", "--box", "-1", "1", "-1", "1", "-1", "1", "--vertices", "linear"};
+  EXPECT_TRUE(stats_of(pole)["max_distance_to_surface"].is_null());
+  const std::string summary = run_well(Arguments{"mesh", "-o", "out.ply"} + pole);
+  EXPECT_NE(summary.find("distance from the surface: unknown"), std::string::npos) << summary;
+}
+
 TEST_F(Program_command_line, constants_are_arithmetic_and_formulas_may_come_from_a_file) {
   write_file(folder_ / "formula", "\xef\xbb\xbfx^2 + y^2\r\n  + z^2 = r^2\r\n");
   const auto mesh = [&](const std::string& function, const std::string& radius) {
