@@ -2,8 +2,19 @@
 #ifndef EQUIAFFINE_MESHER_REFINE_FACETS_H
 #define EQUIAFFINE_MESHER_REFINE_FACETS_H
 
+#include "Surface_complex.h"
+
 #include <CGAL/refine_mesh_3.h>
 #include <CGAL/version.h>
+
+#include <string>
+
+/// Before CGAL's mesher throws an assertion, it writes the triangulation to files in the current folder, unless this
+/// class does nothing.
+template <>
+struct CGAL::Dump_c3t3<equiaffine::internal::Surface_complex, true> {
+  void dump_c3t3(const equiaffine::internal::Surface_complex&, const std::string&) const {}
+};
 
 namespace equiaffine::internal {
 
