@@ -38,13 +38,15 @@ public:
 
   /// The bytes of all samples that the header speaks of.
   double size_of_data() const {
-    double size = double(integer("PIXSIZE", "8 bits, 16 bits, 32 bits or 64 bits", 8, 64)) / 8;
+    double size = double(integer("PIXSIZE", "the number of bits of a sample")) / 8;
     for (const std::string_view field : {"XDIM", "YDIM", "ZDIM"}) size *= double(integer(field, "a positive integer"));
     return fields_.contains("VDIM") ? size * double(integer("VDIM", "a positive integer")) : size;
   }
 
   void check_words() const {
     check_word("TYPE", {"float", "unsigned fixed", "signed fixed"});
+    if (fields_.at("TYPE") == "float") check_word("PIXSIZE", {"32 bits", "64 bits"});
+    else check_word("PIXSIZE", {"8 bits", "16 bits", "32 bits", "64 bits"});
     check_word("CPU", {"decm", "alpha", "pc", "sun", "sgi"});
   }
 

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 
 namespace equiaffine {
 
@@ -30,13 +31,25 @@ inline std::size_t size_of_sample(std::size_t type) {
   return with_sample_type(type, [](auto number) { return sizeof number; });
 }
 
-/// The position in raw_types of the integers of 1, 2, 4 or 8 bytes.
+/// The position in raw_types of the integers of 1, 2, 4 or 8 bytes. Throws `std::invalid_argument` for others.
 constexpr std::size_t integer_sample_type(std::size_t bytes, bool is_signed) {
-  return (bytes == 1 ? 0 : bytes == 2 ? 2 : bytes == 4 ? 4 : 6) + std::size_t(is_signed);
+  switch (bytes) {
+  case 1: return 0 + std::size_t(is_signed);
+  case 2: return 2 + std::size_t(is_signed);
+  case 4: return 4 + std::size_t(is_signed);
+  case 8: return 6 + std::size_t(is_signed);
+  default: throw std::invalid_argument("integers have 1, 2, 4 or 8 bytes");
+  }
 }
 
-/// The position in raw_types of float, with 4 bytes, and double.
-constexpr std::size_t floating_sample_type(std::size_t bytes) { return bytes == 4 ? 8 : 9; }
+/// The position in raw_types of float, with 4 bytes, and double, with 8. Throws `std::invalid_argument` for others.
+constexpr std::size_t floating_sample_type(std::size_t bytes) {
+  switch (bytes) {
+  case 4: return 8;
+  case 8: return 9;
+  default: throw std::invalid_argument("floating-point numbers have 4 or 8 bytes");
+  }
+}
 
 } // namespace equiaffine
 

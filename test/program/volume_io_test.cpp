@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume/volume_io.h"
+#include "volume/sample_type.h"
 #include <equiaffine/Input_error.h>
 
 #include <gtest/gtest.h>
@@ -22,6 +23,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -300,9 +302,31 @@ TEST_F(Program_volume_io, an_inr_header_is_told_what_is_wrong_with_which_field) 
   expect_error_at(size + "TYPE=flxxt\nPIXSIZE=32 bits\nCPU=decm\n", "TYPE 'flxxt'");
   expect_error_at(size + "TYPE=float\nPIXSIZE=many\nCPU=decm\n", "PIXSIZE 'many'");
   expect_error_at(size + "TYPE=float\nPIXSIZE=32 bits\nCPU=cray\n", "CPU 'cray'");
+  expect_error_at(size + "TYPE=signed fixed\nPIXSIZE=24 bits\nCPU=decm\n", "PIXSIZE '24 bits'");
   for (const char* spacing : {"VX=0", "VY=-1", "VZ=nan", "VX=1e999", "VX="})
     expect_error_at(size + spacing + "\n" + type, std::string(spacing, 2) + " '");
   expect_error_at(size + "TY=inf\n" + type, "TY 'inf'");
+}
+
+TEST_F(Program_volume_io, an_inr_file_has_floats_of_32_or_64_bits) {
+  const std::string fields = std::string(inr_size) + "VDIM=1\nTYPE=float\nCPU=decm\n";
+  for (const std::size_t bytes : {1u, 2u}) { // the data have the size that the header says
+    const std::string bits = std::to_string(8 * bytes) + " bits";
+    write_file("narrow.inr", inr(fields + "PIXSIZE=" + bits + "\n", std::string(24 * bytes, '\0')));
+    expect_reading_error("narrow.inr", "PIXSIZE '" + bits + "'; write 32 bits or 64 bits");
+  }
+}
+
+TEST(Program_sample_type, exists_for_the_sizes_of_numbers_only) {
+  EXPECT_EQ(equiaffine::raw_types[equiaffine::integer_sample_type(2, false)], "uint16");
+  EXPECT_EQ(equiaffine::raw_types[equiaffine::integer_sample_type(8, true)], "int64");
+  EXPECT_EQ(equiaffine::raw_types[equiaffine::floating_sample_type(4)], "float");
+  EXPECT_EQ(equiaffine::raw_types[equiaffine::floating_sample_type(8)], "double");
+  for (const std::size_t bytes : {0u, 3u, 16u}) {
+    EXPECT_THROW(equiaffine::integer_sample_type(bytes, true), std::invalid_argument);
+    EXPECT_THROW(equiaffine::floating_sample_type(bytes), std::invalid_argument);
+  }
+  EXPECT_THROW(equiaffine::floating_sample_type(2), std::invalid_argument);
 }
 
 #ifdef EQUIAFFINE_WITH_ITK
