@@ -19,16 +19,31 @@ namespace {
 
 constexpr std::int32_t size_of_header = 348;
 
+/// The least place of the data in a file that has the header, too.
+constexpr double first_place_of_data = 352;
+
 /// The places of fields in the header, in bytes.
 enum Place : std::size_t {
   DIM = 40,
+  DATATYPE = 70,
   BITPIX = 72,
   PIXDIM = 76,
   VOX_OFFSET = 108,
   QFORM = 252,
   QUATERNION = 256,
-  SROW = 280
+  SROW = 280,
+  MAGIC = 344
 };
+
+struct Datatype {
+  std::int16_t code, bits;
+};
+
+/// The types of NIfTI-1 but single bits and numbers of 128 bits. RGB and complex numbers are here since ITK reads them.
+constexpr std::array datatypes = {Datatype{2, 8},      Datatype{4, 16},   Datatype{8, 32},    Datatype{16, 32},
+                                  Datatype{32, 64},    Datatype{64, 64},  Datatype{128, 24},  Datatype{256, 8},
+                                  Datatype{512, 16},   Datatype{768, 32}, Datatype{1024, 64}, Datatype{1280, 64},
+                                  Datatype{1792, 128}, Datatype{2304, 32}};
 
 /// The header of a NIfTI-1 file, which begins with its own length in the byte order of the file.
 class Nifti_header {
@@ -41,11 +56,12 @@ public:
   }
 
   void check_frame() const {
-    if (const double offset = number<float>(VOX_OFFSET); !(offset >= 0 && std::isfinite(offset)))
-      fail_at("vox_offset", offset, "correct it to the number of bytes before the data");
+    const double offset = number<float>(VOX_OFFSET), least = is_single_file() ? first_place_of_data : 0;
+    if (!(offset >= least && std::isfinite(offset)))
+      fail_at("vox_offset", offset, "correct it to the number of bytes before the data, usually 352");
     for (std::size_t axis = 1; axis <= 3; ++axis)
-      if (!std::isfinite(number<float>(PIXDIM, axis)))
-        fail_at("pixdim", number<float>(PIXDIM, axis), "correct it to the distance of two nodes");
+      if (const double step = number<float>(PIXDIM, axis); !(step > 0 && std::isfinite(step)))
+        fail_at("pixdim[" + std::to_string(axis) + "]", step, "correct it to the distance of two nodes");
     if (number<std::int16_t>(QFORM) > 0)
       for (std::size_t i = 0; i < 6; ++i)
         if (!std::isfinite(number<float>(QUATERNION, i)))
@@ -63,10 +79,25 @@ public:
       if (size < 1) fail_at("dim[" + std::to_string(axis) + "]", size, "correct it to a number of nodes");
       nodes *= size;
     }
-    return double(number<float>(VOX_OFFSET)) + nodes * number<std::int16_t>(BITPIX) / 8;
+    return double(number<float>(VOX_OFFSET)) + nodes * bits_per_sample() / 8;
   }
 
 private:
+  bool is_single_file() const { return bytes_.compare(MAGIC, 3, "n+1") == 0; }
+
+  /// niftilib goes by the type of numbers alone, so that another number of bits shows that one of them is damaged.
+  std::int16_t bits_per_sample() const {
+    const auto code = number<std::int16_t>(DATATYPE), bits = number<std::int16_t>(BITPIX);
+    const auto* const type = std::find_if(datatypes.begin(), datatypes.end(),
+                                          [code](const Datatype& datatype) { return datatype.code == code; });
+    if (type == datatypes.end()) fail_to_read_volume_type(path_);
+    if (bits != type->bits)
+      fail_at("bitpix", bits,
+              "correct it to " + std::to_string(type->bits) + ", which is that of its datatype " +
+                  std::to_string(code) + ", or correct the datatype");
+    return bits;
+  }
+
   template <class Number>
   Number number(std::size_t place, std::size_t index = 0) const {
     std::array<char, sizeof(Number)> bytes;

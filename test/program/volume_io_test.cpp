@@ -411,6 +411,24 @@ TEST_F(Program_volume_io, a_nifti_header_with_a_damaged_frame_is_refused) {
   expect_error_of(bytes.substr(0, 100), "end before");
 }
 
+TEST_F(Program_volume_io, a_nifti_header_that_contradicts_itself_is_refused) {
+  write_volume(path("a.nii"), sampled(rotated_lattice()), false);
+  const std::string bytes = read_file("a.nii");
+  const auto expect_error_of = [&](const std::string& damaged, const std::string& part) {
+    write_file("damaged.nii", damaged);
+    expect_reading_error("damaged.nii", part);
+  };
+  const std::string half = bytes.substr(0, 352 + (bytes.size() - 352) / 2);
+  for (const std::int16_t bits : {0, 8, 32})
+    expect_error_of(with_number(half, 72, bits), "bitpix '" + std::to_string(bits) + "'; correct it to 64");
+  expect_error_of(with_number(bytes, 70, std::int16_t(16)), "bitpix '64'; correct it to 32");
+  expect_error_of(with_number(bytes, 70, std::int16_t(3)), "type of numbers is not supported");
+  expect_error_of(with_number(bytes.substr(0, bytes.size() - 340), 108, 0.F), "vox_offset '0'");
+  for (const float step : {0.F, -1.F})
+    for (const std::size_t axis : {1u, 2u, 3u})
+      expect_error_of(with_number(bytes, 76 + 4 * axis, step), "pixdim[" + std::to_string(axis) + "] '");
+}
+
 TEST_F(Program_volume_io, a_meta_header_with_damaged_fields_is_refused) {
   const std::string data(8 * sizeof(float), '\0');
   const auto header = [](const std::string& axes, const std::string& size, const std::string& spacing,
