@@ -340,6 +340,11 @@ TEST_F(Program_errors, points_are_a_table_with_a_header) {
 TEST_F(Program_errors, a_mesh_to_measure_from_is_closed) {
   add_input("open.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n");
   expect_error({"mesh", "--distance-to", "open.off", "-o", "out.ply"}, {"'open.off'", "not closed", "3 border edges"});
+  for (const char* far : {"1e300", "-1.1e15"}) {
+    add_input("far.off",
+              std::string("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 ") + far + "\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+    expect_error({"mesh", "--distance-to", "far.off", "-o", "out.ply"}, {"'far.off'", "beyond 1e15", "another unit"});
+  }
   add_input("short.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n");
   expect_error({"mesh", "--distance-to", "short.off", "-o", "out.ply"}, {"short.off"});
   add_input("text.stl", "this is no mesh");

@@ -8,6 +8,7 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <sstream>
@@ -28,14 +29,27 @@ inline std::string place(const Side_kernel::Point_3& p) {
   return text.str();
 }
 
+/// Throws Input_error if a coordinate is not finite, or so large that 1 added to it vanishes by rounding: CGAL decides on
+/// which side a point is by rays, through a second point one unit away.
+inline void check_coordinates(const Distance_mesh& mesh) {
+  constexpr double greatest = 1e15;
+  for (const auto v : mesh.vertices()) {
+    const auto& p = mesh.point(v);
+    const double largest = std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+    if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z()))
+      throw Input_error("the mesh has a vertex with a coordinate that is not a finite number, " + place(p) +
+                        ": correct or remove it");
+    if (largest > greatest)
+      throw Input_error("the mesh has a vertex with a coordinate beyond 1e15, " + place(p) +
+                        ": correct it or choose another unit");
+  }
+}
+
 /// Throws Input_error unless the mesh bounds a volume: its faces are triangles, it has no border, and triangles touch
 /// at common edges and vertices only.
 inline void check_bounds_volume(const Distance_mesh& mesh) {
   if (mesh.number_of_faces() == 0) throw Input_error("the mesh has no faces: give a closed mesh of triangles");
-  for (const auto v : mesh.vertices())
-    if (const auto& p = mesh.point(v); !std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z()))
-      throw Input_error("the mesh has a vertex with a coordinate that is not a finite number, " + place(p) +
-                        ": correct or remove it");
+  check_coordinates(mesh);
   for (const auto f : mesh.faces())
     if (const auto degree = mesh.degree(f); degree != 3)
       throw Input_error("the mesh has a face with " + std::to_string(degree) + " vertices, one of them at " +
