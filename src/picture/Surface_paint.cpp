@@ -47,7 +47,7 @@ Surface_paint::Surface_paint(const Indexed_triangle_mesh_3<Kernel>& mesh, const 
     use(*column, range, std::hypot(box.x_span(), box.y_span(), box.z_span()));
     const auto* errors = find_errors(attributes, column->name);
     if (errors != nullptr && legend_) find_doubts(*column, *errors);
-    if (is_infinite_at_parabolic_points(column->name)) find_sides(attributes);
+    if (is_undefined_at_parabolic_points(column->name)) find_sides(attributes);
   }
   find_notes(mesh.triangles);
 }
@@ -126,7 +126,7 @@ void Surface_paint::find_notes(std::span<const Triangle> triangles) {
     for (const std::uint32_t vertex : triangle)
       if (codes_[vertex] != std::uint8_t(Point_status::PARABOLIC) || !is_line_only) is_seen[codes_[vertex]] = true;
   }
-  if (has_line) notes_.push_back({status_color(Point_status::PARABOLIC), "parabolic curve: infinite"});
+  if (has_line) notes_.push_back({status_color(Point_status::PARABOLIC), "parabolic curve: no number there"});
   if (!doubts_.empty()) notes_.push_back({doubt_color(), "grayer where the estimated error is larger"});
   for (std::size_t code = legend_ ? 1 : 0; code < is_seen.size(); ++code)
     if (is_seen[code])

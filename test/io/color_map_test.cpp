@@ -93,6 +93,22 @@ TEST(Color_map, rounding_noise_around_zero_looks_like_zero) {
   EXPECT_EQ(rgb(map_color(5e-15, range)), rgb(diverging_color(0)));
 }
 
+TEST(Color_map, rounding_noise_that_grows_beside_a_curve_looks_like_zero) {
+  std::vector<double> values(1000, 1e-15);
+  for (std::size_t i = 0; i < 15; ++i) values[i] = (i % 2 == 0 ? 1 : -1) * 2e-7;
+  for (const double noise : {1e-12, 4e-8}) {
+    for (std::size_t i = 15; i < 50; ++i) values[i] = noise;
+    const Color_range range = color_range(values, default_clip_percent, 1e-9);
+    for (const double value : values) EXPECT_EQ(rgb(map_color(value, range)), rgb(diverging_color(0))) << noise;
+  }
+}
+
+TEST(Color_map, few_numbers_that_are_not_noise_have_their_color) {
+  std::vector<double> values(1000, 1e-15);
+  for (std::size_t i = 0; i < 10; ++i) values[i] = 0.5;
+  EXPECT_EQ(rgb(map_color(0.5, color_range(values, default_clip_percent, 1e-9))), rgb(diverging_color(0.5)));
+}
+
 TEST(Color_map, a_constant_up_to_rounding_has_one_color) {
   const std::vector<double> values = {-0.55, -0.55 + 1e-13, -0.55 - 1e-13};
   const Color_range range = color_range(values, 0, 1e-9);

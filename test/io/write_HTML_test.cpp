@@ -161,13 +161,13 @@ TEST(Write_HTML, names_known_quantities_as_people_do_and_others_as_they_are) {
             std::string::npos);
 }
 
-TEST(Write_HTML, the_page_knows_which_quantities_are_infinite_at_parabolic_points) {
+TEST(Write_HTML, the_page_knows_which_quantities_are_undefined_at_parabolic_points) {
   Vertex_attributes attributes;
   attributes.columns = {{"pick_invariant", {0, 1, 2, 3}}, {"mean_curvature", {0, 1, 2, 3}}};
   const std::string text = page(tetrahedron(), attributes);
-  EXPECT_EQ(count(text, "\"isInfiniteAtParabolicPoints\":true"), 1u);
-  EXPECT_EQ(count(text, "\"isInfiniteAtParabolicPoints\":false"), 1u);
-  EXPECT_LT(text.find("\"isInfiniteAtParabolicPoints\":true"), text.find("\"name\":\"mean_curvature\""));
+  EXPECT_EQ(count(text, "\"isUndefinedAtParabolicPoints\":true"), 1u);
+  EXPECT_EQ(count(text, "\"isUndefinedAtParabolicPoints\":false"), 1u);
+  EXPECT_LT(text.find("\"isUndefinedAtParabolicPoints\":true"), text.find("\"name\":\"mean_curvature\""));
 }
 
 TEST(Write_HTML, colors_are_those_of_the_color_map) {

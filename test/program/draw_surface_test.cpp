@@ -162,6 +162,7 @@ TEST(Program_draw_surface, there_is_no_parabolic_line_beside_a_vertex_whose_curv
   const auto crossed = draw_surface(facing_square(), attributes, small);
   EXPECT_GT(green_pixels(crossed.picture), 0);
   EXPECT_TRUE(has_note(crossed));
+  EXPECT_EQ(crossed.notes[0].text, "parabolic curve: no number there") << "it may be zero on both sides";
 }
 
 TEST(Program_draw_surface, colors_that_show_no_number_have_notes_and_no_bar) {

@@ -22,9 +22,9 @@ constexpr int rank_of_quantity(std::string_view name) {
   return quantity ? quantity->rank : Quantity::unranked;
 }
 
-/// Returns whether numbers of that attribute do not exist where the Gaussian curvature is zero, and grow without bound
-/// on both sides of such a curve.
-constexpr bool is_infinite_at_parabolic_points(std::string_view name) {
+/// Returns whether numbers of that attribute do not exist where the Gaussian curvature is zero. On both sides of such a
+/// curve they grow without bound, unless they are zero.
+constexpr bool is_undefined_at_parabolic_points(std::string_view name) {
   const Quantity* const quantity = find_quantity(name);
   return quantity != nullptr && quantity->group == "Affine";
 }

@@ -54,22 +54,28 @@ inline double quantile(std::vector<double>& values, double percent) {
 /// The range of a column of numbers; infinities and NaNs do not count. For numbers of both signs the bounds are +-(the
 /// (100 - clip_percent)-quantile of |value|), for numbers of one sign the quantiles at clip_percent and 100 -
 /// clip_percent. A sign counts when it reaches a millionth of that largest |value|. `resolution` >= 0, in the unit of
-/// the numbers, is the least half-width worth a color: numbers below it all look like zero instead of like noise. A
-/// relative half-width is at least a millionth, as pages store single precision.
+/// the numbers, is the least half-width worth a color. A
+/// relative half-width is at least a millionth, as pages store single precision. Numbers look like zero instead of like
+/// noise if at least half of them are below the resolution and that largest |value| is below a thousand resolutions,
+/// since rounding grows beside a parabolic curve: their range is a billion resolutions, which is the unit of the numbers
+/// where the resolution is 1e-9 of it.
 inline Color_range color_range(std::vector<double> values, double clip_percent = default_clip_percent,
                                double resolution = 0) {
   CGAL_precondition(clip_percent >= 0 && clip_percent < 50 && resolution >= 0);
   constexpr double relative_resolution = 1e-6;
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
-  const double fallback = resolution > 0 ? resolution : 1;
-  if (values.empty()) return {-fallback, fallback, fallback, true};
+  constexpr double resolutions_of_rounding = 1e3, resolutions_of_unit = 1e9;
+  const double unit = resolution > 0 ? resolutions_of_unit * resolution : 1;
+  const Color_range range_of_zero = {-unit, unit, unit, true};
+  if (values.empty()) return range_of_zero;
 
   std::vector<double> magnitudes(values.size());
   std::transform(values.begin(), values.end(), magnitudes.begin(), [](double value) { return std::abs(value); });
   double largest = quantile(magnitudes, 100 - clip_percent);
   if (largest == 0) largest = *std::max_element(magnitudes.begin(), magnitudes.end());
-  if (largest <= resolution) return {-fallback, fallback, fallback, true};
-  const double knee = std::max({quantile(magnitudes, 50), resolution, relative_resolution * largest});
+  const double median = quantile(magnitudes, 50);
+  if (median <= resolution && largest <= resolutions_of_rounding * resolution) return range_of_zero;
+  const double knee = std::max({median, resolution, relative_resolution * largest});
 
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   const double negligible = relative_resolution * largest;

@@ -38,7 +38,7 @@ inline void write_column_facts(std::ostream& json, const Vertex_attributes& attr
          << ",\"label\":" << json_string(known ? known->label : column.name)
          << ",\"symbol\":" << json_string(known ? known->symbol : "")
          << ",\"group\":" << json_string(known ? known->group : "") << ",\"weight\":" << (known ? known->weight : 0)
-         << ",\"isInfiniteAtParabolicPoints\":" << (is_infinite_at_parabolic_points(column.name) ? "true" : "false")
+         << ",\"isUndefinedAtParabolicPoints\":" << (is_undefined_at_parabolic_points(column.name) ? "true" : "false")
          << ",\"order\":" << rank_of_quantity(column.name)
          << ",\"resolution\":" << rounding_of_quantity(column.name, diagonal) << '}';
     separator = ",\n";

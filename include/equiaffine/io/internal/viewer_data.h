@@ -107,7 +107,7 @@ function vertexAreas() {
 // The Gaussian curvature, scaled, 0 where the vertex is parabolic and NaN where it is not known, if the quantity is
 // infinite where that changes its sign; else null.
 function vertexSides(quantity) {
-  const curvature = quantity.isInfiniteAtParabolicPoints && columnNamed('gaussian_curvature')?.values();
+  const curvature = quantity.isUndefinedAtParabolicPoints && columnNamed('gaussian_curvature')?.values();
   if (!curvature) return null;
   const sides = curvature.map((value, i) => mesh.status[i] === 1 ? 0 : isFinite(value) ? value : NaN);
   const largest = sides.reduce((most, side) => isNaN(side) ? most : Math.max(most, Math.abs(side)), 0) || 1;
@@ -152,12 +152,13 @@ function quantile(sorted, percent) {
 
 // color_range of io/color_map.h; both arrays sorted, finite.
 function colorRange(sorted, magnitudes, clip, resolution) {
-  const fallback = resolution > 0 ? resolution : 1;
-  const nothing = {lower: -fallback, upper: fallback, knee: fallback, isDiverging: true};
+  const unit = resolution > 0 ? 1e9 * resolution : 1;
+  const nothing = {lower: -unit, upper: unit, knee: unit, isDiverging: true};
   if (!sorted.length) return nothing;
   const largest = quantile(magnitudes, 100 - clip) || magnitudes[magnitudes.length - 1];
-  if (largest <= resolution) return nothing;
-  const knee = Math.max(quantile(magnitudes, 50), resolution, 1e-6 * largest);
+  const median = quantile(magnitudes, 50);
+  if (median <= resolution && largest <= 1e3 * resolution) return nothing;
+  const knee = Math.max(median, resolution, 1e-6 * largest);
   if (sorted[0] < -1e-6 * largest && sorted[sorted.length - 1] > 1e-6 * largest)
     return {lower: -largest, upper: largest, knee, isDiverging: true};
   const lower = quantile(sorted, clip), upper = quantile(sorted, 100 - clip);

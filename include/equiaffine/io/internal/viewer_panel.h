@@ -139,7 +139,7 @@ function legendEntries() {
       if (counts[i] && (i > 0 || isStatus)) entries.push([color, word, counts[i]]);
     });
   if (shown.sides && hasParabolicLine(shown.sides))
-    entries.push([facts.statuses[1].color, 'parabolic curve: infinite']);
+    entries.push([facts.statuses[1].color, 'parabolic curve: no number there']);
   if (shown.errors) entries.push([facts.doubt, 'grayer where the estimated error is larger']);
   const missing = shown.codes.reduce((sum, code) => sum + (code === 5), 0);
   if (missing) entries.push([facts.undefined, 'no number', missing]);
