@@ -419,8 +419,8 @@ TEST_F(Program_volume_io, a_nifti_header_that_contradicts_itself_is_refused) {
     expect_reading_error("damaged.nii", part);
   };
   const std::string half = bytes.substr(0, 352 + (bytes.size() - 352) / 2);
-  for (const std::int16_t bits : {0, 8, 32})
-    expect_error_of(with_number(half, 72, bits), "bitpix '" + std::to_string(bits) + "'; correct it to 64");
+  for (const int bits : {0, 8, 32})
+    expect_error_of(with_number(half, 72, std::int16_t(bits)), "bitpix '" + std::to_string(bits) + "'; correct it to 64");
   expect_error_of(with_number(bytes, 70, std::int16_t(16)), "bitpix '64'; correct it to 32");
   expect_error_of(with_number(bytes, 70, std::int16_t(3)), "type of numbers is not supported");
   expect_error_of(with_number(bytes.substr(0, bytes.size() - 340), 108, 0.F), "vox_offset '0'");
