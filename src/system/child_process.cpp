@@ -10,7 +10,6 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
@@ -87,7 +86,7 @@ std::string answer_of(const std::function<void()>& task) {
   is_child = true;
   set_limit(RLIMIT_CORE, 0);
   set_limit(RLIMIT_CPU, std::ceil(limits.seconds));
-  allow_memory(limits.memory);
+  if (const double used = address_space(); used > 0) set_limit(RLIMIT_AS, used + limits.memory);
   write_all(answer, answer_of(task));
   ::_exit(0);
 }
@@ -128,7 +127,10 @@ std::string too_slow(const Child_limits& limits) {
 } // namespace
 
 void allow_memory(double bytes) {
-  if (const double used = address_space(); is_child && used > 0) set_limit(RLIMIT_AS, used + bytes);
+  struct rlimit limit;
+  const double used = address_space();
+  if (is_child && used > 0 && ::getrlimit(RLIMIT_AS, &limit) == 0 && used + bytes > double(limit.rlim_cur))
+    set_limit(RLIMIT_AS, used + bytes);
 }
 
 void run_in_child(const std::function<void()>& task, const Child_limits& limits) {

@@ -25,7 +25,8 @@ public:
 /// \throws Child_failure if the child crashed, exceeded its limits, or threw another exception
 void run_in_child(const std::function<void()>& task, const Child_limits& limits);
 
-/// In a child process, allows this many bytes from now on beside what it has; elsewhere nothing is limited.
+/// In a child process, allows this many bytes from now on beside what it has, or what it was allowed if that is more;
+/// elsewhere nothing is limited.
 void allow_memory(double bytes);
 
 } // namespace equiaffine

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume/Shared_volume.h"
 
-#include "system/child_process.h"
 #include "volume/sample_type.h"
 
 #include <array>
@@ -43,10 +42,6 @@ Lattice_3<Kernel> lattice_of(const Header& header) {
 } // namespace
 
 void* Shared_volume::allocate(const Lattice_3<Kernel>& lattice, std::size_t type) {
-  // A reader holds the samples once or twice itself, at most as doubles, beside those in shared memory.
-  constexpr double copies = 4, for_small_volumes = 1 << 28;
-  const double doubles = sizeof(double) * double(lattice.number_of_nodes());
-  allow_memory(copies * doubles + for_small_volumes);
   std::byte* const bytes = memory_.allocate(size_of_header + lattice.number_of_nodes() * size_of_sample(type));
   Header header = {lattice.size(), {}, {}, type};
   for (int axis = 0; axis < 3; ++axis) {

@@ -14,8 +14,7 @@ namespace equiaffine {
 /// allocates and fills it, and the parent takes the lattice and the samples from it.
 class Shared_volume {
 public:
-  /// Makes room for the samples of a lattice and returns the place of the first one. In a child process it also allows
-  /// the memory that a reader may use for them. `type` is a position in raw_types.
+  /// Makes room for the samples of a lattice and returns the place of the first one. `type` is a position in raw_types.
   void* allocate(const Lattice_3<Kernel>& lattice, std::size_t type);
 
   Lattice_3<Kernel> lattice();

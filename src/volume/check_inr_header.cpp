@@ -5,7 +5,10 @@
 
 #include <climits>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -36,11 +39,13 @@ class Inr_header {
 public:
   Inr_header(const std::string& path, std::string_view header) : path_(path), fields_(fields_of(header)) {}
 
+  Lattice_3<Kernel>::Size number_of_nodes() const { return {positive("XDIM"), positive("YDIM"), positive("ZDIM")}; }
+
   /// The bytes of all samples that the header speaks of.
   double size_of_data() const {
-    double size = double(integer("PIXSIZE", "the number of bits of a sample")) / 8;
-    for (const std::string_view field : {"XDIM", "YDIM", "ZDIM"}) size *= double(integer(field, "a positive integer"));
-    return fields_.contains("VDIM") ? size * double(integer("VDIM", "a positive integer")) : size;
+    double size = double(positive("PIXSIZE")) / 8;
+    for (const std::size_t nodes : number_of_nodes()) size *= double(nodes);
+    return fields_.contains("VDIM") ? size * double(positive("VDIM")) : size;
   }
 
   void check_words() const {
@@ -69,12 +74,11 @@ private:
     return found->second;
   }
 
-  long long integer(std::string_view field, const std::string& expected, long long lowest = 1,
-                    long long highest = INT_MAX) const {
-    const std::string_view content = content_of(field, expected);
-    const std::optional<long long> number = to_integer(content.substr(0, content.find(' ')), lowest, highest);
-    if (!number) fail_at_field(path_, field, content, "write " + expected);
-    return *number;
+  std::size_t positive(std::string_view field) const {
+    const std::string_view content = content_of(field, "a positive integer");
+    const std::optional<long long> number = to_integer(content.substr(0, content.find(' ')), 1, INT_MAX);
+    if (!number) fail_at_field(path_, field, content, "write a positive integer");
+    return std::size_t(*number);
   }
 
   void check_word(std::string_view field, std::initializer_list<std::string_view> words) const {
@@ -119,6 +123,7 @@ void check_inr_header(const std::string& path) {
                             "XDIM, YDIM, ZDIM, VDIM and PIXSIZE is " +
                             std::to_string(std::uint64_t(expected)),
                         "correct these");
+  admit_nodes(path, header.number_of_nodes());
 }
 
 } // namespace equiaffine

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <fstream>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,10 +55,26 @@ Lattice_3<Kernel>::Size size_in(const std::string& path, std::string_view elemen
     if (!number) fail_at_field(path, "WholeExtent", content, "write 6 integers of 32 bits");
     extent[i] = *number;
   }
+  if (extent[0] > extent[1] || extent[2] > extent[3] || extent[4] > extent[5])
+    fail_at_field(path, "WholeExtent", content, "write the first and the last node along each axis");
   Lattice_3<Kernel>::Size size;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    size[axis] = std::size_t(std::max(extent[2 * axis + 1] - extent[2 * axis] + 1, 0LL));
+  for (std::size_t axis = 0; axis < 3; ++axis) size[axis] = std::size_t(extent[2 * axis + 1] - extent[2 * axis] + 1);
   return size;
+}
+
+/// VTK's reader crashes at arrays of strings. They may stand anywhere before the appended data, which are no XML.
+void check_arrays(const std::string& path) {
+  constexpr std::array<std::string_view, 11> types = {"Int8",  "UInt8",  "Int16",   "UInt16",  "Int32", "UInt32",
+                                                      "Int64", "UInt64", "Float32", "Float64", "Bit"};
+  std::ifstream file(path, std::ios::binary);
+  std::string element;
+  while (file.ignore(std::numeric_limits<std::streamsize>::max(), '<') && std::getline(file, element, '>')) {
+    if (element.starts_with("AppendedData")) return;
+    if (!element.starts_with("DataArray")) continue;
+    const std::string_view type = attribute_of(element, "type").value_or("");
+    if (std::find(types.begin(), types.end(), type) == types.end())
+      fail_at_field(path, "a DataArray of type", type, "convert it to Float32 or Float64");
+  }
 }
 
 } // namespace
@@ -75,6 +93,7 @@ void check_vti_header(const std::string& path) {
   make_lattice(
       path, size_in(path, element), CGAL::ORIGIN + origin,
       {Kernel::Vector_3(spacing.x(), 0, 0), Kernel::Vector_3(0, spacing.y(), 0), Kernel::Vector_3(0, 0, spacing.z())});
+  check_arrays(path);
 }
 
 } // namespace equiaffine

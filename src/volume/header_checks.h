@@ -18,7 +18,7 @@ void check_meta_header(const std::string& path);
 /// Checks the frame of a NIfTI-1 file, and that the data, decompressed, are as long as its header says.
 void check_nifti_header(const std::string& path);
 
-/// Checks the extent and the frame of a VTI file.
+/// Checks the extent and the frame of a VTI file, and the types of its arrays.
 void check_vti_header(const std::string& path);
 
 } // namespace equiaffine

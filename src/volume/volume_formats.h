@@ -35,7 +35,11 @@ void write_vti_volume(std::ostream& stream, const Volume_3<Kernel>& volume, bool
 /// Throws `Input_error` for a file whose samples are no numbers that this program knows.
 [[noreturn]] void fail_to_read_volume_type(const std::string& path);
 
-/// The lattice of a file; throws `Input_error` for what a file may hold and a lattice may not.
+/// Allows a child process the memory that a reader may use for this many nodes, which a header has to say before the
+/// reader decompresses them. Throws `Input_error` if too few for a volume or too many for this computer.
+void admit_nodes(const std::string& path, const Lattice_3<Kernel>::Size& size);
+
+/// The lattice of a file, whose nodes it admits; throws `Input_error` for what a file may hold and a lattice may not.
 Lattice_3<Kernel> make_lattice(const std::string& path, const Lattice_3<Kernel>::Size& size,
                                const Kernel::Point_3& origin, const std::array<Kernel::Vector_3, 3>& steps);
 

@@ -110,16 +110,24 @@ void fail_to_read_volume_type(const std::string& path) {
   fail_to_read_volume(path, "its type of numbers is not supported", "convert it to float or double");
 }
 
-Lattice_3<Kernel> make_lattice(const std::string& path, const Lattice_3<Kernel>::Size& size,
-                               const Kernel::Point_3& origin, const std::array<Kernel::Vector_3, 3>& steps) {
+void admit_nodes(const std::string& path, const Lattice_3<Kernel>::Size& size) {
+  // A reader holds the samples once or twice itself, at most as doubles, beside those in shared memory.
+  constexpr double copies = 4, for_small_volumes = 1 << 28;
+  const double doubles = sizeof(double) * double(size[0]) * double(size[1]) * double(size[2]);
   const std::string size_text =
       std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]);
   if (*std::min_element(size.begin(), size.end()) < 2)
     fail_to_read_volume(path, "it has " + size_text + " nodes",
                         "a volume needs at least 2 nodes along each of its axes");
-  if (sizeof(double) * double(size[0]) * double(size[1]) * double(size[2]) > physical_memory())
+  if (doubles > physical_memory())
     fail_to_read_volume(path, "it has " + size_text + " nodes and does not fit into memory",
                         "check its header or crop it");
+  allow_memory(copies * doubles + for_small_volumes);
+}
+
+Lattice_3<Kernel> make_lattice(const std::string& path, const Lattice_3<Kernel>::Size& size,
+                               const Kernel::Point_3& origin, const std::array<Kernel::Vector_3, 3>& steps) {
+  admit_nodes(path, size);
   const double determinant = CGAL::determinant(steps[0], steps[1], steps[2]);
   const bool is_finite =
       std::isfinite(determinant) && std::isfinite(origin.x()) && std::isfinite(origin.y()) && std::isfinite(origin.z());

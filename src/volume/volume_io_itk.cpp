@@ -156,8 +156,13 @@ void read_dicom_series(const std::string& folder, Shared_volume& volume) {
                                      : "move the files of one series to a folder of their own");
     const itk::ImageSeriesReader<Image>::Pointer reader = itk::ImageSeriesReader<Image>::New();
     const itk::GDCMImageIO::Pointer io = itk::GDCMImageIO::New();
+    const std::vector<std::string>& files = names->GetInputFileNames();
+    io->SetFileName(files.front());
+    io->ReadImageInformation();
+    const std::size_t frames = io->GetNumberOfDimensions() > 2 ? io->GetDimensions(2) : 1;
+    admit_nodes(folder, {io->GetDimensions(0), io->GetDimensions(1), frames * files.size()});
     reader->SetImageIO(io);
-    reader->SetFileNames(names->GetInputFileNames());
+    reader->SetFileNames(files);
     reader->ForceOrthogonalDirectionOff();
     reader->Update();
     check_scalars(folder, *io);
