@@ -77,6 +77,8 @@ void check_faces_of_OBJ(const std::string& path) {
   std::ifstream file(path);
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {
+    for (std::string next; line.ends_with('\\') && std::getline(file, next); ++number)
+      line.replace(line.size() - 1, 1, ' ' + next); // the line goes on
     std::istringstream words(line);
     std::string word;
     if (!(words >> word) || word != "f") continue;
@@ -95,7 +97,6 @@ void fail_to_read_mesh(const std::string& path, const std::string& reason, const
 }
 
 Polygon_soup read_foreign_soup(const std::string& path) {
-  if (has_extension(path, ".obj")) check_faces_of_OBJ(path);
   // A vertex or a face takes at least 6 bytes in a file, and up to 50 in each of three copies.
   constexpr double seconds = 10, bytes_per_second = 20e6, memory_for_small_files = 1 << 28, memory_per_byte = 32;
   std::error_code error;
@@ -104,6 +105,7 @@ Polygon_soup read_foreign_soup(const std::string& path) {
   Shared_memory memory;
   try {
     const auto read = [&] {
+      if (has_extension(path, ".obj")) check_faces_of_OBJ(path);
       Polygon_soup soup;
       if (!CGAL::IO::read_polygon_soup(path, soup.points, soup.polygons))
         fail_to_read_mesh(path, "its content is not understood", "get the complete file again");
@@ -111,8 +113,7 @@ Polygon_soup read_foreign_soup(const std::string& path) {
     };
     run_in_child(read, {seconds + size / bytes_per_second, memory_for_small_files + memory_per_byte * size});
   } catch (const Child_failure& failure) {
-    fail_to_read_mesh(path, std::string("the reader of this format ") + failure.what(),
-                      "the file is probably damaged, get the complete file again");
+    fail_to_read_mesh(path, std::string("the reader of this format ") + failure.what(), failure.advice());
   } catch (const std::bad_alloc&) {
     fail_to_read_mesh(path, "it does not fit into memory", "simplify it");
   }

@@ -106,13 +106,14 @@ bool read_until_closed(int pipe, Clock::time_point deadline, std::string& text) 
   }
 }
 
-std::string too_slow(const Child_limits& limits) {
-  return "took longer than " + std::to_string(std::llround(limits.seconds)) + " s";
+[[noreturn]] void throw_too_slow(const Child_limits& limits) {
+  throw Child_failure("took longer than " + std::to_string(std::llround(limits.seconds)) + " s",
+                      "the file may be damaged, or be read too slowly: try a copy on a faster disk");
 }
 
 [[noreturn]] void throw_answer(const std::string& answer, int status, const Child_limits& limits) {
   if (answer.empty() && WIFSIGNALED(status)) {
-    if (WTERMSIG(status) == SIGXCPU) throw Child_failure(too_slow(limits));
+    if (WTERMSIG(status) == SIGXCPU) throw_too_slow(limits);
     throw Child_failure("crashed (" + std::string(::strsignal(WTERMSIG(status))) + ")");
   }
   const std::string text = answer.empty() ? answer : answer.substr(1);
@@ -156,7 +157,7 @@ void run_in_child(const std::function<void()>& task, const Child_limits& limits)
   int status = 0;
   while (::waitpid(child, &status, 0) == -1 && errno == EINTR) {
   }
-  if (!has_ended) throw Child_failure(too_slow(limits));
+  if (!has_ended) throw_too_slow(limits);
   if (answer != std::string{done}) throw_answer(answer, status, limits);
 }
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <stdexcept>
+#include <string>
 
 namespace equiaffine {
 
@@ -13,10 +14,18 @@ struct Child_limits {
   double memory;  ///< bytes beside what its parent has
 };
 
-/// A child process ended without an answer. what() continues a sentence: "crashed (Segmentation fault)".
+/// A child process that read a file ended without an answer. what() continues a sentence: "crashed (Segmentation
+/// fault)".
 class Child_failure : public std::runtime_error {
 public:
-  using std::runtime_error::runtime_error;
+  explicit Child_failure(const std::string& what,
+                         const std::string& advice = "the file is probably damaged, get the complete file again")
+      : std::runtime_error(what), advice_(advice) {}
+
+  const std::string& advice() const { return advice_; }
+
+private:
+  std::string advice_;
 };
 
 /// Runs `task` in a child process and waits for its end. The child has a copy of everything that its parent has, and

@@ -65,7 +65,7 @@ public:
     if (number<std::int16_t>(QFORM) > 0)
       for (std::size_t i = 0; i < 6; ++i)
         if (!std::isfinite(number<float>(QUATERNION, i)))
-          fail_at("in quatern or qoffset", number<float>(QUATERNION, i), "correct it to a finite number");
+          fail_at("a number in quatern or qoffset of", number<float>(QUATERNION, i), "correct it to a finite number");
     if (number<std::int16_t>(QFORM, 1) > 0) check_matrix();
   }
 
@@ -113,15 +113,15 @@ private:
     for (std::size_t column = 0; column < 3; ++column) {
       const double step =
           std::hypot(number<float>(SROW, column), number<float>(SROW, 4 + column), number<float>(SROW, 8 + column));
-      if (!(step > 0 && std::isfinite(step))) fail_at("in srow a step of", step, "correct it to a finite length");
+      if (!(step > 0 && std::isfinite(step))) fail_at("a step in srow of", step, "correct it to a finite length");
       shortest = std::min(shortest, step);
       longest = std::max(longest, step);
     }
     if (longest > largest_ratio * shortest)
-      fail_at("in srow a step of", longest, "correct it, the shortest one is a million times smaller");
+      fail_at("a step in srow of", longest, "correct it, the shortest one is a million times smaller");
     for (std::size_t row = 0; row < 3; ++row)
       if (!std::isfinite(number<float>(SROW, 4 * row + 3)))
-        fail_at("in srow an offset of", number<float>(SROW, 4 * row + 3), "correct it to a finite number");
+        fail_at("an offset in srow of", number<float>(SROW, 4 * row + 3), "correct it to a finite number");
   }
 
   [[noreturn]] void fail_at(const std::string& field, double content, const std::string& advice) const {

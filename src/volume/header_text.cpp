@@ -2,6 +2,7 @@
 #include "volume/header_text.h"
 
 #include "volume/volume_formats.h"
+#include <equiaffine/base/printable.h>
 
 #include <zlib.h>
 
@@ -88,10 +89,7 @@ std::optional<std::vector<double>> to_numbers(std::string_view text, std::size_t
 void fail_at_field(const std::string& path, std::string_view field, std::string_view content,
                    const std::string& advice) {
   constexpr std::size_t longest = 60;
-  std::string text(content.substr(0, longest));
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
-  if (content.size() > longest) text += "...";
+  const std::string text = printable(content.substr(0, longest)) + (content.size() > longest ? "..." : "");
   fail_to_read_volume(path, "its header has " + std::string(field) + " '" + text + "'", advice);
 }
 

@@ -200,8 +200,7 @@ Volume_3<Kernel> read_in_child(const std::string& path, const Extension* extensi
                  {seconds + size / bytes_per_second, memory_for_header + copies * size});
     return volume.to_volume();
   } catch (const Child_failure& failure) {
-    fail_to_read_volume(path, std::string("the library that reads this format ") + failure.what(),
-                        "the file is probably damaged, get the complete file again");
+    fail_to_read_volume(path, std::string("the library that reads this format ") + failure.what(), failure.advice());
   } catch (const std::bad_alloc&) {
     fail_to_read_volume(path, "it does not fit into memory", "check its header or crop it");
   }

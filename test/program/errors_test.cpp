@@ -357,7 +357,7 @@ TEST_F(Program_errors, a_face_has_vertices_that_exist) {
     add_input("bad.obj", triangle + face);
     expect_error({"mesh", "--distance-to", "bad.obj", "-o", "out.ply"}, {"'bad.obj'"});
   }
-  for (const char* face : {"f 1 2 2.5\n", "# f\n f 1/1/1 2//2 3x\n", "f 1 - 2\n"}) {
+  for (const char* face : {"f 1 2 2.5\n", "# f\n f 1/1/1 2//2 3x\n", "f 1 - 2\n", "f 1 \\\n2 2.5\n"}) {
     add_input("bad.obj", triangle + face);
     expect_error({"mesh", "--distance-to", "bad.obj", "-o", "out.ply"}, {"'bad.obj'", "line", "no integer"});
   }
