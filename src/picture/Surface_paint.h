@@ -47,13 +47,13 @@ public:
   const std::vector<Color_note>& notes() const { return notes_; }
 
   /// The color at barycentric weights, as on the page: vertices with a number compete by their weights with those of
-  /// each status; the number is interpolated between the vertices that have one. A number that is infinite on a
+  /// each status; the number is interpolated between the vertices that have one. A number that does not exist on a
   /// parabolic curve is interpolated on each side of it from the vertices of that side only. Colors are grayer where the
   /// estimated error is larger.
   Light operator()(const std::array<std::uint32_t, 3>& triangle, const std::array<double, 3>& weights) const;
 
   /// The Gaussian curvature per vertex, zero where the vertex is parabolic and NaN where it is not known, if the number
-  /// is infinite where that changes its sign; else empty.
+  /// does not exist where that changes its sign; else empty.
   const std::vector<double>& sides() const { return sides_; }
 
 private:

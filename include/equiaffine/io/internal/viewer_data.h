@@ -104,8 +104,8 @@ function vertexAreas() {
   return total > 0 ? areas : areas.fill(1);
 }
 
-// The Gaussian curvature, scaled, 0 where the vertex is parabolic and NaN where it is not known, if the quantity is
-// infinite where that changes its sign; else null.
+// The Gaussian curvature, scaled, 0 where the vertex is parabolic and NaN where it is not known, if the quantity
+// does not exist where that changes its sign; else null.
 function vertexSides(quantity) {
   const curvature = quantity.isUndefinedAtParabolicPoints && columnNamed('gaussian_curvature')?.values();
   if (!curvature) return null;

@@ -49,7 +49,7 @@ uniform float isolines[24], pixels; uniform int isolineCount; uniform bool hasSi
 out vec4 color;
 void main() {
   if (vKept < 0.0) discard;
-  // A number that is infinite where vSide is 0 is interpolated on each side of that line by itself.
+  // A number that does not exist where vSide is 0 is interpolated on each side of that line by itself.
   vec3 all = vConvex + vSaddle, same = vSide >= 0.0 ? vConvex : vSaddle, known = same.y > 0.0 ? same : all;
   float level = known.x / max(known.y, 1e-6), entries = float(textureSize(map, 0).x);
   float slope = fwidth(level);
