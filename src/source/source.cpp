@@ -40,6 +40,15 @@ void check_constants_are_used(const Source_options& options) {
   }
 }
 
+/// Describes a source whose file, if it has one, is called `file`.
+std::string describe_as(const Source_options& options, const std::string& file) {
+  switch (options.kind) {
+  case Source_kind::FUNCTION: return "the formula " + options.text;
+  case Source_kind::VOLUME: return "the volume '" + file + "'";
+  default: return "the distance to " + (options.text == "-" ? "standard input" : "'" + file + "'");
+  }
+}
+
 Formula_traits make_formula(const Source_options& options) {
   // Without a box nothing will be sampled: points are given, and the box is not looked at.
   Expression_3 expression(options.text, options.constants);
@@ -68,7 +77,7 @@ Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size
     return signed_distance_volume<CGAL::Parallel_if_available_tag>(
         mesh, lattice, [&](std::size_t nodes) { progress.advance(nodes); }, voxels * longest_step);
   } catch (const Input_error& error) {
-    throw Input_error("cannot measure " + describe(options) + ": " + error.what());
+    throw Input_error("cannot measure " + describe_as(options, options.text) + ": " + error.what());
   }
 }
 
@@ -78,8 +87,9 @@ void check_values(const Volume_3<Kernel>& volume, const Source_options& options)
   const auto missing =
       std::count_if(volume.values.begin(), volume.values.end(), [](double x) { return !std::isfinite(x); });
   if (missing > 0)
-    throw Input_error("--spline-scheme: interpolation needs a value at every node, and " + describe(options) + " has " +
-                      std::to_string(missing) + " nodes without one; use quasi-interpolation");
+    throw Input_error("--spline-scheme: interpolation needs a value at every node, and " +
+                      describe_as(options, options.text) + " has " + std::to_string(missing) +
+                      " nodes without one; use quasi-interpolation");
 }
 
 struct Fit {
@@ -138,13 +148,6 @@ Source make_source(const Source_options& options, Progress& progress) {
           std::move(fit.errors)};
 }
 
-std::string describe(const Source_options& options) {
-  switch (options.kind) {
-  case Source_kind::FUNCTION: return "the formula " + options.text;
-  case Source_kind::VOLUME: return "the volume '" + name_of_file(options.text) + "'";
-  default:
-    return "the distance to " + (options.text == "-" ? "standard input" : "'" + name_of_file(options.text) + "'");
-  }
-}
+std::string describe(const Source_options& options) { return describe_as(options, name_of_file(options.text)); }
 
 } // namespace equiaffine
