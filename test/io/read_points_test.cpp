@@ -197,6 +197,9 @@ TEST(Read_points, mistakes_in_ply_are_told) {
   EXPECT_NE(
       error_of(ply, header + "element vertex 1\nproperty real x\nend_header\n1\n").find("the type 'real' in line 4"),
       std::string::npos);
+  EXPECT_NE(error_of(ply, header + "element vertex 1\nproperty float x\nelement vertex 1\nend_header\n1\n")
+                .find("a second element 'vertex' in line 5"),
+            std::string::npos);
   EXPECT_NE(error_of(ply, header + "element vertex -1\nend_header\n").find("line 3"), std::string::npos);
   EXPECT_NE(error_of(ply, header + "element vertex 1\nproperty float x\nend_header\n1\n").find("no x, y and z"),
             std::string::npos);

@@ -5,6 +5,7 @@
 #include <equiaffine/io/internal/fail_to_read.h>
 #include <equiaffine/io/internal/text_input.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -53,8 +54,12 @@ public:
       const std::string_view keyword = take_word(line);
       if (keyword == "end_header") break;
       if (keyword == "format") encoding = parse_encoding(take_word(line));
-      else if (keyword == "element") elements.push_back(parse_element(line));
-      else if (keyword == "property") {
+      else if (keyword == "element") {
+        Ply_element element = parse_element(line);
+        if (std::any_of(elements.begin(), elements.end(), [&](const auto& e) { return e.name == element.name; }))
+          fail("a second element '" + element.name + "'");
+        elements.push_back(std::move(element));
+      } else if (keyword == "property") {
         if (elements.empty()) fail("a property before the first element");
         elements.back().properties.push_back(parse_property(line));
       } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info")
