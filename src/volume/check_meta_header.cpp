@@ -3,9 +3,8 @@
 #include "volume/header_text.h"
 #include "volume/volume_formats.h"
 
-#include <climits>
-
 #include <algorithm>
+#include <climits>
 #include <cstddef>
 #include <filesystem>
 #include <optional>

@@ -3,10 +3,9 @@
 #include "volume/header_text.h"
 #include "volume/volume_formats.h"
 
-#include <climits>
-
 #include <algorithm>
 #include <array>
+#include <climits>
 #include <cstddef>
 #include <fstream>
 #include <limits>

@@ -4,12 +4,12 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include <climits>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cfenv>
+#include <climits>
 #include <cmath>
 #include <limits>
 #include <numbers>

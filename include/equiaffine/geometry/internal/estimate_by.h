@@ -4,8 +4,8 @@
 
 #include <equiaffine/geometry/Estimator.h>
 #include <equiaffine/geometry/Local_structure_3.h>
-#include <equiaffine/geometry/internal/missing_structure.h>
 #include <equiaffine/geometry/internal/direct_estimate.h>
+#include <equiaffine/geometry/internal/missing_structure.h>
 #include <equiaffine/geometry/internal/transformation_estimate.h>
 
 #include <algorithm>
