@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/child_process.h"
 
+#include "system/resources.h"
 #include "system/signals.h"
 #include <equiaffine/Input_error.h>
 
@@ -50,6 +51,11 @@ double address_space() {
   return pages * double(::sysconf(_SC_PAGE_SIZE));
 }
 
+/// Allows this process so many bytes beside what it has, but not more than this computer has.
+void limit_memory(double bytes) {
+  if (const double used = address_space(); used > 0) set_limit(RLIMIT_AS, used + std::min(bytes, physical_memory()));
+}
+
 void write_all(int descriptor, const std::string& text) {
   for (std::size_t written = 0; written < text.size();) {
     const ssize_t count = ::write(descriptor, text.data() + written, text.size() - written);
@@ -86,7 +92,7 @@ std::string answer_of(const std::function<void()>& task) {
   is_child = true;
   set_limit(RLIMIT_CORE, 0);
   set_limit(RLIMIT_CPU, std::ceil(limits.seconds));
-  if (const double used = address_space(); used > 0) set_limit(RLIMIT_AS, used + limits.memory);
+  limit_memory(limits.memory);
   write_all(answer, answer_of(task));
   ::_exit(0);
 }
@@ -131,7 +137,7 @@ void allow_memory(double bytes) {
   struct rlimit limit;
   const double used = address_space();
   if (is_child && used > 0 && ::getrlimit(RLIMIT_AS, &limit) == 0 && used + bytes > double(limit.rlim_cur))
-    set_limit(RLIMIT_AS, used + bytes);
+    limit_memory(bytes);
 }
 
 void run_in_child(const std::function<void()>& task, const Child_limits& limits) {

@@ -11,7 +11,7 @@ namespace equiaffine {
 /// What a child process may use before it is ended.
 struct Child_limits {
   double seconds; ///< of processor time; the child may sleep as long again
-  double memory;  ///< bytes beside what its parent has
+  double memory;  ///< bytes beside what its parent has, at most those that this computer has
 };
 
 /// A child process that read a file ended without an answer. what() continues a sentence: "crashed (Segmentation
@@ -35,7 +35,7 @@ private:
 void run_in_child(const std::function<void()>& task, const Child_limits& limits);
 
 /// In a child process, allows this many bytes from now on beside what it has, or what it was allowed if that is more;
-/// elsewhere nothing is limited.
+/// elsewhere nothing is limited. It is never more than this computer has.
 void allow_memory(double bytes);
 
 } // namespace equiaffine

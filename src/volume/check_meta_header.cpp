@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/data_files.h"
 #include "volume/header_checks.h"
 #include "volume/header_text.h"
 #include "volume/volume_formats.h"
@@ -11,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace equiaffine {
 
@@ -19,35 +21,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr long long largest_number_of_axes = 10; // that of the MetaIO library
-constexpr std::size_t longest_header = 1 << 20;
-
-/// Removes the first line from a text and returns it without the spaces at its ends.
-std::string_view take_line(std::string_view& text) {
-  std::string_view line = text.substr(0, text.find('\n'));
-  text.remove_prefix(std::min(line.size() + 1, text.size()));
-  line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
-  return line.substr(0, line.find_last_not_of(" \t\r") + 1);
-}
-
-void check_file(const std::string& path, const std::string& name) {
-  std::error_code error;
-  if (!fs::exists(fs::path(path).parent_path() / name, error))
-    fail_to_read_volume(path, "the file with its data, '" + name + "', is missing", "put it beside the header");
-}
 
 /// Checks that the files with the data exist. A name with a % stands for several files, which ITK looks for.
 void check_data_files(const std::string& path, std::string_view content, std::string_view following_lines) {
-  if (content == "LOCAL" || content == "Local" || content == "local" || content.find('%') != std::string_view::npos)
-    return;
-  if (!content.starts_with("LIST")) return check_file(path, std::string(content));
-  std::size_t count = 0;
-  while (!following_lines.empty())
-    if (const std::string_view name = take_line(following_lines); !name.empty()) {
-      check_file(path, std::string(name));
-      ++count;
-    }
-  if (count == 0)
+  const std::vector<std::string> names = data_files_in(content, following_lines);
+  if (content.starts_with("LIST") && names.empty())
     fail_to_read_volume(path, "its header has ElementDataFile LIST and names no file", "add the names of the slices");
+  std::error_code error;
+  for (const std::string& name : names)
+    if (name.find('%') == std::string::npos && !fs::exists(fs::path(path).parent_path() / name, error))
+      fail_to_read_volume(path, "the file with its data, '" + name + "', is missing", "put it beside the header");
 }
 
 /// Checks a field that holds numbers, one per axis or, for a matrix, one per pair of axes.

@@ -16,6 +16,12 @@ std::string beginning_of(const std::string& path, std::size_t size);
 /// The number of bytes in a file, decompressed if gzip compressed it; nothing if it cannot be decompressed to its end.
 std::optional<double> decompressed_size(const std::string& path);
 
+/// How much of a MetaImage or NRRD file is read as its header.
+constexpr std::size_t longest_header = 1 << 20;
+
+/// Removes the first line from a text and returns it without the spaces at its ends.
+std::string_view take_line(std::string_view& text);
+
 /// The words of a text, which spaces, tabs and ends of lines separate.
 std::vector<std::string_view> words_of(std::string_view text);
 

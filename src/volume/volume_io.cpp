@@ -4,6 +4,7 @@
 #include "system/child_process.h"
 #include "system/resources.h"
 #include "volume/Shared_volume.h"
+#include "volume/data_files.h"
 #include "volume/volume_formats.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/io/input_file.h>
@@ -170,30 +171,12 @@ void read_here(const std::string& path, const Extension* extension, Shared_volum
   read_inr_volume(path, volume);
 }
 
-/// The bytes of all files in a folder. Those of one that cannot be read count for nothing.
-double size_of_folder(const fs::path& folder) {
-  double size = 0;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    std::error_code unknown;
-    if (const auto bytes = entry->file_size(unknown); !unknown) size += double(bytes);
-  }
-  return size;
-}
-
-/// The bytes that a reader may have to look at: the file, or the folder of slices or of a header and its data.
-double size_of_input(const std::string& path, const Extension* extension) {
-  if (!extension) return size_of_folder(path);
-  if (extension->text == ".mhd" || extension->text == ".nhdr") return size_of_folder(fs::absolute(path).parent_path());
-  std::error_code error;
-  const auto bytes = fs::file_size(path, error);
-  return error ? 0 : double(bytes);
-}
-
 Volume_3<Kernel> read_in_child(const std::string& path, const Extension* extension) {
   constexpr double seconds = 10, bytes_per_second = 20e6; // a reader takes a tenth of that
   constexpr double memory_for_header = 1 << 29, copies = 4;
-  const double size = size_of_input(path, extension);
+  // A volume that takes more than the memory is not read.
+  const double size =
+      std::min(physical_memory(), size_of_volume(path, extension ? std::optional(extension->format) : std::nullopt));
   try {
     Shared_volume volume;
     run_in_child([&] { read_here(path, extension, volume); },

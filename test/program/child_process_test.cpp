@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/Shared_memory.h"
 #include "system/child_process.h"
+#include "system/resources.h"
 #include <equiaffine/Input_error.h>
 
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <sys/resource.h>
 #include <vector>
 
 namespace {
@@ -100,6 +102,17 @@ TEST(Program_child_process, has_no_more_memory_than_it_is_allowed) {
     take(400 * megabyte);
   };
   EXPECT_NO_THROW(run_in_child(take_what_is_allowed_later, {60, 300 * megabyte}));
+}
+
+TEST(Program_child_process, has_no_more_memory_than_the_computer) {
+  const double more = 2 * equiaffine::physical_memory();
+  const auto expect_less = [more](bool is_asked_later) {
+    if (is_asked_later) equiaffine::allow_memory(2 * more);
+    struct rlimit limit;
+    if (::getrlimit(RLIMIT_AS, &limit) != 0 || double(limit.rlim_cur) >= more) throw std::logic_error("more");
+  };
+  EXPECT_NO_THROW(run_in_child([&] { expect_less(false); }, {60, 2 * more}));
+  EXPECT_NO_THROW(run_in_child([&] { expect_less(true); }, {60, megabyte}));
 }
 
 } // namespace

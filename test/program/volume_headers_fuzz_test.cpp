@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The checks of headers of volumes accept or refuse any bytes.
+// The checks of headers of volumes accept or refuse any bytes, and the size of what they name is found.
 #include "support/Scratch_file.h"
 #include "support/fuzz_target.h"
+#include "volume/data_files.h"
 #include "volume/header_checks.h"
 
 EQUIAFFINE_FUZZ_TARGET(volume_headers) {
@@ -10,4 +11,6 @@ EQUIAFFINE_FUZZ_TARGET(volume_headers) {
   const std::string path = file.write(input);
   for (const auto check : {check_inr_header, check_meta_header, check_nifti_header, check_vti_header})
     test::accepts([&] { check(path); });
+  for (const auto format : {Volume_format::META, Volume_format::NRRD})
+    test::expect(size_of_volume(path, format) >= double(input.size()), "a volume is no smaller than its header");
 }

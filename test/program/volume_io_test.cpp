@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/child_process.h"
 #include "volume/Shared_volume.h"
+#include "volume/data_files.h"
 #include "volume/sample_type.h"
 #include "volume/volume_formats.h"
 #include "volume/volume_io.h"
@@ -27,6 +28,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -235,6 +237,35 @@ TEST_F(Program_volume_io, a_file_that_ends_early_is_refused) {
       EXPECT_THROW(read_volume(path("whole" + extension)), Input_error) << missing;
     }
   }
+}
+
+TEST_F(Program_volume_io, the_size_of_a_volume_is_that_of_its_header_and_the_files_that_it_names) {
+  using equiaffine::Volume_format;
+  fs::create_directory(path("data"));
+  for (const char* name : {"data/1.raw", "data/2.raw", "data/03.raw", "alone.raw"})
+    write_file(name, std::string(1000, '\0'));
+  write_file("data/other.bin", std::string(20000, '\0'));
+  write_file("other.raw", std::string(30000, '\0'));
+  const auto expect_size = [&](const std::string& text, Volume_format format, double size_of_data) {
+    write_file("header", text);
+    EXPECT_EQ(equiaffine::size_of_volume(path("header"), format), double(text.size()) + size_of_data) << text;
+  };
+  const std::string meta = "ObjectType = Image\nNDims = 3\nElementDataFile = ";
+  expect_size(meta + "alone.raw", Volume_format::META, 1000);
+  expect_size(meta + "alone.raw\r\nElementDataFile = other.raw\n", Volume_format::META, 1000);
+  expect_size(meta + "absent.raw", Volume_format::META, 0);
+  expect_size(meta + path("alone.raw"), Volume_format::META, 1000);
+  expect_size(meta + "LIST\ndata/1.raw\n\n data/03.raw\n", Volume_format::META, 2000);
+  expect_size(meta + "data/%d.raw 1 3 1", Volume_format::META, 3000);
+  expect_size(meta + "LOCAL\nElementDataFile = other.raw\n", Volume_format::META, 0);
+  const std::string nrrd = "NRRD0004\n# other.raw\ntype: float\n";
+  expect_size(nrrd + "data file: alone.raw\n", Volume_format::NRRD, 1000);
+  expect_size(nrrd + "DataFile: ./data/%02d.raw 3 3 1\n", Volume_format::NRRD, 3000);
+  expect_size(nrrd + "data file: LIST\ndata/1.raw\ndata/2.raw", Volume_format::NRRD, 2000);
+  expect_size(nrrd + "\ndata file: other.raw\n", Volume_format::NRRD, 0);
+  expect_size(nrrd + "data file: data/%", Volume_format::NRRD, 23000);
+  expect_size("ElementDataFile = other.raw", Volume_format::VTI, 0);
+  EXPECT_EQ(equiaffine::size_of_volume(path("data"), std::nullopt), 23000);
 }
 
 TEST_F(Program_volume_io, mistakes_about_names_say_what_is_possible) {
