@@ -3,11 +3,13 @@
 
 #include "system/Shared_memory.h"
 #include "system/child_process.h"
+#include "system/resources.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/io/input_file.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
 
+#include <algorithm>
 #include <bit>
 #include <cctype>
 #include <cstdint>
@@ -97,21 +99,24 @@ void fail_to_read_mesh(const std::string& path, const std::string& reason, const
 }
 
 Polygon_soup read_foreign_soup(const std::string& path) {
-  // A vertex or a face takes at least 6 bytes in a file, and up to 50 in each of three copies.
-  constexpr double seconds = 10, bytes_per_second = 20e6, memory_for_small_files = 1 << 28, memory_per_byte = 32;
+  if (has_extension(path, ".obj")) check_faces_of_OBJ(path);
+  Polygon_soup soup;
+  if (!CGAL::IO::read_polygon_soup(path, soup.points, soup.polygons))
+    fail_to_read_mesh(path, "its content is not understood", "get the complete file again");
+  return soup;
+}
+
+Polygon_soup make_in_child(const std::string& path, const std::function<Polygon_soup()>& make) {
+  // A vertex or a face takes at least 6 bytes in a file, and up to 50 in each of three copies. Reading quadrangles and
+  // cutting them takes a quarter of this time. A file that is larger than the memory is not read.
+  constexpr double seconds = 10, bytes_per_second = 2e6, memory_for_small_files = 1 << 28, memory_per_byte = 32;
   std::error_code error;
   const auto bytes = std::filesystem::file_size(path, error);
-  const double size = error ? 0 : double(bytes);
+  const double size = error ? 0 : std::min(double(bytes), physical_memory());
   Shared_memory memory;
   try {
-    const auto read = [&] {
-      if (has_extension(path, ".obj")) check_faces_of_OBJ(path);
-      Polygon_soup soup;
-      if (!CGAL::IO::read_polygon_soup(path, soup.points, soup.polygons))
-        fail_to_read_mesh(path, "its content is not understood", "get the complete file again");
-      share(soup, memory);
-    };
-    run_in_child(read, {seconds + size / bytes_per_second, memory_for_small_files + memory_per_byte * size});
+    run_in_child([&] { share(make(), memory); },
+                 {seconds + size / bytes_per_second, memory_for_small_files + memory_per_byte * size});
   } catch (const Child_failure& failure) {
     fail_to_read_mesh(path, std::string("the reader of this format ") + failure.what(), failure.advice());
   } catch (const std::bad_alloc&) {

@@ -5,6 +5,7 @@
 #include "system/kernel.h"
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,12 @@ struct Polygon_soup {
 /// Throws `Input_error`: "cannot read the mesh 'path': reason; advice".
 [[noreturn]] void fail_to_read_mesh(const std::string& path, const std::string& reason, const std::string& advice);
 
-/// Reads an OBJ or STL file through CGAL, in a child process, because its readers may crash on a damaged file.
-/// Throws `Input_error` for what they do not understand.
+/// Reads an OBJ or STL file through CGAL, whose readers may crash on a damaged file. Throws `Input_error` for what they
+/// do not understand.
 Polygon_soup read_foreign_soup(const std::string& path);
+
+/// What `make` makes of a file in a child process, where it may crash. Throws `Input_error` if it does.
+Polygon_soup make_in_child(const std::string& path, const std::function<Polygon_soup()>& make);
 
 } // namespace equiaffine
 

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/read_triangle_mesh.h"
 
-#include "source/Polygon_soup.h"
 #include <equiaffine/io/input_file.h>
 #include <equiaffine/io/read_OFF.h>
 #include <equiaffine/io/read_PLY.h>
 
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/exceptions.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <utility>
 #include <vector>
 
 namespace equiaffine {
@@ -28,6 +31,17 @@ Polygon_soup to_soup(const Indexed_triangle_mesh_3<Kernel>& mesh) {
   return soup;
 }
 
+/// The triangles of an OBJ or STL file, by CGAL, which may crash where it reads and where it cuts other faces.
+Polygon_soup read_foreign_triangles(const std::string& path) {
+  Polygon_soup soup = read_foreign_soup(path);
+  if (std::all_of(soup.polygons.begin(), soup.polygons.end(), [](const auto& face) { return face.size() == 3; }))
+    return soup;
+  const CGAL::Surface_mesh<Kernel::Point_3> mesh = to_triangle_mesh(std::move(soup), path);
+  Polygon_soup triangles;
+  pmp::polygon_mesh_to_polygon_soup(mesh, triangles.points, triangles.polygons);
+  return triangles;
+}
+
 Polygon_soup read_soup(const std::string& path) {
   if (path == "-") return to_soup(read_OFF<Kernel>(std::cin, "standard input"));
   std::ifstream file = open_input(path);
@@ -35,13 +49,22 @@ Polygon_soup read_soup(const std::string& path) {
   if (has_extension(path, ".ply")) return to_soup(read_PLY<Kernel>(file, path).mesh);
   if (!has_extension(path, ".obj") && !has_extension(path, ".stl"))
     fail_to_read_mesh(path, "its extension is not known", "use one of .off .ply .obj .stl");
-  return read_foreign_soup(path);
+  return make_in_child(path, [&] { return read_foreign_triangles(path); });
+}
+
+/// Whether the faces could be cut into triangles. CGAL throws at some of those that touch themselves, and leaves a
+/// damaged mesh where a diagonal of one is an edge of others.
+bool cut_faces(CGAL::Surface_mesh<Kernel::Point_3>& mesh) {
+  try {
+    return pmp::triangulate_faces(mesh) && mesh.is_valid(false);
+  } catch (const CGAL::Failure_exception&) {
+    return false;
+  }
 }
 
 } // namespace
 
-CGAL::Surface_mesh<Kernel::Point_3> read_triangle_mesh(const std::string& path) {
-  Polygon_soup soup = read_soup(path);
+CGAL::Surface_mesh<Kernel::Point_3> to_triangle_mesh(Polygon_soup soup, const std::string& path) {
   if (soup.polygons.empty()) fail_to_read_mesh(path, "it has no faces", "give a mesh of triangles");
   for (std::size_t f = 0; f < soup.polygons.size(); ++f)
     for (const std::size_t v : soup.polygons[f])
@@ -62,9 +85,12 @@ CGAL::Surface_mesh<Kernel::Point_3> read_triangle_mesh(const std::string& path) 
     fail_to_read_mesh(path, "its faces do not form a surface", "repair it so that two faces meet at every edge");
   CGAL::Surface_mesh<Kernel::Point_3> mesh;
   pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
-  if (!pmp::triangulate_faces(mesh))
-    fail_to_read_mesh(path, "not every face can be cut into triangles", "triangulate it");
+  if (!cut_faces(mesh)) fail_to_read_mesh(path, "not every face can be cut into triangles", "triangulate it");
   return mesh;
+}
+
+CGAL::Surface_mesh<Kernel::Point_3> read_triangle_mesh(const std::string& path) {
+  return to_triangle_mesh(read_soup(path), path);
 }
 
 } // namespace equiaffine
