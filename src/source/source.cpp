@@ -9,6 +9,7 @@
 #include <equiaffine/Input_error.h>
 #include <equiaffine/function/sample_on_lattice.h>
 #include <equiaffine/volume/Sample_noise.h>
+#include <equiaffine/volume/Spline_function_3.h>
 #include <equiaffine/volume/signed_distance_volume.h>
 
 #include <CGAL/tags.h>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -92,6 +94,21 @@ void check_values(const Volume_3<Kernel>& volume, const Source_options& options)
                       " nodes without one; use quasi-interpolation");
 }
 
+/// Throws if the steps of the grid are so short or long that a spline on it has no derivatives in double precision.
+void check_steps(const Lattice_3<Kernel>& lattice, const Source_options& options) {
+  using Spline = Spline_function_3<Kernel>;
+  for (const auto& step : lattice.steps()) {
+    const double length = std::hypot(step.x(), step.y(), step.z());
+    if (Spline::shortest_step <= length && length <= Spline::longest_step) continue;
+    std::ostringstream text;
+    text << describe_as(options, options.text) << " has a grid with steps of the length " << length
+         << ", by which fourth derivatives may leave the range of double precision; choose another unit, in which they "
+            "are from "
+         << Spline::shortest_step << " to " << Spline::longest_step << " long";
+    throw Input_error(text.str());
+  }
+}
+
 struct Fit {
   Spline_traits function;
   Spline_statistics statistics;
@@ -105,6 +122,7 @@ Fit fit_spline(const Source_options& source, Progress& progress) {
     return source.raw ? read_raw_volume(source.text, *source.raw) : read_volume(source.text);
   }();
   check_values(volume, source);
+  check_steps(volume.lattice, source);
   const auto& [degree, scheme, scale, isovalue, estimates_errors] = source.spline;
   progress.begin("measuring noise");
   const Sample_noise noise = estimate_noise(volume, isovalue);

@@ -345,10 +345,26 @@ TEST_F(Program_errors, a_mesh_to_measure_from_is_closed) {
               std::string("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 ") + far + "\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
     expect_error({"mesh", "--distance-to", "far.off", "-o", "out.ply"}, {"'far.off'", "beyond 1e15", "another unit"});
   }
+  for (const std::string tiny : {"1e-77", "1e-100", "1e-200"}) {
+    add_input("tiny.off", "OFF\n4 4 0\n0 0 0\n" + tiny + " 0 0\n0 " + tiny + " 0\n0 0 " + tiny +
+                              "\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+    expect_error({"mesh", "--distance-to", "tiny.off", "-o", "out.ply"}, {"'tiny.off'", "too small", "smaller unit"});
+  }
   add_input("short.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n");
   expect_error({"mesh", "--distance-to", "short.off", "-o", "out.ply"}, {"short.off"});
   add_input("text.stl", "this is no mesh");
   expect_error({"mesh", "--distance-to", "text.stl", "-o", "out.ply"}, {"text.stl"});
+}
+
+TEST_F(Program_errors, a_grid_has_steps_whose_fourth_powers_are_numbers) {
+  add_input("grid.raw", std::string(8 * 8 * 8, '1'));
+  const Arguments volume = {"mesh", "--volume", "grid.raw", "--type", "uint8",  "--dims",
+                            "8",    "8",        "8",        "-o",     "out.ply"};
+  for (const std::string step : {"1e-80", "1e+80"})
+    expect_error(volume + Arguments{"--spacing", "1", step, "1"}, {"'grid.raw'", "length " + step, "another unit"});
+  expect_error({"mesh", "--function", "x", "--derivatives", "spline", "--box", "-1e-80", "1e-80", "-1", "1", "-1", "1",
+                "-o", "out.ply"},
+               {"formula x", "another unit"});
 }
 
 TEST_F(Program_errors, a_face_has_vertices_that_exist) {

@@ -240,6 +240,22 @@ TEST(Spline_function_3, derivatives_are_those_in_space_for_a_rotated_anisotropic
   expect_reproduction<9>(skew_lattice(15, 10, 11), row_sum);
 }
 
+TEST(Spline_function_3, derivatives_scale_exactly_with_the_shortest_and_longest_steps) {
+  const Volume_3 volume = random_volume(unit_lattice(12, 12, 12));
+  const Jet_3 expected = Spline_function_3(volume).taylor(Point_3(5.25, 6.5, 5.75));
+  for (const int exponent : {-232, 232}) { // the powers of two next to 1e-70 and 1e70
+    const double step = std::ldexp(1, exponent);
+    const Lattice_3 lattice({12, 12, 12}, Point_3(0, 0, 0),
+                            {Vector_3(step, 0, 0), Vector_3(0, step, 0), Vector_3(0, 0, step)});
+    const Jet_3 jet =
+        Spline_function_3(Volume_3{lattice, volume.values}).taylor(Point_3(5.25 * step, 6.5 * step, 5.75 * step));
+    for (std::size_t n = 0; n < Jet_3::size; ++n) {
+      const auto& m = equiaffine::internal::monomials[n];
+      EXPECT_EQ(std::ldexp(jet.coefficients()[n], exponent * (m.i + m.j + m.k)), expected.coefficients()[n]) << n;
+    }
+  }
+}
+
 TEST(Spline_function_3, quasi_interpolation_has_order_degree_plus_one_and_minus_three_for_fourth_derivatives) {
   expect_orders(5, Spline_scheme::QUASI_INTERPOLATION, 32, 6, 2);
   expect_orders(7, Spline_scheme::QUASI_INTERPOLATION, 24, 8, 4);
@@ -573,6 +589,10 @@ TEST(Spline_function_3, arguments_without_a_result_are_refused_in_every_build) {
   for (const double scale : {-1., double(INFINITY), double(NAN)}) {
     EXPECT_THROW(Spline_function_3(volume, {.smoothing = scale}), std::invalid_argument) << scale;
     EXPECT_THROW(equiaffine::smooth_volume(volume, scale), std::invalid_argument) << scale;
+  }
+  for (const double step : {0.99e-70, 1e-200, 1.01e70, 1e200}) {
+    const Lattice_3 lattice({8, 8, 8}, Point_3(0, 0, 0), {Vector_3(1, 0, 0), Vector_3(0, step, 0), Vector_3(0, 0, 1)});
+    EXPECT_THROW(Spline_function_3(random_volume(lattice)), std::invalid_argument) << step;
   }
   volume.values.pop_back();
   EXPECT_THROW(Spline_function_3{volume}, std::invalid_argument);

@@ -192,6 +192,35 @@ TEST(Distance_function_3, a_mesh_with_a_degenerate_triangle_is_refused) {
                  ", so that its inside is not defined: repair it first");
 }
 
+TEST(Distance_function_3, a_mesh_with_a_triangle_whose_squared_area_vanishes_by_rounding_is_refused) {
+  const auto expect_too_small = [](const Mesh& mesh, const std::string& end_of_point) {
+    expect_refusal(
+        mesh, "the mesh has a triangle too small to measure from, near (", end_of_point,
+        ", the square of its area leaves the range of double precision: choose a smaller unit, or remove the "
+        "triangle if the others are larger");
+  };
+  for (const double tiny : {1e-77, 1e-100, 1e-300}) expect_too_small(cube(0, tiny), ")");
+  Mesh sliver; // a tetrahedron, to which a triangle of height 1e-170 is added at one side
+  std::array<Mesh::Vertex_index, 5> v = {sliver.add_vertex(Point_3(0, 0, 0)), sliver.add_vertex(Point_3(1, 0, 0)),
+                                         sliver.add_vertex(Point_3(0, 1, 0)), sliver.add_vertex(Point_3(0, 0, 1)),
+                                         sliver.add_vertex(Point_3(0.5, -1e-170, 0))};
+  constexpr std::array<std::array<std::size_t, 3>, 6> triangles = {
+      {{0, 2, 1}, {1, 2, 3}, {0, 3, 2}, {0, 4, 3}, {4, 1, 3}, {0, 1, 4}}};
+  for (const auto& [a, b, c] : triangles) sliver.add_face(v[a], v[b], v[c]);
+  expect_too_small(sliver, "0)");
+}
+
+TEST(Distance_function_3, the_smallest_meshes_that_are_accepted_have_the_distances_of_larger_ones) {
+  const double tiny = std::ldexp(1, -250);
+  const Lattice_3 lattice = aligned_lattice();
+  const auto scaled = [tiny](const Vector_3& v) { return tiny * v; };
+  const Lattice_3 tiny_lattice(lattice.size(), CGAL::ORIGIN + scaled(lattice.origin() - CGAL::ORIGIN),
+                               {scaled(lattice.steps()[0]), scaled(lattice.steps()[1]), scaled(lattice.steps()[2])});
+  const auto expected = signed_distance_volume(cube(0, 2), lattice);
+  const auto volume = signed_distance_volume(cube(0, 2 * tiny), tiny_lattice);
+  for (std::size_t n = 0; n < volume.values.size(); ++n) EXPECT_EQ(volume.values[n], tiny * expected.values[n]) << n;
+}
+
 TEST(Distance_function_3, a_mesh_with_a_coordinate_that_is_not_finite_is_refused) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Mesh mesh = cube(0, 1);

@@ -36,10 +36,10 @@ namespace equiaffine {
 /// nodes.
 ///
 /// Derivatives are computed in lattice coordinates and mapped to space by the inverse of the lattice's matrix, so that
-/// the lattice may have any spacing, rotation, shear and handedness. The rounding error of a k-th derivative is some
-/// 1e-15 max|f| / spacing^k. In the cells at a face of the lattice, quasi-interpolation multiplies it by a factor of 30
-/// to 70, along edges by the square of that factor, and in corners by its cube. See Unser, Aldroubi, Eden: B-spline
-/// signal processing, 1993; de Boor: Quasiinterpolants, 1990.
+/// the lattice may have any rotation, shear and handedness, and steps from 1e-70 to 1e70. The rounding error of a k-th
+/// derivative is some 1e-15 max|f| / spacing^k. In the cells at a face of the lattice, quasi-interpolation multiplies
+/// it by a factor of 30 to 70, along edges by the square of that factor, and in corners by its cube. See Unser,
+/// Aldroubi, Eden: B-spline signal processing, 1993; de Boor: Quasiinterpolants, 1990.
 ///
 /// Const members may be called from many threads at once. The function keeps one number per node and per padding node.
 template <class Kernel>
@@ -51,8 +51,12 @@ public:
   using Matrix = typename Linear_substitution_3<FT>::Matrix;
   static_assert(std::is_floating_point_v<FT>);
 
+  /// By other steps, fourth derivatives and what is made of them may leave the range of double precision.
+  static constexpr double shortest_step = 1e-70, longest_step = 1e70;
+
   /// The coefficients do not depend on the number of threads that compute them. \throw std::invalid_argument unless the
-  /// degree is 5, 7 or 9, the smoothing is finite and not negative, and there are as many values as nodes
+  /// degree is 5, 7 or 9, the smoothing is finite and not negative, there are as many values as nodes, and steps of the
+  /// lattice are no shorter or longer than they may be
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Spline_function_3(const Volume_3<Kernel>& volume, const Spline_parameters& parameters = {},
                              ConcurrencyTag = {})
@@ -61,6 +65,10 @@ public:
         coefficients_(volume.lattice.size(), parameters.degree) {
     check_argument(volume.values.size() == lattice().number_of_nodes(),
                    "a volume has not as many values as its lattice has nodes: choose the lattice that it has");
+    for (const auto& step : lattice().steps())
+      check_argument(shortest_step * shortest_step <= step.squared_length() &&
+                         step.squared_length() <= longest_step * longest_step,
+                     "a step of the lattice of a spline is not from 1e-70 to 1e70 long: choose another unit");
     for (const std::size_t nodes : lattice().size())
       if (nodes <= std::size_t(degree_)) return;
     if (parameters.smoothing == 0) fit<ConcurrencyTag>(volume.values);

@@ -23,8 +23,8 @@ namespace equiaffine {
 /// thread. Nodes farther than `band` from the surface have no value (NaN), which saves most of the time if they are
 /// many; by default every node has one.
 ///
-/// \throws Input_error if the mesh has no faces, faces other than triangles, coordinates that are not finite or beyond 1e15, holes,
-/// degenerate triangles or self-intersections.
+/// \throws Input_error if the mesh has no faces, faces other than triangles, coordinates that are not finite or beyond
+/// 1e15, holes, self-intersections, or triangles that are degenerate or whose squared area is no normal number.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class Kernel, class Progress>
 Volume_3<Kernel> signed_distance_volume(const TriangleMesh& mesh, const Lattice_3<Kernel>& lattice,
                                         const Progress& on_progress,

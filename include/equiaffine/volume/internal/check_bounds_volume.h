@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -45,8 +46,22 @@ inline void check_coordinates(const Distance_mesh& mesh) {
   }
 }
 
+/// Throws Input_error if the area of a triangle is so small that its square is no normal number: distances are measured
+/// along normal vectors, whose squared lengths would lose their digits or vanish.
+inline void check_areas(const Distance_mesh& mesh) {
+  for (const auto f : mesh.faces()) {
+    const auto h = mesh.halfedge(f);
+    const auto &p = mesh.point(mesh.source(h)), &q = mesh.point(mesh.target(h)),
+               &r = mesh.point(mesh.target(mesh.next(h)));
+    if (CGAL::cross_product(q - p, r - p).squared_length() < std::numeric_limits<double>::min())
+      throw Input_error("the mesh has a triangle too small to measure from, near " + place(p) +
+                        ", the square of its area leaves the range of double precision: choose a smaller unit, or "
+                        "remove the triangle if the others are larger");
+  }
+}
+
 /// Throws Input_error unless the mesh bounds a volume: its faces are triangles, it has no border, and triangles touch
-/// at common edges and vertices only.
+/// at common edges and vertices only and are not too small.
 inline void check_bounds_volume(const Distance_mesh& mesh) {
   if (mesh.number_of_faces() == 0) throw Input_error("the mesh has no faces: give a closed mesh of triangles");
   check_coordinates(mesh);
@@ -68,6 +83,7 @@ inline void check_bounds_volume(const Distance_mesh& mesh) {
     throw Input_error("the mesh has degenerate triangles or intersects itself, near " +
                       place(mesh.point(mesh.target(mesh.halfedge(contacts.front().first)))) +
                       ", so that its inside is not defined: repair it first");
+  check_areas(mesh);
 }
 
 } // namespace equiaffine::internal
