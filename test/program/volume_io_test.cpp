@@ -28,6 +28,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -529,13 +530,14 @@ TEST_F(Program_volume_io, both_files_of_a_meta_image_replace_the_old_ones_togeth
   EXPECT_EQ(read_volume(path("a.mhd")).values, volume.values);
 }
 
-/// One slice of 4 x 3 short numbers of a CT series, with its place in the patient.
-void write_slice(const std::string& path, const std::string& position, std::int16_t first_value) {
+/// One slice of a CT series, with its place in the patient; its first value tells it from the others.
+void write_slice(const std::string& path, const std::string& position, std::size_t width,
+                 const std::vector<std::int16_t>& values, bool is_compressed) {
   const itk::GDCMImageIO::Pointer io = itk::GDCMImageIO::New();
   itk::MetaDataDictionary& dictionary = io->GetMetaDataDictionary();
   const auto set = [&](const char* tag, const std::string& value) { itk::EncapsulateMetaData(dictionary, tag, value); };
   set("0008|0016", "1.2.840.10008.5.1.4.1.1.2");
-  set("0008|0018", "1.2.826.0.1.3680043.2.1125.9." + std::to_string(first_value));
+  set("0008|0018", "1.2.826.0.1.3680043.2.1125.9." + std::to_string(values[0]));
   set("0008|0060", "CT");
   set("0020|000d", "1.2.826.0.1.3680043.2.1125.7");
   set("0020|000e", "1.2.826.0.1.3680043.2.1125.8");
@@ -543,17 +545,23 @@ void write_slice(const std::string& path, const std::string& position, std::int1
   set("0020|0037", R"(0.36\0.48\-0.8\-0.8\0.6\0)");
   io->KeepOriginalUIDOn();
   io->SetNumberOfDimensions(2);
-  io->SetDimensions(0, 4);
-  io->SetDimensions(1, 3);
+  io->SetDimensions(0, width);
+  io->SetDimensions(1, values.size() / width);
   io->SetSpacing(0, 0.5);
   io->SetSpacing(1, 0.75);
   io->SetPixelType(itk::IOPixelEnum::SCALAR);
   io->SetNumberOfComponents(1);
   io->SetComponentType(itk::IOComponentEnum::SHORT);
+  io->SetUseCompression(is_compressed);
   io->SetFileName(path);
-  std::vector<std::int16_t> values(12);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::int16_t(first_value + std::int16_t(i));
   io->Write(values.data());
+}
+
+/// A slice of 4 x 3 values, which increase.
+void write_slice(const std::string& path, const std::string& position, std::int16_t first_value) {
+  std::vector<std::int16_t> values(12);
+  std::iota(values.begin(), values.end(), first_value);
+  write_slice(path, position, 4, values, false);
 }
 
 TEST_F(Program_volume_io, a_dicom_series_is_ordered_by_the_places_of_its_slices) {
@@ -575,6 +583,17 @@ TEST_F(Program_volume_io, a_dicom_series_is_ordered_by_the_places_of_its_slices)
   EXPECT_LE(largest_distance_between_nodes(volume.lattice, expected), 16 * epsilon * largest_coordinate(expected));
   write_slice(series / "e.dcm", R"(13.84\25.12\34.8)", 500);
   expect_reading_error("series", "not evenly spaced");
+}
+
+TEST_F(Program_volume_io, a_dicom_series_may_decompress_to_what_its_headers_say) {
+  const fs::path series = path("series");
+  fs::create_directory(series);
+  constexpr std::size_t width = 3200;
+  write_slice(series / "a.dcm", R"(0\0\0)", width, std::vector<std::int16_t>(width * width, 1), true);
+  write_slice(series / "b.dcm", R"(0.96\1.28\1.2)", width, std::vector<std::int16_t>(width * width, 2), true);
+  equiaffine::Shared_volume volume;
+  equiaffine::run_in_child([&] { equiaffine::read_dicom_series(series, volume); }, little_memory);
+  EXPECT_EQ(volume.lattice().size(), (Lattice::Size{width, width, 2}));
 }
 
 #endif
