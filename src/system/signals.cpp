@@ -3,6 +3,10 @@
 
 #include "system/Temporary_folder.h"
 
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/task_scheduler_observer.h>
+#endif
+
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -60,13 +64,31 @@ extern "C" void report_crash(int signal) {
   std::raise(signal);
 }
 
-void handle_crashes() {
+/// Gives the thread a second stack, for a crash whose reason is that the other one is full.
+void use_second_stack() {
   constexpr std::size_t size = 1 << 16;
-  static std::array<std::byte, size> stack; // for a crash whose reason is that the other one is full
+  thread_local std::array<std::byte, size> stack;
   stack_t alternative = {};
   alternative.ss_sp = stack.data();
   alternative.ss_size = stack.size();
   ::sigaltstack(&alternative, nullptr);
+}
+
+#ifdef CGAL_LINKED_WITH_TBB
+/// Gives every thread of TBB a second stack as soon as it works for this one.
+class Second_stacks : public tbb::task_scheduler_observer {
+public:
+  Second_stacks() { observe(true); }
+  void on_scheduler_entry(bool) override { use_second_stack(); }
+};
+#endif
+
+void handle_crashes() {
+  use_second_stack();
+#ifdef CGAL_LINKED_WITH_TBB
+  // It is never destroyed, since the threads may outlive the objects of main().
+  [[maybe_unused]] static const auto* const second_stacks = new Second_stacks;
+#endif
   struct sigaction action = {};
   action.sa_handler = report_crash;
   action.sa_flags = SA_ONSTACK | SA_NODEFER;

@@ -3,7 +3,12 @@
 #include "system/signals.h"
 
 #include <gtest/gtest.h>
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#endif
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -11,6 +16,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <thread>
 #include <unistd.h>
 
 namespace {
@@ -57,6 +63,36 @@ TEST_F(Program_signals_DeathTest, of_crashes_remove_temporary_folders_and_ask_fo
     EXPECT_TRUE(is_empty()) << signal;
   }
 }
+
+#ifdef CGAL_LINKED_WITH_TBB
+
+/// Fills the stack, unless the byte is not zero, which the compiler does not know.
+int fill_stack(const volatile char* byte) { // NOLINT(misc-no-recursion)
+  std::array<volatile char, 1024> block;
+  block[0] = *byte;
+  return block[0] != 0 ? 0 : 1 + fill_stack(block.data());
+}
+
+TEST_F(Program_signals_DeathTest, of_full_stacks_are_like_those_of_other_crashes_in_every_thread) {
+  if (tbb::info::default_concurrency() < 2) GTEST_SKIP() << "TBB has no other thread";
+  const auto overflow = [&](bool is_worker) {
+    equiaffine::clean_up_at_signals();
+    const Temporary_folder temporary(folder_);
+    std::ofstream(temporary.path() / "file") << "text";
+    const auto main_thread = std::this_thread::get_id();
+    tbb::parallel_for(0, 2, [&](int) {
+      constexpr char zero = 0;
+      if ((std::this_thread::get_id() != main_thread) == is_worker) std::_Exit(fill_stack(&zero));
+      while (true) ::pause();
+    });
+  };
+  for (const bool is_worker : {false, true}) {
+    EXPECT_EXIT(overflow(is_worker), testing::KilledBySignal(SIGSEGV), "^equiaffine: internal error[^\n]*\n$");
+    EXPECT_TRUE(is_empty()) << is_worker;
+  }
+}
+
+#endif
 
 TEST_F(Program_signals_DeathTest, that_were_ignored_stay_ignored) {
   const auto survive = [&] {
