@@ -3,6 +3,7 @@
 #define EQUIAFFINE_ATTRIBUTES_CURVATURE_ERROR_3_H
 
 #include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/geometry/Affine_curvature_error.h>
 #include <equiaffine/geometry/local_structure.h>
 #include <equiaffine/volume/Spline_disturbances_3.h>
 #include <equiaffine/volume/Spline_function_3.h>
@@ -14,12 +15,6 @@
 #include <limits>
 
 namespace equiaffine {
-
-/// The estimated differences between the affine curvatures of a spline and those of the function that was sampled.
-template <class FT>
-struct Affine_curvature_error {
-  FT gaussian_curvature, mean_curvature;
-};
 
 /// Estimates at points the errors of the affine Gaussian and mean curvature of the spline through the samples of a
 /// volume, smoothed or not. The estimate is twice the sum of two numbers: the standard deviation of the curvature that

@@ -53,13 +53,13 @@ public:
     for (auto& [row, map] : vectors_) map[v] = Vector_3(row.get(s, 0), row.get(s, 1), row.get(s, 2));
   }
 
-private:
   /// Returns the map of that name, and adds it if the mesh has none.
   template <class T>
   static Map<T> add(Mesh& mesh, std::string_view name) {
     return mesh.template add_property_map<Vertex_index, T>("v:" + std::string(name), T()).first;
   }
 
+private:
   Map<Point_status> status_;
   std::vector<Scalar_map> scalars_;
   std::vector<Vector_map> vectors_;

@@ -19,6 +19,13 @@ struct Clip_tag {};
 struct Feature_curves_tag {};
 struct Parabolic_features_tag {};
 struct Facet_sizing_tag {};
+struct Vertex_point_tag {};
+struct Point_tag {};
+struct Normal_tag {};
+struct Normal_orientation_tag {};
+struct Noise_tag {};
+struct Scale_tag {};
+struct Degree_tag {};
 
 /// The empty chain of parameters.
 struct No_parameters {};
@@ -53,6 +60,13 @@ Default get_parameter(const Named_parameters<Value, OtherTag, Base>& parameters,
 }
 
 /// Whether a parameter was given.
+/// The value of a parameter whose type the caller chooses. Precondition: it is given.
+template <class Tag, class Value, class OtherTag, class Base>
+const auto& given_parameter(const Named_parameters<Value, OtherTag, Base>& parameters) {
+  if constexpr (std::is_same_v<Tag, OtherTag>) return parameters.value;
+  else return given_parameter<Tag>(parameters.base);
+}
+
 template <class Tag, class Parameters>
 inline constexpr bool has_parameter = false;
 template <class Tag, class Value, class OtherTag, class Base>

@@ -54,6 +54,39 @@
   template <class Sizing>                                                                                              \
   auto facet_sizing(Sizing sizing) CONST {                                                                             \
     return internal::add_parameter<internal::Facet_sizing_tag>(sizing, GIVEN);                                         \
-  }
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A property map from the vertices of a mesh to their points; default the mesh's own. */                           \
+  template <class Map>                                                                                                 \
+  auto vertex_point_map(const Map& map) CONST {                                                                        \
+    return internal::add_parameter<internal::Vertex_point_tag>(map, GIVEN);                                            \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A property map from the elements of a range to their points; default the elements themselves. */                 \
+  template <class Map>                                                                                                 \
+  auto point_map(const Map& map) CONST {                                                                               \
+    return internal::add_parameter<internal::Point_tag>(map, GIVEN);                                                   \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A property map from the elements of a range to the normals of the surface there; default: estimated. */          \
+  template <class Map>                                                                                                 \
+  auto normal_map(const Map& map) CONST {                                                                              \
+    return internal::add_parameter<internal::Normal_tag>(map, GIVEN);                                                  \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A Normal_orientation: whether the given normals all point to the same side; default ORIENTED. */                 \
+  template <class Orientation>                                                                                         \
+  auto normal_orientation(Orientation orientation) CONST {                                                             \
+    return internal::add_parameter<internal::Normal_orientation_tag>(orientation, GIVEN);                              \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The standard deviation of points from the surface, a length; default: estimated. */                              \
+  inline auto noise(double deviation) CONST { return internal::add_parameter<internal::Noise_tag>(deviation, GIVEN); } \
+                                                                                                                       \
+  /** The radius around a point whose data say what the curvature is there, a length; default: chosen by the data. */  \
+  inline auto scale(double radius) CONST { return internal::add_parameter<internal::Scale_tag>(radius, GIVEN); }       \
+                                                                                                                       \
+  /** The degree of polynomials that are fitted: 4, 5, 6, 8 or 10; default: chosen by the data. */                     \
+  inline auto degree(int n) CONST { return internal::add_parameter<internal::Degree_tag>(n, GIVEN); }
 
 #endif

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_ATTRIBUTES_ANNOTATE_BY_FIT_H
+#define EQUIAFFINE_ATTRIBUTES_ANNOTATE_BY_FIT_H
+
+#include <equiaffine/attributes/internal/Property_maps.h>
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/fit/fitted_structures.h>
+
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/property_map.h>
+#include <CGAL/tags.h>
+
+#include <cstddef>
+#include <ranges>
+#include <vector>
+
+namespace equiaffine {
+
+/// Fills property maps of the vertices of `mesh` with the local structure of the surface that the vertices are samples of,
+/// as `fitted_structures` finds it: the maps that `annotate` with a function fills, and the estimates of errors
+/// `v:affine_gaussian_curvature_error`, `v:affine_mean_curvature_error`, `v:affine_gaussian_curvature_noise` and
+/// `v:affine_mean_curvature_noise`. Named parameters: `noise`, `scale`, `degree`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, class Point, class Parameters = internal::No_parameters>
+void annotate_by_fit(CGAL::Surface_mesh<Point>& mesh, const Parameters& parameters = {}) {
+  internal::check_parameters<Parameters, internal::Noise_tag, internal::Scale_tag, internal::Degree_tag>();
+  using Mesh = CGAL::Surface_mesh<Point>;
+  using Maps = internal::Property_maps<Mesh>;
+  const std::vector<Fitted_structure_3<double>> structures = fitted_structures<ConcurrencyTag>(mesh, parameters);
+  Maps maps(mesh);
+  auto gaussian_error = Maps::template add<double>(mesh, "affine_gaussian_curvature_error");
+  auto mean_error = Maps::template add<double>(mesh, "affine_mean_curvature_error");
+  auto gaussian_noise = Maps::template add<double>(mesh, "affine_gaussian_curvature_noise");
+  auto mean_noise = Maps::template add<double>(mesh, "affine_mean_curvature_noise");
+  std::size_t i = 0;
+  for (const auto v : mesh.vertices()) {
+    const auto& s = structures[i++];
+    maps.set(v, s.structure);
+    gaussian_error[v] = s.error.gaussian_curvature;
+    mean_error[v] = s.error.mean_curvature;
+    gaussian_noise[v] = s.noise.gaussian_curvature;
+    mean_noise[v] = s.noise.mean_curvature;
+  }
+}
+
+/// Puts the `Fitted_structure_3<double>` of every vertex of any model of CGAL's FaceGraph into a property map.
+template <class ConcurrencyTag = CGAL::Sequential_tag, internal::Face_graph Graph, class Structure_map,
+          class Parameters = internal::No_parameters>
+void annotate_by_fit(const Graph& mesh, Structure_map map, const Parameters& parameters = {}) requires requires {
+  typename boost::property_traits<Structure_map>::key_type;
+}
+{
+  internal::check_parameters<Parameters, internal::Vertex_point_tag, internal::Noise_tag, internal::Scale_tag,
+                             internal::Degree_tag>();
+  const auto structures = fitted_structures<ConcurrencyTag>(mesh, parameters);
+  std::size_t i = 0;
+  for (const auto v : vertices(mesh)) put(map, v, structures[i++]);
+}
+
+/// Puts the `Fitted_structure_3<double>` of every element of a range of points into a property map.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points, class Structure_map,
+          class Parameters = internal::No_parameters>
+    void annotate_by_fit(const Points& points, Structure_map map,
+                         const Parameters& parameters = {}) requires(!internal::Face_graph<Points>) &&
+    requires {
+  typename boost::property_traits<Structure_map>::key_type;
+}
+{
+  internal::check_parameters<Parameters, internal::Point_tag, internal::Normal_tag, internal::Normal_orientation_tag,
+                             internal::Noise_tag, internal::Scale_tag, internal::Degree_tag>();
+  const auto structures = fitted_structures<ConcurrencyTag>(points, parameters);
+  std::size_t i = 0;
+  for (const auto& element : points) put(map, element, structures[i++]);
+}
+
+} // namespace equiaffine
+
+#endif

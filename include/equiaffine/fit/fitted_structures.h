@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FIT_FITTED_STRUCTURES_H
+#define EQUIAFFINE_FIT_FITTED_STRUCTURES_H
+
+#include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/fit/internal/fit_input.h>
+#include <equiaffine/fit/internal/structures_of_fit.h>
+
+#include <CGAL/tags.h>
+
+#include <ranges>
+#include <vector>
+
+namespace equiaffine {
+
+/// Returns the local structure at the vertices of a mesh, a model of CGAL's FaceGraph, in their order, from polynomials
+/// that are fitted to the vertices around each. The numbers belong to the surface that the vertices are samples of: facets
+/// only say which vertices are neighbors, and on which side normals are. They are those of the point of the fit that is
+/// nearest along its gradient.
+///
+/// The data choose what to fit. Where they lie on a smooth surface, to within little, these are heights over a tangent
+/// plane, of degree up to 10, else polynomials in space (up to 6), which can go round a corner. Trials at up to 200 places
+/// tell degree and radius: those whose results agree best with the next degree, and whose residuals leave the least
+/// deviation. The estimated error is twice the root of the sum of two squares: of the greatest difference to other fits
+/// there and around, and of the standard deviation of the curvature if residuals are white noise.
+///
+/// A mesh that is mapped by an affine map of determinant 1 gets the same affine curvatures to within rounding, since
+/// neighborhoods are balls in coordinates in which the edges have no preferred direction. `scale` and `noise` are lengths
+/// there, divided by the factor of volumes to the power 1/3.
+///
+/// Statuses: OUTSIDE for a vertex that no fit belongs to, since it has no faces, or fewer than some 20 vertices are
+/// connected with it. At a crease a fit exists, and its error says that it means nothing.
+///
+/// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
+///
+/// Takes about 0.4 ms per vertex of exact data and 3 ms of noisy ones; memory is linear in the number of vertices. The
+/// numbers are the same for CGAL::Sequential_tag and CGAL::Parallel_tag. Named parameters: `vertex_point_map`, `noise`,
+/// `scale`, `degree`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, internal::Face_graph Graph,
+          class Parameters = internal::No_parameters>
+std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, const Parameters& parameters = {}) {
+  internal::check_parameters<Parameters, internal::Vertex_point_tag, internal::Noise_tag, internal::Scale_tag,
+                             internal::Degree_tag>();
+  const internal::Surface_fit_3 fit(internal::fit_input_of_graph(mesh, parameters), internal::fit_request(parameters),
+                                    ConcurrencyTag());
+  return internal::structures_of_fit<ConcurrencyTag>(fit);
+}
+
+/// Returns the local structure at points without faces, in their order. Neighbors are the 16 nearest points, so that two
+/// sheets of a surface that are closer than the points on each of them become one. Normals are estimated from the
+/// neighbors and turned to agree along a spanning tree, unless `normal_map` gives them. Equal points count once. Further
+/// named parameters: `point_map`, `normal_map`, `normal_orientation`, `noise`, `scale`, `degree`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
+          class Parameters = internal::No_parameters>
+std::vector<Fitted_structure_3<double>>
+fitted_structures(const Points& points, const Parameters& parameters = {}) requires(!internal::Face_graph<Points>) {
+  internal::check_parameters<Parameters, internal::Point_tag, internal::Normal_tag, internal::Normal_orientation_tag,
+                             internal::Noise_tag, internal::Scale_tag, internal::Degree_tag>();
+  auto input = internal::fit_input_of_points<ConcurrencyTag>(points, parameters);
+  const internal::Surface_fit_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
+  const auto structures = internal::structures_of_fit<ConcurrencyTag>(fit);
+  std::vector<Fitted_structure_3<double>> result;
+  result.reserve(input.positions.size());
+  for (const auto i : input.positions) result.push_back(structures[i]);
+  return result;
+}
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FIT_INTERNAL_FIT_CHOICE_3_H
+#define EQUIAFFINE_FIT_INTERNAL_FIT_CHOICE_3_H
+
+#include <equiaffine/base/parallel_for.h>
+#include <equiaffine/fit/internal/Data_points_3.h>
+#include <equiaffine/fit/internal/fit_height.h>
+#include <equiaffine/fit/internal/fit_space.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// A way to fit.
+struct Fit_candidate {
+  Fit_family family = Fit_family::HEIGHT;
+  int degree = 4;
+  double radius = 0; ///< as a multiple of the spacing of the points, or a length if the scale is given
+  double weight_of_normals = 0;
+
+  /// The degree that the result is compared with.
+  int other_degree() const { return degree + (family == Fit_family::HEIGHT ? 2 : 1); }
+
+  bool made(const Local_fit_3& fit, int of_degree) const {
+    return fit.patch.family == family && fit.patch.degree == of_degree && fit.weight_of_normals == weight_of_normals;
+  }
+};
+
+/// What users ask for.
+struct Fit_request {
+  std::optional<double> noise, scale; ///< lengths
+  std::optional<int> degree;
+};
+
+/// Errors relative to |K| + H^2 and to its root.
+struct Relative_errors {
+  double gaussian, mean;
+};
+
+/// Returns the standard deviation that a part of the residual beyond the noise makes of `deviation`: that part counts
+/// as an error that whole regions have in common.
+inline double guarded_deviation(const Local_fit_3& fit, double deviation, double noise) {
+  const double square = fit.residual * fit.residual;
+  const double excess = square > 0 ? std::max(0., square - noise * noise) / square : 0;
+  const double freedom = fit.patch.family == Fit_family::HEIGHT
+                             ? double(number_of_coefficients(Fit_family::HEIGHT, fit.patch.degree))
+                             : double((fit.patch.degree + 1) * (fit.patch.degree + 1));
+  return deviation * std::sqrt(1 - excess + excess * std::max(1., double(fit.points) / freedom));
+}
+
+/// The way to fit that the data choose around every point. Trial fits at sample centers are scored by an estimate of
+/// their errors, from the difference to the next degree and from the residuals; scores are averaged over neighboring
+/// centers, and the least wins.
+class Fit_choice_3 {
+public:
+  using Index = Data_points_3::Index;
+
+  struct Choice {
+    Fit_candidate candidate;
+    Relative_errors level = {0, 0}; ///< the errors that are typical around
+    double noise = 0;               ///< the standard deviation of points from any smooth surface
+  };
+
+  template <class ConcurrencyTag>
+  Fit_choice_3(const Data_points_3& data, const Fit_request& request, ConcurrencyTag) : data_(data), request_(request) {
+    list_candidates();
+    choose_centers();
+    trials_.resize(centers_.size());
+    parallel_for<ConcurrencyTag>(0, centers_.size(), [&](std::size_t c) { try_heights(c); });
+    choices_.resize(centers_.size());
+    for (std::size_t c = 0; c < centers_.size(); ++c) choices_[c] = choice_at(c);
+    std::vector<std::size_t> doubtful;
+    for (std::size_t c = 0; c < centers_.size(); ++c)
+      if (!choices_[c] || choices_[c]->level.gaussian > 3e-3) doubtful.push_back(c);
+    parallel_for<ConcurrencyTag>(0, doubtful.size(), [&](std::size_t k) { try_spaces(doubtful[k]); });
+    for (const std::size_t c : doubtful) choices_[c] = choice_at(c);
+  }
+
+  /// Returns the choice of the center that is nearest to the point, if any fit is possible there.
+  const std::optional<Choice>& at(const Eigen::Vector3d& p) const {
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < centers_.size(); ++c) {
+      const double square = (data_.points[centers_[c]] - p).squaredNorm();
+      if (square < least) {
+        least = square;
+        nearest = c;
+      }
+    }
+    return choices_[nearest];
+  }
+
+  /// Returns the radius of a candidate around a point.
+  double radius(const Fit_candidate& candidate, Index center) const {
+    return request_.scale ? candidate.radius : candidate.radius * data_.spacing[center];
+  }
+
+private:
+  struct Trial {
+    std::vector<double> gaussian, mean; ///< logarithms of relative errors, one for each candidate, or NaN
+    double noise = 0;
+  };
+
+  static constexpr std::array<int, 5> height_degrees_ = {4, 6, 8, 10, 12};
+  static constexpr std::array<int, 4> space_degrees_ = {4, 5, 6, 7};
+  static constexpr std::array<double, 2> weights_of_normals_ = {0.3, 0.03};
+
+  void list_candidates() {
+    if (request_.scale) radii_ = {*request_.scale};
+    else
+      for (double radius = 3; radius < 60; radius *= radius < 8 ? 1.1 : 1.2) radii_.push_back(radius);
+    for (std::size_t r = 0; r < radii_.size(); ++r) {
+      for (const int degree : {4, 6, 8, 10})
+        if (!request_.degree || degree == *request_.degree)
+          candidates_.push_back({Fit_family::HEIGHT, degree, radii_[r], 0});
+      if (!is_radius_of_spaces(r)) continue;
+      for (const int degree : {4, 5, 6})
+        if (!request_.degree || degree == *request_.degree)
+          for (const double weight : weights_of_normals_)
+            candidates_.push_back({Fit_family::SPACE, degree, radii_[r], weight});
+    }
+  }
+
+  bool is_radius_of_spaces(std::size_t r) const { return request_.scale || (radii_[r] > 5 && r % 2 == 0); }
+
+  void choose_centers() {
+    centers_.resize(data_.size());
+    std::iota(centers_.begin(), centers_.end(), Index(0));
+    std::minstd_rand random(1);
+    const std::size_t count = std::min(data_.size(), std::clamp<std::size_t>(data_.size() / 50, 50, 200));
+    for (std::size_t c = 0; c < count; ++c) std::swap(centers_[c], centers_[c + random() % (centers_.size() - c)]);
+    centers_.resize(count);
+  }
+
+  /// Returns the least residual of small fits that have points to spare: what no smooth surface explains.
+  double noise_at(Index center) const {
+    if (request_.noise) return *request_.noise;
+    double noise = std::numeric_limits<double>::infinity();
+    for (const double multiple : {4., 5.5, 7.5})
+      for (const auto& fit : fit_heights(data_, center, multiple * data_.spacing[center], height_degrees_))
+        if (double(fit.points) > 1.5 * double(fit.patch.coefficients.size()) + 10)
+          noise = std::min(noise, fit.residual);
+    return std::isfinite(noise) ? noise : 0;
+  }
+
+  /// Tries fits of increasing radius, until three in a row are worse than the best by far.
+  template <class Fit>
+  void try_radii(Trial& trial, std::size_t most_points, Fit fit) const {
+    double least = std::numeric_limits<double>::infinity();
+    int worse = 0;
+    for (std::size_t r = 0; r < radii_.size() && worse < 3; ++r) {
+      const std::vector<Local_fit_3> fits = fit(r);
+      if (fits.empty()) continue;
+      const double score = enter(trial, radii_[r], fits);
+      least = std::min(least, score);
+      worse = score > least + std::log(20.) ? worse + 1 : 0;
+      if (fits.front().points >= most_points) break;
+    }
+  }
+
+  double length(std::size_t r, Index center) const {
+    return request_.scale ? radii_[r] : radii_[r] * data_.spacing[center];
+  }
+
+  void try_heights(std::size_t c) {
+    Trial& trial = trials_[c];
+    trial.gaussian.assign(candidates_.size(), std::numeric_limits<double>::quiet_NaN());
+    trial.mean = trial.gaussian;
+    trial.noise = noise_at(centers_[c]);
+    try_radii(trial, 4000,
+              [&](std::size_t r) { return fit_heights(data_, centers_[c], length(r, centers_[c]), height_degrees_); });
+  }
+
+  void try_spaces(std::size_t c) {
+    try_radii(trials_[c], 2000, [&](std::size_t r) {
+      return is_radius_of_spaces(r)
+                 ? fit_spaces(data_, centers_[c], length(r, centers_[c]), space_degrees_, weights_of_normals_)
+                 : std::vector<Local_fit_3>();
+    });
+  }
+
+  /// Scores the candidates of one radius, and returns the least score.
+  double enter(Trial& trial, double radius, const std::vector<Local_fit_3>& fits) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < candidates_.size(); ++k) {
+      const Fit_candidate& candidate = candidates_[k];
+      if (candidate.radius != radius) continue;
+      const Local_fit_3 *fit = nullptr, *other = nullptr;
+      for (const auto& f : fits) {
+        if (candidate.made(f, candidate.degree)) fit = &f;
+        if (candidate.made(f, candidate.other_degree())) other = &f;
+      }
+      if (fit == nullptr || other == nullptr) continue;
+      if (candidate.family == Fit_family::SPACE && fit->residual > 2 * trial.noise) continue;
+      const double size = std::max(fit->curvatures.size(), std::numeric_limits<double>::min());
+      const auto error = [&](double Affine_curvatures::*c) {
+        return std::hypot(fit->curvatures.*c - other->curvatures.*c,
+                          1.4 * guarded_deviation(*fit, fit->deviation.*c, trial.noise));
+      };
+      trial.gaussian[k] = std::log(error(&Affine_curvatures::gaussian) / size + 1e-12);
+      trial.mean[k] = std::log(error(&Affine_curvatures::mean) / std::sqrt(size) + 1e-12);
+      least = std::min(least, trial.gaussian[k]);
+    }
+    return least;
+  }
+
+  std::vector<std::size_t> neighbors_of_center(std::size_t c) const {
+    std::vector<std::pair<double, std::size_t>> others;
+    for (std::size_t d = 0; d < centers_.size(); ++d)
+      others.emplace_back((data_.points[centers_[d]] - data_.points[centers_[c]]).squaredNorm(), d);
+    std::sort(others.begin(), others.end());
+    std::vector<std::size_t> result;
+    for (std::size_t k = 0; k < std::min<std::size_t>(12, others.size()); ++k) result.push_back(others[k].second);
+    return result;
+  }
+
+  /// Candidates that fail at most centers around are passed over, unless no other is left.
+  std::optional<Choice> choice_at(std::size_t c) const {
+    const auto around = neighbors_of_center(c);
+    for (const double part : {0.7, 0.}) {
+      std::optional<Choice> best;
+      for (std::size_t k = 0; k < candidates_.size(); ++k) {
+        if (std::isnan(trials_[c].gaussian[k])) continue;
+        double gaussian = 0, mean = 0, count = 0;
+        for (const std::size_t d : around) {
+          if (std::isnan(trials_[d].gaussian[k])) continue;
+          gaussian += trials_[d].gaussian[k];
+          mean += trials_[d].mean[k];
+          ++count;
+        }
+        if (count < part * double(around.size())) continue;
+        const Relative_errors level = {std::exp(gaussian / count), std::exp(mean / count)};
+        if (!best || level.gaussian < best->level.gaussian) best = Choice{candidates_[k], level, trials_[c].noise};
+      }
+      if (best) return best;
+    }
+    return {};
+  }
+
+  const Data_points_3& data_;
+  Fit_request request_;
+  std::vector<double> radii_;
+  std::vector<Fit_candidate> candidates_;
+  std::vector<Index> centers_;
+  std::vector<Trial> trials_;
+  std::vector<std::optional<Choice>> choices_;
+};
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FIT_INTERNAL_PATCH_COVER_3_H
+#define EQUIAFFINE_FIT_INTERNAL_PATCH_COVER_3_H
+
+#include <equiaffine/base/parallel_for.h>
+#include <equiaffine/fit/internal/Curvature_fit_3.h>
+
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// Fits at centers so dense that every point has one near by.
+struct Patch_cover_3 {
+  using Index = Data_points_3::Index;
+  static constexpr Index none = std::numeric_limits<Index>::max();
+
+  std::vector<Index> centers;
+  std::vector<std::optional<Curvature_fit_3>> fits; ///< one for each center, if there is one
+  std::vector<Index> nearest; ///< for each point the position of its center in `centers`, or `none` without a fit
+};
+
+/// Chooses centers in random order, unless another is nearer than `part` of the radius of its fit, and fits there.
+template <class ConcurrencyTag>
+Patch_cover_3 patch_cover(const Data_points_3& data, const Fit_choice_3& choices, double part, ConcurrencyTag) {
+  using Index = Data_points_3::Index;
+  Patch_cover_3 cover;
+  cover.nearest.assign(data.size(), Patch_cover_3::none);
+  std::vector<double> squares(data.size(), std::numeric_limits<double>::infinity());
+  std::vector<std::optional<Fit_choice_3::Choice>> choice(data.size());
+  parallel_for<ConcurrencyTag>(
+      0, data.size(), [&](std::size_t i) { choice[i] = choices.at(data.points[i]); }, 256);
+
+  std::vector<Index> order(data.size());
+  std::iota(order.begin(), order.end(), Index(0));
+  std::minstd_rand random(2);
+  for (std::size_t k = 0; k + 1 < order.size(); ++k) std::swap(order[k], order[k + random() % (order.size() - k)]);
+  for (const Index i : order) {
+    if (!choice[i] || cover.nearest[i] != Patch_cover_3::none) continue;
+    for (const Index j : connected_ball(data, i, part * choices.radius(choice[i]->candidate, i))) {
+      const double square = (data.points[j] - data.points[i]).squaredNorm();
+      if (!(square < squares[j])) continue;
+      squares[j] = square;
+      cover.nearest[j] = Index(cover.centers.size());
+    }
+    cover.centers.push_back(i);
+  }
+  cover.fits.resize(cover.centers.size());
+  parallel_for<ConcurrencyTag>(0, cover.centers.size(), [&](std::size_t k) {
+    cover.fits[k] = curvature_fit(data, cover.centers[k], *choice[cover.centers[k]], choices);
+  });
+  return cover;
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FIT_INTERNAL_SURFACE_FIT_3_H
+#define EQUIAFFINE_FIT_INTERNAL_SURFACE_FIT_3_H
+
+#include <equiaffine/base/check_argument.h>
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/fit/internal/Fit_choice_3.h>
+#include <equiaffine/fit/internal/Normalization_3.h>
+#include <equiaffine/number/Linear_substitution_3.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// Reads and checks the named parameters of fits.
+template <class Parameters>
+Fit_request fit_request(const Parameters& parameters) {
+  Fit_request request;
+  if constexpr (has_parameter<Noise_tag, Parameters>) {
+    request.noise = given_parameter<Noise_tag>(parameters);
+    check_argument(*request.noise >= 0 && std::isfinite(*request.noise), "the noise is a length, 0 or more");
+  }
+  if constexpr (has_parameter<Scale_tag, Parameters>) {
+    request.scale = given_parameter<Scale_tag>(parameters);
+    check_argument(*request.scale > 0 && std::isfinite(*request.scale), "the scale is a length, more than 0");
+  }
+  if constexpr (has_parameter<Degree_tag, Parameters>) {
+    request.degree = given_parameter<Degree_tag>(parameters);
+    const int d = *request.degree;
+    check_argument(d == 4 || d == 5 || d == 6 || d == 8 || d == 10, "the degree of a fit is 4, 5, 6, 8 or 10");
+  }
+  return request;
+}
+
+/// Data points with the way to fit them. It stays where it is, since the choice refers to the data.
+class Surface_fit_3 {
+public:
+  template <class ConcurrencyTag>
+  Surface_fit_3(Normalized_data data, Fit_request request, ConcurrencyTag tag)
+      : data_(std::move(data)), choices_(data_.data, in_normal_coordinates(request), tag), substitution_(matrix()) {}
+
+  Surface_fit_3(const Surface_fit_3&) = delete;
+  Surface_fit_3& operator=(const Surface_fit_3&) = delete;
+
+  const Data_points_3& data() const { return data_.data; }
+  const Fit_choice_3& choices() const { return choices_; }
+  const Normalization_3& normalization() const { return data_.normalization; }
+
+  /// Turns the expansion of a function in normal coordinates into one in those of the data, in their unit of length.
+  template <int Order>
+  Jet_3<double, Order> to_space(const Jet_3<double, Order>& jet) const {
+    return substitution_(jet) * (1 / data_.normalization.scale());
+  }
+
+private:
+  Fit_request in_normal_coordinates(Fit_request request) const {
+    if (request.noise) *request.noise *= data_.normalization.scale();
+    if (request.scale) *request.scale *= data_.normalization.scale();
+    return request;
+  }
+
+  Linear_substitution_3<double>::Matrix matrix() const {
+    Linear_substitution_3<double>::Matrix rows;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) rows[i][j] = data_.normalization.matrix(Eigen::Index(i), Eigen::Index(j));
+    return rows;
+  }
+
+  Normalized_data data_;
+  Fit_choice_3 choices_;
+  Linear_substitution_3<double> substitution_;
+};
+
+} // namespace equiaffine::internal
+
+#endif

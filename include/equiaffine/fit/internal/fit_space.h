@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FIT_INTERNAL_FIT_SPACE_H
+#define EQUIAFFINE_FIT_INTERNAL_FIT_SPACE_H
+
+#include <equiaffine/fit/internal/Data_points_3.h>
+#include <equiaffine/fit/internal/Local_fit_3.h>
+#include <equiaffine/number/monomials_3.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace equiaffine::internal {
+
+constexpr int maximal_space_degree = 7;
+
+/// The monomials x^i y^j z^k of total degree n up to 7, ordered by degree, each times the root of n! / (i! j! k!). Sums of
+/// squares of coefficients beside them do not change when space is rotated (Bombieri's norm).
+class Bombieri_basis_3 {
+public:
+  static constexpr std::size_t size = number_of_coefficients(Fit_family::SPACE, maximal_space_degree);
+
+  struct Element {
+    int i, j, k;
+    double factor;
+  };
+
+  Bombieri_basis_3() {
+    std::size_t m = 0;
+    for (int n = 0; n <= maximal_space_degree; ++n)
+      for (int i = n; i >= 0; --i)
+        for (int j = n - i; j >= 0; --j, ++m)
+          elements_[m] = {i, j, n - i - j, std::sqrt(binomial(n, i) * binomial(n - i, j))};
+  }
+
+  static double binomial(int n, int k) {
+    double result = 1;
+    for (int i = 0; i < k; ++i) result = result * (n - i) / (i + 1);
+    return result;
+  }
+
+  const Element& operator[](std::size_t m) const { return elements_[m]; }
+
+private:
+  std::array<Element, size> elements_;
+};
+
+inline const Bombieri_basis_3 bombieri_basis_3;
+
+/// The rows of the points of a ball: that f is zero there, and that its derivative along the normal is 1.
+struct Space_system {
+  Eigen::MatrixXd values, derivatives; ///< a column for each point, times the root of its weight
+  Eigen::VectorXd roots_of_weights;
+};
+
+inline Space_system space_system(const Data_points_3& data, std::span<const Data_points_3::Index> ball,
+                                 const Eigen::Vector3d& center, double radius, int degree) {
+  const std::size_t count = number_of_coefficients(Fit_family::SPACE, degree);
+  Space_system system;
+  system.values.resize(Eigen::Index(count), Eigen::Index(ball.size()));
+  system.derivatives.resize(Eigen::Index(count), Eigen::Index(ball.size()));
+  system.roots_of_weights.resize(Eigen::Index(ball.size()));
+  for (std::size_t p = 0; p < ball.size(); ++p) {
+    const Eigen::Vector3d local = (data.points[ball[p]] - center) / radius, normal = data.normals[ball[p]];
+    const double root = std::sqrt(std::max(1e-9, 1 - local.squaredNorm()));
+    std::array<std::array<double, maximal_space_degree + 1>, 3> power, slope;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      power[axis][0] = 1;
+      slope[axis][0] = 0;
+      for (std::size_t n = 0; n < std::size_t(degree); ++n) {
+        power[axis][n + 1] = power[axis][n] * local[Eigen::Index(axis)];
+        slope[axis][n + 1] = double(n + 1) * power[axis][n] * normal[Eigen::Index(axis)];
+      }
+    }
+    double* const value = system.values.col(Eigen::Index(p)).data();
+    double* const derivative = system.derivatives.col(Eigen::Index(p)).data();
+    for (std::size_t m = 0; m < count; ++m) {
+      const auto& e = bombieri_basis_3[m];
+      const auto i = std::size_t(e.i), j = std::size_t(e.j), k = std::size_t(e.k);
+      const double xy = power[0][i] * power[1][j], scale = root * e.factor;
+      value[m] = scale * xy * power[2][k];
+      derivative[m] =
+          scale * ((slope[0][i] * power[1][j] + power[0][i] * slope[1][j]) * power[2][k] + xy * slope[2][k]);
+    }
+    system.roots_of_weights[Eigen::Index(p)] = root;
+  }
+  return system;
+}
+
+/// Returns the coefficients of x^i y^j z^k in the order of Patch_3.
+inline std::vector<double> space_coefficients(const Eigen::VectorXd& bombieri, int degree) {
+  std::vector<double> coefficients(std::size_t(bombieri.size()));
+  std::array<std::array<std::array<std::size_t, maximal_space_degree + 1>, maximal_space_degree + 1>,
+             maximal_space_degree + 1>
+      position;
+  std::size_t next = 0;
+  for (int i = 0; i <= degree; ++i)
+    for (int j = 0; i + j <= degree; ++j)
+      for (int k = 0; i + j + k <= degree; ++k) position[std::size_t(i)][std::size_t(j)][std::size_t(k)] = next++;
+  for (Eigen::Index m = 0; m < bombieri.size(); ++m) {
+    const auto& e = bombieri_basis_3[std::size_t(m)];
+    coefficients[position[std::size_t(e.i)][std::size_t(e.j)][std::size_t(e.k)]] = bombieri[m] * e.factor;
+  }
+  return coefficients;
+}
+
+/// Moves from the center of a patch along gradients to its zero set, within a quarter of the radius. Both are local.
+inline std::optional<Eigen::Vector3d> foot_of_center(const Patch_3& patch, Jet_3<double>& jet) {
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  for (int step = 0; step < 8; ++step) {
+    jet = space_taylor<4>(patch, p);
+    const Eigen::Vector3d gradient(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]);
+    const Eigen::Vector3d newton = jet.value() * gradient / gradient.squaredNorm();
+    if (!(newton.norm() < 0.25)) return {};
+    if (newton.norm() < 1e-8) return p;
+    p -= newton;
+  }
+  return {};
+}
+
+/// Returns how the curvatures at a point change with the coefficients of the basis, a column for each curvature.
+inline Eigen::MatrixXd space_gradient(const Curvature_gradient& gradient, const Eigen::Vector3d& p, std::size_t count) {
+  std::array<std::array<std::array<double, 5>, maximal_space_degree + 1>, 3> taylor = {}; // of t^n along every axis
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (int n = 0; n <= maximal_space_degree; ++n)
+      for (int k = 0; k <= std::min(n, 4); ++k)
+        taylor[axis][std::size_t(n)][std::size_t(k)] =
+            Bombieri_basis_3::binomial(n, k) * std::pow(p[Eigen::Index(axis)], n - k);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(Eigen::Index(count), 2);
+  for (std::size_t m = 0; m < count; ++m) {
+    const auto& e = bombieri_basis_3[m];
+    for (std::size_t n = 1; n < Jet_3<double>::size; ++n) {
+      const auto [i, j, k] = monomials[n];
+      const double t = e.factor * taylor[0][std::size_t(e.i)][std::size_t(i)] *
+                       taylor[1][std::size_t(e.j)][std::size_t(j)] * taylor[2][std::size_t(e.k)][std::size_t(k)];
+      columns(Eigen::Index(m), 0) += gradient.gaussian[n] * t;
+      columns(Eigen::Index(m), 1) += gradient.mean[n] * t;
+    }
+  }
+  return columns;
+}
+
+/// Completes the fit of one degree from the leading part of the Cholesky factor `lower` of the normal equations.
+/// `traces` has the parts of the coefficients in the number of degrees of freedom.
+inline std::optional<Local_fit_3> space_fit(const Space_system& system, const Eigen::MatrixXd& lower,
+                                            const Eigen::VectorXd& reduced, const Eigen::VectorXd& traces,
+                                            const Eigen::Vector3d& center, double radius, int degree) {
+  const auto count = Eigen::Index(number_of_coefficients(Fit_family::SPACE, degree));
+  const auto factor = lower.topLeftCorner(count, count).triangularView<Eigen::Lower>();
+  const Eigen::VectorXd bombieri = factor.transpose().solve(reduced.head(count));
+  const auto values = system.values.topRows(count);
+  const double points = double(values.cols());
+
+  Local_fit_3 fit;
+  fit.points = std::size_t(values.cols());
+  fit.patch = {
+      Fit_family::SPACE, degree, radius, center, Eigen::Matrix3d::Identity(), 1, space_coefficients(bombieri, degree)};
+  Jet_3<double> jet;
+  const auto foot = foot_of_center(fit.patch, jet);
+  if (!foot) return {};
+  fit.curvatures = in_unit(curvatures_of(jet), radius);
+
+  const double weight = system.roots_of_weights.squaredNorm();
+  const double freedom = std::max(0.05, 1 - traces.head(count).sum() / points);
+  const double residual = std::sqrt((values.transpose() * bombieri).squaredNorm() / (weight * freedom));
+  fit.residual = residual * radius;
+  Eigen::MatrixXd gradient = space_gradient(curvature_gradient(jet), *foot, std::size_t(count));
+  factor.solveInPlace(gradient);
+  factor.transpose().solveInPlace(gradient);
+  const Eigen::MatrixXd influence = system.roots_of_weights.asDiagonal() * (values.transpose() * gradient);
+  fit.deviation = in_unit({residual * influence.col(0).norm(), residual * influence.col(1).norm()}, radius);
+  return fit;
+}
+
+/// Fits polynomials in space of several degrees, at most `maximal_space_degree`, and with several weights of the
+/// conditions on normals, to the points of a connected ball, of which it takes at most 2000. A degree is left out where
+/// there are not 1.2 points to a coefficient.
+inline std::vector<Local_fit_3> fit_spaces(const Data_points_3& data, Data_points_3::Index center, double radius,
+                                           std::span<const int> degrees, std::span<const double> weights_of_normals) {
+  constexpr std::size_t most = 2000;
+  constexpr double ridge = 1e-9;
+  auto ball = connected_ball(data, center, radius);
+  if (ball.size() > most) {
+    for (std::size_t k = 0; k < most; ++k) ball[k] = ball[k * ball.size() / most];
+    ball.resize(most);
+  }
+  int greatest = 0;
+  for (const int degree : degrees)
+    if (double(ball.size()) >= 1.2 * double(number_of_coefficients(Fit_family::SPACE, degree)))
+      greatest = std::max(greatest, degree);
+  if (greatest == 0) return {};
+  const Eigen::Vector3d& origin = data.points[center];
+  const Space_system system = space_system(data, ball, origin, radius, greatest);
+
+  const Eigen::Index size = system.values.rows();
+  Eigen::MatrixXd of_values = Eigen::MatrixXd::Zero(size, size);
+  of_values.selfadjointView<Eigen::Lower>().rankUpdate(system.values);
+  Eigen::MatrixXd of_derivatives = Eigen::MatrixXd::Zero(size, size);
+  of_derivatives.selfadjointView<Eigen::Lower>().rankUpdate(system.derivatives);
+
+  std::vector<Local_fit_3> fits;
+  for (const double weight : weights_of_normals) {
+    Eigen::MatrixXd gram = of_values + weight * weight * of_derivatives;
+    gram.diagonal().array() += ridge * system.roots_of_weights.squaredNorm();
+    const Eigen::LLT<Eigen::MatrixXd> cholesky(gram);
+    if (cholesky.info() != Eigen::Success) continue;
+    const Eigen::MatrixXd lower = cholesky.matrixL();
+    const Eigen::VectorXd reduced =
+        cholesky.matrixL().solve(weight * weight * (system.derivatives * system.roots_of_weights));
+    Eigen::MatrixXd hat = of_values.selfadjointView<Eigen::Lower>();
+    cholesky.matrixL().solveInPlace(hat);
+    hat.transposeInPlace();
+    cholesky.matrixL().solveInPlace(hat);
+    for (const int degree : degrees) {
+      if (degree > greatest) continue;
+      auto fit = space_fit(system, lower, reduced, hat.diagonal(), origin, radius, degree);
+      if (!fit || !std::isfinite(fit->curvatures.gaussian) || !std::isfinite(fit->deviation.gaussian)) continue;
+      fit->weight_of_normals = weight;
+      fits.push_back(std::move(*fit));
+    }
+  }
+  return fits;
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FIT_INTERNAL_STRUCTURES_OF_FIT_H
+#define EQUIAFFINE_FIT_INTERNAL_STRUCTURES_OF_FIT_H
+
+#include <equiaffine/base/parallel_for.h>
+#include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/fit/internal/Patch_cover_3.h>
+#include <equiaffine/fit/internal/Surface_fit_3.h>
+#include <equiaffine/geometry/local_structure.h>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// Moves a point along gradients to the zero set of a patch, if that is near.
+inline std::optional<Eigen::Vector3d> foot_on_patch(const Patch_3& patch, Eigen::Vector3d p) {
+  for (int step = 0; step < 20; ++step) {
+    const auto jet = patch.taylor<1>(p);
+    const Eigen::Vector3d gradient(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]);
+    const Eigen::Vector3d newton = jet.value() * gradient / gradient.squaredNorm();
+    if (!(newton.norm() < 0.25 * patch.radius)) return {};
+    p -= newton;
+    if (newton.norm() < 1e-12 * patch.radius) return p;
+  }
+  return {};
+}
+
+inline Fitted_structure_3<double> structure_without_fit() {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  auto structure = local_structure(Jet_3<double>(nan));
+  structure.status = Point_status::OUTSIDE;
+  return {structure, {nan, nan}, {nan, nan}, nan};
+}
+
+inline Fitted_structure_3<double> structure_at(const Surface_fit_3& fit, const Curvature_fit_3& local,
+                                               const Eigen::Vector3d& p) {
+  const auto foot = foot_on_patch(local.patch, p);
+  if (!foot) return structure_without_fit();
+  Fitted_structure_3<double> result;
+  result.structure = local_structure(fit.to_space(local.patch.taylor(*foot)));
+  const auto& affine = result.structure.affine;
+  const double size = std::abs(affine.gaussian_curvature) + affine.mean_curvature * affine.mean_curvature;
+  result.error = {local.error.gaussian * size, local.error.mean * std::sqrt(size)};
+  result.noise = {local.noise.gaussian * size, local.noise.mean * std::sqrt(size)};
+  result.scale = local.patch.radius / fit.normalization().scale();
+  return result;
+}
+
+/// The distance of the centers of fits as a part of their radius: fits with small radii are made at every point.
+constexpr double distance_of_direct_fits = 0.1;
+
+template <class ConcurrencyTag>
+std::vector<Fitted_structure_3<double>> structures_of_fit(const Surface_fit_3& fit) {
+  const Data_points_3& data = fit.data();
+  const Patch_cover_3 cover = patch_cover(data, fit.choices(), distance_of_direct_fits, ConcurrencyTag());
+  std::vector<Fitted_structure_3<double>> structures(data.size(), structure_without_fit());
+  parallel_for<ConcurrencyTag>(
+      0, data.size(),
+      [&](std::size_t i) {
+        const auto k = cover.nearest[i];
+        if (k != Patch_cover_3::none && cover.fits[k])
+          structures[i] = structure_at(fit, *cover.fits[k], data.points[i]);
+      },
+      64);
+  return structures;
+}
+
+} // namespace equiaffine::internal
+
+#endif
