@@ -289,6 +289,33 @@ TEST(Delaunay_surface, poles_are_no_surfaces) {
   const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3("1/x+y"), box), criteria);
   EXPECT_FALSE(surface.triangles.empty());
   for (const Point_3& p : surface.points) ASSERT_NEAR(p.x() * p.y(), -1, 1e-13) << p;
+  const auto tangent = make_analytic_traits<Kernel>(Expression_3("tan(x)-y"), box);
+  for (const double radius : {0.2, 0.0}) {
+    const auto sheet = delaunay_surface(tangent, {30, radius, 0}); // between the poles at -pi/2 and pi/2
+    const auto t = topology(sheet);
+    EXPECT_TRUE(t.is_manifold) << radius;
+    EXPECT_EQ(t.components, 1u) << radius;
+    EXPECT_EQ(t.euler_characteristic, 1) << radius;
+    const auto is_boundary = is_on_boundary(sheet);
+    for (std::size_t v = 0; v < sheet.points.size(); ++v)
+      EXPECT_TRUE(!is_boundary[v] || std::abs(sheet.points[v].y()) == 2 || std::abs(sheet.points[v].z()) == 2);
+  }
+}
+
+TEST(Delaunay_surface, a_surface_is_found_on_a_segment_that_meets_a_pole_as_well) {
+  const CGAL::Bbox_3 box(-5, -5, -5, 5, 5, 5);
+  using Exact_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  const Implicit_mesh_domain_3 domain(make_analytic_traits<Kernel>(Expression_3("tan(x)-y"), box), Clip_domain_3(box),
+                                      0.3);
+  const auto meets = [&](double x_below, double x_above) {
+    const Exact_kernel::Segment_3 segment({x_below, -3, 0}, {x_above, 3, 0.1});
+    const auto [p, index, dimension] = domain.construct_intersection_object()(segment);
+    EXPECT_TRUE(dimension == 0 || std::abs(std::tan(p.x()) - p.y()) < 1e-12) << p;
+    return dimension == 2;
+  };
+  EXPECT_TRUE(meets(2, 1.45)) << "a pole and a root: no change of sign";
+  EXPECT_TRUE(meets(2, -1.45)) << "a pole and two roots: a change of sign";
+  EXPECT_FALSE(meets(-2, -1.45)) << "a pole alone";
 }
 
 TEST(Delaunay_surface, arguments_without_a_result_are_refused_in_every_build) {

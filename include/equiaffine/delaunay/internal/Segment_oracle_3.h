@@ -10,6 +10,7 @@
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -29,9 +30,12 @@ public:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   /// A segment longer than `certified_length` may have two roots and no sign change. If the bounds of the function
-  /// cannot exclude that, its halves are searched, down to pieces of that length.
+  /// cannot exclude that, its halves are searched, down to pieces of that length. Where there may be a pole beside a
+  /// root, pieces are a sixteenth as long.
   Segment_oracle_3(Traits traits, const Clip_domain_3& domain, double certified_length = infinity)
-      : traits_(std::move(traits)), domain_(domain), certified_length_(certified_length) {}
+      : traits_(std::move(traits)), domain_(domain), certified_length_(certified_length),
+        may_have_poles_(internal::known_bounds(traits_).have_gradients &&
+                        !is_bounded(internal::first_order_bounds(traits_, domain.bbox()).value())) {}
 
   /// A point of the surface on p + t d, first <= t <= last (which may be infinite), inside the domain.
   std::optional<Point_3> operator()(const Point_3& p, const Vector_3& d, double first, double last) const {
@@ -50,23 +54,20 @@ public:
 private:
   /// A root between a and b, where f has the values fa and fb.
   std::optional<Point_3> on_segment(const Point_3& a, const Point_3& b, const FT& fa, const FT& fb) const {
+    bool may_have_pole = may_have_poles_;
     if (is_sign_change(fa, fb)) {
       const auto root = intersect_segment(traits_, a, b, fa, fb);
       if (root.has_converged) return root.point;
-      return std::nullopt;
+      may_have_pole = may_have_pole || root.is_at_pole;
     }
     if (fa == fa && fb != fb) return before_undefined(a, b, fa);
     if (fb == fb && fa != fa) return before_undefined(b, a, fb);
-    if constexpr (BoundedImplicitFunctionTraits_3<Traits>) {
-      const Vector_3 d = b - a;
-      if (d.squared_length() > FT(certified_length_ * certified_length_) && may_have_two_roots(a, b, d)) {
-        const Point_3 middle = a + d / FT(2);
-        const FT f = traits_.value(middle);
-        if (const auto root = on_segment(a, middle, fa, f)) return root;
-        return on_segment(middle, b, f, fb);
-      }
-    }
-    return std::nullopt;
+    const Vector_3 d = b - a;
+    if (!is_to_be_halved(a, b, d, may_have_pole && fa == fa)) return std::nullopt;
+    const Point_3 middle = a + d / FT(2);
+    const FT f = traits_.value(middle);
+    if (const auto root = on_segment(a, middle, fa, f)) return root;
+    return on_segment(middle, b, f, fb);
   }
 
   /// A root between a, where f has the value fa, and the place on the way to b from which on f is undefined.
@@ -86,19 +87,35 @@ private:
     return std::nullopt;
   }
 
-  /// Returns false if f is proved to be monotone on the segment from a to b = a + d, or to have no zero in its box.
-  bool may_have_two_roots(const Point_3& a, const Point_3& b, const Vector_3& d) const {
-    const auto jet = first_order_bounds(traits_, a.bbox() + b.bbox());
-    const auto& c = jet.coefficients();
-    if (!c[0].contains(0)) return false;
-    return (c[1] * Interval(CGAL::to_double(d.x())) + c[2] * Interval(CGAL::to_double(d.y())) +
-            c[3] * Interval(CGAL::to_double(d.z())))
-        .contains(0);
+  /// Whether there may be roots between a and b = a + d that the signs there do not show, and the segment is longer than
+  /// pieces need to be.
+  bool is_to_be_halved(const Point_3& a, const Point_3& b, const Vector_3& d, bool may_have_pole) const {
+    constexpr double piece_beside_pole = 1.0 / 16; // its length / the certified length
+    const double length = std::sqrt(CGAL::to_double(d.squared_length()));
+    const bool is_long = length > certified_length_;
+    if (!is_long && !(may_have_pole && length > piece_beside_pole * certified_length_)) return false;
+    if constexpr (BoundedImplicitFunctionTraits_3<Traits>) {
+      const auto jet = first_order_bounds(traits_, a.bbox() + b.bbox());
+      const auto& c = jet.coefficients();
+      if (!c[0].contains(0)) return false;
+      if (!is_bounded(c[0])) return true;
+      return is_long && (c[1] * Interval(CGAL::to_double(d.x())) + c[2] * Interval(CGAL::to_double(d.y())) +
+                         c[3] * Interval(CGAL::to_double(d.z())))
+                            .contains(0);
+    } else {
+      return may_have_pole;
+    }
+  }
+
+  /// Whether bounds of f exclude that it has a pole.
+  static bool is_bounded(const Interval& bounds) {
+    return std::isfinite(bounds.lower()) && std::isfinite(bounds.upper());
   }
 
   Traits traits_;
   Clip_domain_3 domain_;
   double certified_length_;
+  bool may_have_poles_; // in the domain, by the bounds of f
 };
 
 } // namespace equiaffine::internal
