@@ -392,14 +392,35 @@ TEST(Delaunay_surface, what_is_certified_has_the_topology_that_marching_cubes_fi
   EXPECT_GE(certified, 4);
 }
 
+bool has_vertex(const Surface& surface, const Point_3& p) {
+  return std::any_of(surface.points.begin(), surface.points.end(),
+                     [&](const Point_3& q) { return CGAL::squared_distance(p, q) < 1e-24; });
+}
+
 TEST(Delaunay_surface, nodes_are_vertices) {
-  const auto has_vertex = [](const Surface& surface, const Point_3& p) {
-    return std::any_of(surface.points.begin(), surface.points.end(),
-                       [&](const Point_3& q) { return CGAL::squared_distance(p, q) < 1e-24; });
-  };
   const auto cayley = delaunay_surface(traits_of(functions::Cayley_cubic()), {30, 0.2, 0});
   for (const Point_3& node : {Point_3(1, 1, 1), Point_3(1, -1, -1), Point_3(-1, 1, -1), Point_3(-1, -1, 1)})
     EXPECT_TRUE(has_vertex(cayley, node)) << node;
+}
+
+TEST(Delaunay_surface, apexes_where_the_function_has_no_gradient_are_vertices) {
+  const CGAL::Bbox_3 box(-2, -2, -2, 2, 2, 2);
+  const auto mesh = [&](const char* text) {
+    return delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box), {30, 0.2, 0});
+  };
+  for (const char* half_cone : {"z-.2-sqrt((x-.1)^2+(y+.3)^2)", "z-.2-3*hypot(x-.1,y+.3)",
+                                "z-.2-sqrt((x-.1)^2+(y+.3)^2)-.3*(x-.1)^2", "z-.2-abs(x-.1)-abs(y+.3)"}) {
+    const auto surface = mesh(half_cone);
+    EXPECT_TRUE(has_vertex(surface, {0.1, -0.3, 0.2})) << half_cone;
+    EXPECT_TRUE(topology(surface).is_manifold) << half_cone;
+    EXPECT_EQ(topology(surface).components, 1u) << half_cone;
+    EXPECT_EQ(topology(surface).euler_characteristic, 1) << half_cone;
+  }
+  const auto cube = mesh("max(abs(x),max(abs(y),abs(z)))-1");
+  EXPECT_EQ(topology(cube).euler_characteristic, 2);
+  for (const double x : {-1, 1})
+    for (const double y : {-1, 1})
+      for (const double z : {-1, 1}) EXPECT_TRUE(has_vertex(cube, {x, y, z})) << x << " " << y << " " << z;
 }
 
 TEST(Delaunay_surface, no_triangle_straddles_a_parabolic_curve) {
