@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The only translation unit of the library that instantiates CGAL's mesher.
 #include "Angle_improvement_3.h"
+#include "End_curves_3.h"
 #include "Facet_mesh.h"
 #include "Facet_sizing_field.h"
 #include "Feature_curve_3.h"
@@ -11,6 +12,7 @@
 #include "initial_points.h"
 #include "insert_points.h"
 #include "lost_points.h"
+#include "missing_facets.h"
 #include "refine_facets.h"
 #include "straddling_triangles.h"
 #include <equiaffine/delaunay/mesh_surface.h>
@@ -46,7 +48,10 @@ public:
     const Initial_points points = find_initial_points(function_, domain_.domain(), criteria_.radius, size_, features_);
     const Inserted_points inserted = insert_points(complex_, points);
     Facet_mesh mesh = refine(points);
-    if (points.has_features) improve_angles(mesh);
+    if (points.has_features) {
+      add_missing_facets(inserted, mesh);
+      improve_angles(mesh);
+    }
     mesh.surface.undecided_boxes = undecided_boxes(points, inserted, mesh);
     mesh.surface.is_certified = mesh.surface.undecided_boxes.empty();
     mesh.surface.function_evaluations = memory_.evaluations();
@@ -115,14 +120,32 @@ private:
   bool is_refined_ = true; // whether all facets satisfy the criteria
 };
 
-/// Makes a second mesh, which has the parabolic curves of the first one as features.
-Mesh follow_parabolic_curves(const Mesh& first, const Any_function_3& function, const Meshing_request_3& request,
-                             std::vector<Feature_curve_3> features) {
-  auto curves = parabolic_curves(first, function);
-  append_parabolic_features(function, curves.polylines, request.criteria.radius, features);
+/// Makes a mesh with more features than an earlier one, and adds up what both cost.
+Mesh mesh_again(const Mesh& earlier, const Any_function_3& function, const Meshing_request_3& request,
+                const std::vector<Feature_curve_3>& features) {
   Mesh mesh = Surface_mesher(function, request, features)();
-  mesh.function_evaluations += first.function_evaluations;
-  mesh.sampling_seconds += first.sampling_seconds;
+  mesh.function_evaluations += earlier.function_evaluations;
+  mesh.sampling_seconds += earlier.sampling_seconds;
+  return mesh;
+}
+
+/// Makes the first mesh, and a second one if the surface ends where f is not defined beyond: the curves where it ends
+/// become features.
+Mesh mesh_to_the_ends(const Any_function_3& function, const Meshing_request_3& request,
+                      std::vector<Feature_curve_3>& features) {
+  Mesh mesh = Surface_mesher(function, request, features)();
+  const auto ends = End_curves_3(function, request.domain, request.criteria.radius).find(mesh);
+  if (ends.empty()) return mesh;
+  features.insert(features.end(), ends.begin(), ends.end());
+  return mesh_again(mesh, function, request, features);
+}
+
+/// Makes one more mesh, which has the parabolic curves of the last one as features.
+Mesh follow_parabolic_curves(const Mesh& last, const Any_function_3& function, const Meshing_request_3& request,
+                             std::vector<Feature_curve_3> features) {
+  auto curves = parabolic_curves(last, function);
+  append_parabolic_features(function, curves.polylines, request.criteria.radius, features);
+  Mesh mesh = mesh_again(last, function, request, features);
   mesh.parabolic_curves = std::move(curves);
   report_straddling_triangles(function, request.criteria.radius, mesh);
   return mesh;
@@ -135,8 +158,8 @@ Mesh follow_parabolic_curves(const Mesh& first, const Any_function_3& function, 
 Delaunay_surface_3<Any_function_3::Kernel> mesh_surface(const Any_function_3& function,
                                                         const Meshing_request_3& request) {
   using namespace internal;
-  const auto features = given_features(function, request);
-  Mesh mesh = Surface_mesher(function, request, features)();
+  auto features = given_features(function, request);
+  Mesh mesh = mesh_to_the_ends(function, request, features);
   return request.has_parabolic_features ? follow_parabolic_curves(mesh, function, request, features) : mesh;
 }
 

@@ -186,6 +186,35 @@ TEST(Delaunay_surface, a_function_may_be_undefined_in_a_part_of_the_box) {
     }
 }
 
+TEST(Delaunay_surface, the_border_follows_the_curves_where_the_function_ends) {
+  const CGAL::Bbox_3 box(-2, -2, -2, 2, 2, 2);
+  const double radius = 0.15;
+  const auto distance_to_circle = [](const Point_3& p) { return std::hypot(std::hypot(p.x(), p.y()) - 1, p.z()); };
+  const auto distance_to_line = [](const Point_3& p) { return std::hypot(p.x(), p.z()); };
+  const auto distance_to_plane = [](const Point_3& p) { return std::abs(p.x() + p.y() + p.z() / 2 - 0.1); };
+  const auto expect_end = [&](const char* text, long euler_characteristic, const auto& distance) {
+    const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box), {30, radius, 0});
+    const auto t = topology(surface);
+    EXPECT_TRUE(t.is_manifold) << text;
+    EXPECT_EQ(t.components, 1u) << text;
+    EXPECT_EQ(long(t.euler_characteristic), euler_characteristic) << text;
+    const auto is_boundary = is_on_boundary(surface);
+    std::size_t at_end = 0;
+    for (std::size_t v = 0; v < surface.points.size(); ++v) {
+      const Point_3& p = surface.points[v];
+      if (!is_boundary[v] || std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())}) == 2) continue;
+      EXPECT_LT(distance(p), radius / 100) << text << " at " << p;
+      ++at_end;
+    }
+    EXPECT_GT(at_end, 25u) << text;
+  };
+  expect_end("sqrt(x^2+y^2-1)-z", 0, distance_to_circle);
+  expect_end("sqrt(1-x^2-y^2)-z", 1, distance_to_circle);
+  expect_end("sqrt(x)-z", 1, distance_to_line);
+  expect_end("x*log(x)-z", 1, distance_to_line);
+  expect_end("x^2+y^2+z^2-1+0*sqrt(x+y+z/2-.1)", 1, distance_to_plane);
+}
+
 TEST(Delaunay_surface, what_has_no_gradient_anywhere_ends_in_undecided_boxes) {
   const auto surface =
       delaunay_surface(make_analytic_traits<Kernel>(Expression_3("0"), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1)));

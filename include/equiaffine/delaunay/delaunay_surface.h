@@ -32,8 +32,9 @@ namespace equiaffine {
 /// angles at the corners smaller. Features nearer to each other than a fiftieth of the radius may lose edges; the mesh
 /// is then not certified, and need not be manifold there. Features much smaller than the radius may be missed.
 /// Nodes of the surface, such as the apex of a cone, are vertices, and so are apexes where f has no gradient, such as
-/// that of half a cone or the corner of a cube. Near other singular points, and where f ceases to be defined, the mesh
-/// ends in facets of radius/8, whatever their angles.
+/// that of half a cone or the corner of a cube. The curves where the surface ends since f is not defined beyond become
+/// features, too, to a hundredth of the radius. Near other singular points the mesh ends in facets of radius/8, whatever
+/// their angles.
 ///
 /// Named parameters: `clip` (the box of the function), `facet_sizing` (UNIFORM), `feature_curves` (none),
 /// `parabolic_features` (no).
