@@ -95,8 +95,8 @@ private:
 } // namespace
 
 void check_inr_header(const std::string& path) {
-  constexpr std::size_t longest_header = 1 << 16;
-  const std::string beginning = beginning_of(path, longest_header);
+  constexpr std::size_t header_size = 1 << 16;
+  const std::string beginning = beginning_of(path, header_size);
   const std::size_t end = beginning.find(end_of_header);
   if (!beginning.starts_with(magic) || end == std::string::npos)
     fail_to_read_volume(path,
