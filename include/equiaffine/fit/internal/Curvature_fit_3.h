@@ -25,22 +25,29 @@ struct Curvature_fit_3 {
 };
 
 /// Fits polynomials of the degree of a candidate and of the one it is compared with, in this order. Where the ball has
-/// too few points, as at a border of the surface, it grows.
+/// too few points for both, as at a border of the surface, it grows. Where they do not determine a polynomial, since they
+/// fill a small part of the ball only, it shrinks.
 inline std::vector<Local_fit_3> fit_candidate(const Data_points_3& data, Data_points_3::Index center, double radius,
                                               const Fit_candidate& candidate) {
   const std::array<int, 2> degrees = {candidate.degree, candidate.other_degree()};
   const std::array<double, 1> weights = {candidate.weight_of_normals};
-  std::vector<Local_fit_3> fits;
-  for (int attempt = 0; attempt < 6 && fits.size() < degrees.size(); ++attempt, radius *= 1.15)
-    fits = candidate.family == Fit_family::HEIGHT ? fit_heights(data, center, radius, degrees)
-                                                  : fit_spaces(data, center, radius, degrees, weights);
+  const auto fit = [&](double r) {
+    auto fits = candidate.family == Fit_family::HEIGHT ? fit_heights(data, center, r, degrees)
+                                                       : fit_spaces(data, center, r, degrees, weights);
+    if (!fits.empty() && !candidate.made(fits.front(), candidate.degree)) fits.clear();
+    return fits;
+  };
+  std::vector<Local_fit_3> fits = fit(radius);
+  for (int step = 1; step < 6 && fits.size() < degrees.size(); ++step)
+    if (auto larger = fit(radius * std::pow(1.15, step)); larger.size() > fits.size()) fits = std::move(larger);
+  for (int step = 1; step < 6 && fits.empty(); ++step) fits = fit(radius / std::pow(1.3, step));
   return fits;
 }
 
 inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, Data_points_3::Index center,
                                                     const Fit_choice_3::Choice& choice, const Fit_choice_3& choices) {
   auto fits = fit_candidate(data, center, choices.radius(choice.candidate, center), choice.candidate);
-  if (fits.empty() || !choice.candidate.made(fits[0], choice.candidate.degree)) return {};
+  if (fits.empty()) return {};
   Local_fit_3& fit = fits[0];
   const double size = fit.curvatures.size();
   double gaussian = choice.level.gaussian * size, mean = choice.level.mean * std::sqrt(size);
@@ -49,12 +56,12 @@ inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, D
     mean = std::max(mean, std::abs(other.curvatures.mean - fit.curvatures.mean));
   };
   if (fits.size() > 1) compare_with(fits[1]);
-  const Affine_curvatures deviation = {guarded_deviation(fit, fit.deviation.gaussian, choice.noise),
-                                       guarded_deviation(fit, fit.deviation.mean, choice.noise)};
+  const double gaussian_deviation = guarded_deviation(fit, fit.gaussian_deviation, choice.noise),
+               mean_deviation = guarded_deviation(fit, fit.mean_deviation, choice.noise);
   Curvature_fit_3 result;
-  result.error = {coverage * std::hypot(gaussian, deviation.gaussian) / size,
-                  coverage * std::hypot(mean, deviation.mean) / std::sqrt(size)};
-  result.noise = {2 * fit.deviation.gaussian / size, 2 * fit.deviation.mean / std::sqrt(size)};
+  result.error = {coverage * std::hypot(gaussian, gaussian_deviation) / size,
+                  coverage * std::hypot(mean, mean_deviation) / std::sqrt(size)};
+  result.noise = {2 * fit.gaussian_deviation / size, 2 * fit.mean_deviation / std::sqrt(size)};
   result.patch = std::move(fit.patch);
   return result;
 }

@@ -152,18 +152,21 @@ private:
     return std::isfinite(noise) ? noise : 0;
   }
 
-  /// Tries fits of increasing radius, until three in a row are worse than the best by far.
+  /// Tries fits of increasing radius, until three in a row are worse than the best by far, or no more points come in.
   template <class Fit>
   void try_radii(Trial& trial, std::size_t most_points, Fit fit) const {
     double least = std::numeric_limits<double>::infinity();
     int worse = 0;
+    std::size_t points = 0;
     for (std::size_t r = 0; r < radii_.size() && worse < 3; ++r) {
       const std::vector<Local_fit_3> fits = fit(r);
       if (fits.empty()) continue;
+      if (fits.front().points == points) break;
+      points = fits.front().points;
       const double score = enter(trial, radii_[r], fits);
       least = std::min(least, score);
       worse = score > least + std::log(20.) ? worse + 1 : 0;
-      if (fits.front().points >= most_points) break;
+      if (points >= most_points) break;
     }
   }
 
@@ -202,12 +205,12 @@ private:
       if (fit == nullptr || other == nullptr) continue;
       if (candidate.family == Fit_family::SPACE && fit->residual > 2 * trial.noise) continue;
       const double size = std::max(fit->curvatures.size(), std::numeric_limits<double>::min());
-      const auto error = [&](double Affine_curvatures::*c) {
-        return std::hypot(fit->curvatures.*c - other->curvatures.*c,
-                          1.4 * guarded_deviation(*fit, fit->deviation.*c, trial.noise));
-      };
-      trial.gaussian[k] = std::log(error(&Affine_curvatures::gaussian) / size + 1e-12);
-      trial.mean[k] = std::log(error(&Affine_curvatures::mean) / std::sqrt(size) + 1e-12);
+      const double gaussian = std::hypot(fit->curvatures.gaussian - other->curvatures.gaussian,
+                                         1.4 * guarded_deviation(*fit, fit->gaussian_deviation, trial.noise)),
+                   mean = std::hypot(fit->curvatures.mean - other->curvatures.mean,
+                                     1.4 * guarded_deviation(*fit, fit->mean_deviation, trial.noise));
+      trial.gaussian[k] = std::log(gaussian / size + 1e-12);
+      trial.mean[k] = std::log(mean / std::sqrt(size) + 1e-12);
       least = std::min(least, trial.gaussian[k]);
     }
     return least;

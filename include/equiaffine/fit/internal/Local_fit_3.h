@@ -14,14 +14,19 @@ namespace equiaffine::internal {
 
 struct Affine_curvatures {
   double gaussian, mean;
+  double typical; ///< |K_e|^(3/2), which is K of a sphere with that Gaussian curvature
 
-  /// The size that errors of K are compared with, which is not zero where K changes its sign.
-  double size() const { return std::abs(gaussian) + mean * mean; }
+  /// The size that errors of K are compared with. It is not zero where K changes its sign, nor on a paraboloid, where K
+  /// and H are zero.
+  double size() const { return std::abs(gaussian) + mean * mean + 0.01 * typical; }
 };
 
 inline Affine_curvatures curvatures_of(const Jet_3<double>& jet) {
-  const auto invariants = affine_invariants(Monge_chart_3<double>(jet));
-  return {invariants.gaussian_curvature, invariants.mean_curvature};
+  const Monge_chart_3<double> chart(jet);
+  const auto invariants = affine_invariants(chart);
+  const double slope = 1 + chart.a * chart.a + chart.b * chart.b;
+  return {invariants.gaussian_curvature, invariants.mean_curvature,
+          std::pow(std::abs(chart.d()) / (slope * slope), 1.5)};
 }
 
 /// A polynomial fitted to points, with the curvatures of its zero set at the foot of the center and what is known about
@@ -29,11 +34,11 @@ inline Affine_curvatures curvatures_of(const Jet_3<double>& jet) {
 struct Local_fit_3 {
   Patch_3 patch;
   Affine_curvatures curvatures;
-  Affine_curvatures deviation;  ///< the standard deviation of the curvatures if residuals are white noise
-  double residual = 0;          ///< the standard deviation of one point from the zero set
-  std::size_t points = 0;       ///< in the ball
-  double weight_of_normals = 0; ///< of a polynomial in space
-  double least_cosine = 1;      ///< of the angles between the frame's third axis and the normals of the points
+  double gaussian_deviation = 0, mean_deviation = 0; ///< standard deviations if residuals are white noise
+  double residual = 0;                               ///< the standard deviation of one point from the zero set
+  std::size_t points = 0;                            ///< in the ball
+  double weight_of_normals = 0;                      ///< of a polynomial in space
+  double least_cosine = 1; ///< of the angles between the frame's third axis and the normals of the points
 };
 
 /// How the curvatures change with the coefficients of the jet.
@@ -59,7 +64,8 @@ inline Curvature_gradient curvature_gradient(const Jet_3<double>& jet) {
 
 /// Curvatures for lengths in another unit, `unit` times as large.
 inline Affine_curvatures in_unit(const Affine_curvatures& c, double unit) {
-  return {c.gaussian / (unit * unit * unit), c.mean / (unit * std::sqrt(unit))};
+  const double volume = unit * unit * unit;
+  return {c.gaussian / volume, c.mean / std::sqrt(volume), c.typical / volume};
 }
 
 } // namespace equiaffine::internal

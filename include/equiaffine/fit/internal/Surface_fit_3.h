@@ -9,10 +9,13 @@
 #include <equiaffine/number/Linear_substitution_3.h>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -43,7 +46,8 @@ class Surface_fit_3 {
 public:
   template <class ConcurrencyTag>
   Surface_fit_3(Normalized_data data, Fit_request request, ConcurrencyTag tag)
-      : data_(std::move(data)), choices_(data_.data, in_normal_coordinates(request), tag), substitution_(matrix()) {}
+      : data_(std::move(data)), greatest_coordinate_(greatest_coordinate(data_)),
+        choices_(data_.data, in_normal_coordinates(request), tag), substitution_(matrix()) {}
 
   Surface_fit_3(const Surface_fit_3&) = delete;
   Surface_fit_3& operator=(const Surface_fit_3&) = delete;
@@ -58,7 +62,23 @@ public:
     return substitution_(jet) * (1 / data_.normalization.scale());
   }
 
+  /// The errors of second derivatives that roundings of the points make, for the expansion of a fit in space.
+  double rounding(const Jet_3<double>& jet, double radius) const {
+    const auto& c = jet.coefficients();
+    const double units = std::numeric_limits<double>::epsilon() * greatest_coordinate_;
+    const double length = radius / normalization().scale();
+    return 1000 * units * std::hypot(c[1], c[2], c[3]) / (length * length);
+  }
+
 private:
+  static double greatest_coordinate(const Normalized_data& data) {
+    const Eigen::Matrix3d inverse = data.normalization.matrix.inverse();
+    double greatest = 0;
+    for (const auto& p : data.data.points)
+      greatest = std::max(greatest, (data.normalization.origin + inverse * p).lpNorm<Eigen::Infinity>());
+    return greatest;
+  }
+
   Fit_request in_normal_coordinates(Fit_request request) const {
     if (request.noise) *request.noise *= data_.normalization.scale();
     if (request.scale) *request.scale *= data_.normalization.scale();
@@ -73,6 +93,7 @@ private:
   }
 
   Normalized_data data_;
+  double greatest_coordinate_;
   Fit_choice_3 choices_;
   Linear_substitution_3<double> substitution_;
 };

@@ -145,8 +145,11 @@ inline Local_fit_3 height_fit(const Height_system& system, const Eigen::MatrixXd
                               const Eigen::Vector3d& center, double radius, int degree) {
   const auto count = Eigen::Index(number_of_coefficients(Fit_family::HEIGHT, degree));
   const auto factor = lower.topLeftCorner(count, count).triangularView<Eigen::Lower>();
-  const Eigen::VectorXd legendre = factor.transpose().solve(reduced.head(count));
   const auto rows = system.rows.topRows(count);
+  Eigen::VectorXd legendre = factor.transpose().solve(reduced.head(count));
+  // A step of refinement takes back what the normal equations lose, which have the square of the condition number.
+  Eigen::VectorXd correction = factor.solve(rows * (system.heights - rows.transpose() * legendre));
+  legendre += factor.transpose().solve(correction);
   const Eigen::Index points = system.heights.size();
 
   Local_fit_3 fit;
@@ -172,7 +175,8 @@ inline Local_fit_3 height_fit(const Height_system& system, const Eigen::MatrixXd
   factor.solveInPlace(gradient);
   factor.transpose().solveInPlace(gradient);
   const Eigen::MatrixXd influence = system.roots_of_weights.asDiagonal() * (rows.transpose() * gradient);
-  fit.deviation = in_unit({residual * influence.col(0).norm(), residual * influence.col(1).norm()}, radius);
+  fit.gaussian_deviation = residual * influence.col(0).norm() / std::pow(radius, 3);
+  fit.mean_deviation = residual * influence.col(1).norm() / std::pow(radius, 1.5);
   return fit;
 }
 
@@ -210,7 +214,7 @@ inline std::vector<Local_fit_3> fit_heights(const Data_points_3& data, Data_poin
     const auto diagonal = lower.diagonal().head(count);
     if (!(diagonal.minCoeff() > 1e-6 * diagonal.maxCoeff())) continue;
     auto fit = height_fit(system, lower, reduced, origin, radius, degree);
-    if (std::isfinite(fit.curvatures.gaussian) && std::isfinite(fit.deviation.gaussian)) fits.push_back(std::move(fit));
+    if (std::isfinite(fit.curvatures.gaussian) && std::isfinite(fit.gaussian_deviation)) fits.push_back(std::move(fit));
   }
   return fits;
 }

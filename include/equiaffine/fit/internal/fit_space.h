@@ -8,6 +8,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -175,8 +176,20 @@ inline std::optional<Local_fit_3> space_fit(const Space_system& system, const Ei
   factor.solveInPlace(gradient);
   factor.transpose().solveInPlace(gradient);
   const Eigen::MatrixXd influence = system.roots_of_weights.asDiagonal() * (values.transpose() * gradient);
-  fit.deviation = in_unit({residual * influence.col(0).norm(), residual * influence.col(1).norm()}, radius);
+  fit.gaussian_deviation = residual * influence.col(0).norm() / std::pow(radius, 3);
+  fit.mean_deviation = residual * influence.col(1).norm() / std::pow(radius, 1.5);
   return fit;
+}
+
+/// Returns whether points spread in two directions, by a hundredth at least, and not along a curve alone.
+inline bool spread_over_surface(const Data_points_3& data, std::span<const Data_points_3::Index> ball) {
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const auto i : ball) {
+    const Eigen::Vector3d difference = data.points[i] - data.points[ball.front()];
+    spread += difference * difference.transpose();
+  }
+  const Eigen::Vector3d squares = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
+  return squares[1] > 1e-4 * squares[2];
 }
 
 /// Fits polynomials in space of several degrees, at most `maximal_space_degree`, and with several weights of the
@@ -195,7 +208,7 @@ inline std::vector<Local_fit_3> fit_spaces(const Data_points_3& data, Data_point
   for (const int degree : degrees)
     if (double(ball.size()) >= 1.2 * double(number_of_coefficients(Fit_family::SPACE, degree)))
       greatest = std::max(greatest, degree);
-  if (greatest == 0) return {};
+  if (greatest == 0 || !spread_over_surface(data, ball)) return {};
   const Eigen::Vector3d& origin = data.points[center];
   const Space_system system = space_system(data, ball, origin, radius, greatest);
 
@@ -221,7 +234,7 @@ inline std::vector<Local_fit_3> fit_spaces(const Data_points_3& data, Data_point
     for (const int degree : degrees) {
       if (degree > greatest) continue;
       auto fit = space_fit(system, lower, reduced, hat.diagonal(), origin, radius, degree);
-      if (!fit || !std::isfinite(fit->curvatures.gaussian) || !std::isfinite(fit->deviation.gaussian)) continue;
+      if (!fit || !std::isfinite(fit->curvatures.gaussian) || !std::isfinite(fit->gaussian_deviation)) continue;
       fit->weight_of_normals = weight;
       fits.push_back(std::move(*fit));
     }

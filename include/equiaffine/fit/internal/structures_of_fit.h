@@ -41,9 +41,10 @@ inline Fitted_structure_3<double> structure_at(const Surface_fit_3& fit, const C
   const auto foot = foot_on_patch(local.patch, p);
   if (!foot) return structure_without_fit();
   Fitted_structure_3<double> result;
-  result.structure = local_structure(fit.to_space(local.patch.taylor(*foot)));
-  const auto& affine = result.structure.affine;
-  const double size = std::abs(affine.gaussian_curvature) + affine.mean_curvature * affine.mean_curvature;
+  const auto jet = local.patch.taylor(*foot);
+  const double size = curvatures_of(jet).size() * fit.normalization().matrix.determinant();
+  const auto in_space = fit.to_space(jet);
+  result.structure = local_structure(in_space, {0, 0, 0}, fit.rounding(in_space, local.patch.radius));
   result.error = {local.error.gaussian * size, local.error.mean * std::sqrt(size)};
   result.noise = {local.noise.gaussian * size, local.noise.mean * std::sqrt(size)};
   result.scale = local.patch.radius / fit.normalization().scale();

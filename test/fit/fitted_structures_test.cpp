@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/fit_data.h"
+#include <equiaffine/Fitted_function_traits_3.h>
+#include <equiaffine/annotate_by_fit.h>
+#include <equiaffine/fitted_structures.h>
+
+#include <CGAL/Aff_transformation_3.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
+#include <CGAL/boost/graph/graph_traits_Polyhedron_3.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <map>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using namespace equiaffine::test;
+using Traits = Fitted_function_traits_3<Fit_kernel>;
+static_assert(FirstOrderImplicitFunctionTraits_3<Traits>);
+
+// The bounds are those that the research on fits asks for on 10,000 vertices; this mesh has half as many.
+TEST(Fitted_structures, affine_curvature_at_exact_vertices_has_four_digits) {
+  const Fit_mesh mesh = metaballs_mesh(50);
+  ASSERT_GT(mesh.number_of_vertices(), 4000u);
+  const auto errors = errors_of_fit(fitted_structures<CGAL::Parallel_tag>(mesh), points_of(mesh));
+  EXPECT_EQ(errors.without_fit, 0u);
+  EXPECT_LT(errors.quantile(0.5), 1e-4);
+  EXPECT_LT(errors.quantile(0.95), 1e-3);
+  EXPECT_GT(errors.part_covered(), 0.93);
+  EXPECT_LE(double(errors.trusted_but_wrong), 0.03 * double(errors.trusted));
+}
+
+TEST(Fitted_structures, points_without_faces_are_as_good_as_a_mesh) {
+  const Fit_mesh mesh = metaballs_mesh(50);
+  const auto points = points_of(mesh);
+  const auto of_mesh = errors_of_fit(fitted_structures<CGAL::Parallel_tag>(mesh), points);
+  const auto of_points = errors_of_fit(fitted_structures<CGAL::Parallel_tag>(points), points);
+  EXPECT_EQ(of_points.without_fit, 0u);
+  EXPECT_LT(of_points.quantile(0.5), 1.2 * of_mesh.quantile(0.5));
+}
+
+TEST(Fitted_structures, noise_of_one_percent_of_an_edge_leaves_K_known_and_the_estimate_says_how_well) {
+  const Fit_mesh exact = metaballs_mesh(50);
+  Fit_mesh mesh = exact;
+  add_noise(mesh, 0.01 * mean_edge(mesh));
+  const auto errors = errors_of_fit(fitted_structures<CGAL::Parallel_tag>(mesh), points_of(exact));
+  EXPECT_LT(errors.quantile(0.5), 0.04);
+  EXPECT_LT(errors.quantile(0.95), 0.2);
+  EXPECT_GT(errors.part_covered(), 0.93);
+  EXPECT_LE(double(errors.trusted_but_wrong), 0.03 * double(errors.trusted));
+}
+
+TEST(Fitted_structures, an_equiaffine_map_of_the_mesh_keeps_affine_curvatures) {
+  const Fit_mesh mesh = metaballs_mesh(40);
+  // Of determinant 1 and condition number 3.
+  const double s = std::pow(3., 0.25), c = std::cos(0.5), d = std::sin(0.5);
+  const CGAL::Aff_transformation_3<Fit_kernel> map(s * s * c, -d / s / s, 0, 1, s * s * d, c / s / s, 0, 2, 0, 0, 1, 3);
+  Fit_mesh image = mesh;
+  for (const auto v : image.vertices()) image.point(v) = map(image.point(v));
+  const auto before = fitted_structures<CGAL::Parallel_tag>(mesh), after = fitted_structures<CGAL::Parallel_tag>(image);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const auto &a = before[i].structure.affine, &b = after[i].structure.affine;
+    const double size = std::abs(a.gaussian_curvature) + a.mean_curvature * a.mean_curvature;
+    EXPECT_NEAR(a.gaussian_curvature, b.gaussian_curvature, 1e-8 * size) << i;
+  }
+}
+
+TEST(Fitted_structures, any_number_of_threads_gives_the_same_bits) {
+  const Fit_mesh mesh = metaballs_mesh(24);
+  const auto parallel = fitted_structures<CGAL::Parallel_tag>(mesh), sequential = fitted_structures(mesh);
+  for (std::size_t i = 0; i < parallel.size(); ++i) {
+    const auto &a = parallel[i].structure.affine, &b = sequential[i].structure.affine;
+    EXPECT_EQ(std::memcmp(&a.gaussian_curvature, &b.gaussian_curvature, sizeof(double)), 0) << i;
+    EXPECT_EQ(std::memcmp(&parallel[i].error, &sequential[i].error, sizeof(parallel[i].error)), 0) << i;
+  }
+}
+
+/// z = x^2 + y^2 / 2 + x^2 y / 10.
+struct Bowl {
+  auto operator()(const auto& x, const auto& y, const auto& z) const {
+    return z - x * x - 0.5 * y * y - 0.1 * x * x * y;
+  }
+};
+
+TEST(Fitted_structures, a_jump_of_density_by_ten_leaves_both_sides_with_right_estimates) {
+  const auto bowl = make_analytic_traits<Fit_kernel>(Bowl(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
+  std::vector<Fit_kernel::Point_3> points;
+  for (double x = -1; x < 1; x += x < 0 ? 0.1 : 0.01)
+    for (double y = -0.5; y < 0.5; y += x < 0 ? 0.1 : 0.01) points.emplace_back(x, y, -Bowl()(x, y, 0.));
+  const auto structures = fitted_structures<CGAL::Parallel_tag>(points);
+  double covered = 0, known = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double fitted = structures[i].structure.affine.gaussian_curvature;
+    if (!std::isfinite(fitted)) continue;
+    ++known;
+    covered += std::abs(fitted - local_structure_at(bowl, points[i]).affine.gaussian_curvature) <=
+               structures[i].error.gaussian_curvature;
+  }
+  EXPECT_GT(known, 0.9 * double(points.size()));
+  EXPECT_GT(covered, 0.93 * known);
+}
+
+TEST(Annotate_by_fit, fills_the_maps_of_any_mesh_with_what_fitted_structures_returns) {
+  Fit_mesh mesh = metaballs_mesh(16);
+  const auto expected = fitted_structures(mesh);
+  annotate_by_fit(mesh);
+  const auto K = mesh.property_map<Fit_mesh::Vertex_index, double>("v:affine_gaussian_curvature").first;
+  const auto error = mesh.property_map<Fit_mesh::Vertex_index, double>("v:affine_gaussian_curvature_error").first;
+  const auto status = mesh.property_map<Fit_mesh::Vertex_index, Point_status>("v:status").first;
+  std::size_t i = 0;
+  for (const auto v : mesh.vertices()) {
+    EXPECT_EQ(K[v], expected[i].structure.affine.gaussian_curvature);
+    EXPECT_EQ(error[v], expected[i].error.gaussian_curvature);
+    EXPECT_EQ(status[v], expected[i++].structure.status);
+  }
+
+  using Polyhedron = CGAL::Polyhedron_3<Fit_kernel>;
+  Polyhedron polyhedron;
+  CGAL::copy_face_graph(mesh, polyhedron);
+  std::map<boost::graph_traits<Polyhedron>::vertex_descriptor, Fitted_structure_3<double>> structures;
+  annotate_by_fit(polyhedron, boost::make_assoc_property_map(structures));
+  const auto in_order = fitted_structures(polyhedron);
+  i = 0;
+  for (const auto v : vertices(polyhedron))
+    EXPECT_EQ(structures.at(v).structure.affine.mean_curvature, in_order[i++].structure.affine.mean_curvature);
+}
+
+TEST(Fitted_function_traits_3, the_blend_is_a_smooth_function_whose_zero_set_has_the_curvatures_of_the_surface) {
+  const Fit_mesh mesh = metaballs_mesh(50);
+  const Traits traits(mesh);
+  const auto truth = metaballs();
+  std::vector<double> errors;
+  for (const auto& p : points_of(mesh)) {
+    const auto jet = traits.taylor(p);
+    EXPECT_EQ(jet.value(), traits.first_order(p).value());
+    EXPECT_NEAR(jet.value(), traits.value(p), 1e-14);
+    EXPECT_NEAR(traits.value(p), 0, 1e-6);
+    const auto fitted = local_structure(jet), exact = local_structure_at(truth, p);
+    if (!(std::abs(exact.euclidean.gaussian_curvature) > 0.2)) continue;
+    errors.push_back(std::abs(fitted.affine.gaussian_curvature - exact.affine.gaussian_curvature) /
+                     (std::abs(exact.affine.gaussian_curvature) + std::pow(exact.affine.mean_curvature, 2)));
+  }
+  std::nth_element(errors.begin(), errors.begin() + std::ptrdiff_t(errors.size() / 2), errors.end());
+  EXPECT_LT(errors[errors.size() / 2], 2e-4);
+}
+
+TEST(Fitted_function_traits_3, values_are_about_signed_distances_in_the_band_and_undefined_outside) {
+  const Fit_mesh mesh = metaballs_mesh(30);
+  const Traits traits(mesh);
+  const auto truth = metaballs();
+  const double h = mean_edge(mesh);
+  for (const auto v : mesh.vertices()) {
+    const auto normal = local_structure_at(truth, mesh.point(v)).euclidean.normal;
+    const Fit_kernel::Vector_3 n(normal[0], normal[1], normal[2]);
+    EXPECT_NEAR(traits.value(mesh.point(v) + h * n), h, 0.3 * h);
+    EXPECT_NEAR(traits.value(mesh.point(v) - h * n), -h, 0.3 * h);
+    EXPECT_TRUE(std::isnan(traits.value(mesh.point(v) + 4 * h * n)));
+  }
+  EXPECT_TRUE(std::isnan(traits.value({5, 5, 5})) && std::isnan(traits.taylor({5, 5, 5}).value()));
+}
+
+TEST(Fitted_function_traits_3, marching_cubes_remeshes_the_fitted_surface) {
+  const Fit_mesh mesh = metaballs_mesh(30);
+  const Traits traits(mesh);
+  const auto surface = marching_cubes<CGAL::Parallel_tag>(traits, parameters::number_of_nodes(40));
+  const Fit_mesh remesh = to_surface_mesh(surface);
+  EXPECT_TRUE(CGAL::is_closed(remesh));
+  EXPECT_EQ(remesh.number_of_vertices() + remesh.number_of_faces(), remesh.number_of_edges() + 2);
+  const auto truth = metaballs();
+  for (const auto& p : surface.points) EXPECT_NEAR(truth.value(p), 0, 1e-3);
+}
+
+} // namespace
