@@ -14,6 +14,7 @@ struct Fitted_structure_3 {
   Affine_curvature_error<FT> error; ///< the whole estimate: of what the fits disagree on, and of what noise makes
   Affine_curvature_error<FT> noise; ///< two standard deviations of what noise makes at the scale of the fit
   FT scale;                         ///< the radius of the ball whose points were fitted
+  FT deviation;                     ///< the standard deviation of data around the point from a smooth surface, a length
 };
 
 } // namespace equiaffine

@@ -4,6 +4,7 @@
 
 #include <equiaffine/fit/Fitted_structure_3.h>
 #include <equiaffine/fit/internal/fit_input.h>
+#include <equiaffine/fit/internal/fit_input_of_soup.h>
 #include <equiaffine/fit/internal/structures_of_fit.h>
 
 #include <CGAL/tags.h>
@@ -35,34 +36,49 @@ namespace equiaffine {
 ///
 /// Takes about 0.4 ms per vertex of exact data and 3 ms of noisy ones; memory is linear in the number of vertices. The
 /// numbers are the same for CGAL::Sequential_tag and CGAL::Parallel_tag. Named parameters: `vertex_point_map`, `noise`,
-/// `scale`, `degree`.
+/// `scale`, `degree`, `orientation`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, internal::Face_graph Graph,
           class Parameters = internal::No_parameters>
 std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, const Parameters& parameters = {}) {
   internal::check_parameters<Parameters, internal::Vertex_point_tag, internal::Noise_tag, internal::Scale_tag,
-                             internal::Degree_tag>();
+                             internal::Degree_tag, internal::Orientation_tag>();
   const internal::Surface_fit_3 fit(internal::fit_input_of_graph(mesh, parameters), internal::fit_request(parameters),
                                     ConcurrencyTag());
-  return internal::structures_of_fit<ConcurrencyTag>(fit);
+  return internal::structures_of_fit<ConcurrencyTag>(fit, parameters);
 }
 
 /// Returns the local structure at points without faces, in their order. Neighbors are the 16 nearest points, so that two
 /// sheets of a surface that are closer than the points on each of them become one. Normals are estimated from the
 /// neighbors and turned to agree along a spanning tree, unless `normal_map` gives them. Equal points count once. Further
-/// named parameters: `point_map`, `normal_map`, `normal_orientation`, `noise`, `scale`, `degree`.
+/// named parameters: `point_map`, `normal_map`, `normal_orientation`, `noise`, `scale`, `degree`,
+/// `orientation`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
           class Parameters = internal::No_parameters>
 std::vector<Fitted_structure_3<double>>
-fitted_structures(const Points& points, const Parameters& parameters = {}) requires(!internal::Face_graph<Points>) {
+fitted_structures(const Points& points, const Parameters& parameters = {}) requires(!internal::Face_graph<Points> &&
+                                                                                    !std::ranges::range<Parameters>) {
   internal::check_parameters<Parameters, internal::Point_tag, internal::Normal_tag, internal::Normal_orientation_tag,
-                             internal::Noise_tag, internal::Scale_tag, internal::Degree_tag>();
+                             internal::Noise_tag, internal::Scale_tag, internal::Degree_tag,
+                             internal::Orientation_tag>();
   auto input = internal::fit_input_of_points<ConcurrencyTag>(points, parameters);
   const internal::Surface_fit_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
-  const auto structures = internal::structures_of_fit<ConcurrencyTag>(fit);
-  std::vector<Fitted_structure_3<double>> result;
-  result.reserve(input.positions.size());
-  for (const auto i : input.positions) result.push_back(structures[i]);
-  return result;
+  return internal::elements_at(internal::structures_of_fit<ConcurrencyTag>(fit, parameters), input.positions);
+}
+
+/// Returns the local structure at points with polygons between them, in the order of the points. A polygon is a range of
+/// positions of points. It need not be a mesh: equal points count once, polygons whose orientations contradict are turned
+/// to agree with the first one of what is connected with them, and the surface comes apart where it is not a manifold.
+/// Named parameters: `noise`, `scale`, `degree`, `orientation`.
+/// \throw std::invalid_argument also if a polygon has the position of no point.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
+          std::ranges::input_range Polygons, class Parameters = internal::No_parameters>
+std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, const Polygons& polygons,
+                                                          const Parameters& parameters = {}) {
+  internal::check_parameters<Parameters, internal::Noise_tag, internal::Scale_tag, internal::Degree_tag,
+                             internal::Orientation_tag>();
+  auto input = internal::fit_input_of_soup(points, polygons);
+  const internal::Surface_fit_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
+  return internal::elements_at(internal::structures_of_fit<ConcurrencyTag>(fit, parameters), input.positions);
 }
 
 } // namespace equiaffine

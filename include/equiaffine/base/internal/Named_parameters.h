@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 
 namespace equiaffine::internal {
@@ -26,6 +27,7 @@ struct Normal_orientation_tag {};
 struct Noise_tag {};
 struct Scale_tag {};
 struct Degree_tag {};
+struct Orientation_tag {};
 
 /// The empty chain of parameters.
 struct No_parameters {};

@@ -80,13 +80,24 @@
     return internal::add_parameter<internal::Normal_orientation_tag>(orientation, GIVEN);                              \
   }                                                                                                                    \
                                                                                                                        \
-  /** The standard deviation of points from the surface, a length; default: estimated. */                              \
-  inline auto noise(double deviation) CONST { return internal::add_parameter<internal::Noise_tag>(deviation, GIVEN); } \
+  /** The standard deviation of points from the surface, a length; default, or without a value: estimated. */          \
+  inline auto noise(std::optional<double> deviation) CONST {                                                           \
+    return internal::add_parameter<internal::Noise_tag>(deviation, GIVEN);                                             \
+  }                                                                                                                    \
                                                                                                                        \
-  /** The radius around a point whose data say what the curvature is there, a length; default: chosen by the data. */  \
-  inline auto scale(double radius) CONST { return internal::add_parameter<internal::Scale_tag>(radius, GIVEN); }       \
+  /** The radius around a point whose data say what the curvature is there, a length; default, or without a value: */  \
+  /** chosen by the data. */                                                                                           \
+  inline auto scale(std::optional<double> radius) CONST {                                                              \
+    return internal::add_parameter<internal::Scale_tag>(radius, GIVEN);                                                \
+  }                                                                                                                    \
                                                                                                                        \
-  /** The degree of polynomials that are fitted: 4, 5, 6, 8 or 10; default: chosen by the data. */                     \
-  inline auto degree(int n) CONST { return internal::add_parameter<internal::Degree_tag>(n, GIVEN); }
+  /** The degree of polynomials that are fitted: 4, 5, 6, 8 or 10; default, or without a value: chosen by the data. */ \
+  inline auto degree(std::optional<int> n) CONST { return internal::add_parameter<internal::Degree_tag>(n, GIVEN); }   \
+                                                                                                                       \
+  /** An Orientation_of_level_set: whether normals are those of the data or the opposite ones; default: the former. */ \
+  template <class Orientation>                                                                                         \
+  auto orientation(Orientation side) CONST {                                                                           \
+    return internal::add_parameter<internal::Orientation_tag>(side, GIVEN);                                            \
+  }
 
 #endif

@@ -22,6 +22,7 @@ constexpr double coverage = 2.2;
 struct Curvature_fit_3 {
   Patch_3 patch;
   Relative_errors error, noise;
+  double deviation; ///< of one point from any smooth surface
 };
 
 /// Fits polynomials of the degree of a candidate and of the one it is compared with, in this order. Where the ball has
@@ -62,6 +63,7 @@ inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, D
   result.error = {coverage * std::hypot(gaussian, gaussian_deviation) / size,
                   coverage * std::hypot(mean, mean_deviation) / std::sqrt(size)};
   result.noise = {2 * fit.gaussian_deviation / size, 2 * fit.mean_deviation / std::sqrt(size)};
+  result.deviation = choice.noise;
   result.patch = std::move(fit.patch);
   return result;
 }

@@ -27,15 +27,17 @@ Fit_request fit_request(const Parameters& parameters) {
   Fit_request request;
   if constexpr (has_parameter<Noise_tag, Parameters>) {
     request.noise = given_parameter<Noise_tag>(parameters);
-    check_argument(*request.noise >= 0 && std::isfinite(*request.noise), "the noise is a length, 0 or more");
+    check_argument(!request.noise || (*request.noise >= 0 && std::isfinite(*request.noise)),
+                   "the noise is a length, 0 or more");
   }
   if constexpr (has_parameter<Scale_tag, Parameters>) {
     request.scale = given_parameter<Scale_tag>(parameters);
-    check_argument(*request.scale > 0 && std::isfinite(*request.scale), "the scale is a length, more than 0");
+    check_argument(!request.scale || (*request.scale > 0 && std::isfinite(*request.scale)),
+                   "the scale is a length, more than 0");
   }
   if constexpr (has_parameter<Degree_tag, Parameters>) {
     request.degree = given_parameter<Degree_tag>(parameters);
-    const int d = *request.degree;
+    const int d = request.degree.value_or(4);
     check_argument(d == 4 || d == 5 || d == 6 || d == 8 || d == 10, "the degree of a fit is 4, 5, 6, 8 or 10");
   }
   return request;

@@ -2,10 +2,12 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_STRUCTURES_OF_FIT_H
 #define EQUIAFFINE_FIT_INTERNAL_STRUCTURES_OF_FIT_H
 
+#include <equiaffine/base/named_parameters.h>
 #include <equiaffine/base/parallel_for.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
 #include <equiaffine/fit/internal/Patch_cover_3.h>
 #include <equiaffine/fit/internal/Surface_fit_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/local_structure.h>
 
 #include <cmath>
@@ -33,29 +35,32 @@ inline Fitted_structure_3<double> structure_without_fit() {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   auto structure = local_structure(Jet_3<double>(nan));
   structure.status = Point_status::OUTSIDE;
-  return {structure, {nan, nan}, {nan, nan}, nan};
+  return {structure, {nan, nan}, {nan, nan}, nan, nan};
 }
 
 inline Fitted_structure_3<double> structure_at(const Surface_fit_3& fit, const Curvature_fit_3& local,
-                                               const Eigen::Vector3d& p) {
+                                               const Eigen::Vector3d& p, Orientation_of_level_set orientation) {
   const auto foot = foot_on_patch(local.patch, p);
   if (!foot) return structure_without_fit();
   Fitted_structure_3<double> result;
   const auto jet = local.patch.taylor(*foot);
   const double size = curvatures_of(jet).size() * fit.normalization().matrix.determinant();
-  const auto in_space = fit.to_space(jet);
+  const double sign = orientation == Orientation_of_level_set::AGAINST_GRADIENT ? -1 : 1;
+  const auto in_space = fit.to_space(jet) * sign;
   result.structure = local_structure(in_space, {0, 0, 0}, fit.rounding(in_space, local.patch.radius));
   result.error = {local.error.gaussian * size, local.error.mean * std::sqrt(size)};
   result.noise = {local.noise.gaussian * size, local.noise.mean * std::sqrt(size)};
   result.scale = local.patch.radius / fit.normalization().scale();
+  result.deviation = local.deviation / fit.normalization().scale();
   return result;
 }
 
 /// The distance of the centers of fits as a part of their radius: fits with small radii are made at every point.
 constexpr double distance_of_direct_fits = 0.1;
 
-template <class ConcurrencyTag>
-std::vector<Fitted_structure_3<double>> structures_of_fit(const Surface_fit_3& fit) {
+template <class ConcurrencyTag, class Parameters>
+std::vector<Fitted_structure_3<double>> structures_of_fit(const Surface_fit_3& fit, const Parameters& parameters) {
+  const auto orientation = get_parameter<Orientation_tag>(parameters, Orientation_of_level_set::ALONG_GRADIENT);
   const Data_points_3& data = fit.data();
   const Patch_cover_3 cover = patch_cover(data, fit.choices(), distance_of_direct_fits, ConcurrencyTag());
   std::vector<Fitted_structure_3<double>> structures(data.size(), structure_without_fit());
@@ -64,7 +69,7 @@ std::vector<Fitted_structure_3<double>> structures_of_fit(const Surface_fit_3& f
       [&](std::size_t i) {
         const auto k = cover.nearest[i];
         if (k != Patch_cover_3::none && cover.fits[k])
-          structures[i] = structure_at(fit, *cover.fits[k], data.points[i]);
+          structures[i] = structure_at(fit, *cover.fits[k], data.points[i], orientation);
       },
       64);
   return structures;
