@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/Scratch_file.h"
 #include <equiaffine/io/read_points.h>
 #include <equiaffine/io/write_mesh.h>
 
@@ -260,8 +261,24 @@ TEST(Read_points, unknown_and_missing_files_are_told) {
   EXPECT_NE(error_of(read, "/absent/points.csv").find("'/absent/points.csv': there is no such file"),
             std::string::npos);
   EXPECT_NE(error_of(read, "/dev/null").find("'/dev/null': it is empty"), std::string::npos);
-  EXPECT_NE(error_of(read, EQUIAFFINE_TEST_DATA "/../CMakeLists.txt").find("use one of .csv .ply .off"),
+  EXPECT_NE(error_of(read, EQUIAFFINE_TEST_DATA "/../CMakeLists.txt").find("use one of .csv .ply .off .xyz"),
             std::string::npos);
+}
+
+TEST(Read_points, lines_of_three_or_six_numbers_are_points_and_normals) {
+  const equiaffine::test::Scratch_file scratch("points.XYZ");
+  const Table points = equiaffine::read_points<Kernel>(scratch.write("1 2 3\r\n\n -4\t5e0  +6 \n"));
+  EXPECT_EQ(points.mesh.points, (std::vector<Kernel::Point_3>{{1, 2, 3}, {-4, 5, 6}}));
+  EXPECT_TRUE(points.attributes.columns.empty());
+  const Table oriented = equiaffine::read_points<Kernel>(scratch.write("1 2 3 0 0 1\n4 5 6 0 1 0"));
+  ASSERT_EQ(oriented.attributes.columns.size(), 3U);
+  EXPECT_EQ(oriented.attributes.columns[1].name, "ny");
+  EXPECT_EQ(oriented.attributes.columns[1].values, (std::vector<double>{0, 1}));
+  const auto read = [&](const std::string& text) { equiaffine::read_points<Kernel>(scratch.write(text)); };
+  EXPECT_NE(error_of(read, "1 2 3\n4 5\n").find("line 2 has 2 numbers; write x y z"), std::string::npos);
+  EXPECT_NE(error_of(read, "1 2 3 0 0 1\n4 5 6\n").find("line 2 has 3 numbers"), std::string::npos);
+  EXPECT_NE(error_of(read, "1 2 3 4 5 6 7\n").find("line 1 has 7 numbers"), std::string::npos);
+  EXPECT_NE(error_of(read, "1 2 3\n\n1 2 z\n").find("line 3: 'z' is not a number"), std::string::npos);
 }
 
 } // namespace

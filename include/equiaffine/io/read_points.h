@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_IO_READ_POINTS_H
 #define EQUIAFFINE_IO_READ_POINTS_H
 
-// Reads points from CSV, PLY and OFF with all that came with them, and writes them to CSV with more columns.
+// Reads points from CSV, PLY, OFF and XYZ with all that came with them, and writes them to CSV with more columns.
 
 #include <equiaffine/io/Annotated_mesh_3.h>
 #include <equiaffine/io/input_file.h>
@@ -14,6 +14,7 @@
 #include <equiaffine/io/internal/text_input.h>
 #include <equiaffine/io/read_OFF.h>
 #include <equiaffine/io/read_PLY.h>
+#include <equiaffine/io/read_XYZ.h>
 #include <equiaffine/io/write_CSV.h>
 
 #include <algorithm>
@@ -61,12 +62,13 @@ Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
   return table;
 }
 
-/// Reads points from `.csv`, `.ply` or `.off`, or from standard input for "-": PLY or OFF if the first word says so,
+/// Reads points from `.csv`, `.ply`, `.off` or `.xyz`, or from standard input for "-": PLY or OFF if the first word says so,
 /// otherwise CSV.
 template <class Kernel>
 Point_table_3<Kernel> read_points(const std::string& path) {
   const auto read = [](std::istream& stream, const std::string& name, std::string_view extension) {
     if (extension == ".ply") return Point_table_3<Kernel>{read_PLY<Kernel>(stream, name)};
+    if (extension == ".xyz") return Point_table_3<Kernel>{read_XYZ<Kernel>(stream, name)};
     if (extension == ".off") return Point_table_3<Kernel>{{read_OFF<Kernel>(stream, name), {}}};
     return read_CSV<Kernel>(stream, name);
   };
@@ -79,9 +81,9 @@ Point_table_3<Kernel> read_points(const std::string& path) {
     return read(stream, "standard input", extension);
   }
   std::ifstream file = open_input(path);
-  for (const std::string_view extension : {".csv", ".ply", ".off"})
+  for (const std::string_view extension : {".csv", ".ply", ".off", ".xyz"})
     if (has_extension(path, extension)) return read(file, path, extension);
-  internal::fail_to_read(path, "its extension is not known", "use one of .csv .ply .off");
+  internal::fail_to_read(path, "its extension is not known", "use one of .csv .ply .off .xyz");
 }
 
 /// The columns of `first` that `second` does not have, then those of `second`; the status of `second` if it has one.
