@@ -2,11 +2,13 @@
 #ifndef EQUIAFFINE_SRC_CLI_DRAFT_H
 #define EQUIAFFINE_SRC_CLI_DRAFT_H
 
+#include "attributes/error_columns.h"
 #include "request/options.h"
 
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace equiaffine {
 
@@ -20,12 +22,14 @@ struct Draft {
   bool is_delaunay = false;
   Marching_cubes_options marching_cubes;
   Delaunay_options delaunay;
+  Fit_options fit;
   Attribute_selection attributes = select_attributes("basic");
+  std::vector<std::string> estimates = {error_attributes.begin(), error_attributes.end()}; ///< of a fit
   Estimator estimator = Estimator::COMPACT;
   Page_options page;
   Picture_options picture;
   bool samples_are_float = false;
-  std::string mesh, points; ///< the files that `view` and `evaluate` read
+  std::string mesh, points; ///< the files that `view` and `annotate`, and that `evaluate` reads
   std::optional<std::string> output, html, png, curves, stats;
 };
 

@@ -14,12 +14,12 @@
 namespace equiaffine {
 
 /// The commands of the program, as bits: an option of several commands has their sum.
-enum Command : unsigned { MESH = 1, EVALUATE = 2, SAMPLE = 4, VIEW = 8 };
+enum Command : unsigned { MESH = 1, EVALUATE = 2, SAMPLE = 4, VIEW = 8, ANNOTATE = 16 };
 using Commands = unsigned;
 
 /// Says below which heading of the help an option stands. The words of the heading depend on the command: title_of() in
 /// command_line.cpp has them.
-enum class Option_group { INPUT, SOURCE, BOX, SURFACE, SAMPLING, MARCHING_CUBES, DELAUNAY, OUTPUT };
+enum class Option_group { INPUT, SOURCE, BOX, FIT, SURFACE, SAMPLING, MARCHING_CUBES, DELAUNAY, OUTPUT };
 
 /// How many words follow the name of an option.
 struct Number_of_words {

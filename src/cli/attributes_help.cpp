@@ -2,6 +2,7 @@
 #include "cli/attributes_help.h"
 
 #include "attributes/error_columns.h"
+#include "attributes/fit_columns.h"
 #include <equiaffine/attributes/Attribute_selection.h>
 
 #include <cstddef>
@@ -31,6 +32,15 @@ std::string wrapped(const std::string& text, std::size_t width) {
 }
 
 } // namespace
+
+std::string attributes_of_fit_help() {
+  const Attribute_names names = attribute_names();
+  return wrapped("what to compute: basic (the default) is " + joined(names.basic, ", ") + ", status, " +
+                     joined(error_attributes, ", ") + "; all adds " + joined(names.added_by_all, ", ") + ", " +
+                     joined(noise_attributes, ", ") + "; LIST is some of these words with commas between, also " +
+                     joined(names.by_name, ", "),
+                 88);
+}
 
 std::string attributes_help() {
   const Attribute_names names = attribute_names();

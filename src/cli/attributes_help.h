@@ -9,6 +9,9 @@ namespace equiaffine {
 /// The help of the option --attributes in lines of at most 88 characters, with the names of the library's table.
 std::string attributes_help();
 
+/// The same for the command annotate.
+std::string attributes_of_fit_help();
+
 } // namespace equiaffine
 
 #endif

@@ -39,10 +39,11 @@ struct Command_text {
   const char *name, *description, *footer;
 };
 
-constexpr std::array<Command_text, 4> command_texts = {{{MESH, "mesh", mesh_description, mesh_footer},
+constexpr std::array<Command_text, 5> command_texts = {{{MESH, "mesh", mesh_description, mesh_footer},
                                                         {EVALUATE, "evaluate", evaluate_description, evaluate_footer},
                                                         {SAMPLE, "sample", sample_description, sample_footer},
-                                                        {VIEW, "view", view_description, view_footer}}};
+                                                        {VIEW, "view", view_description, view_footer},
+                                                        {ANNOTATE, "annotate", annotate_description, annotate_footer}}};
 
 /// The heading below which an option stands in the help of a command.
 std::string title_of(Option_group group, Command command) {
@@ -52,8 +53,9 @@ std::string title_of(Option_group group, Command command) {
     return command == SAMPLE ? "Source (one of --function, --distance-to)"
                              : "Source (one of --function, --volume, --distance-to)";
   case Option_group::BOX: return command == SAMPLE ? "Sampling" : title_of(Option_group::SOURCE, command);
+  case Option_group::FIT: return "Fit";
   case Option_group::SURFACE: return "Surface";
-  case Option_group::SAMPLING: return command == EVALUATE ? "Surface" : "Sampling";
+  case Option_group::SAMPLING: return command == EVALUATE || command == ANNOTATE ? "Surface" : "Sampling";
   case Option_group::MARCHING_CUBES: return "Sampling with --method marching-cubes";
   case Option_group::DELAUNAY: return "Sampling with --method delaunay";
   default: return "Output";
@@ -135,7 +137,7 @@ private:
   void check_words() {
     if (const Words rest = app_.remaining(); !rest.empty()) fail_before_command(rest.front());
     if (app_.get_subcommands().empty())
-      throw Input_error("no command is given; use mesh, evaluate, sample or view, " + see_help());
+      throw Input_error("no command is given; use mesh, evaluate, sample, view or annotate, " + see_help());
     const CLI::App& command = *app_.get_subcommands().front();
     result_.command = std::find_if(command_texts.begin(), command_texts.end(), [&](const Command_text& text) {
                         return text.name == command.get_name();

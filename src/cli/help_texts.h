@@ -11,7 +11,8 @@ inline constexpr const char* program_description =
     R"(equiaffine - affine curvatures of implicit surfaces
 
 A function f on space comes from a formula, a volume of samples, or the distance to a mesh. Its level
-sets f = V are meshed, and every vertex gets its Euclidean and equi-affine differential invariants.
+sets f = V are meshed, and every vertex gets its Euclidean and equi-affine differential invariants. So do
+the vertices of a mesh, or points, from polynomials fitted to them.
 
 Usage: equiaffine COMMAND [options]      equiaffine COMMAND --help      equiaffine --version
 )";
@@ -43,7 +44,7 @@ A number that does not exist is nan, and the status of the vertex says why.)help
 inline constexpr const char* evaluate_description =
     R"(compute the invariants at given points, each on the level set through it
 
-Usage: equiaffine evaluate SOURCE --points IN.{csv,ply,off} -o OUT.{csv,ply} [options]
+Usage: equiaffine evaluate SOURCE --points IN.{csv,ply,off,xyz} -o OUT.{csv,ply} [options]
 )";
 
 inline constexpr const char* evaluate_footer =
@@ -74,6 +75,21 @@ inline constexpr const char* view_footer =
     R"(Examples:
   equiaffine view bunny.ply -o bunny.html --color mean_curvature
   equiaffine view blobby.ply --png blobby.png --color affine_mean_curvature --range -2 2 --arrows affine_normal)";
+
+inline constexpr const char* annotate_description =
+    R"(compute the invariants at the vertices of a mesh, or at points, of the surface through them
+
+Usage: equiaffine annotate MESH|POINTS -o OUT [options] [--html PAGE.html] [--stats FILE.json]
+)";
+
+inline constexpr const char* annotate_footer =
+    R"(The vertices are taken for samples of a smooth surface, to which polynomials are fitted around each. They keep their
+number, order and faces and what else is known of them; columns of the same name are replaced. The columns
+affine_gaussian_curvature_error and affine_mean_curvature_error say how far the numbers may be wrong.
+
+Examples:
+  equiaffine annotate scan.ply -o curvatures.ply --html curvatures.html
+  equiaffine annotate points.xyz -o points.csv --scale 2.5)";
 
 } // namespace equiaffine
 

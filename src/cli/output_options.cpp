@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "attributes/error_columns.h"
+#include "attributes/fit_columns.h"
 #include "cli/Option_row.h"
 #include "cli/attributes_help.h"
 #include <equiaffine/Input_error.h>
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 
 namespace equiaffine {
 
@@ -27,23 +30,54 @@ Words split(const std::string& text, char separator) {
   return parts;
 }
 
+template <class Names>
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Attribute_selection select(const std::string& list, const std::string& option) {
+  try {
+    return select_attributes(list);
+  } catch (const Input_error& error) {
+    throw Input_error(option + ": " + error.what());
+  }
+}
+
 /// Reads the list of attributes. Estimates of errors are not attributes of the library: the source computes them.
 void read_attributes(const Option_words& option, Draft& draft) {
   bool& estimates_errors = draft.source.spline.estimates_errors;
   std::string list;
   for (const std::string& name : split(option.word(), ',')) {
-    const bool is_error = std::find(error_attributes.begin(), error_attributes.end(), name) != error_attributes.end();
+    const bool is_error = contains(error_attributes, name);
     estimates_errors = estimates_errors || is_error;
     if (!is_error) list += (list.empty() ? "" : ",") + name;
   }
   if (estimates_errors && draft.source.derivatives == Derivatives::JETS)
     fail_option(option.name, "errors are estimated for splines, and the derivatives of a formula have none",
                 "add --derivatives spline or leave them out");
-  try {
-    draft.attributes = select_attributes(list.empty() && estimates_errors ? "status" : list);
-  } catch (const Input_error& error) {
-    throw Input_error(option.name + ": " + error.what());
+  draft.attributes = select(list.empty() && estimates_errors ? "status" : list, option.name);
+}
+
+/// Reads the list of attributes of a fit. Words that stand for several of them bring estimates of errors along.
+void read_attributes_of_fit(const Option_words& option, Draft& draft) {
+  std::set<std::string> estimates;
+  std::string list;
+  for (const std::string& name : split(option.word(), ',')) {
+    const bool is_all = name == "all", has_errors = is_all || name == "basic";
+    if (has_errors) estimates.insert(error_attributes.begin(), error_attributes.end());
+    if (is_all) estimates.insert(noise_attributes.begin(), noise_attributes.end());
+    const bool is_estimate = contains(error_attributes, name) || contains(noise_attributes, name);
+    if (is_estimate) estimates.insert(name);
+    else list += (list.empty() ? "" : ",") + name;
+    if (name == "signature" || name.ends_with("_gradient"))
+      fail_option(option.name, "'" + name + "' needs a function, and a fit has no gradients of curvatures",
+                  "leave it out");
   }
+  draft.attributes = select(list.empty() ? "status" : list, option.name);
+  draft.estimates.clear();
+  for (const auto& names : {error_attributes, noise_attributes})
+    for (const std::string_view name : names)
+      if (estimates.count(std::string(name)) > 0) draft.estimates.emplace_back(name);
 }
 
 void read_estimator(const Option_words& option, Draft& draft) {
@@ -89,37 +123,45 @@ const std::vector<Option_row> rows = {
     {"-o,--output", SAMPLE, OUTPUT, 1, "VOLUME", "the volume: .nrrd .mhd .mha .nii .nii.gz .vti", read_output},
     {"-o,--output", VIEW, OUTPUT, 1, "PAGE.html", "the page, needed unless there is --png; - writes to standard output",
      read_output},
+    {"-o,--output", ANNOTATE, OUTPUT, 1, "OUT",
+     "the same vertices and faces with attributes: .ply" + vtp +
+         ", or the vertices as .csv; - writes\n"
+         "CSV to standard output",
+     read_output},
     {"--type", SAMPLE, OUTPUT, 1, "float|double", "the type of the samples, by default double",
      [](const Option_words& option, Draft& draft) {
        draft.samples_are_float = parse_choice<bool>(option, {{"float", true}, {"double", false}});
      }},
     {"--attributes", MESH | EVALUATE, OUTPUT, 1, "basic|all|none|LIST", attributes_help(), read_attributes},
+    {"--attributes", ANNOTATE, OUTPUT, 1, "basic|all|none|LIST", attributes_of_fit_help(), read_attributes_of_fit},
     {"--estimator", MESH | EVALUATE, OUTPUT, 1, "compact|transformation|direct|direct-z",
      "how conormal, affine_normal, affine_gaussian_curvature and affine_mean_curvature are\n"
      "computed from the derivatives: our own formulas (compact, the default), or those of\n"
      "Andrade and Lewiner, to compare with",
      read_estimator},
-    {"--html", MESH, OUTPUT, 1, "PAGE.html", "also a web page to look at the surface, without network",
+    {"--html", MESH | ANNOTATE, OUTPUT, 1, "PAGE.html", "also a web page to look at the surface, without network",
      [](const Option_words& option, Draft& draft) { draft.html = option.word(); }},
-    {"--png", MESH | VIEW, OUTPUT, 1, "PICTURE.png",
+    {"--png", MESH | VIEW | ANNOTATE, OUTPUT, 1, "PICTURE.png",
      "also a picture, which is what the page shows first; needs no display",
      [](const Option_words& option, Draft& draft) { draft.png = option.word(); }},
-    {"--color", MESH | VIEW, OUTPUT, 1, "NAME", "the attribute that page and picture show first, or status or plain",
+    {"--color", MESH | VIEW | ANNOTATE, OUTPUT, 1, "NAME",
+     "the attribute that page and picture show first, or status or plain",
      [](const Option_words& option, Draft& draft) { draft.page.color = option.word(); }},
-    {"--up", MESH | VIEW, OUTPUT, 1, "x|y|z", "the axis that points up on them, by default z", read_up},
-    {"--size", MESH | VIEW, OUTPUT, 2, "WIDTH HEIGHT", "of the picture in pixels, by default 1000 800", read_size},
-    {"--range", MESH | VIEW, OUTPUT, 2, "LOW HIGH",
+    {"--up", MESH | VIEW | ANNOTATE, OUTPUT, 1, "x|y|z", "the axis that points up on them, by default z", read_up},
+    {"--size", MESH | VIEW | ANNOTATE, OUTPUT, 2, "WIDTH HEIGHT", "of the picture in pixels, by default 1000 800",
+     read_size},
+    {"--range", MESH | VIEW | ANNOTATE, OUTPUT, 2, "LOW HIGH",
      "the numbers of the end colors of page and picture, by default quantiles;\n"
      "blue and red about white if LOW is -HIGH",
      read_range},
-    {"--arrows", MESH | VIEW, OUTPUT, 1, "VECTOR", "arrows on the picture, such as affine_normal",
+    {"--arrows", MESH | VIEW | ANNOTATE, OUTPUT, 1, "VECTOR", "arrows on the picture, such as affine_normal",
      [](const Option_words& option, Draft& draft) { draft.picture.arrows = option.word(); }},
     {"--parabolic-curves", MESH, OUTPUT, 1, "CURVES",
      "also the curves on the surface where gaussian_curvature is 0 and changes its sign:\n"
      ".obj" +
          vtp + "; - writes OBJ to standard output",
      [](const Option_words& option, Draft& draft) { draft.curves = option.word(); }},
-    {"--stats", MESH, OUTPUT, 1, "FILE.json", "also statistics: sizes, topology, status, accuracy, times",
+    {"--stats", MESH | ANNOTATE, OUTPUT, 1, "FILE.json", "also statistics: sizes, topology, status, accuracy, times",
      [](const Option_words& option, Draft& draft) { draft.stats = option.word(); }},
 };
 

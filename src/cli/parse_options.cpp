@@ -29,7 +29,7 @@ std::filesystem::path canonical_path(const std::string& path) {
 /// The paths of the files that the command line says to read.
 std::vector<std::string> input_files(const Option_reader& reader) {
   std::vector<std::string> files;
-  for (const char* option : {"--volume", "--distance-to", "--points", "MESH.ply"})
+  for (const char* option : {"--volume", "--distance-to", "--points", "MESH.ply", "MESH"})
     if (reader.has(option)) files.push_back(reader.word(option));
   if (reader.has("--function"))
     if (const auto file = formula_file(reader.word("--function"))) files.push_back(*file);
@@ -95,10 +95,18 @@ bool has_column(const Draft& draft, const std::string& name) {
   return std::any_of(columns.begin(), columns.end(), [&](const Attribute& column) { return column.name == name; });
 }
 
-bool has_color(const Draft& draft, const std::string& name) {
+/// Whether there are estimates of errors of that name.
+bool has_estimate(const Option_reader& reader, const std::string& name) {
+  const Draft& draft = reader.draft();
+  const auto has = [&](const auto& names) { return std::find(names.begin(), names.end(), name) != names.end(); };
+  return reader.command() == ANNOTATE ? has(draft.estimates)
+                                      : draft.source.spline.estimates_errors && has(error_attributes);
+}
+
+bool has_color(const Option_reader& reader, const std::string& name) {
+  const Draft& draft = reader.draft();
   return name == "plain" || (name == "status" && draft.attributes.has_status) || has_column(draft, name) ||
-         (draft.source.spline.estimates_errors &&
-          std::find(error_attributes.begin(), error_attributes.end(), name) != error_attributes.end());
+         has_estimate(reader, name);
 }
 
 /// Checks that there is a page or picture, and that it will have the attributes it is to show.
@@ -111,7 +119,7 @@ void check_page(const Option_reader& reader) {
   if (!arrows.empty() && !has_vector(draft.attributes, arrows))
     fail_option("--arrows", "'" + arrows + "' is not among the vectors that are computed",
                 "name one of them, such as affine_normal, or add it to --attributes");
-  if (!color.empty() && !has_color(draft, color))
+  if (!color.empty() && !has_color(reader, color))
     fail_option("--color", "'" + color + "' is not among the attributes that are computed",
                 "name one of them, such as affine_mean_curvature, or add it to --attributes");
 }
@@ -194,6 +202,20 @@ View_options read_view_options(Option_reader& reader) {
   return {draft.mesh, draft.output, draft.png, draft.page, draft.picture};
 }
 
+Annotate_options read_annotate_options(Option_reader& reader) {
+  if (!reader.has("MESH")) throw Input_error("no mesh is given; write 'equiaffine annotate MESH -o OUT.ply'");
+  reader.read({"--scale", "--noise", "--degree", "--attributes"});
+  need_output(reader);
+  reader.read({"--up"});
+  refuse_picture_options(reader);
+  reader.read_rest();
+  check_page(reader);
+  const Draft& draft = reader.draft();
+  check_outputs(reader, {draft.output, draft.html, draft.png, draft.stats});
+  return {draft.mesh, draft.fit, draft.orientation, draft.attributes, draft.estimates, *draft.output,
+          draft.html, draft.png, draft.stats,       draft.page,       draft.picture};
+}
+
 } // namespace
 
 Options parse_options(const std::vector<std::string>& arguments) {
@@ -207,6 +229,7 @@ Options parse_options(const std::vector<std::string>& arguments) {
   case EVALUATE: options.command = read_evaluate_options(reader); break;
   case SAMPLE: options.command = read_sample_options(reader); break;
   case VIEW: options.command = read_view_options(reader); break;
+  case ANNOTATE: options.command = read_annotate_options(reader); break;
   }
   options.threads = reader.draft().threads;
   return options;

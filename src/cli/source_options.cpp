@@ -2,6 +2,8 @@
 #include "cli/Option_row.h"
 #include "cli/formula_file.h"
 
+#include <optional>
+
 namespace equiaffine {
 
 namespace {
@@ -37,6 +39,22 @@ Raw_layout& raw_layout(Draft& draft) {
 
 void read_raw_dims(const Option_words& option, Draft& draft) {
   for (std::size_t a = 0; a < 3; ++a) raw_layout(draft).dims[a] = parse_count(option.name, option.words[a], 2);
+}
+
+void read_scale(const Option_words& option, Draft& draft) {
+  if (option.word() != "auto") draft.fit.scale = parse_length(option);
+}
+
+void read_noise(const Option_words& option, Draft& draft) {
+  if (option.word() == "auto") return;
+  draft.fit.noise = parse_number(option);
+  if (*draft.fit.noise < 0)
+    fail_option(option.name, "'" + option.word() + "' is less than 0", "give a standard deviation, or leave it out");
+}
+
+void read_degree(const Option_words& option, Draft& draft) {
+  draft.fit.degree = parse_choice<std::optional<int>>(
+      option, {{"4", 4}, {"5", 5}, {"6", 6}, {"8", 8}, {"10", 10}, {"auto", std::nullopt}});
 }
 
 const std::vector<Option_row> rows = {
@@ -77,11 +95,25 @@ const std::vector<Option_row> rows = {
      "widened on all sides by 10 % of its longest side, if not given",
      [](const Option_words& option, Draft& draft) { draft.source.box = parse_box(option); }},
     {"--points", EVALUATE, SOURCE, 1, "IN",
-     "the points: .csv with a header that names x, y, z; .ply; .off; - reads one of these\n"
-     "from standard input",
+     "the points: .csv with a header that names x, y, z; .ply; .off; .xyz; - reads one of\n"
+     "the first three from standard input",
      [](const Option_words& option, Draft& draft) { draft.points = option.word(); }},
     {"MESH.ply", VIEW, INPUT, 1, "", "a mesh as this program writes it, or any other .ply; - reads standard input",
      [](const Option_words& option, Draft& draft) { draft.mesh = option.word(); }},
+    {"MESH", ANNOTATE, INPUT, 1, "",
+     "a mesh, .ply .off .obj .stl, or points, .csv .xyz or a file without faces; columns nx,\n"
+     "ny, nz of points are their normals; - reads PLY, OFF or CSV from standard input",
+     [](const Option_words& option, Draft& draft) { draft.mesh = option.word(); }},
+    {"--scale", ANNOTATE, FIT, 1, "R|auto",
+     "the radius around a vertex whose points say what the curvature is there, a length;\n"
+     "chosen by the data (auto) by default",
+     read_scale},
+    {"--noise", ANNOTATE, FIT, 1, "S|auto",
+     "the standard deviation of the points from the surface, a length; estimated (auto) by\n"
+     "default",
+     read_noise},
+    {"--degree", ANNOTATE, FIT, 1, "4|5|6|8|10|auto",
+     "the degree of the polynomials that are fitted, by default chosen by the data (auto)", read_degree},
 };
 
 } // namespace

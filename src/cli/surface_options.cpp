@@ -92,6 +92,8 @@ const std::vector<Option_row> rows = {
      read_smoothing},
     {"--orientation", MESH | EVALUATE, SURFACE, 1, "gradient|against",
      "normals towards larger f (gradient, the default) or smaller f (against)", read_orientation},
+    {"--orientation", ANNOTATE, SURFACE, 1, "gradient|against",
+     "normals as those of the data (gradient, the default), or the opposite ones (against)", read_orientation},
     {"--method", MESH, SAMPLING, 1, "marching-cubes|delaunay",
      "a mesh on the edges of a grid (marching-cubes, the default), or one of triangles with\n"
      "good angles that is proved to be complete where the function has bounds (delaunay)",
@@ -103,7 +105,7 @@ const std::vector<Option_row> rows = {
      "N [NY NZ]",
      "nodes of the grid per axis, 2 or more: 64, for a distance 129; a volume has its own",
      [](const Option_words& option, Draft& draft) { draft.source.resolution = parse_resolution(option); }},
-    {"--threads", MESH | EVALUATE | SAMPLE, SAMPLING, 1, "N",
+    {"--threads", MESH | EVALUATE | SAMPLE | ANNOTATE, SAMPLING, 1, "N",
      "threads to use, all by default; the result is always the same", read_threads},
     {"--vertices", MESH, MARCHING_CUBES, 1, "projected|linear",
      "on the surface (projected, the default), or where linear interpolation along the\n"

@@ -46,6 +46,7 @@ void run_command(const Options& options, const Streams& streams) {
     void operator()(const Evaluate_options& o) const { run_evaluate(o, out, progress); }
     void operator()(const Sample_options& o) const { run_sample(o, out, progress); }
     void operator()(const View_options& o) const { run_view(o, out); }
+    void operator()(const Annotate_options& o) const { run_annotate(o, out, progress); }
   };
   std::visit(Runner{streams.out, progress}, options.command);
 }
@@ -60,6 +61,7 @@ std::string advice_on_memory(const Options& options) {
     std::string operator()(const Evaluate_options&) const { return "use a smaller --resolution or input"; }
     std::string operator()(const Sample_options&) const { return "use a smaller --resolution"; }
     std::string operator()(const View_options&) const { return "use a smaller --size, or a mesh with fewer triangles"; }
+    std::string operator()(const Annotate_options&) const { return "use a smaller --size, or fewer vertices"; }
   };
   return std::visit(Advice(), options.command);
 }

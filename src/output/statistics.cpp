@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <ostream>
 #include <sstream>
 
 namespace equiaffine {
@@ -24,20 +26,49 @@ const char* name_of(Spline_scheme scheme) {
   }
 }
 
+using Json = nlohmann::ordered_json;
+
+Json begin_JSON(const Mesh_facts& facts) { return {{"equiaffine", EQUIAFFINE_VERSION}, {"source", facts.source}}; }
+
+void add(const Mesh_facts& facts, Json& json) {
+  json["vertices"] = facts.vertices;
+  json["faces"] = facts.faces;
+  json["components"] = facts.topology.components;
+  json["euler_characteristic"] = facts.topology.euler_characteristic;
+  json["boundary_edges"] = facts.topology.boundary_edges;
+  json["manifold"] = facts.topology.is_manifold;
+  for (std::size_t i = 0; i < number_of_point_statuses; ++i)
+    json["status"][std::string(to_string(Point_status(i)))] = facts.status[i];
+}
+
+/// Texts come from the command line and need not be UTF-8.
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
+
+void add_topology(const Mesh_facts& facts, std::ostream& text) {
+  text << facts.vertices << " vertices, " << facts.faces << " triangles, " << facts.topology.components
+       << (facts.topology.components == 1 ? " component" : " components") << ", Euler characteristic "
+       << facts.topology.euler_characteristic << ", ";
+  if (!facts.topology.is_manifold) text << "not a manifold, ";
+  if (facts.topology.boundary_edges == 0) text << "closed\n";
+  else text << facts.topology.boundary_edges << " boundary edges\n";
+}
+
+void add_status(const Mesh_facts& facts, std::ostream& text) {
+  const char* separator = "status: ";
+  for (std::size_t i = 0; i < number_of_point_statuses; ++i) {
+    if (facts.status[i] == 0) continue;
+    text << separator << facts.status[i] << ' ' << to_string(Point_status(i));
+    separator = ", ";
+  }
+  text << '\n';
+}
+
 } // namespace
 
 std::string to_JSON(const Statistics& s) {
-  nlohmann::ordered_json json = {{"equiaffine", EQUIAFFINE_VERSION},
-                                 {"source", s.source},
-                                 {"isovalue", s.isovalue},
-                                 {"vertices", s.vertices},
-                                 {"faces", s.faces},
-                                 {"components", s.topology.components},
-                                 {"euler_characteristic", s.topology.euler_characteristic},
-                                 {"boundary_edges", s.topology.boundary_edges},
-                                 {"manifold", s.topology.is_manifold}};
-  for (std::size_t i = 0; i < number_of_point_statuses; ++i)
-    json["status"][std::string(to_string(Point_status(i)))] = s.status[i];
+  Json json = begin_JSON(s);
+  json["isovalue"] = s.isovalue;
+  add(s, json);
   json["max_distance_to_surface"] = s.max_distance_to_surface;
   json["seconds"] = {{"sample", s.sample_seconds},
                      {"project", s.project_seconds},
@@ -52,30 +83,31 @@ std::string to_JSON(const Statistics& s) {
                       {"quantum", s.spline->noise.quantum}};
   if (s.completeness) {
     json["certified"] = s.completeness->is_certified;
-    json["undecided_boxes"] = nlohmann::ordered_json::array();
+    json["undecided_boxes"] = Json::array();
     for (const CGAL::Bbox_3& b : s.completeness->undecided_boxes) // in the order of --box
       json["undecided_boxes"].push_back({b.xmin(), b.xmax(), b.ymin(), b.ymax(), b.zmin(), b.zmax()});
   }
-  // Texts come from the command line and need not be UTF-8.
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+  return text_of(json);
+}
+
+std::string to_JSON(const Fit_statistics& s) {
+  Json json = begin_JSON(s);
+  add(s, json);
+  json["fit"] = {{"scales", {{"least", s.scales[0]}, {"median", s.scales[1]}, {"greatest", s.scales[2]}}},
+                 {"noise", s.noise},
+                 {"below_10", s.known[0]},
+                 {"below_20", s.known[1]},
+                 {"below_50", s.known[2]}};
+  json["seconds"] = {{"annotate", s.annotate_seconds}, {"write", s.write_seconds}};
+  return text_of(json);
 }
 
 std::string summary(const Statistics& s) {
   std::ostringstream text;
-  text << s.vertices << " vertices, " << s.faces << " triangles, " << s.topology.components
-       << (s.topology.components == 1 ? " component" : " components") << ", Euler characteristic "
-       << s.topology.euler_characteristic << ", ";
-  if (!s.topology.is_manifold) text << "not a manifold, ";
-  if (s.topology.boundary_edges == 0) text << "closed\n";
-  else text << s.topology.boundary_edges << " boundary edges\n";
-  const char* separator = "status: ";
-  for (std::size_t i = 0; i < number_of_point_statuses; ++i) {
-    if (s.status[i] == 0) continue;
-    text << separator << s.status[i] << ' ' << to_string(Point_status(i));
-    separator = ", ";
-  }
+  add_topology(s, text);
+  add_status(s, text);
   text.precision(2);
-  text << "\ndistance from the surface: ";
+  text << "distance from the surface: ";
   if (s.max_distance_to_surface == s.max_distance_to_surface) text << "at most " << s.max_distance_to_surface;
   else text << "unknown";
   if (const std::size_t n = s.status[std::size_t(Point_status::UNCONVERGED)]; n > 0)
@@ -89,6 +121,20 @@ std::string summary(const Statistics& s) {
     if (s.completeness->is_certified) text << "certified: no component is missing\n";
     else text << "not certified: parts may be missing in " << n << (n == 1 ? " box\n" : " boxes\n");
   }
+  return text.str();
+}
+
+std::string summary(const Fit_statistics& s) {
+  std::ostringstream text;
+  if (s.faces > 0) add_topology(s, text);
+  else text << s.vertices << " points\n";
+  add_status(s, text);
+  text.precision(2);
+  if (std::isfinite(s.noise))
+    text << "fits of radius " << s.scales[0] << " to " << s.scales[2] << ", noise " << s.noise << '\n';
+  text << "affine Gaussian curvature known to 10 %: " << std::lround(100 * s.known[0])
+       << " %, to 20 %: " << std::lround(100 * s.known[1]) << " %, to 50 %: " << std::lround(100 * s.known[2])
+       << " % of the vertices\n";
   return text.str();
 }
 

@@ -23,13 +23,17 @@ struct Completeness {
   std::vector<CGAL::Bbox_3> undecided_boxes;
 };
 
-/// The facts about a mesh that the program reports.
-struct Statistics {
+/// The facts about a mesh, however it was made.
+struct Mesh_facts {
   std::string source;
-  double isovalue = 0;
   std::size_t vertices = 0, faces = 0;
   Mesh_topology topology;
   std::array<std::size_t, number_of_point_statuses> status{};
+};
+
+/// The facts that the program reports about a mesh of a level set.
+struct Statistics : Mesh_facts {
+  double isovalue = 0;
   double max_distance_to_surface =
       0; ///< in the unit of the coordinates, of vertices that are not UNCONVERGED; NaN if f is defined at none
   double sample_seconds = 0, project_seconds = 0, annotate_seconds = 0, write_seconds = 0;
@@ -38,13 +42,28 @@ struct Statistics {
   std::optional<Spline_statistics> spline;  ///< is set if derivatives are those of a spline
 };
 
+/// What the program reports about a fit to the vertices of a mesh, or to points.
+struct Fit_statistics : Mesh_facts {
+  std::array<double, 3> scales{}; ///< the least, median and greatest radius; NaN if there is no fit
+  double noise = 0;               ///< the median of the deviations of the data; NaN if there is no fit
+  std::array<double, 3> known{};  ///< the parts of the vertices whose error is below each of `error_bounds`
+  double annotate_seconds = 0, write_seconds = 0;
+};
+
+/// Bounds for the estimated error of K as a part of |K| + H^2.
+inline constexpr std::array<double, 3> error_bounds = {0.1, 0.2, 0.5};
+
 std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_status> status);
 
 /// One object, see `equiaffine mesh --help`. A distance that is not a finite number is null.
 std::string to_JSON(const Statistics& statistics);
 
+/// One object, see the section on statistics of doc/program.md. A number that does not exist is null.
+std::string to_JSON(const Fit_statistics& statistics);
+
 /// Says the most important statistics in a few lines.
 std::string summary(const Statistics& statistics);
+std::string summary(const Fit_statistics& statistics);
 
 } // namespace equiaffine
 

@@ -21,10 +21,12 @@ namespace {
 
 #ifdef EQUIAFFINE_WITH_VTK
 constexpr bool has_vtk = true;
-constexpr const char *surface_extensions = ".ply .off .obj .stl .vtp .csv", *curves_extensions = ".obj .vtp";
+constexpr const char *surface_extensions = ".ply .off .obj .stl .vtp .csv", *curves_extensions = ".obj .vtp",
+                     *vertices_extensions = ".ply .csv .vtp";
 #else
 constexpr bool has_vtk = false;
-constexpr const char *surface_extensions = ".ply .off .obj .stl .csv", *curves_extensions = ".obj";
+constexpr const char *surface_extensions = ".ply .off .obj .stl .csv", *curves_extensions = ".obj",
+                     *vertices_extensions = ".ply .csv";
 #endif
 
 bool is_VTP(const std::string& path) { return has_extension(path, ".vtp"); }
@@ -61,6 +63,19 @@ void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mes
   if (is_VTP(file.path())) return write_VTP(file.stream(), mesh, attributes);
 #endif
   write_mesh(file.stream(), mesh_format(file.path()).value_or(Mesh_format::OFF), mesh, attributes);
+}
+
+void check_vertices_output(const std::string& path) {
+  const auto format = mesh_format(path);
+  if (format && format != Mesh_format::PLY && format != Mesh_format::CSV)
+    throw Input_error("cannot write '" + path + "': its format has no attributes; use one of " + vertices_extensions);
+  check_output(path, format.has_value(), vertices_extensions);
+}
+
+void write_vertices(Output_file& file, const Point_table_3<Kernel>& table, const Vertex_attributes& attributes) {
+  if (file.path() == "-" || mesh_format(file.path()) == Mesh_format::CSV)
+    return write_CSV(file.stream(), table, attributes);
+  write_surface(file, table.mesh, merge_attributes(table.attributes, attributes));
 }
 
 void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves) {

@@ -5,6 +5,7 @@
 #include "request/options.h"
 #include "system/atomic_file.h"
 #include "system/kernel.h"
+#include <equiaffine/io/read_points.h>
 #include <equiaffine/parabolic_curves.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
@@ -19,6 +20,13 @@ void check_surface_output(const std::string& path);
 
 /// Writes the mesh in the format of the path's extension, OFF for "-", without committing.
 void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes);
+
+/// Throws `Input_error` unless `write_vertices` knows the extension of the path, or it is "-".
+void check_vertices_output(const std::string& path);
+
+/// Writes a mesh or points as they came with more attributes in the format of the path's extension, CSV for "-", without
+/// committing. Computed columns replace those of the same name.
+void write_vertices(Output_file& file, const Point_table_3<Kernel>& table, const Vertex_attributes& attributes);
 
 /// Throws `Input_error` unless `write_curves` knows the extension of the path, or it is "-".
 void check_curves_output(const std::string& path);

@@ -112,13 +112,31 @@ struct View_options {
   Picture_options picture;
 };
 
+/// What a fit to the vertices is told; what it is not told the data decide.
+struct Fit_options {
+  std::optional<double> scale, noise; ///< lengths
+  std::optional<int> degree;
+};
+
+struct Annotate_options {
+  std::string mesh; ///< or points
+  Fit_options fit;
+  Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
+  Attribute_selection attributes;
+  std::vector<std::string> estimates; ///< those of the columns of errors and of noise that are written
+  std::string output;
+  std::optional<std::string> html, png, stats;
+  Page_options page;
+  Picture_options picture;
+};
+
 /// A text that was asked for: help or version.
 struct Information {
   std::string text;
 };
 
 struct Options {
-  std::variant<Information, Mesh_options, Evaluate_options, Sample_options, View_options> command;
+  std::variant<Information, Mesh_options, Evaluate_options, Sample_options, View_options, Annotate_options> command;
   std::optional<std::size_t> threads;
 };
 

@@ -39,6 +39,12 @@ TEST(Trust, numbers_smaller_than_their_errors_are_not_shown_first_nor_what_is_ma
   EXPECT_EQ(first_of({gaussian, affine, errors({infinity, nan, 0.1})}), "gaussian_curvature");
 }
 
+TEST(Trust, what_noise_makes_of_a_number_is_not_shown_first) {
+  const Vertex_attributes::Column noise = {"affine_gaussian_curvature_noise", {1, 1, 1}};
+  EXPECT_EQ(first_of({affine, errors({9, 9, 9}), noise}), "affine_gaussian_curvature");
+  EXPECT_EQ(first_of({noise}), "affine_gaussian_curvature_noise");
+}
+
 TEST(Trust, something_is_shown_even_if_nothing_is_trusted) {
   EXPECT_EQ(first_of({normal, affine, errors({9, 9, 9})}), "affine_gaussian_curvature");
   EXPECT_EQ(first_of({normal}), "plain");

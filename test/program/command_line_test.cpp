@@ -118,7 +118,7 @@ protected:
 
 TEST_F(Program_command_line, help_and_version_go_to_standard_output) {
   EXPECT_NE(run_well({"--help"}).find("Usage: equiaffine COMMAND"), std::string::npos);
-  for (const char* command : {"mesh", "evaluate", "sample", "view"})
+  for (const char* command : {"mesh", "evaluate", "sample", "view", "annotate"})
     EXPECT_NE(run_well({command, "--help"}).find("Usage: equiaffine " + std::string(command)), std::string::npos);
   EXPECT_TRUE(run_well({"--version"}).starts_with("equiaffine "));
 }

@@ -63,7 +63,7 @@ protected:
 } // namespace
 
 TEST_F(Program_errors, no_command_is_told_in_one_line) {
-  expect_error({}, {"no command is given; use mesh, evaluate, sample or view", "see 'equiaffine --help'"});
+  expect_error({}, {"no command is given; use mesh, evaluate, sample, view or annotate", "see 'equiaffine --help'"});
 }
 
 TEST_F(Program_errors, an_unknown_command_or_option_is_named_and_the_nearest_suggested) {

@@ -51,9 +51,11 @@ inline bool is_trusted(const Vertex_attributes::Column& column, const Vertex_att
          });
 }
 
-/// Returns whether a column is shown on request only: a component of a vector or of the metric, or errors.
+/// Returns whether a column is shown on request only: a component of a vector or of the metric, errors, or what
+/// noise makes of them.
 inline bool is_component_or_error(const std::string& name, const Vertex_attributes& attributes) {
-  if (name.ends_with("_error") && find_column(attributes, name.substr(0, name.size() - 6))) return true;
+  for (const std::string suffix : {"_error", "_noise"})
+    if (name.ends_with(suffix) && find_column(attributes, name.substr(0, name.size() - suffix.size()))) return true;
   return name.size() > 1 && (name.ends_with("_x") || name.ends_with("_y") || name.ends_with("_z") || name == "nx" ||
                              name == "ny" || name == "nz" || name.starts_with("metric_"));
 }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "source/read_vertices.h"
+
+#include "source/Polygon_soup.h"
+
+#include <CGAL/Bbox_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& path, const std::string& reason, const std::string& advice) {
+  internal::fail_to_read(path == "-" ? "standard input" : path, reason, advice);
+}
+
+bool is_foreign(const std::string& path) { return has_extension(path, ".obj") || has_extension(path, ".stl"); }
+
+/// The points and faces of an OBJ or STL file in their order.
+Point_table_3<Kernel> read_foreign_vertices(const std::string& path) {
+  open_input(path);
+  Polygon_soup soup = make_in_child(path, [&] { return read_foreign_soup(path); });
+  Point_table_3<Kernel> table;
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
+    const auto& face = soup.polygons[f];
+    if (std::any_of(face.begin(), face.end(), [&](std::size_t v) { return v >= soup.points.size(); }))
+      fail(path, "face " + std::to_string(f) + " has a vertex that the file does not have",
+           "get the complete file again");
+    for (std::size_t i = 2; i < face.size(); ++i)
+      table.mesh.triangles.push_back({std::uint32_t(face[0]), std::uint32_t(face[i - 1]), std::uint32_t(face[i])});
+  }
+  table.mesh.points = std::move(soup.points);
+  return table;
+}
+
+/// Throws for a coordinate that is not finite, and for points whose unit would make affine curvatures and what they are
+/// computed from leave double precision.
+void check_points(const std::vector<Kernel::Point_3>& points, const std::string& path) {
+  constexpr double least = 1e-40, greatest = 1e40;
+  CGAL::Bbox_3 box;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (!std::isfinite(points[v].x()) || !std::isfinite(points[v].y()) || !std::isfinite(points[v].z()))
+      fail(path, "point " + std::to_string(v) + ", counted from 0, has a coordinate that is not a finite number",
+           "correct or remove it");
+    box += points[v].bbox();
+  }
+  const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
+  if (diagonal == 0 || (least <= diagonal && diagonal <= greatest)) return;
+  std::ostringstream reason;
+  reason << "its points lie in a box with the diagonal " << diagonal << ", and fits work with " << least << " to "
+         << greatest;
+  fail(path, reason.str(), "choose another unit");
+}
+
+void check_extension(const std::string& path) {
+  constexpr std::array<std::string_view, 6> known = {".ply", ".off", ".obj", ".stl", ".csv", ".xyz"};
+  if (path != "-" && std::none_of(known.begin(), known.end(), [&](auto e) { return has_extension(path, e); }))
+    fail(path, "its extension is not known", "use one of .ply .off .obj .stl for a mesh, .csv .xyz for points");
+}
+
+} // namespace
+
+Point_table_3<Kernel> read_vertices(const std::string& path) {
+  check_extension(path);
+  Point_table_3<Kernel> table = is_foreign(path) ? read_foreign_vertices(path) : read_points<Kernel>(path);
+  if (table.mesh.points.empty()) fail(path, "it has no points", "give a mesh, or points of a surface");
+  check_points(table.mesh.points, path);
+  return table;
+}
+
+} // namespace equiaffine

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_SOURCE_READ_VERTICES_H
+#define EQUIAFFINE_SRC_SOURCE_READ_VERTICES_H
+
+#include "system/kernel.h"
+#include <equiaffine/io/read_points.h>
+
+#include <string>
+
+namespace equiaffine {
+
+/// Reads a mesh from `.ply .off .obj .stl`, or points from `.csv .xyz` and files without faces, as they are: in their
+/// order, with what else is known of them. Corners of STL that coincide become one vertex, and faces are cut into
+/// triangles from their first corner. "-" reads PLY, OFF or CSV from standard input. Throws `Input_error` for what
+/// cannot be read, for a file without points, and for coordinates that are not finite or in an extreme unit.
+Point_table_3<Kernel> read_vertices(const std::string& path);
+
+} // namespace equiaffine
+
+#endif
