@@ -25,6 +25,9 @@ namespace equiaffine {
 /// deviation. The estimated error is twice the root of the sum of two squares: of the greatest difference to other fits
 /// there and around, and of the standard deviation of the curvature if residuals are white noise.
 ///
+/// With `scale`, curvatures are by definition those of a polynomial in space of degree 4, or of `degree`, fitted within that
+/// radius: a scan has detail at every scale.
+///
 /// A mesh that is mapped by an affine map of determinant 1 gets the same affine curvatures to within rounding, since
 /// neighborhoods are balls in coordinates in which the edges have no preferred direction. `scale` and `noise` are lengths
 /// there, divided by the factor of volumes to the power 1/3.

@@ -80,7 +80,7 @@ public:
     for (std::size_t c = 0; c < centers_.size(); ++c) choices_[c] = choice_at(c);
     std::vector<std::size_t> doubtful;
     for (std::size_t c = 0; c < centers_.size(); ++c)
-      if (!choices_[c] || choices_[c]->level.gaussian > 3e-3) doubtful.push_back(c);
+      if (request_.scale || !choices_[c] || choices_[c]->level.gaussian > 3e-3) doubtful.push_back(c);
     parallel_for<ConcurrencyTag>(0, doubtful.size(), [&](std::size_t k) { try_spaces(doubtful[k]); });
     for (const std::size_t c : doubtful) choices_[c] = choice_at(c);
   }
@@ -114,10 +114,18 @@ private:
   static constexpr std::array<int, 4> space_degrees_ = {4, 5, 6, 7};
   static constexpr std::array<double, 2> weights_of_normals_ = {0.3, 0.03};
 
+  /// At a given scale the curvatures are a matter of definition: those of the polynomial in space whose degree, the
+  /// least one, makes the least of noise. One of degree 8 or 10 is a height.
   void list_candidates() {
-    if (request_.scale) radii_ = {*request_.scale};
-    else
-      for (double radius = 3; radius < 60; radius *= radius < 8 ? 1.1 : 1.2) radii_.push_back(radius);
+    if (request_.scale) {
+      radii_ = {*request_.scale};
+      const int degree = request_.degree.value_or(space_degrees_.front());
+      const bool is_space = degree <= 6;
+      candidates_ = {{is_space ? Fit_family::SPACE : Fit_family::HEIGHT, degree, radii_.front(),
+                      is_space ? weights_of_normals_.front() : 0}};
+      return;
+    }
+    for (double radius = 3; radius < 60; radius *= radius < 8 ? 1.1 : 1.2) radii_.push_back(radius);
     for (std::size_t r = 0; r < radii_.size(); ++r) {
       for (const int degree : {4, 6, 8, 10})
         if (!request_.degree || degree == *request_.degree)
@@ -203,7 +211,7 @@ private:
         if (candidate.made(f, candidate.other_degree())) other = &f;
       }
       if (fit == nullptr || other == nullptr) continue;
-      if (candidate.family == Fit_family::SPACE && fit->residual > 2 * trial.noise) continue;
+      if (!request_.scale && candidate.family == Fit_family::SPACE && fit->residual > 2 * trial.noise) continue;
       const double size = std::max(fit->curvatures.size(), std::numeric_limits<double>::min());
       const double gaussian = std::hypot(fit->curvatures.gaussian - other->curvatures.gaussian,
                                          1.4 * guarded_deviation(*fit, fit->gaussian_deviation, trial.noise)),

@@ -152,7 +152,8 @@ inline Eigen::MatrixXd space_gradient(const Curvature_gradient& gradient, const 
 /// `traces` has the parts of the coefficients in the number of degrees of freedom.
 inline std::optional<Local_fit_3> space_fit(const Space_system& system, const Eigen::MatrixXd& lower,
                                             const Eigen::VectorXd& reduced, const Eigen::VectorXd& traces,
-                                            const Eigen::Vector3d& center, double radius, int degree) {
+                                            const Eigen::Vector3d& center, double radius, int degree,
+                                            double normal_weight) {
   const auto count = Eigen::Index(number_of_coefficients(Fit_family::SPACE, degree));
   const auto factor = lower.topLeftCorner(count, count).triangularView<Eigen::Lower>();
   const Eigen::VectorXd bombieri = factor.transpose().solve(reduced.head(count));
@@ -167,6 +168,7 @@ inline std::optional<Local_fit_3> space_fit(const Space_system& system, const Ei
   const auto foot = foot_of_center(fit.patch, jet);
   if (!foot) return {};
   fit.curvatures = in_unit(curvatures_of(jet), radius);
+  fit.weight_of_normals = normal_weight;
 
   const double weight = system.roots_of_weights.squaredNorm();
   const double freedom = std::max(0.05, 1 - traces.head(count).sum() / points);
@@ -175,9 +177,16 @@ inline std::optional<Local_fit_3> space_fit(const Space_system& system, const Ei
   Eigen::MatrixXd gradient = space_gradient(curvature_gradient(jet), *foot, std::size_t(count));
   factor.solveInPlace(gradient);
   factor.transpose().solveInPlace(gradient);
-  const Eigen::MatrixXd influence = system.roots_of_weights.asDiagonal() * (values.transpose() * gradient);
-  fit.gaussian_deviation = residual * influence.col(0).norm() / std::pow(radius, 3);
-  fit.mean_deviation = residual * influence.col(1).norm() / std::pow(radius, 1.5);
+  const Eigen::MatrixXd of_values = system.roots_of_weights.asDiagonal() * (values.transpose() * gradient);
+  const auto derivatives = system.derivatives.topRows(count);
+  const double slope = std::sqrt((derivatives.transpose() * bombieri - system.roots_of_weights).squaredNorm() / weight);
+  const Eigen::MatrixXd of_normals =
+      normal_weight * normal_weight * (system.roots_of_weights.asDiagonal() * (derivatives.transpose() * gradient));
+  const auto deviation = [&](Eigen::Index c) {
+    return std::hypot(residual * of_values.col(c).norm(), slope * of_normals.col(c).norm());
+  };
+  fit.gaussian_deviation = deviation(0) / std::pow(radius, 3);
+  fit.mean_deviation = deviation(1) / std::pow(radius, 1.5);
   return fit;
 }
 
@@ -233,9 +242,8 @@ inline std::vector<Local_fit_3> fit_spaces(const Data_points_3& data, Data_point
     cholesky.matrixL().solveInPlace(hat);
     for (const int degree : degrees) {
       if (degree > greatest) continue;
-      auto fit = space_fit(system, lower, reduced, hat.diagonal(), origin, radius, degree);
+      auto fit = space_fit(system, lower, reduced, hat.diagonal(), origin, radius, degree, weight);
       if (!fit || !std::isfinite(fit->curvatures.gaussian) || !std::isfinite(fit->gaussian_deviation)) continue;
-      fit->weight_of_normals = weight;
       fits.push_back(std::move(*fit));
     }
   }
