@@ -22,7 +22,7 @@ namespace {
 using namespace equiaffine;
 using namespace equiaffine::test;
 using Traits = Fitted_function_traits_3<Fit_kernel>;
-static_assert(FirstOrderImplicitFunctionTraits_3<Traits>);
+static_assert(FirstOrderImplicitFunctionTraits_3<Traits> && BoundedImplicitFunctionTraits_3<Traits>);
 
 // The bounds are those that the research on fits asks for on 10,000 vertices; this mesh has half as many.
 TEST(Fitted_structures, affine_curvature_at_exact_vertices_has_four_digits) {
@@ -174,6 +174,11 @@ TEST(Fitted_function_traits_3, marching_cubes_remeshes_the_fitted_surface) {
   EXPECT_EQ(remesh.number_of_vertices() + remesh.number_of_faces(), remesh.number_of_edges() + 2);
   const auto truth = metaballs();
   for (const auto& p : surface.points) EXPECT_NEAR(truth.value(p), 0, 1e-3);
+
+  const auto of_band = marching_cubes<CGAL::Parallel_tag>(traits, parameters::number_of_nodes(40).skip_empty_space());
+  EXPECT_EQ(of_band.points, surface.points);
+  EXPECT_EQ(of_band.triangles, surface.triangles);
+  EXPECT_LT(of_band.function_evaluations, surface.function_evaluations);
 }
 
 } // namespace

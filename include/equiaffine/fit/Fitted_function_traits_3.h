@@ -6,6 +6,7 @@
 #include <equiaffine/fit/internal/Surface_fit_3.h>
 #include <equiaffine/fit/internal/fit_input.h>
 #include <equiaffine/function/concepts.h>
+#include <equiaffine/number/Interval.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/tags.h>
@@ -18,7 +19,7 @@
 namespace equiaffine {
 
 /// A smooth function whose zero set is the surface that the vertices of a mesh, or points without faces, are samples of:
-/// a model of FirstOrderImplicitFunctionTraits_3. Near the surface its value is about the signed distance, negative on the
+/// a model of FirstOrderImplicitFunctionTraits_3 and BoundedImplicitFunctionTraits_3. Near the surface its value is about the signed distance, negative on the
 /// side that normals point away from.
 ///
 /// It is a blend of polynomials fitted to the points around centers, chosen by the data as for `fitted_structures`, of
@@ -64,6 +65,16 @@ public:
   FT value(const Point_3& p) const { return FT(state_->blend.value(normal(p)) / state_->fit.normalization().scale()); }
   Jet_3<FT, 1> first_order(const Point_3& p) const { return expansion<1>(p); }
   Jet_3<FT> taylor(const Point_3& p) const { return expansion<4>(p); }
+
+  /// The whole line for a box that meets the band, as far as boxes around the data tell, and 1 for one where the function
+  /// has no value, so that Marching Cubes with `skip_empty_space` visits the band alone.
+  Interval bounds(const CGAL::Bbox_3& box) const {
+    const Eigen::Matrix3d& matrix = state_->fit.normalization().matrix;
+    const Eigen::Vector3d lower(box.xmin(), box.ymin(), box.zmin()), upper(box.xmax(), box.ymax(), box.zmax());
+    const Eigen::Vector3d center = state_->fit.normalization()((lower + upper) / 2);
+    const Eigen::Vector3d half = matrix.cwiseAbs() * ((upper - lower) / 2);
+    return state_->blend.may_meet_band(center - half, center + half) ? Interval::whole() : Interval(1);
+  }
 
   /// The box of the band.
   CGAL::Bbox_3 bbox() const { return state_->box; }

@@ -48,6 +48,9 @@ public:
     std::vector<Vector> places;
     for (const auto& patch : patches_) places.push_back(patch.center);
     balls_ = Ball_tree_3(places, radii_);
+    std::vector<double> reaches;
+    for (const double spacing : data.spacing) reaches.push_back(std::hypot(half_band, border) * spacing);
+    band_ = Ball_tree_3(data.points, reaches);
   }
 
   /// Returns whether the function may have a value at a point: whether it is near the nearest of the data, as seen along
@@ -62,6 +65,9 @@ public:
     const double spacing = data_->spacing[i];
     return std::abs(height) <= half_band * spacing && across <= border * border * spacing * spacing;
   }
+
+  /// Returns whether some point of a box, given by its corners, may be in the band.
+  bool may_meet_band(const Vector& lower, const Vector& upper) const { return band_.meets(lower, upper); }
 
   double value(const Vector& p) const {
     double sum = 0, weights = 0;
@@ -137,7 +143,7 @@ private:
   Point_tree_3 points_;
   std::vector<Patch_3> patches_;
   std::vector<double> radii_, gates_;
-  Ball_tree_3 balls_;
+  Ball_tree_3 balls_, band_;
 };
 
 } // namespace equiaffine::internal

@@ -77,6 +77,11 @@ public:
       f(it->second);
   }
 
+  /// Returns whether the bounding box of a ball meets the box with these corners.
+  bool meets(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) const {
+    return tree_.qbegin(boost::geometry::index::intersects(Box(tree_point(lower), tree_point(upper)))) != tree_.qend();
+  }
+
 private:
   using Box = boost::geometry::model::box<Tree_point_3>;
   using Value = std::pair<Box, Index>;
