@@ -2,6 +2,7 @@
 #include "support/fit_data.h"
 #include <equiaffine/Fitted_function_traits_3.h>
 #include <equiaffine/annotate_by_fit.h>
+#include <equiaffine/delaunay_surface.h>
 #include <equiaffine/fitted_structures.h>
 
 #include <CGAL/Aff_transformation_3.h>
@@ -179,6 +180,15 @@ TEST(Fitted_function_traits_3, marching_cubes_remeshes_the_fitted_surface) {
   EXPECT_EQ(of_band.points, surface.points);
   EXPECT_EQ(of_band.triangles, surface.triangles);
   EXPECT_LT(of_band.function_evaluations, surface.function_evaluations);
+}
+
+TEST(Fitted_function_traits_3, the_delaunay_mesher_remeshes_the_fitted_surface) {
+  const Fit_mesh mesh = metaballs_mesh(30);
+  const auto surface = delaunay_surface(Traits(mesh), {30, 0.1, 0.01});
+  const Fit_mesh remesh = to_surface_mesh(surface);
+  EXPECT_TRUE(CGAL::is_closed(remesh));
+  EXPECT_EQ(remesh.number_of_vertices() + remesh.number_of_faces(), remesh.number_of_edges() + 2);
+  for (const auto& p : surface.points) EXPECT_NEAR(metaballs().value(p), 0, 1e-3);
 }
 
 } // namespace
