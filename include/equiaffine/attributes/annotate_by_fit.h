@@ -16,11 +16,10 @@
 
 namespace equiaffine {
 
-/// Fills property maps of the vertices of `mesh` with the local structure of the surface that the vertices are samples of,
-/// as `fitted_structures` finds it: the maps that `annotate` with a function fills, and the estimates of errors
+/// Fills property maps of the vertices of `mesh` with the local structure of the surface that the vertices are samples
+/// of, as `fitted_structures` finds it: the maps that `annotate` with a function fills, and the estimates of errors
 /// `v:affine_gaussian_curvature_error`, `v:affine_mean_curvature_error`, `v:affine_gaussian_curvature_noise` and
-/// `v:affine_mean_curvature_noise`. Named parameters: `noise`, `scale`, `degree`,
-/// `orientation`.
+/// `v:affine_mean_curvature_noise`. Named parameters: `noise`, `scale`, `degree`, `orientation`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Point, class Parameters = internal::No_parameters>
 void annotate_by_fit(CGAL::Surface_mesh<Point>& mesh, const Parameters& parameters = {}) {
   internal::check_parameters<Parameters, internal::Noise_tag, internal::Scale_tag, internal::Degree_tag,

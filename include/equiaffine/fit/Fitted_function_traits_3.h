@@ -18,22 +18,22 @@
 
 namespace equiaffine {
 
-/// A smooth function whose zero set is the surface that the vertices of a mesh, or points without faces, are samples of:
-/// a model of FirstOrderImplicitFunctionTraits_3 and BoundedImplicitFunctionTraits_3. Near the surface its value is about the signed distance, negative on the
-/// side that normals point away from.
+/// A smooth function whose zero set is the surface that the vertices of a mesh, or points without faces, are samples
+/// of: a model of FirstOrderImplicitFunctionTraits_3 and BoundedImplicitFunctionTraits_3. Near the surface its value is
+/// about the signed distance, negative on the side that normals point away from.
 ///
 /// It is a blend of polynomials fitted to the points around centers, chosen by the data as for `fitted_structures`, of
 /// which it is the continuous counterpart: sum of w_i g_i / sum of w_i, where g_i is a polynomial that approximates the
-/// distance and w_i a weight that vanishes at 3/4 of the radius of its points (a partition of unity; Ohtake et al. 2003).
-/// It has four continuous derivatives. Another sheet of the surface that is near in space but not connected nearby has no
-/// influence.
+/// distance and w_i a weight that vanishes at 3/4 of the radius of its points (a partition of unity; Ohtake et al.
+/// 2003). It has four continuous derivatives. Another sheet of the surface that is near in space but not connected
+/// nearby has no influence.
 ///
 /// It is defined in a band along the points: up to 2 spacings of the points from the nearest one along its normal, and
-/// 1.25 across, so that holes larger than that stay holes, and an open border stays where it is to within that. Elsewhere
-/// the value is not a number.
+/// 1.25 across, so that holes larger than that stay holes, and an open border stays where it is to within that.
+/// Elsewhere the value is not a number.
 ///
-/// Construction takes 1 ms per vertex for exact data and 3 ms for noisy ones, memory is linear; copies share it. A value
-/// takes some 5 microseconds, an expansion 25.
+/// Construction takes 1 ms per vertex for exact data and 3 ms for noisy ones, memory is linear; copies share it. A
+/// value takes some 5 microseconds, an expansion 25.
 template <class Kernel>
 class Fitted_function_traits_3 {
 public:
@@ -66,8 +66,8 @@ public:
   Jet_3<FT, 1> first_order(const Point_3& p) const { return expansion<1>(p); }
   Jet_3<FT> taylor(const Point_3& p) const { return expansion<4>(p); }
 
-  /// The whole line for a box that meets the band, as far as boxes around the data tell, and 1 for one where the function
-  /// has no value, so that Marching Cubes with `skip_empty_space` visits the band alone.
+  /// The whole line for a box that meets the band, as far as boxes around the data tell, and 1 for one where the
+  /// function has no value, so that Marching Cubes with `skip_empty_space` visits the band alone.
   Interval bounds(const CGAL::Bbox_3& box) const {
     const Eigen::Matrix3d& matrix = state_->fit.normalization().matrix;
     const Eigen::Vector3d lower(box.xmin(), box.ymin(), box.zmin()), upper(box.xmax(), box.ymax(), box.zmax());

@@ -15,22 +15,22 @@
 namespace equiaffine {
 
 /// Returns the local structure at the vertices of a mesh, a model of CGAL's FaceGraph, in their order, from polynomials
-/// that are fitted to the vertices around each. The numbers belong to the surface that the vertices are samples of: facets
-/// only say which vertices are neighbors, and on which side normals are. They are those of the point of the fit that is
-/// nearest along its gradient.
+/// that are fitted to the vertices around each. The numbers belong to the surface that the vertices are samples of:
+/// facets only say which vertices are neighbors, and on which side normals are. They are those of the point of the fit
+/// that is nearest along its gradient.
 ///
 /// The data choose what to fit. Where they lie on a smooth surface, to within little, these are heights over a tangent
-/// plane, of degree up to 10, else polynomials in space (up to 6), which can go round a corner. Trials at up to 200 places
-/// tell degree and radius: those whose results agree best with the next degree, and whose residuals leave the least
-/// deviation. The estimated error is twice the root of the sum of two squares: of the greatest difference to other fits
-/// there and around, and of the standard deviation of the curvature if residuals are white noise.
+/// plane, of degree up to 10, else polynomials in space (up to 6), which can go round a corner. Trials at up to 200
+/// places tell degree and radius: those whose results agree best with the next degree, and whose residuals leave the
+/// least deviation. The estimated error is 2.2 times the root of the sum of two squares: of the greatest difference to
+/// other fits there and around, and of the standard deviation of the curvature if residuals are white noise.
 ///
-/// With `scale`, curvatures are by definition those of a polynomial in space of degree 4, or of `degree`, fitted within that
-/// radius: a scan has detail at every scale.
+/// With `scale`, curvatures are by definition those of a polynomial in space of degree 4, or of `degree`, fitted within
+/// that radius: a scan has detail at every scale.
 ///
 /// A mesh that is mapped by an affine map of determinant 1 gets the same affine curvatures to within rounding, since
-/// neighborhoods are balls in coordinates in which the edges have no preferred direction. `scale` and `noise` are lengths
-/// there, divided by the factor of volumes to the power 1/3.
+/// neighborhoods are balls in coordinates in which the edges have no preferred direction. `scale` and `noise` are
+/// lengths there, divided by the factor of volumes to the power 1/3.
 ///
 /// Statuses: OUTSIDE for a vertex that no fit belongs to, since it has no faces, or fewer than some 20 vertices are
 /// connected with it. At a crease a fit exists, and its error says that it means nothing.
@@ -50,10 +50,10 @@ std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, con
   return internal::structures_of_fit<ConcurrencyTag>(fit, parameters);
 }
 
-/// Returns the local structure at points without faces, in their order. Neighbors are the 16 nearest points, so that two
-/// sheets of a surface that are closer than the points on each of them become one. Normals are estimated from the
-/// neighbors and turned to agree along a spanning tree, unless `normal_map` gives them. Equal points count once. Further
-/// named parameters: `point_map`, `normal_map`, `normal_orientation`, `noise`, `scale`, `degree`,
+/// Returns the local structure at points without faces, in their order. Neighbors are the 16 nearest points, so that
+/// two sheets of a surface that are closer than the points on each of them become one. Normals are estimated from the
+/// neighbors and turned to agree along a spanning tree, unless `normal_map` gives them. Equal points count once.
+/// Further named parameters: `point_map`, `normal_map`, `normal_orientation`, `noise`, `scale`, `degree`,
 /// `orientation`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
           class Parameters = internal::No_parameters>
@@ -68,11 +68,11 @@ fitted_structures(const Points& points, const Parameters& parameters = {}) requi
   return internal::elements_at(internal::structures_of_fit<ConcurrencyTag>(fit, parameters), input.positions);
 }
 
-/// Returns the local structure at points with polygons between them, in the order of the points. A polygon is a range of
-/// positions of points. It need not be a mesh: equal points count once, polygons whose orientations contradict are turned
-/// to agree with the first one of what is connected with them, and the surface comes apart where it is not a manifold.
-/// Named parameters: `noise`, `scale`, `degree`, `orientation`.
-/// \throw std::invalid_argument also if a polygon has the position of no point.
+/// Returns the local structure at points with polygons between them, in the order of the points. A polygon is a range
+/// of positions of points. It need not be a mesh: equal points count once, polygons whose orientations contradict are
+/// turned to agree with the first one of what is connected with them, and the surface comes apart where it is not a
+/// manifold. Named parameters: `noise`, `scale`, `degree`, `orientation`. \throw std::invalid_argument also if a
+/// polygon has the position of no point.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
           std::ranges::input_range Polygons, class Parameters = internal::No_parameters>
 std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, const Polygons& polygons,

@@ -4,8 +4,8 @@
 
 namespace equiaffine {
 
-/// The estimated differences between affine curvatures that were computed from samples and those of the surface that was
-/// sampled, in the units of the curvatures.
+/// The estimated differences between affine curvatures that were computed from samples and those of the surface that
+/// was sampled, in the units of the curvatures.
 template <class FT>
 struct Affine_curvature_error {
   FT gaussian_curvature, mean_curvature;

@@ -53,8 +53,8 @@ public:
     band_ = Ball_tree_3(data.points, reaches);
   }
 
-  /// Returns whether the function may have a value at a point: whether it is near the nearest of the data, as seen along
-  /// the normal and across it.
+  /// Returns whether the function may have a value at a point: whether it is near the nearest of the data, as seen
+  /// along the normal and across it.
   bool is_in_band(const Vector& p) const {
     const auto nearest = points_.nearest(p, 1);
     if (nearest.empty()) return false;

@@ -26,8 +26,8 @@ struct Curvature_fit_3 {
 };
 
 /// Fits polynomials of the degree of a candidate and of the one it is compared with, in this order. Where the ball has
-/// too few points for both, as at a border of the surface, it grows. Where they do not determine a polynomial, since they
-/// fill a small part of the ball only, it shrinks.
+/// too few points for both, as at a border of the surface, it grows. Where they do not determine a polynomial, since
+/// they fill a small part of the ball only, it shrinks.
 inline std::vector<Local_fit_3> fit_candidate(const Data_points_3& data, Data_points_3::Index center, double radius,
                                               const Fit_candidate& candidate) {
   const std::array<int, 2> degrees = {candidate.degree, candidate.other_degree()};

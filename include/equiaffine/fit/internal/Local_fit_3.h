@@ -46,8 +46,8 @@ struct Curvature_gradient {
   std::array<double, Jet_3<double>::size> gaussian, mean;
 };
 
-/// Central differences whose step is 1e-4 of a coefficient: the curvatures are smooth functions of the coefficients, and
-/// a standard deviation needs few digits.
+/// Central differences whose step is 1e-4 of a coefficient: the curvatures are smooth functions of the coefficients,
+/// and a standard deviation needs few digits.
 inline Curvature_gradient curvature_gradient(const Jet_3<double>& jet) {
   Curvature_gradient gradient = {};
   for (std::size_t n = 1; n < jet.size; ++n) {

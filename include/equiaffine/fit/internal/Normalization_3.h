@@ -13,9 +13,9 @@
 
 namespace equiaffine::internal {
 
-/// The affine map to coordinates in which the edges between neighbors have no preferred direction: the sum of e e^T over
-/// all edges e is a multiple of the identity, with edges of length 1 on average. An affine image of the points has the
-/// same coordinates but for a rotation.
+/// The affine map to coordinates in which the edges between neighbors have no preferred direction: the sum of e e^T
+/// over all edges e is a multiple of the identity, with edges of length 1 on average. An affine image of the points has
+/// the same coordinates but for a rotation.
 ///
 /// Edges and not points, since points that are spread evenly over a surface keep even distances.
 struct Normalization_3 {

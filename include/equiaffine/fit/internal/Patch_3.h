@@ -25,8 +25,8 @@ constexpr std::size_t number_of_coefficients(Fit_family family, int degree) {
                                                   : (degree + 1) * (degree + 2) * (degree + 3) / 6);
 }
 
-/// A polynomial whose zero set is the surface near a center, in units of `radius` about it. Its value is about the signed
-/// distance from the surface, in the unit of the points.
+/// A polynomial whose zero set is the surface near a center, in units of `radius` about it. Its value is about the
+/// signed distance from the surface, in the unit of the points.
 struct Patch_3 {
   using Vector = Eigen::Vector3d;
 

@@ -13,8 +13,8 @@
 
 namespace equiaffine::internal {
 
-/// Vertices of a mesh with the polygons between them. Neighbors are the ends of edges, and normals are the sums of those
-/// of the faces around, weighted by area.
+/// Vertices of a mesh with the polygons between them. Neighbors are the ends of edges, and normals are the sums of
+/// those of the faces around, weighted by area.
 inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices,
                                     const std::vector<std::vector<Data_points_3::Index>>& faces) {
   std::vector<Data_points_3::Edge> edges;

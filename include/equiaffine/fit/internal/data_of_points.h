@@ -24,8 +24,9 @@ namespace equiaffine::internal {
 
 constexpr std::size_t number_of_nearest = 16;
 
-/// The length of the edges of a triangulation of equilateral triangles, where 1 is the radius of a disk that has as many
-/// points as vertices: the square root of 2 pi / sqrt(3). The mean distance to the n nearest points is 2/3 sqrt(n).
+/// The length of the edges of a triangulation of equilateral triangles, where 1 is the radius of a disk that has as
+/// many points as vertices: the square root of 2 pi / sqrt(3). The mean distance to the n nearest points is 2/3
+/// sqrt(n).
 constexpr double mesh_edge = 1.9046;
 
 /// Returns the edges from every point to its nearest others.

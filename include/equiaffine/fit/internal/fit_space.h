@@ -22,8 +22,8 @@ namespace equiaffine::internal {
 
 constexpr int maximal_space_degree = 7;
 
-/// The monomials x^i y^j z^k of total degree n up to 7, ordered by degree, each times the root of n! / (i! j! k!). Sums of
-/// squares of coefficients beside them do not change when space is rotated (Bombieri's norm).
+/// The monomials x^i y^j z^k of total degree n up to 7, ordered by degree, each times the root of n! / (i! j! k!). Sums
+/// of squares of coefficients beside them do not change when space is rotated (Bombieri's norm).
 class Bombieri_basis_3 {
 public:
   static constexpr std::size_t size = number_of_coefficients(Fit_family::SPACE, maximal_space_degree);
