@@ -6,6 +6,7 @@
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/Fitted_function_traits_3.h>
 #include <equiaffine/Local_structure_3.h>
+#include <equiaffine/attributes.h>
 #include <equiaffine/delaunay_surface.h>
 #include <equiaffine/fitted_structures.h>
 
