@@ -42,7 +42,7 @@ struct Statistics : Mesh_facts {
   std::optional<Spline_statistics> spline;  ///< is set if derivatives are those of a spline
 };
 
-/// What the program reports about a fit to the vertices of a mesh, or to points.
+/// The facts that the program reports about a fit to the vertices of a mesh, or to points.
 struct Fit_statistics : Mesh_facts {
   std::array<double, 3> scales{}; ///< the least, median and greatest radius; NaN if there is no fit
   double noise = 0;               ///< the median of the deviations of the data; NaN if there is no fit

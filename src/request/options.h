@@ -112,7 +112,7 @@ struct View_options {
   Picture_options picture;
 };
 
-/// What a fit to the vertices is told; what it is not told the data decide.
+/// The parameters of a fit that a user gave; the data decide the others.
 struct Fit_options {
   std::optional<double> scale, noise; ///< lengths
   std::optional<int> degree;

@@ -24,7 +24,7 @@ struct Polygon_soup {
 /// do not understand.
 Polygon_soup read_foreign_soup(const std::string& path);
 
-/// What `make` makes of a file in a child process, where it may crash. Throws `Input_error` if it does.
+/// Returns what `make` makes of a file in a child process, where it may crash. Throws `Input_error` if it does.
 Polygon_soup make_in_child(const std::string& path, const std::function<Polygon_soup()>& make);
 
 } // namespace equiaffine

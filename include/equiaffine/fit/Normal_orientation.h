@@ -4,7 +4,7 @@
 
 namespace equiaffine {
 
-/// What is known about the normals that come with points.
+/// Says whether the normals that come with points agree about the side of the surface.
 enum class Normal_orientation {
   ORIENTED,  ///< all point to the same side of the surface
   UNORIENTED ///< each is right up to its sign

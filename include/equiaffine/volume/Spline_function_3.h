@@ -51,7 +51,7 @@ public:
   using Matrix = typename Linear_substitution_3<FT>::Matrix;
   static_assert(std::is_floating_point_v<FT>);
 
-  /// By other steps, fourth derivatives and what is made of them may leave the range of double precision.
+  /// Fourth derivatives for other steps, and what is made of them, may leave the range of double precision.
   static constexpr double shortest_step = 1e-70, longest_step = 1e70;
 
   /// The coefficients do not depend on the number of threads that compute them. \throw std::invalid_argument unless the

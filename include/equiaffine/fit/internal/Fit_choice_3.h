@@ -12,9 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <optional>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -35,7 +33,7 @@ struct Fit_candidate {
   }
 };
 
-/// What users ask for.
+/// The parameters of fits that a user gave; the data decide the others.
 struct Fit_request {
   std::optional<double> noise, scale; ///< lengths
   std::optional<int> degree;
@@ -141,12 +139,8 @@ private:
   bool is_radius_of_spaces(std::size_t r) const { return request_.scale || (radii_[r] > 5 && r % 2 == 0); }
 
   void choose_centers() {
-    centers_.resize(data_.size());
-    std::iota(centers_.begin(), centers_.end(), Index(0));
-    std::minstd_rand random(1);
     const std::size_t count = std::min(data_.size(), std::clamp<std::size_t>(data_.size() / 50, 50, 200));
-    for (std::size_t c = 0; c < count; ++c) std::swap(centers_[c], centers_[c + random() % (centers_.size() - c)]);
-    centers_.resize(count);
+    centers_ = random_indices(data_.size(), count, 1);
   }
 
   /// Returns the least residual of small fits that have points to spare: what no smooth surface explains.

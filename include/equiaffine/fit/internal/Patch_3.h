@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -25,6 +26,14 @@ constexpr std::size_t number_of_coefficients(Fit_family family, int degree) {
                                                   : (degree + 1) * (degree + 2) * (degree + 3) / 6);
 }
 
+/// Returns the greatest of the degrees for which there are at least 1.2 points to a coefficient, or 0.
+inline int greatest_degree(Fit_family family, std::span<const int> degrees, std::size_t points) {
+  int greatest = 0;
+  for (const int degree : degrees)
+    if (double(points) >= 1.2 * double(number_of_coefficients(family, degree))) greatest = std::max(greatest, degree);
+  return greatest;
+}
+
 /// A polynomial whose zero set is the surface near a center, in units of `radius` about it. Its value is about the
 /// signed distance from the surface, in the unit of the points.
 struct Patch_3 {
@@ -37,8 +46,8 @@ struct Patch_3 {
   /// The axes of u, v, w as rows. A patch of Fit_family::SPACE has those of space.
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
   double slope_factor = 1; ///< 1 / |gradient of w - p(u, v)| at the center
-  /// Of Fit_family::HEIGHT those of u^i v^j, the greatest i first, of SPACE those of x^i y^j z^k with ascending k for
-  /// ascending j for ascending i.
+  /// A height has those of u^i v^j with ascending i for ascending j, a polynomial in space those of x^i y^j z^k with
+  /// ascending k for ascending j for ascending i.
   std::vector<double> coefficients;
 
   double value(const Vector& p) const;

@@ -7,9 +7,7 @@
 
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <optional>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -36,11 +34,7 @@ Patch_cover_3 patch_cover(const Data_points_3& data, const Fit_choice_3& choices
   parallel_for<ConcurrencyTag>(
       0, data.size(), [&](std::size_t i) { choice[i] = choices.at(data.points[i]); }, 256);
 
-  std::vector<Index> order(data.size());
-  std::iota(order.begin(), order.end(), Index(0));
-  std::minstd_rand random(2);
-  for (std::size_t k = 0; k + 1 < order.size(); ++k) std::swap(order[k], order[k + random() % (order.size() - k)]);
-  for (const Index i : order) {
+  for (const Index i : random_indices(data.size(), data.size(), 2)) {
     if (!choice[i] || cover.nearest[i] != Patch_cover_3::none) continue;
     for (const Index j : connected_ball(data, i, part * choices.radius(choice[i]->candidate, i))) {
       const double square = (data.points[j] - data.points[i]).squaredNorm();

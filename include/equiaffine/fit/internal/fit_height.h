@@ -192,12 +192,7 @@ inline std::vector<Local_fit_3> fit_heights(const Data_points_3& data, Data_poin
   const auto ball =
       connected_ball(data, center, radius, [&](Data_points_3::Index i) { return data.normals[i].dot(normal) > 0.05; });
 
-  const auto has_enough = [&](int degree) {
-    return double(ball.size()) >= 1.2 * double(number_of_coefficients(Fit_family::HEIGHT, degree));
-  };
-  int greatest = 0;
-  for (const int degree : degrees)
-    if (has_enough(degree)) greatest = std::max(greatest, degree);
+  const int greatest = greatest_degree(Fit_family::HEIGHT, degrees, ball.size());
   if (greatest == 0) return {};
   const Height_system system = height_system(data, ball, radius, normal, greatest);
 

@@ -213,10 +213,7 @@ inline std::vector<Local_fit_3> fit_spaces(const Data_points_3& data, Data_point
     for (std::size_t k = 0; k < most; ++k) ball[k] = ball[k * ball.size() / most];
     ball.resize(most);
   }
-  int greatest = 0;
-  for (const int degree : degrees)
-    if (double(ball.size()) >= 1.2 * double(number_of_coefficients(Fit_family::SPACE, degree)))
-      greatest = std::max(greatest, degree);
+  const int greatest = greatest_degree(Fit_family::SPACE, degrees, ball.size());
   if (greatest == 0 || !spread_over_surface(data, ball)) return {};
   const Eigen::Vector3d& origin = data.points[center];
   const Space_system system = space_system(data, ball, origin, radius, greatest);
