@@ -2,6 +2,7 @@
 #include "attributes/attribute_task.h"
 
 #include "attributes/attribute_task_entries.h"
+#include "attributes/compute_with_library.h"
 
 namespace equiaffine {
 
@@ -24,6 +25,14 @@ const Attribute_functions& attribute_functions([[maybe_unused]] Instruction_set 
   if (set == Instruction_set::AVX2) return equiaffine_attributes_avx2();
 #endif
   return equiaffine_attributes_baseline();
+}
+
+Vertex_attributes compute_attributes_of_fit(const Attribute_task<Fit_traits>& task) {
+  return compute_with_library(task);
+}
+
+Vertex_attributes compute_attributes_of_fit(const Attribute_task<Transformed_function_traits_3<Fit_traits>>& task) {
+  return compute_with_library(task);
 }
 
 } // namespace equiaffine

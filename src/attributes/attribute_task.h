@@ -38,8 +38,13 @@ struct Attribute_functions_of<std::variant<Traits...>> {
   using type = std::tuple<Attribute_function<Traits>...>;
 };
 
-/// compute_attributes of the library for each model of Source_function, compiled for one instruction set.
-using Attribute_functions = Attribute_functions_of<Source_function>::type;
+/// The models of Source_function whose attributes are computed with vector instructions. Fits are not among them: their
+/// linear algebra sums in another order for each instruction set.
+using Vectorized_function = std::variant<Formula_traits, Spline_traits, Transformed_function_traits_3<Formula_traits>,
+                                         Transformed_function_traits_3<Spline_traits>>;
+
+/// compute_attributes of the library for each model of Vectorized_function, compiled for one instruction set.
+using Attribute_functions = Attribute_functions_of<Vectorized_function>::type;
 
 /// The vector instructions that can be used. All of them give the same results, bit for bit.
 enum class Instruction_set { BASELINE, AVX2, AVX512 };
@@ -49,11 +54,15 @@ std::vector<Instruction_set> instruction_sets();
 
 const Attribute_functions& attribute_functions(Instruction_set set);
 
+Vertex_attributes compute_attributes_of_fit(const Attribute_task<Fit_traits>& task);
+Vertex_attributes compute_attributes_of_fit(const Attribute_task<Transformed_function_traits_3<Fit_traits>>& task);
+
 /// Does what compute_attributes of the library does, with all threads.
 template <class Traits>
 Vertex_attributes compute_attributes(const Attribute_task<Traits>& task,
-                                     Instruction_set set = instruction_sets().back()) {
-  return std::get<Attribute_function<Traits>>(attribute_functions(set))(task);
+                                     [[maybe_unused]] Instruction_set set = instruction_sets().back()) {
+  if constexpr (is_fit<Traits>) return compute_attributes_of_fit(task);
+  else return std::get<Attribute_function<Traits>>(attribute_functions(set))(task);
 }
 
 } // namespace equiaffine

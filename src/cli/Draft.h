@@ -2,7 +2,6 @@
 #ifndef EQUIAFFINE_SRC_CLI_DRAFT_H
 #define EQUIAFFINE_SRC_CLI_DRAFT_H
 
-#include "attributes/error_columns.h"
 #include "request/options.h"
 
 #include <cstddef>
@@ -22,9 +21,8 @@ struct Draft {
   bool is_delaunay = false;
   Marching_cubes_options marching_cubes;
   Delaunay_options delaunay;
-  Fit_options fit;
   Attribute_selection attributes = select_attributes("basic");
-  std::vector<std::string> estimates = {error_attributes.begin(), error_attributes.end()}; ///< of a fit
+  std::vector<std::string> estimates; ///< the columns of errors and of noise that are asked for
   Estimator estimator = Estimator::COMPACT;
   Page_options page;
   Picture_options picture;

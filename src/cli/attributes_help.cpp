@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/attributes_help.h"
 
-#include "attributes/error_columns.h"
-#include "attributes/fit_columns.h"
+#include "attributes/estimates.h"
 #include <equiaffine/attributes/Attribute_selection.h>
 
 #include <cstddef>
@@ -48,8 +47,8 @@ std::string attributes_help() {
                      joined(names.added_by_all, ", ") + "; LIST is some of these words with commas between, also " +
                      joined(names.by_name, ", ") +
                      ", signature (affine curvatures, pick_invariant, and the norms of their gradients), and for a "
-                     "spline " +
-                     joined(error_attributes, " and "),
+                     "spline or fit " +
+                     joined(error_attributes, " and ") + ", for a fit " + joined(noise_attributes, " and "),
                  88);
 }
 

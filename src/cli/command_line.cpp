@@ -50,10 +50,10 @@ std::string title_of(Option_group group, Command command) {
   switch (group) {
   case Option_group::INPUT: return "Input";
   case Option_group::SOURCE:
-    return command == SAMPLE ? "Source (one of --function, --distance-to)"
-                             : "Source (one of --function, --volume, --distance-to)";
+    return command == SAMPLE ? "Source (one of --function, --distance-to, --fit)"
+                             : "Source (one of --function, --volume, --distance-to, --fit)";
   case Option_group::BOX: return command == SAMPLE ? "Sampling" : title_of(Option_group::SOURCE, command);
-  case Option_group::FIT: return "Fit";
+  case Option_group::FIT: return command == ANNOTATE ? "Fit" : "Fit (with --fit)";
   case Option_group::SURFACE: return "Surface";
   case Option_group::SAMPLING: return command == EVALUATE || command == ANNOTATE ? "Surface" : "Sampling";
   case Option_group::MARCHING_CUBES: return "Sampling with --method marching-cubes";

@@ -10,9 +10,9 @@ namespace equiaffine {
 inline constexpr const char* program_description =
     R"(equiaffine - affine curvatures of implicit surfaces
 
-A function f on space comes from a formula, a volume of samples, or the distance to a mesh. Its level
-sets f = V are meshed, and every vertex gets its Euclidean and equi-affine differential invariants. So do
-the vertices of a mesh, or points, from polynomials fitted to them.
+A function f on space comes from a formula, a volume of samples, the distance to a mesh, or a fit to the
+vertices of a mesh or to points. Its level sets f = V are meshed, and every vertex gets its Euclidean and
+equi-affine differential invariants. So do the vertices of a mesh, or points, where they are.
 
 Usage: equiaffine COMMAND [options]      equiaffine COMMAND --help      equiaffine --version
 )";
@@ -34,8 +34,8 @@ inline constexpr const char* mesh_footer =
   equiaffine mesh --function "(x^2+y^2+z^2+R^2-r^2)^2 = 4*R^2*(x^2+y^2)" --set R=2 r=.5 \
       --box -3 3 -3 3 -1 1 --resolution 128 -o torus.ply --html torus.html
   equiaffine mesh --volume skull.nrrd --isovalue 2.9 --orientation against -o skull.ply
-  equiaffine mesh --distance-to bunny.off --attributes all -o bunny.ply \
-      --html bunny.html --color pick_invariant --up y
+  equiaffine mesh --fit bunny.off --scale 0.18 --attributes all -o bunny.ply \
+      --html bunny.html --color mean_curvature --up y
 
 All lengths are in the unit of the source; under p -> s p curvatures scale as: k1, k2, mean_curvature by s^-1,
 gaussian_curvature by s^-2, affine_gaussian_curvature by s^-3, affine_mean_curvature and pick_invariant by s^-1.5.
@@ -57,9 +57,9 @@ Examples:
   1,2,3" | equiaffine evaluate --function "x*y*z" --attributes normal,affine_mean_curvature --points - -o -)";
 
 inline constexpr const char* sample_description =
-    R"(write a function or a distance as a volume
+    R"(write a function, a distance or a fit as a volume
 
-Usage: equiaffine sample (--function EXPR | --distance-to MESH) [options] -o VOLUME
+Usage: equiaffine sample (--function EXPR | --distance-to MESH | --fit MESH) [options] -o VOLUME
 )";
 
 inline constexpr const char* sample_footer =

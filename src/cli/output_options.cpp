@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "attributes/error_columns.h"
-#include "attributes/fit_columns.h"
+#include "attributes/estimates.h"
 #include "cli/Option_row.h"
 #include "cli/attributes_help.h"
 #include <equiaffine/Input_error.h>
@@ -30,11 +29,6 @@ Words split(const std::string& text, char separator) {
   return parts;
 }
 
-template <class Names>
-bool contains(const Names& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 Attribute_selection select(const std::string& list, const std::string& option) {
   try {
     return select_attributes(list);
@@ -43,41 +37,62 @@ Attribute_selection select(const std::string& list, const std::string& option) {
   }
 }
 
-/// Reads the list of attributes. Estimates of errors are not attributes of the library: the source computes them.
-void read_attributes(const Option_words& option, Draft& draft) {
-  bool& estimates_errors = draft.source.spline.estimates_errors;
-  std::string list;
+/// The words of a list of attributes: those that the library computes, and estimates, which the source makes.
+struct Attribute_words {
+  Words attributes;
+  std::set<std::string_view> estimates;
+};
+
+Attribute_words split_attributes(const Option_words& option) {
+  Attribute_words words;
   for (const std::string& name : split(option.word(), ',')) {
-    const bool is_error = contains(error_attributes, name);
-    estimates_errors = estimates_errors || is_error;
-    if (!is_error) list += (list.empty() ? "" : ",") + name;
+    bool is_estimate = false;
+    for (const auto& names : {error_attributes, noise_attributes})
+      if (const auto found = std::find(names.begin(), names.end(), name); found != names.end()) {
+        words.estimates.insert(*found);
+        is_estimate = true;
+      }
+    if (!is_estimate) words.attributes.push_back(name);
   }
-  if (estimates_errors && draft.source.derivatives == Derivatives::JETS)
-    fail_option(option.name, "errors are estimated for splines, and the derivatives of a formula have none",
-                "add --derivatives spline or leave them out");
-  draft.attributes = select(list.empty() && estimates_errors ? "status" : list, option.name);
+  return words;
 }
 
-/// Reads the list of attributes of a fit. Words that stand for several of them bring estimates of errors along.
-void read_attributes_of_fit(const Option_words& option, Draft& draft) {
-  std::set<std::string> estimates;
+/// Puts the words into the draft, the estimates in the order of their tables.
+void select(const Attribute_words& words, const std::string& option, Draft& draft) {
   std::string list;
-  for (const std::string& name : split(option.word(), ',')) {
-    const bool is_all = name == "all", has_errors = is_all || name == "basic";
-    if (has_errors) estimates.insert(error_attributes.begin(), error_attributes.end());
-    if (is_all) estimates.insert(noise_attributes.begin(), noise_attributes.end());
-    const bool is_estimate = contains(error_attributes, name) || contains(noise_attributes, name);
-    if (is_estimate) estimates.insert(name);
-    else list += (list.empty() ? "" : ",") + name;
-    if (name == "signature" || name.ends_with("_gradient"))
-      fail_option(option.name, "'" + name + "' needs a function, and a fit has no gradients of curvatures",
-                  "leave it out");
-  }
-  draft.attributes = select(list.empty() ? "status" : list, option.name);
+  for (const std::string& name : words.attributes) list += (list.empty() ? "" : ",") + name;
+  draft.attributes = select(list.empty() && !words.estimates.empty() ? "status" : list, option);
   draft.estimates.clear();
   for (const auto& names : {error_attributes, noise_attributes})
     for (const std::string_view name : names)
-      if (estimates.count(std::string(name)) > 0) draft.estimates.emplace_back(name);
+      if (words.estimates.contains(name)) draft.estimates.emplace_back(name);
+}
+
+void read_attributes(const Option_words& option, Draft& draft) {
+  Attribute_words words = split_attributes(option);
+  const bool is_fit = draft.source.kind == Source_kind::FIT && draft.source.derivatives == Derivatives::JETS;
+  const bool has_noise = std::any_of(noise_attributes.begin(), noise_attributes.end(),
+                                     [&](std::string_view name) { return words.estimates.contains(name); });
+  if (has_noise && !is_fit)
+    fail_option(option.name, "what noise makes of curvatures is estimated for fits", "use --fit or leave it out");
+  if (!words.estimates.empty() && draft.source.derivatives == Derivatives::JETS && !is_fit)
+    fail_option(option.name, "errors are estimated for splines and fits, and the derivatives of a formula have none",
+                "add --derivatives spline or leave them out");
+  if (!words.estimates.empty() && !is_fit) words.estimates.insert(error_attributes.begin(), error_attributes.end());
+  select(words, option.name, draft);
+}
+
+/// Reads the attributes of the command annotate, whose default has estimates of errors, too.
+void read_attributes_of_fit(const Option_words& option, Draft& draft) {
+  Attribute_words words = split_attributes(option);
+  for (const std::string& name : words.attributes) {
+    if (name == "all" || name == "basic") words.estimates.insert(error_attributes.begin(), error_attributes.end());
+    if (name == "all") words.estimates.insert(noise_attributes.begin(), noise_attributes.end());
+    if (name == "signature" || name.ends_with("_gradient"))
+      fail_option(option.name, "'" + name + "' needs a function, and a fit at points has no gradients of curvatures",
+                  "leave it out, or use mesh --fit");
+  }
+  select(words, option.name, draft);
 }
 
 void read_estimator(const Option_words& option, Draft& draft) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/parse_options.h"
 
-#include "attributes/error_columns.h"
+#include "attributes/estimates.h"
 #include "cli/Option_reader.h"
 #include "cli/formula_file.h"
 #include "cli/read_source.h"
@@ -29,7 +29,7 @@ std::filesystem::path canonical_path(const std::string& path) {
 /// The paths of the files that the command line says to read.
 std::vector<std::string> input_files(const Option_reader& reader) {
   std::vector<std::string> files;
-  for (const char* option : {"--volume", "--distance-to", "--points", "MESH.ply", "MESH"})
+  for (const char* option : {"--volume", "--distance-to", "--fit", "--points", "MESH.ply", "MESH"})
     if (reader.has(option)) files.push_back(reader.word(option));
   if (reader.has("--function"))
     if (const auto file = formula_file(reader.word("--function"))) files.push_back(*file);
@@ -59,7 +59,7 @@ void check_outputs(const Option_reader& reader, const std::vector<std::optional<
 void read_delaunay_options(Option_reader& reader) {
   reader.refuse({"--vertices"}, "it is for --method marching-cubes", "leave it out");
   if (reader.draft().source.derivatives == Derivatives::JETS)
-    reader.refuse({"--resolution"}, "--method delaunay needs no grid for a formula",
+    reader.refuse({"--resolution"}, "--method delaunay needs no grid for a formula or a fit",
                   "leave it out and say with --radius how fine the mesh is to be");
   reader.read({"--angle", "--radius", "--distance"});
   const double angle = reader.draft().delaunay.angle;
@@ -95,18 +95,15 @@ bool has_column(const Draft& draft, const std::string& name) {
   return std::any_of(columns.begin(), columns.end(), [&](const Attribute& column) { return column.name == name; });
 }
 
-/// Whether there are estimates of errors of that name.
-bool has_estimate(const Option_reader& reader, const std::string& name) {
-  const Draft& draft = reader.draft();
-  const auto has = [&](const auto& names) { return std::find(names.begin(), names.end(), name) != names.end(); };
-  return reader.command() == ANNOTATE ? has(draft.estimates)
-                                      : draft.source.spline.estimates_errors && has(error_attributes);
+/// Whether there is a column whose errors are estimated.
+bool has_column_with_error(const Draft& draft) {
+  return has_column(draft, "affine_gaussian_curvature") || has_column(draft, "affine_mean_curvature");
 }
 
-bool has_color(const Option_reader& reader, const std::string& name) {
-  const Draft& draft = reader.draft();
+bool has_color(const Draft& draft, const std::string& name) {
+  const auto& estimates = draft.estimates;
   return name == "plain" || (name == "status" && draft.attributes.has_status) || has_column(draft, name) ||
-         has_estimate(reader, name);
+         std::find(estimates.begin(), estimates.end(), name) != estimates.end();
 }
 
 /// Checks that there is a page or picture, and that it will have the attributes it is to show.
@@ -119,7 +116,7 @@ void check_page(const Option_reader& reader) {
   if (!arrows.empty() && !has_vector(draft.attributes, arrows))
     fail_option("--arrows", "'" + arrows + "' is not among the vectors that are computed",
                 "name one of them, such as affine_normal, or add it to --attributes");
-  if (!color.empty() && !has_color(reader, color))
+  if (!color.empty() && !has_color(draft, color))
     fail_option("--color", "'" + color + "' is not among the attributes that are computed",
                 "name one of them, such as affine_mean_curvature, or add it to --attributes");
 }
@@ -153,10 +150,9 @@ Mesh_options read_mesh_options(Option_reader& reader) {
   options.orientation = draft.orientation;
   if (draft.is_delaunay) options.method = draft.delaunay;
   else options.method = draft.marching_cubes;
-  options.writes_errors = options.source.spline.estimates_errors;
-  if (draft.html || draft.png)
-    options.source.spline.estimates_errors |=
-        has_column(draft, "affine_gaussian_curvature") || has_column(draft, "affine_mean_curvature");
+  options.source.estimates_errors =
+      !draft.estimates.empty() || ((draft.html || draft.png) && has_column_with_error(draft));
+  options.estimates = std::move(draft.estimates);
   options.attributes = std::move(draft.attributes);
   options.estimator = draft.estimator;
   options.output = *draft.output;
@@ -174,11 +170,14 @@ Evaluate_options read_evaluate_options(Option_reader& reader) {
   reader.read_rest();
   reader.need("--points", "name the file with the points");
   need_output(reader);
-  const Draft& draft = reader.draft();
-  if (draft.source.kind == Source_kind::DISTANCE && draft.source.text == "-" && draft.points == "-")
-    throw Input_error("--distance-to and --points both read standard input; name a file for one of them");
+  Draft& draft = reader.draft();
+  for (const char* option : {"--distance-to", "--fit"})
+    if (reader.has(option) && draft.source.text == "-" && draft.points == "-")
+      throw Input_error(option + std::string(" and --points both read standard input; name a file for one of them"));
   check_outputs(reader, {draft.output});
-  return {draft.source, draft.orientation, draft.attributes, draft.estimator, draft.points, *draft.output};
+  draft.source.estimates_errors = !draft.estimates.empty();
+  return {draft.source,    draft.orientation, draft.attributes, draft.estimates,
+          draft.estimator, draft.points,      *draft.output};
 }
 
 Sample_options read_sample_options(Option_reader& reader) {
@@ -204,6 +203,7 @@ View_options read_view_options(Option_reader& reader) {
 
 Annotate_options read_annotate_options(Option_reader& reader) {
   if (!reader.has("MESH")) throw Input_error("no mesh is given; write 'equiaffine annotate MESH -o OUT.ply'");
+  reader.draft().estimates = {error_attributes.begin(), error_attributes.end()};
   reader.read({"--scale", "--noise", "--degree", "--attributes"});
   need_output(reader);
   reader.read({"--up"});
@@ -212,8 +212,8 @@ Annotate_options read_annotate_options(Option_reader& reader) {
   check_page(reader);
   const Draft& draft = reader.draft();
   check_outputs(reader, {draft.output, draft.html, draft.png, draft.stats});
-  return {draft.mesh, draft.fit, draft.orientation, draft.attributes, draft.estimates, *draft.output,
-          draft.html, draft.png, draft.stats,       draft.page,       draft.picture};
+  return {draft.mesh, draft.source.fit, draft.orientation, draft.attributes, draft.estimates, *draft.output,
+          draft.html, draft.png,        draft.stats,       draft.page,       draft.picture};
 }
 
 } // namespace

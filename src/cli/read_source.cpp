@@ -10,7 +10,7 @@ namespace {
 
 void read_kind(Option_reader& reader) {
   std::string given;
-  for (const char* option : {"--function", "--volume", "--distance-to"}) {
+  for (const char* option : {"--function", "--volume", "--distance-to", "--fit"}) {
     if (!reader.has(option)) continue;
     if (!given.empty()) throw Input_error(given + " and " + option + " are both given; give one source");
     given = option;
@@ -18,10 +18,11 @@ void read_kind(Option_reader& reader) {
   }
   if (given.empty())
     throw Input_error(std::string("no source is given; use ") + (reader.command() == SAMPLE
-                                                                     ? "--function or --distance-to"
-                                                                     : "--function, --volume or --distance-to"));
+                                                                     ? "--function, --distance-to or --fit"
+                                                                     : "--function, --volume, --distance-to or --fit"));
   Source_options& source = reader.draft().source;
-  source.derivatives = source.kind == Source_kind::FUNCTION ? Derivatives::JETS : Derivatives::SPLINE;
+  const bool has_derivatives = source.kind == Source_kind::FUNCTION || source.kind == Source_kind::FIT;
+  source.derivatives = has_derivatives ? Derivatives::JETS : Derivatives::SPLINE;
 }
 
 /// Checks that the source has what was read of it, and that a formula has a box where it is sampled.
@@ -30,7 +31,8 @@ void check_kind(const Option_reader& reader) {
   if (source.kind != Source_kind::FUNCTION) reader.refuse({"--set"}, "only a --function has constants", "leave it out");
   if (source.kind == Source_kind::VOLUME)
     reader.refuse({"--box", "--resolution"}, "a --volume has its own", "leave it out");
-  if (source.kind != Source_kind::FUNCTION && source.derivatives == Derivatives::JETS)
+  const bool is_sampled_only = source.kind == Source_kind::VOLUME || source.kind == Source_kind::DISTANCE;
+  if (is_sampled_only && source.derivatives == Derivatives::JETS)
     fail_option("--derivatives", "jets need a formula, and this source is known by samples only",
                 "leave it out or use spline");
   const bool is_sampled = reader.command() != EVALUATE || source.derivatives == Derivatives::SPLINE;
@@ -41,7 +43,7 @@ void check_kind(const Option_reader& reader) {
 void read_spline(Option_reader& reader) {
   if (reader.draft().source.derivatives == Derivatives::JETS)
     reader.refuse({"--spline-degree", "--spline-scheme", "--smoothing"},
-                  "it is for splines, and the derivatives are those of the formula",
+                  "it is for splines, and the derivatives are those of the formula or the fit",
                   "add --derivatives spline or leave it out");
   reader.read({"--spline-scheme", "--spline-degree"});
   const Spline_options& spline = reader.draft().source.spline;
@@ -73,7 +75,9 @@ void read_source(Option_reader& reader) {
   read_raw_layout(reader);
   if (reader.draft().source.kind != Source_kind::DISTANCE)
     reader.refuse({"--narrow-band"}, "it is for --distance-to", "leave it out");
-  reader.read({"--narrow-band"});
+  if (reader.draft().source.kind != Source_kind::FIT)
+    reader.refuse({"--scale", "--noise", "--degree"}, "it is for --fit", "leave it out");
+  reader.read({"--narrow-band", "--scale", "--noise", "--degree"});
 }
 
 } // namespace equiaffine

@@ -42,20 +42,22 @@ void read_raw_dims(const Option_words& option, Draft& draft) {
 }
 
 void read_scale(const Option_words& option, Draft& draft) {
-  if (option.word() != "auto") draft.fit.scale = parse_length(option);
+  if (option.word() != "auto") draft.source.fit.scale = parse_length(option);
 }
 
 void read_noise(const Option_words& option, Draft& draft) {
   if (option.word() == "auto") return;
-  draft.fit.noise = parse_number(option);
-  if (*draft.fit.noise < 0)
+  draft.source.fit.noise = parse_number(option);
+  if (*draft.source.fit.noise < 0)
     fail_option(option.name, "'" + option.word() + "' is less than 0", "give a standard deviation, or leave it out");
 }
 
 void read_degree(const Option_words& option, Draft& draft) {
-  draft.fit.degree = parse_choice<std::optional<int>>(
+  draft.source.fit.degree = parse_choice<std::optional<int>>(
       option, {{"4", 4}, {"5", 5}, {"6", 6}, {"8", 8}, {"10", 10}, {"auto", std::nullopt}});
 }
+
+constexpr Commands fitting = MESH | EVALUATE | SAMPLE | ANNOTATE;
 
 const std::vector<Option_row> rows = {
     {"--function", MESH | EVALUATE | SAMPLE, SOURCE, 1, "EXPR",
@@ -76,6 +78,10 @@ const std::vector<Option_row> rows = {
      [](const Option_words& option, Draft& draft) { read_source(Source_kind::DISTANCE, option, draft); }},
     {"--narrow-band", MESH | EVALUATE | SAMPLE, SOURCE, 1, "N",
      "measure distances up to N voxels only, which is faster; 16 are enough without --smoothing", read_narrow_band},
+    {"--fit", MESH | EVALUATE | SAMPLE, SOURCE, 1, "MESH|POINTS",
+     "polynomials fitted to the vertices of a mesh, .ply .off .obj .stl, or to points, .csv\n"
+     ".xyz: a smooth function about as large as the distance, known near them only",
+     [](const Option_words& option, Draft& draft) { read_source(Source_kind::FIT, option, draft); }},
     {"--volume", MESH | EVALUATE, SOURCE, 1, "FILE",
      "a volume of samples: .nrrd .nhdr .mhd .mha .nii .nii.gz .inr .inr.gz .vti .raw, or a\n"
      "folder with a DICOM series",
@@ -91,8 +97,8 @@ const std::vector<Option_row> rows = {
     {"--origin", MESH | EVALUATE, SOURCE, 3, "X Y Z", "place of the first node of a .raw, by default 0 0 0",
      [](const Option_words& option, Draft& draft) { raw_layout(draft).origin = parse_triple(option); }},
     {"--box", MESH | EVALUATE | SAMPLE, BOX, 6, "XMIN XMAX YMIN YMAX ZMIN ZMAX",
-     "where a formula is looked at, before --transform; for a distance the mesh's box,\n"
-     "widened on all sides by 10 % of its longest side, if not given",
+     "where a formula is looked at, before --transform; for a distance or a fit the box of\n"
+     "the mesh, widened on all sides by 10 % of its longest side, if not given",
      [](const Option_words& option, Draft& draft) { draft.source.box = parse_box(option); }},
     {"--points", EVALUATE, SOURCE, 1, "IN",
      "the points: .csv with a header that names x, y, z; .ply; .off; .xyz; - reads one of\n"
@@ -104,15 +110,15 @@ const std::vector<Option_row> rows = {
      "a mesh, .ply .off .obj .stl, or points, .csv .xyz or a file without faces; columns nx,\n"
      "ny, nz of points are their normals; - reads PLY, OFF or CSV from standard input",
      [](const Option_words& option, Draft& draft) { draft.mesh = option.word(); }},
-    {"--scale", ANNOTATE, FIT, 1, "R|auto",
+    {"--scale", fitting, FIT, 1, "R|auto",
      "the radius around a vertex whose points say what the curvature is there, a length;\n"
      "chosen by the data (auto) by default",
      read_scale},
-    {"--noise", ANNOTATE, FIT, 1, "S|auto",
+    {"--noise", fitting, FIT, 1, "S|auto",
      "the standard deviation of the points from the surface, a length; estimated (auto) by\n"
      "default",
      read_noise},
-    {"--degree", ANNOTATE, FIT, 1, "4|5|6|8|10|auto",
+    {"--degree", fitting, FIT, 1, "4|5|6|8|10|auto",
      "the degree of the polynomials that are fitted, by default chosen by the data (auto)", read_degree},
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "attributes/attribute_task.h"
-#include "attributes/error_columns.h"
+#include "attributes/estimates.h"
 #include "commands/commands.h"
 #include "output/statistics.h"
 #include "source/source.h"
-#include "source/warn_of_outside.h"
+#include "source/warnings.h"
 #include "system/atomic_file.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/io/read_points.h>
@@ -54,7 +54,8 @@ void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& 
             Attribute_task<Traits>{function, options.orientation, points, options.attributes, options.estimator});
       },
       source.function);
-  add_error_columns(source, options.source, points, attributes);
+  if (options.source.estimates_errors)
+    add_estimates(estimates_at(source, options.source, points), options.estimates, attributes);
   mark_points_at_infinity(points, attributes);
   progress.begin("writing");
   if (format == Mesh_format::CSV) write_CSV(output.stream(), table, attributes);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "attributes/attribute_task.h"
-#include "attributes/error_columns.h"
+#include "attributes/estimates.h"
 #include "commands/commands.h"
 #include "commands/fail_without_surface.h"
 #include "output/statistics.h"
 #include "output/surface_output.h"
 #include "source/source.h"
-#include "source/warn_of_outside.h"
+#include "source/warnings.h"
 #include "system/atomic_file.h"
 #include "system/resources.h"
 #include <equiaffine/Input_error.h>
@@ -23,6 +23,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace equiaffine {
@@ -33,6 +34,7 @@ namespace {
 struct Annotated_surface {
   Isosurface_3<Kernel> mesh;
   Vertex_attributes attributes;
+  Estimates estimates;
   std::array<std::size_t, number_of_point_statuses> status{};
   std::optional<Completeness> completeness;
   double max_distance = 0, annotation_seconds = 0;
@@ -41,10 +43,16 @@ struct Annotated_surface {
 
 template <class Traits>
 Annotated_surface sample(const Traits& function, const Mesh_options& options, const Marching_cubes_options& method) {
+  const auto parameters =
+      parameters::vertex_position(method.vertices)
+          .number_of_nodes(options.source.resolution.value_or(default_resolution(options.source.kind)));
+  constexpr auto sampler = [](const auto&... arguments) {
+    return marching_cubes<CGAL::Parallel_if_available_tag>(arguments...);
+  };
   Annotated_surface surface;
-  surface.mesh = marching_cubes<CGAL::Parallel_if_available_tag>(
-      function, parameters::vertex_position(method.vertices)
-                    .number_of_nodes(options.source.resolution.value_or(default_resolution(options.source.kind))));
+  if constexpr (is_fit<std::remove_cvref_t<decltype(function.base())>>)
+    surface.mesh = sampler(function, parameters.skip_empty_space());
+  else surface.mesh = sampler(function, parameters);
   if (surface.mesh.triangles.empty())
     fail_without_surface(function.base(), options,
                          {"box", "a finer --resolution", surface.mesh.repairs.vertices_at_poles > 0});
@@ -129,7 +137,8 @@ Annotated_surface make_surface(const Traits& function, const Source& source, con
       function, options.orientation, surface.mesh.points, selection, options.estimator, surface.mesh.vertex_status});
   surface.mesh.function_evaluations += surface.mesh.points.size();
   surface.status = count(*surface.attributes.status);
-  if (options.writes_errors) add_error_columns(source, options.source, surface.mesh.points, surface.attributes);
+  surface.estimates = estimates_at(source, options.source, surface.mesh.points);
+  add_estimates(surface.estimates, options.estimates, surface.attributes);
   if (!options.attributes.has_status) surface.attributes.status.reset();
   surface.annotation_seconds = stopwatch.seconds();
   if (options.curves && !surface.curves) {
@@ -153,6 +162,7 @@ Statistics make_statistics(const Mesh_options& options, const Annotated_surface&
   statistics.annotate_seconds = surface.annotation_seconds;
   statistics.completeness = surface.completeness;
   statistics.spline = source.spline;
+  statistics.fit = surface.estimates.fit;
   statistics.function_evaluations = source.function_evaluations + surface.mesh.function_evaluations;
   return statistics;
 }
@@ -228,8 +238,7 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   statistics.sample_seconds += source_seconds;
   auto file = outputs.files.begin();
   write_surface(*file++, surface.mesh, surface.attributes);
-  // Pages and pictures show what can be trusted, even if the mesh does not get the estimates of errors.
-  if (!options.writes_errors) add_error_columns(source, options.source, surface.mesh.points, surface.attributes);
+  if (options.source.estimates_errors) add_errors(surface.estimates, surface.attributes);
   if (options.html)
     write_page(*file++, surface.mesh, surface.attributes, options.page, page_title(options.output, statistics.source),
                make_description(options, statistics));
@@ -245,6 +254,7 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   if (!options.attributes.columns.empty())
     warn_of_outside(options.source, source, surface.status[std::size_t(Point_status::OUTSIDE)],
                     surface.mesh.points.size(), "vertices", progress);
+  if (statistics.fit) warn_of_doubt(*statistics.fit, statistics.vertices, progress);
   if (!outputs.use_standard_output()) {
     out << summary(statistics);
     if (options.curves) out << summary(*surface.curves);

@@ -41,6 +41,15 @@ void add(const Mesh_facts& facts, Json& json) {
     json["status"][std::string(to_string(Point_status(i)))] = facts.status[i];
 }
 
+void add(const Fit_statistics& fit, Json& json) {
+  const auto& [least, median, greatest] = fit.scales;
+  json["fit"] = {{"scales", {{"least", least}, {"median", median}, {"greatest", greatest}}},
+                 {"noise", fit.noise},
+                 {"below_10", fit.known[0]},
+                 {"below_20", fit.known[1]},
+                 {"below_50", fit.known[2]}};
+}
+
 /// Texts come from the command line and need not be UTF-8.
 std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
 
@@ -63,6 +72,15 @@ void add_status(const Mesh_facts& facts, std::ostream& text) {
   text << '\n';
 }
 
+void add_fit(const Fit_statistics& fit, std::ostream& text) {
+  text.precision(2);
+  if (std::isfinite(fit.noise))
+    text << "fits of radius " << fit.scales[0] << " to " << fit.scales[2] << ", noise " << fit.noise << '\n';
+  text << "affine Gaussian curvature known to 10 %: " << std::lround(100 * fit.known[0])
+       << " %, to 20 %: " << std::lround(100 * fit.known[1]) << " %, to 50 %: " << std::lround(100 * fit.known[2])
+       << " % of the vertices\n";
+}
+
 } // namespace
 
 std::string to_JSON(const Statistics& s) {
@@ -81,6 +99,7 @@ std::string to_JSON(const Statistics& s) {
                       {"smoothing", s.spline->smoothing},
                       {"noise", s.spline->noise.deviation},
                       {"quantum", s.spline->noise.quantum}};
+  if (s.fit) add(*s.fit, json);
   if (s.completeness) {
     json["certified"] = s.completeness->is_certified;
     json["undecided_boxes"] = Json::array();
@@ -90,14 +109,10 @@ std::string to_JSON(const Statistics& s) {
   return text_of(json);
 }
 
-std::string to_JSON(const Fit_statistics& s) {
+std::string to_JSON(const Annotation_statistics& s) {
   Json json = begin_JSON(s);
   add(s, json);
-  json["fit"] = {{"scales", {{"least", s.scales[0]}, {"median", s.scales[1]}, {"greatest", s.scales[2]}}},
-                 {"noise", s.noise},
-                 {"below_10", s.known[0]},
-                 {"below_20", s.known[1]},
-                 {"below_50", s.known[2]}};
+  add(s.fit, json);
   json["seconds"] = {{"annotate", s.annotate_seconds}, {"write", s.write_seconds}};
   return text_of(json);
 }
@@ -116,6 +131,7 @@ std::string summary(const Statistics& s) {
   if (s.spline && s.spline->smoothing > 0)
     text << "noise in the samples: " << s.spline->noise.deviation << ", smoothed by " << s.spline->smoothing
          << " voxels\n";
+  if (s.fit) add_fit(*s.fit, text);
   if (s.completeness) {
     const std::size_t n = s.completeness->undecided_boxes.size();
     if (s.completeness->is_certified) text << "certified: no component is missing\n";
@@ -124,17 +140,12 @@ std::string summary(const Statistics& s) {
   return text.str();
 }
 
-std::string summary(const Fit_statistics& s) {
+std::string summary(const Annotation_statistics& s) {
   std::ostringstream text;
   if (s.faces > 0) add_topology(s, text);
   else text << s.vertices << " points\n";
   add_status(s, text);
-  text.precision(2);
-  if (std::isfinite(s.noise))
-    text << "fits of radius " << s.scales[0] << " to " << s.scales[2] << ", noise " << s.noise << '\n';
-  text << "affine Gaussian curvature known to 10 %: " << std::lround(100 * s.known[0])
-       << " %, to 20 %: " << std::lround(100 * s.known[1]) << " %, to 50 %: " << std::lround(100 * s.known[2])
-       << " % of the vertices\n";
+  add_fit(s.fit, text);
   return text.str();
 }
 

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_SRC_OUTPUT_STATISTICS_H
 #define EQUIAFFINE_SRC_OUTPUT_STATISTICS_H
 
+#include "source/Fit_statistics.h"
 #include "source/Spline_statistics.h"
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/mesh_topology.h>
@@ -40,18 +41,14 @@ struct Statistics : Mesh_facts {
   std::size_t function_evaluations = 0;
   std::optional<Completeness> completeness; ///< is set by methods that look for all components
   std::optional<Spline_statistics> spline;  ///< is set if derivatives are those of a spline
+  std::optional<Fit_statistics> fit;        ///< is set if derivatives are those of a fit
 };
 
 /// The facts that the program reports about a fit to the vertices of a mesh, or to points.
-struct Fit_statistics : Mesh_facts {
-  std::array<double, 3> scales{}; ///< the least, median and greatest radius; NaN if there is no fit
-  double noise = 0;               ///< the median of the deviations of the data; NaN if there is no fit
-  std::array<double, 3> known{};  ///< the parts of the vertices whose error is below each of `error_bounds`
+struct Annotation_statistics : Mesh_facts {
+  Fit_statistics fit;
   double annotate_seconds = 0, write_seconds = 0;
 };
-
-/// Bounds for the estimated error of K as a part of |K| + H^2.
-inline constexpr std::array<double, 3> error_bounds = {0.1, 0.2, 0.5};
 
 std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_status> status);
 
@@ -59,11 +56,11 @@ std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_st
 std::string to_JSON(const Statistics& statistics);
 
 /// One object, see the section on statistics of doc/program.md. A number that does not exist is null.
-std::string to_JSON(const Fit_statistics& statistics);
+std::string to_JSON(const Annotation_statistics& statistics);
 
 /// Says the most important statistics in a few lines.
 std::string summary(const Statistics& statistics);
-std::string summary(const Fit_statistics& statistics);
+std::string summary(const Annotation_statistics& statistics);
 
 } // namespace equiaffine
 

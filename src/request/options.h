@@ -24,9 +24,9 @@
 
 namespace equiaffine {
 
-enum class Source_kind { FUNCTION, VOLUME, DISTANCE };
+enum class Source_kind { FUNCTION, VOLUME, DISTANCE, FIT };
 
-/// The origin of derivatives: the formula, or a spline through samples.
+/// The origin of derivatives: the formula or the fit itself, or a spline through samples.
 enum class Derivatives { JETS, SPLINE };
 
 /// How samples become a function.
@@ -35,18 +35,25 @@ struct Spline_options {
   Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
   std::optional<double> smoothing = 0; ///< a scale in voxels; without a value the noise decides
   std::optional<double> isovalue;      ///< noise is measured beside this level set, or everywhere
-  bool estimates_errors = false;       ///< whether the errors of affine curvatures are estimated
+};
+
+/// The parameters of a fit that a user gave; the data decide the others.
+struct Fit_options {
+  std::optional<double> scale, noise; ///< lengths
+  std::optional<int> degree;
 };
 
 /// SOURCE of the command line, with what changes the function itself.
 struct Source_options {
   Source_kind kind = Source_kind::FUNCTION;
-  std::string text; ///< the expression, or the path of the volume or mesh
+  std::string text; ///< the expression, or the path of the volume, mesh or points
   std::map<std::string, double> constants;
   std::optional<CGAL::Bbox_3> box;
   std::optional<std::array<std::size_t, 3>> resolution;
   Derivatives derivatives = Derivatives::JETS;
   Spline_options spline;
+  Fit_options fit;
+  bool estimates_errors = false;     ///< whether the errors of affine curvatures are estimated
   std::optional<Raw_layout> raw;     ///< is set for a volume without a header
   std::optional<double> narrow_band; ///< voxels beyond which distances are not needed
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
@@ -82,8 +89,7 @@ struct Mesh_options {
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
   std::variant<Marching_cubes_options, Delaunay_options> method;
   Attribute_selection attributes;
-  bool writes_errors =
-      false; ///< whether the mesh gets the errors that are estimated, or the page and the picture alone
+  std::vector<std::string> estimates; ///< the columns of errors and of noise that the mesh gets
   Estimator estimator = Estimator::COMPACT;
   std::string output;
   std::optional<std::string> html, png, curves, stats;
@@ -95,6 +101,7 @@ struct Evaluate_options {
   Source_options source;
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
   Attribute_selection attributes;
+  std::vector<std::string> estimates; ///< the columns of errors and of noise that are written
   Estimator estimator = Estimator::COMPACT;
   std::string points, output;
 };
@@ -112,18 +119,12 @@ struct View_options {
   Picture_options picture;
 };
 
-/// The parameters of a fit that a user gave; the data decide the others.
-struct Fit_options {
-  std::optional<double> scale, noise; ///< lengths
-  std::optional<int> degree;
-};
-
 struct Annotate_options {
   std::string mesh; ///< or points
   Fit_options fit;
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
   Attribute_selection attributes;
-  std::vector<std::string> estimates; ///< those of the columns of errors and of noise that are written
+  std::vector<std::string> estimates; ///< the columns of errors and of noise that are written
   std::string output;
   std::optional<std::string> html, png, stats;
   Page_options page;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/source.h"
 
+#include "source/fit_vertices.h"
 #include "source/read_triangle_mesh.h"
+#include "source/read_vertices.h"
 #include "system/name_of_file.h"
 #include "system/resources.h"
 #include "volume/raw_volume.h"
@@ -47,7 +49,9 @@ std::string describe_as(const Source_options& options, const std::string& file) 
   switch (options.kind) {
   case Source_kind::FUNCTION: return "the formula " + options.text;
   case Source_kind::VOLUME: return "the volume '" + file + "'";
-  default: return "the distance to " + (options.text == "-" ? "standard input" : "'" + file + "'");
+  default:
+    return (options.kind == Source_kind::FIT ? "the fit to " : "the distance to ") +
+           (options.text == "-" ? "standard input" : "'" + file + "'");
   }
 }
 
@@ -58,19 +62,42 @@ Formula_traits make_formula(const Source_options& options) {
   return {std::move(expression), options.box.value_or(CGAL::Bbox_3(-1, -1, -1, 1, 1, 1))};
 }
 
-/// The box of the mesh, widened on all sides by a tenth of its longest side.
-CGAL::Bbox_3 widened_box(const CGAL::Surface_mesh<Kernel::Point_3>& mesh) {
+/// The box of the points, widened on all sides by a tenth of its longest side.
+template <class Points>
+CGAL::Bbox_3 widened_box(const Points& points) {
   CGAL::Bbox_3 box;
-  for (const Kernel::Point_3& p : mesh.points()) box += p.bbox();
+  for (const Kernel::Point_3& p : points) box += p.bbox();
   const double margin = std::max({box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()}) / 10;
   return {box.xmin() - margin, box.ymin() - margin, box.zmin() - margin,
           box.xmax() + margin, box.ymax() + margin, box.zmax() + margin};
 }
 
+/// The height up to which the function of a fit needs values: Marching Cubes asks for them at the corners of a cell, the
+/// Delaunay mesher at the distance of a radius.
+double height_of_band(const Source_options& options, const CGAL::Bbox_3& box) {
+  const Lattice_3<Kernel> lattice(options.resolution.value_or(default_resolution(options.kind)), box);
+  const auto [x, y, z] = lattice.steps();
+  const double default_radius = std::hypot(box.x_span(), box.y_span(), box.z_span()) / 50;
+  return 2 * std::max(std::sqrt((x + y + z).squared_length()), default_radius);
+}
+
+Fit_traits make_fit(const Source_options& options, Progress& progress) {
+  progress.begin("reading the vertices");
+  const Point_table_3<Kernel> table = read_vertices(options.text);
+  progress.begin("fitting polynomials");
+  const Fit_traits fit = blend_vertices(table, options.fit);
+  if (fit.bbox() == CGAL::Bbox_3())
+    throw Input_error("cannot make " + describe_as(options, options.text) +
+                      ": no point has enough others around it for a polynomial; give more points" +
+                      (options.fit.scale ? ", a larger --scale or a smaller --degree" : ""));
+  const CGAL::Bbox_3 box = options.box ? *options.box : widened_box(table.mesh.points);
+  return fit.in_box(box).in_band(height_of_band(options, box));
+}
+
 Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size, Progress& progress) {
   progress.begin("reading the mesh");
   const CGAL::Surface_mesh<Kernel::Point_3> mesh = read_triangle_mesh(options.text);
-  const Lattice_3<Kernel> lattice(size, options.box ? *options.box : widened_box(mesh));
+  const Lattice_3<Kernel> lattice(size, options.box ? *options.box : widened_box(mesh.points()));
   progress.begin("measuring distances", lattice.number_of_nodes());
   try {
     double longest_step = 0;
@@ -109,13 +136,13 @@ void check_steps(const Lattice_3<Kernel>& lattice, const Source_options& options
   }
 }
 
-struct Fit {
+struct Fitted_spline {
   Spline_traits function;
   Spline_statistics statistics;
   std::optional<Curvature_error_3<Kernel>> errors;
 };
 
-Fit fit_spline(const Source_options& source, Progress& progress) {
+Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
   Volume_3<Kernel> volume = [&] {
     if (source.kind != Source_kind::VOLUME) return sample_source(source, progress);
     progress.begin("reading the volume");
@@ -123,15 +150,15 @@ Fit fit_spline(const Source_options& source, Progress& progress) {
   }();
   check_values(volume, source);
   check_steps(volume.lattice, source);
-  const auto& [degree, scheme, scale, isovalue, estimates_errors] = source.spline;
+  const auto& [degree, scheme, scale, isovalue] = source.spline;
   progress.begin("measuring noise");
   const Sample_noise noise = estimate_noise(volume, isovalue);
   const double smoothing = scale ? *scale : choose_smoothing(volume, noise, degree, scheme, isovalue);
   progress.begin("fitting a spline");
   const Spline_statistics statistics = {degree, scheme, smoothing, noise, std::ranges::min(volume.lattice.size())};
   const Spline_parameters parameters = {.degree = degree, .scheme = scheme, .smoothing = smoothing};
-  if (!estimates_errors) return {Spline_traits(std::move(volume), parameters), statistics, {}};
-  Fit fit = {Spline_traits(volume, parameters), statistics, {}};
+  if (!source.estimates_errors) return {Spline_traits(std::move(volume), parameters), statistics, {}};
+  Fitted_spline fit = {Spline_traits(volume, parameters), statistics, {}};
   fit.errors.emplace(fit.function, volume, smoothing, noise.deviation);
   return fit;
 }
@@ -139,7 +166,7 @@ Fit fit_spline(const Source_options& source, Progress& progress) {
 } // namespace
 
 std::array<std::size_t, 3> default_resolution(Source_kind kind) {
-  const std::size_t n = kind == Source_kind::DISTANCE ? 129 : 64;
+  const std::size_t n = kind == Source_kind::DISTANCE || kind == Source_kind::FIT ? 129 : 64;
   return {n, n, n};
 }
 
@@ -147,11 +174,14 @@ Volume_3<Kernel> sample_source(const Source_options& options, Progress& progress
   const Size size = options.resolution.value_or(default_resolution(options.kind));
   check_memory_of_volume(size);
   if (options.kind == Source_kind::DISTANCE) return sample_distance(options, size, progress);
-  const Formula_traits formula = make_formula(options);
-  const Lattice_3<Kernel> lattice(size, formula.bbox());
-  progress.begin("sampling the formula", lattice.number_of_nodes());
-  return sample_on_lattice<CGAL::Parallel_if_available_tag>(formula, lattice,
-                                                            [&](std::size_t nodes) { progress.advance(nodes); });
+  const auto sample = [&](const auto& function, const std::string& name) {
+    const Lattice_3<Kernel> lattice(size, function.bbox());
+    progress.begin("sampling the " + name, lattice.number_of_nodes());
+    return sample_on_lattice<CGAL::Parallel_if_available_tag>(function, lattice,
+                                                              [&](std::size_t nodes) { progress.advance(nodes); });
+  };
+  return options.kind == Source_kind::FIT ? sample(make_fit(options, progress), "fit")
+                                          : sample(make_formula(options), "formula");
 }
 
 Source make_source(const Source_options& options, Progress& progress) {
@@ -159,11 +189,18 @@ Source make_source(const Source_options& options, Progress& progress) {
     if (!options.transformation) return traits;
     return Transformed_function_traits_3(std::move(traits), *options.transformation);
   };
-  if (options.derivatives == Derivatives::JETS) return {transformed(make_formula(options)), 0, {}, {}};
-  Fit fit = fit_spline(options, progress);
+  if (options.derivatives == Derivatives::JETS && options.kind == Source_kind::FIT) {
+    const Fit_traits fit = make_fit(options, progress);
+    return {transformed(fit), 0, {}, {}, fit};
+  }
+  if (options.derivatives == Derivatives::JETS) return {transformed(make_formula(options)), 0, {}, {}, {}};
+  Fitted_spline fit = fit_spline(options, progress);
   const std::size_t samples = fit.function.lattice().number_of_nodes();
-  return {transformed(std::move(fit.function)), options.kind == Source_kind::VOLUME ? 0 : samples, fit.statistics,
-          std::move(fit.errors)};
+  return {transformed(std::move(fit.function)),
+          options.kind == Source_kind::VOLUME ? 0 : samples,
+          fit.statistics,
+          std::move(fit.errors),
+          {}};
 }
 
 std::string describe(const Source_options& options) { return describe_as(options, name_of_file(options.text)); }

@@ -151,6 +151,50 @@ TEST(Fitted_function_traits_3, the_blend_is_a_smooth_function_whose_zero_set_has
   EXPECT_LT(errors[errors.size() / 2], 2e-4);
 }
 
+TEST(Fitted_function_traits_3, estimates_cover_the_errors_of_the_blend_between_the_data) {
+  for (const double noise : {0., 0.01}) {
+    Fit_mesh mesh = metaballs_mesh(50);
+    add_noise(mesh, noise * mean_edge(mesh));
+    const Traits traits(mesh);
+    const auto remesh = marching_cubes<CGAL::Parallel_tag>(traits, parameters::number_of_nodes(40).skip_empty_space());
+    std::vector<Fitted_structure_3<double>> structures;
+    for (const auto& p : remesh.points) structures.push_back(traits.structure(p));
+    const auto errors = errors_of_fit(structures, remesh.points);
+    EXPECT_EQ(errors.without_fit, 0u);
+    EXPECT_GT(errors.part_covered(), 0.93) << noise;
+    EXPECT_LE(double(errors.trusted_but_wrong), 0.03 * double(errors.trusted)) << noise;
+  }
+  EXPECT_EQ(Traits(metaballs_mesh(20)).structure({5, 5, 5}).structure.status, Point_status::OUTSIDE);
+}
+
+TEST(Fitted_function_traits_3, a_grid_coarser_than_the_points_needs_a_wider_band) {
+  const Traits traits(metaballs_mesh(50));
+  const auto nodes = parameters::number_of_nodes(12);
+  EXPECT_TRUE(marching_cubes(traits, nodes).triangles.empty());
+  const double diagonal = std::sqrt(3) * traits.bbox().x_span() / 11;
+  const auto surface = marching_cubes(traits.in_band(1.2 * diagonal), nodes);
+  EXPECT_FALSE(surface.triangles.empty());
+  EXPECT_TRUE(CGAL::is_closed(to_surface_mesh(surface)));
+  for (const auto& p : surface.points) EXPECT_NEAR(metaballs().value(p), 0, 1e-6);
+  const auto skipping = marching_cubes(traits.in_band(1.2 * diagonal), nodes.skip_empty_space());
+  EXPECT_EQ(skipping.points, surface.points);
+}
+
+TEST(Fitted_function_traits_3, the_band_follows_the_surface_where_a_scale_takes_it_away_from_the_data) {
+  const Traits traits(metaballs_mesh(40), parameters::scale(0.5));
+  const auto surface = marching_cubes<CGAL::Parallel_tag>(traits, parameters::number_of_nodes(64).skip_empty_space());
+  EXPECT_TRUE(CGAL::is_closed(to_surface_mesh(surface)));
+}
+
+TEST(Fitted_function_traits_3, the_same_function_can_be_sampled_in_another_box) {
+  const Traits traits(metaballs_mesh(20));
+  const CGAL::Bbox_3 box(-1, -1, -1, 0, 2, 2);
+  const Traits part = traits.in_box(box);
+  EXPECT_EQ(part.bbox(), box);
+  EXPECT_NE(traits.bbox(), box);
+  for (const auto& p : marching_cubes(part).points) EXPECT_LE(p.x(), 0);
+}
+
 TEST(Fitted_function_traits_3, values_are_about_signed_distances_in_the_band_and_undefined_outside) {
   const Fit_mesh mesh = metaballs_mesh(30);
   const Traits traits(mesh);

@@ -2,15 +2,20 @@
 #ifndef EQUIAFFINE_FIT_FITTED_FUNCTION_TRAITS_3_H
 #define EQUIAFFINE_FIT_FITTED_FUNCTION_TRAITS_3_H
 
+#include <equiaffine/fit/Fitted_structure_3.h>
 #include <equiaffine/fit/internal/Blend_3.h>
 #include <equiaffine/fit/internal/Surface_fit_3.h>
 #include <equiaffine/fit/internal/fit_input.h>
+#include <equiaffine/fit/internal/fit_input_of_soup.h>
+#include <equiaffine/fit/internal/structures_of_fit.h>
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/number/Interval.h>
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/number_utils.h>
 #include <CGAL/tags.h>
 
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <ranges>
@@ -25,15 +30,17 @@ namespace equiaffine {
 /// It is a blend of polynomials fitted to the points around centers, chosen by the data as for `fitted_structures`, of
 /// which it is the continuous counterpart: sum of w_i g_i / sum of w_i, where g_i is a polynomial that approximates the
 /// distance and w_i a weight that vanishes at 3/4 of the radius of its points (a partition of unity; Ohtake et al.
-/// 2003). It has four continuous derivatives. Another sheet of the surface that is near in space but not connected
+/// 2003). Expansions are the means of those of the g_i with the same weights, diffuse derivatives (Nayroles et al. 1992):
+/// they differ from the derivatives of f by what the polynomials disagree on, and are at least as near to those of the
+/// surface as each of them. Another sheet of the surface that is near in space but not connected
 /// nearby has no influence.
 ///
-/// It is defined in a band along the points: up to 2 spacings of the points from the nearest one along its normal, and
-/// 1.25 across, so that holes larger than that stay holes, and an open border stays where it is to within that.
-/// Elsewhere the value is not a number.
+/// It is defined in a band along its zero set: up to 2 spacings of the points from the foot of the nearest one along the
+/// normal, and 1.25 across, so that holes larger than that stay holes, and an open border stays where it is to within
+/// that. Elsewhere the value is not a number; `in_band` makes the band wider.
 ///
 /// Construction takes 1 ms per vertex for exact data and 3 ms for noisy ones, memory is linear; copies share it. A
-/// value takes some 5 microseconds, an expansion 25.
+/// value takes some 5 microseconds, an expansion 10.
 template <class Kernel>
 class Fitted_function_traits_3 {
 public:
@@ -56,13 +63,43 @@ public:
   template <std::ranges::input_range Points, class Parameters = internal::No_parameters,
             class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Fitted_function_traits_3(const Points& points, const Parameters& parameters = {},
-                                    ConcurrencyTag tag = {}) requires(!internal::Face_graph<Points>) {
+                                    ConcurrencyTag tag = {}) requires(!internal::Face_graph<Points> &&
+                                                                      !std::ranges::range<Parameters>) {
     internal::check_parameters<Parameters, internal::Point_tag, internal::Normal_tag, internal::Normal_orientation_tag,
                                internal::Noise_tag, internal::Scale_tag, internal::Degree_tag>();
     make(internal::fit_input_of_points<ConcurrencyTag>(points, parameters).data, parameters, tag);
   }
 
-  FT value(const Point_3& p) const { return FT(state_->blend.value(normal(p)) / state_->fit.normalization().scale()); }
+  /// From points with polygons between them, ranges of positions of points, which need not be a mesh. Named parameters:
+  /// `noise`, `scale`, `degree`.
+  /// \throw std::invalid_argument also if a polygon has the position of no point.
+  template <std::ranges::input_range Points, std::ranges::input_range Polygons,
+            class Parameters = internal::No_parameters, class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+  Fitted_function_traits_3(const Points& points, const Polygons& polygons, const Parameters& parameters = {},
+                           ConcurrencyTag tag = {}) {
+    internal::check_parameters<Parameters, internal::Noise_tag, internal::Scale_tag, internal::Degree_tag>();
+    make(internal::fit_input_of_soup(points, polygons).data, parameters, tag);
+  }
+
+  /// The same function, to be sampled in another box.
+  Fitted_function_traits_3 in_box(const CGAL::Bbox_3& box) const {
+    Fitted_function_traits_3 copy = *this;
+    copy.box_ = box;
+    return copy;
+  }
+
+  /// The same function with values up to that height over the surface. Beyond 2 spacings of the points the value is the
+  /// height, and there are no derivatives. Marching Cubes on a grid that is coarser than the points need this: the
+  /// height is the diagonal of a cell.
+  Fitted_function_traits_3 in_band(const FT& height) const {
+    Fitted_function_traits_3 copy = *this;
+    copy.margin_ = CGAL::to_double(height) * state_->fit.normalization().greatest_stretch();
+    return copy;
+  }
+
+  FT value(const Point_3& p) const {
+    return FT(state_->blend.value(normal(p), margin_) / state_->fit.normalization().scale());
+  }
   Jet_3<FT, 1> first_order(const Point_3& p) const { return expansion<1>(p); }
   Jet_3<FT> taylor(const Point_3& p) const { return expansion<4>(p); }
 
@@ -73,27 +110,42 @@ public:
     const Eigen::Vector3d lower(box.xmin(), box.ymin(), box.zmin()), upper(box.xmax(), box.ymax(), box.zmax());
     const Eigen::Vector3d center = state_->fit.normalization()((lower + upper) / 2);
     const Eigen::Vector3d half = matrix.cwiseAbs() * ((upper - lower) / 2);
-    return state_->blend.may_meet_band(center - half, center + half) ? Interval::whole() : Interval(1);
+    return state_->blend.band().may_meet(center - half, center + half, margin_) ? Interval::whole() : Interval(1);
   }
 
-  /// The box of the band.
-  CGAL::Bbox_3 bbox() const { return state_->box; }
+  /// The errors of second derivatives at a point that roundings of the data make.
+  FT rounding(const Point_3& p) const {
+    return FT(state_->fit.rounding(first_order(p), state_->blend.least_radius(normal(p))));
+  }
+
+  /// The structure of the level set through a point, with estimates of the errors as `fitted_structures` has them for
+  /// the data, which count what the polynomials that are blended there disagree on. OUTSIDE where the function has no
+  /// derivatives.
+  Fitted_structure_3<double> structure(const Point_3& p) const {
+    const Eigen::Vector3d place = normal(p);
+    const auto jet = state_->blend.template taylor<4>(place);
+    if (!std::isfinite(jet.value())) return internal::structure_without_fit();
+    return internal::structure_of(jet, state_->fit, state_->blend.accuracy(place, jet),
+                                  Orientation_of_level_set::ALONG_GRADIENT);
+  }
+
+  /// The box of the band, or the one that `in_box` was given. It is CGAL::Bbox_3() if no polynomial could be fitted.
+  CGAL::Bbox_3 bbox() const { return box_; }
 
 private:
   struct State {
     template <class ConcurrencyTag>
     State(internal::Normalized_data data, const internal::Fit_request& request, ConcurrencyTag tag)
-        : fit(std::move(data), request, tag), blend(fit.data(), fit.choices(), tag),
-          box(blend.band_box(fit.normalization())) {}
+        : fit(std::move(data), request, tag), blend(fit.data(), fit.choices(), tag) {}
 
     internal::Surface_fit_3 fit;
     internal::Blend_3 blend;
-    CGAL::Bbox_3 box;
   };
 
   template <class Parameters, class ConcurrencyTag>
   void make(internal::Normalized_data data, const Parameters& parameters, ConcurrencyTag tag) {
     state_ = std::make_shared<const State>(std::move(data), internal::fit_request(parameters), tag);
+    box_ = state_->blend.band().box(state_->fit.normalization());
   }
 
   Eigen::Vector3d normal(const Point_3& p) const { return state_->fit.normalization()(internal::coordinates_of(p)); }
@@ -107,6 +159,8 @@ private:
   }
 
   std::shared_ptr<const State> state_;
+  CGAL::Bbox_3 box_;
+  double margin_ = 0; ///< in normal coordinates
 };
 
 } // namespace equiaffine

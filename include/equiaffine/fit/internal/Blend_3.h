@@ -3,27 +3,30 @@
 #define EQUIAFFINE_FIT_INTERNAL_BLEND_3_H
 
 #include <equiaffine/base/parallel_for.h>
-#include <equiaffine/fit/internal/Normalization_3.h>
+#include <equiaffine/fit/internal/Band_3.h>
 #include <equiaffine/fit/internal/Patch_cover_3.h>
 #include <equiaffine/fit/internal/Point_tree_3.h>
 #include <equiaffine/number/Jet_3.h>
 
-#include <CGAL/Bbox_3.h>
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
 
 /// One function from many patches: the mean of the patches around a point with weights (1 - |p - c|^2 / R^2)^6, where c
-/// is the center of a patch and R a part of its radius. It is defined near the points only.
+/// is the center of a patch and R a part of its radius. Derivatives are means with the same weights, as if these were
+/// constant: the diffuse derivatives of Nayroles, Touzot and Villon (1992). Those of the weights would only add what
+/// patches disagree on, divided by powers of R. The function is defined near its zero set beside the data only: in the
+/// core of a band, and in a margin as large as it is asked for, where the value is the height over the surface.
 ///
 /// Another sheet of the surface may lie within R. Since a patch of that sheet is not to have a say on this one, its
 /// weight is multiplied by (1 - (g / b)^2)^6, where g is its value and b is a part of the distance from its center to
@@ -33,117 +36,160 @@ public:
   using Vector = Eigen::Vector3d;
 
   template <class ConcurrencyTag>
-  Blend_3(const Data_points_3& data, const Fit_choice_3& choices, ConcurrencyTag tag)
-      : data_(&data), points_(data.points) {
+  Blend_3(const Data_points_3& data, const Fit_choice_3& choices, ConcurrencyTag tag) {
     auto cover = patch_cover(data, choices, reach * distance_of_centers, tag);
     std::vector<Data_points_3::Index> centers;
     for (std::size_t k = 0; k < cover.centers.size(); ++k) {
       if (!cover.fits[k]) continue;
       centers.push_back(cover.centers[k]);
       radii_.push_back(reach * cover.fits[k]->patch.radius);
-      patches_.push_back(std::move(cover.fits[k]->patch));
+      fits_.push_back(std::move(*cover.fits[k]));
     }
-    gates_.resize(patches_.size());
-    parallel_for<ConcurrencyTag>(0, patches_.size(), [&](std::size_t k) { gates_[k] = gate(centers[k], radii_[k]); });
+    const Point_tree_3 tree(data.points);
+    gates_.resize(fits_.size());
+    parallel_for<ConcurrencyTag>(0, fits_.size(),
+                                 [&](std::size_t k) { gates_[k] = gate(data, tree, centers[k], radii_[k]); });
     std::vector<Vector> places;
-    for (const auto& patch : patches_) places.push_back(patch.center);
+    for (const auto& fit : fits_) places.push_back(fit.patch.center);
     balls_ = Ball_tree_3(places, radii_);
-    std::vector<double> reaches;
-    for (const double spacing : data.spacing) reaches.push_back(std::hypot(half_band, border) * spacing);
-    band_ = Ball_tree_3(data.points, reaches);
+    band_ = Band_3(feet(data, tag));
   }
 
-  /// Returns whether the function may have a value at a point: whether it is near the nearest of the data, as seen
-  /// along the normal and across it.
-  bool is_in_band(const Vector& p) const {
-    const auto nearest = points_.nearest(p, 1);
-    if (nearest.empty()) return false;
-    const auto i = nearest.front();
-    const Vector difference = p - data_->points[i];
-    const double height = difference.dot(data_->normals[i]);
-    const double across = difference.squaredNorm() - height * height;
-    const double spacing = data_->spacing[i];
-    return std::abs(height) <= half_band * spacing && across <= border * border * spacing * spacing;
+  const Band_3& band() const { return band_; }
+
+  double value(const Vector& p, double margin) const {
+    const auto [is_in_core, height] = band_.place(p, margin);
+    return is_in_core ? blended_value(p) : height;
   }
 
-  /// Returns whether some point of a box, given by its corners, may be in the band.
-  bool may_meet_band(const Vector& lower, const Vector& upper) const { return band_.meets(lower, upper); }
-
-  double value(const Vector& p) const {
-    double sum = 0, weights = 0;
-    if (is_in_band(p))
-      balls_.for_each_around(p, [&](std::size_t k) {
-        const double rest = 1 - (p - patches_[k].center).squaredNorm() / (radii_[k] * radii_[k]);
-        if (!(rest > 0)) return;
-        const double g = patches_[k].value(p), opening = 1 - g * g / (gates_[k] * gates_[k]);
-        if (!(opening > 0)) return;
-        const double root = rest * opening, weight = root * root * root * root * root * root;
-        sum += weight * g;
-        weights += weight;
-      });
-    return sum / weights; // not a number without patches
-  }
-
+  /// The expansion at a point of the core.
   template <int Order>
   Jet_3<double, Order> taylor(const Vector& p) const {
-    using Jet = Jet_3<double, Order>;
-    Jet sum(0.), weights(0.);
-    if (is_in_band(p))
-      balls_.for_each_around(p, [&](std::size_t k) {
-        const Vector difference = p - patches_[k].center;
-        const double factor = 1 / (radii_[k] * radii_[k]), rest = 1 - difference.squaredNorm() * factor;
-        if (!(rest > 0)) return;
-        const Jet g = patches_[k].template taylor<Order>(p);
-        const double width = 1 / (gates_[k] * gates_[k]);
-        if (!(g.value() * g.value() * width < 1)) return;
-        Jet root(rest);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          root.coefficients()[1 + axis] = -2 * factor * difference[Eigen::Index(axis)];
-          if constexpr (Order > 1) root.coefficients()[std::size_t(std::array<int, 3>{4, 7, 9}[axis])] = -factor;
-        }
-        if (std::isfinite(gates_[k])) root = root * (Jet(1.) - square(g) * width);
-        const Jet cube = square(root) * root, weight = square(cube);
-        sum += weight * g;
-        weights += weight;
-      });
-    if (!(weights.value() > 0)) return Jet(std::numeric_limits<double>::quiet_NaN());
+    return band_.place(p, 0).is_in_core ? blend<Order>(p)
+                                        : Jet_3<double, Order>(std::numeric_limits<double>::quiet_NaN());
+  }
+
+  /// The least radius of the fits that are blended at a point; infinity where there is none.
+  double least_radius(const Vector& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    for_each_weight(p, [&](std::size_t k, double, double) { least = std::min(least, fits_[k].patch.radius); });
+    return least;
+  }
+
+  /// The accuracy of an expansion at a point: geometric means of the errors of the fits that are blended there, since
+  /// these differ by orders of magnitude where K_e is about 0 for some of the fits. Where the curvatures of the expansion
+  /// are larger than those of the fits, they are as uncertain relative to their own size.
+  Fit_accuracy accuracy(const Vector& p, const Jet_3<double>& jet) const {
+    using Numbers = Eigen::Array<double, 6, 1>;
+    Numbers sum = Numbers::Zero();
+    double weights = 0;
+    for_each_weight(p, [&](std::size_t k, double weight, double) {
+      const auto& [patch, error, noise, deviation] = fits_[k];
+      const double size = curvatures_of(patch.taylor(p)).size();
+      sum += weight * Numbers(error.gaussian, error.mean, noise.gaussian, noise.mean, deviation, size).log();
+      weights += weight;
+    });
+    const Numbers mean = (sum / weights).exp();
+    const double factor = std::max(1., mean[5] / curvatures_of(jet).size()), root = std::sqrt(factor);
+    return {{mean[0] * factor, mean[1] * root}, {mean[2] * factor, mean[3] * root}, least_radius(p), mean[4]};
+  }
+
+private:
+  static constexpr double reach = 0.75, distance_of_centers = 0.3, safety = 0.7;
+
+  /// Calls f(k, weight, value) for the patches k that have a weight at a point.
+  template <class F>
+  void for_each_weight(const Vector& p, const F& f) const {
+    balls_.for_each_around(p, [&](std::size_t k) {
+      const Patch_3& patch = fits_[k].patch;
+      const double rest = 1 - (p - patch.center).squaredNorm() / (radii_[k] * radii_[k]);
+      if (!(rest > 0)) return;
+      const double g = patch.value(p), opening = 1 - g * g / (gates_[k] * gates_[k]);
+      if (!(opening > 0)) return;
+      const double root = rest * opening, cube = root * root * root;
+      f(k, cube * cube, g);
+    });
+  }
+
+  /// The value, as far as patches reach; not a number without patches.
+  double blended_value(const Vector& p) const {
+    double sum = 0, weights = 0;
+    for_each_weight(p, [&](std::size_t, double weight, double g) {
+      sum += weight * g;
+      weights += weight;
+    });
     return sum / weights;
   }
 
-  /// Returns the box of the band in the coordinates of the data.
-  CGAL::Bbox_3 band_box(const Normalization_3& normalization) const {
-    CGAL::Bbox_3 box;
-    const Eigen::Matrix3d inverse = normalization.matrix.inverse();
-    const Vector reach_of_axes = inverse.rowwise().norm();
-    for (std::size_t i = 0; i < data_->size(); ++i) {
-      const Vector p = normalization.origin + inverse * data_->points[i];
-      const Vector half = std::hypot(half_band, border) * data_->spacing[i] * reach_of_axes;
-      box +=
-          CGAL::Bbox_3(p[0] - half[0], p[1] - half[1], p[2] - half[2], p[0] + half[0], p[1] + half[1], p[2] + half[2]);
-    }
-    return box;
+  /// The expansion, as far as patches reach.
+  template <int Order>
+  Jet_3<double, Order> blend(const Vector& p) const {
+    using Jet = Jet_3<double, Order>;
+    Jet sum(0.);
+    double weights = 0;
+    for_each_weight(p, [&](std::size_t k, double weight, double) {
+      sum += fits_[k].patch.template taylor<Order>(p) * weight;
+      weights += weight;
+    });
+    return sum * (1 / weights);
   }
 
-  std::size_t number_of_patches() const { return patches_.size(); }
-
-private:
-  static constexpr double reach = 0.75, distance_of_centers = 0.3, half_band = 2, border = 1.25, safety = 0.7;
-
-  double gate(Data_points_3::Index center, double radius) const {
-    const auto ball = connected_ball(*data_, center, 1.3 * radius);
+  double gate(const Data_points_3& data, const Point_tree_3& tree, Data_points_3::Index center, double radius) const {
+    const auto ball = connected_ball(data, center, 1.3 * radius);
     const std::unordered_set<Data_points_3::Index> connected(ball.begin(), ball.end());
     double least = std::numeric_limits<double>::infinity();
-    points_.for_each_in_cube(data_->points[center], radius, [&](Data_points_3::Index i) {
-      if (!connected.contains(i)) least = std::min(least, (data_->points[i] - data_->points[center]).norm());
+    tree.for_each_in_cube(data.points[center], radius, [&](Data_points_3::Index i) {
+      if (!connected.contains(i)) least = std::min(least, (data.points[i] - data.points[center]).norm());
     });
     return safety * least;
   }
 
-  const Data_points_3* data_;
-  Point_tree_3 points_;
-  std::vector<Patch_3> patches_;
+  /// The points of the zero set beside the data. A datum whose foot is not found makes no part of the surface.
+  template <class ConcurrencyTag>
+  std::vector<Band_point_3> feet(const Data_points_3& data, ConcurrencyTag) const {
+    std::vector<std::optional<Band_point_3>> found(data.size());
+    parallel_for<ConcurrencyTag>(
+        0, data.size(),
+        [&](std::size_t i) {
+          Vector p = data.points[i];
+          for (int step = 0; step < 8; ++step) {
+            const auto jet = blend<1>(p);
+            const Vector gradient(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]);
+            const Vector newton = jet.value() * gradient / gradient.squaredNorm();
+            if (!(newton.norm() < least_radius(p))) return;
+            p -= newton;
+            if (newton.norm() > 1e-3 * data.spacing[i]) continue;
+            const Vector unit = gradient.normalized();
+            found[i] = {p, unit, data.spacing[i], sound_height(p, unit, Band_3::band_height * data.spacing[i])};
+            return;
+          }
+        },
+        64);
+    std::vector<Band_point_3> result;
+    for (std::size_t i = 0; i < data.size(); ++i) {
+      if (!found[i]) continue;
+      result.push_back(*found[i]);
+      for (const auto j : data.neighbors_of(Data_points_3::Index(i)))
+        if (found[j])
+          result.back().spacing = std::max(result.back().spacing, 0.6 * (found[j]->point - found[i]->point).norm());
+    }
+    return result;
+  }
+
+  /// The greatest part of a height, halved up to three times, up to which values are about the height on both sides. Fits
+  /// to flat parts do not know much of what is above them.
+  double sound_height(const Vector& foot, const Vector& normal, double height) const {
+    const auto is_sound = [&](double h) { return blended_value(foot + h * normal) / h > 0.5; };
+    const double least = height / 8;
+    double sound = least;
+    for (double h = least; h <= height && is_sound(h) && is_sound(-h); h *= 2) sound = h;
+    return sound;
+  }
+
+  std::vector<Curvature_fit_3> fits_;
   std::vector<double> radii_, gates_;
-  Ball_tree_3 balls_, band_;
+  Ball_tree_3 balls_;
+  Band_3 band_;
 };
 
 } // namespace equiaffine::internal

@@ -17,12 +17,21 @@ namespace equiaffine::internal {
 /// surfaces whose curvatures are known, with noise and without.
 constexpr double coverage = 2.2;
 
+/// What is known of the errors of a fit: estimates of the whole errors, two standard deviations of what noise alone
+/// makes, the radius of the ball whose points were fitted, and the deviation of one point from any smooth surface.
+struct Fit_accuracy {
+  Relative_errors error, noise;
+  double radius, deviation;
+};
+
 /// A fit around a point with estimates of its errors, from the greatest difference to other fits and the standard
 /// deviation, and two standard deviations of what noise alone makes.
 struct Curvature_fit_3 {
   Patch_3 patch;
   Relative_errors error, noise;
   double deviation; ///< of one point from any smooth surface
+
+  Fit_accuracy accuracy() const { return {error, noise, patch.radius, deviation}; }
 };
 
 /// Fits polynomials of the degree of a candidate and of the one it is compared with, in this order. Where the ball has

@@ -24,6 +24,7 @@ class Point_tree_3 {
 public:
   using Index = Data_points_3::Index;
 
+  Point_tree_3() = default;
   explicit Point_tree_3(const std::vector<Eigen::Vector3d>& points) {
     std::vector<Value> values;
     values.reserve(points.size());

@@ -65,7 +65,8 @@ public:
   }
 
   /// The errors of second derivatives that roundings of the points make, for the expansion of a fit in space.
-  double rounding(const Jet_3<double>& jet, double radius) const {
+  template <int Order>
+  double rounding(const Jet_3<double, Order>& jet, double radius) const {
     const auto& c = jet.coefficients();
     const double units = std::numeric_limits<double>::epsilon() * greatest_coordinate_;
     const double length = radius / normalization().scale();

@@ -38,20 +38,18 @@ inline Fitted_structure_3<double> structure_without_fit() {
   return {structure, {nan, nan}, {nan, nan}, nan, nan};
 }
 
-inline Fitted_structure_3<double> structure_at(const Surface_fit_3& fit, const Curvature_fit_3& local,
-                                               const Eigen::Vector3d& p, Orientation_of_level_set orientation) {
-  const auto foot = foot_on_patch(local.patch, p);
-  if (!foot) return structure_without_fit();
+/// The structure of the level set through a point, from the expansion there of a fit, or of a blend of fits.
+inline Fitted_structure_3<double> structure_of(const Jet_3<double>& jet, const Surface_fit_3& fit,
+                                               const Fit_accuracy& accuracy, Orientation_of_level_set orientation) {
   Fitted_structure_3<double> result;
-  const auto jet = local.patch.taylor(*foot);
   const double size = curvatures_of(jet).size() * fit.normalization().matrix.determinant();
   const double sign = orientation == Orientation_of_level_set::AGAINST_GRADIENT ? -1 : 1;
   const auto in_space = fit.to_space(jet) * sign;
-  result.structure = local_structure(in_space, {0, 0, 0}, fit.rounding(in_space, local.patch.radius));
-  result.error = {local.error.gaussian * size, local.error.mean * std::sqrt(size)};
-  result.noise = {local.noise.gaussian * size, local.noise.mean * std::sqrt(size)};
-  result.scale = local.patch.radius / fit.normalization().scale();
-  result.deviation = local.deviation / fit.normalization().scale();
+  result.structure = local_structure(in_space, {0, 0, 0}, fit.rounding(in_space, accuracy.radius));
+  result.error = {accuracy.error.gaussian * size, accuracy.error.mean * std::sqrt(size)};
+  result.noise = {accuracy.noise.gaussian * size, accuracy.noise.mean * std::sqrt(size)};
+  result.scale = accuracy.radius / fit.normalization().scale();
+  result.deviation = accuracy.deviation / fit.normalization().scale();
   return result;
 }
 
@@ -68,8 +66,10 @@ std::vector<Fitted_structure_3<double>> structures_of_fit(const Surface_fit_3& f
       0, data.size(),
       [&](std::size_t i) {
         const auto k = cover.nearest[i];
-        if (k != Patch_cover_3::none && cover.fits[k])
-          structures[i] = structure_at(fit, *cover.fits[k], data.points[i], orientation);
+        if (k == Patch_cover_3::none || !cover.fits[k]) return;
+        const Patch_3& patch = cover.fits[k]->patch;
+        if (const auto foot = foot_on_patch(patch, data.points[i]))
+          structures[i] = structure_of(patch.taylor(*foot), fit, cover.fits[k]->accuracy(), orientation);
       },
       64);
   return structures;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "source/warn_of_outside.h"
+#include "source/warnings.h"
 
+#include <cmath>
 #include <sstream>
 
 namespace equiaffine {
 
 void warn_of_outside(const Source_options& options, const Source& source, std::size_t outside, std::size_t all,
                      const std::string& points, Progress& progress) {
+  if (outside > 0 && source.fit)
+    progress.warn(std::to_string(outside) + " of " + std::to_string(all) + ' ' + points +
+                  " are outside and have no attributes: a fit has values within some two spacings of the data only");
   if (outside == 0 || !source.spline) return;
   constexpr int least_degree = 5;
   const int degree = source.spline->degree;
@@ -21,6 +25,15 @@ void warn_of_outside(const Source_options& options, const Source& source, std::s
          << " only; give a larger one or leave it out";
   else return;
   progress.warn(text.str());
+}
+
+void warn_of_doubt(const Fit_statistics& fit, std::size_t vertices, Progress& progress) {
+  const auto known = std::size_t(std::llround(fit.known.back() * double(vertices)));
+  if (2 * known >= vertices) return;
+  progress.warn(std::to_string(vertices - known) + " of " + std::to_string(vertices) +
+                " vertices have no fit, or an estimated error of the affine Gaussian curvature of more than 50 %: the "
+                "points are too few, or their noise is too large for fourth derivatives; give more points, or a "
+                "larger --scale");
 }
 
 } // namespace equiaffine

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FIT_INTERNAL_BAND_3_H
+#define EQUIAFFINE_FIT_INTERNAL_BAND_3_H
+
+#include <equiaffine/fit/internal/Normalization_3.h>
+#include <equiaffine/fit/internal/Point_tree_3.h>
+
+#include <CGAL/Bbox_3.h>
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// A point of the surface with its normal, the distance of the data around it, and the height of the core there.
+struct Band_point_3 {
+  Eigen::Vector3d point, normal;
+  double spacing, core;
+};
+
+/// The part of space near points of a surface: within 2 spacings of the nearest one along its normal, or within a margin
+/// that may be larger, and within 1.25 spacings across. The core is a lower part of it.
+class Band_3 {
+public:
+  using Vector = Eigen::Vector3d;
+
+  struct Place {
+    bool is_in_core;
+    double height; ///< over the nearest point of the surface, along its normal; NaN beyond the margin
+  };
+
+  Band_3() = default;
+  explicit Band_3(std::vector<Band_point_3> points) : points_(std::move(points)) {
+    std::vector<Vector> places;
+    std::vector<double> reaches;
+    for (const auto& p : points_) {
+      places.push_back(p.point);
+      reaches.push_back(std::hypot(band_height, border) * p.spacing);
+    }
+    tree_ = Point_tree_3(places);
+    balls_ = Ball_tree_3(places, reaches);
+  }
+
+  Place place(const Vector& p, double margin) const {
+    const Place beyond = {false, std::numeric_limits<double>::quiet_NaN()};
+    const auto nearest = tree_.nearest(p, 1);
+    if (nearest.empty()) return beyond;
+    const auto& [point, normal, spacing, core] = points_[nearest.front()];
+    const Vector difference = p - point;
+    const double height = difference.dot(normal), across = (difference - height * normal).norm();
+    const double size = std::abs(height);
+    if (size > std::max(margin, band_height * spacing) || across > border * spacing + slope * size) return beyond;
+    return {size <= core, height};
+  }
+
+  /// Returns whether some point of a box, given by its corners, may be in the band.
+  bool may_meet(const Vector& lower, const Vector& upper, double margin) const {
+    const Vector half = Vector::Constant(std::hypot(1, slope) * margin);
+    return balls_.meets(lower - half, upper + half);
+  }
+
+  /// Returns the box of the core in the coordinates of the data.
+  CGAL::Bbox_3 box(const Normalization_3& normalization) const {
+    CGAL::Bbox_3 box;
+    const Eigen::Matrix3d inverse = normalization.matrix.inverse();
+    const Vector reach_of_axes = inverse.rowwise().norm();
+    for (const auto& p : points_) {
+      const Vector center = normalization.origin + inverse * p.point;
+      const Vector half = std::hypot(band_height, border) * p.spacing * reach_of_axes;
+      const Vector lower = center - half, upper = center + half;
+      box += CGAL::Bbox_3(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]);
+    }
+    return box;
+  }
+
+  static constexpr double band_height = 2, border = 1.25; ///< in spacings
+
+private:
+  static constexpr double slope = 1.5; ///< points above the surface may lie farther across, as they do above a crease
+
+  std::vector<Band_point_3> points_;
+  Point_tree_3 tree_;
+  Ball_tree_3 balls_;
+};
+
+} // namespace equiaffine::internal
+
+#endif

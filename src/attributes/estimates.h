@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_ATTRIBUTES_ESTIMATES_H
+#define EQUIAFFINE_SRC_ATTRIBUTES_ESTIMATES_H
+
+#include "source/Fit_statistics.h"
+#include "system/kernel.h"
+#include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace equiaffine {
+
+struct Source;
+struct Source_options;
+
+/// The columns with estimates of the whole errors of affine curvatures.
+inline constexpr std::array<std::string_view, 2> error_attributes = {"affine_gaussian_curvature_error",
+                                                                     "affine_mean_curvature_error"};
+
+/// The columns with two standard deviations of what noise makes of the affine curvatures.
+inline constexpr std::array<std::string_view, 2> noise_attributes = {"affine_gaussian_curvature_noise",
+                                                                     "affine_mean_curvature_noise"};
+
+/// What is known of the errors of affine curvatures at points.
+struct Estimates {
+  std::array<std::vector<double>, 4> columns; ///< `error_attributes`, then `noise_attributes`; empty ones are unknown
+  std::optional<Fit_statistics> fit;          ///< is set for a fit
+};
+
+/// The estimates at points of level sets of the source, if it has them.
+Estimates estimates_at(const Source& source, const Source_options& options, std::span<const Kernel::Point_3> points);
+
+Estimates estimates_of(std::span<const Fitted_structure_3<double>> structures);
+
+/// Adds those columns of the estimates that `names` has and `attributes` has not.
+void add_estimates(const Estimates& estimates, std::span<const std::string> names, Vertex_attributes& attributes);
+
+/// Adds the columns with errors that are missing, if the estimates have them: pages and pictures show what can be
+/// trusted, even if the mesh does not get the estimates.
+void add_errors(const Estimates& estimates, Vertex_attributes& attributes);
+
+/// The selected attributes of the structures.
+Vertex_attributes attributes_of(std::span<const Fitted_structure_3<double>> structures,
+                                const Attribute_selection& selection);
+
+} // namespace equiaffine
+
+#endif

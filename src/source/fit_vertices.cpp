@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "source/fit_vertices.h"
+
+#include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/io/trust.h>
+
+#include <CGAL/property_map.h>
+#include <CGAL/tags.h>
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace equiaffine {
+
+namespace {
+
+using Point_with_normal = std::pair<Kernel::Point_3, Kernel::Vector_3>;
+
+/// The points with the normals in the columns nx, ny, nz. It is empty unless every point has one.
+std::vector<Point_with_normal> points_with_normals(const Annotated_mesh_3<Kernel>& mesh) {
+  const auto *x = find_column(mesh.attributes, "nx"), *y = find_column(mesh.attributes, "ny"),
+             *z = find_column(mesh.attributes, "nz");
+  if (!x || !y || !z) return {};
+  std::vector<Point_with_normal> result;
+  for (std::size_t i = 0; i < mesh.mesh.points.size(); ++i) {
+    const double length = std::hypot(x->values[i], y->values[i], z->values[i]);
+    if (!std::isnormal(length)) return {};
+    result.emplace_back(mesh.mesh.points[i],
+                        Kernel::Vector_3(x->values[i] / length, y->values[i] / length, z->values[i] / length));
+  }
+  return result;
+}
+
+/// Calls `fit(parameters, data...)`, where the data are points and triangles, points with normals, or points.
+template <class Fit>
+auto fit_with_parameters(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options, const Fit& fit) {
+  const auto parameters = parameters::scale(options.scale).noise(options.noise).degree(options.degree);
+  if (!mesh.mesh.triangles.empty()) return fit(parameters, mesh.mesh.points, mesh.mesh.triangles);
+  const auto with_normals = points_with_normals(mesh);
+  if (with_normals.empty()) return fit(parameters, mesh.mesh.points);
+  return fit(parameters.point_map(CGAL::First_of_pair_property_map<Point_with_normal>())
+                 .normal_map(CGAL::Second_of_pair_property_map<Point_with_normal>()),
+             with_normals);
+}
+
+} // namespace
+
+std::vector<Fitted_structure_3<double>> fit_vertices(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options,
+                                                     Orientation_of_level_set orientation) {
+  return fit_with_parameters(mesh, options, [&](const auto& parameters, const auto&... data) {
+    return fitted_structures<CGAL::Parallel_if_available_tag>(data..., parameters.orientation(orientation));
+  });
+}
+
+Fit_traits blend_vertices(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options) {
+  return fit_with_parameters(
+      mesh, options, [](const auto& parameters, const auto&... data) { return Fit_traits(data..., parameters); });
+}
+
+} // namespace equiaffine
