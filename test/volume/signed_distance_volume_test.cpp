@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <equiaffine/volume/signed_distance_volume.h>
 
+#include <CGAL/Aff_transformation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
 
 #include <gtest/gtest.h>
 
@@ -13,7 +17,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -87,6 +93,82 @@ void expect_refusal(const Mesh& mesh, const std::string& what, const std::string
   }
 }
 
+Mesh cuboid(const Vector_3& sides, const Vector_3& offset) {
+  Mesh mesh = cube(0, 1);
+  for (const auto v : mesh.vertices()) {
+    const Point_3 p = mesh.point(v);
+    mesh.point(v) = Point_3(p.x() * sides.x(), p.y() * sides.y(), p.z() * sides.z()) + offset;
+  }
+  return mesh;
+}
+
+// A torus around `center` with radii 1 and r, of 2 n m triangles.
+Mesh torus(unsigned n, unsigned m, double r, const Point_3& center = CGAL::ORIGIN) {
+  Mesh mesh;
+  for (unsigned i = 0; i < n; ++i)
+    for (unsigned j = 0; j < m; ++j) {
+      const double a = 2 * std::numbers::pi * i / n, b = 2 * std::numbers::pi * j / m, d = 1 + r * std::cos(b);
+      mesh.add_vertex(center + Vector_3(d * std::cos(a), d * std::sin(a), r * std::sin(b)));
+    }
+  const auto v = [&](unsigned i, unsigned j) { return Mesh::Vertex_index(i % n * m + j % m); };
+  for (unsigned i = 0; i < n; ++i)
+    for (unsigned j = 0; j < m; ++j) {
+      mesh.add_face(v(i, j), v(i + 1, j), v(i + 1, j + 1));
+      mesh.add_face(v(i, j), v(i + 1, j + 1), v(i, j + 1));
+    }
+  return mesh;
+}
+
+Mesh three_shells() {
+  Mesh mesh = cube(-0.5, 2.5);
+  add_cube(mesh, 0.25, 1.75, true);
+  add_cube(mesh, 0.7, 1.3);
+  return mesh;
+}
+
+Lattice_3 rotated(const Lattice_3& lattice) {
+  const double c = std::cos(0.4), s = std::sin(0.4);
+  return lattice.transform(CGAL::Aff_transformation_3<Kernel>(c, -s, 0, s, c, 0, 0, 0, 1) *
+                           CGAL::Aff_transformation_3<Kernel>(1, 0, 0, 0, c, -s, 0, s, c));
+}
+
+// The least of the distances that CGAL computes to all triangles, with the side that it decides.
+std::vector<double> distances_one_by_one(const Mesh& mesh, const Lattice_3& lattice) {
+  using Side_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using Side_mesh = CGAL::Surface_mesh<Side_kernel::Point_3>;
+  Side_mesh copy;
+  CGAL::copy_face_graph(mesh, copy);
+  const CGAL::Side_of_triangle_mesh<Side_mesh, Side_kernel> side(copy);
+  // Of the copy, since another first vertex of a triangle would change the rounding.
+  std::vector<Kernel::Triangle_3> triangles;
+  for (const auto f : copy.faces()) {
+    const auto corner = [&](const auto h) {
+      const auto& p = copy.point(copy.target(h));
+      return Point_3(p.x(), p.y(), p.z());
+    };
+    const auto h = copy.halfedge(f);
+    triangles.emplace_back(corner(copy.opposite(h)), corner(h), corner(copy.next(h)));
+  }
+  std::vector<double> distances;
+  const auto [nx, ny, nz] = lattice.size();
+  for (std::size_t k = 0; k < nz; ++k)
+    for (std::size_t j = 0; j < ny; ++j)
+      for (std::size_t i = 0; i < nx; ++i) {
+        const Point_3 p = lattice.point(double(i), double(j), double(k));
+        double least = std::numeric_limits<double>::infinity();
+        for (const auto& t : triangles)
+          least = std::min(least, CGAL::squared_distance(p, Kernel().construct_projected_point_3_object()(t, p)));
+        distances.push_back(-int(side(Side_kernel::Point_3(p.x(), p.y(), p.z()))) * std::sqrt(least));
+      }
+  return distances;
+}
+
+void expect_distances_one_by_one(const Mesh& mesh, const Lattice_3& lattice) {
+  const auto values = signed_distance_volume(mesh, lattice).values, expected = distances_one_by_one(mesh, lattice);
+  ASSERT_EQ(values.size(), expected.size());
+  for (std::size_t n = 0; n < values.size(); ++n) ASSERT_EQ(values[n], expected[n]) << "node " << n;
+}
+
 Mesh cube_without_a_triangle() {
   Mesh mesh = cube(0, 1);
   CGAL::Euler::remove_face(mesh.halfedge(Mesh::Face_index(3)), mesh);
@@ -99,6 +181,27 @@ Mesh cube_without_a_triangle() {
 TEST(Distance_function_3, distances_to_a_cube_are_exact_and_negative_inside) {
   for (const Lattice_3& lattice : {skew_lattice(), aligned_lattice()})
     expect_distances(cube(0, 2), lattice, [](const Point_3& p) { return distance_to_cube(p, 0, 2); });
+}
+
+TEST(Distance_function_3, distances_have_the_bits_of_the_least_that_CGAL_computes_over_all_triangles) {
+  const Lattice_3 aligned({15, 13, 14}, CGAL::Bbox_3(-2, -1.5, -1.75, 2, 2, 2));
+  for (const Lattice_3& lattice : {aligned, rotated(aligned)})
+    for (const Mesh& mesh : {torus(12, 6, 0.4), torus(24, 6, 0.02), cube(-0.5, 1), three_shells(),
+                             cuboid(Vector_3(1e-3, 2, 2.5), Vector_3(0.1, -1, -1))})
+      expect_distances_one_by_one(mesh, lattice);
+}
+
+TEST(Distance_function_3, distances_have_these_bits_far_from_the_origin_and_on_lattices_of_any_shape) {
+  const Lattice_3 far({10, 11, 12}, CGAL::Bbox_3(998, -2001.5, 499, 1002, -1998, 501));
+  expect_distances_one_by_one(torus(24, 12, 0.4, Point_3(1000, -2000, 500)), far);
+  const Mesh mesh = torus(24, 12, 0.4);
+  const Lattice_3 flat({30, 20, 2}, CGAL::Bbox_3(-2, -2, -0.01, 2, 2, 0.02));
+  const Lattice_3 needles({5, 4, 60}, CGAL::Bbox_3(-2, -2, -1, 2, 2, 1));
+  const Lattice_3 much_larger_than_the_mesh({10, 11, 12}, CGAL::Bbox_3(-100, -100, -90, 110, 120, 100));
+  for (const Lattice_3& lattice : {flat, needles, much_larger_than_the_mesh}) {
+    expect_distances_one_by_one(mesh, lattice);
+    expect_distances_one_by_one(mesh, rotated(lattice));
+  }
 }
 
 TEST(Distance_function_3, the_orientation_of_the_mesh_does_not_matter) {
@@ -126,11 +229,7 @@ TEST(Distance_function_3, a_node_on_the_surface_has_distance_zero_and_leaves_the
 
 TEST(Distance_function_3, a_thin_plate_between_two_nodes_does_not_change_the_sign_behind_it) {
   // Rows along x cross a plate of thickness 1e-3 between the nodes x = 0 and x = 1.
-  Mesh mesh = cube(0, 1);
-  for (const auto v : mesh.vertices()) {
-    const Point_3 p = mesh.point(v);
-    mesh.point(v) = Point_3(0.5 + 1e-3 * p.x(), 8 * p.y() - 4, 8 * p.z() - 4);
-  }
+  const Mesh mesh = cuboid(Vector_3(1e-3, 8, 8), Vector_3(0.5, -4, -4));
   const auto volume = signed_distance_volume(mesh, Lattice_3({5, 3, 3}, CGAL::Bbox_3(-2, -1, -1, 2, 1, 1)));
   for (const double value : volume.values) EXPECT_GT(value, 0);
 }
@@ -141,6 +240,9 @@ TEST(Distance_function_3, the_distances_do_not_depend_on_threads_and_every_node_
       cube(0, 2), skew_lattice(), [&](std::size_t nodes) { reported += nodes; });
   EXPECT_EQ(reported, skew_lattice().number_of_nodes());
   EXPECT_EQ(parallel.values, signed_distance_volume<CGAL::Sequential_tag>(cube(0, 2), skew_lattice()).values);
+  const Lattice_3 large = rotated(Lattice_3({24, 25, 26}, CGAL::Bbox_3(-2, -2, -2, 2, 2, 2)));
+  EXPECT_EQ(signed_distance_volume<CGAL::Parallel_if_available_tag>(torus(24, 12, 0.4), large).values,
+            signed_distance_volume<CGAL::Sequential_tag>(torus(24, 12, 0.4), large).values);
 }
 
 TEST(Distance_function_3, a_narrow_band_has_the_same_values_and_none_outside) {
