@@ -113,9 +113,12 @@ public:
     return state_->blend.band().may_meet(center - half, center + half, margin_) ? Interval::whole() : Interval(1);
   }
 
-  /// The errors of second derivatives at a point that roundings of the data make.
+  /// The errors of second derivatives at a point that roundings of the data make; infinity where K_e is zero within its
+  /// estimated error.
   FT rounding(const Point_3& p) const {
-    return FT(state_->fit.rounding(first_order(p), state_->blend.least_radius(normal(p))));
+    const Eigen::Vector3d place = normal(p);
+    const auto jet = state_->blend.template taylor<4>(place);
+    return FT(internal::rounding_of(jet, state_->fit, state_->blend.accuracy(place, jet)));
   }
 
   /// The structure of the level set through a point, with estimates of the errors as `fitted_structures` has them for

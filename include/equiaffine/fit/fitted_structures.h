@@ -33,7 +33,8 @@ namespace equiaffine {
 /// lengths there, divided by the factor of volumes to the power 1/3.
 ///
 /// Statuses: OUTSIDE for a vertex that no fit belongs to, since it has no faces, or fewer than some 20 vertices are
-/// connected with it. At a crease a fit exists, and its error says that it means nothing.
+/// connected with it. PARABOLIC for one whose K_e is zero within its estimated error, as on a plane or a cylinder; with
+/// `scale`, within rounding. At a crease a fit exists, and its error says that it means nothing.
 ///
 /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
 ///

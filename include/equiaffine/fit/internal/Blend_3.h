@@ -80,18 +80,20 @@ public:
   /// these differ by orders of magnitude where K_e is about 0 for some of the fits. Where the curvatures of the expansion
   /// are larger than those of the fits, they are as uncertain relative to their own size.
   Fit_accuracy accuracy(const Vector& p, const Jet_3<double>& jet) const {
-    using Numbers = Eigen::Array<double, 6, 1>;
+    using Numbers = Eigen::Array<double, 7, 1>;
     Numbers sum = Numbers::Zero();
     double weights = 0;
     for_each_weight(p, [&](std::size_t k, double weight, double) {
-      const auto& [patch, error, noise, deviation] = fits_[k];
+      const auto& [patch, error, noise, euclidean_error, deviation] = fits_[k];
       const double size = curvatures_of(patch.taylor(p)).size();
-      sum += weight * Numbers(error.gaussian, error.mean, noise.gaussian, noise.mean, deviation, size).log();
+      Numbers numbers;
+      numbers << error.gaussian, error.mean, noise.gaussian, noise.mean, deviation, euclidean_error, size;
+      sum += weight * numbers.log();
       weights += weight;
     });
     const Numbers mean = (sum / weights).exp();
-    const double factor = std::max(1., mean[5] / curvatures_of(jet).size()), root = std::sqrt(factor);
-    return {{mean[0] * factor, mean[1] * root}, {mean[2] * factor, mean[3] * root}, least_radius(p), mean[4]};
+    const double factor = std::max(1., mean[6] / curvatures_of(jet).size()), root = std::sqrt(factor);
+    return {{mean[0] * factor, mean[1] * root}, {mean[2] * factor, mean[3] * root}, least_radius(p), mean[4], mean[5]};
   }
 
 private:

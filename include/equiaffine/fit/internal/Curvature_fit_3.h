@@ -13,15 +13,12 @@
 
 namespace equiaffine::internal {
 
-/// The factor of the root mean square error with which an estimate covers the error at 19 of 20 points, measured on
-/// surfaces whose curvatures are known, with noise and without.
-constexpr double coverage = 2.2;
-
 /// What is known of the errors of a fit: estimates of the whole errors, two standard deviations of what noise alone
-/// makes, the radius of the ball whose points were fitted, and the deviation of one point from any smooth surface.
+/// makes, the radius of the ball whose points were fitted, the deviation of one point from any smooth surface, and the
+/// error of K_e, within which it counts as zero.
 struct Fit_accuracy {
   Relative_errors error, noise;
-  double radius, deviation;
+  double radius, deviation, euclidean_error;
 };
 
 /// A fit around a point with estimates of its errors, from the greatest difference to other fits and the standard
@@ -29,9 +26,10 @@ struct Fit_accuracy {
 struct Curvature_fit_3 {
   Patch_3 patch;
   Relative_errors error, noise;
-  double deviation; ///< of one point from any smooth surface
+  double euclidean_error; ///< of K_e, within which it counts as zero
+  double deviation;       ///< of one point from any smooth surface
 
-  Fit_accuracy accuracy() const { return {error, noise, patch.radius, deviation}; }
+  Fit_accuracy accuracy() const { return {error, noise, patch.radius, deviation, euclidean_error}; }
 };
 
 /// Fits polynomials of the degree of a candidate and of the one it is compared with, in this order. Where the ball has
@@ -58,20 +56,18 @@ inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, D
                                                     const Fit_choice_3::Choice& choice, const Fit_choice_3& choices) {
   auto fits = fit_candidate(data, center, choices.radius(choice.candidate, center), choice.candidate);
   if (fits.empty()) return {};
-  Local_fit_3& fit = fits[0];
-  const double size = fit.curvatures.size();
-  double gaussian = choice.level.gaussian * size, mean = choice.level.mean * std::sqrt(size);
-  const auto compare_with = [&](const Local_fit_3& other) {
-    gaussian = std::max(gaussian, std::abs(other.curvatures.gaussian - fit.curvatures.gaussian));
-    mean = std::max(mean, std::abs(other.curvatures.mean - fit.curvatures.mean));
-  };
-  if (fits.size() > 1) compare_with(fits[1]);
-  const double gaussian_deviation = guarded_deviation(fit, fit.gaussian_deviation, choice.noise),
-               mean_deviation = guarded_deviation(fit, fit.mean_deviation, choice.noise);
+  Local_fit_3& fit = fits.front();
+  const Local_fit_3& other = fits.back();
+  const double size = fit.curvatures.size(), root = std::sqrt(size);
+  const double gaussian = std::abs(other.curvatures.gaussian - fit.curvatures.gaussian) / size,
+               mean = std::abs(other.curvatures.mean - fit.curvatures.mean) / root;
+  const Fitted_curvatures deviations = guarded_deviations(fit, choice.noise);
   Curvature_fit_3 result;
-  result.error = {coverage * std::hypot(gaussian, gaussian_deviation) / size,
-                  coverage * std::hypot(mean, mean_deviation) / std::sqrt(size)};
-  result.noise = {2 * fit.gaussian_deviation / size, 2 * fit.mean_deviation / std::sqrt(size)};
+  result.error = {coverage *
+                      error_or_all(std::hypot(std::max(choice.level.gaussian, gaussian), deviations.gaussian / size)),
+                  coverage * error_or_all(std::hypot(std::max(choice.level.mean, mean), deviations.mean / root))};
+  result.noise = {2 * error_or_all(fit.deviations.gaussian / size), 2 * error_or_all(fit.deviations.mean / root)};
+  result.euclidean_error = choices.has_scale() ? 0 : euclidean_error(fit, other, deviations);
   result.deviation = choice.noise;
   result.patch = std::move(fit.patch);
   return result;

@@ -4,6 +4,7 @@
 
 #include <equiaffine/base/parallel_for.h>
 #include <equiaffine/fit/internal/Data_points_3.h>
+#include <equiaffine/fit/internal/Fit_candidate.h>
 #include <equiaffine/fit/internal/fit_height.h>
 #include <equiaffine/fit/internal/fit_space.h>
 
@@ -17,43 +18,6 @@
 #include <vector>
 
 namespace equiaffine::internal {
-
-/// A way to fit.
-struct Fit_candidate {
-  Fit_family family = Fit_family::HEIGHT;
-  int degree = 4;
-  double radius = 0; ///< as a multiple of the spacing of the points, or a length if the scale is given
-  double weight_of_normals = 0;
-
-  /// The degree that the result is compared with.
-  int other_degree() const { return degree + (family == Fit_family::HEIGHT ? 2 : 1); }
-
-  bool made(const Local_fit_3& fit, int of_degree) const {
-    return fit.patch.family == family && fit.patch.degree == of_degree && fit.weight_of_normals == weight_of_normals;
-  }
-};
-
-/// The parameters of fits that a user gave; the data decide the others.
-struct Fit_request {
-  std::optional<double> noise, scale; ///< lengths
-  std::optional<int> degree;
-};
-
-/// Errors relative to |K| + H^2 and to its root.
-struct Relative_errors {
-  double gaussian, mean;
-};
-
-/// Returns the standard deviation that a part of the residual beyond the noise makes of `deviation`: that part counts
-/// as an error that whole regions have in common.
-inline double guarded_deviation(const Local_fit_3& fit, double deviation, double noise) {
-  const double square = fit.residual * fit.residual;
-  const double excess = square > 0 ? std::max(0., square - noise * noise) / square : 0;
-  const double freedom = fit.patch.family == Fit_family::HEIGHT
-                             ? double(number_of_coefficients(Fit_family::HEIGHT, fit.patch.degree))
-                             : double((fit.patch.degree + 1) * (fit.patch.degree + 1));
-  return deviation * std::sqrt(1 - excess + excess * std::max(1., double(fit.points) / freedom));
-}
 
 /// The way to fit that the data choose around every point. Trial fits at sample centers are scored by an estimate of
 /// their errors, from the difference to the next degree and from the residuals; scores are averaged over neighboring
@@ -96,6 +60,9 @@ public:
     }
     return choices_[nearest];
   }
+
+  /// At a given scale curvatures are by definition those of the fit.
+  bool has_scale() const { return request_.scale.has_value(); }
 
   /// Returns the radius of a candidate around a point.
   double radius(const Fit_candidate& candidate, Index center) const {
@@ -206,16 +173,21 @@ private:
       }
       if (fit == nullptr || other == nullptr) continue;
       if (!request_.scale && candidate.family == Fit_family::SPACE && fit->residual > 2 * trial.noise) continue;
-      const double size = std::max(fit->curvatures.size(), std::numeric_limits<double>::min());
-      const double gaussian = std::hypot(fit->curvatures.gaussian - other->curvatures.gaussian,
-                                         1.4 * guarded_deviation(*fit, fit->gaussian_deviation, trial.noise)),
-                   mean = std::hypot(fit->curvatures.mean - other->curvatures.mean,
-                                     1.4 * guarded_deviation(*fit, fit->mean_deviation, trial.noise));
-      trial.gaussian[k] = std::log(gaussian / size + 1e-12);
-      trial.mean[k] = std::log(mean / std::sqrt(size) + 1e-12);
-      least = std::min(least, trial.gaussian[k]);
+      const Relative_errors score = scores(*fit, *other, trial.noise);
+      trial.gaussian[k] = score.gaussian;
+      trial.mean[k] = score.mean;
+      least = std::min(least, score.gaussian);
     }
     return least;
+  }
+
+  /// Returns logarithms of relative errors.
+  static Relative_errors scores(const Local_fit_3& fit, const Local_fit_3& other, double noise) {
+    const Fitted_curvatures &c = fit.curvatures, deviations = guarded_deviations(fit, noise);
+    const double size = c.size();
+    const double gaussian = std::hypot(c.gaussian - other.curvatures.gaussian, 1.4 * deviations.gaussian),
+                 mean = std::hypot(c.mean - other.curvatures.mean, 1.4 * deviations.mean);
+    return {std::log(error_or_all(gaussian / size) + 1e-12), std::log(error_or_all(mean / std::sqrt(size)) + 1e-12)};
   }
 
   std::vector<std::size_t> neighbors_of_center(std::size_t c) const {

@@ -122,19 +122,14 @@ inline std::vector<double> height_coefficients(const Eigen::VectorXd& legendre, 
 
 /// Returns how the curvatures at the center change with the coefficients of the basis, a column for each curvature.
 inline Eigen::MatrixXd height_gradient(const Curvature_gradient& gradient, std::size_t count) {
-  Eigen::MatrixXd columns(Eigen::Index(count), 2);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(Eigen::Index(count), gradient.cols());
   for (std::size_t m = 0; m < count; ++m) {
     const auto [u, v] = legendre_basis_2.exponents(m);
-    double gaussian = 0, mean = 0;
     for (int i = u % 2; i <= std::min(u, 4); i += 2)
       for (int j = v % 2; j <= std::min(v, 4 - i); j += 2) {
         const double power = legendre_basis_2.power(u, i) * legendre_basis_2.power(v, j);
-        const auto n = std::size_t(Jet_3<double>::index(i, j, 0));
-        gaussian -= power * gradient.gaussian[n];
-        mean -= power * gradient.mean[n];
+        columns.row(Eigen::Index(m)) -= power * gradient.row(Jet_3<double>::index(i, j, 0));
       }
-    columns(Eigen::Index(m), 0) = gaussian;
-    columns(Eigen::Index(m), 1) = mean;
   }
   return columns;
 }
@@ -175,8 +170,8 @@ inline Local_fit_3 height_fit(const Height_system& system, const Eigen::MatrixXd
   factor.solveInPlace(gradient);
   factor.transpose().solveInPlace(gradient);
   const Eigen::MatrixXd influence = system.roots_of_weights.asDiagonal() * (rows.transpose() * gradient);
-  fit.gaussian_deviation = residual * influence.col(0).norm() / std::pow(radius, 3);
-  fit.mean_deviation = residual * influence.col(1).norm() / std::pow(radius, 1.5);
+  const auto deviation = [&](Eigen::Index c) { return residual * influence.col(c).norm(); };
+  fit.deviations = in_unit({deviation(0), deviation(1), deviation(2)}, radius);
   return fit;
 }
 
@@ -209,7 +204,7 @@ inline std::vector<Local_fit_3> fit_heights(const Data_points_3& data, Data_poin
     const auto diagonal = lower.diagonal().head(count);
     if (!(diagonal.minCoeff() > 1e-6 * diagonal.maxCoeff())) continue;
     auto fit = height_fit(system, lower, reduced, origin, radius, degree);
-    if (std::isfinite(fit.curvatures.gaussian) && std::isfinite(fit.gaussian_deviation)) fits.push_back(std::move(fit));
+    if (std::isfinite(fit.deviations.euclidean)) fits.push_back(std::move(fit));
   }
   return fits;
 }

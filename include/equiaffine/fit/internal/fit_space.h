@@ -134,15 +134,14 @@ inline Eigen::MatrixXd space_gradient(const Curvature_gradient& gradient, const 
       for (int k = 0; k <= std::min(n, 4); ++k)
         taylor[axis][std::size_t(n)][std::size_t(k)] =
             Bombieri_basis_3::binomial(n, k) * std::pow(p[Eigen::Index(axis)], n - k);
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(Eigen::Index(count), 2);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(Eigen::Index(count), gradient.cols());
   for (std::size_t m = 0; m < count; ++m) {
     const auto& e = bombieri_basis_3[m];
     for (std::size_t n = 1; n < Jet_3<double>::size; ++n) {
       const auto [i, j, k] = monomials[n];
       const double t = e.factor * taylor[0][std::size_t(e.i)][std::size_t(i)] *
                        taylor[1][std::size_t(e.j)][std::size_t(j)] * taylor[2][std::size_t(e.k)][std::size_t(k)];
-      columns(Eigen::Index(m), 0) += gradient.gaussian[n] * t;
-      columns(Eigen::Index(m), 1) += gradient.mean[n] * t;
+      columns.row(Eigen::Index(m)) += t * gradient.row(Eigen::Index(n));
     }
   }
   return columns;
@@ -185,8 +184,7 @@ inline std::optional<Local_fit_3> space_fit(const Space_system& system, const Ei
   const auto deviation = [&](Eigen::Index c) {
     return std::hypot(residual * of_values.col(c).norm(), slope * of_normals.col(c).norm());
   };
-  fit.gaussian_deviation = deviation(0) / std::pow(radius, 3);
-  fit.mean_deviation = deviation(1) / std::pow(radius, 1.5);
+  fit.deviations = in_unit({deviation(0), deviation(1), deviation(2)}, radius);
   return fit;
 }
 
@@ -240,8 +238,7 @@ inline std::vector<Local_fit_3> fit_spaces(const Data_points_3& data, Data_point
     for (const int degree : degrees) {
       if (degree > greatest) continue;
       auto fit = space_fit(system, lower, reduced, hat.diagonal(), origin, radius, degree, weight);
-      if (!fit || !std::isfinite(fit->curvatures.gaussian) || !std::isfinite(fit->gaussian_deviation)) continue;
-      fits.push_back(std::move(*fit));
+      if (fit && std::isfinite(fit->deviations.euclidean)) fits.push_back(std::move(*fit));
     }
   }
   return fits;

@@ -38,14 +38,22 @@ inline Fitted_structure_3<double> structure_without_fit() {
   return {structure, {nan, nan}, {nan, nan}, nan, nan};
 }
 
+/// The errors of second derivatives that roundings make; infinity where K_e is zero within its estimated error.
+inline double rounding_of(const Jet_3<double>& jet, const Surface_fit_3& fit, const Fit_accuracy& accuracy) {
+  return std::abs(curvatures_of(jet).euclidean) <= accuracy.euclidean_error
+             ? std::numeric_limits<double>::infinity()
+             : fit.rounding(fit.to_space(jet), accuracy.radius);
+}
+
 /// The structure of the level set through a point, from the expansion there of a fit, or of a blend of fits.
 inline Fitted_structure_3<double> structure_of(const Jet_3<double>& jet, const Surface_fit_3& fit,
                                                const Fit_accuracy& accuracy, Orientation_of_level_set orientation) {
   Fitted_structure_3<double> result;
-  const double size = curvatures_of(jet).size() * fit.normalization().matrix.determinant();
   const double sign = orientation == Orientation_of_level_set::AGAINST_GRADIENT ? -1 : 1;
-  const auto in_space = fit.to_space(jet) * sign;
-  result.structure = local_structure(in_space, {0, 0, 0}, fit.rounding(in_space, accuracy.radius));
+  result.structure = local_structure(fit.to_space(jet) * sign, {0, 0, 0}, rounding_of(jet, fit, accuracy));
+  const double size = result.structure.status == Point_status::REGULAR
+                          ? curvatures_of(jet).size() * fit.normalization().matrix.determinant()
+                          : std::numeric_limits<double>::quiet_NaN();
   result.error = {accuracy.error.gaussian * size, accuracy.error.mean * std::sqrt(size)};
   result.noise = {accuracy.noise.gaussian * size, accuracy.noise.mean * std::sqrt(size)};
   result.scale = accuracy.radius / fit.normalization().scale();
