@@ -7,7 +7,7 @@ import re
 import sys
 
 TAKES_PARAMETERS = re.compile(r"class \w*Parameters = internal::No_parameters>\n(.*\n)")
-CHECKS = re.compile(r"\binternal::check_parameters<")
+CHECKS = re.compile(r"\binternal::check_(\w+_)?parameters<")
 
 
 def find_faults(path, text):

@@ -22,8 +22,7 @@ namespace equiaffine {
 /// `v:affine_mean_curvature_noise`. Named parameters: `noise`, `scale`, `degree`, `orientation`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Point, class Parameters = internal::No_parameters>
 void annotate_by_fit(CGAL::Surface_mesh<Point>& mesh, const Parameters& parameters = {}) {
-  internal::check_parameters<Parameters, internal::Noise_tag, internal::Scale_tag, internal::Degree_tag,
-                             internal::Orientation_tag>();
+  internal::check_fit_parameters<Parameters, internal::Orientation_tag>();
   using Mesh = CGAL::Surface_mesh<Point>;
   using Maps = internal::Property_maps<Mesh>;
   const std::vector<Fitted_structure_3<double>> structures = fitted_structures<ConcurrencyTag>(mesh, parameters);
@@ -50,8 +49,7 @@ void annotate_by_fit(const Graph& mesh, Structure_map map, const Parameters& par
   typename boost::property_traits<Structure_map>::key_type;
 }
 {
-  internal::check_parameters<Parameters, internal::Vertex_point_tag, internal::Noise_tag, internal::Scale_tag,
-                             internal::Degree_tag, internal::Orientation_tag>();
+  internal::check_fit_parameters<Parameters, internal::Vertex_point_tag, internal::Orientation_tag>();
   const auto structures = fitted_structures<ConcurrencyTag>(mesh, parameters);
   std::size_t i = 0;
   for (const auto v : vertices(mesh)) put(map, v, structures[i++]);
@@ -66,9 +64,7 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range 
   typename boost::property_traits<Structure_map>::key_type;
 }
 {
-  internal::check_parameters<Parameters, internal::Point_tag, internal::Normal_tag, internal::Normal_orientation_tag,
-                             internal::Noise_tag, internal::Scale_tag, internal::Degree_tag,
-                             internal::Orientation_tag>();
+  internal::check_point_fit_parameters<Parameters, internal::Orientation_tag>();
   const auto structures = fitted_structures<ConcurrencyTag>(points, parameters);
   std::size_t i = 0;
   for (const auto& element : points) put(map, element, structures[i++]);

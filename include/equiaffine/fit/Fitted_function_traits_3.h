@@ -4,6 +4,7 @@
 
 #include <equiaffine/fit/Fitted_structure_3.h>
 #include <equiaffine/fit/internal/Blend_3.h>
+#include <equiaffine/fit/internal/Fit_request.h>
 #include <equiaffine/fit/internal/Surface_fit_3.h>
 #include <equiaffine/fit/internal/fit_input.h>
 #include <equiaffine/fit/internal/fit_input_of_soup.h>
@@ -53,8 +54,7 @@ public:
   template <internal::Face_graph Graph, class Parameters = internal::No_parameters,
             class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Fitted_function_traits_3(const Graph& mesh, const Parameters& parameters = {}, ConcurrencyTag tag = {}) {
-    internal::check_parameters<Parameters, internal::Vertex_point_tag, internal::Noise_tag, internal::Scale_tag,
-                               internal::Degree_tag>();
+    internal::check_fit_parameters<Parameters, internal::Vertex_point_tag>();
     make(internal::fit_input_of_graph(mesh, parameters), parameters, tag);
   }
 
@@ -65,8 +65,7 @@ public:
   explicit Fitted_function_traits_3(const Points& points, const Parameters& parameters = {},
                                     ConcurrencyTag tag = {}) requires(!internal::Face_graph<Points> &&
                                                                       !std::ranges::range<Parameters>) {
-    internal::check_parameters<Parameters, internal::Point_tag, internal::Normal_tag, internal::Normal_orientation_tag,
-                               internal::Noise_tag, internal::Scale_tag, internal::Degree_tag>();
+    internal::check_point_fit_parameters<Parameters>();
     make(internal::fit_input_of_points<ConcurrencyTag>(points, parameters).data, parameters, tag);
   }
 
@@ -77,7 +76,7 @@ public:
             class Parameters = internal::No_parameters, class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   Fitted_function_traits_3(const Points& points, const Polygons& polygons, const Parameters& parameters = {},
                            ConcurrencyTag tag = {}) {
-    internal::check_parameters<Parameters, internal::Noise_tag, internal::Scale_tag, internal::Degree_tag>();
+    internal::check_fit_parameters<Parameters>();
     make(internal::fit_input_of_soup(points, polygons).data, parameters, tag);
   }
 

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_FIT_FITTED_STRUCTURES_H
 
 #include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/fit/internal/Fit_request.h>
 #include <equiaffine/fit/internal/fit_input.h>
 #include <equiaffine/fit/internal/fit_input_of_soup.h>
 #include <equiaffine/fit/internal/structures_of_fit.h>
@@ -44,8 +45,7 @@ namespace equiaffine {
 template <class ConcurrencyTag = CGAL::Sequential_tag, internal::Face_graph Graph,
           class Parameters = internal::No_parameters>
 std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, const Parameters& parameters = {}) {
-  internal::check_parameters<Parameters, internal::Vertex_point_tag, internal::Noise_tag, internal::Scale_tag,
-                             internal::Degree_tag, internal::Orientation_tag>();
+  internal::check_fit_parameters<Parameters, internal::Vertex_point_tag, internal::Orientation_tag>();
   const internal::Surface_fit_3 fit(internal::fit_input_of_graph(mesh, parameters), internal::fit_request(parameters),
                                     ConcurrencyTag());
   return internal::structures_of_fit<ConcurrencyTag>(fit, parameters);
@@ -61,9 +61,7 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range 
 std::vector<Fitted_structure_3<double>>
 fitted_structures(const Points& points, const Parameters& parameters = {}) requires(!internal::Face_graph<Points> &&
                                                                                     !std::ranges::range<Parameters>) {
-  internal::check_parameters<Parameters, internal::Point_tag, internal::Normal_tag, internal::Normal_orientation_tag,
-                             internal::Noise_tag, internal::Scale_tag, internal::Degree_tag,
-                             internal::Orientation_tag>();
+  internal::check_point_fit_parameters<Parameters, internal::Orientation_tag>();
   auto input = internal::fit_input_of_points<ConcurrencyTag>(points, parameters);
   const internal::Surface_fit_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
   return internal::elements_at(internal::structures_of_fit<ConcurrencyTag>(fit, parameters), input.positions);
@@ -78,8 +76,7 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range 
           std::ranges::input_range Polygons, class Parameters = internal::No_parameters>
 std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, const Polygons& polygons,
                                                           const Parameters& parameters = {}) {
-  internal::check_parameters<Parameters, internal::Noise_tag, internal::Scale_tag, internal::Degree_tag,
-                             internal::Orientation_tag>();
+  internal::check_fit_parameters<Parameters, internal::Orientation_tag>();
   auto input = internal::fit_input_of_soup(points, polygons);
   const internal::Surface_fit_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
   return internal::elements_at(internal::structures_of_fit<ConcurrencyTag>(fit, parameters), input.positions);

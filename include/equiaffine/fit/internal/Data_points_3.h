@@ -78,6 +78,14 @@ inline std::vector<Data_points_3::Index> random_indices(std::size_t size, std::s
   return indices;
 }
 
+template <class T>
+std::vector<T> elements_at(const std::vector<T>& elements, const std::vector<Data_points_3::Index>& positions) {
+  std::vector<T> result;
+  result.reserve(positions.size());
+  for (const auto i : positions) result.push_back(elements[i]);
+  return result;
+}
+
 /// Returns the points in the ball of the given radius around point `center` that are connected with it inside the ball,
 /// the center first, so that another sheet of the surface close by does not come in. A point to which `admits(i)` is
 /// false blocks the way.

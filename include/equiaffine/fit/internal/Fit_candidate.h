@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace equiaffine::internal {
 
@@ -23,12 +22,6 @@ struct Fit_candidate {
   bool made(const Local_fit_3& fit, int of_degree) const {
     return fit.patch.family == family && fit.patch.degree == of_degree && fit.weight_of_normals == weight_of_normals;
   }
-};
-
-/// The parameters of fits that a user gave; the data decide the others.
-struct Fit_request {
-  std::optional<double> noise, scale; ///< lengths
-  std::optional<int> degree;
 };
 
 /// Errors relative to |K| + H^2 and to its root.

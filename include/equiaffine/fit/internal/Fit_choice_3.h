@@ -5,6 +5,8 @@
 #include <equiaffine/base/parallel_for.h>
 #include <equiaffine/fit/internal/Data_points_3.h>
 #include <equiaffine/fit/internal/Fit_candidate.h>
+#include <equiaffine/fit/internal/Fit_request.h>
+#include <equiaffine/fit/internal/Point_tree_3.h>
 #include <equiaffine/fit/internal/fit_height.h>
 #include <equiaffine/fit/internal/fit_space.h>
 
@@ -33,9 +35,10 @@ public:
   };
 
   template <class ConcurrencyTag>
-  Fit_choice_3(const Data_points_3& data, const Fit_request& request, ConcurrencyTag) : data_(data), request_(request) {
+  Fit_choice_3(const Data_points_3& data, const Fit_request& request, ConcurrencyTag)
+      : data_(data), request_(request), centers_(random_indices(data.size(), number_of_centers(data.size()), 1)),
+        tree_(elements_at(data.points, centers_)) {
     list_candidates();
-    choose_centers();
     trials_.resize(centers_.size());
     parallel_for<ConcurrencyTag>(0, centers_.size(), [&](std::size_t c) { try_heights(c); });
     choices_.resize(centers_.size());
@@ -48,18 +51,7 @@ public:
   }
 
   /// Returns the choice of the center that is nearest to the point, if any fit is possible there.
-  const std::optional<Choice>& at(const Eigen::Vector3d& p) const {
-    std::size_t nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t c = 0; c < centers_.size(); ++c) {
-      const double square = (data_.points[centers_[c]] - p).squaredNorm();
-      if (square < least) {
-        least = square;
-        nearest = c;
-      }
-    }
-    return choices_[nearest];
-  }
+  const std::optional<Choice>& at(const Eigen::Vector3d& p) const { return choices_[tree_.nearest(p, 1).front()]; }
 
   /// At a given scale curvatures are by definition those of the fit.
   bool has_scale() const { return request_.scale.has_value(); }
@@ -105,9 +97,8 @@ private:
 
   bool is_radius_of_spaces(std::size_t r) const { return request_.scale || (radii_[r] > 5 && r % 2 == 0); }
 
-  void choose_centers() {
-    const std::size_t count = std::min(data_.size(), std::clamp<std::size_t>(data_.size() / 50, 50, 200));
-    centers_ = random_indices(data_.size(), count, 1);
+  static std::size_t number_of_centers(std::size_t points) {
+    return std::min(points, std::clamp<std::size_t>(points / 50, 50, 200));
   }
 
   /// Returns the least residual of small fits that have points to spare: what no smooth surface explains.
@@ -190,25 +181,15 @@ private:
     return {std::log(error_or_all(gaussian / size) + 1e-12), std::log(error_or_all(mean / std::sqrt(size)) + 1e-12)};
   }
 
-  std::vector<std::size_t> neighbors_of_center(std::size_t c) const {
-    std::vector<std::pair<double, std::size_t>> others;
-    for (std::size_t d = 0; d < centers_.size(); ++d)
-      others.emplace_back((data_.points[centers_[d]] - data_.points[centers_[c]]).squaredNorm(), d);
-    std::sort(others.begin(), others.end());
-    std::vector<std::size_t> result;
-    for (std::size_t k = 0; k < std::min<std::size_t>(12, others.size()); ++k) result.push_back(others[k].second);
-    return result;
-  }
-
   /// Candidates that fail at most centers around are passed over, unless no other is left.
   std::optional<Choice> choice_at(std::size_t c) const {
-    const auto around = neighbors_of_center(c);
+    const auto around = tree_.nearest(data_.points[centers_[c]], 12);
     for (const double part : {0.7, 0.}) {
       std::optional<Choice> best;
       for (std::size_t k = 0; k < candidates_.size(); ++k) {
         if (std::isnan(trials_[c].gaussian[k])) continue;
         double gaussian = 0, mean = 0, count = 0;
-        for (const std::size_t d : around) {
+        for (const Index d : around) {
           if (std::isnan(trials_[d].gaussian[k])) continue;
           gaussian += trials_[d].gaussian[k];
           mean += trials_[d].mean[k];
@@ -228,6 +209,7 @@ private:
   std::vector<double> radii_;
   std::vector<Fit_candidate> candidates_;
   std::vector<Index> centers_;
+  Point_tree_3 tree_; ///< of the centers
   std::vector<Trial> trials_;
   std::vector<std::optional<Choice>> choices_;
 };

@@ -2,8 +2,6 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_SURFACE_FIT_3_H
 #define EQUIAFFINE_FIT_INTERNAL_SURFACE_FIT_3_H
 
-#include <equiaffine/base/check_argument.h>
-#include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/internal/Fit_choice_3.h>
 #include <equiaffine/fit/internal/Normalization_3.h>
 #include <equiaffine/number/Linear_substitution_3.h>
@@ -20,28 +18,6 @@
 #include <vector>
 
 namespace equiaffine::internal {
-
-/// Reads and checks the named parameters of fits.
-template <class Parameters>
-Fit_request fit_request(const Parameters& parameters) {
-  Fit_request request;
-  if constexpr (has_parameter<Noise_tag, Parameters>) {
-    request.noise = given_parameter<Noise_tag>(parameters);
-    check_argument(!request.noise || (*request.noise >= 0 && std::isfinite(*request.noise)),
-                   "the noise is a length, 0 or more");
-  }
-  if constexpr (has_parameter<Scale_tag, Parameters>) {
-    request.scale = given_parameter<Scale_tag>(parameters);
-    check_argument(!request.scale || (*request.scale > 0 && std::isfinite(*request.scale)),
-                   "the scale is a length, more than 0");
-  }
-  if constexpr (has_parameter<Degree_tag, Parameters>) {
-    request.degree = given_parameter<Degree_tag>(parameters);
-    const int d = request.degree.value_or(4);
-    check_argument(d == 4 || d == 5 || d == 6 || d == 8 || d == 10, "the degree of a fit is 4, 5, 6, 8 or 10");
-  }
-  return request;
-}
 
 /// Data points with the way to fit them. It stays where it is, since the choice refers to the data.
 class Surface_fit_3 {

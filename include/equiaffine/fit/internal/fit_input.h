@@ -78,14 +78,6 @@ struct Fit_input_of_points {
   std::vector<std::uint32_t> positions;
 };
 
-template <class T>
-std::vector<T> elements_at(const std::vector<T>& elements, const std::vector<std::uint32_t>& positions) {
-  std::vector<T> result;
-  result.reserve(positions.size());
-  for (const auto i : positions) result.push_back(elements[i]);
-  return result;
-}
-
 /// Equal points become one: returns which one each point is, and keeps the first of each kind in `points`.
 inline std::vector<std::uint32_t> merge_equal_points(std::vector<Eigen::Vector3d>& points,
                                                      std::vector<Eigen::Vector3d>& normals) {
