@@ -4,6 +4,7 @@
 #include "support/conformance.h"
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
+#include <equiaffine/Fitted_function_traits_3.h>
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
@@ -11,6 +12,10 @@
 #include <equiaffine/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
 
 namespace {
 
@@ -73,6 +78,25 @@ struct Sampled_model {
   static constexpr double length = 0.1; // a voxel, beyond which the spline is another polynomial
 };
 
+struct Fitted_model {
+  using Traits = Fitted_function_traits_3<Kernel>;
+  static double height(double x, double y) { return x * x + 0.5 * y * y + 0.2 * std::sin(x + y); }
+  static Traits make() {
+    std::vector<Point_3> samples;
+    for (int i = -7; i <= 7; ++i)
+      for (int j = -7; j <= 7; ++j) samples.emplace_back(i / 7., j / 7., height(i / 7., j / 7.));
+    return Traits(samples);
+  }
+  static std::vector<Point_3> points() {
+    std::vector<Point_3> result;
+    for (const auto& [x, y, z] : {std::array{0.1, 0.2, 0.05}, {-0.31, 0.12, -0.06}, {0.22, -0.41, 0.04}})
+      result.emplace_back(x, y, height(x, y) + z);
+    return result;
+  }
+  static constexpr double length = 0.1;
+  static constexpr bool is_unbounded = true;
+};
+
 template <class Base>
 struct Transformed_model {
   using Traits = Transformed_function_traits_3<typename Base::Traits>;
@@ -126,7 +150,7 @@ struct Archetype_model {
 
 using Sparse = Analytic_model<Auto_function>;
 using Models = ::testing::Types<Archetype_model, Sparse, Analytic_model<Fixed_type_function>, Expression_model,
-                                Sampled_model<5>, Sampled_model<7>, Transformed_model<Sparse>,
+                                Sampled_model<5>, Sampled_model<7>, Fitted_model, Transformed_model<Sparse>,
                                 Transformed_model<Sampled_model<7>>, Level_set_model<Sparse>,
                                 Level_set_model<Transformed_model<Sampled_model<5>>>, Batch_model<Sparse>>;
 
