@@ -120,9 +120,13 @@ TEST(Fit_input, a_cylinder_is_parabolic) {
   expect_parabolic(exact);
   EXPECT_NEAR(std::abs(exact[210].structure.euclidean.mean_curvature), 0.5, 1e-3); // in the middle
   add_noise(mesh, 0.001 * mean_edge(mesh));
-  std::size_t parabolic = 0;
-  for (const auto& s : fitted_structures(mesh)) parabolic += s.structure.status == Point_status::PARABOLIC;
-  EXPECT_GT(double(parabolic), 0.93 * double(mesh.number_of_vertices()));
+  std::size_t parabolic = 0, unknown = 0;
+  for (const auto& s : fitted_structures(mesh)) {
+    parabolic += s.structure.status == Point_status::PARABOLIC;
+    unknown += s.error.gaussian_curvature >= std::abs(s.structure.affine.gaussian_curvature);
+  }
+  EXPECT_GT(double(parabolic), 0.8 * double(mesh.number_of_vertices()));
+  EXPECT_GT(double(parabolic + unknown), 0.97 * double(mesh.number_of_vertices()));
 }
 
 TEST(Fit_input, points_on_a_line_have_no_structure) {

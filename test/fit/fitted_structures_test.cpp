@@ -107,6 +107,12 @@ TEST(Fitted_structures, a_jump_of_density_by_ten_leaves_both_sides_with_right_es
   EXPECT_GT(covered, 0.93 * known);
 }
 
+/// Expects equal numbers, or none on both sides.
+void expect_same(double found, double expected) {
+  if (std::isnan(expected)) EXPECT_TRUE(std::isnan(found));
+  else EXPECT_EQ(found, expected);
+}
+
 TEST(Annotate_by_fit, fills_the_maps_of_any_mesh_with_what_fitted_structures_returns) {
   Fit_mesh mesh = metaballs_mesh(16);
   const auto expected = fitted_structures(mesh);
@@ -116,8 +122,8 @@ TEST(Annotate_by_fit, fills_the_maps_of_any_mesh_with_what_fitted_structures_ret
   const auto status = mesh.property_map<Fit_mesh::Vertex_index, Point_status>("v:status").first;
   std::size_t i = 0;
   for (const auto v : mesh.vertices()) {
-    EXPECT_EQ(K[v], expected[i].structure.affine.gaussian_curvature);
-    EXPECT_EQ(error[v], expected[i].error.gaussian_curvature);
+    expect_same(K[v], expected[i].structure.affine.gaussian_curvature);
+    expect_same(error[v], expected[i].error.gaussian_curvature);
     EXPECT_EQ(status[v], expected[i++].structure.status);
   }
 
@@ -129,7 +135,7 @@ TEST(Annotate_by_fit, fills_the_maps_of_any_mesh_with_what_fitted_structures_ret
   const auto in_order = fitted_structures(polyhedron);
   i = 0;
   for (const auto v : vertices(polyhedron))
-    EXPECT_EQ(structures.at(v).structure.affine.mean_curvature, in_order[i++].structure.affine.mean_curvature);
+    expect_same(structures.at(v).structure.affine.mean_curvature, in_order[i++].structure.affine.mean_curvature);
 }
 
 TEST(Fitted_function_traits_3, the_blend_is_a_smooth_function_whose_zero_set_has_the_curvatures_of_the_surface) {

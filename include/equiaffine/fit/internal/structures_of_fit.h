@@ -38,11 +38,12 @@ inline Fitted_structure_3<double> structure_without_fit() {
   return {structure, {nan, nan}, {nan, nan}, nan, nan};
 }
 
-/// The errors of second derivatives that roundings make; infinity where K_e is zero within its estimated error.
+/// The errors of second derivatives that roundings make; infinity where K_e is zero within its estimated error, and no
+/// more than that of a sphere whose radius is ten times that of the fit: an error may be large beside any curvature.
 inline double rounding_of(const Jet_3<double>& jet, const Surface_fit_3& fit, const Fit_accuracy& accuracy) {
-  return std::abs(curvatures_of(jet).euclidean) <= accuracy.euclidean_error
-             ? std::numeric_limits<double>::infinity()
-             : fit.rounding(fit.to_space(jet), accuracy.radius);
+  const double curvature = std::abs(curvatures_of(jet).euclidean);
+  const bool is_flat = curvature <= accuracy.euclidean_error && curvature * accuracy.radius * accuracy.radius <= 0.01;
+  return is_flat ? std::numeric_limits<double>::infinity() : fit.rounding(fit.to_space(jet), accuracy.radius);
 }
 
 /// The structure of the level set through a point, from the expansion there of a fit, or of a blend of fits.
