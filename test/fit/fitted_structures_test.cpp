@@ -192,6 +192,19 @@ TEST(Fitted_function_traits_3, the_band_follows_the_surface_where_a_scale_takes_
   EXPECT_TRUE(CGAL::is_closed(to_surface_mesh(surface)));
 }
 
+TEST(Fitted_function_traits_3, sparse_data_do_not_spoil_the_blend_of_dense_ones_beside_them) {
+  const auto bowl = make_analytic_traits<Fit_kernel>(Bowl(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
+  std::vector<Fit_kernel::Point_3> points;
+  for (double x = -1; x < 1; x += x < 0 ? 0.1 : 0.01)
+    for (double y = -0.5; y < 0.5; y += x < 0 ? 0.1 : 0.01) points.emplace_back(x, y, -Bowl()(x, y, 0.));
+  const Traits traits(points);
+  for (double x = 0.1; x < 0.8; x += 0.03) {
+    const Fit_kernel::Point_3 p(x, 0.005, -Bowl()(x, 0.005, 0.));
+    const double K = local_structure_at(bowl, p).affine.gaussian_curvature;
+    EXPECT_NEAR(traits.structure(p).structure.affine.gaussian_curvature, K, 1e-4 * std::abs(K)) << x;
+  }
+}
+
 TEST(Fitted_function_traits_3, the_same_function_can_be_sampled_in_another_box) {
   const Traits traits(metaballs_mesh(20));
   const CGAL::Bbox_3 box(-1, -1, -1, 0, 2, 2);

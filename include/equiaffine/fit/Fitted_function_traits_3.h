@@ -30,7 +30,7 @@ namespace equiaffine {
 ///
 /// It is a blend of polynomials fitted to the points around centers, chosen by the data as for `fitted_structures`, of
 /// which it is the continuous counterpart: sum of w_i g_i / sum of w_i, where g_i is a polynomial that approximates the
-/// distance and w_i a weight that vanishes at 3/4 of the radius of its points (a partition of unity; Ohtake et al.
+/// distance and w_i a weight that vanishes at half the radius of its points (a partition of unity; Ohtake et al.
 /// 2003). Expansions are the means of those of the g_i with the same weights, diffuse derivatives (Nayroles et al. 1992):
 /// they differ from the derivatives of f by what the polynomials disagree on, and are at least as near to those of the
 /// surface as each of them. Another sheet of the surface that is near in space but not connected

@@ -22,8 +22,9 @@
 
 namespace equiaffine::internal {
 
-/// One function from many patches: the mean of the patches around a point with weights (1 - |p - c|^2 / R^2)^6, where c
-/// is the center of a patch and R a part of its radius. Derivatives are means with the same weights, as if these were
+/// One function from many patches: the mean of the patches around a point with weights (1 - |p - c|^2 / R^2)^6 / R^8,
+/// where c is the center of a patch and R a part of its radius. The factor gives small patches, which know more, the say
+/// where those of sparser data overlap with them. Derivatives are means with the same weights, as if these were
 /// constant: the diffuse derivatives of Nayroles, Touzot and Villon (1992). Those of the weights would only add what
 /// patches disagree on, divided by powers of R. The function is defined near its zero set beside the data only: in the
 /// core of a band, and in a margin as large as it is asked for, where the value is the height over the surface.
@@ -46,6 +47,7 @@ public:
       fits_.push_back(std::move(*cover.fits[k]));
     }
     const Point_tree_3 tree(data.points);
+    for (const double radius : radii_) factors_.push_back(std::pow(radius, -8));
     gates_.resize(fits_.size());
     parallel_for<ConcurrencyTag>(0, fits_.size(),
                                  [&](std::size_t k) { gates_[k] = gate(data, tree, centers[k], radii_[k]); });
@@ -97,7 +99,7 @@ public:
   }
 
 private:
-  static constexpr double reach = 0.75, distance_of_centers = 0.3, safety = 0.7;
+  static constexpr double reach = 0.5, distance_of_centers = 0.4, safety = 0.7;
 
   /// Calls f(k, weight, value) for the patches k that have a weight at a point.
   template <class F>
@@ -109,7 +111,7 @@ private:
       const double g = patch.value(p), opening = 1 - g * g / (gates_[k] * gates_[k]);
       if (!(opening > 0)) return;
       const double root = rest * opening, cube = root * root * root;
-      f(k, cube * cube, g);
+      f(k, cube * cube * factors_[k], g);
     });
   }
 
@@ -189,7 +191,7 @@ private:
   }
 
   std::vector<Curvature_fit_3> fits_;
-  std::vector<double> radii_, gates_;
+  std::vector<double> radii_, gates_, factors_;
   Ball_tree_3 balls_;
   Band_3 band_;
 };
