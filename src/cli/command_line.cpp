@@ -91,6 +91,7 @@ public:
       return result_;
     } catch (const CLI::ArgumentMismatch& error) { // "--box: 6 required .. missing"
       const std::string text = error.what(), option = text.substr(0, text.find(':'));
+      if (app_.get_subcommands().empty()) fail_before_command("--"); // after it CLI11 parses a command and forgets it
       fail_option(option, "it needs " + app_.get_subcommands().front()->get_option(option)->get_type_name(),
                   see_help());
     } catch (const CLI::ParseError& error) {

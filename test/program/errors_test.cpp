@@ -73,6 +73,7 @@ TEST_F(Program_errors, an_unknown_command_or_option_is_named_and_the_nearest_sug
   expect_error(mesh_of("x") + box + Arguments{"--res", "64"}, {"'--res'", "did you mean '--resolution'?"});
   expect_error(mesh_of("x") + box + Arguments{"--isovalu=1"}, {"'--isovalu=1'", "did you mean '--isovalue'?"});
   expect_error({"--isovalue", "1", "mesh"}, {"'--isovalue'", "before the command"});
+  expect_error({"--", "view", "m.ply", "-o"}, {"'--'", "before the command"});
   expect_error(mesh_of("x") + box + Arguments{"stray"}, {"'stray' is not expected"});
   expect_error({"sample", "--volume", "v.nrrd"}, {"unknown option '--volume'"});
 }
