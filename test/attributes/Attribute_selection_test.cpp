@@ -47,7 +47,8 @@ TEST(Attribute_selection, names_for_people_have_vectors_by_one_name) {
   EXPECT_EQ(joined(names.basic), "normal k1 k2 gaussian_curvature mean_curvature conormal affine_normal "
                                  "affine_gaussian_curvature affine_mean_curvature pick_invariant ");
   EXPECT_EQ(joined(names.added_by_all), "affine_k1 affine_k2 direction1 direction2 metric ");
-  EXPECT_EQ(joined(names.by_name), "quadric_defect shape_index curvedness ");
+  EXPECT_EQ(joined(names.by_name), "quadric_defect shape_index curvedness affine_frame1 affine_frame2 affine_frame3 "
+                                   "affine_frame_scale affine_frame_quality affine_signature ");
   EXPECT_EQ(joined(names.signature), "affine_gaussian_curvature affine_mean_curvature pick_invariant "
                                      "affine_gaussian_curvature_gradient affine_mean_curvature_gradient "
                                      "pick_invariant_gradient ");

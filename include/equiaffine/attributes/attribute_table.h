@@ -5,6 +5,7 @@
 #define EQUIAFFINE_ATTRIBUTES_ATTRIBUTE_TABLE_H
 
 #include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/geometry/affine_frame.h>
 #include <equiaffine/geometry/euclidean_structure.h>
 
 #include <array>
@@ -100,6 +101,18 @@ inline constexpr auto attribute_table = [] {
           {"Shape index", "s", "Euclidean", 0}},
       Row{"curvedness", {}, none, [](const auto& s, auto) { return curvedness(s.euclidean.k1, s.euclidean.k2); },
           {"Curvedness", "c", "Euclidean", -2}},
+      Row{"affine_frame1", {"affine_frame1_x", "affine_frame1_y", "affine_frame1_z"}, none,
+          [](const auto& s, auto i) { return affine_frame(s.affine).e1[i]; }},
+      Row{"affine_frame2", {"affine_frame2_x", "affine_frame2_y", "affine_frame2_z"}, none,
+          [](const auto& s, auto i) { return affine_frame(s.affine).e2[i]; }},
+      Row{"affine_frame3", {"affine_frame3_x", "affine_frame3_y", "affine_frame3_z"}, none,
+          [](const auto& s, auto i) { return affine_frame(s.affine).xi[i]; }},
+      Row{"affine_frame_scale", {}, none, [](const auto& s, auto) { return affine_frame(s.affine).scale; },
+          {"Scale of the affine frame", "r", "Affine", -3}},
+      Row{"affine_frame_quality", {}, none, [](const auto& s, auto) { return affine_frame(s.affine).quality; },
+          {"Quality of the affine frame", "q", "Affine", 0}},
+      Row{"affine_signature", {"affine_signature1", "affine_signature2", "affine_signature3", "affine_signature4"}, none,
+          [](const auto& s, auto i) { return affine_frame(s.affine).signature[i]; }},
       Row{"affine_gaussian_curvature_gradient", {}, signature, nullptr, {}, 0},
       Row{"affine_mean_curvature_gradient", {}, signature, nullptr, {}, 1},
       Row{"pick_invariant_gradient", {}, signature, nullptr, {}, 2},

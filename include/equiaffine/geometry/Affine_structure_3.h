@@ -45,6 +45,10 @@ struct Affine_structure_3 : Affine_invariants_3<FT> {
   /// basis, whatever the unit of length: zero exactly where t is. J vanishes on other surfaces, too, ruled ones among
   /// them: where K_e < 0 no affine invariant of this order tells quadrics from all others.
   FT quadric_defect;
+  std::array<FT, 3> tangent_u, tangent_v; ///< the basis e_u, e_v of the chart in space
+  std::array<FT, 3> metric_in_chart;      ///< uu uv vv of the metric in this basis
+  /// uuu uuv uvv vvv in this basis of T, the trace-free part of the cubic form: J = 1/8 |T|^2 in the metric.
+  std::array<FT, 4> cubic_in_chart;
 };
 
 } // namespace equiaffine

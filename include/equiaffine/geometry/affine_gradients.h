@@ -3,7 +3,7 @@
 #define EQUIAFFINE_GEOMETRY_AFFINE_GRADIENTS_H
 
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/geometry/internal/gradient_norms.h>
+#include <equiaffine/geometry/internal/gradients_of_invariants.h>
 
 #include <array>
 
@@ -21,7 +21,23 @@ namespace equiaffine {
 /// up to 40 expansions.
 template <ImplicitFunctionTraits_3 Traits>
 std::array<typename Traits::FT, 3> affine_gradient_norms(const Traits& traits, const typename Traits::Point_3& p) {
-  return internal::affine_gradient_norms_at(traits, p);
+  return internal::gradient_norms_of(internal::differentiated_structure(traits, p));
+}
+
+/// The gradients of K, H and J on the surface at a point, each as the derivatives along the vectors e1 and e2 of its
+/// affine_frame(). With a the determinant of a map they have the weights a^(-5/4), a^(-3/4) and a^(-3/4); the norms of
+/// affine_gradient_norms() are the roots of a^2 + b^2 at an elliptic point and of |2 a b| at a hyperbolic one.
+template <class FT>
+struct Affine_gradients_3 {
+  std::array<FT, 2> gaussian_curvature, mean_curvature, pick_invariant;
+};
+
+/// Computes the gradients as affine_gradient_norms() does. They are those for the side that the gradient of f points
+/// to, and NaN where the frame does not exist.
+template <ImplicitFunctionTraits_3 Traits>
+Affine_gradients_3<typename Traits::FT> affine_gradients(const Traits& traits, const typename Traits::Point_3& p) {
+  const auto gradients = internal::gradients_in_frame(internal::differentiated_structure(traits, p));
+  return {gradients[0], gradients[1], gradients[2]};
 }
 
 } // namespace equiaffine

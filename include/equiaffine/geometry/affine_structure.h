@@ -31,12 +31,17 @@ template <class FT>
 Affine_structure_3<FT> affine_structure(const Monge_chart_3<FT>& chart) {
   const auto invariants = affine_invariants(chart);
   const auto [are_real, k1, k2] = internal::affine_principal_curvatures(invariants, chart.determinant > FT(0));
+  const FT scale = internal::scale_of_forms(chart);
   return {invariants,
           are_real,
           k1,
           k2,
           internal::affine_metric(invariants, chart),
-          internal::quadric_defect(invariants, chart)};
+          internal::quadric_defect(invariants, chart),
+          chart.tangent(FT(1), FT(0)),
+          chart.tangent(FT(0), FT(1)),
+          internal::scaled_form(chart.quadratic, FT(-2) * scale),
+          internal::scaled_form(invariants.apolar_cubic, FT(-6) * scale)};
 }
 
 } // namespace equiaffine

@@ -53,6 +53,8 @@ struct Natural_units_3 {
     for (FT& x : a.conormal) restore_all(2, x);
     for (FT& x : a.normal) restore_all(-2, x);
     for (FT& x : a.metric) restore_all(-2, x);
+    for (FT& x : a.metric_in_chart) restore_all(-2, x);
+    for (FT& x : a.cubic_in_chart) restore_all(-6, x);
   }
 
 private:

@@ -173,12 +173,25 @@ Real_eigenvalues<FT> affine_principal_curvatures(const Affine_invariants_3<FT>& 
           select(are_real, FT(s.mean_curvature - radius), nan)};
 }
 
+/// s / |d|^(1/4): the metric and T are this times the second derivatives of the graph and the apolar part of the third
+/// ones.
+template <class FT>
+FT scale_of_forms(const Monge_chart_3<FT>& chart) {
+  using std::abs;
+  using std::sqrt;
+  return chart.sign / sqrt(FT(FT(2) * sqrt(FT(abs(chart.determinant)))));
+}
+
+template <class FT, std::size_t N>
+std::array<FT, N> scaled_form(std::array<FT, N> form, const FT& factor) {
+  for (FT& coefficient : form) coefficient = coefficient * factor;
+  return form;
+}
+
 /// s h / |d|^(1/4) in the covectors dual to e_u, e_v that vanish on xi.
 template <class FT>
 std::array<FT, 6> affine_metric(const Affine_invariants_3<FT>& s, const Monge_chart_3<FT>& chart) {
-  using std::abs;
-  using std::sqrt;
-  const FT factor = FT(-2) * chart.sign / sqrt(FT(FT(2) * sqrt(FT(abs(chart.determinant)))));
+  const FT factor = FT(-2) * scale_of_forms(chart);
   const auto& [p11, p12, p22] = chart.quadratic;
   const auto& [x1, x2] = s.slope;
   const auto u = chart.unpermuted(FT(1) - x1 * chart.a, -(x1 * chart.b), -x1);

@@ -26,7 +26,11 @@ Affine_structure_3<FT> no_affine_structure() {
           nan,
           nan,
           {nan, nan, nan, nan, nan, nan},
-          nan};
+          nan,
+          {nan, nan, nan},
+          {nan, nan, nan},
+          {nan, nan, nan},
+          {nan, nan, nan, nan}};
 }
 
 /// Whether all numbers are finite. Only some are tested, but every coefficient of the jet, and every power of d, takes

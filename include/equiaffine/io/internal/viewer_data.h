@@ -40,6 +40,7 @@ const columnNamed = name => facts.columns.find(column => column.name === name);
 const vectorLabels = {
   n: 'Normal', conormal: 'Co-normal', affine_normal: 'Affine normal',
   direction1: 'Principal direction 1', direction2: 'Principal direction 2',
+  affine_frame1: 'Affine frame, e₁', affine_frame2: 'Affine frame, e₂', affine_frame3: 'Affine frame, ξ',
 };
 const vectors = [];
 for (const column of facts.columns) {

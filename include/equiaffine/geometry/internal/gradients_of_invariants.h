@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_GEOMETRY_INTERNAL_GRADIENTS_OF_INVARIANTS_H
+#define EQUIAFFINE_GEOMETRY_INTERNAL_GRADIENTS_OF_INVARIANTS_H
+
+#include <equiaffine/geometry/affine_frame.h>
+#include <equiaffine/geometry/local_structure.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace equiaffine::internal {
+
+/// The derivatives at 0 of three functions of a number, `f(t)`, by central differences with steps `step`, `step` / 2,
+/// ..., extrapolated to step 0; for each function the entry of the table that differs least from its neighbors
+/// (Ridders: Accurate computation of F'(x) and F'(x) F''(x), 1982). Steps at which a function is not finite do not
+/// count.
+template <class FT, class F>
+std::array<FT, 3> derivatives_at_zero(F f, FT step) {
+  constexpr std::size_t levels = 10;
+  std::array<std::array<FT, levels>, 3> last{}, row{};
+  std::array<FT, 3> best, least_error;
+  best.fill(std::numeric_limits<FT>::quiet_NaN());
+  least_error.fill(std::numeric_limits<FT>::infinity());
+  for (std::size_t level = 0, known = 0; level < levels; ++level, step /= FT(2)) {
+    const std::array<FT, 3> ahead = f(step), behind = f(-step);
+    FT sum(0);
+    for (std::size_t n = 0; n < 3; ++n) sum += row[n][0] = (ahead[n] - behind[n]) / (FT(2) * step);
+    if (!std::isfinite(sum)) {
+      known = 0;
+      continue;
+    }
+    for (std::size_t n = 0; n < 3; ++n) {
+      FT power(1);
+      for (std::size_t m = 1; m <= known; ++m) {
+        power *= FT(4);
+        row[n][m] = row[n][m - 1] + (row[n][m - 1] - last[n][m - 1]) / (power - FT(1));
+        const FT error = std::max(std::abs(row[n][m] - row[n][m - 1]), std::abs(row[n][m] - last[n][m - 1]));
+        if (error < least_error[n]) {
+          least_error[n] = error;
+          best[n] = row[n][m];
+        }
+      }
+    }
+    last = row;
+    ++known;
+  }
+  return best;
+}
+
+/// The structure at a point, and the derivatives of K, H and J along the principal directions there. They are NaN where
+/// the point is not regular.
+template <class FT>
+struct Differentiated_structure_3 {
+  Local_structure_3<FT> structure;
+  std::array<FT, 3> along1, along2;
+};
+
+template <class Traits>
+Differentiated_structure_3<typename Traits::FT> differentiated_structure(const Traits& traits,
+                                                                         const typename Traits::Point_3& p) {
+  using FT = typename Traits::FT;
+  using Vector_3 = typename Traits::Vector_3;
+  Differentiated_structure_3<FT> result{local_structure(traits.taylor(p)), {}, {}};
+  result.along1.fill(std::numeric_limits<FT>::quiet_NaN());
+  result.along2 = result.along1;
+  if (result.structure.status != Point_status::REGULAR) return result;
+  const auto& euclidean = result.structure.euclidean;
+  const FT step = FT(0.1) / std::max(std::abs(euclidean.k1), std::abs(euclidean.k2));
+  const auto derivatives_along = [&](const std::array<FT, 3>& direction) {
+    const Vector_3 along(direction[0], direction[1], direction[2]);
+    const auto invariants = [&](FT t) {
+      const auto s = local_structure(traits.taylor(p + t * along)).affine;
+      return std::array{s.gaussian_curvature, s.mean_curvature, s.pick_invariant};
+    };
+    return derivatives_at_zero(invariants, step);
+  };
+  result.along1 = derivatives_along(euclidean.direction1);
+  result.along2 = derivatives_along(euclidean.direction2);
+  return result;
+}
+
+/// Returns the norms of the gradients, which exist also where the frame does not, as on a sphere.
+template <class FT>
+std::array<FT, 3> gradient_norms_of(const Differentiated_structure_3<FT>& s) {
+  const auto& euclidean = s.structure.euclidean;
+  const FT scale = std::sqrt(std::sqrt(std::abs(euclidean.gaussian_curvature)));
+  std::array<FT, 3> norms;
+  for (std::size_t n = 0; n < 3; ++n)
+    norms[n] = std::sqrt(
+        std::abs(scale * (s.along1[n] * s.along1[n] / euclidean.k1 + s.along2[n] * s.along2[n] / euclidean.k2)));
+  return norms;
+}
+
+/// Returns the derivatives along e1 and e2 of the frame, which are combinations of the principal directions.
+template <class FT>
+std::array<std::array<FT, 2>, 3> gradients_in_frame(const Differentiated_structure_3<FT>& s) {
+  const auto& euclidean = s.structure.euclidean;
+  const Affine_frame_3<FT> frame = affine_frame(s.structure.affine);
+  std::array<std::array<FT, 2>, 3> gradients;
+  for (std::size_t n = 0; n < 3; ++n)
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto& e = i == 0 ? frame.e1 : frame.e2;
+      FT part1(0), part2(0);
+      for (std::size_t k = 0; k < 3; ++k) {
+        part1 += e[k] * euclidean.direction1[k];
+        part2 += e[k] * euclidean.direction2[k];
+      }
+      gradients[n][i] = part1 * s.along1[n] + part2 * s.along2[n];
+    }
+  return gradients;
+}
+
+} // namespace equiaffine::internal
+
+#endif
