@@ -28,6 +28,12 @@ struct Noise_tag {};
 struct Scale_tag {};
 struct Degree_tag {};
 struct Orientation_tag {};
+struct Map_kind_tag {};
+struct Reflections_tag {};
+struct Number_of_maps_tag {};
+struct Least_overlap_tag {};
+struct Refined_functions_tag {};
+struct Tolerance_tag {};
 
 /// The empty chain of parameters.
 struct No_parameters {};

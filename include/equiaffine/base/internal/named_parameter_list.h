@@ -98,6 +98,37 @@
   template <class Orientation>                                                                                         \
   auto orientation(Orientation side) CONST {                                                                           \
     return internal::add_parameter<internal::Orientation_tag>(side, GIVEN);                                            \
-  }
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A Map_kind: among which maps one is sought; default AFFINE. */                                                   \
+  template <class Kind>                                                                                                \
+  auto map_kind(Kind kind) CONST {                                                                                     \
+    return internal::add_parameter<internal::Map_kind_tag>(kind, GIVEN);                                               \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** Whether maps with a negative determinant are allowed; default true. */                                           \
+  inline auto reflections(bool are_allowed) CONST {                                                                    \
+    return internal::add_parameter<internal::Reflections_tag>(are_allowed, GIVEN);                                     \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** How many maps are sought, at most; default 1. With more, the search does not end with the first one. */          \
+  inline auto number_of_maps(std::size_t n) CONST {                                                                    \
+    return internal::add_parameter<internal::Number_of_maps_tag>(n, GIVEN);                                            \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The part of the points of one of two surfaces, at least, that has to lie on the other; default 0.05. */          \
+  inline auto least_overlap(double part) CONST {                                                                       \
+    return internal::add_parameter<internal::Least_overlap_tag>(part, GIVEN);                                          \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A pair of functions, of the source and of the target, on which maps are refined and judged, instead of those */  \
+  /** by which points are matched: unsmoothed ones, since smoothing does not commute with affine maps. */              \
+  template <class Functions>                                                                                           \
+  auto refined_functions(const Functions& source_and_target) CONST {                                                   \
+    return internal::add_parameter<internal::Refined_functions_tag>(source_and_target, GIVEN);                         \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** How far a symmetry may move points from a surface, a part of its size; default 1e-8, for exact functions. */     \
+  inline auto tolerance(double part) CONST { return internal::add_parameter<internal::Tolerance_tag>(part, GIVEN); }
 
 #endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_AFFINE_SLIPPAGE_3_H
+#define EQUIAFFINE_REGISTRATION_AFFINE_SLIPPAGE_3_H
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace equiaffine {
+
+/// A motion p' = matrix p + translation that is tangent to a surface everywhere.
+struct Infinitesimal_map_3 {
+  Eigen::Matrix3d matrix;
+  Eigen::Vector3d translation;
+};
+
+/// The infinitesimal maps along which a surface slips over itself: the Lie algebra of the continuous group of its
+/// symmetries. The generators are a basis, orthonormal in the coordinates in which the points have covariance 1.
+struct Affine_slippage_3 {
+  std::vector<Infinitesimal_map_3> generators;
+
+  std::size_t dimension() const { return generators.size(); }
+};
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_SURFACE_REGISTRATION_3_H
+#define EQUIAFFINE_REGISTRATION_SURFACE_REGISTRATION_3_H
+
+#include <equiaffine/registration/Affine_slippage_3.h>
+
+#include <CGAL/Aff_transformation_3.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace equiaffine {
+
+/// A map that moves the source, or a part of it, onto the target, and what there is to trust it.
+template <class Kernel>
+struct Registered_map_3 {
+  typename Kernel::Aff_transformation_3 map;
+  /// The logarithm of the number of maps as good as this one that chance would make of all that were tried.
+  double log10_false_alarms;
+  /// The parts of the points of the source, and of the target, that lie on the other surface.
+  std::array<double, 2> inliers;
+  double rms; ///< the root of the mean squared distance of these points, in the unit of the target
+};
+
+/// The result of `register_surfaces`.
+template <class Kernel>
+struct Surface_registration_3 {
+  std::vector<Registered_map_3<Kernel>> maps; ///< the best first; empty if there is no evidence for any
+  std::size_t hypotheses = 0;                 ///< the number of maps that were tried
+  std::optional<double> next_best_rms;        ///< of the best map that is not the first one of `maps`, if there was one
+  /// How the source slips over itself by maps of the kind. If the dimension is not 0, each of `maps` represents a
+  /// continuous family.
+  Affine_slippage_3 slippage;
+
+  bool found() const { return !maps.empty(); }
+  const Registered_map_3<Kernel>& best() const { return maps.front(); } ///< \pre found()
+};
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_COUNTERPART_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_COUNTERPART_H
+
+#include <equiaffine/registration/internal/Framed_surface_3.h>
+#include <equiaffine/registration/internal/candidate_pairs.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace equiaffine::internal {
+
+/// A point of the source, and the point of the target that has its invariants as nearly as one nearby can.
+struct Counterpart {
+  std::size_t source = 0;
+  Framed_point_3 target;
+  double residual = 0;   ///< of the invariants
+  double mismatched = 0; ///< of their gradients
+
+  bool exists() const { return target.has_frame(); }
+
+  /// 0 for a perfect pair; both parts are about 1 for an accidental one.
+  double cost() const { return residual / 0.1 + mismatched / 0.3; }
+};
+
+/// Finds the counterpart by up to 6 steps of Gauss and Newton along the target from the candidate on, with 5 expansions
+/// each. It does not exist where the target has no frame, or not near the candidate.
+inline Counterpart find_counterpart(const Framed_surface_3& source, const Framed_surface_3& target,
+                                    const Candidate_pair& pair, Map_kind kind) {
+  constexpr int most_steps = 6;
+  const Framed_point_3& p = source.points[pair.source];
+  const Eigen::Vector3d begin = target.points[pair.target].point;
+  Counterpart result{pair.source, target.points[pair.target], 0, 0};
+  Framed_point_3& q = result.target;
+  for (int step = 0;; ++step) {
+    const Gradient_of_invariants gradient = kept_gradient(q, kind);
+    const Invariants difference = kept_invariants(p, kind) - kept_invariants(q, kind);
+    result.residual = difference.norm();
+    result.mismatched = mismatch(kept_gradient(p, kind), gradient);
+    if (step == most_steps || result.residual < 1e-13) return result;
+    Eigen::Vector3d move = q.basis.leftCols<2>() * step_to(gradient, difference, 1e-9);
+    if (move.norm() < 1e-14 * target.size) return result;
+    move *= std::min(1.0, 1.5 * target.spacing / move.norm());
+    q = framed_point(target.function, target.function.moved_to_surface(q.point + move, 3));
+    if (!q.has_frame() || q.is_elliptic != p.is_elliptic || !((q.point - begin).norm() < 6 * target.spacing)) {
+      q.quality = 0;
+      return result;
+    }
+  }
+}
+
+} // namespace equiaffine::internal
+
+#endif

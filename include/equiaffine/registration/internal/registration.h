@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_H
+
+#include <equiaffine/base/check_argument.h>
+#include <equiaffine/registration/Surface_registration_3.h>
+#include <equiaffine/registration/internal/Framed_surface_3.h>
+#include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/Registration_search.h>
+#include <equiaffine/registration/internal/map_of_quadrics.h>
+#include <equiaffine/registration/internal/slippage.h>
+#include <equiaffine/registration/internal/vectors_of.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace equiaffine::internal {
+
+template <class Kernel>
+Registered_map_3<Kernel> registered_map(const Judged_map& m) {
+  return {m.map.to_CGAL<typename Kernel::Aff_transformation_3>(), m.evidence.log10_false_alarms, m.evidence.inliers,
+          m.evidence.rms};
+}
+
+template <class ConcurrencyTag, class Kernel>
+Surface_registration_3<Kernel> registration_of_framed(const Framed_surface_3& source, const Framed_surface_3& target,
+                                                      const Registration_request& request) {
+  Surface_registration_3<Kernel> result;
+  result.slippage = slippage_of(source, request.kind, slippage_tolerance);
+  Registration_search<ConcurrencyTag> search(source, target, request);
+  if (result.slippage.dimension() > 0)
+    if (const auto map = map_of_quadrics(source, target, request)) search.try_map(*map);
+  if (search.accepted().empty()) search.run();
+  result.hypotheses = search.hypotheses();
+  const auto accepted = search.accepted();
+  for (std::size_t n = 0; n < std::min(accepted.size(), request.number_of_maps); ++n)
+    result.maps.push_back(registered_map<Kernel>(accepted[n]));
+  const std::size_t next = result.found() ? 1 : 0;
+  if (search.refined().size() > next) result.next_best_rms = search.refined()[next].evidence.rms;
+  return result;
+}
+
+template <class ConcurrencyTag, class Source, class Points, class Target, class Target_points, class Parameters>
+auto registration_of(const Source& source, const Points& source_points, const Target& target,
+                     const Target_points& target_points, const Parameters& parameters) {
+  const Registration_request request = registration_request(parameters);
+  const auto points = vectors_of(source_points), points_of_target = vectors_of(target_points);
+  check_argument(!points.empty(), "a surface to be registered has no points: give points of the source");
+  check_argument(!points_of_target.empty(), "a surface to register with has no points: give points of the target");
+  const Oracle_of_traits_3 function(source), target_function(target);
+  const auto result = [&](const Surface_oracle_3& refinement, const Surface_oracle_3& target_refinement) {
+    return registration_of_framed<ConcurrencyTag, Kernel_of<Target>>(
+        framed_surface<ConcurrencyTag>(function, refinement, points, request.kind),
+        framed_surface<ConcurrencyTag>(target_function, target_refinement, points_of_target, request.kind), request);
+  };
+  if constexpr (has_parameter<Refined_functions_tag, Parameters>) {
+    const auto& [refined_source, refined_target] = given_parameter<Refined_functions_tag>(parameters);
+    return result(Oracle_of_traits_3(refined_source), Oracle_of_traits_3(refined_target));
+  } else {
+    return result(function, target_function);
+  }
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_VECTORS_OF_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_VECTORS_OF_H
+
+#include <CGAL/number_utils.h>
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// The coordinates of a range of CGAL's points, as doubles.
+template <class Points>
+std::vector<Eigen::Vector3d> vectors_of(const Points& points) {
+  std::vector<Eigen::Vector3d> result;
+  for (const auto& p : points)
+    result.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+  return result;
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/points_on_surface.h"
+#include "support/registration_cases.h"
+#include <equiaffine/register_surfaces.h>
+
+#include <CGAL/tags.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using namespace registration_cases;
+using Result = Surface_registration_3<Kernel>;
+
+Surface named(const std::string& name) {
+  for (const Surface& s : generic_surfaces())
+    if (s.name == name) return s;
+  throw std::invalid_argument(name);
+}
+
+/// A surface and its image under a map, each with points of its own.
+struct Pair {
+  Formula source;
+  Map map;
+  Image target;
+  std::vector<Point_3> points, target_points;
+
+  Pair(const Surface& surface, const Map& m)
+      : source(surface.traits()), map(m), target(source, m), points(points_on_surface(source, 24)),
+        target_points(points_on_surface(target, 27)) {}
+
+  template <class Parameters = internal::No_parameters>
+  Result result(const Parameters& parameters = {}) const {
+    return register_surfaces(source, points, target, target_points, parameters);
+  }
+};
+
+void expect_map(const Result& result, const Map& map) {
+  ASSERT_TRUE(result.found());
+  EXPECT_LT(error_of(result.best().map, map), 1e-12);
+  EXPECT_LT(result.best().log10_false_alarms, -50);
+  EXPECT_LE(result.hypotheses, 4u);
+  EXPECT_LT(result.best().rms, 1e-12);
+  EXPECT_EQ(result.slippage.dimension(), 0u);
+}
+
+TEST(Register_surfaces, one_pair_of_points_gives_the_affine_map_reflections_included) {
+  Random random(1);
+  const Map mirror(-1, 0, 0, 0, 1, 0, 0, 0, 1);
+  for (const char* name : {"quartic", "torus+", "graph"}) {
+    const Map map = random_map(random, 10, random.uniform(0.2, 5));
+    for (const Map& m : {map, map * mirror}) {
+      SCOPED_TRACE(name);
+      const Result result = Pair(named(name), m).result();
+      expect_map(result, m);
+      EXPECT_GT(result.best().inliers[0], 0.9);
+      EXPECT_GT(result.best().inliers[1], 0.8) << "less than 1 where the surface goes on beyond its box";
+    }
+  }
+}
+
+TEST(Register_surfaces, maps_of_fewer_parameters_are_of_their_kind) {
+  Random random(2);
+  const Map equiaffine_map = random_map(random, 5, 1);
+  expect_map(Pair(named("heart+"), equiaffine_map).result(parameters::map_kind(Map_kind::EQUIAFFINE)), equiaffine_map);
+  const Eigen::Matrix3d rotation = random_rotation(random);
+  for (const auto& [kind, scale] : {std::pair(Map_kind::RIGID, -1.0), std::pair(Map_kind::SIMILARITY, 1.7)}) {
+    const Map map = map_of(scale * rotation, Eigen::Vector3d(1, 2, 3));
+    const Result result = Pair(named("ellipsoid+"), map).result(parameters::map_kind(kind));
+    expect_map(result, map);
+    const Eigen::Matrix3d found = matrix_of(result.best().map) / scale;
+    EXPECT_LT((found * found.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-13);
+  }
+}
+
+TEST(Register_surfaces, a_mirror_image_is_found_by_a_reflection_only) {
+  const Pair mirrored(named("quartic"), map_of(-Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()));
+  expect_map(mirrored.result(), mirrored.map);
+  const Result none = mirrored.result(parameters::reflections(false));
+  EXPECT_FALSE(none.found());
+  EXPECT_TRUE(none.maps.empty());
+}
+
+TEST(Register_surfaces, surfaces_that_have_nothing_in_common_have_no_map) {
+  Random random(3);
+  const Pair one(named("quartic"), random_map(random, 3, 1)), other(named("blobs5"), random_map(random, 3, 1));
+  const Result result = register_surfaces(one.source, one.points, other.target, other.target_points);
+  EXPECT_FALSE(result.found());
+}
+
+TEST(Register_surfaces, a_piece_is_found_in_the_whole_with_few_points) {
+  Random random(4);
+  const Map map = random_map(random, 5, 2);
+  const Pair pair(named("tangle+"), map);
+  const CGAL::Bbox_3 corner(0, 0, -3, 3, 3, 3);
+  const Formula piece(pair.source.function(), corner);
+  const auto points = points_on_surface(piece, 24);
+  const std::vector<Point_3> few(pair.target_points.begin(), pair.target_points.begin() + 100);
+  const Result result = register_surfaces(piece, points, pair.target, few);
+  ASSERT_TRUE(result.found());
+  EXPECT_LT(error_of(result.best().map, map), 1e-12);
+  EXPECT_GT(result.best().inliers[0], 0.95) << "the whole piece lies on the target";
+  EXPECT_LT(result.best().inliers[1], 0.6) << "the piece covers a part of the target";
+}
+
+TEST(Register_surfaces, all_maps_are_found_when_asked) {
+  // A surface with one symmetry, the reflection of x: two maps lead to its image.
+  const Surface symmetric = {"", "x^4+y^4+z^4-1+.3*x^2*y-.2*x^2*z+.25*y^3+.3*y*z+.15*z^3-.2*y*z^2", cube(1.6)};
+  Random random(5);
+  const Map map = random_map(random, 4, 1.5);
+  const Pair pair(symmetric, map);
+  const Result result = pair.result(parameters::number_of_maps(5));
+  ASSERT_EQ(result.maps.size(), 2u);
+  const Map mirror(-1, 0, 0, 0, 1, 0, 0, 0, 1);
+  const double first = error_of(result.maps[0].map, map), second = error_of(result.maps[1].map, map);
+  EXPECT_LT(std::min(first, second), 1e-12);
+  EXPECT_LT(std::min(error_of(result.maps[0].map, map * mirror), error_of(result.maps[1].map, map * mirror)), 1e-12);
+  ASSERT_TRUE(result.next_best_rms);
+  EXPECT_LT(*result.next_best_rms, 1e-12);
+}
+
+TEST(Register_surfaces, threads_give_the_same_bits) {
+  Random random(6);
+  const Pair pair(named("sextic"), random_map(random, 5, 2));
+  const Result one = pair.result();
+  const Result many = register_surfaces<CGAL::Parallel_tag>(pair.source, pair.points, pair.target, pair.target_points);
+  ASSERT_TRUE(one.found() && many.found());
+  EXPECT_EQ(matrix_of(one.best().map), matrix_of(many.best().map));
+  EXPECT_EQ(one.best().log10_false_alarms, many.best().log10_false_alarms);
+  EXPECT_EQ(one.best().rms, many.best().rms);
+  EXPECT_EQ(one.hypotheses, many.hypotheses);
+}
+
+TEST(Register_surfaces, quadrics_have_generators_and_one_map_of_many) {
+  const std::vector<std::pair<Surface, std::size_t>> cases = {
+      {{"ellipsoid", "x^2+2*y^2+3*z^2+.3*x*y+.2*x-1", cube(1.3)}, 3},
+      {{"hyperboloid", "x^2+2*y^2-z^2-.5", cube(1.2)}, 3},
+      {{"paraboloid", "z-x^2-.5*y^2", CGAL::Bbox_3(-1, -1, -.5, 1, 1, 1)}, 4}};
+  Random random(8);
+  for (const auto& [surface, dimension] : cases) {
+    SCOPED_TRACE(surface.name);
+    const Result result = Pair(surface, random_map(random, 4, 2)).result();
+    EXPECT_EQ(result.slippage.dimension(), dimension);
+    ASSERT_TRUE(result.found());
+    EXPECT_LT(result.best().rms, 1e-12);
+    EXPECT_GT(result.best().inliers[0], 0.1) << "the other points leave the box";
+  }
+}
+
+TEST(Register_surfaces, planes_and_three_points_have_no_map) {
+  const Formula plane(Expression_3("x + 2*y - z"), cube(1));
+  const auto points = points_on_surface(plane, 10);
+  EXPECT_FALSE(register_surfaces(plane, points, plane, points).found());
+  const Formula surface = named("quartic").traits();
+  const auto all = points_on_surface(surface, 20);
+  const std::vector<Point_3> three(all.begin(), all.begin() + 3);
+  EXPECT_FALSE(register_surfaces(surface, three, surface, three).found());
+}
+
+TEST(Register_surfaces, what_makes_no_sense_is_refused) {
+  const Formula surface = named("quartic").traits();
+  const auto points = points_on_surface(surface, 10);
+  const std::vector<Point_3> none;
+  EXPECT_THROW(register_surfaces(surface, none, surface, points), std::invalid_argument);
+  EXPECT_THROW(register_surfaces(surface, points, surface, none), std::invalid_argument);
+  EXPECT_THROW(register_surfaces(surface, points, surface, points, parameters::least_overlap(2)),
+               std::invalid_argument);
+  EXPECT_THROW(register_surfaces(surface, points, surface, points, parameters::number_of_maps(0)),
+               std::invalid_argument);
+  EXPECT_THROW(register_surfaces(surface, points, surface, points, parameters::tolerance(-1)), std::invalid_argument);
+}
+
+} // namespace

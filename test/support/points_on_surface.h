@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_TEST_SUPPORT_POINTS_ON_SURFACE_H
+#define EQUIAFFINE_TEST_SUPPORT_POINTS_ON_SURFACE_H
+
+#include <equiaffine/marching_cubes.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <random>
+#include <utility>
+#include <vector>
+
+/// Vertices of the surface on a lattice of n nodes in the longest direction, all of them or a random part.
+template <class Traits>
+std::vector<typename Traits::Point_3> points_on_surface(const Traits& traits, std::size_t n, std::size_t most = 5000,
+                                                        unsigned seed = 1) {
+  auto points = equiaffine::marching_cubes(traits, equiaffine::parameters::number_of_nodes(n)).points;
+  std::minstd_rand random(seed);
+  for (std::size_t k = 0; k < std::min(most, points.size()); ++k)
+    std::swap(points[k], points[k + random() % (points.size() - k)]);
+  points.resize(std::min(most, points.size()));
+  return points;
+}
+
+#endif
