@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/points_on_surface.h"
+#include "support/registration_cases.h"
+#include <equiaffine/affine_symmetries.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using namespace registration_cases;
+
+struct Expected {
+  std::string formula;
+  CGAL::Bbox_3 box;
+  std::size_t number; ///< of symmetries, or the dimension of the continuous ones
+};
+
+const std::string icosahedral =
+    "x^2+y^2+z^2-1+.35*(2.618033988749895*x^2-y^2)*(2.618033988749895*y^2-z^2)*(2.618033988749895*z^2-x^2)";
+
+/// The symmetries of a surface, or of its image under a map.
+Affine_symmetries_3<Kernel> symmetries(const Expected& e, const std::optional<Map>& map, std::size_t nodes) {
+  const Formula formula = Surface{"", e.formula, e.box}.traits();
+  if (!map) return affine_symmetries(formula, points_on_surface(formula, nodes));
+  const Image image(formula, *map);
+  return affine_symmetries(image, points_on_surface(image, nodes));
+}
+
+TEST(Affine_symmetries, finite_groups_are_complete_for_originals_and_affine_images) {
+  const std::vector<Expected> cases = {{"x^6+2*y^6+.5*z^6-1", cube(1.3), 48},
+                                       {"x^6+1.5*y^6+.7*z^6+.8*x^2*y^2-1", cube(1.3), 16},
+                                       {"x^4+y^4+z^4+1.2*x*y*z-1", cube(1.6), 24},
+                                       {"(x^2*(1-x^2)-y^2)^2+.5*z^2-.03", CGAL::Bbox_3(-1.4, -1, -.6, 1.4, 1, .6), 8},
+                                       {icosahedral, cube(1.6), 120},
+                                       {generic_surfaces()[0].formula, cube(1.8), 1}};
+  Random random(4);
+  for (const Expected& e : cases)
+    for (const auto& map : {std::optional<Map>(), std::optional<Map>(random_map(random, 5, 2))}) {
+      const auto result = symmetries(e, map, 30);
+      EXPECT_EQ(result.order(), e.number) << e.formula;
+      EXPECT_EQ(error_of(result.maps.front().map, Map(CGAL::IDENTITY)), 0);
+      for (const auto& s : result.maps) EXPECT_LT(s.rms, 1e-12);
+      for (const auto& a : result.maps) {
+        const auto is_square = [&](const auto& b) { return error_of(b.map, a.map * a.map) < 1e-9; };
+        EXPECT_TRUE(std::any_of(result.maps.begin(), result.maps.end(), is_square)) << "the group is closed";
+      }
+    }
+}
+
+TEST(Affine_symmetries, continuous_ones_have_generators) {
+  const std::vector<Expected> cases = {{"x^2+2*y^2+3*z^2+.3*x*y-1", cube(1.2), 3},
+                                       {"x^2+2*y^2-z^2-.5", cube(1.2), 3},
+                                       {"z-x^2-.5*y^2", CGAL::Bbox_3(-1, -1, -.5, 1, 1, 1), 4},
+                                       {"(x^2+y^2+z^2+.84)^2-4*(x^2+y^2)", cube(1.6), 1},
+                                       {"x*y*z-1", CGAL::Bbox_3(.3, .3, .3, 2, 2, 2), 2},
+                                       {"z-x*y+x^3/3", cube(1), 3},
+                                       {"x*sin(z)-y*cos(z)", CGAL::Bbox_3(.3, .3, 0, 1.5, 1.5, 1.5), 2}};
+  Random random(5);
+  for (const Expected& e : cases)
+    for (const auto& map : {std::optional<Map>(), std::optional<Map>(random_map(random, 5, 2))}) {
+      const auto result = symmetries(e, map, 20);
+      EXPECT_EQ(result.continuous.dimension(), e.number) << e.formula;
+      EXPECT_EQ(result.order(), std::nullopt);
+      EXPECT_EQ(result.maps.size(), 1u) << "the identity";
+    }
+}
+
+TEST(Affine_symmetries, generators_are_tangent_to_the_surface) {
+  const Formula torus(Expression_3("(sqrt(x^2+y^2)-2)^2+(z-1)^2-.49"), CGAL::Bbox_3(-3, -3, 0, 3, 3, 2));
+  const auto result = affine_symmetries(torus, points_on_surface(torus, 20));
+  ASSERT_EQ(result.continuous.dimension(), 1u);
+  const auto& [matrix, translation] = result.continuous.generators[0];
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
+  turn(0, 1) = -matrix(1, 0);
+  turn(1, 0) = matrix(1, 0);
+  EXPECT_LT((matrix - turn).norm(), 1e-12 * matrix.norm()) << "it turns about the z axis";
+  EXPECT_LT(translation.norm(), 1e-12 * matrix.norm());
+}
+
+TEST(Affine_symmetries, a_slightly_disturbed_surface_has_those_within_the_tolerance) {
+  const Expected disturbed = {"x^6+2*y^6+.5*z^6-1+.0001*(x^3+.7*y^3*x-.4*z^3*y+.5*x*y*z)", cube(1.3), 48};
+  EXPECT_EQ(symmetries(disturbed, {}, 30).order(), 1u);
+  const Formula formula = Surface{"", disturbed.formula, disturbed.box}.traits();
+  EXPECT_EQ(affine_symmetries(formula, points_on_surface(formula, 30), parameters::tolerance(1e-3)).order(), 48u);
+}
+
+TEST(Affine_symmetries, what_makes_no_sense_is_refused) {
+  const Formula surface = generic_surfaces()[0].traits();
+  EXPECT_THROW(affine_symmetries(surface, std::vector<Point_3>()), std::invalid_argument);
+  EXPECT_THROW(affine_symmetries(surface, points_on_surface(surface, 8), parameters::tolerance(1)),
+               std::invalid_argument);
+}
+
+} // namespace
