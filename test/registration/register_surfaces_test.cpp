@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
+#include <equiaffine/is_affinely_equivalent.h>
 #include <equiaffine/register_surfaces.h>
 
 #include <CGAL/tags.h>
@@ -153,6 +154,20 @@ TEST(Register_surfaces, quadrics_have_generators_and_one_map_of_many) {
     EXPECT_LT(result.best().rms, 1e-12);
     EXPECT_GT(result.best().inliers[0], 0.1) << "the other points leave the box";
   }
+}
+
+TEST(Register_surfaces, equivalent_surfaces_are_moved_onto_each_other_all_of_them) {
+  Random random(9);
+  const auto are_equivalent = [](const auto& source, const auto& points, const Pair& pair) {
+    return is_affinely_equivalent(source, points, pair.target, pair.target_points);
+  };
+  const Pair pair(named("quartic"), random_map(random, 5, 2));
+  EXPECT_TRUE(are_equivalent(pair.source, pair.points, pair));
+  const Formula piece(pair.source.function(), CGAL::Bbox_3(0, -2, -2, 2, 2, 2));
+  EXPECT_FALSE(are_equivalent(piece, points_on_surface(piece, 24), pair)) << "a half is not the whole";
+  const Pair ellipsoids({"", "x^2+2*y^2+3*z^2-1", cube(1.2)}, random_map(random, 5, 2));
+  EXPECT_TRUE(are_equivalent(ellipsoids.source, ellipsoids.points, ellipsoids));
+  EXPECT_FALSE(are_equivalent(pair.source, pair.points, ellipsoids));
 }
 
 TEST(Register_surfaces, planes_and_three_points_have_no_map) {

@@ -42,7 +42,7 @@ Surface_registration_3<Kernel_of<Target>> register_surfaces(const Source& source
   internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag,
                              internal::Number_of_maps_tag, internal::Least_overlap_tag, internal::Refined_functions_tag,
                              internal::Tolerance_tag>();
-  return internal::registration_of<ConcurrencyTag>(source, source_points, target, target_points, parameters);
+  return internal::registration_of<ConcurrencyTag>(source, source_points, target, target_points, parameters).result;
 }
 
 } // namespace equiaffine

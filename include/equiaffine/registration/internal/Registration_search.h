@@ -58,6 +58,7 @@ public:
   }
 
   std::size_t hypotheses() const { return hypotheses_; }
+  double tolerance() const { return tolerance_; } ///< in the unit of distances
 
   /// The maps that are no accident, and different from each other, the best first.
   std::vector<Judged_map> accepted() const {
@@ -74,12 +75,12 @@ private:
   static constexpr std::size_t most_points_to_try = 512, points_per_batch = 32, pairs_at_once = 8;
   static constexpr std::size_t most_hypotheses = 2000;
   static constexpr std::size_t probes_at_first = 150; ///< by which a hypothesis is judged before it is refined
-  /// So many hypotheses more are tried after a map that fits less well than numbers allow: the surface may be nearly
-  /// symmetric, and another map fit better.
+  /// So many hypotheses more are tried after a map that moves only a part of the source to within the noise: the surface
+  /// may be nearly symmetric, and another map fit better.
   static constexpr std::size_t more_hypotheses = 60;
   /// The tolerance of surfaces without noise is that of splines through samples. Smooth surfaces that have nothing in
   /// common can be moved onto each other to within 1e-2 of their size, and large parts of them to within 1e-3 or less.
-  static constexpr double exact_tolerance = 1e-5;
+  static constexpr double exact_tolerance = 1e-5, rounding = 1e-8;
   static constexpr double greatest_first_tolerance = 0.03;
   static constexpr double first_log10 = -1.5; ///< hypotheses that are no better than this are not refined
   static constexpr double second_log10 = -4;  ///< those that are no better after a few steps are given up
@@ -90,8 +91,10 @@ private:
   bool is_done() const {
     if (hypotheses_ >= most_hypotheses) return true;
     if (first_accepted_ == 0 || request_.number_of_maps > 1) return false;
-    const bool is_at_noise = maps_.front().evidence.tolerance <= tolerance_ / 3;
-    return is_at_noise || hypotheses_ >= first_accepted_ + more_hypotheses;
+    const Map_evidence& best = maps_.front().evidence;
+    const bool has_noise = tolerance_ > exact_tolerance, has_all = std::max(best.inliers[0], best.inliers[1]) > 0.8;
+    const bool is_within_noise = has_noise ? has_all || best.tolerance <= tolerance_ / 3 : best.tolerance <= rounding;
+    return is_within_noise || hypotheses_ >= first_accepted_ + more_hypotheses;
   }
 
   void try_points(std::span<const std::size_t> points) {

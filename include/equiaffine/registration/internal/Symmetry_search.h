@@ -8,6 +8,7 @@
 #include <equiaffine/registration/internal/counterpart.h>
 #include <equiaffine/registration/internal/map_distances.h>
 #include <equiaffine/registration/internal/order_of_points.h>
+#include <equiaffine/registration/internal/part_on_surface.h>
 #include <equiaffine/registration/internal/refine_map.h>
 
 #include <algorithm>
@@ -98,22 +99,14 @@ private:
           if (group_.size() < largest_group && !contains(group_, product)) group_.push_back(product);
   }
 
-  bool may_be_symmetry(const Affine_map_3& map) const { return part_on_surface(map, 60, 0.01) > 0.7; }
+  bool may_be_symmetry(const Affine_map_3& map) const { return part_moved_onto_surface(map, 60, 0.01) > 0.7; }
 
   bool is_symmetry(const Affine_map_3& map) const {
-    return part_on_surface(map, most_probes, std::max(tolerance_, 1e-10)) > 0.98;
+    return part_moved_onto_surface(map, most_probes, std::max(tolerance_, 1e-10)) > part_of_same_surface;
   }
 
-  /// The part of the moved probes in the domain that lie on the surface to within a part of its size; 0 if most probes
-  /// leave the domain.
-  double part_on_surface(const Affine_map_3& map, std::size_t probes, double tolerance) const {
-    std::size_t inside = 0, on_surface = 0;
-    const auto moved = moved_source<ConcurrencyTag>(surface_, surface_, map, probes);
-    for (const Mapped_point& p : moved) {
-      inside += !std::isnan(p.to_other.distance);
-      on_surface += std::abs(p.to_other.distance) < tolerance * surface_.size;
-    }
-    return 2 * inside > moved.size() ? double(on_surface) / double(inside) : 0;
+  double part_moved_onto_surface(const Affine_map_3& map, std::size_t probes, double tolerance) const {
+    return part_on_surface(moved_source<ConcurrencyTag>(surface_, surface_, map, probes), tolerance * surface_.size);
   }
 
   bool contains(const std::vector<Affine_map_3>& maps, const Affine_map_3& map) const {

@@ -8,6 +8,7 @@
 #include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/Registration_search.h>
 #include <equiaffine/registration/internal/map_of_quadrics.h>
+#include <equiaffine/registration/internal/part_on_surface.h>
 #include <equiaffine/registration/internal/slippage.h>
 #include <equiaffine/registration/internal/vectors_of.h>
 
@@ -23,10 +24,28 @@ Registered_map_3<Kernel> registered_map(const Judged_map& m) {
           m.evidence.rms};
 }
 
-template <class ConcurrencyTag, class Kernel>
-Surface_registration_3<Kernel> registration_of_framed(const Framed_surface_3& source, const Framed_surface_3& target,
-                                                      const Registration_request& request) {
+/// The result of register_surfaces(), and whether the best map moves all of each surface onto the other.
+template <class Kernel>
+struct Registration_of_framed_3 {
   Surface_registration_3<Kernel> result;
+  bool is_equivalence = false;
+};
+
+template <class ConcurrencyTag>
+bool is_equivalence(const Framed_surface_3& source, const Framed_surface_3& target, const Affine_map_3& map,
+                    double tolerance) {
+  const double distance = tolerance * unit_of_distances(source, target, map);
+  return part_on_surface(moved_source<ConcurrencyTag>(source, target, map, most_probes), distance) >
+             part_of_same_surface &&
+         part_on_surface(target_beside_moved_source<ConcurrencyTag>(source, target, map, most_probes), distance) >
+             part_of_same_surface;
+}
+
+template <class ConcurrencyTag, class Kernel>
+Registration_of_framed_3<Kernel> registration_of_framed(const Framed_surface_3& source, const Framed_surface_3& target,
+                                                        const Registration_request& request) {
+  Registration_of_framed_3<Kernel> registration;
+  Surface_registration_3<Kernel>& result = registration.result;
   result.slippage = slippage_of(source, request.kind, slippage_tolerance);
   Registration_search<ConcurrencyTag> search(source, target, request);
   if (result.slippage.dimension() > 0)
@@ -38,7 +57,9 @@ Surface_registration_3<Kernel> registration_of_framed(const Framed_surface_3& so
     result.maps.push_back(registered_map<Kernel>(accepted[n]));
   const std::size_t next = result.found() ? 1 : 0;
   if (search.refined().size() > next) result.next_best_rms = search.refined()[next].evidence.rms;
-  return result;
+  registration.is_equivalence =
+      result.found() && is_equivalence<ConcurrencyTag>(source, target, accepted[0].map, search.tolerance());
+  return registration;
 }
 
 template <class ConcurrencyTag, class Source, class Points, class Target, class Target_points, class Parameters>
