@@ -32,6 +32,9 @@ void check_kind(const Option_reader& reader) {
   if (source.kind == Source_kind::VOLUME)
     reader.refuse({"--box", "--resolution"}, "a --volume has its own", "leave it out");
   const bool is_sampled_only = source.kind == Source_kind::VOLUME || source.kind == Source_kind::DISTANCE;
+  if (source.kind == Source_kind::FIT && source.derivatives == Derivatives::SPLINE)
+    fail_option("--derivatives", "a fit is known near its points only, which is too little for a spline",
+                "leave it out: a fit has derivatives of its own");
   if (is_sampled_only && source.derivatives == Derivatives::JETS)
     fail_option("--derivatives", "jets need a formula, and this source is known by samples only",
                 "leave it out or use spline");
@@ -44,7 +47,8 @@ void read_spline(Option_reader& reader) {
   if (reader.draft().source.derivatives == Derivatives::JETS)
     reader.refuse({"--spline-degree", "--spline-scheme", "--smoothing"},
                   "it is for splines, and the derivatives are those of the formula or the fit",
-                  "add --derivatives spline or leave it out");
+                  reader.draft().source.kind == Source_kind::FIT ? "leave it out"
+                                                                 : "add --derivatives spline or leave it out");
   reader.read({"--spline-scheme", "--spline-degree"});
   const Spline_options& spline = reader.draft().source.spline;
   if (spline.scheme == Spline_scheme::PAPER && spline.degree != 5)

@@ -75,8 +75,8 @@ const std::vector<Option_row> rows = {
      "take the image of the surface under p -> A p, A given row by row",
      [](const Option_words& option, Draft& draft) { draft.source.transformation = parse_transformation(option); }},
     {"--derivatives", MESH | EVALUATE, SURFACE, 1, "jets|spline",
-     "from the formula or the fit (jets, their default), or from a spline through\n"
-     "samples on the grid (spline, the only way for volumes and distances)",
+     "from the formula or the fit (jets, their default), or from a spline through samples\n"
+     "on the grid (spline, the only way for volumes and distances, none for fits)",
      read_derivatives},
     {"--spline-degree", MESH | EVALUATE, SURFACE, 1, "5|7|9", "the degree of that spline, by default 7",
      read_spline_degree},

@@ -100,7 +100,7 @@ void run_annotate(const Annotate_options& options, std::ostream& out, Progress& 
   if (options.stats) file->stream() << to_JSON(statistics);
   progress.end();
   commit_all(outputs.files);
-  warn_of_doubt(statistics.fit, statistics.vertices, progress);
+  warn_of_doubt(statistics.fit, statistics.vertices, statistics.status[std::size_t(Point_status::PARABOLIC)], progress);
   if (outputs.use_standard_output()) return;
   out << summary(statistics);
   report_written(out, outputs.files);

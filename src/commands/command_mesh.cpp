@@ -254,7 +254,9 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   if (!options.attributes.columns.empty())
     warn_of_outside(options.source, source, surface.status[std::size_t(Point_status::OUTSIDE)],
                     surface.mesh.points.size(), "vertices", progress);
-  if (statistics.fit) warn_of_doubt(*statistics.fit, statistics.vertices, progress);
+  if (statistics.fit)
+    warn_of_doubt(*statistics.fit, statistics.vertices, statistics.status[std::size_t(Point_status::PARABOLIC)],
+                  progress);
   if (!outputs.use_standard_output()) {
     out << summary(statistics);
     if (options.curves) out << summary(*surface.curves);

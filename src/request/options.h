@@ -53,6 +53,7 @@ struct Source_options {
   Derivatives derivatives = Derivatives::JETS;
   Spline_options spline;
   Fit_options fit;
+  double height_of_fit = 0;          ///< up to which a fit needs values over its surface; it may have more
   bool estimates_errors = false;     ///< whether the errors of affine curvatures are estimated
   std::optional<Raw_layout> raw;     ///< is set for a volume without a header
   std::optional<double> narrow_band; ///< voxels beyond which distances are not needed

@@ -78,7 +78,7 @@ double height_of_band(const Source_options& options, const CGAL::Bbox_3& box) {
   const Lattice_3<Kernel> lattice(options.resolution.value_or(default_resolution(options.kind)), box);
   const auto [x, y, z] = lattice.steps();
   const double default_radius = std::hypot(box.x_span(), box.y_span(), box.z_span()) / 50;
-  return 2 * std::max(std::sqrt((x + y + z).squared_length()), default_radius);
+  return std::max(options.height_of_fit, 2 * std::max(std::sqrt((x + y + z).squared_length()), default_radius));
 }
 
 Fit_traits make_fit(const Source_options& options, Progress& progress) {
@@ -89,7 +89,9 @@ Fit_traits make_fit(const Source_options& options, Progress& progress) {
   if (fit.bbox() == CGAL::Bbox_3())
     throw Input_error("cannot make " + describe_as(options, options.text) +
                       ": no point has enough others around it for a polynomial; give more points" +
-                      (options.fit.scale ? ", a larger --scale or a smaller --degree" : ""));
+                      (options.fit.scale    ? ", a larger --scale or a smaller --degree"
+                       : options.fit.degree ? " or a smaller --degree"
+                                            : ""));
   const CGAL::Bbox_3 box = options.box ? *options.box : widened_box(table.mesh.points);
   return fit.in_box(box).in_band(height_of_band(options, box));
 }
@@ -191,9 +193,9 @@ Source make_source(const Source_options& options, Progress& progress) {
   };
   if (options.derivatives == Derivatives::JETS && options.kind == Source_kind::FIT) {
     const Fit_traits fit = make_fit(options, progress);
-    return {transformed(fit), 0, {}, {}, fit};
+    return {.function = transformed(fit), .fit = fit};
   }
-  if (options.derivatives == Derivatives::JETS) return {transformed(make_formula(options)), 0, {}, {}, {}};
+  if (options.derivatives == Derivatives::JETS) return {.function = transformed(make_formula(options))};
   Fitted_spline fit = fit_spline(options, progress);
   const std::size_t samples = fit.function.lattice().number_of_nodes();
   return {transformed(std::move(fit.function)),

@@ -18,10 +18,10 @@ namespace equiaffine {
 
 struct Source {
   Source_function function;
-  std::size_t function_evaluations = 0;            ///< the number that it took to make the source
-  std::optional<Spline_statistics> spline;         ///< if derivatives are those of a spline
-  std::optional<Curvature_error_3<Kernel>> errors; ///< of that spline, if estimates were asked for
-  std::optional<Fit_traits> fit;                   ///< if derivatives are those of a fit, before any transformation
+  std::size_t function_evaluations = 0;                 ///< the number that it took to make the source
+  std::optional<Spline_statistics> spline = {};         ///< if derivatives are those of a spline
+  std::optional<Curvature_error_3<Kernel>> errors = {}; ///< of that spline, if estimates were asked for
+  std::optional<Fit_traits> fit = {}; ///< if derivatives are those of a fit, before any transformation
 };
 
 /// Makes the function. This may include reading a volume, measuring distances, and fitting a spline. Throws

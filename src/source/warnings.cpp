@@ -27,10 +27,10 @@ void warn_of_outside(const Source_options& options, const Source& source, std::s
   progress.warn(text.str());
 }
 
-void warn_of_doubt(const Fit_statistics& fit, std::size_t vertices, Progress& progress) {
+void warn_of_doubt(const Fit_statistics& fit, std::size_t vertices, std::size_t parabolic, Progress& progress) {
   const auto known = std::size_t(std::llround(fit.known.back() * double(vertices)));
-  if (2 * known >= vertices) return;
-  progress.warn(std::to_string(vertices - known) + " of " + std::to_string(vertices) +
+  if (2 * known >= vertices - parabolic) return;
+  progress.warn(std::to_string(vertices - parabolic - known) + " of " + std::to_string(vertices) +
                 " vertices have no fit, or an estimated error of the affine Gaussian curvature of more than 50 %: the "
                 "points are too few, or their noise is too large for fourth derivatives; give more points, or a "
                 "larger --scale");

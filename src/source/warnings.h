@@ -12,12 +12,14 @@
 namespace equiaffine {
 
 /// Warns of points outside the samples where the reason is one that the user would not expect: a narrow band, fewer
-/// nodes than a spline needs, or points away from the data of a fit. `outside` of `all` points are; `points` is the word for them, such as "vertices".
+/// nodes than a spline needs, or points away from the data of a fit. `outside` of `all` points are; `points` is the word
+/// for them, such as "vertices".
 void warn_of_outside(const Source_options& options, const Source& source, std::size_t outside, std::size_t all,
                      const std::string& points, Progress& progress);
 
-/// Warns if the affine Gaussian curvature of a fit is unknown at more than half of the vertices.
-void warn_of_doubt(const Fit_statistics& fit, std::size_t vertices, Progress& progress);
+/// Warns if the affine Gaussian curvature of a fit is unknown at more than half of the vertices that are not parabolic,
+/// where it does not exist.
+void warn_of_doubt(const Fit_statistics& fit, std::size_t vertices, std::size_t parabolic, Progress& progress);
 
 } // namespace equiaffine
 

@@ -57,6 +57,18 @@ TEST(Fitted_structures, noise_of_one_percent_of_an_edge_leaves_K_known_and_the_e
   EXPECT_LE(double(errors.trusted_but_wrong), 0.03 * double(errors.trusted));
 }
 
+TEST(Fitted_structures, noise_that_is_given_counts_as_it_is) {
+  Fit_mesh mesh = metaballs_mesh(30);
+  const double h = mean_edge(mesh);
+  const auto once = fitted_structures(mesh, parameters::scale(0.4).noise(0.1 * h)),
+             twice = fitted_structures(mesh, parameters::scale(0.4).noise(0.2 * h));
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    if (once[i].structure.status != Point_status::REGULAR) continue;
+    EXPECT_NEAR(twice[i].noise.gaussian_curvature / once[i].noise.gaussian_curvature, 2, 1e-6);
+    EXPECT_GE(once[i].error.gaussian_curvature, once[i].noise.gaussian_curvature);
+  }
+}
+
 TEST(Fitted_structures, an_equiaffine_map_of_the_mesh_keeps_affine_curvatures) {
   const Fit_mesh mesh = metaballs_mesh(40);
   // Of determinant 1 and condition number 3.

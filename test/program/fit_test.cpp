@@ -161,7 +161,8 @@ TEST_F(Program_fit, what_cannot_be_used_is_refused) {
   expect_error({"mesh", "--fit", "s.ply", "--distance-to", "s.ply", "-o", "a.ply"}, {"both given"});
   expect_error({"mesh", "--fit", "no.ply", "-o", "a.ply"}, {"no.ply", "no such file"});
   expect_error({"mesh", "--fit", "s.ply", "-o", "s.ply"}, {"replace"});
-  expect_error({"mesh", "--fit", "s.ply", "--smoothing", "2", "-o", "a.ply"}, {"--smoothing", "--derivatives spline"});
+  expect_error({"mesh", "--fit", "s.ply", "--smoothing", "2", "-o", "a.ply"}, {"--smoothing", "splines"});
+  expect_error({"mesh", "--fit", "s.ply", "--derivatives", "spline", "-o", "a.ply"}, {"--derivatives", "of its own"});
   expect_error({"mesh", "--function", "x", "--box", "-1", "1", "-1", "1", "-1", "1", "--attributes",
                 "affine_mean_curvature_noise", "-o", "a.ply"},
                {"noise", "--fit"});

@@ -92,7 +92,9 @@ public:
   /// height is the diagonal of a cell.
   Fitted_function_traits_3 in_band(const FT& height) const {
     Fitted_function_traits_3 copy = *this;
-    copy.margin_ = CGAL::to_double(height) * state_->fit.normalization().greatest_stretch();
+    const double least = state_->fit.normalization().least_stretch(),
+                 greatest = state_->fit.normalization().greatest_stretch();
+    copy.margin_ = {CGAL::to_double(height) * greatest, 0.5 * least / greatest};
     return copy;
   }
 
@@ -162,7 +164,7 @@ private:
 
   std::shared_ptr<const State> state_;
   CGAL::Bbox_3 box_;
-  double margin_ = 0; ///< in normal coordinates
+  internal::Band_3::Margin margin_; ///< in normal coordinates
 };
 
 } // namespace equiaffine

@@ -35,6 +35,12 @@ public:
     double height; ///< over the nearest point of the surface, along its normal; NaN beyond the margin
   };
 
+  /// What is in the band beyond its core: points up to a height, and farther across the higher they are, as above a
+  /// crease.
+  struct Margin {
+    double height = 0, slope = 0;
+  };
+
   Band_3() = default;
   explicit Band_3(std::vector<Band_point_3> points) : points_(std::move(points)) {
     std::vector<Vector> places;
@@ -47,21 +53,21 @@ public:
     balls_ = Ball_tree_3(places, reaches);
   }
 
-  Place place(const Vector& p, double margin) const {
+  Place place(const Vector& p, const Margin& margin) const {
     const Place beyond = {false, std::numeric_limits<double>::quiet_NaN()};
     const auto nearest = tree_.nearest(p, 1);
     if (nearest.empty()) return beyond;
     const auto& [point, normal, spacing, core] = points_[nearest.front()];
     const Vector difference = p - point;
     const double height = difference.dot(normal), across = (difference - height * normal).norm();
-    const double size = std::abs(height);
-    if (size > std::max(margin, band_height * spacing) || across > border * spacing + slope * size) return beyond;
-    return {size <= core, height};
+    const double size = std::abs(height), greatest = std::max(margin.height, band_height * spacing);
+    if (size > greatest || across > border * spacing + margin.slope * size) return beyond;
+    return {size <= core && across <= border * spacing, height};
   }
 
   /// Returns whether some point of a box, given by its corners, may be in the band.
-  bool may_meet(const Vector& lower, const Vector& upper, double margin) const {
-    const Vector half = Vector::Constant(std::hypot(1, slope) * margin);
+  bool may_meet(const Vector& lower, const Vector& upper, const Margin& margin) const {
+    const Vector half = Vector::Constant(std::hypot(1, margin.slope) * margin.height);
     return balls_.meets(lower - half, upper + half);
   }
 
@@ -82,8 +88,6 @@ public:
   static constexpr double band_height = 2, border = 1.25; ///< in spacings
 
 private:
-  static constexpr double slope = 1.5; ///< points above the surface may lie farther across, as they do above a crease
-
   std::vector<Band_point_3> points_;
   Point_tree_3 tree_;
   Ball_tree_3 balls_;

@@ -59,7 +59,7 @@ public:
 
   const Band_3& band() const { return band_; }
 
-  double value(const Vector& p, double margin) const {
+  double value(const Vector& p, const Band_3::Margin& margin) const {
     const auto [is_in_core, height] = band_.place(p, margin);
     return is_in_core ? blended_value(p) : height;
   }
@@ -67,8 +67,8 @@ public:
   /// The expansion at a point of the core.
   template <int Order>
   Jet_3<double, Order> taylor(const Vector& p) const {
-    return band_.place(p, 0).is_in_core ? blend<Order>(p)
-                                        : Jet_3<double, Order>(std::numeric_limits<double>::quiet_NaN());
+    return band_.place(p, {}).is_in_core ? blend<Order>(p)
+                                         : Jet_3<double, Order>(std::numeric_limits<double>::quiet_NaN());
   }
 
   /// The least radius of the fits that are blended at a point; infinity where there is none.
@@ -93,7 +93,9 @@ public:
       sum += weight * numbers.log();
       weights += weight;
     });
-    const Numbers mean = (sum / weights).exp();
+    Numbers mean = (sum / weights).exp();
+    for (double& number : mean)
+      if (!std::isnormal(number)) number = 0; // the exponential of minus infinity is not quite 0
     const double factor = std::max(1., mean[6] / curvatures_of(jet).size()), root = std::sqrt(factor);
     return {{mean[0] * factor, mean[1] * root}, {mean[2] * factor, mean[3] * root}, least_radius(p), mean[4], mean[5]};
   }

@@ -61,12 +61,19 @@ inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, D
   const double size = fit.curvatures.size(), root = std::sqrt(size);
   const double gaussian = std::abs(other.curvatures.gaussian - fit.curvatures.gaussian) / size,
                mean = std::abs(other.curvatures.mean - fit.curvatures.mean) / root;
-  const Fitted_curvatures deviations = guarded_deviations(fit, choice.noise);
+  // Noise that is given counts as it is, whatever the residuals are.
+  const double factor = choices.has_noise() && fit.residual > 0 ? choice.noise / fit.residual : 1;
+  const Fitted_curvatures of_noise = {factor * fit.deviations.gaussian, factor * fit.deviations.mean,
+                                      factor * fit.deviations.euclidean};
+  const Fitted_curvatures guarded = guarded_deviations(fit, choice.noise);
+  const Fitted_curvatures deviations = {std::max(guarded.gaussian, of_noise.gaussian),
+                                        std::max(guarded.mean, of_noise.mean),
+                                        std::max(guarded.euclidean, of_noise.euclidean)};
   Curvature_fit_3 result;
   result.error = {coverage *
                       error_or_all(std::hypot(std::max(choice.level.gaussian, gaussian), deviations.gaussian / size)),
                   coverage * error_or_all(std::hypot(std::max(choice.level.mean, mean), deviations.mean / root))};
-  result.noise = {2 * error_or_all(fit.deviations.gaussian / size), 2 * error_or_all(fit.deviations.mean / root)};
+  result.noise = {2 * error_or_all(of_noise.gaussian / size), 2 * error_or_all(of_noise.mean / root)};
   result.euclidean_error = choices.has_scale() ? 0 : euclidean_error(fit, other, deviations);
   result.deviation = choice.noise;
   result.patch = std::move(fit.patch);

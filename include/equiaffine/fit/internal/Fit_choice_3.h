@@ -53,6 +53,8 @@ public:
   /// Returns the choice of the center that is nearest to the point, if any fit is possible there.
   const std::optional<Choice>& at(const Eigen::Vector3d& p) const { return choices_[tree_.nearest(p, 1).front()]; }
 
+  bool has_noise() const { return request_.noise.has_value(); }
+
   /// At a given scale curvatures are by definition those of the fit.
   bool has_scale() const { return request_.scale.has_value(); }
 

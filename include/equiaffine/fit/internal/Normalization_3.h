@@ -27,8 +27,9 @@ struct Normalization_3 {
   /// The factor of lengths that has the effect on volumes that the map has.
   double scale() const { return std::cbrt(matrix.determinant()); }
 
-  /// The factor of lengths in the direction that is stretched most.
+  /// The factors of lengths in the directions that are stretched most and least.
   double greatest_stretch() const { return matrix.operatorNorm(); }
+  double least_stretch() const { return 1 / matrix.inverse().operatorNorm(); }
 };
 
 /// Directions in which the edges are a thousand times as short as in others, as for points in a plane, are stretched no
