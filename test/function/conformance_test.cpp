@@ -95,6 +95,7 @@ struct Fitted_model {
   }
   static constexpr double length = 0.1;
   static constexpr bool is_unbounded = true;
+  static constexpr double disagreement = 0.03; ///< of the polynomials, at points a third of the spacing above the data
 };
 
 template <class Base>
