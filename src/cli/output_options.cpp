@@ -70,7 +70,7 @@ void select(const Attribute_words& words, const std::string& option, Draft& draf
 
 void read_attributes(const Option_words& option, Draft& draft) {
   Attribute_words words = split_attributes(option);
-  const bool is_fit = draft.source.kind == Source_kind::FIT && draft.source.derivatives == Derivatives::JETS;
+  const bool is_fit = draft.source.kind == Source_kind::FIT;
   const bool has_noise = std::any_of(noise_attributes.begin(), noise_attributes.end(),
                                      [&](std::string_view name) { return words.estimates.contains(name); });
   if (has_noise && !is_fit)

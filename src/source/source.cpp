@@ -191,7 +191,7 @@ Source make_source(const Source_options& options, Progress& progress) {
     if (!options.transformation) return traits;
     return Transformed_function_traits_3(std::move(traits), *options.transformation);
   };
-  if (options.derivatives == Derivatives::JETS && options.kind == Source_kind::FIT) {
+  if (options.kind == Source_kind::FIT) {
     const Fit_traits fit = make_fit(options, progress);
     return {.function = transformed(fit), .fit = fit};
   }

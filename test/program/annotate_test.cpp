@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/run_program.h"
-#include <equiaffine/io/read_PLY.h>
-
-#include <CGAL/Simple_cartesian.h>
+#include "support/written_meshes.h"
 
 #include <nlohmann/json.hpp>
 
@@ -17,10 +14,7 @@
 namespace {
 
 using namespace equiaffine::test;
-using Arguments = std::vector<std::string>;
 using Json = nlohmann::json;
-using Kernel = CGAL::Simple_cartesian<double>;
-using Mesh = equiaffine::Annotated_mesh_3<Kernel>;
 
 const std::string basic_names = "nx,ny,nz,k1,k2,gaussian_curvature,mean_curvature,conormal_x,conormal_y,conormal_z,"
                                 "affine_normal_x,affine_normal_y,affine_normal_z,affine_gaussian_curvature,"
@@ -32,30 +26,13 @@ const std::string basic_names = "nx,ny,nz,k1,k2,gaussian_curvature,mean_curvatur
 const Arguments surface = {"--function", "x^2 + y^2/2 + z^2 + sin(x*y)/5 = 2", "--box", "-3", "3", "-3", "3", "-3",
                            "3"};
 
-Arguments operator+(Arguments first, const Arguments& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
-
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-class Program_annotate : public Program_test {
+class Program_annotate : public Written_meshes_test {
 protected:
   /// Meshes the surface to a file whose attributes are exact.
   void make_surface(const std::string& name, const std::string& attributes = "none", const std::string& nodes = "16") {
     run_well(Arguments{"mesh", "-o", name, "--resolution", nodes, "--attributes", attributes} + surface);
-  }
-
-  Mesh mesh(const std::string& name) const {
-    std::istringstream stream(file(name));
-    return equiaffine::read_PLY<Kernel>(stream, name);
-  }
-
-  std::vector<double> column(const Mesh& mesh, const std::string& name) const {
-    for (const auto& column : mesh.attributes.columns)
-      if (column.name == name) return column.values;
-    ADD_FAILURE() << "no column " << name;
-    return std::vector<double>(mesh.mesh.points.size());
   }
 
   /// Expects that K in a file is that of another one to within its error at 93 % of the points.

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/run_program.h"
-#include <equiaffine/io/read_PLY.h>
-
-#include <CGAL/Simple_cartesian.h>
+#include "support/written_meshes.h"
 
 #include <nlohmann/json.hpp>
 
@@ -15,38 +12,17 @@
 namespace {
 
 using namespace equiaffine::test;
-using Arguments = std::vector<std::string>;
 using Json = nlohmann::json;
-using Kernel = CGAL::Simple_cartesian<double>;
-using Mesh = equiaffine::Annotated_mesh_3<Kernel>;
 
 /// The surface is none of those that polynomials of the fits contain.
 const std::string formula = "x^2 + y^2/2 + z^2 + sin(x*y)/5 = 2";
 
-Arguments operator+(Arguments first, const Arguments& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
-
 /// A fit of the vertices of s.ply, which lie on the surface exactly, as SOURCE of the commands.
-class Program_fit : public Program_test {
+class Program_fit : public Written_meshes_test {
 protected:
   void SetUp() override {
-    Program_test::SetUp();
     run_well({"mesh", "--function", formula, "--box", "-2", "2", "-3", "3", "-2", "2", "--resolution", "20",
               "--attributes", "none", "-o", "s.ply"});
-  }
-
-  Mesh mesh(const std::string& name) const {
-    std::istringstream stream(file(name));
-    return equiaffine::read_PLY<Kernel>(stream, name);
-  }
-
-  std::vector<double> column(const Mesh& mesh, const std::string& name) const {
-    for (const auto& column : mesh.attributes.columns)
-      if (column.name == name) return column.values;
-    ADD_FAILURE() << "no column " << name;
-    return std::vector<double>(mesh.mesh.points.size());
   }
 
   /// Expects that K is that of the formula, or of its image under a map, to within the errors at 93 % of the vertices.

@@ -123,8 +123,8 @@ public:
   }
 
   /// The structure of the level set through a point, with estimates of the errors as `fitted_structures` has them for
-  /// the data, which count what the polynomials that are blended there disagree on. OUTSIDE where the function has no
-  /// derivatives.
+  /// the data, the geometric means of those of the polynomials that are blended there. OUTSIDE where the function has
+  /// no derivatives.
   Fitted_structure_3<double> structure(const Point_3& p) const {
     const Eigen::Vector3d place = normal(p);
     const auto jet = state_->blend.template taylor<4>(place);

@@ -35,8 +35,7 @@ public:
     double height; ///< over the nearest point of the surface, along its normal; NaN beyond the margin
   };
 
-  /// What is in the band beyond its core: points up to a height, and farther across the higher they are, as above a
-  /// crease.
+  /// The margin holds points up to a height, and lets them be farther across the higher they are, as above a crease.
   struct Margin {
     double height = 0, slope = 0;
   };

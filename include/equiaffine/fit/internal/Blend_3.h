@@ -71,25 +71,19 @@ public:
                                          : Jet_3<double, Order>(std::numeric_limits<double>::quiet_NaN());
   }
 
-  /// The least radius of the fits that are blended at a point; infinity where there is none.
-  double least_radius(const Vector& p) const {
-    double least = std::numeric_limits<double>::infinity();
-    for_each_weight(p, [&](std::size_t k, double, double) { least = std::min(least, fits_[k].patch.radius); });
-    return least;
-  }
-
   /// The accuracy of an expansion at a point: geometric means of the errors of the fits that are blended there, since
   /// these differ by orders of magnitude where K_e is about 0 for some of the fits. Where the curvatures of the expansion
   /// are larger than those of the fits, they are as uncertain relative to their own size.
   Fit_accuracy accuracy(const Vector& p, const Jet_3<double>& jet) const {
     using Numbers = Eigen::Array<double, 7, 1>;
     Numbers sum = Numbers::Zero();
-    double weights = 0;
+    double weights = 0, least = std::numeric_limits<double>::infinity();
     for_each_weight(p, [&](std::size_t k, double weight, double) {
-      const auto& [patch, error, noise, euclidean_error, deviation] = fits_[k];
-      const double size = curvatures_of(patch.taylor(p)).size();
+      const auto& [error, noise, radius, deviation, euclidean_error] = fits_[k].accuracy;
+      least = std::min(least, radius);
       Numbers numbers;
-      numbers << error.gaussian, error.mean, noise.gaussian, noise.mean, deviation, euclidean_error, size;
+      numbers << error.gaussian, error.mean, noise.gaussian, noise.mean, deviation, euclidean_error,
+          curvatures_of(fits_[k].patch.taylor(p)).size();
       sum += weight * numbers.log();
       weights += weight;
     });
@@ -97,7 +91,7 @@ public:
     for (double& number : mean)
       if (!std::isnormal(number)) number = 0; // the exponential of minus infinity is not quite 0
     const double factor = std::max(1., mean[6] / curvatures_of(jet).size()), root = std::sqrt(factor);
-    return {{mean[0] * factor, mean[1] * root}, {mean[2] * factor, mean[3] * root}, least_radius(p), mean[4], mean[5]};
+    return {{mean[0] * factor, mean[1] * root}, {mean[2] * factor, mean[3] * root}, least, mean[4], mean[5]};
   }
 
 private:
@@ -115,6 +109,13 @@ private:
       const double root = rest * opening, cube = root * root * root;
       f(k, cube * cube * factors_[k], g);
     });
+  }
+
+  /// The least radius of the fits that are blended at a point; infinity where there is none.
+  double least_radius(const Vector& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    for_each_weight(p, [&](std::size_t k, double, double) { least = std::min(least, fits_[k].patch.radius); });
+    return least;
   }
 
   /// The value, as far as patches reach; not a number without patches.

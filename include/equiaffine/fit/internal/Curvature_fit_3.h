@@ -13,23 +13,18 @@
 
 namespace equiaffine::internal {
 
-/// What is known of the errors of a fit: estimates of the whole errors, two standard deviations of what noise alone
-/// makes, the radius of the ball whose points were fitted, the deviation of one point from any smooth surface, and the
-/// error of K_e, within which it counts as zero.
+/// A fit, or a mean of fits, is known to within these errors.
 struct Fit_accuracy {
-  Relative_errors error, noise;
-  double radius, deviation, euclidean_error;
+  Relative_errors error;  ///< the whole estimate, from the greatest difference to other fits and the standard deviation
+  Relative_errors noise;  ///< two standard deviations of what noise alone makes
+  double radius;          ///< of the ball whose points were fitted
+  double deviation;       ///< of one point from any smooth surface
+  double euclidean_error; ///< of K_e, within which it counts as zero
 };
 
-/// A fit around a point with estimates of its errors, from the greatest difference to other fits and the standard
-/// deviation, and two standard deviations of what noise alone makes.
 struct Curvature_fit_3 {
   Patch_3 patch;
-  Relative_errors error, noise;
-  double euclidean_error; ///< of K_e, within which it counts as zero
-  double deviation;       ///< of one point from any smooth surface
-
-  Fit_accuracy accuracy() const { return {error, noise, patch.radius, deviation, euclidean_error}; }
+  Fit_accuracy accuracy;
 };
 
 /// Fits polynomials of the degree of a candidate and of the one it is compared with, in this order. Where the ball has
@@ -63,21 +58,20 @@ inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, D
                mean = std::abs(other.curvatures.mean - fit.curvatures.mean) / root;
   // Noise that is given counts as it is, whatever the residuals are.
   const double factor = choices.has_noise() && fit.residual > 0 ? choice.noise / fit.residual : 1;
-  const Fitted_curvatures of_noise = {factor * fit.deviations.gaussian, factor * fit.deviations.mean,
-                                      factor * fit.deviations.euclidean};
+  const Fitted_curvatures of_noise = scaled(fit.deviations, factor);
   const Fitted_curvatures guarded = guarded_deviations(fit, choice.noise);
   const Fitted_curvatures deviations = {std::max(guarded.gaussian, of_noise.gaussian),
                                         std::max(guarded.mean, of_noise.mean),
                                         std::max(guarded.euclidean, of_noise.euclidean)};
-  Curvature_fit_3 result;
-  result.error = {coverage *
-                      error_or_all(std::hypot(std::max(choice.level.gaussian, gaussian), deviations.gaussian / size)),
-                  coverage * error_or_all(std::hypot(std::max(choice.level.mean, mean), deviations.mean / root))};
-  result.noise = {2 * error_or_all(of_noise.gaussian / size), 2 * error_or_all(of_noise.mean / root)};
-  result.euclidean_error = choices.has_scale() ? 0 : euclidean_error(fit, other, deviations);
-  result.deviation = choice.noise;
-  result.patch = std::move(fit.patch);
-  return result;
+  Fit_accuracy accuracy;
+  accuracy.error = {coverage *
+                        error_or_all(std::hypot(std::max(choice.level.gaussian, gaussian), deviations.gaussian / size)),
+                    coverage * error_or_all(std::hypot(std::max(choice.level.mean, mean), deviations.mean / root))};
+  accuracy.noise = {2 * error_or_all(of_noise.gaussian / size), 2 * error_or_all(of_noise.mean / root)};
+  accuracy.euclidean_error = choices.has_scale() ? 0 : euclidean_error(fit, other, deviations);
+  accuracy.radius = fit.patch.radius;
+  accuracy.deviation = choice.noise;
+  return Curvature_fit_3{std::move(fit.patch), accuracy};
 }
 
 } // namespace equiaffine::internal

@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
-#include <random>
 #include <span>
 #include <unordered_set>
 #include <utility>
@@ -66,16 +64,6 @@ inline void set_spacing(Data_points_3& data, double factor) {
       data.spacing[i] /= double(1 + around.size());
     }
   }
-}
-
-/// Returns `count` of the first `size` indices in random order, which `seed` decides.
-inline std::vector<Data_points_3::Index> random_indices(std::size_t size, std::size_t count, unsigned seed) {
-  std::vector<Data_points_3::Index> indices(size);
-  std::iota(indices.begin(), indices.end(), Data_points_3::Index(0));
-  std::minstd_rand random(seed);
-  for (std::size_t k = 0; k < count; ++k) std::swap(indices[k], indices[k + random() % (size - k)]);
-  indices.resize(count);
-  return indices;
 }
 
 template <class T>

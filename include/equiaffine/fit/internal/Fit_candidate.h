@@ -33,6 +33,10 @@ struct Relative_errors {
 /// surfaces whose curvatures are known, with noise and without.
 constexpr double coverage = 2.2;
 
+inline Fitted_curvatures scaled(const Fitted_curvatures& c, double factor) {
+  return {factor * c.gaussian, factor * c.mean, factor * c.euclidean};
+}
+
 /// Returns the standard deviations of curvatures, to which the part of the residual beyond the noise contributes as an
 /// error that whole regions have in common.
 inline Fitted_curvatures guarded_deviations(const Local_fit_3& fit, double noise) {
@@ -41,8 +45,7 @@ inline Fitted_curvatures guarded_deviations(const Local_fit_3& fit, double noise
   const double freedom = fit.patch.family == Fit_family::HEIGHT
                              ? double(number_of_coefficients(Fit_family::HEIGHT, fit.patch.degree))
                              : double((fit.patch.degree + 1) * (fit.patch.degree + 1));
-  const double factor = std::sqrt(1 - excess + excess * std::max(1., double(fit.points) / freedom));
-  return {factor * fit.deviations.gaussian, factor * fit.deviations.mean, factor * fit.deviations.euclidean};
+  return scaled(fit.deviations, std::sqrt(1 - excess + excess * std::max(1., double(fit.points) / freedom)));
 }
 
 /// Returns the estimated error of K_e, from the difference to another fit and the standard deviation.

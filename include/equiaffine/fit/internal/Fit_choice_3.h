@@ -3,6 +3,7 @@
 #define EQUIAFFINE_FIT_INTERNAL_FIT_CHOICE_3_H
 
 #include <equiaffine/base/parallel_for.h>
+#include <equiaffine/base/random_subset.h>
 #include <equiaffine/fit/internal/Data_points_3.h>
 #include <equiaffine/fit/internal/Fit_candidate.h>
 #include <equiaffine/fit/internal/Fit_request.h>
@@ -36,7 +37,7 @@ public:
 
   template <class ConcurrencyTag>
   Fit_choice_3(const Data_points_3& data, const Fit_request& request, ConcurrencyTag)
-      : data_(data), request_(request), centers_(random_indices(data.size(), number_of_centers(data.size()), 1)),
+      : data_(data), request_(request), centers_(random_subset<Index>(data.size(), number_of_centers(data.size()), 1)),
         tree_(elements_at(data.points, centers_)) {
     list_candidates();
     trials_.resize(centers_.size());

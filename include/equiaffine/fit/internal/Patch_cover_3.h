@@ -3,6 +3,7 @@
 #define EQUIAFFINE_FIT_INTERNAL_PATCH_COVER_3_H
 
 #include <equiaffine/base/parallel_for.h>
+#include <equiaffine/base/random_subset.h>
 #include <equiaffine/fit/internal/Curvature_fit_3.h>
 
 #include <cstddef>
@@ -34,7 +35,7 @@ Patch_cover_3 patch_cover(const Data_points_3& data, const Fit_choice_3& choices
   parallel_for<ConcurrencyTag>(
       0, data.size(), [&](std::size_t i) { choice[i] = choices.at(data.points[i]); }, 256);
 
-  for (const Index i : random_indices(data.size(), data.size(), 2)) {
+  for (const Index i : random_subset<Index>(data.size(), data.size(), 2)) {
     if (!choice[i] || cover.nearest[i] != Patch_cover_3::none) continue;
     for (const Index j : connected_ball(data, i, part * choices.radius(choice[i]->candidate, i))) {
       const double square = (data.points[j] - data.points[i]).squaredNorm();

@@ -78,7 +78,7 @@ std::vector<Fitted_structure_3<double>> structures_of_fit(const Surface_fit_3& f
         if (k == Patch_cover_3::none || !cover.fits[k]) return;
         const Patch_3& patch = cover.fits[k]->patch;
         if (const auto foot = foot_on_patch(patch, data.points[i]))
-          structures[i] = structure_of(patch.taylor(*foot), fit, cover.fits[k]->accuracy(), orientation);
+          structures[i] = structure_of(patch.taylor(*foot), fit, cover.fits[k]->accuracy, orientation);
       },
       64);
   return structures;

@@ -6,7 +6,7 @@
 #include <equiaffine/registration/internal/Framed_point_3.h>
 #include <equiaffine/registration/internal/Nearest_points.h>
 #include <equiaffine/registration/internal/Surface_oracle_3.h>
-#include <equiaffine/registration/internal/random_subset.h>
+#include <equiaffine/registration/internal/random_elements.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -52,7 +52,7 @@ struct Framed_surface_3 {
 /// is slightly disturbed. On quadrics the quality has the size of rounding.
 constexpr double least_quality = 0.02, least_quality_of_exact_frames = 1e-5;
 
-/// At most so many points get frames, and so many are probes.
+/// These bounds keep the time of a search independent of the number of points given.
 constexpr std::size_t most_framed_points = 6000, most_probes = 600;
 
 /// The invariants by which points are matched: those that maps of the kind keep, and zero for others.

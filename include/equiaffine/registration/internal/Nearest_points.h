@@ -24,7 +24,7 @@ public:
 
   Nearest_points() = default;
 
-  /// Of the vectors f(i), which keep their numbers i.
+  /// Takes the vectors f(i), which keep their numbers i.
   template <class F>
   Nearest_points(const std::vector<std::size_t>& indices, F f) {
     std::vector<Value> values;

@@ -11,7 +11,7 @@
 
 namespace equiaffine::internal {
 
-/// What the named parameters of register_surfaces ask for.
+/// The named parameters of register_surfaces.
 struct Registration_request {
   Map_kind kind = Map_kind::AFFINE;
   bool allows_reflections = true;

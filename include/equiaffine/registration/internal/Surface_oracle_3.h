@@ -22,7 +22,7 @@ struct Signed_distance_3 {
   Eigen::Vector3d normal;
 };
 
-/// What registration asks a function, whatever its type: its expansions at points of the domain, in doubles.
+/// Registration asks a function, whatever its type, for its expansions at points of the domain, in doubles.
 class Surface_oracle_3 {
 public:
   virtual ~Surface_oracle_3() = default;

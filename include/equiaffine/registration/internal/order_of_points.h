@@ -5,6 +5,7 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_ORDER_OF_POINTS_H
 
 #include <equiaffine/base/parallel_for.h>
+#include <equiaffine/base/random_subset.h>
 #include <equiaffine/registration/internal/Framed_surface_3.h>
 
 #include <Eigen/Core>
