@@ -1,127 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Affine curvatures of meshes and points by fits: accuracy, noise, coverage of the error estimates, cost, and CGAL's jet
-// fitting beside it on the same data. Arguments: the folder of scripts/example-data (build/data), for the bunny.
+// Curvatures of meshes and points by fits: accuracy, noise, coverage of the error estimates, cost, scans, and what other
+// libraries estimate from the same data. Argument: the folder of scripts/example-data (build/data), for the scans.
+#include "fit_samples.h"
 #include "measure.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
+#include "peers/curvature_peers.h"
 #include <equiaffine/Fitted_function_traits_3.h>
-#include <equiaffine/Local_structure_3.h>
-#include <equiaffine/attributes.h>
-#include <equiaffine/delaunay_surface.h>
-#include <equiaffine/fitted_structures.h>
 
 #include <CGAL/Monge_via_jet_fitting.h>
-#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh/IO/OFF.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <random>
-#include <string>
-#include <vector>
+#include <functional>
+#include <limits>
 
 namespace {
 
-using namespace equiaffine;
-using Kernel = CGAL::Simple_cartesian<double>;
-using Point_3 = Kernel::Point_3;
-using Exact = Analytic_function_traits_3<Kernel, Expression_3>;
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-using Structures = std::vector<Fitted_structure_3<double>>;
-
-struct Surface {
-  std::string name, formula;
-  CGAL::Bbox_3 box;
-};
-
-const Surface meta = {"meta",
-                      "0.6 - exp(-4*((x-.45)^2+y^2+z^2)) - exp(-4*((x+.45)^2+(y-.2)^2+z^2))"
-                      " - exp(-4*(x^2+(y+.35)^2+(z-.45)^2)) - exp(-4*((x-.1)^2+(y-.45)^2+(z+.35)^2))",
-                      {-1.6, -1.6, -1.6, 1.6, 1.6, 1.6}};
-const Surface blobby = {
-    "blobby", "(3*x)^4 + (3*y)^4 + (3*z)^4 - 45*(x^2+y^2+z^2) + 6", {-1.2, -1.2, -1.2, 1.2, 1.2, 1.2}};
-const Surface torus = {"torus", "(sqrt(x^2+y^2)-2)^2 + z^2 - 0.49", {-3, -3, -1, 3, 3, 1}};
-const Surface sine = {"sine", "z - sin(3*x)*sin(2.5*y)/2", {-1.5, -1.5, -1, 1.5, 1.5, 1}};
-
-/// Vertices on the surface, irregularly triangulated.
-struct Samples {
-  Exact surface;
-  std::vector<Point_3> points;
-  Triangles triangles;
-  double edge = 0; ///< the mean length
-};
-
-/// The radius of the mesher's triangles is changed until there are as many vertices as wanted, to within 5 %.
-Samples sample(const Surface& s, double count) {
-  const Exact exact(Expression_3(s.formula), s.box);
-  double radius = 0.03;
-  for (;;) {
-    const auto mesh = delaunay_surface(exact, {30, radius, 1});
-    const double vertices = double(mesh.points.size());
-    if (std::abs(vertices / count - 1) > 0.05) {
-      radius *= std::sqrt(vertices / count);
-      continue;
-    }
-    Samples samples{exact, mesh.points, mesh.triangles};
-    for (const auto& t : samples.triangles)
-      for (std::size_t k = 0; k < 3; ++k)
-        samples.edge += std::sqrt(CGAL::squared_distance(samples.points[t[k]], samples.points[t[(k + 1) % 3]])) /
-                        (3 * double(samples.triangles.size()));
-    return samples;
-  }
-}
-
-/// Moves points by normal deviates along each axis.
-std::vector<Point_3> disturbed(const Samples& samples, double part_of_edge) {
-  std::mt19937_64 random(7);
-  std::normal_distribution<double> normal(0, part_of_edge * samples.edge);
-  std::vector<Point_3> points;
-  for (const auto& p : samples.points) {
-    const double x = normal(random), y = normal(random), z = normal(random);
-    points.emplace_back(p.x() + x, p.y() + y, p.z() + z);
-  }
-  return points;
-}
-
-double quantile(std::vector<double> values, double part) {
-  std::sort(values.begin(), values.end());
-  return values.at(std::size_t(part * double(values.size() - 1)));
-}
-
-template <class S>
-double size_of(const S& s) {
-  return std::abs(s.affine.gaussian_curvature) + s.affine.mean_curvature * s.affine.mean_curvature;
-}
-
-struct Errors {
-  std::vector<double> relative, at_border, inside;
-  double covered = 0, trusted = 0, wrong = 0;
-};
-
-/// Errors of K relative to |K| + H^2, where |K_e| > 0.2; near the border means nearer than a tenth of the width of `box`.
-Errors errors_of(const Samples& samples, const Structures& fits, const CGAL::Bbox_3& box, bool has_border) {
-  Errors errors;
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    const Point_3& p = samples.points[i];
-    const auto truth = local_structure_at(samples.surface, p);
-    if (!(std::abs(truth.euclidean.gaussian_curvature) > 0.2)) continue;
-    const double error =
-        std::abs(fits[i].structure.affine.gaussian_curvature - truth.affine.gaussian_curvature) / size_of(truth);
-    const double known = std::isfinite(error) ? error : 1e300;
-    errors.relative.push_back(known);
-    const double distance = std::min({p.x() - box.xmin(), box.xmax() - p.x(), p.y() - box.ymin(), box.ymax() - p.y()});
-    if (has_border) (distance < 0.05 * (box.xmax() - box.xmin()) ? errors.at_border : errors.inside).push_back(known);
-    errors.covered += known * size_of(truth) <= fits[i].error.gaussian_curvature;
-    if (fits[i].error.gaussian_curvature > 0.1 * size_of(fits[i].structure)) continue;
-    ++errors.trusted;
-    errors.wrong += known > 0.1;
-  }
-  return errors;
-}
+using namespace fit_samples;
 
 struct Case {
   const Surface& surface;
@@ -224,23 +118,72 @@ void cost() {
   }
 }
 
-void bunny(const std::string& folder) {
+/// H_e and K_e where other libraries estimate them, too. Of a peer's radii and degrees the best are chosen with knowledge
+/// of the truth, which its user would not have.
+void beside_euclidean_peers() {
+  const Samples samples = sample(meta, 10000);
+  for (const double noise : {0., 0.01}) {
+    const auto points = disturbed(samples, noise);
+    Plain_mesh mesh{{}, samples.triangles};
+    for (const auto& p : points) mesh.points.push_back({p.x(), p.y(), p.z()});
+    Euclidean_curvatures ours;
+    for (const auto& fit : fitted_structures(points, samples.triangles)) {
+      ours.mean.push_back(fit.structure.euclidean.mean_curvature);
+      ours.gaussian.push_back(fit.structure.euclidean.gaussian_curvature);
+    }
+    const Euclidean_errors of_ours = euclidean_errors(samples, ours);
+    const std::string with_noise = "_noise_" + std::to_string(noise).substr(0, 4);
+    const auto beside = [&](const std::string& peer, const std::vector<std::function<Euclidean_curvatures()>>& ways) {
+      Euclidean_errors best{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+      for (const auto& way : ways) {
+        const Euclidean_errors errors = euclidean_errors(samples, way());
+        best = {std::min(best.mean, errors.mean), std::min(best.gaussian, errors.gaussian)};
+      }
+      figure("fit_" + peer + with_noise + "_H_e_over_ours", best.mean / of_ours.mean, "ratio_of_errors", ">1");
+      figure("fit_" + peer + with_noise + "_K_e_over_ours", best.gaussian / of_ours.gaussian, "ratio_of_errors", ">1");
+    };
+    figure("fit_ours" + with_noise + "_H_e", of_ours.mean, "relative", "none");
+    figure("fit_ours" + with_noise + "_K_e", of_ours.gaussian, "relative", "none");
+#ifdef EQUIAFFINE_HAS_CGAL_6
+    std::vector<std::function<Euclidean_curvatures()>> balls;
+    for (const double edges : {0., 2., 4., 8.})
+      balls.push_back([&, edges] { return corrected_curvatures(mesh, edges * samples.edge); });
+    beside("corrected_curvatures", balls);
+#endif
+#ifdef EQUIAFFINE_HAS_PCL
+    std::vector<std::function<Euclidean_curvatures()>> polynomials;
+    for (const double edges : {3., 5., 8., 12.})
+      for (const int degree : {2, 4})
+        polynomials.push_back([&, edges, degree] { return moving_least_squares(mesh, edges * samples.edge, degree); });
+    beside("moving_least_squares", polynomials);
+#endif
+  }
+}
+
+struct Scan {
+  std::string name;
+  const char *seconds, *known, *differ, *agree; ///< targets
+};
+
+/// At a scale of 22 edges: what noise leaves known, and whether fits of two disjoint halves of the vertices agree.
+void scan(const Scan& scan, const std::string& folder) {
   CGAL::Surface_mesh<Point_3> mesh;
-  if (!CGAL::IO::read_OFF(folder + "/meshes/bunny00.off", mesh)) return;
+  if (!CGAL::IO::read_OFF(folder + "/meshes/" + scan.name + ".off", mesh)) return;
   double edge = 0;
   for (const auto e : mesh.edges())
     edge += std::sqrt(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)))) /
             double(mesh.number_of_edges());
   const auto at_scale = parameters::scale(22 * edge);
+  const std::string name = "fit_" + scan.name;
+  figure(name + "_vertices", double(mesh.number_of_vertices()), "vertices", "none");
   const double begin = processor_clock();
   const Structures fits = fitted_structures(mesh, at_scale);
-  figure("fit_bunny_seconds", processor_clock() - begin, "s", "<=120");
+  figure(name + "_seconds", processor_clock() - begin, "s", scan.seconds);
   double known = 0;
   for (const auto& f : fits) known += f.noise.gaussian_curvature <= 0.2 * size_of(f.structure);
-  figure("fit_bunny_2sd_below_20_percent", known / double(fits.size()), "part", ">=0.5");
+  figure(name + "_2sd_below_20_percent", known / double(fits.size()), "part", scan.known);
 
-  // Of each of two disjoint halves a structure belongs to the places of all vertices: to a vertex of the other half that
-  // of its nearest neighbor.
+  // A vertex of one half is compared with its nearest neighbor in the other half.
   std::mt19937 random(99);
   std::array<std::vector<Point_3>, 2> halves;
   for (const auto v : mesh.vertices()) halves[random() & 1].push_back(mesh.point(v));
@@ -258,8 +201,9 @@ void bunny(const std::string& folder) {
     differences.push_back(difference / (0.5 * (size_of(first[i].structure) + size_of(other.structure))));
     agree += difference <= std::hypot(first[i].noise.gaussian_curvature, other.noise.gaussian_curvature);
   }
-  figure("fit_bunny_halves_differ", quantile(differences, 0.5), "relative", "<=0.15");
-  figure("fit_bunny_halves_agree_within_2sd", agree / double(differences.size()), "part", ">=0.95");
+  if (differences.empty()) return;
+  figure(name + "_halves_differ", quantile(differences, 0.5), "relative", scan.differ);
+  figure(name + "_halves_agree_within_2sd", agree / double(differences.size()), "part", scan.agree);
 }
 
 } // namespace
@@ -267,6 +211,9 @@ void bunny(const std::string& folder) {
 int main(int argc, char** argv) {
   accuracy();
   beside_jet_fitting();
+  beside_euclidean_peers();
   cost();
-  bunny(argc > 1 ? argv[1] : "build/data");
+  const std::string folder = argc > 1 ? argv[1] : "build/data";
+  scan({"bunny00", "<=120", ">=0.5", "<=0.15", ">=0.95"}, folder);
+  for (const char* name : {"elephant", "armadillo", "femur"}) scan({name, "none", "none", "none", "none"}, folder);
 }

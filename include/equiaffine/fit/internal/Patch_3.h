@@ -119,7 +119,7 @@ Jet_3<double, Order> space_taylor(const Patch_3& patch, const Eigen::Vector3d& l
     std::array<std::array<double, most>, orders> rows; // rows[k] has those of the powers of y beside x^i dz^k
     for (int j = 0; i + j <= d; ++j) {
       const int degree = d - i - j, count = std::min(degree, Order) + 1;
-      std::array<double, most> line;
+      std::array<double, most> line{};
       for (int k = 0; k <= degree; ++k) line[std::size_t(k)] = *c++;
       expand_at(local[2], line.data(), degree, count);
       for (int k = 0; k < count; ++k) rows[std::size_t(k)][std::size_t(j)] = line[std::size_t(k)];
