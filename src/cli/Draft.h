@@ -27,8 +27,13 @@ struct Draft {
   Page_options page;
   Picture_options picture;
   bool samples_are_float = false;
+  Map_kind map_kind = Map_kind::AFFINE;
+  bool allows_reflections = true;
+  std::optional<std::size_t> number_of_maps;
+  double least_overlap = 0.05;
+  std::optional<double> tolerance;
   std::string mesh, points; ///< the files that `view` and `annotate`, and that `evaluate` reads
-  std::optional<std::string> output, html, png, curves, stats;
+  std::optional<std::string> output, moved, html, png, curves, stats;
 };
 
 } // namespace equiaffine

@@ -39,25 +39,32 @@ struct Command_text {
   const char *name, *description, *footer;
 };
 
-constexpr std::array<Command_text, 5> command_texts = {{{MESH, "mesh", mesh_description, mesh_footer},
-                                                        {EVALUATE, "evaluate", evaluate_description, evaluate_footer},
-                                                        {SAMPLE, "sample", sample_description, sample_footer},
-                                                        {VIEW, "view", view_description, view_footer},
-                                                        {ANNOTATE, "annotate", annotate_description, annotate_footer}}};
+constexpr std::array<Command_text, 7> command_texts = {
+    {{MESH, "mesh", mesh_description, mesh_footer},
+     {EVALUATE, "evaluate", evaluate_description, evaluate_footer},
+     {SAMPLE, "sample", sample_description, sample_footer},
+     {VIEW, "view", view_description, view_footer},
+     {ANNOTATE, "annotate", annotate_description, annotate_footer},
+     {REGISTER, "register", register_description, register_footer},
+     {SYMMETRIES, "symmetries", symmetries_description, symmetries_footer}}};
 
 /// The heading below which an option stands in the help of a command.
 std::string title_of(Option_group group, Command command) {
   switch (group) {
   case Option_group::INPUT: return "Input";
   case Option_group::SOURCE:
-    return command == SAMPLE ? "Source (one of --function, --distance-to, --fit)"
-                             : "Source (one of --function, --volume, --distance-to, --fit)";
+    return command == SAMPLE       ? "Source (one of --function, --distance-to, --fit)"
+           : command == REGISTER   ? "Source, before and after the word to (one of FILE, --function, --volume, "
+                                     "--distance-to, --fit)"
+           : command == SYMMETRIES ? "Source (one of FILE, --function, --volume, --distance-to, --fit)"
+                                   : "Source (one of --function, --volume, --distance-to, --fit)";
   case Option_group::BOX: return command == SAMPLE ? "Sampling" : title_of(Option_group::SOURCE, command);
   case Option_group::FIT: return command == ANNOTATE ? "Fit" : "Fit (with --fit)";
   case Option_group::SURFACE: return "Surface";
   case Option_group::SAMPLING: return command == EVALUATE || command == ANNOTATE ? "Surface" : "Sampling";
   case Option_group::MARCHING_CUBES: return "Sampling with --method marching-cubes";
   case Option_group::DELAUNAY: return "Sampling with --method delaunay";
+  case Option_group::MAPS: return "Maps";
   default: return "Output";
   }
 }
@@ -80,6 +87,7 @@ public:
   }
 
   Command_line split(std::vector<std::string> arguments) {
+    admit_longer_lists(arguments);
     std::reverse(arguments.begin(), arguments.end());
     try {
       app_.parse(arguments);
@@ -117,10 +125,25 @@ private:
     };
     CLI::Option& option = *command.add_option(row.names, keep, row.help);
     const auto [least, most] = row.words;
-    option.type_name(row.type)->type_size(least)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    if (most == unlimited) option.expected(least, CLI::detail::expected_max_vector_size)->allow_extra_args();
-    else if (most > least) option.expected(least, most);
+    option.type_name(row.type)->type_size(std::max(least, 1))->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    if (least == 0) option.expected(0);
+    else if (most == unlimited) option.expected(least, CLI::detail::expected_max_vector_size)->allow_extra_args();
+    else if (least == 1 && most > 1) option.expected(1, most);
+    else if (most > least) number_lists_.push_back({&command, &option, row.name(), std::size_t(most)});
     option.group(title);
+  }
+
+  /// Lets options take the most numbers that they can have where so many follow: CLI11 itself would take a number such
+  /// as -.5 beyond the least ones for an option.
+  void admit_longer_lists(const Words& arguments) {
+    for (const auto& [command, option, name, most] : number_lists_)
+      for (auto word = arguments.begin(); word != arguments.end(); ++word) {
+        const auto numbers = word + 1;
+        if (*word == name && command->get_name() == arguments.front() &&
+            std::size_t(arguments.end() - numbers) >= most &&
+            std::all_of(numbers, numbers + std::ptrdiff_t(most), is_number))
+          option->type_size(int(most));
+      }
   }
 
   std::string see_help() const {
@@ -138,7 +161,8 @@ private:
   void check_words() {
     if (const Words rest = app_.remaining(); !rest.empty()) fail_before_command(rest.front());
     if (app_.get_subcommands().empty())
-      throw Input_error("no command is given; use mesh, evaluate, sample, view or annotate, " + see_help());
+      throw Input_error("no command is given; use mesh, evaluate, sample, view, annotate, register or symmetries, " +
+                        see_help());
     const CLI::App& command = *app_.get_subcommands().front();
     result_.command = std::find_if(command_texts.begin(), command_texts.end(), [&](const Command_text& text) {
                         return text.name == command.get_name();
@@ -164,7 +188,7 @@ private:
   }
 
   void check_words_of(const CLI::App& command, const std::string& name, const Words& words) const {
-    if (words.size() > std::size_t(command.get_option(name)->get_items_expected_max()))
+    if (words.size() > std::max<std::size_t>(1, std::size_t(command.get_option(name)->get_items_expected_max())))
       fail_option(name, "it is given more than once", "give it once");
     for (const std::string& word : words) {
       if (word.starts_with('-') && command.get_option_no_throw(word))
@@ -173,7 +197,16 @@ private:
     }
   }
 
+  /// An option that takes more than one number, and may take `most`.
+  struct Number_list {
+    const CLI::App* command;
+    CLI::Option* option;
+    std::string name;
+    std::size_t most;
+  };
+
   CLI::App app_;
+  std::vector<Number_list> number_lists_;
   Command_line result_;
 };
 

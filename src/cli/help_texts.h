@@ -12,7 +12,8 @@ inline constexpr const char* program_description =
 
 A function f on space comes from a formula, a volume of samples, the distance to a mesh, or a fit to the
 vertices of a mesh or to points. Its level sets f = V are meshed, and every vertex gets its Euclidean and
-equi-affine differential invariants. So do the vertices of a mesh, or points, where they are.
+equi-affine differential invariants. So do the vertices of a mesh, or points, where they are. Two surfaces are
+registered by an affine map, and a surface has its affine symmetries found.
 
 Usage: equiaffine COMMAND [options]      equiaffine COMMAND --help      equiaffine --version
 )";
@@ -90,6 +91,33 @@ affine_gaussian_curvature_error and affine_mean_curvature_error say how far the 
 Examples:
   equiaffine annotate scan.ply -o curvatures.ply --html curvatures.html
   equiaffine annotate points.xyz -o points.csv --scale 2.5)";
+
+inline constexpr const char* register_description =
+    R"(find the affine map that moves a surface, or a part of it, onto another
+
+Usage: equiaffine register SOURCE [its options] to SOURCE [its options] -o MAP.json [options]
+)";
+
+inline constexpr const char* register_footer =
+    R"(What stands before the word to is moved onto what stands after it. One pair of points with the same affine
+invariants gives a map; it is refined, and it counts only if it is no accident. The exit status is 0, with "found": false
+in MAP.json, if there is none. Under --transform, --box and others belong to the source beside which they stand.
+
+Examples:
+  equiaffine register part.ply to whole.ply -o map.json --moved moved.ply --html map.html
+  equiaffine register --function "x^2+2*y^4+z^4+x*y*z=1" --box -2 2 -2 2 -2 2 to scan.nrrd --isovalue 7 -o map.json)";
+
+inline constexpr const char* symmetries_description =
+    R"(find all affine maps that move a surface onto itself
+
+Usage: equiaffine symmetries SOURCE -o MAPS.json [options]
+)";
+
+inline constexpr const char* symmetries_footer =
+    R"(A surface with continuous symmetries, such as an ellipsoid or a surface of revolution, has infinitely many: then
+generators are found, "order" is null, and "maps" has the identity alone.
+
+Example: equiaffine symmetries --function "x^4+y^4+z^4=1" --box -2 2 -2 2 -2 2 -o maps.json)";
 
 } // namespace equiaffine
 

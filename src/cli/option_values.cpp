@@ -65,6 +65,8 @@ void fail_option(const std::string& option, const std::string& reason, const std
   throw Input_error(option + ": " + reason + "; " + advice);
 }
 
+bool is_number(const std::string& word) { return parse_number<double>(word).has_value(); }
+
 double parse_finite_number(const std::string& option, const std::string& word) {
   const std::optional<double> number = parse_number<double>(word);
   if (!number) fail_option(option, "'" + word + "' is not a number", "write it like 2, -.5 or 1e-3");
@@ -122,7 +124,9 @@ CGAL::Bbox_3 parse_box(const Option_words& option) {
 CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& option) {
   const auto& [name, words] = option;
   std::array<double, 9> m{}, n{};
+  std::array<double, 3> t{};
   for (std::size_t i = 0; i < 9; ++i) m[i] = parse_finite_number(name, words[i]);
+  for (std::size_t i = 9; i < words.size(); ++i) t[i - 9] = parse_finite_number(name, words[i]);
   for (std::size_t row = 0; row < 3; ++row) {
     const double norm = std::hypot(m[3 * row], m[3 * row + 1], m[3 * row + 2]);
     for (std::size_t i = 3 * row; i < 3 * row + 3; ++i) n[i] = norm > 0 ? m[i] / norm : 0;
@@ -133,7 +137,7 @@ CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& opti
     fail_option(name, "the matrix is singular", "give nine numbers, row by row, of a matrix with an inverse");
   if (!std::isnormal(CGAL::determinant(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8])))
     fail_option(name, "the determinant is too large or too small for a number of the computer", "choose another unit");
-  return {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]};
+  return {m[0], m[1], m[2], t[0], m[3], m[4], m[5], t[1], m[6], m[7], m[8], t[2]};
 }
 
 std::pair<std::string, double> parse_constant(const std::string& option, const std::string& word) {

@@ -32,6 +32,8 @@ struct Option_words {
 /// "option: reason; advice"
 [[noreturn]] void fail_option(const std::string& option, const std::string& reason, const std::string& advice);
 
+bool is_number(const std::string& word);
+
 double parse_finite_number(const std::string& option, const std::string& word);
 
 /// The only word of the option as a number.
@@ -52,7 +54,8 @@ std::array<std::size_t, 3> parse_resolution(const Option_words& option);
 /// XMIN XMAX YMIN YMAX ZMIN ZMAX
 CGAL::Bbox_3 parse_box(const Option_words& option);
 
-/// Nine numbers, row by row, of a matrix that is not singular, rounding considered.
+/// Nine numbers, row by row, of a matrix that is not singular, rounding considered, and three of a translation if they
+/// are given.
 CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& option);
 
 /// name=value, where the value is a number or arithmetic with numbers.

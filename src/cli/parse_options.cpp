@@ -3,58 +3,17 @@
 
 #include "attributes/estimates.h"
 #include "cli/Option_reader.h"
-#include "cli/formula_file.h"
+#include "cli/check_outputs.h"
+#include "cli/read_registration.h"
 #include "cli/read_source.h"
 #include <equiaffine/Input_error.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <set>
-#include <system_error>
 #include <utility>
 
 namespace equiaffine {
 
 namespace {
-
-/// Makes names of the same file equal, whatever links and dots lead there.
-std::filesystem::path canonical_path(const std::string& path) {
-  if (path == "-") return path;
-  std::error_code error;
-  const std::filesystem::path absolute = std::filesystem::absolute(path, error),
-                              canonical = std::filesystem::weakly_canonical(absolute, error);
-  return error ? absolute.lexically_normal() : canonical;
-}
-
-/// The paths of the files that the command line says to read.
-std::vector<std::string> input_files(const Option_reader& reader) {
-  std::vector<std::string> files;
-  for (const char* option : {"--volume", "--distance-to", "--fit", "--points", "MESH.ply", "MESH"})
-    if (reader.has(option)) files.push_back(reader.word(option));
-  if (reader.has("--function"))
-    if (const auto file = formula_file(reader.word("--function"))) files.push_back(*file);
-  return files;
-}
-
-/// Whether two paths lead to the same file, by symbolic or hard links, too.
-bool are_same_file(const std::string& path, const std::string& other) {
-  std::error_code error;
-  return canonical_path(path) == canonical_path(other) || std::filesystem::equivalent(path, other, error);
-}
-
-/// Throws if an output would replace what is read, or another output.
-void check_outputs(const Option_reader& reader, const std::vector<std::optional<std::string>>& paths) {
-  std::set<std::filesystem::path> outputs;
-  for (const auto& path : paths) {
-    if (!path) continue;
-    if (!outputs.insert(canonical_path(*path)).second)
-      throw Input_error("two outputs go to " + (path == "-" ? "standard output" : "'" + *path + "'") +
-                        "; give each its own name");
-    for (const std::string& input : input_files(reader))
-      if (path != "-" && input != "-" && are_same_file(*path, input))
-        throw Input_error("the output '" + *path + "' would replace the file that is read; give it another name");
-  }
-}
 
 void read_delaunay_options(Option_reader& reader) {
   reader.refuse({"--vertices"}, "it is for --method marching-cubes", "leave it out");
@@ -76,13 +35,6 @@ void read_method(Option_reader& reader) {
   reader.refuse({"--angle", "--radius", "--distance", "--sizing", "--clip"}, "it is for --method delaunay",
                 "add --method delaunay or leave it out");
   reader.read({"--vertices"});
-}
-
-void need_output(const Option_reader& reader) { reader.need("--output", "name the file to write, -o FILE"); }
-
-void refuse_picture_options(const Option_reader& reader) {
-  if (!reader.has("--png"))
-    reader.refuse({"--size", "--arrows"}, "it is for the picture of --png", "add --png or leave it out");
 }
 
 bool has_vector(const Attribute_selection& attributes, const std::string& name) {
@@ -108,9 +60,7 @@ bool has_color(const Draft& draft, const std::string& name) {
 
 /// Checks that there is a page or picture, and that it will have the attributes it is to show.
 void check_page(const Option_reader& reader) {
-  if (!reader.has("--html") && !reader.has("--png"))
-    reader.refuse({"--color", "--up", "--range"}, "it is for the page of --html and the picture of --png",
-                  "add one of them or leave it out");
+  refuse_page_options(reader);
   const Draft& draft = reader.draft();
   const std::string &arrows = draft.picture.arrows, &color = draft.page.color;
   if (!arrows.empty() && !has_vector(draft.attributes, arrows))
@@ -141,7 +91,7 @@ Mesh_options read_mesh_options(Option_reader& reader) {
   check_page(reader);
   Draft& draft = reader.draft();
   check_scheme(draft);
-  check_outputs(reader, {draft.output, draft.html, draft.png, draft.curves, draft.stats});
+  check_outputs(input_files(reader), {draft.output, draft.html, draft.png, draft.curves, draft.stats});
 
   Mesh_options options;
   options.source = std::move(draft.source);
@@ -175,7 +125,7 @@ Evaluate_options read_evaluate_options(Option_reader& reader) {
   for (const char* option : {"--distance-to", "--fit"})
     if (reader.has(option) && draft.source.text == "-" && draft.points == "-")
       throw Input_error(option + std::string(" and --points both read standard input; name a file for one of them"));
-  check_outputs(reader, {draft.output});
+  check_outputs(input_files(reader), {draft.output});
   draft.source.estimates_errors = !draft.estimates.empty();
   return {draft.source,    draft.orientation, draft.attributes, draft.estimates,
           draft.estimator, draft.points,      *draft.output};
@@ -186,7 +136,7 @@ Sample_options read_sample_options(Option_reader& reader) {
   reader.read_rest();
   need_output(reader);
   const Draft& draft = reader.draft();
-  check_outputs(reader, {draft.output});
+  check_outputs(input_files(reader), {draft.output});
   return {draft.source, draft.samples_are_float, *draft.output};
 }
 
@@ -198,7 +148,7 @@ View_options read_view_options(Option_reader& reader) {
   const Draft& draft = reader.draft();
   if (!draft.output && !draft.png)
     throw Input_error("no output is given; name the page, -o PAGE.html, or the picture, --png FILE.png");
-  check_outputs(reader, {draft.output, draft.png});
+  check_outputs(input_files(reader), {draft.output, draft.png});
   return {draft.mesh, draft.output, draft.png, draft.page, draft.picture};
 }
 
@@ -212,7 +162,7 @@ Annotate_options read_annotate_options(Option_reader& reader) {
   reader.read_rest();
   check_page(reader);
   const Draft& draft = reader.draft();
-  check_outputs(reader, {draft.output, draft.html, draft.png, draft.stats});
+  check_outputs(input_files(reader), {draft.output, draft.html, draft.png, draft.stats});
   return {draft.mesh, draft.source.fit, draft.orientation, draft.attributes, draft.estimates, *draft.output,
           draft.html, draft.png,        draft.stats,       draft.page,       draft.picture};
 }
@@ -220,6 +170,7 @@ Annotate_options read_annotate_options(Option_reader& reader) {
 } // namespace
 
 Options parse_options(const std::vector<std::string>& arguments) {
+  if (!arguments.empty() && arguments.front() == "register") return parse_register_options(arguments);
   const Command_line line = split_command_line(arguments);
   if (line.information) return {Information{*line.information}, {}};
   Option_reader reader(line);
@@ -231,6 +182,7 @@ Options parse_options(const std::vector<std::string>& arguments) {
   case SAMPLE: options.command = read_sample_options(reader); break;
   case VIEW: options.command = read_view_options(reader); break;
   case ANNOTATE: options.command = read_annotate_options(reader); break;
+  default: options.command = read_symmetries_options(reader); break;
   }
   options.threads = reader.draft().threads;
   return options;

@@ -8,18 +8,24 @@ namespace equiaffine {
 
 namespace {
 
+[[noreturn]] void fail_without_source(Command command) {
+  const std::string options =
+      command == SAMPLE ? "--function, --distance-to or --fit" : "--function, --volume, --distance-to or --fit";
+  throw Input_error("no source is given" + (command == REGISTER
+                                                ? " on one side of the word 'to'; name a file there or use " + options
+                                            : command == SYMMETRIES ? "; name a file or use " + options
+                                                                    : "; use " + options));
+}
+
 void read_kind(Option_reader& reader) {
   std::string given;
-  for (const char* option : {"--function", "--volume", "--distance-to", "--fit"}) {
+  for (const char* option : {"FILE", "--function", "--volume", "--distance-to", "--fit"}) {
     if (!reader.has(option)) continue;
     if (!given.empty()) throw Input_error(given + " and " + option + " are both given; give one source");
-    given = option;
+    given = option == std::string("FILE") ? "'" + reader.word(option) + "'" : option;
     reader.read({option});
   }
-  if (given.empty())
-    throw Input_error(std::string("no source is given; use ") + (reader.command() == SAMPLE
-                                                                     ? "--function, --distance-to or --fit"
-                                                                     : "--function, --volume, --distance-to or --fit"));
+  if (given.empty()) fail_without_source(reader.command());
   Source_options& source = reader.draft().source;
   const bool has_derivatives = source.kind == Source_kind::FUNCTION || source.kind == Source_kind::FIT;
   source.derivatives = has_derivatives ? Derivatives::JETS : Derivatives::SPLINE;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/Option_row.h"
 #include "cli/formula_file.h"
+#include "volume/volume_io.h"
 
 #include <optional>
 
@@ -57,46 +58,57 @@ void read_degree(const Option_words& option, Draft& draft) {
       option, {{"4", 4}, {"5", 5}, {"6", 6}, {"8", 8}, {"10", 10}, {"auto", std::nullopt}});
 }
 
-constexpr Commands fitting = MESH | EVALUATE | SAMPLE | ANNOTATE;
+constexpr Commands sampled = MESH | EVALUATE | SAMPLE | registering, fitting = sampled | ANNOTATE;
+
+/// Reads a file whose kind its extension tells.
+void read_file(const Option_words& option, Draft& draft) {
+  read_source(is_volume(option.word()) ? Source_kind::VOLUME : Source_kind::FIT, option, draft);
+}
 
 const std::vector<Option_row> rows = {
-    {"--function", MESH | EVALUATE | SAMPLE, SOURCE, 1, "EXPR",
+    {"FILE", registering, SOURCE, 1, "",
+     "vertices of a mesh or points, as with --fit, or a volume, as with --volume: the extension\n"
+     "tells; - reads PLY, OFF or CSV from standard input",
+     read_file},
+    {"--function", sampled, SOURCE, 1, "EXPR",
      "a formula in x, y, z: + - * / ^ ( ) pi e sqrt cbrt exp log sin cos tan\n"
      "asin acos atan atan2 sinh cosh tanh abs min max hypot pow; lhs = rhs means lhs - rhs;\n"
      "@FILE reads it from a file",
      read_function},
     {"--set",
-     MESH | EVALUATE | SAMPLE,
+     sampled,
      SOURCE,
      {1, unlimited},
      "NAME=VALUE ...",
      "constants of the formula: numbers, or arithmetic such as 2*pi/3",
      read_constants},
-    {"--distance-to", MESH | EVALUATE | SAMPLE, SOURCE, 1, "MESH",
+    {"--distance-to", sampled, SOURCE, 1, "MESH",
      "the signed distance, negative inside, to a closed mesh: .off .ply .obj .stl; - reads\n"
      "OFF from standard input",
      [](const Option_words& option, Draft& draft) { read_source(Source_kind::DISTANCE, option, draft); }},
-    {"--narrow-band", MESH | EVALUATE | SAMPLE, SOURCE, 1, "N",
+    {"--narrow-band", sampled, SOURCE, 1, "N",
      "measure distances up to N voxels only, which is faster; 16 are enough without --smoothing", read_narrow_band},
-    {"--fit", MESH | EVALUATE | SAMPLE, SOURCE, 1, "MESH|POINTS",
+    {"--fit", sampled, SOURCE, 1, "MESH|POINTS",
      "polynomials fitted to the vertices of a mesh, .ply .off .obj .stl, or to points, .csv\n"
      ".xyz: a smooth function about as large as the distance, known near them only",
      [](const Option_words& option, Draft& draft) { read_source(Source_kind::FIT, option, draft); }},
-    {"--volume", MESH | EVALUATE, SOURCE, 1, "FILE",
+    {"--volume", MESH | EVALUATE | registering, SOURCE, 1, "FILE",
      "a volume of samples: .nrrd .nhdr .mhd .mha .nii .nii.gz .inr .inr.gz .vti .raw, or a\n"
      "folder with a DICOM series",
      [](const Option_words& option, Draft& draft) { read_source(Source_kind::VOLUME, option, draft); }},
-    {"--dims", MESH | EVALUATE, SOURCE, 3, "NX NY NZ", "nodes of a .raw, which has no header; x runs fastest",
-     read_raw_dims},
-    {"--type", MESH | EVALUATE, SOURCE, 1, "TYPE",
+    {"--dims", MESH | EVALUATE | registering, SOURCE, 3, "NX NY NZ",
+     "nodes of a .raw, which has no header; x runs fastest", read_raw_dims},
+    {"--type", MESH | EVALUATE | registering, SOURCE, 1, "TYPE",
      "type of the samples of a .raw: uint8 int8 uint16 int16 uint32 int32 uint64 int64\n"
      "float double",
      [](const Option_words& option, Draft& draft) { raw_layout(draft).type = parse_choice(option, raw_types); }},
-    {"--spacing", MESH | EVALUATE, SOURCE, 3, "DX DY DZ", "steps between the nodes of a .raw, by default 1 1 1",
+    {"--spacing", MESH | EVALUATE | registering, SOURCE, 3, "DX DY DZ",
+     "steps between the nodes of a .raw, by default 1 1 1",
      [](const Option_words& option, Draft& draft) { raw_layout(draft).spacing = parse_triple(option); }},
-    {"--origin", MESH | EVALUATE, SOURCE, 3, "X Y Z", "place of the first node of a .raw, by default 0 0 0",
+    {"--origin", MESH | EVALUATE | registering, SOURCE, 3, "X Y Z",
+     "place of the first node of a .raw, by default 0 0 0",
      [](const Option_words& option, Draft& draft) { raw_layout(draft).origin = parse_triple(option); }},
-    {"--box", MESH | EVALUATE | SAMPLE, BOX, 6, "XMIN XMAX YMIN YMAX ZMIN ZMAX",
+    {"--box", sampled, BOX, 6, "XMIN XMAX YMIN YMAX ZMIN ZMAX",
      "where a formula is looked at, before --transform; for a distance or a fit the box of\n"
      "the mesh, widened on all sides by 10 % of its longest side, if not given",
      [](const Option_words& option, Draft& draft) { draft.source.box = parse_box(option); }},

@@ -68,25 +68,32 @@ void read_clip(const Option_words& option, Draft& draft) {
   draft.delaunay.clips_to_ball = parse_choice<bool>(option, {{"box", false}, {"ball", true}});
 }
 
+const std::string threads_help = "threads to use, all by default; the result is always the same";
+
 const std::vector<Option_row> rows = {
-    {"--isovalue", MESH, SURFACE, 1, "V", "the level set f = V, by default 0",
+    {"--isovalue", MESH | registering, SURFACE, 1, "V", "the level set f = V, by default 0",
      [](const Option_words& option, Draft& draft) { draft.isovalue = parse_number(option); }},
-    {"--transform", MESH | EVALUATE, SURFACE, 9, "A11 A12 .. A33",
-     "take the image of the surface under p -> A p, A given row by row",
+    {"--transform",
+     MESH | EVALUATE | registering,
+     SURFACE,
+     {9, 12},
+     "A11 A12 .. A33 [T1 T2 T3]",
+     "take the image of the surface under p -> A p + T, A given row by row; T is 0 if not given",
      [](const Option_words& option, Draft& draft) { draft.source.transformation = parse_transformation(option); }},
-    {"--derivatives", MESH | EVALUATE, SURFACE, 1, "jets|spline",
+    {"--derivatives", MESH | EVALUATE | registering, SURFACE, 1, "jets|spline",
      "from the formula or the fit (jets, their default), or from a spline through samples\n"
      "on the grid (spline, the only way for volumes and distances, none for fits)",
      read_derivatives},
-    {"--spline-degree", MESH | EVALUATE, SURFACE, 1, "5|7|9", "the degree of that spline, by default 7",
+    {"--spline-degree", MESH | EVALUATE | registering, SURFACE, 1, "5|7|9", "the degree of that spline, by default 7",
      read_spline_degree},
-    {"--spline-scheme", MESH | EVALUATE, SURFACE, 1, "quasi-interpolation|interpolation|convolution|paper",
+    {"--spline-scheme", MESH | EVALUATE | registering, SURFACE, 1,
+     "quasi-interpolation|interpolation|convolution|paper",
      "how samples become a spline: by a local filter (quasi-interpolation, the default) or a\n"
      "recursive one (interpolation), both of order degree + 1; with the samples as\n"
      "coefficients (convolution, order 2); or this in degree 5 at the nodes, linearly between\n"
      "them, as Andrade and Lewiner do (paper, with --vertices linear)",
      read_spline_scheme},
-    {"--smoothing", MESH | EVALUATE, SURFACE, 1, "S|auto",
+    {"--smoothing", MESH | EVALUATE | registering, SURFACE, 1, "S|auto",
      "smooth the samples first: the standard deviation of the weights in voxels, more than 1\n"
      "to have an effect, 0 by default, or what suits the noise in the samples (auto)",
      read_smoothing},
@@ -99,14 +106,14 @@ const std::vector<Option_row> rows = {
      "good angles that is proved to be complete where the function has bounds (delaunay)",
      read_method},
     {"--resolution",
-     MESH | EVALUATE | SAMPLE,
+     MESH | EVALUATE | SAMPLE | registering,
      SAMPLING,
      {1, 3},
      "N [NY NZ]",
      "nodes of the grid per axis, 2 or more: 64, for a distance or fit 129; a volume has its own",
      [](const Option_words& option, Draft& draft) { draft.source.resolution = parse_resolution(option); }},
-    {"--threads", MESH | EVALUATE | SAMPLE | ANNOTATE, SAMPLING, 1, "N",
-     "threads to use, all by default; the result is always the same", read_threads},
+    {"--threads", MESH | EVALUATE | SAMPLE | ANNOTATE, SAMPLING, 1, "N", threads_help, read_threads},
+    {"--threads", registering, MAPS, 1, "N", threads_help, read_threads},
     {"--vertices", MESH, MARCHING_CUBES, 1, "projected|linear",
      "on the surface (projected, the default), or where linear interpolation along the\n"
      "grid edges finds it (linear)",

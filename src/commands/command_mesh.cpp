@@ -2,6 +2,7 @@
 #include "attributes/attribute_task.h"
 #include "attributes/estimates.h"
 #include "commands/commands.h"
+#include "commands/extract_surface.h"
 #include "commands/fail_without_surface.h"
 #include "output/statistics.h"
 #include "output/surface_output.h"
@@ -12,7 +13,6 @@
 #include <equiaffine/Input_error.h>
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/delaunay_surface.h>
-#include <equiaffine/marching_cubes.h>
 #include <equiaffine/parabolic_curves.h>
 #include <equiaffine/surface/distance_to_surface.h>
 
@@ -23,7 +23,6 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 namespace equiaffine {
@@ -43,18 +42,10 @@ struct Annotated_surface {
 
 template <class Traits>
 Annotated_surface sample(const Traits& function, const Mesh_options& options, const Marching_cubes_options& method) {
-  const auto parameters =
-      parameters::vertex_position(method.vertices)
-          .number_of_nodes(options.source.resolution.value_or(default_resolution(options.source.kind)));
-  constexpr auto sampler = [](const auto&... arguments) {
-    return marching_cubes<CGAL::Parallel_if_available_tag>(arguments...);
-  };
   Annotated_surface surface;
-  if constexpr (is_fit<std::remove_cvref_t<decltype(function.base())>>)
-    surface.mesh = sampler(function, parameters.skip_empty_space());
-  else surface.mesh = sampler(function, parameters);
+  surface.mesh = extract_surface(function, options.source, method.vertices);
   if (surface.mesh.triangles.empty())
-    fail_without_surface(function.base(), options,
+    fail_without_surface(function.base(), options.source, options.isovalue,
                          {"box", "a finer --resolution", surface.mesh.repairs.vertices_at_poles > 0});
   return surface;
 }
@@ -104,7 +95,7 @@ Annotated_surface sample(const Traits& function, const Mesh_options& options, co
   auto mesh = options.curves ? delaunay_surface(function, criteria, parameters.parabolic_features())
                              : delaunay_surface(function, criteria, parameters);
   if (mesh.triangles.empty())
-    fail_without_surface(function.base(), options,
+    fail_without_surface(function.base(), options.source, options.isovalue,
                          {method.clips_to_ball ? "ball" : "box", mesh.is_certified ? "" : "a smaller --radius",
                           changes_sign_at_poles_only(function)});
   Annotated_surface surface;
@@ -173,16 +164,26 @@ std::string text_of(double number) {
   return text.str();
 }
 
+/// The rows of the matrix, and the translation if there is one.
+std::string text_of(const CGAL::Aff_transformation_3<Kernel>& map) {
+  std::string text;
+  bool has_translation = false;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) text += (column > 0 ? " " : "") + text_of(map.m(row, column));
+    text += row < 2 ? "; " : "";
+    has_translation = has_translation || map.m(row, 3) != 0;
+  }
+  if (has_translation)
+    text += ", then by " + text_of(map.m(0, 3)) + " " + text_of(map.m(1, 3)) + " " + text_of(map.m(2, 3));
+  return text;
+}
+
 Description make_description(const Mesh_options& options, const Statistics& statistics) {
   Description description = {{"Level set f =", text_of(options.isovalue)}, {"of", statistics.source}};
   for (const auto& [name, value] : options.source.constants)
     description.emplace_back("with " + name + " =", text_of(value));
   if (const auto& map = options.source.transformation) {
-    std::string rows;
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 3; ++column)
-        rows += text_of(map->m(row, column)) + (column < 2 ? " " : row < 2 ? "; " : "");
-    description.emplace_back("transformed by", rows);
+    description.emplace_back("transformed by", text_of(*map));
   }
   if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
     description.emplace_back("Normals", "against the gradient");

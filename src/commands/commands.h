@@ -15,6 +15,8 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
 void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& progress);
 void run_sample(const Sample_options& options, std::ostream& out, Progress& progress);
 void run_annotate(const Annotate_options& options, std::ostream& out, Progress& progress);
+void run_register(const Register_options& options, std::ostream& out, Progress& progress);
+void run_symmetries(const Symmetries_options& options, std::ostream& out, Progress& progress);
 void run_view(const View_options& options, std::ostream& out);
 
 } // namespace equiaffine

@@ -58,8 +58,8 @@ bool changes_sign_at_poles_only(const Traits& function) {
 
 /// Throws the error that says why there is no surface, and what to choose instead.
 template <class Traits>
-[[noreturn]] void fail_without_surface(const Traits& function, const Mesh_options& options, const Vain_search& search) {
-  const double isovalue = options.isovalue;
+[[noreturn]] void fail_without_surface(const Traits& function, const Source_options& source, double isovalue,
+                                       const Vain_search& search) {
   const auto [least, greatest] = range_on_grid(function);
   const bool is_defined = least <= greatest;
   std::ostringstream surface, reason;
@@ -67,13 +67,13 @@ template <class Traits>
   reason << " in the " << search.place << ": at the nodes of a grid f ";
   if (is_defined) reason << "lies between " << least << " and " << greatest;
   else reason << "is undefined";
-  if (options.source.narrow_band) reason << " in the band of --narrow-band " << *options.source.narrow_band;
+  if (source.narrow_band) reason << " in the band of --narrow-band " << *source.narrow_band;
   if (search.met_poles) reason << ", and changes its sign at poles or jumps only";
   reason << "; choose ";
   const bool may_help = !search.refinement.empty() && !search.met_poles;
   if (may_help && least < isovalue && greatest > isovalue)
     throw Input_error("no part of the " + surface.str() + " was found" + reason.str() + search.refinement);
-  if (options.source.narrow_band) reason << "a wider band, another --isovalue or box";
+  if (source.narrow_band) reason << "a wider band, another --isovalue or box";
   else if (is_defined && may_help) reason << "another --isovalue or box, or " << search.refinement;
   else reason << "another --isovalue or box";
   throw Input_error("no " + surface.str() + reason.str());

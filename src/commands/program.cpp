@@ -47,6 +47,8 @@ void run_command(const Options& options, const Streams& streams) {
     void operator()(const Sample_options& o) const { run_sample(o, out, progress); }
     void operator()(const View_options& o) const { run_view(o, out); }
     void operator()(const Annotate_options& o) const { run_annotate(o, out, progress); }
+    void operator()(const Register_options& o) const { run_register(o, out, progress); }
+    void operator()(const Symmetries_options& o) const { run_symmetries(o, out, progress); }
   };
   std::visit(Runner{streams.out, progress}, options.command);
 }
@@ -62,6 +64,8 @@ std::string advice_on_memory(const Options& options) {
     std::string operator()(const Sample_options&) const { return "use a smaller --resolution"; }
     std::string operator()(const View_options&) const { return "use a smaller --size, or a mesh with fewer triangles"; }
     std::string operator()(const Annotate_options&) const { return "use a smaller --size, or fewer vertices"; }
+    std::string operator()(const Register_options&) const { return "use a smaller --resolution or input"; }
+    std::string operator()(const Symmetries_options&) const { return "use a smaller --resolution or input"; }
   };
   return std::visit(Advice(), options.command);
 }

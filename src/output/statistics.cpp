@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/statistics.h"
 
-#include <nlohmann/json.hpp>
+#include "output/json_text.h"
 
 #include <cmath>
 #include <ostream>
@@ -26,10 +26,6 @@ const char* name_of(Spline_scheme scheme) {
   }
 }
 
-using Json = nlohmann::ordered_json;
-
-Json begin_JSON(const Mesh_facts& facts) { return {{"equiaffine", EQUIAFFINE_VERSION}, {"source", facts.source}}; }
-
 void add(const Mesh_facts& facts, Json& json) {
   json["vertices"] = facts.vertices;
   json["faces"] = facts.faces;
@@ -49,9 +45,6 @@ void add(const Fit_statistics& fit, Json& json) {
                  {"below_20", fit.known[1]},
                  {"below_50", fit.known[2]}};
 }
-
-/// Texts come from the command line and need not be UTF-8.
-std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
 
 void add_topology(const Mesh_facts& facts, std::ostream& text) {
   text << facts.vertices << " vertices, " << facts.faces << " triangles, " << facts.topology.components
@@ -84,7 +77,7 @@ void add_fit(const Fit_statistics& fit, std::ostream& text) {
 } // namespace
 
 std::string to_JSON(const Statistics& s) {
-  Json json = begin_JSON(s);
+  Json json = begin_JSON(s.source);
   json["isovalue"] = s.isovalue;
   add(s, json);
   json["max_distance_to_surface"] = s.max_distance_to_surface;
@@ -110,7 +103,7 @@ std::string to_JSON(const Statistics& s) {
 }
 
 std::string to_JSON(const Annotation_statistics& s) {
-  Json json = begin_JSON(s);
+  Json json = begin_JSON(s.source);
   add(s, json);
   add(s.fit, json);
   json["seconds"] = {{"annotate", s.annotate_seconds}, {"write", s.write_seconds}};

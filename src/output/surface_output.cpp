@@ -91,6 +91,8 @@ void check_statistics_output(const std::string& path) {
   check_extension(path, {".json"}, "a file of statistics", ".json");
 }
 
+void check_maps_output(const std::string& path) { check_extension(path, {".json"}, "a file of maps", ".json"); }
+
 void check_picture_output(const std::string& path) {
   if (!has_vtk) throw Input_error("cannot write '" + path + "': this equiaffine was built without VTK; use --html");
   if (path != "-" && !has_extension(path, ".png"))

@@ -48,6 +48,9 @@ void check_page_output(const std::string& path);
 /// Throws `Input_error` if the path has an extension that is not .json.
 void check_statistics_output(const std::string& path);
 
+/// Throws `Input_error` if the path has an extension that is not .json.
+void check_maps_output(const std::string& path);
+
 /// The table of a page about its surface, in rows of two cells.
 using Description = std::vector<std::pair<std::string, std::string>>;
 

@@ -9,6 +9,7 @@
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/Estimator.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
+#include <equiaffine/registration/Map_kind.h>
 #include <equiaffine/volume/Spline_scheme.h>
 
 #include <CGAL/Aff_transformation_3.h>
@@ -55,6 +56,7 @@ struct Source_options {
   Fit_options fit;
   double height_of_fit = 0;          ///< up to which a fit needs values over its surface; it may have more
   bool estimates_errors = false;     ///< whether the errors of affine curvatures are estimated
+  bool is_registered = false;        ///< whether registration needs the data of a fit and an unsmoothed spline, too
   std::optional<Raw_layout> raw;     ///< is set for a volume without a header
   std::optional<double> narrow_band; ///< voxels beyond which distances are not needed
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
@@ -132,13 +134,42 @@ struct Annotate_options {
   Picture_options picture;
 };
 
+/// A level set among whose points maps are sought.
+struct Surface_options {
+  Source_options source;
+  double isovalue = 0;
+};
+
+struct Register_options {
+  Surface_options source, target;
+  Map_kind kind = Map_kind::AFFINE;
+  bool allows_reflections = true;
+  std::optional<std::size_t> number_of_maps; ///< if all maps were asked for, up to this number
+  double least_overlap = 0.05;               ///< a part of a surface
+  std::string output;
+  std::optional<std::string> moved, html, png;
+  Page_options page;
+  Picture_options picture;
+};
+
+struct Symmetries_options {
+  Surface_options surface;
+  std::optional<double> tolerance; ///< a part of the size of the surface; if there is none, the source decides
+  std::string output;
+  std::optional<std::string> html, png;
+  Page_options page;
+  Picture_options picture;
+};
+
 /// A text that was asked for: help or version.
 struct Information {
   std::string text;
 };
 
 struct Options {
-  std::variant<Information, Mesh_options, Evaluate_options, Sample_options, View_options, Annotate_options> command;
+  std::variant<Information, Mesh_options, Evaluate_options, Sample_options, View_options, Annotate_options,
+               Register_options, Symmetries_options>
+      command;
   std::optional<std::size_t> threads;
 };
 

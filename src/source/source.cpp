@@ -81,12 +81,12 @@ double height_of_band(const Source_options& options, const CGAL::Bbox_3& box) {
   return std::max(options.height_of_fit, 2 * std::max(std::sqrt((x + y + z).squared_length()), default_radius));
 }
 
-Fit_traits make_fit(const Source_options& options, Progress& progress) {
-  progress.begin("reading the vertices");
-  const Point_table_3<Kernel> table = read_vertices(options.text);
+/// Fits the vertices of a mesh or points. Nothing is known of too few points, which is an error unless they are
+/// registered: then no map is found.
+Fit_traits make_fit(const Source_options& options, const Point_table_3<Kernel>& table, Progress& progress) {
   progress.begin("fitting polynomials");
   const Fit_traits fit = blend_vertices(table, options.fit);
-  if (fit.bbox() == CGAL::Bbox_3())
+  if (fit.bbox() == CGAL::Bbox_3() && !options.is_registered)
     throw Input_error("cannot make " + describe_as(options, options.text) +
                       ": no point has enough others around it for a polynomial; give more points" +
                       (options.fit.scale    ? ", a larger --scale or a smaller --degree"
@@ -94,6 +94,11 @@ Fit_traits make_fit(const Source_options& options, Progress& progress) {
                                             : ""));
   const CGAL::Bbox_3 box = options.box ? *options.box : widened_box(table.mesh.points);
   return fit.in_box(box).in_band(height_of_band(options, box));
+}
+
+Point_table_3<Kernel> read_data(const Source_options& options, Progress& progress) {
+  progress.begin("reading the vertices");
+  return read_vertices(options.text);
 }
 
 Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size, Progress& progress) {
@@ -141,7 +146,8 @@ void check_steps(const Lattice_3<Kernel>& lattice, const Source_options& options
 struct Fitted_spline {
   Spline_traits function;
   Spline_statistics statistics;
-  std::optional<Curvature_error_3<Kernel>> errors;
+  std::optional<Curvature_error_3<Kernel>> errors = {};
+  std::optional<Spline_traits> unsmoothed = {};
 };
 
 Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
@@ -159,9 +165,11 @@ Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
   progress.begin("fitting a spline");
   const Spline_statistics statistics = {degree, scheme, smoothing, noise, std::ranges::min(volume.lattice.size())};
   const Spline_parameters parameters = {.degree = degree, .scheme = scheme, .smoothing = smoothing};
-  if (!source.estimates_errors) return {Spline_traits(std::move(volume), parameters), statistics, {}};
-  Fitted_spline fit = {Spline_traits(volume, parameters), statistics, {}};
-  fit.errors.emplace(fit.function, volume, smoothing, noise.deviation);
+  const bool has_unsmoothed = source.is_registered && smoothing > 0;
+  if (!source.estimates_errors && !has_unsmoothed) return {Spline_traits(std::move(volume), parameters), statistics};
+  Fitted_spline fit = {Spline_traits(volume, parameters), statistics};
+  if (source.estimates_errors) fit.errors.emplace(fit.function, volume, smoothing, noise.deviation);
+  if (has_unsmoothed) fit.unsmoothed.emplace(std::move(volume), Spline_parameters{.degree = degree, .scheme = scheme});
   return fit;
 }
 
@@ -182,7 +190,7 @@ Volume_3<Kernel> sample_source(const Source_options& options, Progress& progress
     return sample_on_lattice<CGAL::Parallel_if_available_tag>(function, lattice,
                                                               [&](std::size_t nodes) { progress.advance(nodes); });
   };
-  return options.kind == Source_kind::FIT ? sample(make_fit(options, progress), "fit")
+  return options.kind == Source_kind::FIT ? sample(make_fit(options, read_data(options, progress), progress), "fit")
                                           : sample(make_formula(options), "formula");
 }
 
@@ -192,17 +200,24 @@ Source make_source(const Source_options& options, Progress& progress) {
     return Transformed_function_traits_3(std::move(traits), *options.transformation);
   };
   if (options.kind == Source_kind::FIT) {
-    const Fit_traits fit = make_fit(options, progress);
-    return {.function = transformed(fit), .fit = fit};
+    Point_table_3<Kernel> table = read_data(options, progress);
+    const Fit_traits fit = make_fit(options, table, progress);
+    Source source{.function = transformed(fit), .fit = fit};
+    if (!options.is_registered) return source;
+    source.data = std::move(table.mesh);
+    if (options.transformation)
+      for (Kernel::Point_3& p : source.data.points) p = (*options.transformation)(p);
+    return source;
   }
   if (options.derivatives == Derivatives::JETS) return {.function = transformed(make_formula(options))};
   Fitted_spline fit = fit_spline(options, progress);
   const std::size_t samples = fit.function.lattice().number_of_nodes();
-  return {transformed(std::move(fit.function)),
-          options.kind == Source_kind::VOLUME ? 0 : samples,
-          fit.statistics,
-          std::move(fit.errors),
-          {}};
+  Source source{.function = transformed(std::move(fit.function)),
+                .function_evaluations = options.kind == Source_kind::VOLUME ? 0 : samples,
+                .spline = fit.statistics,
+                .errors = std::move(fit.errors)};
+  if (fit.unsmoothed) source.unsmoothed = transformed(std::move(*fit.unsmoothed));
+  return source;
 }
 
 std::string describe(const Source_options& options) { return describe_as(options, name_of_file(options.text)); }

@@ -8,6 +8,7 @@
 #include "system/kernel.h"
 #include "system/progress.h"
 #include <equiaffine/attributes/Curvature_error_3.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <array>
 #include <cstddef>
@@ -21,7 +22,9 @@ struct Source {
   std::size_t function_evaluations = 0;                 ///< the number that it took to make the source
   std::optional<Spline_statistics> spline = {};         ///< if derivatives are those of a spline
   std::optional<Curvature_error_3<Kernel>> errors = {}; ///< of that spline, if estimates were asked for
-  std::optional<Fit_traits> fit = {}; ///< if derivatives are those of a fit, before any transformation
+  std::optional<Fit_traits> fit = {};             ///< if derivatives are those of a fit, before any transformation
+  std::optional<Source_function> unsmoothed = {}; ///< of a smoothed spline that is registered
+  Indexed_triangle_mesh_3<Kernel> data = {};      ///< of a fit that is registered, transformed as the function is
 };
 
 /// Makes the function. This may include reading a volume, measuring distances, and fitting a spline. Throws

@@ -211,6 +211,11 @@ Volume_3<Kernel> read_volume(const std::string& path) {
   return read_in_child(path, &*extension);
 }
 
+bool is_volume(const std::string& path) {
+  std::error_code error;
+  return find_extension(path) || has_extension(path, ".raw") || fs::is_directory(path, error);
+}
+
 void check_volume_output(const std::string& path) { find_written_extension(path); }
 
 void write_volume(Output_file& file, const Volume_3<Kernel>& volume, bool as_float) {

@@ -17,6 +17,9 @@ namespace equiaffine {
 /// Throws `Input_error` for everything that is not a complete volume with two nodes or more per axis.
 Volume_3<Kernel> read_volume(const std::string& path);
 
+/// Whether a path is that of a folder, or has an extension of files that hold volumes, `.raw` included.
+bool is_volume(const std::string& path);
+
 /// Throws `Input_error` unless this program, with the libraries that it was built with, writes the extension of `path`.
 void check_volume_output(const std::string& path);
 

@@ -12,7 +12,7 @@ namespace {
 
 using namespace equiaffine;
 
-constexpr Command commands[] = {MESH, EVALUATE, SAMPLE, VIEW, ANNOTATE};
+constexpr Command commands[] = {MESH, EVALUATE, SAMPLE, VIEW, ANNOTATE, REGISTER, SYMMETRIES};
 
 TEST(Program_Option_row, every_option_of_a_command_has_one_row) {
   for (const Command command : commands) {

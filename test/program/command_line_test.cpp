@@ -118,7 +118,7 @@ protected:
 
 TEST_F(Program_command_line, help_and_version_go_to_standard_output) {
   EXPECT_NE(run_well({"--help"}).find("Usage: equiaffine COMMAND"), std::string::npos);
-  for (const char* command : {"mesh", "evaluate", "sample", "view", "annotate"})
+  for (const char* command : {"mesh", "evaluate", "sample", "view", "annotate", "register", "symmetries"})
     EXPECT_NE(run_well({command, "--help"}).find("Usage: equiaffine " + std::string(command)), std::string::npos);
   EXPECT_TRUE(run_well({"--version"}).starts_with("equiaffine "));
 }
@@ -297,6 +297,16 @@ TEST_F(Program_command_line, evaluate_writes_PLY_from_CSV_and_back) {
     EXPECT_EQ(again[i].at("mean_curvature"), direct[i].at("mean_curvature"));
     EXPECT_EQ(std::stod(again[i].at("weight")), std::stod(direct[i].at("weight")));
   }
+}
+
+TEST_F(Program_command_line, a_transform_may_have_a_translation) {
+  const Arguments sphere = {"--function", "x^2 + y^2 + z^2"},
+                  map = {"--transform", "1", "0", "0", "0", "1", "0", "0", "0", "2", "-.5", "-1e1", "-.25"};
+  const auto at_origin = evaluate(sphere + Arguments(map.begin(), map.begin() + 10), ".5,1,1.5"),
+             translated = evaluate(map + sphere, "0,-9,1.25");
+  EXPECT_EQ(translated.at("status"), "regular");
+  for (const char* name : {"gaussian_curvature", "affine_mean_curvature", "nx", "ny", "nz"})
+    EXPECT_NEAR(std::stod(at_origin.at(name)), std::stod(translated.at(name)), 1e-13) << name;
 }
 
 TEST_F(Program_command_line, a_transform_changes_affine_curvatures_by_their_weights) {

@@ -63,7 +63,8 @@ protected:
 } // namespace
 
 TEST_F(Program_errors, no_command_is_told_in_one_line) {
-  expect_error({}, {"no command is given; use mesh, evaluate, sample, view or annotate", "see 'equiaffine --help'"});
+  expect_error({}, {"no command is given; use mesh, evaluate, sample, view, annotate, register or symmetries",
+                    "see 'equiaffine --help'"});
 }
 
 TEST_F(Program_errors, an_unknown_command_or_option_is_named_and_the_nearest_suggested) {
@@ -158,6 +159,8 @@ TEST_F(Program_errors, a_transform_has_an_inverse) {
     expect_error(mesh_of("x") + box + Arguments{"--transform", scale, "0", "0", "0", scale, "0", "0", "0", scale},
                  {"--transform", "determinant", "choose another unit"});
   expect_error(mesh_of("x") + box + Arguments{"--transform", "1", "2"}, {"--transform", "it needs A11"});
+  expect_error(mesh_of("x") + box + Arguments{"--transform", "1", "0", "0", "0", "1", "0", "0", "0", "1", "7"},
+               {"'7' is not expected there"});
 }
 
 TEST_F(Program_errors, words_to_choose_from_are_listed) {

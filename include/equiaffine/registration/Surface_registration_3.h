@@ -22,6 +22,8 @@ struct Registered_map_3 {
   /// The parts of the points of the source, and of the target, that lie on the other surface.
   std::array<double, 2> inliers;
   double rms; ///< the root of the mean squared distance of these points, in the unit of the target
+  /// The points of the source and of the target whose frames gave the map; none for quadrics, which have no frames.
+  std::optional<std::array<typename Kernel::Point_3, 2>> pair;
 };
 
 /// The result of `register_surfaces`.

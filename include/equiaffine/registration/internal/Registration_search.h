@@ -10,7 +10,10 @@
 #include <equiaffine/registration/internal/order_of_points.h>
 #include <equiaffine/registration/internal/refine_map.h>
 
+#include <Eigen/Core>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -19,10 +22,14 @@
 
 namespace equiaffine::internal {
 
+/// The points of the source and of the target whose frames give a map.
+using Pair_of_points = std::array<Eigen::Vector3d, 2>;
+
 /// A map that was refined, and what is known of it.
 struct Judged_map {
   Affine_map_3 map;
   Map_evidence evidence;
+  std::optional<Pair_of_points> pair;
 };
 
 /// The search for maps from the source to the target: each pair of points with the same invariants makes one
@@ -44,7 +51,7 @@ public:
   }
 
   /// Refines a map and keeps it if it becomes as good as a right one would after so many steps.
-  void try_map(const Affine_map_3& map) {
+  void try_map(const Affine_map_3& map, const std::optional<Pair_of_points>& pair = {}) {
     ++hypotheses_;
     const Map_evidence first = rough_evidence(map, greatest_first_tolerance);
     if (first.log10_by_volume > first_log10) return;
@@ -54,7 +61,7 @@ public:
     const Map_evidence second = rough_evidence(*improved, std::min(greatest_first_tolerance, 10 * tolerance_));
     if (second.log10_by_volume > second_log10) return;
     const auto refined = refined_map(*improved, {request_.kind, std::clamp(30 * second.tolerance, 1e-3, 0.05)});
-    if (refined && !is_known(*refined, 1e-4)) keep({*refined, evidence(*refined)});
+    if (refined && !is_known(*refined, 1e-4)) keep({*refined, evidence(*refined), pair});
   }
 
   std::size_t hypotheses() const { return hypotheses_; }
@@ -121,7 +128,7 @@ private:
     if (!map.matrix.allFinite() || !(condition(map.matrix) < 1e4)) return;
     if (determinant < 0 && !request_.allows_reflections) return;
     if (is_known(map, 0.02)) return;
-    try_map(map);
+    try_map(map, Pair_of_points{p.point, pair.target.point});
   }
 
   std::optional<Affine_map_3> refined_map(const Affine_map_3& map, const Refinement& how) const {

@@ -20,8 +20,14 @@ namespace equiaffine::internal {
 
 template <class Kernel>
 Registered_map_3<Kernel> registered_map(const Judged_map& m) {
-  return {m.map.to_CGAL<typename Kernel::Aff_transformation_3>(), m.evidence.log10_false_alarms, m.evidence.inliers,
-          m.evidence.rms};
+  const auto point = [](const Eigen::Vector3d& p) { return typename Kernel::Point_3(p[0], p[1], p[2]); };
+  Registered_map_3<Kernel> result{m.map.to_CGAL<typename Kernel::Aff_transformation_3>(),
+                                  m.evidence.log10_false_alarms,
+                                  m.evidence.inliers,
+                                  m.evidence.rms,
+                                  {}};
+  if (m.pair) result.pair = {point((*m.pair)[0]), point((*m.pair)[1])};
+  return result;
 }
 
 /// The result of register_surfaces(), and whether the best map moves all of each surface onto the other.

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/read_registration.h"
+
+#include "cli/check_outputs.h"
+#include "cli/read_source.h"
+#include <equiaffine/Input_error.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <string_view>
+#include <utility>
+
+namespace equiaffine {
+
+namespace {
+
+constexpr const char* usage = "write 'equiaffine register SOURCE to SOURCE -o MAP.json'";
+
+/// The number of words that an option takes whatever they look like; 0 for what is no option.
+std::size_t words_taken(const std::string& word) {
+  for (const Option_row* row : options_of(REGISTER)) {
+    const std::size_t comma = row->names.find(',');
+    const bool is_short = comma != std::string::npos && word == row->names.substr(0, comma);
+    if (word == row->name() || is_short) return std::size_t(row->words.least);
+    if (word.starts_with(row->name() + '=')) return std::size_t(std::max(row->words.least, 1)) - 1;
+  }
+  return 0;
+}
+
+/// The word `to` between the sources, which is no value of an option; the end if there is none.
+Words::const_iterator find_to(const Words& arguments) {
+  auto word = arguments.begin();
+  while (word != arguments.end() && *word != "to")
+    word += std::min<std::ptrdiff_t>(1 + std::ptrdiff_t(words_taken(*word)), arguments.end() - word);
+  return word;
+}
+
+/// Moves the options that belong to neither source to the line of the first one.
+void move_common_options(Command_line& from, Command_line& to) {
+  for (const Option_row* row : options_of(REGISTER)) {
+    if (belongs_to_source(row->group) || !from.has(row->name())) continue;
+    if (to.has(row->name())) fail_option(row->name(), "it is given more than once", "give it once");
+    to.options.insert(from.options.extract(row->name()));
+  }
+}
+
+Surface_options read_surface(Option_reader& reader) {
+  read_source(reader);
+  reader.read({"--isovalue"});
+  if (reader.draft().source.spline.scheme == Spline_scheme::PAPER)
+    fail_option("--spline-scheme", "paper has no expansions that belong to one function", "use quasi-interpolation");
+  Surface_options surface{reader.draft().source, reader.draft().isovalue};
+  surface.source.spline.isovalue = surface.isovalue;
+  surface.source.is_registered = true;
+  return surface;
+}
+
+/// Reads the options that are left, and checks that page and picture have what they are to show.
+void read_outputs(Option_reader& reader, std::initializer_list<std::string_view> colors) {
+  need_output(reader);
+  refuse_picture_options(reader);
+  refuse_page_options(reader);
+  reader.read_rest();
+  const std::string& color = reader.draft().page.color;
+  if (!color.empty() && std::find(colors.begin(), colors.end(), color) == colors.end())
+    fail_option("--color", "'" + color + "' is not known", "use distance or plain");
+}
+
+Register_options make_register_options(Option_reader& reader, Option_reader& target_reader) {
+  Register_options options;
+  options.source = read_surface(reader);
+  options.target = read_surface(target_reader);
+  if (options.source.source.text == "-" && options.target.source.text == "-")
+    throw Input_error("both sources read standard input; name a file for one of them");
+  read_outputs(reader, {"distance", "surface", "plain"});
+  std::vector<std::string> inputs = input_files(reader);
+  for (const std::string& file : input_files(target_reader)) inputs.push_back(file);
+  const Draft& draft = reader.draft();
+  check_outputs(inputs, {draft.output, draft.moved, draft.html, draft.png});
+  options.kind = draft.map_kind;
+  options.allows_reflections = draft.allows_reflections;
+  options.number_of_maps = draft.number_of_maps;
+  options.least_overlap = draft.least_overlap;
+  options.output = *draft.output;
+  options.moved = draft.moved;
+  options.html = draft.html;
+  options.png = draft.png;
+  options.page = draft.page;
+  options.picture = draft.picture;
+  return options;
+}
+
+} // namespace
+
+Options parse_register_options(const Words& arguments) {
+  const auto to = find_to(arguments);
+  Command_line line = split_command_line(Words(arguments.begin(), to));
+  if (line.information) return {Information{*line.information}, {}};
+  if (to == arguments.end()) throw Input_error(std::string("the word 'to' between two sources is missing; ") + usage);
+  Words rest = {arguments.front()};
+  rest.insert(rest.end(), to + 1, arguments.end());
+  Command_line target = split_command_line(rest);
+  if (target.information) return {Information{*target.information}, {}};
+  move_common_options(target, line);
+  Option_reader reader(line), target_reader(target);
+  reader.read({"--threads"});
+  return {make_register_options(reader, target_reader), reader.draft().threads};
+}
+
+Symmetries_options read_symmetries_options(Option_reader& reader) {
+  Symmetries_options options;
+  options.surface = read_surface(reader);
+  read_outputs(reader, {"distance", "plain"});
+  const Draft& draft = reader.draft();
+  check_outputs(input_files(reader), {draft.output, draft.html, draft.png});
+  options.tolerance = draft.tolerance;
+  options.output = *draft.output;
+  options.html = draft.html;
+  options.png = draft.png;
+  options.page = draft.page;
+  options.picture = draft.picture;
+  return options;
+}
+
+} // namespace equiaffine

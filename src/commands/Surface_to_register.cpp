@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/Surface_to_register.h"
+
+#include "commands/extract_surface.h"
+#include "commands/fail_without_surface.h"
+#include "source/source.h"
+
+#include <utility>
+
+namespace equiaffine {
+
+namespace {
+
+Indexed_triangle_mesh_3<Kernel> extract(const Level_set_of_source& level_set, const Surface_options& options,
+                                        Progress& progress) {
+  progress.begin("extracting the surface");
+  return level_set.visit([&](const auto& function) -> Indexed_triangle_mesh_3<Kernel> {
+    auto surface = extract_surface(function, options.source, Vertex_position::PROJECTED);
+    if (surface.triangles.empty() && options.source.kind != Source_kind::FIT)
+      fail_without_surface(function.base(), options.source, options.isovalue,
+                           {"box", "a finer --resolution", surface.repairs.vertices_at_poles > 0});
+    return surface;
+  });
+}
+
+} // namespace
+
+Surface_to_register make_surface_to_register(const Surface_options& options, bool is_shown, Progress& progress) {
+  Source source = make_source(options.source, progress);
+  Surface_to_register surface{
+      Level_set_of_source(std::move(source.function), options.isovalue), {}, std::move(source.data), {}};
+  if (source.unsmoothed) surface.unsmoothed.emplace(std::move(*source.unsmoothed), options.isovalue);
+  const bool has_data = !surface.mesh.points.empty();
+  if (!has_data) surface.mesh = extract(surface.function, options, progress);
+  else if (is_shown && surface.mesh.triangles.empty()) surface.extracted = extract(surface.function, options, progress);
+  return surface;
+}
+
+} // namespace equiaffine

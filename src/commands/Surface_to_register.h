@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_COMMANDS_SURFACE_TO_REGISTER_H
+#define EQUIAFFINE_SRC_COMMANDS_SURFACE_TO_REGISTER_H
+
+#include "request/options.h"
+#include "source/Level_set_of_source.h"
+#include "system/progress.h"
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+
+#include <optional>
+
+namespace equiaffine {
+
+/// A level set with points on it.
+struct Surface_to_register {
+  Level_set_of_source function;
+  std::optional<Level_set_of_source> unsmoothed; ///< if the function is a spline through smoothed samples
+  Indexed_triangle_mesh_3<Kernel> mesh;          ///< the data of a fit, else what Marching Cubes makes
+  Indexed_triangle_mesh_3<Kernel> extracted;     ///< what Marching Cubes makes of a fit to points without faces
+
+  const Level_set_of_source& refined() const { return unsmoothed ? *unsmoothed : function; }
+  const Indexed_triangle_mesh_3<Kernel>& shown() const { return mesh.triangles.empty() ? extracted : mesh; }
+};
+
+/// Makes the source and its surface. `is_shown` says whether faces are needed. Throws `Input_error`, also if there is no
+/// surface.
+Surface_to_register make_surface_to_register(const Surface_options& options, bool is_shown, Progress& progress);
+
+} // namespace equiaffine
+
+#endif

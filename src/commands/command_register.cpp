@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/Surface_to_register.h"
+#include "commands/commands.h"
+#include "commands/maps_view.h"
+#include "output/maps.h"
+#include "output/surface_output.h"
+#include "source/source.h"
+#include "system/atomic_file.h"
+#include <equiaffine/register_surfaces.h>
+
+#include <CGAL/tags.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+namespace {
+
+Surface_registration_3<Kernel> register_with(const Register_options& options, const Surface_to_register& source,
+                                             const Surface_to_register& target) {
+  const auto parameters = parameters::map_kind(options.kind)
+                              .reflections(options.allows_reflections)
+                              .number_of_maps(options.number_of_maps.value_or(1))
+                              .least_overlap(options.least_overlap)
+                              .refined_functions(std::pair<const Level_set_of_source&, const Level_set_of_source&>(
+                                  source.refined(), target.refined()));
+  return register_surfaces<CGAL::Parallel_if_available_tag>(source.function, source.mesh.points, target.function,
+                                                            target.mesh.points, parameters);
+}
+
+Description make_description(const Registration_report& report) {
+  return {{"Source", report.source},
+          {"Target", report.target},
+          {"Map", report.registration.found() ? "found" : "none"},
+          {"surface", "0 target, 1 moved source, 2 and 3 the frames of the pair of points there"}};
+}
+
+/// The output files of the command. The constructor throws if one of them cannot be written.
+struct Outputs {
+  explicit Outputs(const Register_options& options) {
+    check_maps_output(options.output);
+    if (options.html) check_page_output(*options.html);
+    if (options.png) check_picture_output(*options.png);
+    if (options.moved) check_surface_output(*options.moved);
+    files.emplace_back(options.output);
+    for (const auto& output : {options.html, options.png, options.moved})
+      if (output) files.emplace_back(*output);
+  }
+
+  std::vector<Output_file> files; // the map, then those of page, picture, moved source that were asked for
+};
+
+} // namespace
+
+void run_register(const Register_options& options, std::ostream& out, Progress& progress) {
+  Outputs outputs(options);
+  const bool is_shown = options.html || options.png;
+  const Surface_to_register source = make_surface_to_register(options.source, is_shown, progress);
+  const Surface_to_register target = make_surface_to_register(options.target, is_shown, progress);
+  progress.begin("looking for the map");
+  const Registration_report report = {describe(options.source.source), describe(options.target.source),
+                                      register_with(options, source, target), options.number_of_maps.has_value()};
+
+  progress.begin("writing");
+  if (options.moved && !report.registration.found()) outputs.files.pop_back();
+  auto file = outputs.files.begin();
+  file++->stream() << to_JSON(report);
+  if (is_shown) {
+    const auto [mesh, attributes] = registered_surfaces(source, target, report.registration);
+    if (options.html)
+      write_page(*file++, mesh, attributes, options.page, page_title(options.output, "Registration"),
+                 make_description(report));
+    if (options.png) write_picture(*file++, mesh, attributes, options.page, options.picture);
+  }
+  if (file != outputs.files.end()) {
+    const auto [mesh, attributes] = moved_source(source, target, report.registration.best().map);
+    write_surface(*file, mesh, attributes);
+  }
+  progress.end();
+  commit_all(outputs.files);
+  if (std::any_of(outputs.files.begin(), outputs.files.end(), [](const auto& f) { return f.path() == "-"; })) return;
+  out << summary(report);
+  report_written(out, outputs.files);
+}
+
+} // namespace equiaffine

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/Surface_to_register.h"
+#include "commands/commands.h"
+#include "commands/maps_view.h"
+#include "output/maps.h"
+#include "output/surface_output.h"
+#include "picture/draw_surface.h"
+#include "source/source.h"
+#include "system/atomic_file.h"
+#include <equiaffine/Input_error.h>
+#include <equiaffine/affine_symmetries.h>
+
+#include <CGAL/tags.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace equiaffine {
+
+namespace {
+
+/// How far symmetries may move points from the surface, beside its size: formulas are exact, and splines and fits know
+/// the surface to within their errors only.
+double default_tolerance(const Source_options& source) {
+  if (source.kind == Source_kind::FIT) return 1e-3;
+  return source.derivatives == Derivatives::SPLINE ? 1e-5 : 1e-8;
+}
+
+/// The output files of the command. The constructor throws if one of them cannot be written.
+struct Outputs {
+  explicit Outputs(const Symmetries_options& options) {
+    check_maps_output(options.output);
+    if (options.html) check_page_output(*options.html);
+    if (options.png) check_picture_output(*options.png);
+    files.emplace_back(options.output);
+    for (const auto& output : {options.html, options.png})
+      if (output) files.emplace_back(*output);
+  }
+
+  std::vector<Output_file> files; // the maps, then those of page and picture that were asked for
+};
+
+Description make_description(const Symmetries_report& report) {
+  const auto order = report.symmetries.order();
+  return {{"Symmetries of", report.source},
+          {"Order", order ? std::to_string(*order) : "infinite"},
+          {"Generators", std::to_string(report.symmetries.continuous.dimension())}};
+}
+
+} // namespace
+
+void run_symmetries(const Symmetries_options& options, std::ostream& out, Progress& progress) {
+  Outputs outputs(options);
+  const bool is_shown = options.html || options.png;
+  const Surface_to_register surface = make_surface_to_register(options.surface, is_shown, progress);
+  progress.begin("looking for symmetries");
+  const double tolerance = options.tolerance.value_or(default_tolerance(options.surface.source));
+  const Symmetries_report report = {describe(options.surface.source),
+                                    affine_symmetries<CGAL::Parallel_if_available_tag>(
+                                        surface.function, surface.mesh.points, parameters::tolerance(tolerance))};
+
+  progress.begin("writing");
+  auto file = outputs.files.begin();
+  file++->stream() << to_JSON(report);
+  if (is_shown) {
+    const auto [mesh, attributes] = surface_with_symmetries(surface, report.symmetries);
+    if (!options.picture.arrows.empty() && !vector_columns(attributes, options.picture.arrows))
+      throw Input_error("--arrows: there is no vector '" + options.picture.arrows +
+                        "'; a continuous symmetry has generator1, and more of them if there are more dimensions");
+    if (options.html)
+      write_page(*file++, mesh, attributes, options.page, page_title(options.output, "Symmetries"),
+                 make_description(report));
+    if (options.png) write_picture(*file++, mesh, attributes, options.page, options.picture);
+  }
+  progress.end();
+  commit_all(outputs.files);
+  if (std::any_of(outputs.files.begin(), outputs.files.end(), [](const auto& f) { return f.path() == "-"; })) return;
+  out << summary(report);
+  report_written(out, outputs.files);
+}
+
+} // namespace equiaffine

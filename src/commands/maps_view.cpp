@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/maps_view.h"
+
+#include "output/arrow_mesh.h"
+#include "output/maps.h"
+#include <equiaffine/base/parallel_for.h>
+#include <equiaffine/geometry/affine_frame.h>
+#include <equiaffine/geometry/local_structure.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/tags.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+namespace {
+
+using Map = CGAL::Aff_transformation_3<Kernel>;
+using Point = Kernel::Point_3;
+using Vector = Kernel::Vector_3;
+using Mesh = Indexed_triangle_mesh_3<Kernel>;
+
+bool contains(const CGAL::Bbox_3& box, const Point& p) {
+  return box.xmin() <= p.x() && p.x() <= box.xmax() && box.ymin() <= p.y() && p.y() <= box.ymax() &&
+         box.zmin() <= p.z() && p.z() <= box.zmax();
+}
+
+/// The distances of points from the image of a surface under the inverse of `back`, to first order; NaN outside of the
+/// image of its domain.
+std::vector<double> distances(const std::vector<Point>& points, const Level_set_of_source& surface, const Map& back) {
+  const CGAL::Bbox_3 box = surface.bbox();
+  std::vector<double> result(points.size(), std::numeric_limits<double>::quiet_NaN());
+  parallel_for<CGAL::Parallel_if_available_tag>(
+      0, points.size(),
+      [&](std::size_t i) {
+        const Point p = back(points[i]);
+        if (!contains(box, p)) return;
+        const auto jet = surface.first_order(p);
+        const auto& c = jet.coefficients();
+        std::array<double, 3> gradient{};
+        for (int k = 0; k < 3; ++k)
+          gradient[std::size_t(k)] = c[1] * back.m(0, k) + c[2] * back.m(1, k) + c[3] * back.m(2, k);
+        result[i] = std::abs(c[0]) / std::hypot(gradient[0], gradient[1], gradient[2]);
+      },
+      64);
+  return result;
+}
+
+/// The mesh moved by a map, with normals on the same side.
+Mesh moved(Mesh mesh, const Map& map) {
+  for (Point& p : mesh.points) p = map(p);
+  if (determinant_of(map) < 0)
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  return mesh;
+}
+
+/// Vectors that an affine map carries to those of the image: e1 and e2 of the affine frame over the root of its scale, and
+/// xi over the scale.
+std::array<Vector, 3> frame_at(const Level_set_of_source& surface, const Point& p) {
+  const auto structure = regular_structure<double>(surface.taylor(p), {p.x(), p.y(), p.z()});
+  const Affine_frame_3<double> frame = affine_frame(structure.structure.affine);
+  const auto vector = [](const std::array<double, 3>& v, double scale) { return Vector(v[0], v[1], v[2]) / scale; };
+  const double root = std::sqrt(frame.scale);
+  return {vector(frame.e1, root), vector(frame.e2, root), vector(frame.xi, frame.scale)};
+}
+
+double diagonal_of(const std::vector<Point>& points) {
+  CGAL::Bbox_3 box;
+  for (const Point& p : points) box += p.bbox();
+  return std::hypot(box.x_span(), box.y_span(), box.z_span());
+}
+
+/// Several meshes as one, with columns for all.
+class Joined_meshes {
+public:
+  void add(const Mesh& mesh, double number, std::vector<double> distances) {
+    const auto first = std::uint32_t(result_.mesh.points.size());
+    result_.mesh.points.insert(result_.mesh.points.end(), mesh.points.begin(), mesh.points.end());
+    for (const auto& [a, b, c] : mesh.triangles) result_.mesh.triangles.push_back({a + first, b + first, c + first});
+    distances.resize(mesh.points.size(), std::numeric_limits<double>::quiet_NaN());
+    auto& all = result_.attributes.columns;
+    all[0].values.insert(all[0].values.end(), distances.begin(), distances.end());
+    all[1].values.insert(all[1].values.end(), mesh.points.size(), number);
+  }
+
+  Annotated_mesh_3<Kernel> result() && { return std::move(result_); }
+
+private:
+  Annotated_mesh_3<Kernel> result_ = {{}, {{{"distance", {}}, {"surface", {}}}, {}}};
+};
+
+/// Adds the frames of the pair as arrows, the longest one of a fifth of the diagonal.
+void add_frames(const Surface_to_register& source, const Surface_to_register& target,
+                const Registered_map_3<Kernel>& registered, double diagonal, Joined_meshes& all) {
+  const auto& [p, q] = *registered.pair;
+  const std::array<Vector, 3> frame = frame_at(target.function, q);
+  std::array<Vector, 3> moved_frame = frame_at(source.function, p);
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    moved_frame[k] = registered.map(moved_frame[k]);
+    longest = std::max({longest, std::sqrt(frame[k].squared_length()), std::sqrt(moved_frame[k].squared_length())});
+  }
+  const double scale = 0.2 * diagonal / longest, radius = 0.004 * diagonal;
+  for (std::size_t k = 0; k < 3; ++k) {
+    all.add(arrow_mesh(q, scale * frame[k], radius), 2, {});
+    all.add(arrow_mesh(registered.map(p), scale * moved_frame[k], radius), 3, {});
+  }
+}
+
+} // namespace
+
+Annotated_mesh_3<Kernel> moved_source(const Surface_to_register& source, const Surface_to_register& target,
+                                      const Map& map) {
+  Annotated_mesh_3<Kernel> result{moved(source.mesh, map), {}};
+  result.attributes.columns.push_back(
+      {"distance", distances(result.mesh.points, target.refined(), Map(CGAL::IDENTITY))});
+  return result;
+}
+
+Annotated_mesh_3<Kernel> registered_surfaces(const Surface_to_register& source, const Surface_to_register& target,
+                                             const Surface_registration_3<Kernel>& registration) {
+  const Map map = registration.found() ? registration.best().map : Map(CGAL::IDENTITY);
+  const Mesh image = moved(source.shown(), map);
+  Joined_meshes all;
+  all.add(target.shown(), 0, distances(target.shown().points, source.refined(), map.inverse()));
+  all.add(image, 1, distances(image.points, target.refined(), Map(CGAL::IDENTITY)));
+  if (registration.found() && registration.best().pair)
+    add_frames(source, target, registration.best(), diagonal_of(image.points), all);
+  return std::move(all).result();
+}
+
+Annotated_mesh_3<Kernel> surface_with_symmetries(const Surface_to_register& surface,
+                                                 const Affine_symmetries_3<Kernel>& symmetries) {
+  Annotated_mesh_3<Kernel> result{surface.shown(), {}};
+  const std::vector<Point>& points = result.mesh.points;
+  std::vector<double> greatest(points.size(), std::numeric_limits<double>::quiet_NaN());
+  for (const auto& symmetry : symmetries.maps) {
+    const auto images = distances(moved(result.mesh, symmetry.map).points, surface.function, Map(CGAL::IDENTITY));
+    for (std::size_t i = 0; i < points.size(); ++i) greatest[i] = std::fmax(greatest[i], images[i]);
+  }
+  auto& columns = result.attributes.columns;
+  columns.push_back({"distance", std::move(greatest)});
+  const auto& generators = symmetries.continuous.generators;
+  for (std::size_t n = 0; n < generators.size(); ++n)
+    for (int k = 0; k < 3; ++k) {
+      const auto& [matrix, translation] = generators[n];
+      auto& column = columns.emplace_back();
+      column.name = "generator" + std::to_string(n + 1) + '_' + "xyz"[k];
+      for (const Point& p : points)
+        column.values.push_back(matrix(k, 0) * p.x() + matrix(k, 1) * p.y() + matrix(k, 2) * p.z() + translation[k]);
+    }
+  return result;
+}
+
+} // namespace equiaffine

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What pages, pictures and meshes show of maps of surfaces.
+#ifndef EQUIAFFINE_SRC_COMMANDS_MAPS_VIEW_H
+#define EQUIAFFINE_SRC_COMMANDS_MAPS_VIEW_H
+
+#include "commands/Surface_to_register.h"
+#include <equiaffine/io/Annotated_mesh_3.h>
+#include <equiaffine/registration/Affine_symmetries_3.h>
+#include <equiaffine/registration/Surface_registration_3.h>
+
+namespace equiaffine {
+
+/// The source moved by a map, with the column `distance`: how far vertices are from the target, to first order, or NaN
+/// where that is not known.
+Annotated_mesh_3<Kernel> moved_source(const Surface_to_register& source, const Surface_to_register& target,
+                                      const CGAL::Aff_transformation_3<Kernel>& map);
+
+/// The target, the source moved by the best map over it, or as it is if there is none, and the affine frames of the pair
+/// of points that gave the map, as arrows. The columns are `distance` from the other surface, and `surface`: 0 for the
+/// target, 1 for the source, 2 and 3 for the frames of the target and of the source.
+Annotated_mesh_3<Kernel> registered_surfaces(const Surface_to_register& source, const Surface_to_register& target,
+                                             const Surface_registration_3<Kernel>& registration);
+
+/// The surface with the column `distance`, the greatest distance of images of a vertex under the symmetries, and
+/// columns generatorN_x, generatorN_y, generatorN_z, the velocity of the vertex by each continuous one.
+Annotated_mesh_3<Kernel> surface_with_symmetries(const Surface_to_register& surface,
+                                                 const Affine_symmetries_3<Kernel>& symmetries);
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_OUTPUT_ARROW_MESH_H
+#define EQUIAFFINE_SRC_OUTPUT_ARROW_MESH_H
+
+#include "system/kernel.h"
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+
+namespace equiaffine {
+
+/// An arrow from a point along a vector, as a closed mesh: a shaft of that radius, and a cone for the last quarter.
+Indexed_triangle_mesh_3<Kernel> arrow_mesh(const Kernel::Point_3& base, const Kernel::Vector_3& arrow, double radius);
+
+} // namespace equiaffine
+
+#endif

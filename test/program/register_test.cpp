@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/written_meshes.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine::test;
+using Json = nlohmann::json;
+
+/// A surface without any symmetry.
+const std::string formula =
+    "x^4+y^4+z^4-1+.31*x^3-.22*x^2*y+.13*x^2*z+.27*x*y^2-.35*x*y*z+.18*x*z^2+.2*y^3-.11*y^2*z+.24*y*z^2-.3*z^3";
+
+const Arguments box = {"--box", "-1.8", "1.8", "-1.8", "1.8", "-1.8", "1.8"};
+const Arguments surface = Arguments{"--function", formula, "--resolution", "24"} + box;
+
+/// The map of the tests, as the words of --transform: a shear with stretches, and a translation.
+const std::array<double, 12> map = {2, 1, 0, 0, 1, .3, .2, 0, .5, 1, -2, 3};
+const Arguments transform = {"--transform", "2", "1", "0", "0", "1", ".3", ".2", "0", ".5", "1", "-2", "3"};
+
+/// The image of the surface, with points of its own.
+const Arguments image = Arguments{"--function", formula, "--resolution", "27"} + box + transform;
+
+/// The largest difference of an entry from that of the map.
+double error_of(const Json& found) {
+  double error = 0;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column)
+      error = std::max(error, std::abs(double(found["matrix"][row][column]) - map[3 * row + column]));
+    error = std::max(error, std::abs(double(found["translation"][row]) - map[9 + row]));
+  }
+  return error;
+}
+
+class Program_register : public Written_meshes_test {
+protected:
+  /// Registers, expects that nothing goes wrong, and returns what is written.
+  Json registered(const Arguments& source, const Arguments& target, const Arguments& options = {}) {
+    run_well(Arguments{"register"} + source + Arguments{"to"} + target + Arguments{"-o", "map.json"} + options);
+    return Json::parse(file("map.json"));
+  }
+
+  Json symmetries(const Arguments& source) {
+    run_well(Arguments{"symmetries"} + source + Arguments{"-o", "maps.json"});
+    return Json::parse(file("maps.json"));
+  }
+
+  void expect_error(const Arguments& arguments, const Arguments& words) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.status, 2) << result.error;
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+    for (const std::string& word : words)
+      EXPECT_NE(result.error.find(word), std::string::npos) << word << " in " << result.error;
+    EXPECT_EQ(names(), before_);
+  }
+
+  std::vector<std::string> before_; ///< the files that errors leave
+};
+
+TEST_F(Program_register, a_formula_and_its_image_give_the_map_and_what_there_is_to_trust_it) {
+  const Json found = registered(surface, image);
+  EXPECT_EQ(found["found"], true);
+  EXPECT_LT(error_of(found), 1e-11);
+  EXPECT_NEAR(found["determinant"], 1.06, 1e-11);
+  EXPECT_LT(found["log10_false_alarms"], -50);
+  EXPECT_GT(found["inliers"][0], 0.9);
+  EXPECT_GT(found["inliers"][1], 0.9);
+  EXPECT_LT(found["rms"], 1e-11);
+  EXPECT_GE(found["hypotheses"], 1);
+  EXPECT_TRUE(found["next_best_rms"].is_null() || found["next_best_rms"] > 1e-9);
+  EXPECT_EQ(found["slippage"]["dimension"], 0);
+  EXPECT_EQ(found["slippage"]["generators"], Json::array());
+  EXPECT_FALSE(found.contains("maps"));
+  EXPECT_TRUE(std::string(found["source"]).starts_with("the formula x^4"));
+}
+
+TEST_F(Program_register, samples_are_matched_smoothed_and_refined_unsmoothed) {
+  run_well(Arguments{"sample", "-o", "a.vti", "--function", formula, "--resolution", "56"} + box);
+  EXPECT_LT(error_of(registered({"a.vti"}, image)), 1e-6);
+  const Json smoothed = registered({"--volume", "a.vti", "--smoothing", "2.5"}, image);
+  EXPECT_LT(error_of(smoothed), 1e-6) << "smoothing does not commute with the map";
+}
+
+TEST_F(Program_register, vertices_and_points_are_registered_by_fits) {
+  run_well(Arguments{"mesh", "-o", "a.ply", "--attributes", "none"} + surface);
+  run_well(Arguments{"mesh", "-o", "b.off"} + image);
+  run_well(Arguments{"mesh", "-o", "b.csv", "--attributes", "none"} + image);
+  const Json of_points = registered({"a.ply"}, {"b.csv"});
+  ASSERT_EQ(of_points["found"], true);
+  EXPECT_LT(error_of(of_points), 1e-3);
+  EXPECT_EQ(of_points["source"], "the fit to 'a.ply'");
+  EXPECT_EQ(of_points["target"], "the fit to 'b.csv'");
+  const Json found = registered(Arguments{"--fit", "a.ply"} + transform, {"--fit", "b.off"});
+  EXPECT_NEAR(found["matrix"][0][0], 1, 1e-3) << "a transformed fit takes its data along";
+}
+
+TEST_F(Program_register, a_piece_is_found_in_the_distance_to_the_whole) {
+  run_well(Arguments{"mesh", "-o", "whole.off", "--resolution", "90", "--function", formula} + box + transform);
+  const Arguments piece = {"--function", formula, "--resolution", "24",   "--box", "0",
+                           "1.8",        "-1.8",  "1.8",          "-1.8", "1.8"};
+  const Json found = registered(piece, image);
+  EXPECT_LT(error_of(found), 1e-11);
+  EXPECT_GT(found["inliers"][0], 0.9);
+  EXPECT_LT(found["inliers"][1], 0.7);
+  EXPECT_FALSE(registered(piece, {"--distance-to", "whole.off", "--resolution", "40"})["found"])
+      << "facets have no affine curvature";
+}
+
+TEST_F(Program_register, all_maps_are_listed_when_asked) {
+  const Arguments symmetric =
+      Arguments{"--function", "x^4+y^4+z^4-1+.3*x^2*y-.2*x^2*z+.25*y^3+.3*y*z+.15*z^3-.2*y*z^2", "--resolution", "24"} +
+      box;
+  const Json found = registered(symmetric, symmetric + transform, {"--all", "5"});
+  ASSERT_EQ(found["maps"].size(), 2U);
+  EXPECT_EQ(found["maps"][0]["matrix"], found["matrix"]);
+  EXPECT_LT(double(found["maps"][0]["determinant"]) * double(found["maps"][1]["determinant"]), 0);
+  for (const Json& each : found["maps"])
+    for (const char* field : {"matrix", "translation", "determinant", "log10_false_alarms", "inliers", "rms"})
+      EXPECT_TRUE(each.contains(field)) << field;
+  EXPECT_LT(found["next_best_rms"], 1e-9);
+}
+
+TEST_F(Program_register, kinds_and_reflections_are_obeyed) {
+  const Arguments mirror = {"--transform", "-1", "0", "0", "0", "1", "0", "0", "0", "1"};
+  const Json mirrored = registered(surface, surface + mirror, {"--kind", "rigid"});
+  EXPECT_NEAR(mirrored["determinant"], -1, 1e-12);
+  EXPECT_EQ(registered(surface, surface + mirror, {"--no-reflection"})["found"], false);
+  EXPECT_EQ(registered(surface, image, {"--kind", "similarity"})["found"], false);
+  EXPECT_EQ(registered(surface, image, {"--kind", "equiaffine"})["found"], false);
+}
+
+TEST_F(Program_register, identical_surfaces_have_the_identity) {
+  const Json found = registered(surface, surface);
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 3; ++column)
+      EXPECT_NEAR(found["matrix"][row][column], row == column ? 1 : 0, 1e-12);
+}
+
+TEST_F(Program_register, a_quadric_has_one_map_of_many_with_generators) {
+  const Arguments ellipsoid = Arguments{"--function", "x^2+2*y^2+3*z^2=1", "--resolution", "24"} + box;
+  const Json found = registered(ellipsoid, ellipsoid + transform);
+  EXPECT_EQ(found["found"], true);
+  EXPECT_EQ(found["slippage"]["dimension"], 3);
+  ASSERT_EQ(found["slippage"]["generators"].size(), 3U);
+  EXPECT_EQ(found["slippage"]["generators"][0]["matrix"].size(), 3U);
+  EXPECT_EQ(found["slippage"]["generators"][0]["translation"].size(), 3U);
+  EXPECT_NE(run(Arguments{"register"} + ellipsoid + Arguments{"to"} + ellipsoid + Arguments{"-o", "m.json"})
+                .out.find("slips over itself in 3 ways"),
+            std::string::npos);
+}
+
+TEST_F(Program_register, planes_and_three_points_are_no_error_and_have_no_map) {
+  const Arguments plane = Arguments{"--function", "x+2*y-z", "--resolution", "12"} + box;
+  EXPECT_EQ(registered(plane, plane)["found"], false);
+  write_file(folder_ / "three.csv", "x,y,z\n0,0,0\n1,0,0\n0,1,0\n");
+  for (const auto& [source, target] : {std::pair<Arguments, Arguments>({"three.csv"}, surface),
+                                       {surface, {"three.csv"}},
+                                       {{"three.csv"}, {"three.csv"}}}) {
+    const Json found = registered(source, target, {"--html", "page.html", "--moved", "moved.ply"});
+    EXPECT_EQ(found["found"], false);
+    EXPECT_FALSE(found.contains("matrix"));
+  }
+  EXPECT_EQ(names(), (std::vector<std::string>{"map.json", "page.html", "three.csv"})) << "nothing is moved";
+}
+
+TEST_F(Program_register, the_moved_source_lies_on_the_target) {
+  run_well(Arguments{"mesh", "-o", "a.ply", "--attributes", "mean_curvature"} + surface);
+  registered({"a.ply", "--resolution", "20"}, image,
+             {"--moved", "moved.ply", "--html", "page.html", "--color", "surface"});
+  const Mesh given = mesh("a.ply"), moved = mesh("moved.ply");
+  EXPECT_EQ(moved.mesh.triangles, given.mesh.triangles);
+  ASSERT_EQ(moved.mesh.points.size(), given.mesh.points.size());
+  for (std::size_t i = 0; i < given.mesh.points.size(); ++i)
+    EXPECT_NEAR(moved.mesh.points[i].x(), 2 * given.mesh.points[i].x() + given.mesh.points[i].y() + 1, 1e-3);
+  for (const double distance : column(moved, "distance")) EXPECT_LT(distance, 1e-3);
+  const std::string page = file("page.html");
+  for (const char* text : {"distance", "surface", "the fit to &#39;a.ply&#39;"})
+    EXPECT_NE(page.find(text) + page.find("the fit to 'a.ply'"), 2 * std::string::npos) << text;
+}
+
+TEST_F(Program_register, any_number_of_threads_gives_the_same_bytes) {
+  for (const std::string threads : {"1", "3"})
+    registered(surface, image, {"--threads", threads, "--moved", threads + ".ply"});
+  EXPECT_EQ(file("1.ply"), file("3.ply"));
+}
+
+TEST_F(Program_register, options_of_both_stand_on_either_side_and_a_value_may_be_the_word_to) {
+  run_well(Arguments{"register", "-o", "to", "--kind", "affine"} + surface + Arguments{"to"} + image);
+  EXPECT_EQ(Json::parse(file("to"))["found"], true);
+  before_ = names();
+  expect_error(Arguments{"register", "-o", "a.json"} + surface + Arguments{"to"} + image + Arguments{"-o", "b.json"},
+               {"--output", "more than once"});
+}
+
+TEST_F(Program_register, what_cannot_be_used_is_refused) {
+  run_well(Arguments{"mesh", "-o", "a.ply", "--attributes", "none"} + surface);
+  before_ = names();
+  expect_error({"register", "a.ply", "b.ply", "-o", "m.json"}, {"'b.ply' is not expected there"});
+  expect_error({"register", "a.ply", "-o", "m.json"}, {"the word 'to'", "missing", "SOURCE to SOURCE"});
+  expect_error({"register", "to", "a.ply", "-o", "m.json"}, {"no source", "side of the word 'to'"});
+  expect_error({"register", "a.ply", "to", "a.ply"}, {"--output", "missing"});
+  expect_error({"register", "a.ply", "to", "a.ply", "-o", "a.ply"}, {"replace"});
+  expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--moved", "a.ply"}, {"replace"});
+  expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.ply"}, {"m.ply", ".json"});
+  expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--moved", "m.txt"}, {"m.txt", "extension"});
+  expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--kind", "afine"}, {"--kind", "afine", "affine"});
+  expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--min-overlap", "5"},
+               {"--min-overlap", "'5'", "0 to 1"});
+  expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--all", "0"}, {"--all", "'0'"});
+  expect_error({"register", "a.ply", "to", "a.foo", "-o", "m.json"}, {"a.foo", "extension"});
+  expect_error({"register", "a.ply", "to", "--volume", "a.ply", "b.ply", "-o", "m.json"}, {"both given"});
+  expect_error({"register", "no.ply", "to", "a.ply", "-o", "m.json"}, {"no.ply", "no such file"});
+  expect_error({"register", "-", "to", "-", "-o", "m.json"}, {"both sources", "standard input"});
+  expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--color", "distance"}, {"--color", "--html"});
+  expect_error(Arguments{"register", "--function", "x^2+9=0"} + box + Arguments{"to", "a.ply", "-o", "m.json"},
+               {"no surface"});
+  write_file(folder_ / "none.csv", "x,y,z\n");
+  before_ = names();
+  expect_error({"register", "none.csv", "to", "a.ply", "-o", "m.json"}, {"none.csv", "no points"});
+  expect_error({"symmetries", "none.csv", "-o", "m.json"}, {"none.csv", "no points"});
+  expect_error({"symmetries", "a.ply", "-o", "m.json", "--tolerance", "2"}, {"--tolerance", "'2'"});
+  expect_error({"symmetries", "-o", "m.json"}, {"no source", "file"});
+}
+
+TEST_F(Program_register, symmetries_of_a_formula_are_a_group) {
+  const Arguments sextic = Arguments{"--function", "x^6+1.5*y^6+.7*z^6+.8*x^2*y^2=1"} + box;
+  for (const Arguments& map_of_it : {Arguments{}, transform}) {
+    const Json found = symmetries(sextic + map_of_it);
+    EXPECT_EQ(found["order"], 16);
+    ASSERT_EQ(found["maps"].size(), 16U);
+    for (const char* field : {"matrix", "translation", "rms"}) EXPECT_TRUE(found["maps"][0].contains(field));
+    EXPECT_EQ(found["continuous"]["dimension"], 0);
+    EXPECT_EQ(found["continuous"]["generators"], Json::array());
+  }
+  EXPECT_EQ(symmetries(surface)["order"], 1);
+}
+
+TEST_F(Program_register, continuous_symmetries_have_generators_and_no_order) {
+  const Json found = symmetries(
+      Arguments{"--function", "(x^2+y^2+z^2+.84)^2=4*(x^2+y^2)", "--resolution", "24", "--html", "torus.html"} + box +
+      transform);
+  EXPECT_TRUE(found["order"].is_null());
+  EXPECT_EQ(found["continuous"]["dimension"], 1);
+  EXPECT_EQ(found["continuous"]["generators"].size(), 1U);
+  EXPECT_EQ(found["maps"].size(), 1U);
+  EXPECT_NE(file("torus.html").find("generator1_x"), std::string::npos);
+}
+
+TEST_F(Program_register, symmetries_of_samples_and_vertices_are_found_within_their_accuracy) {
+  const Arguments quartic = Arguments{"--function", "x^4+y^4/2+z^4+.5*x*y*z+x^2+y^2+z^2=1"} + box;
+  run_well(Arguments{"sample", "-o", "s.vti", "--resolution", "60"} + quartic);
+  run_well(Arguments{"mesh", "-o", "s.ply", "--resolution", "40", "--attributes", "none"} + quartic);
+  for (const Arguments& source : {quartic, {"s.vti"}, {"s.ply"}}) EXPECT_EQ(symmetries(source)["order"], 8);
+}
+
+} // namespace
