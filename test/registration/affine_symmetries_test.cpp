@@ -55,6 +55,11 @@ TEST(Affine_symmetries, finite_groups_are_complete_for_originals_and_affine_imag
     }
 }
 
+TEST(Affine_symmetries, a_group_is_complete_where_the_box_cuts_off_images_of_generic_points) {
+  for (const std::size_t nodes : {36, 40, 46})
+    EXPECT_EQ(symmetries({icosahedral, cube(1.6), 120}, std::nullopt, nodes).order(), 120u) << nodes << " nodes";
+}
+
 TEST(Affine_symmetries, continuous_ones_have_generators) {
   const std::vector<Expected> cases = {{"x^2+2*y^2+3*z^2+.3*x*y-1", cube(1.2), 3},
                                        {"x^2+2*y^2-z^2-.5", cube(1.2), 3},

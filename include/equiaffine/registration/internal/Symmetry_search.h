@@ -4,6 +4,7 @@
 
 #include <equiaffine/registration/internal/Framed_surface_3.h>
 #include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/Whitening.h>
 #include <equiaffine/registration/internal/candidate_pairs.h>
 #include <equiaffine/registration/internal/counterpart.h>
 #include <equiaffine/registration/internal/map_distances.h>
@@ -54,10 +55,31 @@ public:
 private:
   static constexpr std::size_t points_matched = 4, most_neighbors = 3000, most_images = 600, largest_group = 1000;
 
+  /// Returns points with different invariants, since images of each other have the same images: some of the inner half
+  /// of the surface, then some of all. A symmetry keeps the distance from the center in coordinates where the points
+  /// have covariance 1, so that it seldom moves a point of the inner half out of the box.
   std::vector<std::size_t> points_to_match() const {
-    auto points = points_to_try<ConcurrencyTag>(surface_, kind_, 200);
-    points.resize(std::min(points.size(), points_matched));
-    return points;
+    const Whitening whitening(surface_.probes);
+    std::vector<double> distances;
+    for (const Eigen::Vector3d& p : surface_.probes) distances.push_back(whitening(p).norm());
+    const auto points = points_to_try<ConcurrencyTag>(surface_, kind_, 200);
+    std::vector<std::size_t> chosen;
+    add_different(points, points_matched, median(distances), whitening, chosen);
+    add_different(points, 2 * points_matched, std::numeric_limits<double>::infinity(), whitening, chosen);
+    return chosen;
+  }
+
+  void add_different(const std::vector<std::size_t>& points, std::size_t most, double greatest_distance,
+                     const Whitening& whitening, std::vector<std::size_t>& chosen) const {
+    for (const std::size_t i : points) {
+      if (chosen.size() == most) return;
+      if (!(whitening(surface_.points[i].point).norm() <= greatest_distance)) continue;
+      const Invariants invariants = kept_invariants(surface_.points[i], kind_);
+      if (std::none_of(chosen.begin(), chosen.end(), [&](std::size_t j) {
+            return (kept_invariants(surface_.points[j], kind_) - invariants).norm() < 1e-3;
+          }))
+        chosen.push_back(i);
+    }
   }
 
   /// Adds the symmetries that move the point to another one with its invariants.

@@ -4,11 +4,10 @@
 
 #include <equiaffine/registration/Affine_slippage_3.h>
 #include <equiaffine/registration/internal/Framed_surface_3.h>
+#include <equiaffine/registration/internal/Whitening.h>
 #include <equiaffine/registration/internal/refine_map.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <Eigen/SVD>
 
 #include <cstddef>
@@ -16,20 +15,6 @@
 #include <vector>
 
 namespace equiaffine::internal {
-
-/// Coordinates in which points have mean 0 and covariance 1, so that slippage does not depend on the map of the surface.
-struct Whitening {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d matrix, inverse; ///< x -> matrix (x - mean)
-
-  explicit Whitening(const std::vector<Eigen::Vector3d>& points) {
-    for (const auto& p : points) mean += p / double(points.size());
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    for (const auto& p : points) covariance += (p - mean) * (p - mean).transpose() / double(points.size());
-    inverse = covariance.llt().matrixL();
-    matrix = inverse.inverse();
-  }
-};
 
 /// Singular values below this part of the largest one count as zero by default: those of a surface that slips are roundings, and
 /// those of an ellipsoid that is disturbed by a part of 1e-4 are 1e-5.
