@@ -43,7 +43,7 @@ Json to_JSON(const Affine_slippage_3& slippage) {
   return json;
 }
 
-/// "10^-151", or "0.02" for what is not so small.
+/// A power of ten such as "10^-151".
 std::string power_of_ten(double logarithm) {
   std::ostringstream text;
   text << "10^" << std::lround(logarithm);
@@ -78,6 +78,7 @@ std::string to_JSON(const Registration_report& report) {
 std::string to_JSON(const Symmetries_report& report) {
   Json json = begin_JSON(report.source);
   json["order"] = nullptr;
+  json["maps"] = Json::array();
   if (const auto order = report.symmetries.order()) json["order"] = *order;
   for (const auto& symmetry : report.symmetries.maps) {
     Json& map = json["maps"].emplace_back();
