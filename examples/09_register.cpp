@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A piece of a surface is found in the whole, which was sheared and stretched: one pair of points with the same affine
+// invariants gives the whole affine map. No start and no overlap is assumed, and the points of the two are unrelated.
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/Expression_3.h>
+#include <equiaffine/Transformed_function_traits_3.h>
+#include <equiaffine/marching_cubes.h>
+#include <equiaffine/register_surfaces.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Map = Kernel::Aff_transformation_3;
+
+int main() {
+  namespace parameters = equiaffine::parameters;
+  const equiaffine::Expression_3 f("x^4 + y^4 + z^4 + x^3/3 - x^2*y/4 + x*y^2/4 - x*y*z/3 + y^3/5 - z^3/3 = 1");
+  const auto piece = equiaffine::make_analytic_traits<Kernel>(f, CGAL::Bbox_3(0, 0, -2, 2, 2, 2));
+  const auto whole = equiaffine::make_analytic_traits<Kernel>(f, CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
+  const Map map(2, 1, 0, 5, 0, 1, -0.5, 0, 0.3, 0, 0.6, -3);
+  const equiaffine::Transformed_function_traits_3 image(whole, map);
+
+  const auto points = equiaffine::marching_cubes(piece, parameters::number_of_nodes(20)).points;
+  const auto image_points = equiaffine::marching_cubes(image, parameters::number_of_nodes(31)).points;
+  const auto result = equiaffine::register_surfaces(piece, points, image, image_points);
+  if (!result.found()) {
+    std::puts("no map");
+    return 1;
+  }
+
+  double error = 0;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      error = std::max(error, std::abs(result.best().map.m(row, column) - map.m(row, column)));
+  const auto [of_piece, of_whole] = result.best().inliers;
+  std::printf("the map is known to 1e-11: %s\n", error < 1e-11 ? "yes" : "no");
+  std::printf("as good a map by chance: fewer than 1e-100: %s\n",
+              result.best().log10_false_alarms < -100 ? "yes" : "no");
+  std::printf("of the piece %.0f %% lie on the whole, of the whole %.0f %% on the piece\n", 100 * of_piece,
+              100 * of_whole);
+
+  const auto rigid = equiaffine::register_surfaces(piece, points, image, image_points,
+                                                   parameters::map_kind(equiaffine::Map_kind::RIGID));
+  std::printf("a rigid map: %s\n", rigid.found() ? "found" : "none");
+}
