@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace {
@@ -74,6 +75,32 @@ TEST(Intersect_segment, poles_and_jumps_are_not_roots) {
       EXPECT_EQ(root.is_at_pole, text[0] == '1') << text;
     }
   }
+}
+
+/// Is x - 0.3 up to `smooth_end`, and 1 without derivatives beyond.
+struct Ending_function {
+  using FT = double;
+  using Point_3 = ::Point_3;
+  using Vector_3 = Kernel::Vector_3;
+  double value(const Point_3& p) const { return p.x() > smooth_end ? 1 : p.x() - 0.3; }
+  Jet_3<double, 1> first_order(const Point_3& p) const {
+    if (p.x() > smooth_end) return Jet_3<double, 1>(std::numeric_limits<double>::quiet_NaN());
+    Jet_3<double, 1> jet(p.x() - 0.3);
+    jet.coefficients()[1] = 1;
+    return jet;
+  }
+  Jet_3<double> taylor(const Point_3&) const { return {}; }
+  CGAL::Bbox_3 bbox() const { return CGAL::Bbox_3(-3, -3, -3, 3, 3, 3); }
+  double smooth_end;
+};
+
+TEST(Intersect_segment, a_surface_ends_where_derivatives_do) {
+  const Point_3 a(-1, 0, 0), b(1, 0, 0);
+  const auto found = intersect_segment(Ending_function{0.31}, a, b, -1.3, 1.);
+  EXPECT_TRUE(found.has_converged && !found.is_at_end);
+  EXPECT_NEAR(found.point.x(), 0.3, 1e-15);
+  const auto missed = intersect_segment(Ending_function{0.29}, a, b, -1.3, 1.);
+  EXPECT_TRUE(!missed.has_converged && missed.is_at_end && !missed.is_at_pole);
 }
 
 TEST(Intersect_segment, a_triple_root_is_found) {

@@ -93,7 +93,8 @@ private:
     Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa, double fb) const override {
       using FT = typename Traits::FT;
       const auto found = equiaffine::intersect_segment(traits, to_traits(a), to_traits(b), FT(fa), FT(fb));
-      return {internal::convert_point<Kernel>(found.point), found.has_converged, found.evaluations, found.is_at_pole};
+      return {internal::convert_point<Kernel>(found.point), found.has_converged, found.evaluations, found.is_at_pole,
+              found.is_at_end};
     }
 
     Traits traits;

@@ -30,7 +30,8 @@ namespace equiaffine {
 /// counts all this. Parts of the surface that cross no edge of the grid are not found.
 ///
 /// Where the sign changes along an edge at a pole, which projection finds since |f| grows towards it, the vertex is
-/// removed with the triangles around it: the surface ends there, and the mesh is empty if there are only poles. With
+/// removed with the triangles around it: the surface ends there, and the mesh is empty if there are only poles. So it is
+/// where f, or its derivatives, cease to exist between two nodes and no zero is found. With
 /// LINEAR vertices poles are not told from zeros. A vertex that could not be projected, as at a jump, stays at its linear
 /// position, is UNCONVERGED, and may be far from the surface.
 ///

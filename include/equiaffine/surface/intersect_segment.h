@@ -12,8 +12,8 @@ namespace equiaffine {
 /// positive). This is done by Newton's method if the model has derivatives that cost less than `taylor`, else by
 /// Chandrupatla's method. Both start from linear interpolation and stay within the bracket. The result is accurate to a
 /// few roundings of the coordinates. If |f| neither gets smaller than at both ends nor negligible, the sign changes
-/// without a zero, at a pole or a jump, and the result has not converged and says whether it is a pole. If the model has
-/// a member of this name, that member is called instead.
+/// without a zero, at a pole, a jump or a place where f ceases to be defined, and the result has not converged and says
+/// which it is. If the model has a member of this name, that member is called instead.
 template <ImplicitFunctionTraits_3 Traits>
 Surface_point_3<Kernel_of<Traits>> intersect_segment(const Traits& traits, const typename Traits::Point_3& a,
                                                      const typename Traits::Point_3& b, const typename Traits::FT& fa,
@@ -26,7 +26,9 @@ Surface_point_3<Kernel_of<Traits>> intersect_segment(const Traits& traits, const
       if constexpr (FirstOrderImplicitFunctionTraits_3<Traits>) return internal::newton(traits, bracket);
       else return internal::chandrupatla(traits, bracket);
     }();
-    result.is_at_pole = !result.has_converged && internal::is_pole(traits, bracket, result.point);
+    if (result.has_converged) return result;
+    result.is_at_pole = internal::is_pole(traits, bracket, result.point);
+    result.is_at_end = !result.is_at_pole && internal::is_end_of_domain(traits, bracket, result.point);
     return result;
   }
 }

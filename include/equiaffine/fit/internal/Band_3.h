@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_BAND_3_H
 #define EQUIAFFINE_FIT_INTERNAL_BAND_3_H
 
+#include <equiaffine/fit/internal/Border_gap_3.h>
 #include <equiaffine/fit/internal/Normalization_3.h>
 #include <equiaffine/fit/internal/Point_tree_3.h>
 
@@ -13,19 +14,23 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
 
-/// A point of the surface with its normal, the distance of the data around it, and the height of the core there.
+/// A point of the surface with its normal, the distance of the data around it, the height of the core there, and where
+/// the surface does not go on, if the point is on its border.
 struct Band_point_3 {
   Eigen::Vector3d point, normal;
   double spacing, core;
+  std::optional<Border_gap_3> gap;
 };
 
 /// The part of space near points of a surface: within 2 spacings of the nearest one along its normal, or within a margin
-/// that may be larger, and within 1.25 spacings across. The core is a lower part of it.
+/// that may be larger, within 1.25 spacings across, and no more than a quarter of a spacing beyond the border, since
+/// polynomials that go on there know nothing. The core is a lower part of it.
 class Band_3 {
 public:
   using Vector = Eigen::Vector3d;
@@ -56,13 +61,18 @@ public:
     const Place beyond = {false, std::numeric_limits<double>::quiet_NaN()};
     const auto nearest = tree_.nearest(p, 1);
     if (nearest.empty()) return beyond;
-    const auto& [point, normal, spacing, core] = points_[nearest.front()];
+    const auto& [point, normal, spacing, core, gap] = points_[nearest.front()];
     const Vector difference = p - point;
-    const double height = difference.dot(normal), across = (difference - height * normal).norm();
-    const double size = std::abs(height), greatest = std::max(margin.height, band_height * spacing);
-    if (size > greatest || across > border * spacing + margin.slope * size) return beyond;
-    return {size <= core && across <= border * spacing, height};
+    const double height = difference.dot(normal), size = std::abs(height);
+    const Vector tangential = difference - height * normal;
+    const double excess = std::max(tangential.norm() - border * spacing,
+                                   gap ? gap->depth(tangential) - overhang * spacing : -border * spacing);
+    if (size > std::max(margin.height, band_height * spacing) || excess > margin.slope * size) return beyond;
+    return {size <= core && excess <= 0, height};
   }
+
+  /// The distance of the data around the nearest point of the surface. \pre The band has points.
+  double spacing(const Vector& p) const { return points_[tree_.nearest(p, 1).front()].spacing; }
 
   /// Returns whether some point of a box, given by its corners, may be in the band.
   bool may_meet(const Vector& lower, const Vector& upper, const Margin& margin) const {
@@ -84,7 +94,7 @@ public:
     return box;
   }
 
-  static constexpr double band_height = 2, border = 1.25; ///< in spacings
+  static constexpr double band_height = 2, border = 1.25, overhang = 0.25; ///< in spacings
 
 private:
   std::vector<Band_point_3> points_;

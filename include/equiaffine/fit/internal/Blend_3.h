@@ -167,20 +167,37 @@ private:
             p -= newton;
             if (newton.norm() > 1e-3 * data.spacing[i]) continue;
             const Vector unit = gradient.normalized();
-            found[i] = {p, unit, data.spacing[i], sound_height(p, unit, Band_3::band_height * data.spacing[i])};
+            found[i] = {p, unit, data.spacing[i], sound_height(p, unit, Band_3::band_height * data.spacing[i]), {}};
             return;
           }
         },
         64);
+    std::vector<std::optional<Border_gap_3>> gaps(data.size());
+    parallel_for<ConcurrencyTag>(
+        0, data.size(), [&](std::size_t i) { gaps[i] = gap(data, found, Data_points_3::Index(i)); }, 256);
     std::vector<Band_point_3> result;
     for (std::size_t i = 0; i < data.size(); ++i) {
       if (!found[i]) continue;
+      found[i]->gap = gaps[i];
       result.push_back(*found[i]);
       for (const auto j : data.neighbors_of(Data_points_3::Index(i)))
         if (found[j])
           result.back().spacing = std::max(result.back().spacing, 0.6 * (found[j]->point - found[i]->point).norm());
     }
     return result;
+  }
+
+  /// Where the surface does not go on beside the foot of a point: no neighbor, and no other point nearby, is there.
+  static std::optional<Border_gap_3> gap(const Data_points_3& data,
+                                         const std::vector<std::optional<Band_point_3>>& feet, Data_points_3::Index i) {
+    if (!feet[i]) return {};
+    std::vector<Vector> to_others;
+    const auto add = [&](Data_points_3::Index j) {
+      if (j != i && feet[j]) to_others.push_back(feet[j]->point - feet[i]->point);
+    };
+    for (const auto j : data.neighbors_of(i)) add(j);
+    for (const auto j : connected_ball(data, i, Border_gap_3::radius * data.spacing[i])) add(j);
+    return Border_gap_3::widest(feet[i]->normal, to_others);
   }
 
   /// The greatest part of a height, halved up to three times, up to which values are about the height on both sides. Fits

@@ -27,7 +27,7 @@ struct Projection_report {
   std::size_t evaluations;        ///< the number of evaluations of the function
   std::size_t flips_undone;       ///< vertices that were put back
   Grid_rows suspects;             ///< rows of nodes with a vertex, around which triangles may have no area
-  std::vector<std::size_t> poles; ///< vertices on edges along which the function has a pole and no zero
+  std::vector<std::size_t> poles; ///< vertices on edges along which the function has a pole, or an end, and no zero
 };
 
 /// Moves the vertices of a mesh from their linear positions, where the linear interpolant along an edge of the lattice
@@ -109,7 +109,7 @@ private:
   void set_projected(std::size_t v, std::size_t k, const Surface_point_3<Kernel>& projected) {
     if (projected.has_converged) surface_.points[v] = projected.point;
     else surface_.vertex_status[v] = Point_status::UNCONVERGED;
-    if (projected.is_at_pole) poles_[k].push_back(v);
+    if (projected.is_at_pole || projected.is_at_end) poles_[k].push_back(v);
     evaluations_[k] += projected.evaluations;
   }
 

@@ -69,29 +69,49 @@ bool is_pole(const Traits& traits, const Bracket_3<Kernel>& bracket, const typen
   return true;
 }
 
+/// Whether f, or its derivatives if these are asked for, end beside the point where a search has ended without a zero.
+template <class Kernel, class Traits>
+bool is_end_of_domain(const Traits& traits, const Bracket_3<Kernel>& bracket, const typename Kernel::Point_3& p) {
+  using FT = typename Kernel::FT;
+  const auto is_undefined = [&](const FT& t) {
+    const auto q = p + t * bracket.direction;
+    FT f;
+    if constexpr (FirstOrderImplicitFunctionTraits_3<Traits>) f = traits.first_order(q).value();
+    else f = traits.value(q);
+    return !(f == f);
+  };
+  const FT distance = FT(4) * bracket.tolerance;
+  return is_undefined(distance) || is_undefined(-distance);
+}
+
 /// Newton's method on the restriction of f, kept within the bracket by bisection whenever a step would leave it or not
-/// halve the last one (Press et al., Numerical Recipes, 2007, section 9.4).
+/// halve the last one (Press et al., Numerical Recipes, 2007, section 9.4), or where f has a value and no derivatives:
+/// beside such places f may jump, and only a step of Newton's method tells a zero.
 template <class Kernel, class Traits>
 Surface_point_3<Kernel> newton(const Traits& traits, const Bracket_3<Kernel>& bracket) {
   using FT = typename Kernel::FT;
   using std::abs;
   const auto& direction = bracket.direction;
   FT lower(0), upper(1), last_step(1), t = linear_zero(bracket.fa, bracket.fb);
+  bool is_smooth = true;
   for (int n = 1; n <= bracket.maximal_evaluations; ++n) {
     const auto jet = first_order(traits, bracket.a + t * direction);
     const auto& c = jet.coefficients();
     const FT slope = c[1] * direction.x() + c[2] * direction.y() + c[3] * direction.z();
-    if (c[0] == FT(0)) return bracket.point(t, true, n);
-    if (!(c[0] < FT(0) || c[0] > FT(0))) return bracket.point(t, false, n); // NaN
+    const bool has_derivatives = c[0] == c[0];
+    is_smooth = is_smooth && has_derivatives;
+    const FT f = has_derivatives ? c[0] : traits.value(bracket.a + t * direction);
+    if (f == FT(0)) return bracket.point(t, has_derivatives, n);
+    if (!(f < FT(0) || f > FT(0))) return bracket.point(t, false, n); // NaN
     FT step = -c[0] / slope;
     if (abs(step) <= bracket.tolerance)
-      return bracket.point(std::clamp(t + step, FT(0), FT(1)), bracket.is_plausible(c[0]), n);
-    ((c[0] < FT(0)) == (bracket.fa < FT(0)) ? lower : upper) = t;
+      return bracket.point(std::clamp(t + step, FT(0), FT(1)), bracket.is_plausible(f), n);
+    ((f < FT(0)) == (bracket.fa < FT(0)) ? lower : upper) = t;
     if (!(t + step > lower && t + step < upper) || abs(step) > abs(last_step) / FT(2))
       step = (lower + upper) / FT(2) - t;
     last_step = step;
     t += step;
-    if (abs(step) <= bracket.tolerance) return bracket.point(t, bracket.is_plausible(c[0]), n);
+    if (abs(step) <= bracket.tolerance) return bracket.point(t, is_smooth && bracket.is_plausible(f), n);
   }
   return bracket.point(t, false, bracket.maximal_evaluations);
 }

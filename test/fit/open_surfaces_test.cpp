@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What samplers make of fits to surfaces with borders: a mesh that ends where the data end.
+#include "support/fit_data.h"
+#include <equiaffine/Expression_3.h>
+#include <equiaffine/Fitted_function_traits_3.h>
+#include <equiaffine/mesh_topology.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using namespace equiaffine::test;
+using Traits = Fitted_function_traits_3<Fit_kernel>;
+
+/// The part of a surface in a box, which cuts it open, by its exact vertices.
+Isosurface_3<Fit_kernel> surface_in(const std::string& formula, const CGAL::Bbox_3& box) {
+  return marching_cubes(make_analytic_traits<Fit_kernel>(Expression_3(formula), box), parameters::number_of_nodes(24));
+}
+
+/// Remeshes the fit to a surface on a grid.
+Isosurface_3<Fit_kernel> remesh(const Traits& traits, std::size_t nodes) {
+  const CGAL::Bbox_3 box = traits.bbox();
+  const double step = std::hypot(box.x_span(), box.y_span(), box.z_span()) / double(nodes - 1);
+  return marching_cubes<CGAL::Parallel_if_available_tag>(traits.in_band(2 * step),
+                                                         parameters::number_of_nodes(nodes).skip_empty_space());
+}
+
+void expect_all_on_surface(const Isosurface_3<Fit_kernel>& surface, const Traits& traits) {
+  EXPECT_GT(surface.points.size(), 500u);
+  EXPECT_TRUE(mesh_topology(surface.triangles, surface.points.size()).is_manifold);
+  for (std::size_t v = 0; v < surface.points.size(); ++v) {
+    ASSERT_EQ(surface.vertex_status[v], Point_status::REGULAR) << surface.points[v];
+    ASSERT_LT(std::abs(traits.taylor(surface.points[v]).value()), 1e-12) << surface.points[v];
+  }
+}
+
+TEST(Open_surface, every_vertex_of_a_remesh_lies_on_the_fitted_surface) {
+  const std::string balls = "exp(-4*((x-.45)^2+y^2+z^2))+exp(-4*((x+.45)^2+(y-.2)^2+z^2))"
+                            "+exp(-4*(x^2+(y+.35)^2+(z-.45)^2))+exp(-4*((x-.1)^2+(y-.45)^2+(z+.35)^2))";
+  const Isosurface_3<Fit_kernel> surfaces[] = {
+      surface_in("x^2+y^2+z^2-1", {-1.2, -1.2, 0, 1.2, 1.2, 1.2}),
+      surface_in("(sqrt(x^2+y^2)-1)^2+z^2-0.16", {-1.5, 0, -.5, 1.5, 1.5, .5}),
+      surface_in("z-0.3*sin(3*x)*cos(2*y)", {-1.03, -1.02, -1.1, 1.05, 1.04, 1}),
+      surface_in("0.6-" + balls, {-1, -1, -0.15, 0.5, 1, 1}),
+  };
+  for (const auto& surface : surfaces) {
+    const Traits traits(surface.points, surface.triangles);
+    for (const std::size_t nodes : {30, 50}) expect_all_on_surface(remesh(traits, nodes), traits);
+  }
+}
+
+TEST(Open_surface, a_remesh_has_the_topology_of_the_data_and_ends_where_they_end) {
+  const auto hemisphere = surface_in("x^2+y^2+z^2-1", {-1.2, -1.2, 0, 1.2, 1.2, 1.2});
+  const auto surface = remesh(Traits(hemisphere.points, hemisphere.triangles), 40);
+  const auto topology = mesh_topology(surface.triangles, surface.points.size());
+  EXPECT_EQ(topology.components, 1u);
+  EXPECT_EQ(topology.euler_characteristic, 1);
+  double lowest = 1;
+  for (const auto& p : surface.points) {
+    EXPECT_NEAR((p - CGAL::ORIGIN).squared_length(), 1, 1e-4);
+    lowest = std::min(lowest, p.z());
+  }
+  EXPECT_GT(lowest, -0.04); // a quarter of the spacing of the data
+  EXPECT_LT(lowest, 0.04);
+}
+
+TEST(Open_surface, a_closed_surface_stays_closed_also_as_random_points) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  std::vector<Fit_kernel::Point_3> points;
+  for (int n = 0; n < 3000; ++n) {
+    const Fit_kernel::Vector_3 v(normal(random), normal(random), normal(random));
+    points.push_back(CGAL::ORIGIN + v / std::sqrt(v.squared_length()));
+  }
+  EXPECT_TRUE(CGAL::is_closed(to_surface_mesh(remesh(Traits(points), 40))));
+}
+
+} // namespace
