@@ -49,6 +49,7 @@ Surface_paint::Surface_paint(const Indexed_triangle_mesh_3<Kernel>& mesh, const 
     if (errors != nullptr && legend_) find_doubts(*column, *errors);
     if (is_undefined_at_parabolic_points(column->name)) find_sides(attributes);
   }
+  for (const std::string& sentence : sentences_of_doubt(attributes)) notes_.push_back({doubt_color(), sentence});
   find_notes(mesh.triangles);
 }
 

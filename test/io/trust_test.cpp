@@ -39,6 +39,16 @@ TEST(Trust, numbers_smaller_than_their_errors_are_not_shown_first_nor_what_is_ma
   EXPECT_EQ(first_of({gaussian, affine, errors({infinity, nan, 0.1})}), "gaussian_curvature");
 }
 
+TEST(Trust, a_sentence_says_which_numbers_are_unknown_at_most_vertices) {
+  Vertex_attributes attributes;
+  attributes.columns = {gaussian, affine, errors({0.1, 5, 7})};
+  const std::vector<std::string> sentences = sentences_of_doubt(attributes);
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_EQ(sentences[0], "Affine Gaussian curvature is unknown at 67 % of the vertices: error above half of it");
+  attributes.columns.back() = errors({0.1, 0.1, 7});
+  EXPECT_TRUE(sentences_of_doubt(attributes).empty());
+}
+
 TEST(Trust, what_noise_makes_of_a_number_is_not_shown_first) {
   const Vertex_attributes::Column noise = {"affine_gaussian_curvature_noise", {1, 1, 1}};
   EXPECT_EQ(first_of({affine, errors({9, 9, 9}), noise}), "affine_gaussian_curvature");

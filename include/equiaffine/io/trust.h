@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// \file
 /// How far pictures trust the numbers of a column: the column NAME_error has estimates of the errors of those in NAME.
@@ -28,19 +29,37 @@ inline const Vertex_attributes::Column* find_errors(const Vertex_attributes& att
   return find_column(attributes, name + "_error");
 }
 
-/// Returns whether at least half of the numbers are known to one digit: the estimated error is at most half of the
-/// number. Numbers without estimates are trusted, unless they are affine ones beside others that are not: they are made
+/// Returns the part of the numbers that are not known to one digit: the estimated error is more than half of the number.
+/// It is 0 without numbers.
+inline double part_in_doubt(const std::vector<double>& numbers, const std::vector<double>& errors) {
+  std::size_t unknown = 0, all = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (!std::isfinite(numbers[i])) continue;
+    ++all;
+    unknown += !(errors[i] <= std::abs(numbers[i]) / 2);
+  }
+  return all == 0 ? 0 : double(unknown) / double(all);
+}
+
+/// Returns a sentence for every column of which less than half of the numbers are known to one digit.
+inline std::vector<std::string> sentences_of_doubt(const Vertex_attributes& attributes) {
+  std::vector<std::string> sentences;
+  for (const auto& column : attributes.columns) {
+    const auto* errors = find_errors(attributes, column.name);
+    const double part = errors == nullptr ? 0 : part_in_doubt(column.values, errors->values);
+    if (!(part > 0.5)) continue;
+    const Quantity* const quantity = find_quantity(column.name);
+    sentences.push_back((quantity ? std::string(quantity->label) : column.name) + " is unknown at " +
+                        std::to_string(std::lround(100 * part)) + " % of the vertices: error above half of it");
+  }
+  return sentences;
+}
+
+/// Returns whether at least half of the numbers are known to one digit. Numbers without estimates are trusted, unless they are affine ones beside others that are not: they are made
 /// of the same derivatives.
 inline bool is_trusted(const Vertex_attributes::Column& column, const Vertex_attributes& attributes) {
-  if (const auto* errors = find_errors(attributes, column.name)) {
-    std::size_t known = 0, all = 0;
-    for (std::size_t i = 0; i < column.values.size(); ++i) {
-      if (!std::isfinite(column.values[i])) continue;
-      ++all;
-      known += errors->values[i] <= std::abs(column.values[i]) / 2;
-    }
-    return 2 * known >= all;
-  }
+  if (const auto* errors = find_errors(attributes, column.name))
+    return part_in_doubt(column.values, errors->values) <= 0.5;
   const auto is_affine = [](const auto& other) {
     const Quantity* const quantity = find_quantity(other.name);
     return quantity != nullptr && quantity->group == "Affine";

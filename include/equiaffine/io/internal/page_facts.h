@@ -69,6 +69,12 @@ inline std::string page_facts(const Vertex_attributes& attributes, const Html_op
   else json << "null";
   json << ",\"clip\":" << default_clip_percent << ",\n\"columns\":[";
   write_column_facts(json, attributes, diagonal);
+  json << "],\n\"doubts\":[";
+  const char* separator = "";
+  for (const std::string& sentence : sentences_of_doubt(attributes)) {
+    json << separator << json_string(sentence);
+    separator = ",";
+  }
   json << "],\n\"statuses\":[";
   write_status_facts(json);
   json << "],\n\"plain\":\"" << hexadecimal(plain_color()) << "\",\"undefined\":\"" << hexadecimal(undefined_color())

@@ -140,6 +140,7 @@ function legendEntries() {
     });
   if (shown.sides && hasParabolicLine(shown.sides))
     entries.push([facts.statuses[1].color, 'parabolic curve: no number there']);
+  for (const sentence of facts.doubts) entries.push([facts.doubt, sentence]);
   if (shown.errors) entries.push([facts.doubt, 'grayer where the estimated error is larger']);
   const missing = shown.codes.reduce((sum, code) => sum + (code === 5), 0);
   if (missing) entries.push([facts.undefined, 'no number', missing]);
