@@ -100,7 +100,8 @@ void run_annotate(const Annotate_options& options, std::ostream& out, Progress& 
   if (options.stats) file->stream() << to_JSON(statistics);
   progress.end();
   commit_all(outputs.files);
-  warn_of_doubt(statistics.fit, statistics.vertices, statistics.status[std::size_t(Point_status::PARABOLIC)], progress);
+  warn_of_opposed_normals(table, progress);
+  warn_of_doubt(statistics.fit, options.fit, progress);
   if (outputs.use_standard_output()) return;
   out << summary(statistics);
   report_written(out, outputs.files);

@@ -4,6 +4,7 @@
 #include "commands/commands.h"
 #include "commands/extract_surface.h"
 #include "commands/fail_without_surface.h"
+#include "commands/remove_crumbs.h"
 #include "output/statistics.h"
 #include "output/surface_output.h"
 #include "source/source.h"
@@ -34,6 +35,7 @@ struct Annotated_surface {
   Isosurface_3<Kernel> mesh;
   Vertex_attributes attributes;
   Estimates estimates;
+  std::optional<Close_sheets> close_sheets;
   std::array<std::size_t, number_of_point_statuses> status{};
   std::optional<Completeness> completeness;
   double max_distance = 0, annotation_seconds = 0;
@@ -115,6 +117,11 @@ Annotated_surface make_surface(const Traits& function, const Source& source, con
   progress.begin("extracting the surface");
   Annotated_surface surface =
       std::visit([&](const auto& method) { return sample(extracted, options, method); }, options.method);
+  if (source.fit) {
+    remove_crumbs(surface.mesh, *source.fit, options.source);
+    if (std::holds_alternative<Marching_cubes_options>(options.method))
+      surface.close_sheets = close_sheets(*source.fit, options.source);
+  }
   if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
     for (auto& triangle : surface.mesh.triangles) std::swap(triangle[1], triangle[2]);
   const Stopwatch stopwatch;
@@ -154,6 +161,7 @@ Statistics make_statistics(const Mesh_options& options, const Annotated_surface&
   statistics.completeness = surface.completeness;
   statistics.spline = source.spline;
   statistics.fit = surface.estimates.fit;
+  statistics.close_sheets = surface.close_sheets;
   statistics.function_evaluations = source.function_evaluations + surface.mesh.function_evaluations;
   return statistics;
 }
@@ -255,9 +263,8 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   if (!options.attributes.columns.empty())
     warn_of_outside(options.source, source, surface.status[std::size_t(Point_status::OUTSIDE)],
                     surface.mesh.points.size(), "vertices", progress);
-  if (statistics.fit)
-    warn_of_doubt(*statistics.fit, statistics.vertices, statistics.status[std::size_t(Point_status::PARABOLIC)],
-                  progress);
+  if (statistics.close_sheets) warn_of_close_sheets(*statistics.close_sheets, progress);
+  if (statistics.fit) warn_of_doubt(*statistics.fit, options.source.fit, progress);
   if (!outputs.use_standard_output()) {
     out << summary(statistics);
     if (options.curves) out << summary(*surface.curves);

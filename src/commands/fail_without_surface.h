@@ -3,9 +3,12 @@
 #define EQUIAFFINE_COMMANDS_FAIL_WITHOUT_SURFACE_H
 
 #include "request/options.h"
+#include "source/source.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/function/sample_on_lattice.h>
 #include <equiaffine/marching_cubes.h>
+
+#include <CGAL/Bbox_3.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -56,10 +59,33 @@ bool changes_sign_at_poles_only(const Traits& function) {
          std::count(status.begin(), status.end(), Point_status::UNCONVERGED) == std::ptrdiff_t(status.size());
 }
 
+/// Throws the error that says why a fit has no surface, and what to choose instead: it has one beside the data only.
+[[noreturn]] inline void fail_without_surface_of_fit(const Fit_traits& fit, const Source_options& source,
+                                                     double isovalue, const Vain_search& search) {
+  const CGAL::Bbox_3 box = fit.bbox(), band = fit.band_box();
+  const std::string fitted = describe(source);
+  std::ostringstream text;
+  if (!CGAL::do_overlap(box, band)) {
+    text << "no part of " << fitted << " is in the " << search.place << ": it lies in " << band.xmin() << ' '
+         << band.xmax() << ' ' << band.ymin() << ' ' << band.ymax() << ' ' << band.zmin() << ' ' << band.zmax()
+         << "; choose a --box that meets that, or leave it out";
+  } else if (isovalue != 0) {
+    text << "no surface f = " << isovalue << ": " << fitted
+         << " is about the distance from the data, and known within some two spacings of them only; choose an "
+            "--isovalue nearer to 0, or leave it out";
+  } else {
+    text << "no part of the surface of " << fitted << " was found in the " << search.place
+         << "; choose a --box that has more of the data, or "
+         << (search.refinement.empty() ? "leave it out" : search.refinement);
+  }
+  throw Input_error(text.str());
+}
+
 /// Throws the error that says why there is no surface, and what to choose instead.
 template <class Traits>
 [[noreturn]] void fail_without_surface(const Traits& function, const Source_options& source, double isovalue,
                                        const Vain_search& search) {
+  if constexpr (is_fit<Traits>) fail_without_surface_of_fit(fit_of(function), source, isovalue, search);
   const auto [least, greatest] = range_on_grid(function);
   const bool is_defined = least <= greatest;
   std::ostringstream surface, reason;

@@ -93,6 +93,8 @@ std::string to_JSON(const Statistics& s) {
                       {"noise", s.spline->noise.deviation},
                       {"quantum", s.spline->noise.quantum}};
   if (s.fit) add(*s.fit, json);
+  if (s.close_sheets)
+    json["fit"]["close_sheets"] = {{"points", s.close_sheets->points}, {"distance", s.close_sheets->distance}};
   if (s.completeness) {
     json["certified"] = s.completeness->is_certified;
     json["undecided_boxes"] = Json::array();

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_SRC_OUTPUT_STATISTICS_H
 #define EQUIAFFINE_SRC_OUTPUT_STATISTICS_H
 
+#include "source/Close_sheets.h"
 #include "source/Fit_statistics.h"
 #include "source/Spline_statistics.h"
 #include <equiaffine/geometry/Point_status.h>
@@ -42,6 +43,7 @@ struct Statistics : Mesh_facts {
   std::optional<Completeness> completeness; ///< is set by methods that look for all components
   std::optional<Spline_statistics> spline;  ///< is set if derivatives are those of a spline
   std::optional<Fit_statistics> fit;        ///< is set if derivatives are those of a fit
+  std::optional<Close_sheets> close_sheets; ///< is set if Marching Cubes sampled a fit
 };
 
 /// The facts that the program reports about a fit to the vertices of a mesh, or to points.

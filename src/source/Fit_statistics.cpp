@@ -25,15 +25,25 @@ std::array<double, 3> spread(Structures structures, Get get) {
   return {numbers.front(), numbers[numbers.size() / 2], numbers.back()};
 }
 
-/// The part of the structures whose estimated error of K is below a part of |K| + H^2.
-double part_known(Structures structures, double bound) {
-  const auto known = std::count_if(structures.begin(), structures.end(), [&](const auto& s) {
-    const auto& affine = s.structure.affine;
-    const double size = std::abs(affine.gaussian_curvature) + affine.mean_curvature * affine.mean_curvature;
-    return s.error.gaussian_curvature < bound * size;
-  });
-  return double(known) / double(structures.size());
+using Structure = Fitted_structure_3<double>;
+
+template <class Condition>
+double part(Structures structures, const Condition& condition) {
+  return double(std::count_if(structures.begin(), structures.end(), condition)) / double(structures.size());
 }
+
+/// Whether the estimated error of K is below a part of |K| + H^2.
+bool is_known(const Structure& s, double bound) {
+  const auto& affine = s.structure.affine;
+  const double size = std::abs(affine.gaussian_curvature) + affine.mean_curvature * affine.mean_curvature;
+  return s.error.gaussian_curvature < bound * size;
+}
+
+bool is_doubtful(const Structure& s) {
+  return s.structure.status == Point_status::REGULAR && !is_known(s, error_bounds.back());
+}
+
+bool is_noise(const Structure& s) { return s.noise.gaussian_curvature > s.error.gaussian_curvature / 2; }
 
 } // namespace
 
@@ -41,7 +51,12 @@ Fit_statistics statistics_of(Structures structures) {
   Fit_statistics statistics;
   statistics.scales = spread(structures, [](const auto& s) { return s.scale; });
   statistics.noise = spread(structures, [](const auto& s) { return s.deviation; })[1];
-  for (std::size_t n = 0; n < error_bounds.size(); ++n) statistics.known[n] = part_known(structures, error_bounds[n]);
+  for (std::size_t n = 0; n < error_bounds.size(); ++n)
+    statistics.known[n] = part(structures, [n](const Structure& s) { return is_known(s, error_bounds[n]); });
+  statistics.without_fit =
+      part(structures, [](const Structure& s) { return s.structure.status == Point_status::OUTSIDE; });
+  statistics.doubtful_by_noise = part(structures, [](const Structure& s) { return is_doubtful(s) && is_noise(s); });
+  statistics.doubtful_by_detail = part(structures, [](const Structure& s) { return is_doubtful(s) && !is_noise(s); });
   return statistics;
 }
 

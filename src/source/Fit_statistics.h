@@ -14,6 +14,10 @@ struct Fit_statistics {
   std::array<double, 3> scales{}; ///< the least, median and greatest radius; NaN if there is no fit
   double noise = 0;               ///< the median of the deviations of the data; NaN if there is no fit
   std::array<double, 3> known{};  ///< the parts of the points whose error is below each of `error_bounds`
+
+  /// The parts of the points that have no fit, and of those that have an error above the last bound: most of it from
+  /// noise, or most of it from what the fits around disagree on.
+  double without_fit = 0, doubtful_by_noise = 0, doubtful_by_detail = 0;
 };
 
 /// Bounds for the estimated error of K as a part of |K| + H^2.

@@ -2,6 +2,7 @@
 #include "source/fit_vertices.h"
 
 #include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/fit/part_with_opposed_normals.h>
 #include <equiaffine/io/trust.h>
 
 #include <CGAL/property_map.h>
@@ -51,6 +52,11 @@ std::vector<Fitted_structure_3<double>> fit_vertices(const Annotated_mesh_3<Kern
   return fit_with_parameters(mesh, options, [&](const auto& parameters, const auto&... data) {
     return fitted_structures<CGAL::Parallel_if_available_tag>(data..., parameters.orientation(orientation));
   });
+}
+
+double part_with_opposed_normals(const Annotated_mesh_3<Kernel>& mesh) {
+  if (!mesh.mesh.triangles.empty()) return 0;
+  return part_with_opposed_normals<CGAL::Parallel_if_available_tag>(points_with_normals(mesh));
 }
 
 Fit_traits blend_vertices(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options) {

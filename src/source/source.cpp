@@ -4,6 +4,7 @@
 #include "source/fit_vertices.h"
 #include "source/read_triangle_mesh.h"
 #include "source/read_vertices.h"
+#include "source/warnings.h"
 #include "system/name_of_file.h"
 #include "system/resources.h"
 #include "volume/raw_volume.h"
@@ -92,6 +93,7 @@ Fit_traits make_fit(const Source_options& options, const Point_table_3<Kernel>& 
                       (options.fit.scale    ? ", a larger --scale or a smaller --degree"
                        : options.fit.degree ? " or a smaller --degree"
                                             : ""));
+  warn_of_opposed_normals(table, progress);
   const CGAL::Bbox_3 box = options.box ? *options.box : widened_box(table.mesh.points);
   return fit.in_box(box).in_band(height_of_band(options, box));
 }

@@ -29,6 +29,10 @@ template <class Traits>
 inline constexpr bool is_fit =
     std::is_same_v<Traits, Fit_traits> || std::is_same_v<Traits, Transformed_function_traits_3<Fit_traits>>;
 
+/// The fit that such a model is made of.
+inline const Fit_traits& fit_of(const Fit_traits& fit) { return fit; }
+inline const Fit_traits& fit_of(const Transformed_function_traits_3<Fit_traits>& image) { return image.base(); }
+
 } // namespace equiaffine
 
 #endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/warnings.h"
 
+#include "source/fit_vertices.h"
+
 #include <cmath>
 #include <sstream>
 
@@ -27,13 +29,47 @@ void warn_of_outside(const Source_options& options, const Source& source, std::s
   progress.warn(text.str());
 }
 
-void warn_of_doubt(const Fit_statistics& fit, std::size_t vertices, std::size_t parabolic, Progress& progress) {
-  const auto known = std::size_t(std::llround(fit.known.back() * double(vertices)));
-  if (2 * known >= vertices - parabolic) return;
-  progress.warn(std::to_string(vertices - parabolic - known) + " of " + std::to_string(vertices) +
-                " vertices have no fit, or an estimated error of the affine Gaussian curvature of more than 50 %: the "
-                "points are too few, or their noise is too large for fourth derivatives; give more points, or a "
-                "larger --scale");
+void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, Progress& progress) {
+  const double unknown = fit.without_fit + fit.doubtful_by_noise + fit.doubtful_by_detail;
+  if (!(unknown > fit.known.back())) return;
+  const auto warn = [&](double part, const std::string& reason) {
+    if (part > 0.1 * unknown) progress.warn(std::to_string(std::lround(100 * part)) + " % of the vertices " + reason);
+  };
+  const std::string error = "have an estimated error of the affine Gaussian curvature of more than 50 %, ";
+  warn(fit.without_fit, std::string("have no fit: too few points are connected with them; give more points") +
+                            (options.scale ? ", or a larger --scale" : ""));
+  warn(fit.doubtful_by_noise, error +
+                                  "most of it from noise, which is too large for fourth derivatives; give a larger " +
+                                  "--scale, or points with less noise");
+  warn(fit.doubtful_by_detail,
+       error + (options.scale ? "most of it from detail that --scale leaves out; affine_gaussian_curvature_noise says "
+                                "what is known at that scale, else give a smaller --scale or more points"
+                              : "most of it since fits disagree: the surface has detail, creases or contradictions "
+                                "between too few points; give more points, or say by --scale what counts as detail"));
+}
+
+void warn_of_close_sheets(const Close_sheets& sheets, Progress& progress) {
+  if (sheets.points == 0) return;
+  constexpr std::size_t finest = 4096;
+  std::ostringstream text;
+  text << sheets.points
+       << " points have another sheet of the surface nearer than the steps of the grid, which may make "
+       << "holes and fragments there: ";
+  if (sheets.resolution <= finest)
+    text << "sheets are " << sheets.distance << " apart; give --resolution " << sheets.resolution;
+  else
+    text << "sheets are " << sheets.distance
+         << " apart, for which no grid is fine enough; remove one of them, or what both have twice";
+  progress.warn(text.str());
+}
+
+void warn_of_opposed_normals(const Annotated_mesh_3<Kernel>& points, Progress& progress) {
+  constexpr double tolerated = 0.05;
+  const double part = part_with_opposed_normals(points);
+  if (!(part > tolerated)) return;
+  progress.warn(std::to_string(std::lround(100 * part)) +
+                " % of the points have a normal opposed to that of the nearest other point; turn the normals so that "
+                "they agree, or leave out nx, ny and nz");
 }
 
 } // namespace equiaffine

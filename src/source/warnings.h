@@ -2,9 +2,11 @@
 #ifndef EQUIAFFINE_SRC_SOURCE_WARNINGS_H
 #define EQUIAFFINE_SRC_SOURCE_WARNINGS_H
 
+#include "source/Close_sheets.h"
 #include "source/Fit_statistics.h"
 #include "source/source.h"
 #include "system/progress.h"
+#include <equiaffine/io/Annotated_mesh_3.h>
 
 #include <cstddef>
 #include <string>
@@ -18,8 +20,14 @@ void warn_of_outside(const Source_options& options, const Source& source, std::s
                      const std::string& points, Progress& progress);
 
 /// Warns if the affine Gaussian curvature of a fit is unknown at more than half of the vertices that are not parabolic,
-/// where it does not exist.
-void warn_of_doubt(const Fit_statistics& fit, std::size_t vertices, std::size_t parabolic, Progress& progress);
+/// where it does not exist, and says why: for each reason that a tenth of these vertices have.
+void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, Progress& progress);
+
+/// Warns if a grid does not tell sheets of the data of a fit apart.
+void warn_of_close_sheets(const Close_sheets& sheets, Progress& progress);
+
+/// Warns if the normals that come with points contradict each other.
+void warn_of_opposed_normals(const Annotated_mesh_3<Kernel>& points, Progress& progress);
 
 } // namespace equiaffine
 

@@ -240,9 +240,42 @@ TEST_F(Program_annotate, points_that_are_too_few_are_outside_and_a_warning_says_
   const Result result = run({"annotate", "few.csv", "-o", "-", "--attributes", "status"});
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.out, "x,y,z,status\n0,0,0,outside\n1,0,0,outside\n0,1,0,outside\n");
-  EXPECT_TRUE(result.error.starts_with("equiaffine: warning: 3 of 3 vertices have no fit")) << result.error;
+  EXPECT_EQ(result.error, "equiaffine: warning: 100 % of the vertices have no fit: too few points are connected with "
+                          "them; give more points\n");
   run({"annotate", "few.csv", "-o", "few.ply", "--stats", "stats.json"});
   EXPECT_TRUE(Json::parse(file("stats.json")).at("fit").at("noise").is_null());
+}
+
+TEST_F(Program_annotate, normals_that_contradict_are_warned_of) {
+  make_surface("in.ply", "normal", "24");
+  const Mesh exact = mesh("in.ply");
+  const auto nx = column(exact, "nx"), ny = column(exact, "ny"), nz = column(exact, "nz");
+  std::ostringstream agreeing, opposed;
+  for (std::size_t i = 0; i < exact.mesh.points.size(); ++i) {
+    const auto& p = exact.mesh.points[i];
+    const double side = i % 3 == 0 ? -1 : 1;
+    agreeing << p << ' ' << nx[i] << ' ' << ny[i] << ' ' << nz[i] << '\n';
+    opposed << p << ' ' << side * nx[i] << ' ' << side * ny[i] << ' ' << side * nz[i] << '\n';
+  }
+  write_file(folder_ / "agreeing.xyz", agreeing.str());
+  write_file(folder_ / "opposed.xyz", opposed.str());
+  run_well({"annotate", "agreeing.xyz", "-o", "out.ply"});
+  for (const Arguments& command : {Arguments{"annotate", "opposed.xyz"}, {"mesh", "--fit", "opposed.xyz"}}) {
+    const Result result = run(command + Arguments{"-o", "out.ply"});
+    EXPECT_NE(result.error.find("of the points have a normal opposed to that of the nearest other point; turn"),
+              std::string::npos)
+        << result.error;
+  }
+}
+
+TEST_F(Program_annotate, many_points_in_one_place_take_no_longer_than_one) {
+  std::string text;
+  for (int i = 0; i < 1000000; ++i) text += "1 2 3\n";
+  write_file(folder_ / "place.xyz", text);
+  const Result result = run({"annotate", "place.xyz", "-o", "out.ply", "--attributes", "status"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.out.find("1000000 outside"), std::string::npos) << result.out;
+  expect_error({"mesh", "--fit", "place.xyz", "-o", "mesh.ply"}, {"place.xyz", "enough", "more points"});
 }
 
 TEST_F(Program_annotate, what_cannot_be_used_is_refused) {

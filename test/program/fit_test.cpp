@@ -113,7 +113,7 @@ TEST_F(Program_fit, scale_and_degree_are_obeyed) {
   const Result result = run({"mesh", "--fit", "s.ply", "--scale", "1.3", "--degree", "5", "--resolution", "20", "-o",
                              "fit.ply", "--stats", "fit.json"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_NE(result.error.find("give more points, or a larger --scale"), std::string::npos) << result.error;
+  EXPECT_NE(result.error.find("detail that --scale leaves out"), std::string::npos) << result.error;
   const Json scales = Json::parse(file("fit.json"))["fit"]["scales"];
   EXPECT_NEAR(scales["median"], 1.3, 0.2);
 }
@@ -129,6 +129,64 @@ TEST_F(Program_fit, pages_show_what_can_be_trusted) {
   run_well({"mesh", "--fit", "s.ply", "--resolution", "20", "-o", "fit.ply", "--html", "fit.html"});
   EXPECT_NE(file("fit.html").find("affine_gaussian_curvature_error"), std::string::npos);
   EXPECT_EQ(file("fit.ply").find("affine_gaussian_curvature_error"), std::string::npos);
+}
+
+TEST_F(Program_fit, an_open_surface_ends_with_the_data_and_has_no_crumbs) {
+  const Arguments torus = {"--function", "(sqrt(x^2+y^2)-1)^2+z^2-0.16", "--box", "-1.5", "1.5", "0", "1.5", "-0.5",
+                           "0.5"};
+  run_well(Arguments{"mesh", "--resolution", "40", "--attributes", "none", "-o", "open.ply"} + torus);
+  for (const std::string resolution : {"60", "90"}) {
+    run({"mesh", "--fit", "open.ply", "--resolution", resolution, "-o", "fit.ply", "--stats", "fit.json"});
+    const Json statistics = Json::parse(file("fit.json"));
+    EXPECT_EQ(statistics["components"], 1) << resolution;
+    EXPECT_EQ(statistics["manifold"], true) << resolution;
+    EXPECT_EQ(statistics["status"]["outside"], 0) << resolution;
+    EXPECT_EQ(statistics["status"]["unconverged"], 0) << resolution;
+    EXPECT_LT(statistics["max_distance_to_surface"], 1e-12) << resolution;
+  }
+}
+
+TEST_F(Program_fit, a_hole_of_the_data_stays_open) {
+  run_well({"mesh", "--function", "z-0.2*x^2-0.1*y^2+0.1*x*y^2+0*sqrt(x^2+y^2-0.16)", "--box", "-1", "1", "-1", "1",
+            "-1", "1", "--resolution", "30", "--attributes", "none", "-o", "hole.ply"});
+  run({"mesh", "--fit", "hole.ply", "--resolution", "60", "-o", "fit.ply", "--stats", "fit.json"});
+  const Json statistics = Json::parse(file("fit.json"));
+  EXPECT_EQ(statistics["components"], 1);
+  EXPECT_EQ(statistics["euler_characteristic"], 0);
+  EXPECT_EQ(statistics["status"]["outside"], 0);
+  EXPECT_EQ(statistics["status"]["unconverged"], 0);
+}
+
+TEST_F(Program_fit, sheets_that_the_grid_does_not_tell_apart_are_warned_of) {
+  run_well({"mesh", "--function", "(z-0.3*x^2)^2 = 0.0009", "--box", "-1", "1", "-1", "1", "-0.1", "0.4",
+            "--resolution", "40", "--attributes", "none", "-o", "sheets.ply"});
+  const Arguments remesh = {"mesh", "--fit", "sheets.ply", "-o", "fit.ply", "--stats", "fit.json", "--resolution"};
+  const Result coarse = run(remesh + Arguments{"25"});
+  EXPECT_EQ(coarse.status, 0);
+  EXPECT_NE(coarse.error.find("points have another sheet of the surface nearer than the steps of the grid"),
+            std::string::npos)
+      << coarse.error;
+  const Json sheets = Json::parse(file("fit.json"))["fit"]["close_sheets"];
+  EXPECT_GT(sheets["points"], 1000);
+  EXPECT_NEAR(sheets["distance"], 0.06, 0.015);
+  const std::string advice = "give --resolution ";
+  const std::size_t at = coarse.error.find(advice);
+  ASSERT_NE(at, std::string::npos) << coarse.error;
+  const Result fine = run(remesh + Arguments{std::to_string(std::stoi(coarse.error.substr(at + advice.size())))});
+  EXPECT_EQ(fine.error.find("another sheet"), std::string::npos) << fine.error;
+  const Json statistics = Json::parse(file("fit.json"));
+  EXPECT_EQ(statistics["fit"]["close_sheets"]["points"], 0);
+  EXPECT_EQ(statistics["components"], 2);
+  EXPECT_EQ(statistics["euler_characteristic"], 2);
+}
+
+TEST_F(Program_fit, every_reason_for_no_surface_has_its_sentence) {
+  expect_error({"mesh", "--fit", "s.ply", "--isovalue", "7", "-o", "a.ply"},
+               {"no surface f = 7", "'s.ply'", "two spacings", "nearer to 0"});
+  expect_error({"mesh", "--fit", "s.ply", "--box", "5", "6", "5", "6", "5", "6", "-o", "a.ply"},
+               {"no part of the fit to 's.ply' is in the box", "it lies in -1.", "--box that meets that"});
+  expect_error({"mesh", "--fit", "s.ply", "--box", "-0.1", "0.1", "-0.1", "0.1", "-0.1", "0.1", "-o", "a.ply"},
+               {"no part of the surface of the fit to 's.ply'", "more of the data", "--resolution"});
 }
 
 TEST_F(Program_fit, what_cannot_be_used_is_refused) {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/remove_crumbs.h"
+
+#include <equiaffine/base/disjoint_sets.h>
+#include <equiaffine/surface/remove_isolated_vertices.h>
+#include <equiaffine/surface/vertex_links.h>
+
+#include <CGAL/Bbox_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace equiaffine {
+
+namespace {
+
+double diagonal(const CGAL::Bbox_3& box) { return std::hypot(box.x_span(), box.y_span(), box.z_span()); }
+
+} // namespace
+
+void remove_crumbs(Isosurface_3<Kernel>& surface, const Fit_traits& fit, const Source_options& options) {
+  constexpr double reach = 2.5; // in spacings, from side to side
+  const std::size_t n = surface.points.size();
+  Disjoint_sets<std::uint32_t> parts(n);
+  for (const auto& [a, b, c] : surface.triangles) parts.unite(a, b), parts.unite(a, c);
+  std::vector<CGAL::Bbox_3> boxes(n);
+  std::vector<bool> have_border(n, false), are_crumbs(n, false);
+  const auto to_data = [&](const Kernel::Point_3& p) {
+    return options.transformation ? options.transformation->inverse()(p) : p;
+  };
+  for (std::uint32_t v = 0; v < n; ++v) boxes[parts.find(v)] += to_data(surface.points[v]).bbox();
+  for_each_vertex_link(surface.triangles, n, [&](const auto& link) {
+    link.for_each_neighbor([&](std::uint32_t, std::size_t triangles_at_edge) {
+      if (triangles_at_edge == 1) have_border[parts.find(link.vertex())] = true;
+    });
+  });
+  for (std::uint32_t v = 0; v < n; ++v)
+    are_crumbs[v] =
+        parts.find(v) == v && have_border[v] && diagonal(boxes[v]) < reach * fit.spacing(to_data(surface.points[v]));
+  if (std::find(are_crumbs.begin(), are_crumbs.end(), true) == are_crumbs.end()) return;
+  std::erase_if(surface.triangles, [&](const auto& t) { return are_crumbs[parts.find(t[0])]; });
+  remove_isolated_vertices(surface);
+}
+
+} // namespace equiaffine
