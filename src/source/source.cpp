@@ -63,12 +63,15 @@ Formula_traits make_formula(const Source_options& options) {
   return {std::move(expression), options.box.value_or(CGAL::Bbox_3(-1, -1, -1, 1, 1, 1))};
 }
 
-/// The box of the points, widened on all sides by a tenth of its longest side.
+/// The box of the points, widened on all sides by a tenth of its longest side, or by more than any coordinate if all
+/// points are equal.
 template <class Points>
 CGAL::Bbox_3 widened_box(const Points& points) {
   CGAL::Bbox_3 box;
   for (const Kernel::Point_3& p : points) box += p.bbox();
-  const double margin = std::max({box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()}) / 10;
+  const double longest = std::max({box.x_span(), box.y_span(), box.z_span()});
+  const double farthest = std::max({std::abs(box.xmax()), std::abs(box.ymax()), std::abs(box.zmax())});
+  const double margin = longest > 0 ? longest / 10 : 1 + farthest;
   return {box.xmin() - margin, box.ymin() - margin, box.zmin() - margin,
           box.xmax() + margin, box.ymax() + margin, box.zmax() + margin};
 }

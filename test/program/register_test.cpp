@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -103,7 +104,7 @@ TEST_F(Program_register, vertices_and_points_are_registered_by_fits) {
   EXPECT_NEAR(found["matrix"][0][0], 1, 1e-3) << "a transformed fit takes its data along";
 }
 
-TEST_F(Program_register, a_piece_is_found_in_the_distance_to_the_whole) {
+TEST_F(Program_register, a_piece_is_found_in_the_whole_and_not_among_facets) {
   run_well(Arguments{"mesh", "-o", "whole.off", "--resolution", "90", "--function", formula} + box + transform);
   const Arguments piece = {"--function", formula, "--resolution", "24",   "--box", "0",
                            "1.8",        "-1.8",  "1.8",          "-1.8", "1.8"};
@@ -161,6 +162,12 @@ TEST_F(Program_register, a_quadric_has_one_map_of_many_with_generators) {
 TEST_F(Program_register, planes_and_three_points_are_no_error_and_have_no_map) {
   const Arguments plane = Arguments{"--function", "x+2*y-z", "--resolution", "12"} + box;
   EXPECT_EQ(registered(plane, plane)["found"], false);
+  run_well(Arguments{"mesh", "-o", "plane.off"} + plane);
+  EXPECT_EQ(registered({"plane.off"}, {"plane.off"})["found"], false);
+  std::filesystem::remove(folder_ / "plane.off");
+  write_file(folder_ / "one.csv", "x,y,z\n1,2,3\n");
+  EXPECT_EQ(registered({"one.csv"}, plane)["found"], false);
+  std::filesystem::remove(folder_ / "one.csv");
   write_file(folder_ / "three.csv", "x,y,z\n0,0,0\n1,0,0\n0,1,0\n");
   for (const auto& [source, target] : {std::pair<Arguments, Arguments>({"three.csv"}, surface),
                                        {surface, {"three.csv"}},

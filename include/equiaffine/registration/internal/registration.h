@@ -12,7 +12,11 @@
 #include <equiaffine/registration/internal/slippage.h>
 #include <equiaffine/registration/internal/vectors_of.h>
 
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -47,6 +51,18 @@ bool is_equivalence(const Framed_surface_3& source, const Framed_surface_3& targ
              part_of_same_surface;
 }
 
+/// Whether the probes lie in a plane to within a part of their size. Each map between planes moves all of one onto the
+/// other, which is no evidence.
+inline bool is_in_plane(const Framed_surface_3& surface, double tolerance) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : surface.probes) mean += p / double(surface.probes.size());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& p : surface.probes)
+    covariance += (p - mean) * (p - mean).transpose() / double(surface.probes.size());
+  const double variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()[0];
+  return !(variance > std::pow(tolerance * surface.size, 2));
+}
+
 template <class ConcurrencyTag, class Kernel>
 Registration_of_framed_3<Kernel> registration_of_framed(const Framed_surface_3& source, const Framed_surface_3& target,
                                                         const Registration_request& request) {
@@ -54,6 +70,7 @@ Registration_of_framed_3<Kernel> registration_of_framed(const Framed_surface_3& 
   Surface_registration_3<Kernel>& result = registration.result;
   result.slippage = slippage_of(source, request.kind, slippage_tolerance);
   Registration_search<ConcurrencyTag> search(source, target, request);
+  if (is_in_plane(source, search.tolerance()) || is_in_plane(target, search.tolerance())) return registration;
   if (result.slippage.dimension() > 0)
     if (const auto map = map_of_quadrics(source, target, request)) search.try_map(*map);
   if (search.accepted().empty()) search.run();
