@@ -25,7 +25,8 @@ namespace equiaffine {
 /// lie on the other surface if they are within the noise, which is that of the given points: `tolerance` is 8 times
 /// their median distance from the zero sets, or 1e-5 of the size of the target. Where the frame of a point is not
 /// determined, as on quadrics, it is not matched: surfaces with continuous symmetries have a slippage, see
-/// Surface_registration_3.
+/// Surface_registration_3. A fit (Fitted_function_traits_3) estimates its errors: points where its curvatures are
+/// uncertain are tried later.
 ///
 /// Takes 5 expansions for each of up to 6000 points of a surface, and a number of hypotheses that does not depend on the
 /// number of points. The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit.

@@ -30,7 +30,8 @@ struct Framed_point_3 {
   Eigen::Matrix3d basis; ///< columns e1 / sqrt(scale), e2 / sqrt(scale), xi / scale
   Invariants invariants;
   Gradient_of_invariants gradient;
-  double quality = 0; ///< 0 for a point without a frame
+  double quality = 0;   ///< 0 for a point without a frame
+  double certainty = 1; ///< of the curvatures
   bool is_elliptic = false;
 
   bool has_frame() const { return quality > 0; }

@@ -58,13 +58,13 @@ constexpr std::size_t most_framed_points = 6000, most_probes = 600;
 /// The invariants by which points are matched: those that maps of the kind keep, and zero for others.
 inline Invariants kept_invariants(const Framed_point_3& p, Map_kind kind) {
   Invariants x = p.invariants;
-  x.tail(5 - number_of_invariants(kind)).setZero();
+  if (number_of_invariants(kind) < 5) x[4] = 0;
   return x;
 }
 
 inline Gradient_of_invariants kept_gradient(const Framed_point_3& p, Map_kind kind) {
   Gradient_of_invariants x = p.gradient;
-  x.bottomRows(5 - number_of_invariants(kind)).setZero();
+  if (number_of_invariants(kind) < 5) x.row(4).setZero();
   return x;
 }
 
@@ -160,7 +160,12 @@ Framed_surface_3 framed_surface(const Surface_oracle_3& function, const Surface_
   result.probes = moved_to_surface<ConcurrencyTag>(refinement, random_elements(points, most_probes, 2));
   result.points.resize(points.size());
   parallel_for<ConcurrencyTag>(
-      0, points.size(), [&](std::size_t i) { result.points[i] = framed_point(function, points[i]); }, 16);
+      0, points.size(),
+      [&](std::size_t i) {
+        result.points[i] = framed_point(function, points[i]);
+        result.points[i].certainty = function.certainty(points[i]);
+      },
+      16);
   build_trees(result, kind);
   result.spacing = typical_spacing(result);
   if (result.probes.empty()) return result;

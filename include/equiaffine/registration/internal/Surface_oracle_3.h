@@ -29,6 +29,9 @@ public:
   virtual Jet_3<double> taylor(const Eigen::Vector3d& p) const = 0;
   virtual Jet_3<double, 1> first_order(const Eigen::Vector3d& p) const = 0;
 
+  /// How far the curvatures at a point can be trusted, from 0 to 1: less than 1 for fits, which estimate their errors.
+  virtual double certainty(const Eigen::Vector3d& p) const = 0;
+
   Signed_distance_3 distance(const Eigen::Vector3d& p) const {
     const auto jet = first_order(p);
     const auto& c = jet.coefficients();
@@ -64,6 +67,18 @@ public:
   Jet_3<double, 1> first_order(const Eigen::Vector3d& p) const override {
     if (!contains(p)) return Jet_3<double, 1>(std::numeric_limits<double>::quiet_NaN());
     return in_doubles(equiaffine::first_order(traits_, point(p)));
+  }
+
+  double certainty(const Eigen::Vector3d& p) const override {
+    if constexpr (requires { traits_.structure(point(p)).error; }) {
+      const auto fit = traits_.structure(point(p));
+      const auto& affine = fit.structure.affine;
+      const double size = std::abs(affine.gaussian_curvature) + affine.mean_curvature * affine.mean_curvature;
+      const double part = fit.error.gaussian_curvature / size;
+      return std::isfinite(part) ? 1 / (1 + 10 * part) : 0;
+    } else {
+      return 1;
+    }
   }
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Chooses the points of a surface that are tried first: those whose frame is good, whose invariants change quickly along
-// the surface and are rare on it, and agree with those of their neighbors.
+// the surface and are rare on it, agree with those of their neighbors, and are not in doubt.
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_ORDER_OF_POINTS_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_ORDER_OF_POINTS_H
 
@@ -66,7 +66,7 @@ std::vector<double> weights_of_points(const Framed_surface_3& surface, Map_kind 
         [&](std::size_t n) {
           const Framed_point_3& p = surface.points[usable[n]];
           slopes[usable[n]] = steepness(surface, p, kind);
-          weights[usable[n]] = std::min(p.quality, 0.15) * (0.05 + rarity(surface, p, kind)) *
+          weights[usable[n]] = p.certainty * std::min(p.quality, 0.15) * (0.05 + rarity(surface, p, kind)) *
                                std::exp(-3 * disagreement(surface, p, kind)) / (1 + 0.002 * condition(p.basis));
         },
         16);

@@ -16,8 +16,8 @@
 
 namespace equiaffine::internal {
 
-/// Singular values below this part of the largest one count as zero by default: those of a surface that slips are roundings, and
-/// those of an ellipsoid that is disturbed by a part of 1e-4 are 1e-5.
+/// Singular values below this part of the largest one count as zero by default: those of a surface that slips are
+/// roundings, and those of an ellipsoid that is disturbed by a part of 1e-4 are 1e-5.
 constexpr double slippage_tolerance = 1e-8;
 
 /// The maps of a kind, in coordinates of the surface, whose velocity at all points is tangent: null vectors of the
