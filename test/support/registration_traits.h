@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Functions made of others, for tests and benchmarks of registration: a piece, and one whose derivatives are wrong.
+// Functions made of others, for tests and benchmarks of registration: a piece, several beside
+// each other, and one whose derivatives are wrong.
 #ifndef EQUIAFFINE_TEST_SUPPORT_REGISTRATION_TRAITS_H
 #define EQUIAFFINE_TEST_SUPPORT_REGISTRATION_TRAITS_H
 
@@ -39,6 +40,43 @@ struct Piece {
   }
 
 private:
+  static double nan() { return std::numeric_limits<double>::quiet_NaN(); }
+};
+
+/// Several functions, each in its own box. The boxes do not meet.
+template <class Base>
+struct Scene {
+  using FT = double;
+  using Point_3 = Kernel::Point_3;
+  using Vector_3 = Kernel::Vector_3;
+
+  std::vector<Base> objects = {};
+
+  double value(const Point_3& p) const {
+    const Base* object = object_at(p);
+    return object ? object->value(p) : nan();
+  }
+  equiaffine::Jet_3<double, 1> first_order(const Point_3& p) const {
+    const Base* object = object_at(p);
+    return object ? equiaffine::first_order(*object, p) : equiaffine::Jet_3<double, 1>(nan());
+  }
+  equiaffine::Jet_3<double> taylor(const Point_3& p) const {
+    const Base* object = object_at(p);
+    return object ? object->taylor(p) : equiaffine::Jet_3<double>(nan());
+  }
+  CGAL::Bbox_3 bbox() const {
+    CGAL::Bbox_3 box;
+    for (const Base& object : objects) box += object.bbox();
+    return box;
+  }
+
+private:
+  const Base* object_at(const Point_3& p) const {
+    for (const Base& object : objects)
+      if (CGAL::do_overlap(object.bbox(), p.bbox())) return &object;
+    return nullptr;
+  }
+
   static double nan() { return std::numeric_limits<double>::quiet_NaN(); }
 };
 

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs of register_surfaces with a known map, and what comes of them.
+#ifndef EQUIAFFINE_BENCHMARK_REGISTRATION_RUNS_H
+#define EQUIAFFINE_BENCHMARK_REGISTRATION_RUNS_H
+
+#include "../measure.h"
+#include "support/points_on_surface.h"
+#include "support/registration_cases.h"
+#include <equiaffine/register_surfaces.h>
+
+#include <CGAL/tags.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace registration_runs {
+
+using namespace equiaffine;
+using namespace registration_cases;
+using Points = std::vector<Point_3>;
+
+inline double quantile(std::vector<double> values, double part) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0 : values[std::size_t(part * double(values.size() - 1))];
+}
+
+/// What a row of runs is to reach.
+struct Targets {
+  const char *right = ">=1", *median_error = "none", *greatest_error = "<=1e-12", *hypotheses = "none",
+             *search = "none";
+};
+
+/// What came of the runs of a row. A run is right if the error of the matrix is at most `greatest_error`.
+class Row {
+public:
+  explicit Row(const std::string& name, double greatest_error = 1e-6)
+      : name_("registration_" + name), greatest_error_(greatest_error) {}
+
+  /// Registers two surfaces, and compares the map with the right one.
+  template <class Source, class Target>
+  void run(const Source& source, const Points& points, const Target& target, const Points& target_points,
+           const Map& right, const internal::Registration_request& request = {}) {
+    run(source, source, points, target, target, target_points, right, request);
+  }
+
+  /// The same, with other functions to refine on.
+  template <class Source, class Refined_source, class Target, class Refined_target>
+  void run(const Source& source, const Refined_source& refined_source, const Points& points, const Target& target,
+           const Refined_target& refined_target, const Points& target_points, const Map& right,
+           const internal::Registration_request& request = {}) {
+    using Tag = CGAL::Sequential_tag;
+    const internal::Oracle_of_traits_3 from(source);
+    const internal::Oracle_of_traits_3 to(target);
+    const internal::Oracle_of_traits_3 refined_from(refined_source);
+    const internal::Oracle_of_traits_3 refined_to(refined_target);
+    const auto framed = internal::framed_surface<Tag>(from, refined_from, internal::vectors_of(points), request.kind);
+    const auto framed_target =
+        internal::framed_surface<Tag>(to, refined_to, internal::vectors_of(target_points), request.kind);
+    const double begin = processor_clock();
+    const auto result = internal::registration_of_framed<Tag, Kernel>(framed, framed_target, request).result;
+    seconds_.push_back(processor_clock() - begin);
+    found_ += result.found();
+    const double error = result.found() ? error_of(result.best().map, right) : 1;
+    if (!(error <= greatest_error_)) return;
+    errors_.push_back(error);
+    hypotheses_.push_back(double(result.hypotheses));
+  }
+
+  double found() const { return found_; }
+  double runs() const { return double(seconds_.size()); }
+
+  void report(const Targets& targets) const {
+    figure(name_ + "_runs", runs(), "runs", "none");
+    figure(name_ + "_right", double(errors_.size()) / runs(), "of runs", targets.right);
+    figure(name_ + "_hypotheses_99_percent", quantile(hypotheses_, 0.99), "hypotheses", targets.hypotheses);
+    figure(name_ + "_median_error", quantile(errors_, 0.5), "of A", targets.median_error);
+    figure(name_ + "_greatest_error", quantile(errors_, 1), "of A", targets.greatest_error);
+    figure(name_ + "_search", median(seconds_), "s", targets.search);
+  }
+
+private:
+  std::string name_;
+  double greatest_error_;
+  std::vector<double> errors_, hypotheses_, seconds_;
+  double found_ = 0;
+};
+
+struct Source {
+  std::string name;
+  Formula function;
+  Points points;
+};
+
+inline double random_determinant(Random& random) { return std::exp(random.uniform(std::log(0.2), std::log(5))); }
+
+void register_meshes(int repeats);
+void register_bunny(const std::string& folder);
+void register_volumes(int repeats);
+void compare_with_peers(int repeats);
+
+} // namespace registration_runs
+
+#endif
