@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstring>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -117,6 +118,48 @@ TEST(Fitted_structures, a_jump_of_density_by_ten_leaves_both_sides_with_right_es
   }
   EXPECT_GT(known, 0.9 * double(points.size()));
   EXPECT_GT(covered, 0.93 * known);
+}
+
+/// Closed surfaces about a center of symmetry: of no polynomial, and an ellipsoid.
+struct Symmetric_shape {
+  auto operator()(const auto& x, const auto& y, const auto& z) const {
+    using std::exp;
+    return exp(x * x) + exp(1.5 * y * y) + exp(2.0 * z * z) - 4.0;
+  }
+};
+
+struct Ellipsoid {
+  auto operator()(const auto& x, const auto& y, const auto& z) const {
+    return x * x + y * y / 0.64 + z * z / 0.36 - 1.0;
+  }
+};
+
+TEST(Fitted_structures, a_scale_that_holds_a_symmetric_shape_as_a_whole_leaves_its_curvatures_unknown) {
+  const auto shape = make_analytic_traits<Fit_kernel>(Symmetric_shape(), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  const Fit_mesh mesh = to_surface_mesh(marching_cubes(shape, parameters::number_of_nodes(12)));
+  double known = 0;
+  for (const auto& s : fitted_structures(mesh, parameters::scale(1.5))) {
+    const auto& [K, H] = std::pair(s.structure.affine.gaussian_curvature, s.structure.affine.mean_curvature);
+    known += s.error.gaussian_curvature < 0.5 * (std::abs(K) + H * H);
+  }
+  EXPECT_LT(known, 0.2 * double(mesh.number_of_vertices()));
+}
+
+TEST(Fitted_structures, estimates_cover_the_errors_of_a_small_mesh) {
+  const auto shape = make_analytic_traits<Fit_kernel>(Ellipsoid(), CGAL::Bbox_3(-1.1, -1.1, -1.1, 1.1, 1.1, 1.1));
+  const Fit_mesh exact = to_surface_mesh(marching_cubes(shape, parameters::number_of_nodes(12)));
+  for (const double noise : {0., 0.01}) {
+    Fit_mesh mesh = exact;
+    add_noise(mesh, noise * mean_edge(mesh));
+    const auto structures = fitted_structures(mesh);
+    double covered = 0;
+    for (std::size_t i = 0; i < structures.size(); ++i) {
+      const auto truth = local_structure_at(shape, points_of(exact)[i]);
+      covered += std::abs(structures[i].structure.affine.gaussian_curvature - truth.affine.gaussian_curvature) <=
+                 structures[i].error.gaussian_curvature;
+    }
+    EXPECT_GT(covered, 0.93 * double(structures.size())) << noise;
+  }
 }
 
 /// Expects equal numbers, or none on both sides.

@@ -24,7 +24,9 @@ namespace equiaffine {
 /// plane, of degree up to 10, else polynomials in space (up to 6), which can go round a corner. Trials at up to 200
 /// places tell degree and radius: those whose results agree best with the next degree, and whose residuals leave the
 /// least deviation. The estimated error is 2.2 times the root of the sum of two squares: of the greatest difference to
-/// other fits there and around, and of the standard deviation of the curvature if residuals are white noise.
+/// other fits there and around, and of the standard deviation of the curvature if residuals are white noise. Among the
+/// others around is the next degree of the same parity, since a shape with a center of symmetry that lies in one ball
+/// looks the same to the degrees 4 and 5, whatever they miss.
 ///
 /// With `scale`, curvatures are by definition those of a polynomial in space of degree 4, or of `degree`, fitted within
 /// that radius: a scan has detail at every scale.

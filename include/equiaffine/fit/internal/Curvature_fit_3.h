@@ -52,10 +52,9 @@ inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, D
   auto fits = fit_candidate(data, center, choices.radius(choice.candidate, center), choice.candidate);
   if (fits.empty()) return {};
   Local_fit_3& fit = fits.front();
-  const Local_fit_3& other = fits.back();
   const double size = fit.curvatures.size(), root = std::sqrt(size);
-  const double gaussian = std::abs(other.curvatures.gaussian - fit.curvatures.gaussian) / size,
-               mean = std::abs(other.curvatures.mean - fit.curvatures.mean) / root;
+  const Local_fit_3& other = fits.back();
+  const Relative_errors bias = greater_of_each(choice.level, relative_difference(fit.curvatures, other.curvatures));
   // Noise that is given counts as it is, whatever the residuals are.
   const double factor = choices.has_noise() && fit.residual > 0 ? choice.noise / fit.residual : 1;
   const Fitted_curvatures of_noise = scaled(fit.deviations, factor);
@@ -64,9 +63,8 @@ inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, D
                                         std::max(guarded.mean, of_noise.mean),
                                         std::max(guarded.euclidean, of_noise.euclidean)};
   Fit_accuracy accuracy;
-  accuracy.error = {coverage *
-                        error_or_all(std::hypot(std::max(choice.level.gaussian, gaussian), deviations.gaussian / size)),
-                    coverage * error_or_all(std::hypot(std::max(choice.level.mean, mean), deviations.mean / root))};
+  accuracy.error = {coverage * error_or_all(std::hypot(bias.gaussian, deviations.gaussian / size)),
+                    coverage * error_or_all(std::hypot(bias.mean, deviations.mean / root))};
   accuracy.noise = {2 * error_or_all(of_noise.gaussian / size), 2 * error_or_all(of_noise.mean / root)};
   accuracy.euclidean_error = choices.has_scale() ? 0 : euclidean_error(fit, other, deviations);
   accuracy.radius = fit.patch.radius;

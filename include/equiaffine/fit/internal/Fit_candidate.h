@@ -3,6 +3,7 @@
 #define EQUIAFFINE_FIT_INTERNAL_FIT_CANDIDATE_H
 
 #include <equiaffine/fit/internal/Local_fit_3.h>
+#include <equiaffine/fit/internal/fit_space.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,12 @@ struct Fit_candidate {
   /// The degree that the result is compared with.
   int other_degree() const { return degree + (family == Fit_family::HEIGHT ? 2 : 1); }
 
+  /// Another degree to compare with. Where a ball in space holds most of a shape with a center of symmetry, odd degrees
+  /// add nothing to even ones, which agree with them whatever they miss.
+  int other_degree_of_same_parity() const {
+    return family == Fit_family::HEIGHT || degree + 2 <= maximal_space_degree ? degree + 2 : degree - 2;
+  }
+
   bool made(const Local_fit_3& fit, int of_degree) const {
     return fit.patch.family == family && fit.patch.degree == of_degree && fit.weight_of_normals == weight_of_normals;
   }
@@ -32,6 +39,16 @@ struct Relative_errors {
 /// The factor of the root mean square error with which an estimate covers the error at 19 of 20 points, measured on
 /// surfaces whose curvatures are known, with noise and without.
 constexpr double coverage = 2.2;
+
+/// Returns the differences between the curvatures of fits, relative to those of the first one.
+inline Relative_errors relative_difference(const Fitted_curvatures& fit, const Fitted_curvatures& other) {
+  return {std::abs(other.gaussian - fit.gaussian) / fit.size(),
+          std::abs(other.mean - fit.mean) / std::sqrt(fit.size())};
+}
+
+inline Relative_errors greater_of_each(const Relative_errors& a, const Relative_errors& b) {
+  return {std::max(a.gaussian, b.gaussian), std::max(a.mean, b.mean)};
+}
 
 inline Fitted_curvatures scaled(const Fitted_curvatures& c, double factor) {
   return {factor * c.gaussian, factor * c.mean, factor * c.euclidean};

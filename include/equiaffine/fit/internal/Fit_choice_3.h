@@ -66,7 +66,8 @@ public:
 
 private:
   struct Trial {
-    std::vector<double> gaussian, mean; ///< logarithms of relative errors, one for each candidate, or NaN
+    std::vector<double> scores;          ///< logarithms of relative errors of K, one for each candidate, or NaN
+    std::vector<Relative_errors> levels; ///< logarithms of relative errors that count the same parity, too
     double noise = 0;
   };
 
@@ -139,8 +140,8 @@ private:
 
   void try_heights(std::size_t c) {
     Trial& trial = trials_[c];
-    trial.gaussian.assign(candidates_.size(), std::numeric_limits<double>::quiet_NaN());
-    trial.mean = trial.gaussian;
+    trial.scores.assign(candidates_.size(), std::numeric_limits<double>::quiet_NaN());
+    trial.levels.resize(candidates_.size());
     trial.noise = noise_at(centers_[c]);
     try_radii(trial, 4000,
               [&](std::size_t r) { return fit_heights(data_, centers_[c], length(r, centers_[c]), height_degrees_); });
@@ -160,28 +161,35 @@ private:
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
       const Fit_candidate& candidate = candidates_[k];
       if (candidate.radius != radius) continue;
-      const Local_fit_3 *fit = nullptr, *other = nullptr;
+      const Local_fit_3 *fit = nullptr, *other = nullptr, *same_parity = nullptr;
       for (const auto& f : fits) {
         if (candidate.made(f, candidate.degree)) fit = &f;
         if (candidate.made(f, candidate.other_degree())) other = &f;
+        if (candidate.made(f, candidate.other_degree_of_same_parity())) same_parity = &f;
       }
       if (fit == nullptr || other == nullptr) continue;
       if (!request_.scale && candidate.family == Fit_family::SPACE && fit->residual > 2 * trial.noise) continue;
-      const Relative_errors score = scores(*fit, *other, trial.noise);
-      trial.gaussian[k] = score.gaussian;
-      trial.mean[k] = score.mean;
-      least = std::min(least, score.gaussian);
+      const Relative_errors difference = relative_difference(fit->curvatures, other->curvatures);
+      const double score = logarithms(*fit, difference, trial.noise).gaussian;
+      trial.scores[k] = score;
+      trial.levels[k] =
+          logarithms(*fit,
+                     same_parity == nullptr
+                         ? difference
+                         : greater_of_each(difference, relative_difference(fit->curvatures, same_parity->curvatures)),
+                     trial.noise);
+      least = std::min(least, score);
     }
     return least;
   }
 
-  /// Returns logarithms of relative errors.
-  static Relative_errors scores(const Local_fit_3& fit, const Local_fit_3& other, double noise) {
-    const Fitted_curvatures &c = fit.curvatures, deviations = guarded_deviations(fit, noise);
-    const double size = c.size();
-    const double gaussian = std::hypot(c.gaussian - other.curvatures.gaussian, 1.4 * deviations.gaussian),
-                 mean = std::hypot(c.mean - other.curvatures.mean, 1.4 * deviations.mean);
-    return {std::log(error_or_all(gaussian / size) + 1e-12), std::log(error_or_all(mean / std::sqrt(size)) + 1e-12)};
+  /// Returns logarithms of relative errors, from a difference to other fits and the standard deviation.
+  static Relative_errors logarithms(const Local_fit_3& fit, const Relative_errors& difference, double noise) {
+    const Fitted_curvatures deviations = guarded_deviations(fit, noise);
+    const double size = fit.curvatures.size();
+    const double gaussian = std::hypot(difference.gaussian, 1.4 * deviations.gaussian / size),
+                 mean = std::hypot(difference.mean, 1.4 * deviations.mean / std::sqrt(size));
+    return {std::log(error_or_all(gaussian) + 1e-12), std::log(error_or_all(mean) + 1e-12)};
   }
 
   /// Candidates that fail at most centers around are passed over, unless no other is left.
@@ -189,18 +197,20 @@ private:
     const auto around = tree_.nearest(data_.points[centers_[c]], 12);
     for (const double part : {0.7, 0.}) {
       std::optional<Choice> best;
+      double least = std::numeric_limits<double>::infinity();
       for (std::size_t k = 0; k < candidates_.size(); ++k) {
-        if (std::isnan(trials_[c].gaussian[k])) continue;
-        double gaussian = 0, mean = 0, count = 0;
+        if (std::isnan(trials_[c].scores[k])) continue;
+        double score = 0, gaussian = 0, mean = 0, count = 0;
         for (const Index d : around) {
-          if (std::isnan(trials_[d].gaussian[k])) continue;
-          gaussian += trials_[d].gaussian[k];
-          mean += trials_[d].mean[k];
+          if (std::isnan(trials_[d].scores[k])) continue;
+          score += trials_[d].scores[k];
+          gaussian += trials_[d].levels[k].gaussian;
+          mean += trials_[d].levels[k].mean;
           ++count;
         }
-        if (count < part * double(around.size())) continue;
-        const Relative_errors level = {std::exp(gaussian / count), std::exp(mean / count)};
-        if (!best || level.gaussian < best->level.gaussian) best = Choice{candidates_[k], level, trials_[c].noise};
+        if (count < part * double(around.size()) || score / count >= least) continue;
+        least = score / count;
+        best = Choice{candidates_[k], {std::exp(gaussian / count), std::exp(mean / count)}, trials_[c].noise};
       }
       if (best) return best;
     }
