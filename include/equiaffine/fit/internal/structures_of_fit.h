@@ -65,11 +65,16 @@ inline Fitted_structure_3<double> structure_of(const Jet_3<double>& jet, const S
 /// The distance of the centers of fits as a part of their radius: fits with small radii are made at every point.
 constexpr double distance_of_direct_fits = 0.1;
 
+/// The same at a given scale, where the curvatures of a point are those of the fit around it: on a scan, K of a fit
+/// whose center is a tenth of the radius away differs from them by as much as noise makes.
+constexpr double distance_of_direct_fits_at_scale = 0.02;
+
 template <class ConcurrencyTag, class Parameters>
 std::vector<Fitted_structure_3<double>> structures_of_fit(const Surface_fit_3& fit, const Parameters& parameters) {
   const auto orientation = get_parameter<Orientation_tag>(parameters, Orientation_of_level_set::ALONG_GRADIENT);
   const Data_points_3& data = fit.data();
-  const Patch_cover_3 cover = patch_cover(data, fit.choices(), distance_of_direct_fits, ConcurrencyTag());
+  const double distance = fit.choices().has_scale() ? distance_of_direct_fits_at_scale : distance_of_direct_fits;
+  const Patch_cover_3 cover = patch_cover(data, fit.choices(), distance, ConcurrencyTag());
   std::vector<Fitted_structure_3<double>> structures(data.size(), structure_without_fit());
   parallel_for<ConcurrencyTag>(
       0, data.size(),
