@@ -21,9 +21,9 @@ struct Fit_candidate {
   int other_degree() const { return degree + (family == Fit_family::HEIGHT ? 2 : 1); }
 
   /// Another degree to compare with. Where a ball in space holds most of a shape with a center of symmetry, odd degrees
-  /// add nothing to even ones, which agree with them whatever they miss.
+  /// add nothing to even ones, which agree with them whatever they miss. The greatest degree has no such other.
   int other_degree_of_same_parity() const {
-    return family == Fit_family::HEIGHT || degree + 2 <= maximal_space_degree ? degree + 2 : degree - 2;
+    return family == Fit_family::HEIGHT || degree + 2 <= maximal_space_degree ? degree + 2 : other_degree();
   }
 
   bool made(const Local_fit_3& fit, int of_degree) const {
