@@ -13,10 +13,14 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace {
 
 using Affine = Eigen::Affine3d;
+
+constexpr int steps = 200; ///< of iterated closest points
 
 template <int Dimension>
 using Tree = equiaffine::internal::Nearest_points<Dimension>;
@@ -64,8 +68,8 @@ public:
       : source_(source.begin(), source.begin() + std::ptrdiff_t(std::min<std::size_t>(500, source.size()))),
         target_(target), tree_(tree_of<3>(target)) {}
 
-  Affine refined(Affine map, int steps) const {
-    for (int step = 0; step < steps; ++step) {
+  Affine refined(Affine map, int count) const {
+    for (int step = 0; step < count; ++step) {
       Vectors nearest;
       for (const auto& p : source_) nearest.push_back(target_[tree_(map * p, 1).front().index]);
       map = affine_map(source_, nearest);
@@ -114,7 +118,7 @@ Affine affine_icp(const Vectors& source, const Vectors& target, int starts) {
   double least = std::numeric_limits<double>::infinity();
   for (int n = 0; n < starts; ++n) {
     const Eigen::Matrix3d turn = n == 0 ? Eigen::Matrix3d::Identity() : random_orthogonal_matrix(random);
-    const Affine map = points.refined(map_about(from, to.size / from.size * turn, to), 60);
+    const Affine map = points.refined(map_about(from, to.size / from.size * turn, to), steps);
     if (const double bad = badness(points, map, from); n == 0 || bad < least) {
       least = bad;
       best = map;
@@ -124,21 +128,24 @@ Affine affine_icp(const Vectors& source, const Vectors& target, int starts) {
 }
 
 Affine whitening_with_rotations(const Vectors& source, const Vectors& target, int rotations) {
+  constexpr std::size_t refined_rotations = 20;
   const Moments from(source), to(target);
-  const Closest_points few(
-      Vectors(source.begin(), source.begin() + std::ptrdiff_t(std::min<std::size_t>(60, source.size()))), target),
-      points(source, target);
+  const Vectors some(source.begin(), source.begin() + std::ptrdiff_t(std::min<std::size_t>(150, source.size())));
+  const Closest_points few(some, target), points(source, target);
   std::mt19937_64 random(1);
-  Affine best = Affine::Identity();
-  double least = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, Affine>> maps;
   for (int n = 0; n < rotations; ++n) {
     const Affine map = map_about(from, to.root * random_orthogonal_matrix(random) * from.root.inverse(), to);
-    if (const double distance = few.median_distance(map); distance < least) {
-      least = distance;
-      best = map;
-    }
+    maps.emplace_back(few.median_distance(map), map);
   }
-  return points.refined(best, 60);
+  std::sort(maps.begin(), maps.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  maps.resize(std::min(maps.size(), refined_rotations));
+  for (auto& [bad, map] : maps) {
+    map = points.refined(map, steps);
+    bad = badness(points, map, from);
+  }
+  return std::min_element(maps.begin(), maps.end(), [](const auto& a, const auto& b) { return a.first < b.first; })
+      ->second;
 }
 
 Affine four_point_ransac(const Vectors& source, const Signatures& signatures, const Vectors& target,
@@ -165,5 +172,5 @@ Affine four_point_ransac(const Vectors& source, const Signatures& signatures, co
     most = hits;
     best = map;
   }
-  return Closest_points(source, target).refined(best, 60);
+  return Closest_points(source, target).refined(best, steps);
 }

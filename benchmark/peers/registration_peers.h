@@ -16,8 +16,8 @@ using Signatures = std::vector<Eigen::Matrix<double, 5, 1>>;
 /// median distance.
 Eigen::Affine3d affine_icp(const Vectors& source, const Vectors& target, int starts);
 
-/// Makes the covariances of both surfaces 1, whereupon an orthogonal map is left. The best of random ones is refined by
-/// iterated closest points.
+/// Makes the covariances of both surfaces 1, whereupon an orthogonal map is left. The 20 best of random ones are refined
+/// by iterated closest points.
 Eigen::Affine3d whitening_with_rotations(const Vectors& source, const Vectors& target, int rotations);
 
 /// Matches each point with that of the nearest signature. The map of four random matches that has most matches within
