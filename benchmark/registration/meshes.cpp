@@ -7,12 +7,14 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh/IO/OFF.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace registration_runs {
@@ -83,7 +85,7 @@ void image_of(Points& points, const Map& map) {
   for (Point_3& p : points) p = map(p);
 }
 
-/// Of the bunny and of its image, whose vertices are disturbed and half of them removed.
+/// The standard deviation of noise along each axis, in mean edges.
 constexpr double disturbance = 0.01;
 
 } // namespace
