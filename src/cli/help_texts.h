@@ -101,7 +101,8 @@ Usage: equiaffine register SOURCE [its options] to SOURCE [its options] -o MAP.j
 inline constexpr const char* register_footer =
     R"(What stands before the word to is moved onto what stands after it. One pair of points with the same affine
 invariants gives a map; it is refined, and it counts only if it is no accident. The exit status is 0, with "found": false
-in MAP.json, if there is none. Under --transform, --box and others belong to the source beside which they stand.
+in MAP.json, if there is none. --transform, --box and other options of a source belong to the one beside which they
+stand.
 
 Examples:
   equiaffine register part.ply to whole.ply -o map.json --moved moved.ply --html map.html

@@ -134,7 +134,7 @@ CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& opti
   // For rows of length one the determinant is the volume that they span. If only rounding made it, they lie in a plane.
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   if (!(std::abs(CGAL::determinant(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8])) > rounding))
-    fail_option(name, "the matrix is singular", "give nine numbers, row by row, of a matrix with an inverse");
+    fail_option(name, "the matrix is singular", "give a matrix with an inverse, row by row");
   if (!std::isnormal(CGAL::determinant(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8])))
     fail_option(name, "the determinant is too large or too small for a number of the computer", "choose another unit");
   return {m[0], m[1], m[2], t[0], m[3], m[4], m[5], t[1], m[6], m[7], m[8], t[2]};

@@ -182,7 +182,8 @@ Options parse_options(const std::vector<std::string>& arguments) {
   case SAMPLE: options.command = read_sample_options(reader); break;
   case VIEW: options.command = read_view_options(reader); break;
   case ANNOTATE: options.command = read_annotate_options(reader); break;
-  default: options.command = read_symmetries_options(reader); break;
+  case SYMMETRIES: options.command = read_symmetries_options(reader); break;
+  case REGISTER: break; // has a line for each source
   }
   options.threads = reader.draft().threads;
   return options;

@@ -5,6 +5,9 @@
 #include "commands/fail_without_surface.h"
 #include "source/source.h"
 
+#include <CGAL/Bbox_3.h>
+
+#include <algorithm>
 #include <utility>
 
 namespace equiaffine {
@@ -16,10 +19,20 @@ Indexed_triangle_mesh_3<Kernel> extract(const Level_set_of_source& level_set, co
   progress.begin("extracting the surface");
   return level_set.visit([&](const auto& function) -> Indexed_triangle_mesh_3<Kernel> {
     auto surface = extract_surface(function, options.source, Vertex_position::PROJECTED);
-    if (surface.triangles.empty() && options.source.kind != Source_kind::FIT)
+    if (surface.triangles.empty() && (options.source.kind != Source_kind::FIT || options.isovalue != 0))
       fail_without_surface(function.base(), options.source, options.isovalue,
                            {"box", "a finer --resolution", surface.repairs.vertices_at_poles > 0});
     return surface;
+  });
+}
+
+/// Throws the error that says so if no point of the data is in the box.
+void check_box(const Surface_to_register& surface, const Surface_options& options) {
+  const CGAL::Bbox_3 box = surface.function.bbox();
+  const auto& points = surface.mesh.points;
+  if (std::any_of(points.begin(), points.end(), [&](const auto& p) { return CGAL::do_overlap(box, p.bbox()); })) return;
+  surface.function.visit([&](const auto& function) {
+    fail_without_surface(function.base(), options.source, options.isovalue, {"box", "", false});
   });
 }
 
@@ -28,11 +41,15 @@ Indexed_triangle_mesh_3<Kernel> extract(const Level_set_of_source& level_set, co
 Surface_to_register make_surface_to_register(const Surface_options& options, bool is_shown, Progress& progress) {
   Source source = make_source(options.source, progress);
   Surface_to_register surface{
-      Level_set_of_source(std::move(source.function), options.isovalue), {}, std::move(source.data), {}};
+      Level_set_of_source(std::move(source.function), options.isovalue, options.source.transformation),
+      {},
+      std::move(source.data),
+      {}};
   if (source.unsmoothed) surface.unsmoothed.emplace(std::move(*source.unsmoothed), options.isovalue);
-  const bool has_data = !surface.mesh.points.empty();
-  if (!has_data) surface.mesh = extract(surface.function, options, progress);
-  else if (is_shown && surface.mesh.triangles.empty()) surface.extracted = extract(surface.function, options, progress);
+  const bool has_data = !surface.mesh.points.empty() && options.isovalue == 0; // the data lie on f = 0
+  if (has_data) check_box(surface, options);
+  else surface.mesh = extract(surface.function, options, progress);
+  if (is_shown && surface.mesh.triangles.empty()) surface.extracted = extract(surface.function, options, progress);
   return surface;
 }
 

@@ -119,6 +119,8 @@ Annotated_surface make_surface(const Traits& function, const Source& source, con
       std::visit([&](const auto& method) { return sample(extracted, options, method); }, options.method);
   if (source.fit) {
     remove_crumbs(surface.mesh, *source.fit, options.source);
+    if (surface.mesh.triangles.empty())
+      fail_without_surface(function, options.source, options.isovalue, {"box", "a finer --resolution", false});
     if (std::holds_alternative<Marching_cubes_options>(options.method))
       surface.close_sheets = close_sheets(*source.fit, options.source);
   }

@@ -11,6 +11,7 @@
 #include <CGAL/tags.h>
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,11 +32,31 @@ Surface_registration_3<Kernel> register_with(const Register_options& options, co
                                                             target.mesh.points, parameters);
 }
 
+std::string text_of(double number) {
+  std::ostringstream text;
+  text.precision(3);
+  text << number;
+  return text.str();
+}
+
 Description make_description(const Registration_report& report) {
-  return {{"Source", report.source},
-          {"Target", report.target},
-          {"Map", report.registration.found() ? "found" : "none"},
-          {"surface", "0 target, 1 moved source, 2 and 3 the frames of the pair of points there"}};
+  const bool is_found = report.registration.found();
+  Description description = {
+      {"Source", report.source}, {"Target", report.target}, {"Map", is_found ? "found" : "none"}};
+  if (!is_found) {
+    description.emplace_back("surface", "0 target, 1 source");
+    return description;
+  }
+  const auto& best = report.registration.best();
+  description.emplace_back("log10 of false alarms", text_of(best.log10_false_alarms));
+  description.emplace_back("on the other surface", text_of(100 * best.inliers[0]) + " % of the source, " +
+                                                       text_of(100 * best.inliers[1]) + " % of the target");
+  description.emplace_back("rms distance", text_of(best.rms));
+  if (const auto& next = report.registration.next_best_rms)
+    description.emplace_back("of the next best", text_of(*next));
+  description.emplace_back("surface", best.pair ? "0 target, 1 moved source, 2 and 3 the frames of the pair of points"
+                                                : "0 target, 1 moved source");
+  return description;
 }
 
 /// The output files of the command. The constructor throws if one of them cannot be written.

@@ -13,6 +13,7 @@
 #include <CGAL/tags.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,9 @@ void run_symmetries(const Symmetries_options& options, std::ostream& out, Progre
   const Symmetries_report report = {describe(options.surface.source),
                                     affine_symmetries<CGAL::Parallel_if_available_tag>(
                                         surface.function, surface.mesh.points, parameters::tolerance(tolerance))};
+  if (!std::isfinite(report.symmetries.maps.front().rms))
+    throw Input_error("nothing is known of the symmetries of " + report.source +
+                      ": it has a surface beside none of its points; give more points");
 
   progress.begin("writing");
   auto file = outputs.files.begin();

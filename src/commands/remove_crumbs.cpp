@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/remove_crumbs.h"
 
+#include "source/source.h"
 #include <equiaffine/base/disjoint_sets.h>
 #include <equiaffine/surface/remove_isolated_vertices.h>
 #include <equiaffine/surface/vertex_links.h>
 
+#include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Bbox_3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -19,6 +22,15 @@ namespace {
 
 double diagonal(const CGAL::Bbox_3& box) { return std::hypot(box.x_span(), box.y_span(), box.z_span()); }
 
+/// Whether the inner box comes within a step of the grid to the sides of the outer one, where it may be cut off.
+bool is_cut_off(const CGAL::Bbox_3& inner, const CGAL::Bbox_3& outer, const std::array<std::size_t, 3>& nodes) {
+  for (int a = 0; a < 3; ++a) {
+    const double step = (outer.max(a) - outer.min(a)) / double(nodes[std::size_t(a)] - 1);
+    if (inner.min(a) < outer.min(a) + step || inner.max(a) > outer.max(a) - step) return true;
+  }
+  return false;
+}
+
 } // namespace
 
 void remove_crumbs(Isosurface_3<Kernel>& surface, const Fit_traits& fit, const Source_options& options) {
@@ -28,9 +40,10 @@ void remove_crumbs(Isosurface_3<Kernel>& surface, const Fit_traits& fit, const S
   for (const auto& [a, b, c] : surface.triangles) parts.unite(a, b), parts.unite(a, c);
   std::vector<CGAL::Bbox_3> boxes(n);
   std::vector<bool> have_border(n, false), are_crumbs(n, false);
-  const auto to_data = [&](const Kernel::Point_3& p) {
-    return options.transformation ? options.transformation->inverse()(p) : p;
-  };
+  const auto back =
+      options.transformation ? options.transformation->inverse() : CGAL::Aff_transformation_3<Kernel>(CGAL::IDENTITY);
+  const auto to_data = [&](const Kernel::Point_3& p) { return options.transformation ? back(p) : p; };
+  const auto nodes = options.resolution.value_or(default_resolution(options.kind));
   for (std::uint32_t v = 0; v < n; ++v) boxes[parts.find(v)] += to_data(surface.points[v]).bbox();
   for_each_vertex_link(surface.triangles, n, [&](const auto& link) {
     link.for_each_neighbor([&](std::uint32_t, std::size_t triangles_at_edge) {
@@ -38,8 +51,9 @@ void remove_crumbs(Isosurface_3<Kernel>& surface, const Fit_traits& fit, const S
     });
   });
   for (std::uint32_t v = 0; v < n; ++v)
-    are_crumbs[v] =
-        parts.find(v) == v && have_border[v] && diagonal(boxes[v]) < reach * fit.spacing(to_data(surface.points[v]));
+    are_crumbs[v] = parts.find(v) == v && have_border[v] &&
+                    diagonal(boxes[v]) < reach * fit.spacing(to_data(surface.points[v])) &&
+                    !is_cut_off(boxes[v], fit.bbox(), nodes);
   if (std::find(are_crumbs.begin(), are_crumbs.end(), true) == are_crumbs.end()) return;
   std::erase_if(surface.triangles, [&](const auto& t) { return are_crumbs[parts.find(t[0])]; });
   remove_isolated_vertices(surface);

@@ -94,7 +94,10 @@ std::string summary(const Registration_report& report) {
   const std::size_t dimension = registration.slippage.dimension();
   std::ostringstream text;
   if (!registration.found()) {
-    text << "no map found: none of " << registration.hypotheses << " hypotheses is better than chance\n";
+    text << "no map found: ";
+    if (registration.hypotheses > 0)
+      text << "none of " << registration.hypotheses << " hypotheses is better than chance\n";
+    else text << "no points of the two have frames that agree\n";
   } else {
     const auto& [map, log10_false_alarms, inliers, rms, pair] = registration.best();
     text.precision(3);

@@ -29,6 +29,7 @@ using Structure = Fitted_structure_3<double>;
 
 template <class Condition>
 double part(Structures structures, const Condition& condition) {
+  if (structures.empty()) return 0;
   return double(std::count_if(structures.begin(), structures.end(), condition)) / double(structures.size());
 }
 

@@ -189,6 +189,14 @@ TEST_F(Program_fit, every_reason_for_no_surface_has_its_sentence) {
                {"no part of the surface of the fit to 's.ply'", "more of the data", "--resolution"});
 }
 
+TEST_F(Program_fit, a_small_box_cuts_a_small_part_out) {
+  run_well({"mesh", "--fit", "s.ply", "--box", "1.3", "1.6", "-0.1", "0.1", "-0.1", "0.1", "--resolution", "10", "-o",
+            "part.ply"});
+  const Mesh part = mesh("part.ply");
+  EXPECT_GT(part.mesh.triangles.size(), 50U);
+  for (const auto& p : part.mesh.points) EXPECT_NEAR(p.x(), std::sqrt(2), 0.05);
+}
+
 TEST_F(Program_fit, what_cannot_be_used_is_refused) {
   expect_error({"mesh", "--function", "x", "--box", "-1", "1", "-1", "1", "-1", "1", "--scale", "1", "-o", "a.ply"},
                {"--scale", "--fit"});

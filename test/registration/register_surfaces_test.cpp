@@ -97,6 +97,18 @@ TEST(Register_surfaces, surfaces_that_have_nothing_in_common_have_no_map) {
   EXPECT_FALSE(result.found());
 }
 
+TEST(Register_surfaces, much_noise_makes_no_map_between_surfaces_that_have_nothing_in_common) {
+  const auto surfaces = generic_surfaces();
+  for (const std::size_t i : {std::size_t(0), surfaces.size() - 2}) {
+    const auto source = surfaces[i].traits(), target = surfaces[i + 1].traits();
+    Random random(7);
+    auto points = points_on_surface(source, 24);
+    for (Point_3& p : points)
+      p = Point_3(p.x() + 0.02 * random.normal(), p.y() + 0.02 * random.normal(), p.z() + 0.02 * random.normal());
+    EXPECT_FALSE(register_surfaces(source, points, target, points_on_surface(target, 24)).found()) << surfaces[i].name;
+  }
+}
+
 TEST(Register_surfaces, a_piece_is_found_in_the_whole_with_few_points) {
   Random random(4);
   const Map map = random_map(random, 5, 2);

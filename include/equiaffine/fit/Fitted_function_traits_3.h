@@ -143,8 +143,9 @@ public:
   /// The distances of points from other sheets of the surface, for those that have one nearer than `distance`: points
   /// beside them that are not connected with them nearby, or have opposed normals. Marching Cubes tells sheets apart that
   /// are farther from each other than the steps of its grid.
+  template <class ConcurrencyTag = CGAL::Sequential_tag>
   std::vector<FT> distances_of_sheets(const FT& distance) const {
-    const auto found = internal::distances_of_sheets(state_->fit, CGAL::to_double(distance));
+    const auto found = internal::distances_of_sheets<ConcurrencyTag>(state_->fit, CGAL::to_double(distance));
     return {found.begin(), found.end()};
   }
 

@@ -55,8 +55,8 @@ inline std::vector<std::string> sentences_of_doubt(const Vertex_attributes& attr
   return sentences;
 }
 
-/// Returns whether at least half of the numbers are known to one digit. Numbers without estimates are trusted, unless they are affine ones beside others that are not: they are made
-/// of the same derivatives.
+/// Returns whether at least half of the numbers are known to one digit. Numbers without estimates are trusted, unless
+/// they are affine ones beside others that are not: they are made of the same derivatives.
 inline bool is_trusted(const Vertex_attributes::Column& column, const Vertex_attributes& attributes) {
   if (const auto* errors = find_errors(attributes, column.name))
     return part_in_doubt(column.values, errors->values) <= 0.5;

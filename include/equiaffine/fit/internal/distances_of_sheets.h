@@ -6,7 +6,6 @@
 #include <equiaffine/fit/internal/Point_tree_3.h>
 #include <equiaffine/fit/internal/Surface_fit_3.h>
 
-#include <CGAL/tags.h>
 #include <Eigen/Core>
 #include <Eigen/LU>
 
@@ -20,16 +19,20 @@
 namespace equiaffine::internal {
 
 /// The distances along the normals, in the coordinates of the data, between points and the next ones that are within a
-/// spacing of them across and on another sheet, where these are less than `greatest`. Points that are not connected nearby
-/// are on different sheets, and points whose normals are opposed, as on both sides of a thin plate or tube.
-inline std::vector<double> distances_of_sheets(const Surface_fit_3& fit, double greatest) {
+/// spacing of them across and on another sheet, where these are less than `greatest` and about ten spacings. Points that
+/// are not connected nearby are on different sheets, and points whose normals are opposed, as on both sides of a thin
+/// plate or tube.
+template <class ConcurrencyTag>
+std::vector<double> distances_of_sheets(const Surface_fit_3& fit, double greatest) {
   using Index = Data_points_3::Index;
   const Data_points_3& data = fit.data();
   const Eigen::Matrix3d to_space = fit.normalization().matrix.inverse();
   const Point_tree_3 tree(data.points);
   std::vector<double> distances(data.size(), std::numeric_limits<double>::infinity());
+  constexpr double most_spacings = 10; // so that each point asks for a bounded number of others
   const auto measure = [&](std::size_t i) {
-    const double reach = std::hypot(greatest * fit.normalization().greatest_stretch(), data.spacing[i]);
+    const double limit = std::min(greatest * fit.normalization().greatest_stretch(), most_spacings * data.spacing[i]);
+    const double reach = std::hypot(limit, data.spacing[i]);
     const auto ball = connected_ball(data, Index(i), 1.3 * reach);
     const std::unordered_set<Index> connected(ball.begin(), ball.end());
     const Eigen::Vector3d normal = (fit.normalization().matrix.transpose() * data.normals[i]).normalized();
@@ -41,7 +44,7 @@ inline std::vector<double> distances_of_sheets(const Surface_fit_3& fit, double 
         distances[i] = std::min(distances[i], std::abs((to_space * difference).dot(normal)));
     });
   };
-  parallel_for<CGAL::Parallel_if_available_tag>(0, data.size(), measure, 64);
+  parallel_for<ConcurrencyTag>(0, data.size(), measure, 64);
   std::erase_if(distances, [&](double distance) { return !(distance < greatest); });
   return distances;
 }

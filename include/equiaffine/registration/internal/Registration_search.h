@@ -40,7 +40,8 @@ public:
   Registration_search(const Framed_surface_3& source, const Framed_surface_3& target,
                       const Registration_request& request)
       : source_(source), target_(target), request_(request),
-        tolerance_(request.tolerance.value_or(std::max(exact_tolerance, 8 * std::max(source.noise, target.noise)))) {}
+        tolerance_(request.tolerance.value_or(
+            std::clamp(8 * std::max(source.noise, target.noise), exact_tolerance, greatest_tolerance))) {}
 
   void run() {
     const auto points = points_to_try<ConcurrencyTag>(source_, request_.kind, most_points_to_try);
@@ -87,7 +88,7 @@ private:
   static constexpr std::size_t more_hypotheses = 60;
   /// The tolerance of surfaces without noise is that of splines through samples. Smooth surfaces that have nothing in
   /// common can be moved onto each other to within 1e-2 of their size, and large parts of them to within 1e-3 or less.
-  static constexpr double exact_tolerance = 1e-5, rounding = 1e-8;
+  static constexpr double exact_tolerance = 1e-5, greatest_tolerance = 3e-3, rounding = 1e-8;
   static constexpr double greatest_first_tolerance = 0.03;
   static constexpr double first_log10 = -1.5; ///< hypotheses that are no better than this are not refined
   static constexpr double second_log10 = -4;  ///< those that are no better after a few steps are given up

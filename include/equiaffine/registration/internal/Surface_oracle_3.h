@@ -4,6 +4,7 @@
 
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/number/Jet_3.h>
+#include <equiaffine/registration/certainty_of_fit.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>
@@ -70,15 +71,10 @@ public:
   }
 
   double certainty(const Eigen::Vector3d& p) const override {
-    if constexpr (requires { traits_.structure(point(p)).error; }) {
-      const auto fit = traits_.structure(point(p));
-      const auto& affine = fit.structure.affine;
-      const double size = std::abs(affine.gaussian_curvature) + affine.mean_curvature * affine.mean_curvature;
-      const double part = fit.error.gaussian_curvature / size;
-      return std::isfinite(part) ? 1 / (1 + 10 * part) : 0;
-    } else {
-      return 1;
-    }
+    if constexpr (requires { traits_.certainty(point(p)); }) return traits_.certainty(point(p));
+    else if constexpr (requires { traits_.structure(point(p)).error; })
+      return certainty_of_fit(traits_.structure(point(p)));
+    else return 1;
   }
 
 private:
