@@ -24,8 +24,7 @@ struct Draft {
   Attribute_selection attributes = select_attributes("basic");
   std::vector<std::string> estimates; ///< the columns of errors and of noise that are asked for
   Estimator estimator = Estimator::COMPACT;
-  Page_options page;
-  Picture_options picture;
+  Display_options display;
   bool samples_are_float = false;
   Map_kind map_kind = Map_kind::AFFINE;
   bool allows_reflections = true;
@@ -33,7 +32,7 @@ struct Draft {
   double least_overlap = 0.05;
   std::optional<double> tolerance;
   std::string mesh, points; ///< the files that `view` and `annotate`, and that `evaluate` reads
-  std::optional<std::string> output, moved, html, png, curves, stats;
+  std::optional<std::string> output, moved, curves, stats;
 };
 
 } // namespace equiaffine

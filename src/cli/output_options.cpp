@@ -103,15 +103,16 @@ void read_estimator(const Option_words& option, Draft& draft) {
 }
 
 void read_up(const Option_words& option, Draft& draft) {
-  draft.page.up = parse_choice<std::array<double, 3>>(option, {{"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}});
+  draft.display.up =
+      parse_choice<std::array<double, 3>>(option, {{"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}});
 }
 
 void read_size(const Option_words& option, Draft& draft) {
   constexpr std::size_t least = 100, most = 10'000; // for a legend, and for memory
   for (std::size_t n = 0; n < 2; ++n) {
     const std::string& word = option.words[n];
-    draft.picture.size[n] = parse_count(option.name, word, least);
-    if (draft.picture.size[n] > most)
+    draft.display.size[n] = parse_count(option.name, word, least);
+    if (draft.display.size[n] > most)
       fail_option(option.name, "'" + word + "' is more than 10000", "give fewer pixels");
   }
 }
@@ -121,7 +122,7 @@ void read_range(const Option_words& option, Draft& draft) {
   const double low = parse_finite_number(name, words[0]), high = parse_finite_number(name, words[1]);
   if (!(low < high))
     fail_option(name, "'" + words[0] + "' is not less than '" + words[1] + "'", "give the smaller number first");
-  draft.page.range = {low, high};
+  draft.display.range = {low, high};
 }
 
 void read_output(const Option_words& option, Draft& draft) { draft.output = option.word(); }
@@ -162,13 +163,13 @@ const std::vector<Option_row> rows = {
      read_estimator},
     {"--html", MESH | ANNOTATE | registering, OUTPUT, 1, "PAGE.html",
      "also a web page to look at the surface, without network",
-     [](const Option_words& option, Draft& draft) { draft.html = option.word(); }},
+     [](const Option_words& option, Draft& draft) { draft.display.html = option.word(); }},
     {"--png", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "PICTURE.png",
      "also a picture, which is what the page shows first; needs no display",
-     [](const Option_words& option, Draft& draft) { draft.png = option.word(); }},
+     [](const Option_words& option, Draft& draft) { draft.display.png = option.word(); }},
     {"--color", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "NAME",
      "the attribute that page and picture show first, or status or plain",
-     [](const Option_words& option, Draft& draft) { draft.page.color = option.word(); }},
+     [](const Option_words& option, Draft& draft) { draft.display.color = option.word(); }},
     {"--up", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "x|y|z", "the axis that points up on them, by default z",
      read_up},
     {"--size", MESH | VIEW | ANNOTATE | registering, OUTPUT, 2, "WIDTH HEIGHT",
@@ -179,7 +180,7 @@ const std::vector<Option_row> rows = {
      read_range},
     {"--arrows", MESH | VIEW | ANNOTATE | SYMMETRIES, OUTPUT, 1, "VECTOR",
      "arrows on the picture, such as affine_normal",
-     [](const Option_words& option, Draft& draft) { draft.picture.arrows = option.word(); }},
+     [](const Option_words& option, Draft& draft) { draft.display.arrows = option.word(); }},
     {"--parabolic-curves", MESH, OUTPUT, 1, "CURVES",
      "also the curves on the surface where gaussian_curvature is 0 and changes its sign:\n"
      ".obj" +

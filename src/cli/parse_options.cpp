@@ -62,7 +62,7 @@ bool has_color(const Draft& draft, const std::string& name) {
 void check_page(const Option_reader& reader) {
   refuse_page_options(reader);
   const Draft& draft = reader.draft();
-  const std::string &arrows = draft.picture.arrows, &color = draft.page.color;
+  const std::string &arrows = draft.display.arrows, &color = draft.display.color;
   if (!arrows.empty() && !has_vector(draft.attributes, arrows))
     fail_option("--arrows", "'" + arrows + "' is not among the vectors that are computed",
                 "name one of them, such as affine_normal, or add it to --attributes");
@@ -91,7 +91,7 @@ Mesh_options read_mesh_options(Option_reader& reader) {
   check_page(reader);
   Draft& draft = reader.draft();
   check_scheme(draft);
-  check_outputs(input_files(reader), {draft.output, draft.html, draft.png, draft.curves, draft.stats});
+  check_outputs(input_files(reader), {draft.output, draft.display.html, draft.display.png, draft.curves, draft.stats});
 
   Mesh_options options;
   options.source = std::move(draft.source);
@@ -102,17 +102,14 @@ Mesh_options read_mesh_options(Option_reader& reader) {
   if (draft.is_delaunay) options.method = draft.delaunay;
   else options.method = draft.marching_cubes;
   options.source.estimates_errors =
-      !draft.estimates.empty() || ((draft.html || draft.png) && has_column_with_error(draft));
+      !draft.estimates.empty() || (draft.display.shows_something() && has_column_with_error(draft));
   options.estimates = std::move(draft.estimates);
   options.attributes = std::move(draft.attributes);
   options.estimator = draft.estimator;
   options.output = *draft.output;
-  options.html = draft.html;
-  options.png = draft.png;
   options.curves = draft.curves;
   options.stats = draft.stats;
-  options.page = draft.page;
-  options.picture = draft.picture;
+  options.display = draft.display;
   return options;
 }
 
@@ -146,10 +143,12 @@ View_options read_view_options(Option_reader& reader) {
   refuse_picture_options(reader);
   reader.read_rest();
   const Draft& draft = reader.draft();
-  if (!draft.output && !draft.png)
+  if (!draft.output && !draft.display.png)
     throw Input_error("no output is given; name the page, -o PAGE.html, or the picture, --png FILE.png");
-  check_outputs(input_files(reader), {draft.output, draft.png});
-  return {draft.mesh, draft.output, draft.png, draft.page, draft.picture};
+  check_outputs(input_files(reader), {draft.output, draft.display.png});
+  View_options options{draft.mesh, draft.display};
+  options.display.html = draft.output;
+  return options;
 }
 
 Annotate_options read_annotate_options(Option_reader& reader) {
@@ -162,9 +161,9 @@ Annotate_options read_annotate_options(Option_reader& reader) {
   reader.read_rest();
   check_page(reader);
   const Draft& draft = reader.draft();
-  check_outputs(input_files(reader), {draft.output, draft.html, draft.png, draft.stats});
-  return {draft.mesh, draft.source.fit, draft.orientation, draft.attributes, draft.estimates, *draft.output,
-          draft.html, draft.png,        draft.stats,       draft.page,       draft.picture};
+  check_outputs(input_files(reader), {draft.output, draft.display.html, draft.display.png, draft.stats});
+  return {draft.mesh,      draft.source.fit, draft.orientation, draft.attributes,
+          draft.estimates, *draft.output,    draft.stats,       draft.display};
 }
 
 } // namespace

@@ -62,7 +62,7 @@ void read_outputs(Option_reader& reader, std::initializer_list<std::string_view>
   refuse_picture_options(reader);
   refuse_page_options(reader);
   reader.read_rest();
-  const std::string& color = reader.draft().page.color;
+  const std::string& color = reader.draft().display.color;
   if (!color.empty() && std::find(colors.begin(), colors.end(), color) == colors.end())
     fail_option("--color", "'" + color + "' is not known", "use distance or plain");
 }
@@ -77,17 +77,14 @@ Register_options make_register_options(Option_reader& reader, Option_reader& tar
   std::vector<std::string> inputs = input_files(reader);
   for (const std::string& file : input_files(target_reader)) inputs.push_back(file);
   const Draft& draft = reader.draft();
-  check_outputs(inputs, {draft.output, draft.moved, draft.html, draft.png});
+  check_outputs(inputs, {draft.output, draft.moved, draft.display.html, draft.display.png});
   options.kind = draft.map_kind;
   options.allows_reflections = draft.allows_reflections;
   options.number_of_maps = draft.number_of_maps;
   options.least_overlap = draft.least_overlap;
   options.output = *draft.output;
   options.moved = draft.moved;
-  options.html = draft.html;
-  options.png = draft.png;
-  options.page = draft.page;
-  options.picture = draft.picture;
+  options.display = draft.display;
   return options;
 }
 
@@ -113,13 +110,10 @@ Symmetries_options read_symmetries_options(Option_reader& reader) {
   options.surface = read_surface(reader);
   read_outputs(reader, {"distance", "plain"});
   const Draft& draft = reader.draft();
-  check_outputs(input_files(reader), {draft.output, draft.html, draft.png});
+  check_outputs(input_files(reader), {draft.output, draft.display.html, draft.display.png});
   options.tolerance = draft.tolerance;
   options.output = *draft.output;
-  options.html = draft.html;
-  options.png = draft.png;
-  options.page = draft.page;
-  options.picture = draft.picture;
+  options.display = draft.display;
   return options;
 }
 

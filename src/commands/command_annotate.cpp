@@ -10,7 +10,6 @@
 #include "system/name_of_file.h"
 #include <equiaffine/Input_error.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -48,16 +47,11 @@ Description make_description(const Annotate_options& options, const Annotation_s
 struct Outputs {
   explicit Outputs(const Annotate_options& options) {
     check_vertices_output(options.output);
-    if (options.html) check_page_output(*options.html);
-    if (options.png) check_picture_output(*options.png);
+    check_display_outputs(options.display);
     if (options.stats) check_statistics_output(*options.stats);
     files.emplace_back(options.output);
-    for (const auto& output : {options.html, options.png, options.stats})
+    for (const auto& output : {options.display.html, options.display.png, options.stats})
       if (output) files.emplace_back(*output);
-  }
-
-  bool use_standard_output() const {
-    return std::any_of(files.begin(), files.end(), [](const Output_file& output) { return output.path() == "-"; });
   }
 
   std::vector<Output_file> files; // the vertices, then those of page, picture, statistics that were asked for
@@ -65,7 +59,7 @@ struct Outputs {
 
 void check_has_faces(const Annotate_options& options, const std::string& name,
                      const Indexed_triangle_mesh_3<Kernel>& mesh) {
-  if ((options.html || options.png) && mesh.triangles.empty())
+  if (options.display.shows_something() && mesh.triangles.empty())
     throw Input_error("cannot show '" + name + "': it has no faces; give a mesh, or leave out --html and --png");
 }
 
@@ -91,10 +85,8 @@ void run_annotate(const Annotate_options& options, std::ostream& out, Progress& 
   auto file = outputs.files.begin();
   write_vertices(*file++, table, attributes);
   add_errors(estimates, attributes);
-  if (options.html)
-    write_page(*file++, table.mesh, attributes, options.page, page_title(options.output, name),
-               make_description(options, statistics));
-  if (options.png) write_picture(*file++, table.mesh, attributes, options.page, options.picture);
+  file = write_displays(file, table.mesh, attributes, options.display, page_title(options.output, name),
+                        make_description(options, statistics));
   for (Output_file& output : outputs.files) output.close();
   statistics.write_seconds = write_stopwatch.seconds();
   if (options.stats) file->stream() << to_JSON(statistics);
@@ -102,7 +94,7 @@ void run_annotate(const Annotate_options& options, std::ostream& out, Progress& 
   commit_all(outputs.files);
   warn_of_opposed_normals(table, progress);
   warn_of_doubt(statistics.fit, options.fit, progress);
-  if (outputs.use_standard_output()) return;
+  if (use_standard_output(outputs.files)) return;
   out << summary(statistics);
   report_written(out, outputs.files);
 }

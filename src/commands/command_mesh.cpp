@@ -22,7 +22,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -168,30 +167,24 @@ Statistics make_statistics(const Mesh_options& options, const Annotated_surface&
   return statistics;
 }
 
-std::string text_of(double number) {
-  std::ostringstream text;
-  text << number;
-  return text.str();
-}
-
 /// The rows of the matrix, and the translation if there is one.
 std::string text_of(const CGAL::Aff_transformation_3<Kernel>& map) {
   std::string text;
   bool has_translation = false;
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) text += (column > 0 ? " " : "") + text_of(map.m(row, column));
+    for (int column = 0; column < 3; ++column) text += (column > 0 ? " " : "") + number_text(map.m(row, column));
     text += row < 2 ? "; " : "";
     has_translation = has_translation || map.m(row, 3) != 0;
   }
   if (has_translation)
-    text += ", then by " + text_of(map.m(0, 3)) + " " + text_of(map.m(1, 3)) + " " + text_of(map.m(2, 3));
+    text += ", then by " + number_text(map.m(0, 3)) + " " + number_text(map.m(1, 3)) + " " + number_text(map.m(2, 3));
   return text;
 }
 
 Description make_description(const Mesh_options& options, const Statistics& statistics) {
-  Description description = {{"Level set f =", text_of(options.isovalue)}, {"of", statistics.source}};
+  Description description = {{"Level set f =", number_text(options.isovalue)}, {"of", statistics.source}};
   for (const auto& [name, value] : options.source.constants)
-    description.emplace_back("with " + name + " =", text_of(value));
+    description.emplace_back("with " + name + " =", number_text(value));
   if (const auto& map = options.source.transformation) {
     description.emplace_back("transformed by", text_of(*map));
   }
@@ -215,17 +208,12 @@ std::string summary(const Parabolic_curves_3<Kernel>& curves) {
 struct Outputs {
   explicit Outputs(const Mesh_options& options) {
     check_surface_output(options.output);
-    if (options.html) check_page_output(*options.html);
-    if (options.png) check_picture_output(*options.png);
+    check_display_outputs(options.display);
     if (options.curves) check_curves_output(*options.curves);
     if (options.stats) check_statistics_output(*options.stats);
     files.emplace_back(options.output);
-    for (const auto& output : {options.html, options.png, options.curves, options.stats})
+    for (const auto& output : {options.display.html, options.display.png, options.curves, options.stats})
       if (output) files.emplace_back(*output);
-  }
-
-  bool use_standard_output() const {
-    return std::any_of(files.begin(), files.end(), [](const Output_file& output) { return output.path() == "-"; });
   }
 
   std::vector<Output_file> files; // the mesh, then those of page, picture, curves, statistics that were asked for
@@ -250,12 +238,9 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   auto file = outputs.files.begin();
   write_surface(*file++, surface.mesh, surface.attributes);
   if (options.source.estimates_errors) add_errors(surface.estimates, surface.attributes);
-  if (options.html)
-    write_page(*file++, surface.mesh, surface.attributes, options.page, page_title(options.output, statistics.source),
-               make_description(options, statistics));
-  if (options.png)
-    write_picture(*file++, surface.mesh, surface.attributes, options.page, options.picture,
-                  surface.curves ? surface.curves->polylines : std::vector<Polyline_3<Kernel>>());
+  file = write_displays(file, surface.mesh, surface.attributes, options.display,
+                        page_title(options.output, statistics.source), make_description(options, statistics),
+                        surface.curves ? surface.curves->polylines : std::vector<Polyline_3<Kernel>>());
   if (options.curves) write_curves(*file++, *surface.curves);
   for (Output_file& output : outputs.files) output.close();
   statistics.write_seconds = write_stopwatch.seconds();
@@ -267,7 +252,7 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
                     surface.mesh.points.size(), "vertices", progress);
   if (statistics.close_sheets) warn_of_close_sheets(*statistics.close_sheets, progress);
   if (statistics.fit) warn_of_doubt(*statistics.fit, options.source.fit, progress);
-  if (!outputs.use_standard_output()) {
+  if (!use_standard_output(outputs.files)) {
     out << summary(statistics);
     if (options.curves) out << summary(*surface.curves);
     report_written(out, outputs.files);

@@ -10,8 +10,6 @@
 
 #include <CGAL/tags.h>
 
-#include <algorithm>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,13 +30,6 @@ Surface_registration_3<Kernel> register_with(const Register_options& options, co
                                                             target.mesh.points, parameters);
 }
 
-std::string text_of(double number) {
-  std::ostringstream text;
-  text.precision(3);
-  text << number;
-  return text.str();
-}
-
 Description make_description(const Registration_report& report) {
   const bool is_found = report.registration.found();
   Description description = {
@@ -48,12 +39,12 @@ Description make_description(const Registration_report& report) {
     return description;
   }
   const auto& best = report.registration.best();
-  description.emplace_back("log10 of false alarms", text_of(best.log10_false_alarms));
-  description.emplace_back("on the other surface", text_of(100 * best.inliers[0]) + " % of the source, " +
-                                                       text_of(100 * best.inliers[1]) + " % of the target");
-  description.emplace_back("rms distance", text_of(best.rms));
+  description.emplace_back("log10 of false alarms", number_text(best.log10_false_alarms, 3));
+  description.emplace_back("on the other surface", number_text(100 * best.inliers[0], 3) + " % of the source, " +
+                                                       number_text(100 * best.inliers[1], 3) + " % of the target");
+  description.emplace_back("rms distance", number_text(best.rms, 3));
   if (const auto& next = report.registration.next_best_rms)
-    description.emplace_back("of the next best", text_of(*next));
+    description.emplace_back("of the next best", number_text(*next, 3));
   description.emplace_back("surface", best.pair ? "0 target, 1 moved source, 2 and 3 the frames of the pair of points"
                                                 : "0 target, 1 moved source");
   return description;
@@ -63,11 +54,10 @@ Description make_description(const Registration_report& report) {
 struct Outputs {
   explicit Outputs(const Register_options& options) {
     check_maps_output(options.output);
-    if (options.html) check_page_output(*options.html);
-    if (options.png) check_picture_output(*options.png);
+    check_display_outputs(options.display);
     if (options.moved) check_surface_output(*options.moved);
     files.emplace_back(options.output);
-    for (const auto& output : {options.html, options.png, options.moved})
+    for (const auto& output : {options.display.html, options.display.png, options.moved})
       if (output) files.emplace_back(*output);
   }
 
@@ -78,7 +68,7 @@ struct Outputs {
 
 void run_register(const Register_options& options, std::ostream& out, Progress& progress) {
   Outputs outputs(options);
-  const bool is_shown = options.html || options.png;
+  const bool is_shown = options.display.shows_something();
   const Surface_to_register source = make_surface_to_register(options.source, is_shown, progress);
   const Surface_to_register target = make_surface_to_register(options.target, is_shown, progress);
   progress.begin("looking for the map");
@@ -91,10 +81,8 @@ void run_register(const Register_options& options, std::ostream& out, Progress& 
   file++->stream() << to_JSON(report);
   if (is_shown) {
     const auto [mesh, attributes] = registered_surfaces(source, target, report.registration);
-    if (options.html)
-      write_page(*file++, mesh, attributes, options.page, page_title(options.output, "Registration"),
-                 make_description(report));
-    if (options.png) write_picture(*file++, mesh, attributes, options.page, options.picture);
+    file = write_displays(file, mesh, attributes, options.display, page_title(options.output, "Registration"),
+                          make_description(report));
   }
   if (file != outputs.files.end()) {
     const auto [mesh, attributes] = moved_source(source, target, report.registration.best().map);
@@ -102,7 +90,7 @@ void run_register(const Register_options& options, std::ostream& out, Progress& 
   }
   progress.end();
   commit_all(outputs.files);
-  if (std::any_of(outputs.files.begin(), outputs.files.end(), [](const auto& f) { return f.path() == "-"; })) return;
+  if (use_standard_output(outputs.files)) return;
   out << summary(report);
   report_written(out, outputs.files);
 }

@@ -12,7 +12,6 @@
 
 #include <CGAL/tags.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -32,10 +31,9 @@ double default_tolerance(const Source_options& source) {
 struct Outputs {
   explicit Outputs(const Symmetries_options& options) {
     check_maps_output(options.output);
-    if (options.html) check_page_output(*options.html);
-    if (options.png) check_picture_output(*options.png);
+    check_display_outputs(options.display);
     files.emplace_back(options.output);
-    for (const auto& output : {options.html, options.png})
+    for (const auto& output : {options.display.html, options.display.png})
       if (output) files.emplace_back(*output);
   }
 
@@ -53,7 +51,7 @@ Description make_description(const Symmetries_report& report) {
 
 void run_symmetries(const Symmetries_options& options, std::ostream& out, Progress& progress) {
   Outputs outputs(options);
-  const bool is_shown = options.html || options.png;
+  const bool is_shown = options.display.shows_something();
   const Surface_to_register surface = make_surface_to_register(options.surface, is_shown, progress);
   progress.begin("looking for symmetries");
   const double tolerance = options.tolerance.value_or(default_tolerance(options.surface.source));
@@ -69,17 +67,15 @@ void run_symmetries(const Symmetries_options& options, std::ostream& out, Progre
   file++->stream() << to_JSON(report);
   if (is_shown) {
     const auto [mesh, attributes] = surface_with_symmetries(surface, report.symmetries);
-    if (!options.picture.arrows.empty() && !vector_columns(attributes, options.picture.arrows))
-      throw Input_error("--arrows: there is no vector '" + options.picture.arrows +
+    if (!options.display.arrows.empty() && !vector_columns(attributes, options.display.arrows))
+      throw Input_error("--arrows: there is no vector '" + options.display.arrows +
                         "'; a continuous symmetry has generator1, and more of them if there are more dimensions");
-    if (options.html)
-      write_page(*file++, mesh, attributes, options.page, page_title(options.output, "Symmetries"),
-                 make_description(report));
-    if (options.png) write_picture(*file++, mesh, attributes, options.page, options.picture);
+    write_displays(file, mesh, attributes, options.display, page_title(options.output, "Symmetries"),
+                   make_description(report));
   }
   progress.end();
   commit_all(outputs.files);
-  if (std::any_of(outputs.files.begin(), outputs.files.end(), [](const auto& f) { return f.path() == "-"; })) return;
+  if (use_standard_output(outputs.files)) return;
   out << summary(report);
   report_written(out, outputs.files);
 }

@@ -41,26 +41,22 @@ void check_arrows(const std::string& arrows, const Vertex_attributes& attributes
 } // namespace
 
 void run_view(const View_options& options, std::ostream& out) {
-  if (options.html) check_page_output(*options.html);
-  if (options.png) check_picture_output(*options.png);
+  check_display_outputs(options.display);
   std::vector<Output_file> outputs;
-  for (const auto& path : {options.html, options.png})
+  for (const auto& path : {options.display.html, options.display.png})
     if (path) outputs.emplace_back(*path);
   const std::string name = options.mesh == "-" ? "standard input" : name_of_file(options.mesh);
   const Annotated_mesh_3<Kernel> surface = read_mesh(options.mesh);
   if (surface.mesh.triangles.empty()) throw Input_error("cannot show '" + name + "': it has no faces; give a mesh");
-  check_color(options.page.color, surface.attributes);
-  check_arrows(options.picture.arrows, surface.attributes);
-  if (options.html)
-    write_page(outputs.front(), surface.mesh, surface.attributes, options.page, page_title(options.mesh, "Surface"),
-               {{"File", name},
-                {"Vertices", std::to_string(surface.mesh.points.size())},
-                {"Triangles", std::to_string(surface.mesh.triangles.size())}});
-  if (options.png) write_picture(outputs.back(), surface.mesh, surface.attributes, options.page, options.picture);
-  for (Output_file& output : outputs) output.close();
+  check_color(options.display.color, surface.attributes);
+  check_arrows(options.display.arrows, surface.attributes);
+  write_displays(outputs.begin(), surface.mesh, surface.attributes, options.display,
+                 page_title(options.mesh, "Surface"),
+                 {{"File", name},
+                  {"Vertices", std::to_string(surface.mesh.points.size())},
+                  {"Triangles", std::to_string(surface.mesh.triangles.size())}});
   commit_all(outputs);
-  if (options.html == "-" || options.png == "-") return;
-  report_written(out, outputs);
+  if (!use_standard_output(outputs)) report_written(out, outputs);
 }
 
 } // namespace equiaffine

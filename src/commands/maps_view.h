@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What pages, pictures and meshes show of maps of surfaces.
+// These functions make the meshes by which pages, pictures and files show maps of surfaces.
 #ifndef EQUIAFFINE_SRC_COMMANDS_MAPS_VIEW_H
 #define EQUIAFFINE_SRC_COMMANDS_MAPS_VIEW_H
 

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
 namespace equiaffine {
@@ -85,43 +86,53 @@ void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves) {
   write_OBJ(file.stream(), curves);
 }
 
-void check_page_output(const std::string& path) { check_extension(path, {".html", ".htm"}, "a page", ".html"); }
-
 void check_statistics_output(const std::string& path) {
   check_extension(path, {".json"}, "a file of statistics", ".json");
 }
 
 void check_maps_output(const std::string& path) { check_extension(path, {".json"}, "a file of maps", ".json"); }
 
-void check_picture_output(const std::string& path) {
-  if (!has_vtk) throw Input_error("cannot write '" + path + "': this equiaffine was built without VTK; use --html");
-  if (path != "-" && !has_extension(path, ".png"))
-    throw Input_error("cannot write '" + path + "': a picture is a PNG file; give it the extension .png");
-}
-
-void write_picture([[maybe_unused]] Output_file& file, [[maybe_unused]] const Indexed_triangle_mesh_3<Kernel>& mesh,
-                   [[maybe_unused]] const Vertex_attributes& attributes, [[maybe_unused]] const Page_options& options,
-                   [[maybe_unused]] const Picture_options& picture,
-                   [[maybe_unused]] const std::vector<Polyline_3<Kernel>>& curves) {
-#ifdef EQUIAFFINE_WITH_VTK
-  const Surface_view view = {options.color, options.up, picture.size, options.range, picture.arrows};
-  write_PNG(file.stream(), draw_surface(mesh, attributes, view, curves));
-#endif
+std::string number_text(double number, int digits) {
+  std::ostringstream text;
+  text.precision(digits);
+  text << number;
+  return text.str();
 }
 
 std::string page_title(const std::string& path, const std::string& otherwise) {
   return path == "-" ? otherwise : std::filesystem::path(path).stem().string();
 }
 
-void write_page(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                const Page_options& options, const std::string& title, const Description& description) {
-  Html_options page;
-  page.title = title;
-  page.range = options.range;
-  page.color = attributes.columns.empty() && !attributes.status ? "plain" : options.color;
-  page.up = options.up;
-  page.description = description;
-  write_HTML(file.stream(), mesh, attributes, page);
+void check_display_outputs(const Display_options& options) {
+  if (options.html) check_extension(*options.html, {".html", ".htm"}, "a page", ".html");
+  if (!options.png) return;
+  if (!has_vtk)
+    throw Input_error("cannot write '" + *options.png + "': this equiaffine was built without VTK; use --html");
+  if (options.png != "-" && !has_extension(*options.png, ".png"))
+    throw Input_error("cannot write '" + *options.png + "': a picture is a PNG file; give it the extension .png");
+}
+
+std::vector<Output_file>::iterator write_displays(std::vector<Output_file>::iterator file,
+                                                  const Indexed_triangle_mesh_3<Kernel>& mesh,
+                                                  const Vertex_attributes& attributes, const Display_options& options,
+                                                  const std::string& title, const Description& description,
+                                                  [[maybe_unused]] const std::vector<Polyline_3<Kernel>>& curves) {
+  if (options.html) {
+    Html_options page;
+    page.title = title;
+    page.range = options.range;
+    page.color = attributes.columns.empty() && !attributes.status ? "plain" : options.color;
+    page.up = options.up;
+    page.description = description;
+    write_HTML(file++->stream(), mesh, attributes, page);
+  }
+#ifdef EQUIAFFINE_WITH_VTK
+  if (options.png) {
+    const Surface_view view = {options.color, options.up, options.size, options.range, options.arrows};
+    write_PNG(file++->stream(), draw_surface(mesh, attributes, view, curves));
+  }
+#endif
+  return file;
 }
 
 } // namespace equiaffine

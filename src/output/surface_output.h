@@ -34,17 +34,6 @@ void check_curves_output(const std::string& path);
 /// Writes the curves in the format of the path's extension, OBJ for "-", without committing.
 void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves);
 
-/// Throws `Input_error` unless the path ends in .png, or is "-", and pictures can be written.
-void check_picture_output(const std::string& path);
-
-/// Writes the picture, without committing. `options.color` as for `write_page`; the curves are drawn, too.
-void write_picture(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                   const Page_options& options, const Picture_options& picture,
-                   const std::vector<Polyline_3<Kernel>>& curves = {});
-
-/// Throws `Input_error` if the path has an extension that is not that of a page.
-void check_page_output(const std::string& path);
-
 /// Throws `Input_error` if the path has an extension that is not .json.
 void check_statistics_output(const std::string& path);
 
@@ -54,12 +43,23 @@ void check_maps_output(const std::string& path);
 /// The table of a page about its surface, in rows of two cells.
 using Description = std::vector<std::pair<std::string, std::string>>;
 
+/// Returns the number with that many digits for a description.
+std::string number_text(double number, int digits = 6);
+
 /// Returns what a page of the surface in that file is called: the name of the file, or `otherwise` if that is "-".
 std::string page_title(const std::string& path, const std::string& otherwise);
 
-/// Writes the page, without committing. `options.color` is a column, `status`, `plain`, or empty.
-void write_page(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                const Page_options& options, const std::string& title, const Description& description);
+/// Throws `Input_error` if the page has an extension of something else, unless the picture ends in .png or is "-", and if
+/// pictures cannot be written.
+void check_display_outputs(const Display_options& options);
+
+/// Writes the page and the picture that are asked for to the next files, without committing, and returns the file after
+/// them. The curves are drawn on the picture only.
+std::vector<Output_file>::iterator write_displays(std::vector<Output_file>::iterator file,
+                                                  const Indexed_triangle_mesh_3<Kernel>& mesh,
+                                                  const Vertex_attributes& attributes, const Display_options& options,
+                                                  const std::string& title, const Description& description,
+                                                  const std::vector<Polyline_3<Kernel>>& curves = {});
 
 } // namespace equiaffine
 

@@ -62,17 +62,16 @@ struct Source_options {
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
 };
 
-/// The first view of a page, which is also that of a picture.
-struct Page_options {
+/// The page and the picture that are asked for, and their first view.
+struct Display_options {
+  std::optional<std::string> html, png;
   std::string color; ///< an attribute, `status`, `plain`, or empty
   std::array<double, 3> up = {0, 0, 1};
-  std::optional<std::array<double, 2>> range; ///< the numbers that have the end colors
-};
+  std::optional<std::array<double, 2>> range;    ///< the numbers that have the end colors
+  std::array<std::size_t, 2> size = {1000, 800}; ///< of the picture, in pixels
+  std::string arrows;                            ///< a vector among the attributes, or empty; for the picture
 
-/// Options for a picture that a page does not have.
-struct Picture_options {
-  std::array<std::size_t, 2> size = {1000, 800};
-  std::string arrows; ///< a vector among the attributes, or empty
+  bool shows_something() const { return html || png; }
 };
 
 struct Marching_cubes_options {
@@ -95,9 +94,8 @@ struct Mesh_options {
   std::vector<std::string> estimates; ///< the columns of errors and of noise that the mesh gets
   Estimator estimator = Estimator::COMPACT;
   std::string output;
-  std::optional<std::string> html, png, curves, stats;
-  Page_options page;
-  Picture_options picture;
+  std::optional<std::string> curves, stats;
+  Display_options display;
 };
 
 struct Evaluate_options {
@@ -117,9 +115,7 @@ struct Sample_options {
 
 struct View_options {
   std::string mesh;
-  std::optional<std::string> html, png; ///< one of them is given at least
-  Page_options page;
-  Picture_options picture;
+  Display_options display; ///< with a page or a picture at least
 };
 
 struct Annotate_options {
@@ -129,9 +125,8 @@ struct Annotate_options {
   Attribute_selection attributes;
   std::vector<std::string> estimates; ///< the columns of errors and of noise that are written
   std::string output;
-  std::optional<std::string> html, png, stats;
-  Page_options page;
-  Picture_options picture;
+  std::optional<std::string> stats;
+  Display_options display;
 };
 
 /// A level set among whose points maps are sought.
@@ -147,18 +142,15 @@ struct Register_options {
   std::optional<std::size_t> number_of_maps; ///< if all maps were asked for, up to this number
   double least_overlap = 0.05;               ///< a part of a surface
   std::string output;
-  std::optional<std::string> moved, html, png;
-  Page_options page;
-  Picture_options picture;
+  std::optional<std::string> moved;
+  Display_options display;
 };
 
 struct Symmetries_options {
   Surface_options surface;
   std::optional<double> tolerance; ///< a part of the size of the surface; if there is none, the source decides
   std::string output;
-  std::optional<std::string> html, png;
-  Page_options page;
-  Picture_options picture;
+  Display_options display;
 };
 
 /// A text that was asked for: help or version.

@@ -4,6 +4,7 @@
 #include <equiaffine/Input_error.h>
 #include <equiaffine/base/printable.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <iostream>
 #include <system_error>
@@ -104,6 +105,10 @@ void commit_all(std::span<Output_file> files) {
   for (const bool copied : {true, false})
     for (Output_file& file : files)
       if (file.has_to_be_copied() == copied) file.commit();
+}
+
+bool use_standard_output(std::span<const Output_file> files) {
+  return std::any_of(files.begin(), files.end(), [](const Output_file& file) { return file.is_standard_output(); });
 }
 
 void report_written(std::ostream& out, std::span<const Output_file> files) {

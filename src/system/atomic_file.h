@@ -24,6 +24,8 @@ public:
 
   const std::string& path() const { return path_; }
 
+  bool is_standard_output() const { return path_ == "-"; }
+
   /// Whether the target receives a copy: standard output and devices, which may refuse it.
   bool has_to_be_copied() const { return has_to_be_copied_; }
 
@@ -41,7 +43,6 @@ public:
   void commit();
 
 private:
-  bool is_standard_output() const { return path_ == "-"; }
   void copy_to_target();
   void rename_to_target();
 
@@ -55,6 +56,9 @@ private:
 /// Commits several outputs after all of them were closed without error. Those that are renamed, which hardly fails,
 /// come last: a device that refuses its copy leaves every file as it was.
 void commit_all(std::span<Output_file> files);
+
+/// Whether one of the files is standard output, where nothing else may be written then.
+bool use_standard_output(std::span<const Output_file> files);
 
 /// Tells people which files were written, a line each.
 void report_written(std::ostream& out, std::span<const Output_file> files);

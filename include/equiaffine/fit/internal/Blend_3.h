@@ -97,7 +97,8 @@ public:
 private:
   static constexpr double reach = 0.5, distance_of_centers = 0.4, safety = 0.7;
 
-  /// Of R in the weights: on a bowl whose density jumps by ten, it took the error of K beside the jump from 1e-2 to 3e-6.
+  /// Weights fall with this power of the radius, so that small fits win: on a bowl whose density jumps by ten, that took
+  /// the error of K beside the jump from 1e-2 to 3e-6.
   static constexpr double power_of_radius = 8;
 
   /// Feet may be farther apart than the data are. A spacing of this part of their distance makes a band that reaches
@@ -195,7 +196,8 @@ private:
     return result;
   }
 
-  /// Where the surface does not go on beside the foot of a point: no neighbor, and no other point nearby, is there.
+  /// Returns the gap beside the foot of a point where the surface does not go on, if there is one: neither a neighbor nor
+  /// another point nearby is there.
   static std::optional<Border_gap_3> gap(const Data_points_3& data,
                                          const std::vector<std::optional<Band_point_3>>& feet, Data_points_3::Index i) {
     if (!feet[i]) return {};
