@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "attributes/attribute_task.h"
 #include "attributes/estimates.h"
 #include "commands/commands.h"
+#include "engine/Engine.h"
 #include "output/statistics.h"
 #include "source/source.h"
 #include "source/warnings.h"
@@ -50,8 +50,8 @@ void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& 
   progress.begin("computing attributes");
   Vertex_attributes attributes = std::visit(
       [&]<class Traits>(const Traits& function) {
-        return compute_attributes(
-            Attribute_task<Traits>{function, options.orientation, points, options.attributes, options.estimator});
+        return engine<Traits>().compute_attributes(
+            {function, options.orientation, points, options.attributes, options.estimator});
       },
       source.function);
   if (options.source.estimates_errors)

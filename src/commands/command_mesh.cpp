@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "attributes/attribute_task.h"
 #include "attributes/estimates.h"
 #include "commands/commands.h"
 #include "commands/extract_surface.h"
 #include "commands/fail_without_surface.h"
 #include "commands/remove_crumbs.h"
+#include "engine/Engine.h"
 #include "output/statistics.h"
 #include "output/surface_output.h"
 #include "source/source.h"
@@ -15,7 +15,6 @@
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/delaunay_surface.h>
 #include <equiaffine/parabolic_curves.h>
-#include <equiaffine/surface/distance_to_surface.h>
 
 #include <algorithm>
 #include <array>
@@ -127,13 +126,13 @@ Annotated_surface make_surface(const Traits& function, const Source& source, con
     for (auto& triangle : surface.mesh.triangles) std::swap(triangle[1], triangle[2]);
   const Stopwatch stopwatch;
   progress.begin("computing attributes");
-  surface.max_distance = max_distance_to_surface<CGAL::Parallel_if_available_tag>(level_set, surface.mesh.points,
-                                                                                  surface.mesh.vertex_status);
+  surface.max_distance =
+      engine<Traits>().max_distance_to_surface(level_set, surface.mesh.points, surface.mesh.vertex_status);
   surface.mesh.function_evaluations += 2 * surface.mesh.points.size();
   Attribute_selection selection = options.attributes;
   selection.has_status = true; // even if it is not written: the statistics count it
-  surface.attributes = compute_attributes(Attribute_task<Traits>{
-      function, options.orientation, surface.mesh.points, selection, options.estimator, surface.mesh.vertex_status});
+  surface.attributes = engine<Traits>().compute_attributes(
+      {function, options.orientation, surface.mesh.points, selection, options.estimator, surface.mesh.vertex_status});
   surface.mesh.function_evaluations += surface.mesh.points.size();
   surface.status = count(*surface.attributes.status);
   surface.estimates = estimates_at(source, options.source, surface.mesh.points);

@@ -2,12 +2,10 @@
 #ifndef EQUIAFFINE_SRC_COMMANDS_EXTRACT_SURFACE_H
 #define EQUIAFFINE_SRC_COMMANDS_EXTRACT_SURFACE_H
 
+#include "engine/Engine.h"
 #include "request/options.h"
 #include "source/source.h"
 #include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/marching_cubes.h>
-
-#include <CGAL/tags.h>
 
 namespace equiaffine {
 
@@ -15,11 +13,8 @@ namespace equiaffine {
 template <class Traits>
 Isosurface_3<Kernel> extract_surface(const Level_set_traits_3<Traits>& function, const Source_options& options,
                                      Vertex_position vertices) {
-  const auto parameters = parameters::vertex_position(vertices).number_of_nodes(
-      options.resolution.value_or(default_resolution(options.kind)));
-  if constexpr (is_fit<Traits>)
-    return marching_cubes<CGAL::Parallel_if_available_tag>(function, parameters.skip_empty_space());
-  else return marching_cubes<CGAL::Parallel_if_available_tag>(function, parameters);
+  return engine<Traits>().marching_cubes(function, options.resolution.value_or(default_resolution(options.kind)),
+                                         vertices);
 }
 
 } // namespace equiaffine

@@ -234,11 +234,14 @@ TYPED_TEST_P(Conformance, batches_are_single_calls_bit_for_bit) {
   const auto points = TypeParam::points();
   std::vector<double> values(points.size());
   std::vector<Jet_3<double>> jets(points.size());
+  std::vector<Jet_3<double, 1>> first_orders(points.size());
   traits.values(points, values);
   traits.taylors(points, jets);
+  traits.first_orders(points, first_orders);
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_TRUE(same_bits(values[i], double(traits.value(points[i]))));
     EXPECT_TRUE(same_bits(jets[i], traits.taylor(points[i])));
+    EXPECT_TRUE(same_bits(first_orders[i], equiaffine::first_order(traits, points[i])));
   }
 }
 

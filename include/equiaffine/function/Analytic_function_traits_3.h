@@ -4,6 +4,7 @@
 
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/function/internal/box_intervals.h>
+#include <equiaffine/function/internal/evaluate_points.h>
 #include <equiaffine/function/internal/expand.h>
 #include <equiaffine/number/Pack.h>
 
@@ -16,8 +17,8 @@
 
 namespace equiaffine {
 
-/// A model of FirstOrderImplicitFunctionTraits_3 and, if the function takes Interval, of
-/// FirstOrderBoundedImplicitFunctionTraits_3, for a function given as code: `f(x, y, z)`, templated on its number type,
+/// A model of FirstOrderBatchImplicitFunctionTraits_3 and, if the function takes Interval, of
+/// SecondOrderBoundedImplicitFunctionTraits_3, for a function given as code: `f(x, y, z)`, templated on its number type,
 /// const and callable from several threads.
 ///
 ///     struct Sphere {
@@ -44,6 +45,27 @@ public:
   Jet_3<FT> taylor(const Point_3& p) const {
     if constexpr (internal::HasTaylor<Function, FT>) return function_.taylor(p.x(), p.y(), p.z());
     else return internal::expand<4, FT>(function_, p.x(), p.y(), p.z());
+  }
+
+  /// values[i] becomes value(points[i]), by f(x, y, z, values) on spans if the function has that.
+  void values(std::span<const Point_3> points, std::span<FT> values) const {
+    internal::values_at<FT>(function_, points, values);
+  }
+
+  /// jets[i] becomes first_order(points[i]), computed in packs unless a comparison differs between points.
+  void first_orders(std::span<const Point_3> points, std::span<Jet_3<FT, 1>> jets) const {
+    if constexpr (std::is_floating_point_v<FT>) {
+      try {
+        return internal::expand_in_packs<1, FT>(function_, points, jets);
+      } catch (const Lanes_disagree&) {
+      }
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) jets[i] = first_order(points[i]);
+  }
+
+  /// jets[i] becomes taylor(points[i]).
+  void taylors(std::span<const Point_3> points, std::span<Jet_3<FT>> jets) const {
+    for (std::size_t i = 0; i < points.size(); ++i) jets[i] = taylor(points[i]);
   }
 
   /// jets[n] becomes the expansion at the points x[n], y[n], z[n], one in each lane. A comparison in the function, such

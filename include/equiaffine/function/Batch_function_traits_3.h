@@ -12,7 +12,7 @@
 
 namespace equiaffine {
 
-/// Makes any model of ImplicitFunctionTraits_3 a model of BatchImplicitFunctionTraits_3. It calls the batch members of
+/// Makes any model of ImplicitFunctionTraits_3 a model of FirstOrderBatchImplicitFunctionTraits_3. It calls the batch members of
 /// a base that has them and loops over single calls otherwise. All other members of the base stay available.
 template <ImplicitFunctionTraits_3 Traits>
 class Batch_function_traits_3 : public Traits {
@@ -28,6 +28,15 @@ public:
     if constexpr (BatchImplicitFunctionTraits_3<Traits>) Traits::values(points, values);
     else
       for (std::size_t i = 0; i < points.size(); ++i) values[i] = Traits::value(points[i]);
+  }
+
+  /// jets[i] = first_order(points[i]); the spans have the same size.
+  void first_orders(std::span<const Point_3> points, std::span<Jet_3<FT, 1>> jets) const {
+    CGAL_precondition(points.size() == jets.size());
+    if constexpr (FirstOrderBatchImplicitFunctionTraits_3<Traits>) Traits::first_orders(points, jets);
+    else
+      for (std::size_t i = 0; i < points.size(); ++i)
+        jets[i] = equiaffine::first_order(static_cast<const Traits&>(*this), points[i]);
   }
 
   /// jets[i] = taylor(points[i]); the spans have the same size.

@@ -21,9 +21,8 @@ enum class Orientation_of_level_set {
 };
 
 /// The function f - v, or v - f for AGAINST_GRADIENT, whose zero set is the level set f = v with the chosen
-/// orientation. It is a model of every refinement of the concept that the base is a model of, except
-/// BatchImplicitFunctionTraits_3. Reversing the orientation changes the sign of nu, xi, H, J, H_e and of the metric,
-/// and keeps K and K_e.
+/// orientation. It is a model of every refinement of the concept that the base is a model of. Reversing the orientation
+/// changes the sign of nu, xi, H, J, H_e and of the metric, and keeps K and K_e.
 template <ImplicitFunctionTraits_3 Base>
 class Level_set_traits_3 {
 public:
@@ -39,6 +38,21 @@ public:
   FT value(const Point_3& p) const { return shifted(base_.value(p)); }
   Jet_3<FT, 1> first_order(const Point_3& p) const { return shifted(equiaffine::first_order(base_, p)); }
   Jet_3<FT> taylor(const Point_3& p) const { return shifted(base_.taylor(p)); }
+  void values(std::span<const Point_3> points,
+              std::span<FT> values) const requires BatchImplicitFunctionTraits_3<Base> {
+    base_.values(points, values);
+    for (FT& value : values) value = shifted(value);
+  }
+  void first_orders(std::span<const Point_3> points,
+                    std::span<Jet_3<FT, 1>> jets) const requires FirstOrderBatchImplicitFunctionTraits_3<Base> {
+    base_.first_orders(points, jets);
+    for (auto& jet : jets) jet = shifted(jet);
+  }
+  void taylors(std::span<const Point_3> points,
+               std::span<Jet_3<FT>> jets) const requires BatchImplicitFunctionTraits_3<Base> {
+    base_.taylors(points, jets);
+    for (auto& jet : jets) jet = shifted(jet);
+  }
   void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
                     std::span<Jet_3<Pack<FT>>> jets) const requires PackImplicitFunctionTraits_3<Base> {
     base_.taylor_packs(x, y, z, jets);

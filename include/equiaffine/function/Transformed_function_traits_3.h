@@ -23,8 +23,7 @@
 namespace equiaffine {
 
 /// The function f o A^-1, whose level sets are the images under A of the level sets of f. A is any invertible affine
-/// map. The function is a model of every refinement of the concept that the base is a model of, except
-/// BatchImplicitFunctionTraits_3.
+/// map. The function is a model of every refinement of the concept that the base is a model of.
 ///
 /// With a = |det A| the affine curvatures change by K' = K / a, H' = H / sqrt(a), J' = J / sqrt(a), the co-normal by
 /// nu' = sqrt(a) A^-T nu and the affine normal by xi' = A xi / sqrt(a).
@@ -47,6 +46,21 @@ public:
     return substitution_(equiaffine::first_order(base_, inverse_(p)));
   }
   Jet_3<FT> taylor(const Point_3& p) const { return substitution_(base_.taylor(inverse_(p))); }
+
+  void values(std::span<const Point_3> points,
+              std::span<FT> values) const requires BatchImplicitFunctionTraits_3<Base> {
+    base_.values(preimages(points), values);
+  }
+  void first_orders(std::span<const Point_3> points,
+                    std::span<Jet_3<FT, 1>> jets) const requires FirstOrderBatchImplicitFunctionTraits_3<Base> {
+    base_.first_orders(preimages(points), jets);
+    for (auto& jet : jets) jet = substitution_(jet);
+  }
+  void taylors(std::span<const Point_3> points,
+               std::span<Jet_3<FT>> jets) const requires BatchImplicitFunctionTraits_3<Base> {
+    base_.taylors(preimages(points), jets);
+    for (auto& jet : jets) jet = substitution_(jet);
+  }
 
   void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
                     std::span<Jet_3<Pack<FT>>> jets) const requires PackImplicitFunctionTraits_3<Base> {
@@ -105,6 +119,13 @@ public:
   const Aff_transformation_3& transformation() const { return map_; }
 
 private:
+  std::vector<Point_3> preimages(std::span<const Point_3> points) const {
+    std::vector<Point_3> result;
+    result.reserve(points.size());
+    for (const Point_3& p : points) result.push_back(inverse_(p));
+    return result;
+  }
+
   /// The coordinates of the preimages of the points (x[i], y[i], z[i]), lane by lane.
   std::array<Pack<FT>, 3> preimage_of_lanes(const Pack<FT>& x, const Pack<FT>& y, const Pack<FT>& z) const {
     std::array<std::array<FT, Pack<FT>::size>, 3> lanes;

@@ -70,6 +70,15 @@ concept BatchImplicitFunctionTraits_3 =
     traits.taylors(points, jets);
   };
 
+/// A function that also expands to order 1 at many points in one call, bit for bit as `first_order` does.
+template <class Traits>
+concept FirstOrderBatchImplicitFunctionTraits_3 =
+  BatchImplicitFunctionTraits_3<Traits> &&
+  requires(const Traits& traits, std::span<const typename Traits::Point_3> points,
+           std::span<Jet_3<typename Traits::FT, 1>> jets) {
+    traits.first_orders(points, jets);
+  };
+
 /// A function that expands at the points of packs: lane i of x[n], y[n], z[n] is a point, lane i of jets[n] its
 /// expansion, bit for bit unless the compiler contracts products and sums. It may throw Lanes_disagree.
 template <class Traits>

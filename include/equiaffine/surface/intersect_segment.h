@@ -23,12 +23,15 @@ Surface_point_3<Kernel_of<Traits>> intersect_segment(const Traits& traits, const
   } else {
     const internal::Bracket_3<Kernel_of<Traits>> bracket(a, b, fa, fb);
     auto result = [&] {
-      if constexpr (FirstOrderImplicitFunctionTraits_3<Traits>) return internal::newton(traits, bracket);
-      else return internal::chandrupatla(traits, bracket);
+      if constexpr (FirstOrderImplicitFunctionTraits_3<Traits>) {
+        internal::Newton_search_3 search(bracket);
+        while (!search.has_ended()) search.advance(traits, first_order(traits, search.point()));
+        return search.result();
+      } else {
+        return internal::chandrupatla(traits, bracket);
+      }
     }();
-    if (result.has_converged) return result;
-    result.is_at_pole = internal::is_pole(traits, bracket, result.point);
-    result.is_at_end = !result.is_at_pole && internal::is_end_of_domain(traits, bracket, result.point);
+    internal::explain(traits, bracket, result);
     return result;
   }
 }

@@ -7,6 +7,7 @@
 #include <equiaffine/marching_cubes/internal/Grid_rows.h>
 #include <equiaffine/marching_cubes/internal/active_cells.h>
 #include <equiaffine/marching_cubes/internal/case_table.h>
+#include <equiaffine/marching_cubes/internal/grid_elements.h>
 #include <equiaffine/marching_cubes/internal/isosurface_plan.h>
 
 #include <array>
@@ -15,6 +16,7 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 namespace equiaffine::internal {
 
@@ -53,13 +55,26 @@ void for_each_vertex_of_plane(const Isosurface_plan& plan, std::size_t k, Grid_r
                      : visit_vertices_of_plane<false>(plan, k, rows, place);
 }
 
-/// Calls for_each_vertex_of_plane() for all planes. Returns the rows with vertices at nodes.
-template <class ConcurrencyTag, class Place>
-Grid_rows for_each_edge_vertex(const Isosurface_plan& plan, const Place& place) {
-  const std::size_t planes = plan.signs.size()[2];
-  Grid_rows rows(planes);
-  parallel_for<ConcurrencyTag>(0, planes, [&](std::size_t k) { for_each_vertex_of_plane(plan, k, rows, place); });
-  return rows;
+/// Calls visit(vertices, edges) for the vertices on edges that begin in plane k, with up to 64 of them at a time.
+template <class Visit>
+void for_each_batch_of_plane(const Isosurface_plan& plan, std::size_t k, const Visit& visit) {
+  constexpr std::size_t batch = 64;
+  std::vector<std::size_t> vertices;
+  std::vector<Grid_edge> edges;
+  const auto visit_batch = [&] {
+    visit(std::span<const std::size_t>(vertices), std::span<const Grid_edge>(edges));
+    vertices.clear();
+    edges.clear();
+  };
+  Grid_rows no_rows(plan.signs.size()[2]);
+  for_each_vertex_of_plane(plan, k, no_rows,
+                           [&](std::size_t v, std::size_t i, std::size_t j, std::size_t, std::size_t axis) {
+                             vertices.push_back(v);
+                             edges.push_back({{i, j, k}, axis});
+                             if (edges.size() == batch) visit_batch();
+                             return false;
+                           });
+  if (!edges.empty()) visit_batch();
 }
 
 /// Writes the n triangles of a cell, whose vertices have the given slots. If there is room, triangles_of_most_cells

@@ -9,6 +9,8 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
+#include <vector>
 
 namespace equiaffine::internal {
 
@@ -59,10 +61,24 @@ public:
     return {ends, {value(e.node, ends[0]), value(end, ends[1])}};
   }
 
-  Edge_vertex<Point_3> edge_vertex(const Node& node, std::size_t axis) const {
-    const Edge e = edge({node, axis});
-    const Point_3 p = e.linear_intersection();
-    return {p, e.ends_at(p)};
+  /// Does what edge() does for many edges.
+  std::vector<Edge> edges(std::span<const Grid_edge> grid_edges) const {
+    std::vector<Edge> result(grid_edges.size());
+    if constexpr (has_samples) {
+      for (std::size_t n = 0; n < result.size(); ++n) result[n] = edge(grid_edges[n]);
+    } else {
+      std::vector<Point_3> points;
+      points.reserve(2 * result.size());
+      for (const Grid_edge& e : grid_edges) {
+        points.push_back(point(e.node));
+        points.push_back(point(end_of(e)));
+      }
+      std::vector<FT> values(points.size());
+      traits_.values(points, values);
+      for (std::size_t n = 0; n < result.size(); ++n)
+        result[n] = {{points[2 * n], points[2 * n + 1]}, {values[2 * n], values[2 * n + 1]}};
+    }
+    return result;
   }
 
   bool is_nearer_to_end(const Grid_edge& e, const Point_3& p) const {

@@ -5,6 +5,7 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_LINEAR_ISOSURFACE_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LINEAR_ISOSURFACE_H
 
+#include <equiaffine/base/parallel_for.h>
 #include <equiaffine/marching_cubes/internal/grid_elements.h>
 #include <equiaffine/marching_cubes/internal/inner_vertex.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
@@ -18,17 +19,37 @@
 
 namespace equiaffine::internal {
 
+/// Writes the points of the vertices on edges. Returns the rows of nodes with a vertex.
+template <class ConcurrencyTag, class Grid>
+Grid_rows place_on_edges(const Grid& grid, const Isosurface_plan& plan, typename Grid::Point* points) {
+  const std::size_t planes = plan.signs.size()[2];
+  Grid_rows rows(planes);
+  parallel_for<ConcurrencyTag>(0, planes, [&](std::size_t k) {
+    if constexpr (requires(std::span<const Grid_edge> edges) { grid.edges(edges); }) {
+      for_each_batch_of_plane(plan, k, [&](std::span<const std::size_t> vertices, std::span<const Grid_edge> edges) {
+        const auto ends = grid.edges(edges);
+        for (std::size_t n = 0; n < edges.size(); ++n) {
+          points[vertices[n]] = ends[n].linear_intersection();
+          if (ends[n].ends_at(points[vertices[n]])) rows.add(edges[n].node[1], k);
+        }
+      });
+    } else {
+      for_each_vertex_of_plane(plan, k, rows, [&](std::size_t v, std::size_t i, std::size_t j, std::size_t, auto axis) {
+        const auto vertex = grid.edge_vertex({i, j, k}, axis);
+        points[v] = vertex.point;
+        return vertex.is_at_node;
+      });
+    }
+  });
+  return rows;
+}
+
 /// Writes the points of all vertices and the triangles. Calls keep_inner(vertex, cell, offset) for every vertex inside
 /// a cell. Returns the rows of nodes around which triangles may have no area.
 template <class ConcurrencyTag, class Grid, class KeepInner>
 Grid_rows place_linearly(const Grid& grid, const Isosurface_plan& plan, typename Grid::Point* points,
                          Index_triangle* triangles, const KeepInner& keep_inner) {
-  Grid_rows suspects = for_each_edge_vertex<ConcurrencyTag>(
-      plan, [&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, auto axis) {
-        const auto vertex = grid.edge_vertex({i, j, k}, axis);
-        points[v] = vertex.point;
-        return vertex.is_at_node;
-      });
+  Grid_rows suspects = place_on_edges<ConcurrencyTag>(grid, plan, points);
   suspects.add(write_triangles<ConcurrencyTag>(
       plan, triangles, grid.is_left_handed(),
       [&](std::size_t first, std::size_t i, std::size_t j, std::size_t k, const auto& edges, const auto& written) {

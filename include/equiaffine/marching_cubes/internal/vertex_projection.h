@@ -2,11 +2,12 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_VERTEX_PROJECTION_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_VERTEX_PROJECTION_H
 
+#include <equiaffine/marching_cubes/internal/intersect_edges.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
 #include <equiaffine/marching_cubes/internal/lattice_function.h>
 #include <equiaffine/marching_cubes/internal/zero_area_repair.h>
 #include <equiaffine/surface/Isosurface_3.h>
-#include <equiaffine/surface/project_to_surface.h>
+#include <equiaffine/surface/intersect_segment.h>
 #include <equiaffine/surface/sign_change.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
@@ -18,6 +19,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -60,7 +62,7 @@ public:
     for (std::size_t k = 0; k < planes; k += slab) {
       const std::size_t end = std::min(k + slab, planes);
       linear = linear_positions(k, end, linear);
-      for_each_plane(k, end, [&](std::size_t plane) { project(plane, linear); });
+      for_each_plane(k, end, [&](std::size_t plane) { project(plane); });
       for_each_plane(k > 0 ? k - 1 : 0, end - 1, [&](std::size_t layer) { find_flipped(layer, linear); });
     }
     undo_flips();
@@ -94,14 +96,18 @@ private:
   }
 
   /// Projects the vertices on the edges that begin in plane k and those in the cells above it.
-  void project(std::size_t k, const Positions& linear) {
-    for_each_vertex_of_plane(plan_, k, suspects_,
-                             [&](std::size_t v, std::size_t i, std::size_t j, std::size_t, std::size_t axis) {
-                               const auto edge = function_.edge({{i, j, k}, axis});
-                               evaluations_[k] += Function::evaluations(2);
-                               set_projected(v, k, intersect(edge, linear[v]));
-                               return edge.ends_at(surface_.points[v]);
-                             });
+  void project(std::size_t k) {
+    for_each_batch_of_plane(plan_, k,
+                            [&](std::span<const std::size_t> vertices, std::span<const Grid_edge> grid_edges) {
+                              const auto edges = function_.edges(grid_edges);
+                              evaluations_[k] += Function::evaluations(2 * edges.size());
+                              const auto projected = intersect_edges<Traits>(function_.traits(), edges);
+                              for (std::size_t n = 0; n < vertices.size(); ++n) {
+                                set_projected(vertices[n], k, projected[n]);
+                                if (edges[n].ends_at(surface_.points[vertices[n]]))
+                                  suspects_.add(grid_edges[n].node[1], k);
+                              }
+                            });
     const Index_range inner = numbering_.inner_vertices_of_layer(k);
     for (std::size_t v = inner.first; v < inner.end; ++v) set_projected(v, k, project_within_cell(inner_vertex(v)));
   }
@@ -111,23 +117,6 @@ private:
     else surface_.vertex_status[v] = Point_status::UNCONVERGED;
     if (projected.is_at_pole || projected.is_at_end) poles_[k].push_back(v);
     evaluations_[k] += projected.evaluations;
-  }
-
-  Surface_point_3<Kernel> intersect(const typename Function::Edge& edge, const Point_3& linear) const {
-    const auto& traits = function_.traits();
-    const auto& [a, b] = edge.ends;
-    if constexpr (Function::has_samples) {
-      // The spline need not have the signs of the samples: if it has no sign change here, its zero is looked for
-      // nearby.
-      using std::sqrt;
-      const FT fa = traits.value(a), fb = traits.value(b);
-      auto result = is_sign_change(fa, fb) ? intersect_segment(traits, a, b, fa, fb)
-                                           : project_to_surface(traits, linear, FT(sqrt((b - a).squared_length())));
-      result.evaluations += 2;
-      return result;
-    } else {
-      return intersect_segment(traits, a, b, edge.values[0], edge.values[1]);
-    }
   }
 
   /// Finds a zero of the function near a vertex inside a cell. It is looked for along each axis, between the vertex and

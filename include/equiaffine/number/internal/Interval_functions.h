@@ -5,6 +5,7 @@
 
 #include <equiaffine/number/internal/elementary_functions.h>
 #include <equiaffine/number/internal/interval.h>
+#include <equiaffine/number/internal/natural_power.h>
 
 #include <algorithm>
 #include <cmath>
@@ -79,10 +80,10 @@ inline Interval natural_power(const Interval& a, unsigned n) {
   if (n == 0) return Interval(1);
   if (n == 1) return a;
   if (n == 2) return square(a);
-  if (n % 2 == 1) return internal::increasing([n](double u) { return std::pow(u, n); }, a);
-  const Interval m = abs(a);
-  const Interval r = internal::increasing([n](double u) { return std::pow(u, n); }, m);
-  return Interval(std::max(r.lower(), 0.0), r.upper());
+  const bool is_even = n % 2 == 0;
+  if (is_even && n <= 8) return natural_power(square(a), n / 2);
+  const Interval r = internal::increasing([n](double u) { return internal::natural_power(u, n); }, is_even ? abs(a) : a);
+  return is_even ? Interval(std::max(r.lower(), 0.0), r.upper()) : r;
 }
 
 /// Integer power.

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_SURFACE_INTERNAL_BRACKETED_ROOTS_H
 #define EQUIAFFINE_SURFACE_INTERNAL_BRACKETED_ROOTS_H
 
-#include <equiaffine/function/concepts.h>
+#include <equiaffine/function/Batch_function_traits_3.h>
 #include <equiaffine/surface/Surface_point_3.h>
 #include <equiaffine/surface/sign_change.h>
 
@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
+#include <vector>
 
 namespace equiaffine::internal {
 
@@ -86,34 +88,76 @@ bool is_end_of_domain(const Traits& traits, const Bracket_3<Kernel>& bracket, co
 
 /// Newton's method on the restriction of f, kept within the bracket by bisection whenever a step would leave it or not
 /// halve the last one (Press et al., Numerical Recipes, 2007, section 9.4), or where f has a value and no derivatives:
-/// beside such places f may jump, and only a step of Newton's method tells a zero.
-template <class Kernel, class Traits>
-Surface_point_3<Kernel> newton(const Traits& traits, const Bracket_3<Kernel>& bracket) {
+/// beside such places f may jump, and only a step of Newton's method tells a zero. The caller expands f at the points
+/// that the search asks for, so that many searches can be expanded together.
+template <class Kernel>
+class Newton_search_3 {
   using FT = typename Kernel::FT;
-  using std::abs;
-  const auto& direction = bracket.direction;
-  FT lower(0), upper(1), last_step(1), t = linear_zero(bracket.fa, bracket.fb);
-  bool is_smooth = true;
-  for (int n = 1; n <= bracket.maximal_evaluations; ++n) {
-    const auto jet = first_order(traits, bracket.a + t * direction);
+
+public:
+  explicit Newton_search_3(const Bracket_3<Kernel>& bracket)
+      : bracket_(bracket), t_(linear_zero(bracket.fa, bracket.fb)) {}
+
+  const Bracket_3<Kernel>& bracket() const { return bracket_; }
+
+  /// The point where the expansion is needed next; once the search has ended, the zero or the best guess.
+  typename Kernel::Point_3 point() const { return bracket_.a + t_ * bracket_.direction; }
+
+  bool has_ended() const { return has_ended_; }
+
+  Surface_point_3<Kernel> result() const { return bracket_.point(t_, has_converged_, evaluations_); }
+
+  /// Takes the expansion at point().
+  template <class Traits>
+  void advance(const Traits& traits, const Jet_3<FT, 1>& jet) {
+    using std::abs;
     const auto& c = jet.coefficients();
+    const auto& direction = bracket_.direction;
+    ++evaluations_;
     const FT slope = c[1] * direction.x() + c[2] * direction.y() + c[3] * direction.z();
     const bool has_derivatives = c[0] == c[0];
-    is_smooth = is_smooth && has_derivatives;
-    const FT f = has_derivatives ? c[0] : traits.value(bracket.a + t * direction);
-    if (f == FT(0)) return bracket.point(t, has_derivatives, n);
-    if (!(f < FT(0) || f > FT(0))) return bracket.point(t, false, n); // NaN
+    is_smooth_ = is_smooth_ && has_derivatives;
+    const FT f = has_derivatives ? c[0] : traits.value(point());
+    if (f == FT(0)) return end(t_, has_derivatives);
+    if (!(f < FT(0) || f > FT(0))) return end(t_, false); // NaN
     FT step = -c[0] / slope;
-    if (abs(step) <= bracket.tolerance)
-      return bracket.point(std::clamp(t + step, FT(0), FT(1)), bracket.is_plausible(f), n);
-    ((f < FT(0)) == (bracket.fa < FT(0)) ? lower : upper) = t;
-    if (!(t + step > lower && t + step < upper) || abs(step) > abs(last_step) / FT(2))
-      step = (lower + upper) / FT(2) - t;
-    last_step = step;
-    t += step;
-    if (abs(step) <= bracket.tolerance) return bracket.point(t, is_smooth && bracket.is_plausible(f), n);
+    if (abs(step) <= bracket_.tolerance) return end(std::clamp(t_ + step, FT(0), FT(1)), bracket_.is_plausible(f));
+    ((f < FT(0)) == (bracket_.fa < FT(0)) ? lower_ : upper_) = t_;
+    if (!(t_ + step > lower_ && t_ + step < upper_) || abs(step) > abs(last_step_) / FT(2))
+      step = (lower_ + upper_) / FT(2) - t_;
+    last_step_ = step;
+    t_ += step;
+    if (abs(step) <= bracket_.tolerance) return end(t_, is_smooth_ && bracket_.is_plausible(f));
+    if (evaluations_ == bracket_.maximal_evaluations) end(t_, false);
   }
-  return bracket.point(t, false, bracket.maximal_evaluations);
+
+private:
+  void end(const FT& t, bool has_converged) {
+    t_ = t;
+    has_converged_ = has_converged;
+    has_ended_ = true;
+  }
+
+  Bracket_3<Kernel> bracket_;
+  FT t_, lower_ = FT(0), upper_ = FT(1), last_step_ = FT(1);
+  int evaluations_ = 0;
+  bool is_smooth_ = true, has_converged_ = false, has_ended_ = false;
+};
+
+/// Advances searches until all have ended. Each round expands f at the points of all that have not, in one call.
+template <class Traits, class Kernel>
+void finish_together(const Batch_function_traits_3<Traits>& traits, std::span<Newton_search_3<Kernel>> searches) {
+  std::vector<std::size_t> active;
+  for (std::size_t n = 0; n < searches.size(); ++n) active.push_back(n);
+  std::vector<typename Kernel::Point_3> points(searches.size());
+  std::vector<Jet_3<typename Kernel::FT, 1>> jets(searches.size());
+  while (!active.empty()) {
+    const std::size_t count = active.size();
+    for (std::size_t n = 0; n < count; ++n) points[n] = searches[active[n]].point();
+    traits.first_orders(std::span<const typename Kernel::Point_3>(points).first(count), std::span(jets).first(count));
+    for (std::size_t n = 0; n < count; ++n) searches[active[n]].advance(traits, jets[n]);
+    std::erase_if(active, [&](std::size_t n) { return searches[n].has_ended(); });
+  }
 }
 
 /// Inverse quadratic interpolation where it is safe, else bisection (Chandrupatla, A new hybrid quadratic/bisection
@@ -147,6 +191,14 @@ Surface_point_3<Kernel> chandrupatla(const Traits& traits, const Bracket_3<Kerne
     fraction = std::clamp(fraction, smallest_step, FT(1) - smallest_step);
   }
   return bracket.point(x1, false, bracket.maximal_evaluations);
+}
+
+/// Says why a search along a bracket has found no zero, if it has not.
+template <class Kernel, class Traits>
+void explain(const Traits& traits, const Bracket_3<Kernel>& bracket, Surface_point_3<Kernel>& result) {
+  if (result.has_converged) return;
+  result.is_at_pole = is_pole(traits, bracket, result.point);
+  result.is_at_end = !result.is_at_pole && is_end_of_domain(traits, bracket, result.point);
 }
 
 } // namespace equiaffine::internal

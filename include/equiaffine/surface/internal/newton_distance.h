@@ -3,7 +3,7 @@
 #define EQUIAFFINE_SURFACE_INTERNAL_NEWTON_DISTANCE_H
 
 #include <equiaffine/base/parallel_for.h>
-#include <equiaffine/function/concepts.h>
+#include <equiaffine/function/Batch_function_traits_3.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/surface/curve_step.h>
 #include <equiaffine/surface/distance_estimate.h>
@@ -19,28 +19,80 @@
 
 namespace equiaffine::internal {
 
-/// Whether a step of Newton's method from p does not lead to a zero, though `distance`, its length, is positive. To a
-/// zero of order m, f changes its sign or shrinks by the factor (1 - 1/m)^m, which is less than 1/e. Away from a pole
-/// of order n it keeps its sign and shrinks by (1 + 1/n)^-n, which is more. Where the step is shorter than
-/// `resolvable`, rounding decides its end, and one much longer is taken: beyond a zero f grows, away from a pole it
-/// shrinks. Nothing is concluded where f is undefined at the end.
-template <ImplicitFunctionTraits_3 Traits>
-bool leads_away_from_zeros(const Traits& traits, const typename Traits::Point_3& p,
-                           const Jet_3<typename Traits::FT, 1>& jet, const typename Traits::FT& distance,
-                           const typename Traits::FT& resolvable) {
+/// A step of Newton's method from a point towards a zero of f.
+template <class Kernel>
+struct Newton_step_3 {
+  using FT = typename Kernel::FT;
+  using Vector_3 = typename Kernel::Vector_3;
+
+  /// The distance is the length of Newton's step. Where it is shorter than `resolvable`, rounding decides the value at
+  /// its end, and a step much longer than that is taken.
+  Newton_step_3(const typename Kernel::Point_3& p, const Jet_3<FT, 1>& jet, const FT& resolvable)
+      : distance(distance_estimate(jet)), value(jet.value()), is_short(distance < resolvable), end(p) {
+    using std::abs;
+    using std::sqrt;
+    constexpr double longer = 16;
+    if (!(distance > FT(0))) return;
+    const auto& c = jet.coefficients();
+    const FT length = is_short ? FT(longer) * resolvable : distance;
+    const Vector_3 slope = gradient_of<Vector_3>(jet) / std::max({abs(c[1]), abs(c[2]), abs(c[3])}); // cannot overflow
+    end = p + (value > FT(0) ? -length : length) / sqrt(slope.squared_length()) * slope;
+  }
+
+  /// Whether the step does not lead to a zero, as the value at its end shows. To a zero of order m, f changes its sign
+  /// or shrinks by the factor (1 - 1/m)^m, which is less than 1/e. Away from a pole of order n it keeps its sign and
+  /// shrinks by (1 + 1/n)^-n, which is more. At the end of a longer step it has grown beyond a zero, and has shrunk away
+  /// from a pole. Nothing is concluded where f is undefined at the end.
+  bool leads_away_from_zeros(const FT& value_at_end) const {
+    using std::abs;
+    if (!(distance > FT(0)) || is_sign_change(value, value_at_end)) return false;
+    const FT here = abs(value), there = abs(value_at_end);
+    return is_short ? there < here : there > here / FT(std::numbers::e);
+  }
+
+  FT distance, value;
+  bool is_short;
+  typename Kernel::Point_3 end;
+};
+
+/// The greatest distance of some points, NaN if Newton's method leads away from zeros at one of them or if there is
+/// none. What is undefined does not count.
+template <class FT>
+struct Greatest_distance {
+  void add(const FT& distance) {
+    if (!(distance <= greatest) && distance == distance) greatest = distance;
+  }
+
+  FT result() const { return is_unknown ? std::numeric_limits<FT>::quiet_NaN() : greatest; }
+
+  FT greatest = std::numeric_limits<FT>::quiet_NaN();
+  bool is_unknown = false;
+};
+
+/// The greatest distance of points that are evaluated together.
+template <class Traits>
+Greatest_distance<typename Traits::FT> greatest_distance_of_block(const Batch_function_traits_3<Traits>& traits,
+                                                                  std::span<const typename Traits::Point_3> points,
+                                                                  std::span<const Point_status> status,
+                                                                  const typename Traits::FT& resolvable) {
   using FT = typename Traits::FT;
-  using Vector_3 = typename Traits::Vector_3;
-  using std::abs;
-  using std::sqrt;
-  constexpr double longer = 16;
-  const auto& c = jet.coefficients();
-  const bool is_short = distance < resolvable;
-  const FT length = is_short ? FT(longer) * resolvable : distance;
-  const Vector_3 slope = gradient_of<Vector_3>(jet) / std::max({abs(c[1]), abs(c[2]), abs(c[3])}); // cannot overflow
-  const FT towards_zero = (c[0] > FT(0) ? -length : length) / sqrt(slope.squared_length());
-  const FT here = abs(c[0]), value = traits.value(p + towards_zero * slope), there = abs(value);
-  if (is_sign_change(c[0], value)) return false;
-  return is_short ? there < here : there > here / FT(std::numbers::e);
+  std::vector<Jet_3<FT, 1>> jets(points.size());
+  traits.first_orders(points, jets);
+  std::vector<Newton_step_3<Kernel_of<Traits>>> steps;
+  std::vector<typename Traits::Point_3> ends;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    steps.emplace_back(points[i], jets[i], resolvable);
+    ends.push_back(steps[i].end);
+  }
+  std::vector<FT> values(points.size());
+  traits.values(ends, values);
+  Greatest_distance<FT> result;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!status.empty() && status[i] == Point_status::UNCONVERGED) continue;
+    result.add(steps[i].distance);
+    result.is_unknown |= steps[i].leads_away_from_zeros(values[i]);
+  }
+  return result;
 }
 
 /// The algorithm of `max_distance_to_surface`.
@@ -50,31 +102,23 @@ typename Traits::FT max_distance_to_surface(const Traits& traits, std::span<cons
   using FT = typename Traits::FT;
   using std::abs;
   using std::sqrt;
+  constexpr std::size_t block = 256;
   FT coordinate(0);
   for (const auto& p : points) coordinate = std::max({coordinate, abs(p.x()), abs(p.y()), abs(p.z())});
   const FT resolvable = sqrt(std::numeric_limits<FT>::epsilon()) * coordinate;
-  struct Distance {
-    FT value;
-    bool is_false;
-  };
-  std::vector<Distance> distances(points.size());
-  parallel_for<ConcurrencyTag>(
-      0, points.size(),
-      [&](std::size_t i) {
-        const auto jet = first_order(traits, points[i]);
-        const FT distance = distance_estimate(jet);
-        distances[i] = {distance,
-                        distance > FT(0) && leads_away_from_zeros(traits, points[i], jet, distance, resolvable)};
-      },
-      256);
-  constexpr FT unknown = std::numeric_limits<FT>::quiet_NaN();
-  FT greatest = unknown;
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    if (!status.empty() && status[i] == Point_status::UNCONVERGED) continue;
-    if (distances[i].is_false) return unknown;
-    if (!(distances[i].value <= greatest) && distances[i].value == distances[i].value) greatest = distances[i].value;
+  const Batch_function_traits_3<Traits> batch(traits);
+  std::vector<Greatest_distance<FT>> greatest((points.size() + block - 1) / block);
+  parallel_for<ConcurrencyTag>(0, greatest.size(), [&](std::size_t n) {
+    const std::size_t first = n * block, count = std::min(block, points.size() - first);
+    greatest[n] = greatest_distance_of_block(batch, points.subspan(first, count),
+                                             status.empty() ? status : status.subspan(first, count), resolvable);
+  });
+  Greatest_distance<FT> result;
+  for (const auto& of_block : greatest) {
+    result.add(of_block.greatest);
+    result.is_unknown |= of_block.is_unknown;
   }
-  return greatest;
+  return result.result();
 }
 
 } // namespace equiaffine::internal

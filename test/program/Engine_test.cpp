@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "attributes/attribute_task.h"
+#include "engine/Engine.h"
+#include <equiaffine/marching_cubes.h>
+#include <equiaffine/surface/distance_to_surface.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -47,35 +50,61 @@ void expect_same_on_all_instruction_sets(const Traits& function) {
   const auto p = points();
   const Attribute_selection selection = select_attributes("all");
   const Attribute_task<Traits> task{function, Orientation_of_level_set::AGAINST_GRADIENT, p, selection};
-  const Vertex_attributes expected = compute_attributes(task, Instruction_set::BASELINE);
+  const Vertex_attributes expected = engine<Traits>(Instruction_set::BASELINE).compute_attributes(task);
   ASSERT_EQ(expected.status->size(), p.size());
   for (const Instruction_set set : instruction_sets()) {
     SCOPED_TRACE(int(set));
-    expect_equal(compute_attributes(task, set), expected);
+    expect_equal(engine<Traits>(set).compute_attributes(task), expected);
     for (std::size_t i = 0; i < 20; ++i) {
       Attribute_task<Traits> single = task;
       single.points = std::span(p).subspan(i, 1);
-      expect_equal(compute_attributes(single, set), expected, i);
+      expect_equal(engine<Traits>(set).compute_attributes(single), expected, i);
     }
   }
 }
 
-TEST(Program_attribute_task, a_formula_has_the_same_attributes_on_all_instruction_sets_bit_for_bit) {
+/// Surfaces are equal on all instruction sets, and those of `sequential` Marching Cubes at all nodes.
+template <class Traits>
+void expect_same_surface_on_all_instruction_sets(const Traits& function) {
+  const Level_set_traits_3<Traits> level_set(function, 0.1);
+  const std::array<std::size_t, 3> nodes = {33, 31, 32};
+  const Isosurface_3<Kernel> expected = marching_cubes(level_set, parameters::number_of_nodes(nodes));
+  ASSERT_GT(expected.triangles.size(), 100u);
+  const double distance = max_distance_to_surface(level_set, std::span(expected.points), expected.vertex_status);
+  for (const Instruction_set set : instruction_sets()) {
+    SCOPED_TRACE(int(set));
+    const auto surface = engine<Traits>(set).marching_cubes(level_set, nodes, Vertex_position::PROJECTED);
+    EXPECT_EQ(surface.triangles, expected.triangles);
+    EXPECT_EQ(surface.vertex_status, expected.vertex_status);
+    ASSERT_EQ(surface.points.size(), expected.points.size());
+    for (std::size_t v = 0; v < surface.points.size(); ++v)
+      for (int axis = 0; axis < 3; ++axis) ASSERT_EQ(bits(surface.points[v][axis]), bits(expected.points[v][axis]));
+    EXPECT_EQ(bits(engine<Traits>(set).max_distance_to_surface(level_set, surface.points, surface.vertex_status)),
+              bits(distance));
+  }
+}
+
+TEST(Program_engine, a_formula_has_the_same_numbers_on_all_instruction_sets_bit_for_bit) {
   const Formula_traits traits(Expression_3(formula), box);
   expect_same_on_all_instruction_sets(traits);
   const CGAL::Aff_transformation_3<Kernel> map(0.9, 0, 0.9, 0.1, 0, 2, 0, 0, 1.1, 0, 0.6, 0);
-  expect_same_on_all_instruction_sets(Transformed_function_traits_3(traits, map));
+  const Transformed_function_traits_3 image(traits, map);
+  expect_same_on_all_instruction_sets(image);
+  expect_same_surface_on_all_instruction_sets(traits);
+  expect_same_surface_on_all_instruction_sets(image);
 }
 
-TEST(Program_attribute_task, samples_have_the_same_attributes_on_all_instruction_sets_bit_for_bit) {
+TEST(Program_engine, samples_have_the_same_numbers_on_all_instruction_sets_bit_for_bit) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> unit(-1, 1);
   Volume_3<Kernel> volume{Lattice_3<Kernel>({12, 11, 13}, box), {}};
   for (std::size_t n = 0; n < volume.lattice.number_of_nodes(); ++n) volume.values.push_back(unit(random));
-  expect_same_on_all_instruction_sets(Spline_traits(std::move(volume)));
+  const Spline_traits spline(std::move(volume));
+  expect_same_on_all_instruction_sets(spline);
+  expect_same_surface_on_all_instruction_sets(spline);
 }
 
-TEST(Program_attribute_task, the_first_instruction_set_is_that_of_any_processor) {
+TEST(Program_engine, the_first_instruction_set_is_that_of_any_processor) {
   const auto sets = instruction_sets();
   EXPECT_EQ(sets.front(), Instruction_set::BASELINE);
   EXPECT_TRUE(std::is_sorted(sets.begin(), sets.end()));
@@ -91,13 +120,13 @@ std::string output_of(const std::string& command) {
 }
 
 // If they shared more, the linker could use an inline function compiled for AVX-512 in the whole program.
-TEST(Program_attribute_task, objects_for_some_processors_share_nothing_but_their_entry) {
+TEST(Program_engine, objects_for_some_processors_share_nothing_but_their_entry) {
   const std::string names = EQUIAFFINE_OBJECTS_FOR_PROCESSORS;
   for (std::size_t begin = 0; begin < names.size();) {
     const std::size_t end = std::min(names.find(' ', begin), names.size());
     const std::string defined = output_of("nm --extern-only --defined-only " + names.substr(begin, end - begin));
     EXPECT_EQ(std::count(defined.begin(), defined.end(), '\n'), 1) << defined;
-    EXPECT_NE(defined.find(" T equiaffine_attributes_avx"), std::string::npos) << defined;
+    EXPECT_NE(defined.find(" T equiaffine_engines_avx"), std::string::npos) << defined;
     begin = end + 1;
   }
 }

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SURFACE_INTERSECT_SEGMENTS_H
+#define EQUIAFFINE_SURFACE_INTERSECT_SEGMENTS_H
+
+#include <equiaffine/function/Batch_function_traits_3.h>
+#include <equiaffine/surface/Surface_point_3.h>
+#include <equiaffine/surface/internal/bracketed_roots.h>
+#include <equiaffine/surface/intersect_segment.h>
+
+#include <span>
+#include <vector>
+
+namespace equiaffine {
+
+/// Does what intersect_segment() does on each segment, with the same bits. A segment has `ends` and the `values` there.
+template <class Traits, class Segment>
+std::vector<Surface_point_3<Kernel_of<Traits>>> intersect_segments(const Batch_function_traits_3<Traits>& traits,
+                                                                   std::span<const Segment> segments) {
+  using Search = internal::Newton_search_3<Kernel_of<Traits>>;
+  std::vector<Surface_point_3<Kernel_of<Traits>>> results;
+  results.reserve(segments.size());
+  constexpr bool has_own_method = requires(const typename Traits::Point_3& p, const typename Traits::FT& f) {
+    traits.intersect_segment(p, p, f, f);
+  };
+  if constexpr (FirstOrderImplicitFunctionTraits_3<Traits> && !has_own_method) {
+    std::vector<Search> searches;
+    searches.reserve(segments.size());
+    for (const auto& [ends, values] : segments)
+      searches.emplace_back(internal::Bracket_3<Kernel_of<Traits>>(ends[0], ends[1], values[0], values[1]));
+    internal::finish_together(traits, std::span(searches));
+    for (const auto& search : searches) {
+      results.push_back(search.result());
+      internal::explain(traits, search.bracket(), results.back());
+    }
+  } else {
+    for (const auto& [ends, values] : segments)
+      results.push_back(intersect_segment(traits, ends[0], ends[1], values[0], values[1]));
+  }
+  return results;
+}
+
+} // namespace equiaffine
+
+#endif
