@@ -4,6 +4,7 @@
 // Usage: benchmark_registration [repeats] [part] [folder of data], where part is all, formulas, symmetries, unrelated,
 // volumes, meshes, bunny or peers.
 // 84 repeats are the full size: 3000 runs with formulas.
+#include "registration/Disturbed_structure.h"
 #include "registration/runs.h"
 #include "support/registration_traits.h"
 #include <equiaffine/affine_symmetries.h>
@@ -61,10 +62,12 @@ void kinds(const std::vector<Source>& all, int repeats) {
   equiaffine.report({.right = ">=0.99"});
 }
 
+std::string percent(double part) { return std::to_string(int(100 * part + 0.5)) + "_percent"; }
+
 /// Two pieces of which each has the given part in common with the other.
 void overlaps(const std::vector<Source>& all, int repeats) {
   for (const double overlap : {0.5, 0.15, 0.08}) {
-    Row row("overlap_" + std::to_string(int(100 * overlap + 0.5)) + "_percent");
+    Row row("overlap_" + percent(overlap));
     Random random(300);
     for (int r = 0; r < repeats; ++r)
       for (const Source& s : all) {
@@ -97,19 +100,26 @@ void few_points(const std::vector<Source>& all, int repeats) {
   row.report({.right = ">=0.99"});
 }
 
-void wrong_derivatives(const std::vector<Source>& all, int repeats) {
+/// Structure is wrong by a part of itself, or each derivative of orders 2 to 4 is, which makes much more of structure.
+void wrong_structure(const std::vector<Source>& all, int repeats) {
   for (const double part : {0.01, 0.03, 0.1}) {
-    Row row("derivatives_disturbed_by_" + std::to_string(int(100 * part + 0.5)) + "_percent");
+    Row structure("structure_disturbed_by_" + percent(part)), derivatives("derivatives_disturbed_by_" + percent(part));
     Random random(500);
     for (int r = 0; r < repeats; ++r)
       for (const Source& s : all) {
         const Map map = random_map(random, 10, random_determinant(random));
         const Image image(s.function, map);
+        const Points target_points = points_on_surface(image, 35);
+        const internal::Oracle_of_traits_3 source(s.function);
+        const internal::Oracle_of_traits_3 target(image);
+        structure.run(Disturbed_structure(source, part, 1), source, s.points, Disturbed_structure(target, part, 2),
+                      target, target_points, map);
         const Disturbed<Formula> from{s.function, part, 0.05, 1};
         const Disturbed<Image> to{image, part, 0.05, 2};
-        row.run(from, s.points, to, points_on_surface(image, 35), map);
+        derivatives.run(from, s.points, to, target_points, map);
       }
-    row.report({});
+    structure.report({});
+    derivatives.report({.right = "none"});
   }
 }
 
@@ -235,7 +245,7 @@ int main(int argc, char** argv) {
     overlaps(all, fewer);
     clutter(all, fewer);
     few_points(all, fewer);
-    wrong_derivatives(all, fewer);
+    wrong_structure(all, fewer);
   }
   if (is_asked_for("unrelated")) unrelated(12 * repeats);
   const int fewest = (repeats + 41) / 42;

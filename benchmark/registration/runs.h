@@ -37,6 +37,8 @@ struct Targets {
 /// What came of the runs of a row. A run is right if the error of the matrix is at most `greatest_error`.
 class Row {
 public:
+  using Oracle = internal::Surface_oracle_3;
+
   explicit Row(const std::string& name, double greatest_error = 1e-6)
       : name_("registration_" + name), greatest_error_(greatest_error) {}
 
@@ -48,18 +50,23 @@ public:
   }
 
   /// The same, with other functions to refine on.
-  template <class Source, class Refined_source, class Target, class Refined_target>
+  template <ImplicitFunctionTraits_3 Source, class Refined_source, class Target, class Refined_target>
   void run(const Source& source, const Refined_source& refined_source, const Points& points, const Target& target,
            const Refined_target& refined_target, const Points& target_points, const Map& right,
            const internal::Registration_request& request = {}) {
+    run(internal::Oracle_of_traits_3(source), internal::Oracle_of_traits_3(refined_source), points,
+        internal::Oracle_of_traits_3(target), internal::Oracle_of_traits_3(refined_target), target_points, right,
+        request);
+  }
+
+  void run(const Oracle& source, const Oracle& refined_source, const Points& points, const Oracle& target,
+           const Oracle& refined_target, const Points& target_points, const Map& right,
+           const internal::Registration_request& request = {}) {
     using Tag = CGAL::Sequential_tag;
-    const internal::Oracle_of_traits_3 from(source);
-    const internal::Oracle_of_traits_3 to(target);
-    const internal::Oracle_of_traits_3 refined_from(refined_source);
-    const internal::Oracle_of_traits_3 refined_to(refined_target);
-    const auto framed = internal::framed_surface<Tag>(from, refined_from, internal::vectors_of(points), request.kind);
+    const auto framed =
+        internal::framed_surface<Tag>(source, refined_source, internal::vectors_of(points), request.kind);
     const auto framed_target =
-        internal::framed_surface<Tag>(to, refined_to, internal::vectors_of(target_points), request.kind);
+        internal::framed_surface<Tag>(target, refined_target, internal::vectors_of(target_points), request.kind);
     const double begin = processor_clock();
     const auto result = internal::registration_of_framed<Tag, Kernel>(framed, framed_target, request).result;
     seconds_.push_back(processor_clock() - begin);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
+#include "support/registration_traits.h"
 #include <equiaffine/is_affinely_equivalent.h>
 #include <equiaffine/register_surfaces.h>
 
@@ -122,6 +123,19 @@ TEST(Register_surfaces, a_piece_is_found_in_the_whole_with_few_points) {
   EXPECT_LT(error_of(result.best().map, map), 1e-12);
   EXPECT_GT(result.best().inliers[0], 0.95) << "the whole piece lies on the target";
   EXPECT_LT(result.best().inliers[1], 0.6) << "the piece covers a part of the target";
+}
+
+TEST(Register_surfaces, wrong_derivatives_take_more_hypotheses_but_change_no_map) {
+  Random random(500);
+  for (const char* name : {"ellipsoid+", "heart+"}) {
+    SCOPED_TRACE(name);
+    const Pair pair(named(name), random_map(random, 10, 2));
+    const Disturbed<Formula> source{pair.source, 0.1, 0.05, 1};
+    const Disturbed<Image> target{pair.target, 0.1, 0.05, 2};
+    const Result result = register_surfaces(source, pair.points, target, pair.target_points);
+    ASSERT_TRUE(result.found());
+    EXPECT_LT(error_of(result.best().map, pair.map), 1e-12);
+  }
 }
 
 TEST(Register_surfaces, all_maps_are_found_when_asked) {

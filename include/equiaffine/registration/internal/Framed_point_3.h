@@ -5,7 +5,6 @@
 #include <equiaffine/geometry/affine_frame.h>
 #include <equiaffine/geometry/local_structure.h>
 #include <equiaffine/registration/internal/Affine_map_3.h>
-#include <equiaffine/registration/internal/Surface_oracle_3.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -58,14 +57,15 @@ inline Framed_point_3 framed_point_of(const Jet_3<double>& jet, const Eigen::Vec
 /// 1e-5 of their size: they only choose between candidates and direct Newton's steps.
 constexpr double step_of_gradient = 0x1p-8;
 
-/// Computes the point with its frame and gradient, by 5 expansions. An affine map carries the points of these
+/// Computes the point with its frame and gradient, by 5 expansions taylor(p). An affine map carries the points of these
 /// differences along.
-inline Framed_point_3 framed_point(const Surface_oracle_3& surface, const Eigen::Vector3d& p) {
-  Framed_point_3 result = framed_point_of(surface.taylor(p), p);
+template <class Taylor>
+Framed_point_3 framed_point(const Taylor& taylor, const Eigen::Vector3d& p) {
+  Framed_point_3 result = framed_point_of(taylor(p), p);
   for (int i = 0; i < 2 && result.has_frame(); ++i) {
     const Eigen::Vector3d step = step_of_gradient * result.basis.col(i);
-    const Framed_point_3 ahead = framed_point_of(surface.taylor(p + step), p + step);
-    const Framed_point_3 behind = framed_point_of(surface.taylor(p - step), p - step);
+    const Framed_point_3 ahead = framed_point_of(taylor(p + step), p + step);
+    const Framed_point_3 behind = framed_point_of(taylor(p - step), p - step);
     const bool is_smooth = ahead.has_frame() && behind.has_frame() && ahead.is_elliptic == result.is_elliptic &&
                            behind.is_elliptic == result.is_elliptic;
     if (!is_smooth) result.quality = 0;

@@ -43,12 +43,11 @@ public:
         tolerance_(request.tolerance.value_or(
             std::clamp(8 * std::max(source.noise, target.noise), exact_tolerance, greatest_tolerance))) {}
 
+  /// Tries pairs that are alike, then, as long as no map is accepted, pairs that may be alike where structure is wrong.
   void run() {
     const auto points = points_to_try<ConcurrencyTag>(source_, request_.kind, most_points_to_try);
-    for (std::size_t begin = 0; begin < points.size() && !is_done(); begin += points_per_batch) {
-      const std::size_t count = std::min(points_per_batch, points.size() - begin);
-      try_points(std::span(points).subspan(begin, count));
-    }
+    try_all(points, {});
+    if (first_accepted_ == 0) try_all(points, limits_of_wrong_structure);
   }
 
   /// Refines a map and keeps it if it becomes as good as a right one would after so many steps.
@@ -82,6 +81,7 @@ public:
 private:
   static constexpr std::size_t most_points_to_try = 512, points_per_batch = 32, pairs_at_once = 8;
   static constexpr std::size_t most_hypotheses = 2000;
+  static constexpr Candidate_limits limits_of_wrong_structure = {48, 8, 0.9};
   static constexpr std::size_t probes_at_first = 150; ///< by which a hypothesis is judged before it is refined
   /// So many hypotheses more are tried after a map that moves only a part of the source to within the noise: the surface
   /// may be nearly symmetric, and another map fit better.
@@ -105,8 +105,15 @@ private:
     return is_within_noise || hypotheses_ >= first_accepted_ + more_hypotheses;
   }
 
-  void try_points(std::span<const std::size_t> points) {
-    const auto pairs = candidate_pairs<ConcurrencyTag>(source_, target_, points, request_.kind);
+  void try_all(const std::vector<std::size_t>& points, const Candidate_limits& limits) {
+    for (std::size_t begin = 0; begin < points.size() && !is_done(); begin += points_per_batch) {
+      const std::size_t count = std::min(points_per_batch, points.size() - begin);
+      try_points(std::span(points).subspan(begin, count), limits);
+    }
+  }
+
+  void try_points(std::span<const std::size_t> points, const Candidate_limits& limits) {
+    const auto pairs = candidate_pairs<ConcurrencyTag>(source_, target_, points, request_.kind, limits);
     for (std::size_t begin = 0; begin < pairs.size() && !is_done(); begin += pairs_at_once) {
       const std::size_t count = std::min(pairs_at_once, pairs.size() - begin);
       std::vector<Counterpart> found(count);

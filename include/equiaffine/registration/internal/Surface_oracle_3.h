@@ -5,6 +5,7 @@
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/registration/certainty_of_fit.h>
+#include <equiaffine/registration/internal/Framed_point_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>
@@ -23,11 +24,11 @@ struct Signed_distance_3 {
   Eigen::Vector3d normal;
 };
 
-/// Registration asks a function, whatever its type, for its expansions at points of the domain, in doubles.
+/// Registration asks a function, whatever its type, for frames on its zero set and distances from it, in doubles.
 class Surface_oracle_3 {
 public:
   virtual ~Surface_oracle_3() = default;
-  virtual Jet_3<double> taylor(const Eigen::Vector3d& p) const = 0;
+  virtual Framed_point_3 framed_point(const Eigen::Vector3d& p) const = 0;
   virtual Jet_3<double, 1> first_order(const Eigen::Vector3d& p) const = 0;
 
   /// How far the curvatures at a point can be trusted, from 0 to 1: less than 1 for fits, which estimate their errors.
@@ -60,9 +61,8 @@ public:
 
   explicit Oracle_of_traits_3(const Traits& traits) : traits_(traits), box_(traits.bbox()) {}
 
-  Jet_3<double> taylor(const Eigen::Vector3d& p) const override {
-    if (!contains(p)) return Jet_3<double>(std::numeric_limits<double>::quiet_NaN());
-    return in_doubles(traits_.taylor(point(p)));
+  Framed_point_3 framed_point(const Eigen::Vector3d& p) const override {
+    return internal::framed_point([this](const Eigen::Vector3d& q) { return taylor(q); }, p);
   }
 
   Jet_3<double, 1> first_order(const Eigen::Vector3d& p) const override {
@@ -78,6 +78,11 @@ public:
   }
 
 private:
+  Jet_3<double> taylor(const Eigen::Vector3d& p) const {
+    if (!contains(p)) return Jet_3<double>(std::numeric_limits<double>::quiet_NaN());
+    return in_doubles(traits_.taylor(point(p)));
+  }
+
   bool contains(const Eigen::Vector3d& p) const {
     for (int a = 0; a < 3; ++a)
       if (!(p[a] >= box_.min(a) && p[a] <= box_.max(a))) return false;
