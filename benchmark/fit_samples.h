@@ -112,7 +112,7 @@ inline Errors errors_of(const Samples& samples, const Structures& fits, const CG
     const double known = std::isfinite(error) ? error : 1e300;
     errors.relative.push_back(known);
     const double distance = std::min({p.x() - box.xmin(), box.xmax() - p.x(), p.y() - box.ymin(), box.ymax() - p.y()});
-    if (has_border) (distance < 0.05 * (box.xmax() - box.xmin()) ? errors.at_border : errors.inside).push_back(known);
+    if (has_border) (distance < 0.1 * (box.xmax() - box.xmin()) ? errors.at_border : errors.inside).push_back(known);
     errors.covered += known * size_of(truth) <= fits[i].error.gaussian_curvature;
     if (fits[i].error.gaussian_curvature > 0.1 * size_of(fits[i].structure)) continue;
     ++errors.trusted;
