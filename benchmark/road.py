@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Times whole commands from a formula to a file: the blobby surface of the README with its basic attributes as PLY.
 
-Figures are medians of processor time, user and system, on one thread; programs take turns, so that a busy machine slows
-all of them alike. With --before PROGRAM an older program does the same, and the ratios are figures, too.
+Times are medians of processor time, user and system, on one thread; programs take turns, so that a busy machine slows
+all of them alike. The figures of two threads are the best ratios of wall times. With --before PROGRAM an older program
+does the same on one thread, and the ratios are figures, too, as is whether its file has the bytes of ours from two.
 """
 import argparse
 import filecmp

@@ -31,12 +31,13 @@ struct Attribute_task {
 };
 
 /// The functions of the library that evaluate one of the models of Source_function at many points, compiled for one
-/// instruction set. They use all threads.
+/// instruction set. They use the threads that TBB may use.
 template <class Traits>
 struct Engine {
   Vertex_attributes (*compute_attributes)(const Attribute_task<Traits>&);
 
-  /// Marching Cubes on a grid of that many nodes, near the surface only if f has bounds.
+  /// Runs Marching Cubes on a grid of that many nodes, or on the lattice of the samples. It leaves out empty space if f
+  /// has bounds and no samples.
   Isosurface_3<Kernel> (*marching_cubes)(const Level_set_traits_3<Traits>&, const std::array<std::size_t, 3>& nodes,
                                          Vertex_position);
 

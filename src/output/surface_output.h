@@ -49,8 +49,8 @@ std::string number_text(double number, int digits = 6);
 /// Returns what a page of the surface in that file is called: the name of the file, or `otherwise` if that is "-".
 std::string page_title(const std::string& path, const std::string& otherwise);
 
-/// Throws `Input_error` if the page has an extension of something else, unless the picture ends in .png or is "-", and if
-/// pictures cannot be written.
+/// Throws `Input_error` if the page has an extension that is not that of a page, if the picture has another one than
+/// .png, or if a picture is asked for and this program was built without VTK. Each may be "-".
 void check_display_outputs(const Display_options& options);
 
 /// Writes the page and the picture that are asked for to the next files, without committing, and returns the file after

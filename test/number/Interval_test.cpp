@@ -61,7 +61,8 @@ const std::vector<Function>& functions() {
       EQUIAFFINE_FUNCTION(max(a, b), 1e300, -9, 9),  EQUIAFFINE_FUNCTION(min(a, b), 1e300, -9, 9),
       EQUIAFFINE_FUNCTION(pow(a, 0), 10, -9, 9),     EQUIAFFINE_FUNCTION(pow(a, 1), 10, -9, 9),
       EQUIAFFINE_FUNCTION(pow(a, 2), 10, -9, 9),     EQUIAFFINE_FUNCTION(pow(a, 3), 10, -9, 9),
-      EQUIAFFINE_FUNCTION(pow(a, 4), 10, -9, 9),     EQUIAFFINE_FUNCTION(pow(a, 7), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, 4), 10, -9, 9),     EQUIAFFINE_FUNCTION(pow(a, 6), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, 7), 10, -9, 9),     EQUIAFFINE_FUNCTION(pow(a, 10), 10, -9, 9),
       EQUIAFFINE_FUNCTION(pow(a, -1), 10, -9, 9),    EQUIAFFINE_FUNCTION(pow(a, -4), 10, -9, 9),
       EQUIAFFINE_FUNCTION(sqrt(a), 1e300, 0, 9),     EQUIAFFINE_FUNCTION(cbrt(a), 1e300, -9, 9),
       EQUIAFFINE_FUNCTION(exp(a), 700, -9, 9),       EQUIAFFINE_FUNCTION(log(a), 1e300, 2, 9),
@@ -209,7 +210,8 @@ TEST(Interval, bounds_of_a_small_box_exceed_the_range_by_rounding_only) {
 
 TEST(Interval, even_powers_and_absolute_values_of_a_box_around_zero_start_at_zero) {
   const Interval a(-1, 2);
-  for (const Interval& r : {square(a), a * a, pow(a, 2), pow(a, 4), abs(a), pow(a, Interval(2)), hypot(a, Interval(0))})
+  for (const Interval& r : {square(a), a * a, pow(a, 2), pow(a, 4), pow(a, 6), pow(a, 8), pow(a, 10), abs(a),
+                            pow(a, Interval(2)), hypot(a, Interval(0))})
     EXPECT_EQ(r.lower(), 0) << text(r);
   EXPECT_LE(pow(a, 4).upper(), 16 * (1 + 20 * epsilon));
 }

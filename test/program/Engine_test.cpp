@@ -63,7 +63,7 @@ void expect_same_on_all_instruction_sets(const Traits& function) {
   }
 }
 
-/// Surfaces are equal on all instruction sets, and those of `sequential` Marching Cubes at all nodes.
+/// Expects each instruction set to give the surface that Marching Cubes of the library gives at all nodes.
 template <class Traits>
 void expect_same_surface_on_all_instruction_sets(const Traits& function) {
   const Level_set_traits_3<Traits> level_set(function, 0.1);

@@ -26,7 +26,8 @@ namespace equiaffine {
 ///     };
 ///     Analytic_function_traits_3<Kernel, Sphere> traits(Sphere(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
 ///
-/// f is called with FT, Interval, jets of both and, by compute_attributes, jets of Pack<FT>. Elementary functions must
+/// f is called with FT, Interval and jets of both; Marching Cubes, max_distance_to_surface and compute_attributes call
+/// it with jets of Pack<FT>, too. Elementary functions must
 /// be found by argument-dependent lookup (`using std::exp; return exp(x);`). With three template parameters, or `auto`,
 /// for the arguments and `auto` for intermediate results it computes only the derivatives that its structure leaves
 /// nonzero.

@@ -12,8 +12,8 @@
 
 namespace equiaffine {
 
-/// Makes any model of ImplicitFunctionTraits_3 a model of FirstOrderBatchImplicitFunctionTraits_3. It calls the batch members of
-/// a base that has them and loops over single calls otherwise. All other members of the base stay available.
+/// Makes any model of ImplicitFunctionTraits_3 a model of FirstOrderBatchImplicitFunctionTraits_3. It calls the batch
+/// members of a base that has them and loops over single calls otherwise. All other members of the base stay available.
 template <ImplicitFunctionTraits_3 Traits>
 class Batch_function_traits_3 : public Traits {
 public:

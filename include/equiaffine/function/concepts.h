@@ -70,7 +70,8 @@ concept BatchImplicitFunctionTraits_3 =
     traits.taylors(points, jets);
   };
 
-/// A function that also expands to order 1 at many points in one call, bit for bit as `first_order` does.
+/// A function that also expands to order 1 at many points in one call, bit for bit as `first_order` does unless the
+/// compiler contracts products and sums.
 template <class Traits>
 concept FirstOrderBatchImplicitFunctionTraits_3 =
   BatchImplicitFunctionTraits_3<Traits> &&

@@ -12,7 +12,8 @@
 
 namespace equiaffine {
 
-/// Does what intersect_segment() does on each segment, with the same bits. A segment has `ends` and the `values` there.
+/// Does what intersect_segment() does on each segment, with the same bits unless the compiler contracts products and
+/// sums. A segment has `ends` and the `values` there.
 template <class Traits, class Segment>
 std::vector<Surface_point_3<Kernel_of<Traits>>> intersect_segments(const Batch_function_traits_3<Traits>& traits,
                                                                    std::span<const Segment> segments) {

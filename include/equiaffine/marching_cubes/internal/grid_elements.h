@@ -4,7 +4,8 @@
 // FT, Point                       types of a number and a position
 // isovalue()                      the value that the surface has
 // cell_values({i, j, k})          the values at the corners of a cell
-// edge_vertex({i, j, k}, axis)    the vertex on an edge at whose ends the values have different signs
+// edge_vertex({i, j, k}, axis)    the vertex on an edge at whose ends the values have different signs, or else
+// edges(grid_edges)               the ends of many edges and the values there
 // point({i, j, k}, offset)        a position in a cell, where `offset` is in steps of the grid
 // coordinates(point)              an array of three numbers
 // is_left_handed()                whether the steps along i, j, k are a left-handed system

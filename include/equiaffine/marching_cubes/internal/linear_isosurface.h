@@ -19,7 +19,7 @@
 
 namespace equiaffine::internal {
 
-/// Writes the points of the vertices on edges. Returns the rows of nodes with a vertex.
+/// Writes the points of the vertices on edges. Returns the rows of nodes at which a vertex lies.
 template <class ConcurrencyTag, class Grid>
 Grid_rows place_on_edges(const Grid& grid, const Isosurface_plan& plan, typename Grid::Point* points) {
   const std::size_t planes = plan.signs.size()[2];

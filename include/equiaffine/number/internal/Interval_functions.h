@@ -81,8 +81,9 @@ inline Interval natural_power(const Interval& a, unsigned n) {
   if (n == 1) return a;
   if (n == 2) return square(a);
   const bool is_even = n % 2 == 0;
-  if (is_even && n <= 8) return natural_power(square(a), n / 2);
-  const Interval r = internal::increasing([n](double u) { return internal::natural_power(u, n); }, is_even ? abs(a) : a);
+  const Interval r = is_even && n <= 8 ? natural_power(square(a), n / 2)
+                                       : internal::increasing([n](double u) { return internal::natural_power(u, n); },
+                                                              is_even ? abs(a) : a);
   return is_even ? Interval(std::max(r.lower(), 0.0), r.upper()) : r;
 }
 

@@ -55,8 +55,8 @@ struct Newton_step_3 {
   typename Kernel::Point_3 end;
 };
 
-/// The greatest distance of some points, NaN if Newton's method leads away from zeros at one of them or if there is
-/// none. What is undefined does not count.
+/// This keeps the greatest distance of some points. It is NaN if Newton's method leads away from zeros at one of them, or
+/// if there is none. What is undefined does not count.
 template <class FT>
 struct Greatest_distance {
   void add(const FT& distance) {
@@ -69,7 +69,7 @@ struct Greatest_distance {
   bool is_unknown = false;
 };
 
-/// The greatest distance of points that are evaluated together.
+/// Returns the greatest distance of points that are evaluated together.
 template <class Traits>
 Greatest_distance<typename Traits::FT> greatest_distance_of_block(const Batch_function_traits_3<Traits>& traits,
                                                                   std::span<const typename Traits::Point_3> points,
