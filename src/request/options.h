@@ -54,11 +54,11 @@ struct Source_options {
   Derivatives derivatives = Derivatives::JETS;
   Spline_options spline;
   Fit_options fit;
-  double height_of_fit = 0;          ///< up to which a fit needs values over its surface; it may have more
+  double height_of_fit = 0;          ///< a fit has values at least this far from its surface
   bool estimates_errors = false;     ///< whether the errors of affine curvatures are estimated
   bool is_registered = false;        ///< whether registration needs the data of a fit and an unsmoothed spline, too
   std::optional<Raw_layout> raw;     ///< is set for a volume without a header
-  std::optional<double> narrow_band; ///< voxels beyond which distances are not needed
+  std::optional<double> narrow_band; ///< distances are not needed beyond so many voxels
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
 };
 
@@ -115,11 +115,11 @@ struct Sample_options {
 
 struct View_options {
   std::string mesh;
-  Display_options display; ///< with a page or a picture at least
+  Display_options display; ///< asks for a page, a picture or both
 };
 
 struct Annotate_options {
-  std::string mesh; ///< or points
+  std::string mesh; ///< the path of a mesh or of points
   Fit_options fit;
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
   Attribute_selection attributes;

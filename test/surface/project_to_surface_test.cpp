@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/contraction.h"
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/analytic_functions.h>
 #include <equiaffine/project_to_surface.h>
+#include <equiaffine/surface/intersect_segments.h>
 
 #include <CGAL/Simple_cartesian.h>
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <random>
+#include <span>
+#include <vector>
 
 namespace {
 
@@ -109,6 +115,93 @@ TEST(Intersect_segment, a_triple_root_is_found) {
   const double fa = f(-1.0, 0.0, 0.0), fb = f(1.0, 0.0, 0.0);
   EXPECT_NEAR(intersect_segment(with_derivatives(f), a, b, fa, fb).point.x(), 0.3, 1e-12);
   EXPECT_NEAR(intersect_segment(Values_only<Expression_3>{f}, a, b, fa, fb).point.x(), 0.3, 1e-12);
+}
+
+/// Is negative in a ball and branches at x = y, so that points on both sides disagree in a pack.
+struct Branching_function {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    const T square = x * x + y * y + z * z - 1.0;
+    return x < y ? square : square * (2.0 + z);
+  }
+};
+
+std::vector<Point_3> random_points(std::size_t n) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-2, 2);
+  std::vector<Point_3> points;
+  while (points.size() < n) {
+    const double x = coordinate(random), y = coordinate(random), z = coordinate(random);
+    points.emplace_back(x, y, z);
+  }
+  return points;
+}
+
+template <class Function>
+void expect_batches_of_single_calls(const Function& f) {
+  const Batch_function_traits_3 traits(with_derivatives(f));
+  for (const std::size_t n : {0, 1, 7, 63, 64, 65, 200}) {
+    const auto points = random_points(n);
+    std::vector<double> values(n);
+    std::vector<Jet_3<double, 1>> jets(n);
+    traits.values(points, values);
+    traits.first_orders(points, jets);
+    for (std::size_t i = 0; i < n; ++i) {
+      ASSERT_EQ(values[i], traits.value(points[i])) << n;
+      ASSERT_EQ(jets[i].coefficients(), traits.first_order(points[i]).coefficients()) << n;
+    }
+  }
+}
+
+TEST(Batch_function_traits_3, batches_of_any_size_are_single_calls) {
+  SKIP_IF_THE_COMPILER_CONTRACTS();
+  expect_batches_of_single_calls(analytic_functions::Tanglecube());
+  expect_batches_of_single_calls(Branching_function());
+  expect_batches_of_single_calls(Expression_3("min(x^2+y^2+z^2-1, exp(x)-2*y, abs(z)-x)"));
+}
+
+struct Segment {
+  std::array<Point_3, 2> ends;
+  std::array<double, 2> values;
+};
+
+/// Intersects `count` segments together and one by one. Returns how many have a root, and how many end at a pole.
+template <class Traits>
+std::array<std::size_t, 2> expect_searches_of_single_calls(const Traits& traits, std::size_t count) {
+  std::vector<Segment> segments;
+  const auto points = random_points(40 * count + 100);
+  for (std::size_t i = 0; i + 1 < points.size() && segments.size() < count; i += 2) {
+    const double fa = traits.value(points[i]), fb = traits.value(points[i + 1]);
+    if ((fa < 0) != (fb < 0)) segments.push_back({{points[i], points[i + 1]}, {fa, fb}});
+  }
+  EXPECT_EQ(segments.size(), count);
+  const auto together = intersect_segments(Batch_function_traits_3(traits), std::span<const Segment>(segments));
+  EXPECT_EQ(together.size(), count);
+  std::array<std::size_t, 2> roots_and_poles{};
+  for (std::size_t n = 0; n < count; ++n) {
+    const auto& [ends, values] = segments[n];
+    const auto alone = intersect_segment(traits, ends[0], ends[1], values[0], values[1]);
+    EXPECT_EQ(together[n].point, alone.point) << n;
+    EXPECT_EQ(together[n].has_converged, alone.has_converged) << n;
+    EXPECT_EQ(together[n].is_at_pole, alone.is_at_pole) << n;
+    EXPECT_EQ(together[n].is_at_end, alone.is_at_end) << n;
+    EXPECT_EQ(together[n].evaluations, alone.evaluations) << n;
+    roots_and_poles[0] += alone.has_converged;
+    roots_and_poles[1] += alone.is_at_pole;
+  }
+  return roots_and_poles;
+}
+
+TEST(Intersect_segments, searches_together_are_searches_alone) {
+  SKIP_IF_THE_COMPILER_CONTRACTS();
+  for (const std::size_t n : {0, 1, 63, 64, 65, 200}) {
+    expect_searches_of_single_calls(with_derivatives(Branching_function()), n);
+    expect_searches_of_single_calls(Values_only<analytic_functions::Tanglecube>{{}}, n);
+  }
+  const auto [roots, poles] = expect_searches_of_single_calls(with_derivatives(Expression_3("y+1/(x-0.01)")), 200);
+  EXPECT_GT(roots, 20u);
+  EXPECT_GT(poles, 20u);
+  EXPECT_EQ(expect_searches_of_single_calls(Ending_function{0.29}, 20), (std::array<std::size_t, 2>{0, 0}));
 }
 
 } // namespace

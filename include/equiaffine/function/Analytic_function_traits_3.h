@@ -27,10 +27,9 @@ namespace equiaffine {
 ///     Analytic_function_traits_3<Kernel, Sphere> traits(Sphere(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
 ///
 /// f is called with FT, Interval and jets of both; Marching Cubes, max_distance_to_surface and compute_attributes call
-/// it with jets of Pack<FT>, too. Elementary functions must
-/// be found by argument-dependent lookup (`using std::exp; return exp(x);`). With three template parameters, or `auto`,
-/// for the arguments and `auto` for intermediate results it computes only the derivatives that its structure leaves
-/// nonzero.
+/// it with jets of Pack<FT>, too. Elementary functions must be found by argument-dependent lookup (`using std::exp;
+/// return exp(x);`). With three template parameters, or `auto`, for the arguments and `auto` for intermediate results it
+/// computes only the derivatives that its structure leaves nonzero.
 template <class Kernel, class Function>
 class Analytic_function_traits_3 {
 public:
@@ -57,7 +56,7 @@ public:
   void first_orders(std::span<const Point_3> points, std::span<Jet_3<FT, 1>> jets) const {
     if constexpr (std::is_floating_point_v<FT>) {
       try {
-        return internal::expand_in_packs<1, FT>(function_, points, jets);
+        return internal::expand_points<1, FT>(function_, points, jets);
       } catch (const Lanes_disagree&) {
       }
     }

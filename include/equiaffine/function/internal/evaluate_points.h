@@ -13,7 +13,7 @@
 
 namespace equiaffine::internal {
 
-/// A function that takes spans of coordinates and a span for the values.
+/// The function takes spans of coordinates and a span for the values.
 template <class Function, class FT>
 concept TakesSpans = requires(const Function& f, std::span<const FT> coordinates, std::span<FT> values) {
   f(coordinates, coordinates, coordinates, values);
@@ -42,7 +42,7 @@ void values_at(const Function& f, std::span<const Point_3> points, std::span<FT>
 /// jets[i] becomes the expansion of f at points[i], computed in packs.
 /// \throw Lanes_disagree where f branches differently in the lanes of a pack.
 template <int Order, class FT, class Function, class Point_3>
-void expand_in_packs(const Function& f, std::span<const Point_3> points, std::span<Jet_3<FT, Order>> jets) {
+void expand_points(const Function& f, std::span<const Point_3> points, std::span<Jet_3<FT, Order>> jets) {
   using Lanes = Pack<FT>;
   for (std::size_t first = 0; first < points.size(); first += Lanes::size) {
     const std::size_t last = std::min(first + Lanes::size, points.size()) - 1;

@@ -8,13 +8,16 @@
 
 namespace equiaffine::internal {
 
-/// A selection of the rows of nodes along i of a grid. Different threads may add rows of different planes; a row may be
-/// added more than once.
+/// A selection of the rows of nodes along i of a grid. Different threads may add rows of different planes. A row may be
+/// added more than once, and is kept once if no other row of its plane is added in between.
 class Grid_rows {
 public:
   explicit Grid_rows(std::size_t number_of_planes) : planes_(number_of_planes) {}
 
-  void add(std::size_t j, std::size_t k) { planes_[k].push_back(j); }
+  void add(std::size_t j, std::size_t k) {
+    auto& plane = planes_[k];
+    if (plane.empty() || plane.back() != j) plane.push_back(j);
+  }
 
   void add(const Grid_rows& other) {
     for (std::size_t k = 0; k < planes_.size(); ++k)

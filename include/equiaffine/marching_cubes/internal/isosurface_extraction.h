@@ -22,37 +22,33 @@ namespace equiaffine::internal {
 
 using Index_triangle = std::array<Isosurface_numbering::Index, 3>;
 
-/// The work of for_each_vertex_of_plane(), which says what `place` and `rows` are.
+/// Does the work of for_each_vertex_of_plane().
 template <bool HasUndefined, class Place>
-void visit_vertices_of_plane(const Isosurface_plan& plan, std::size_t k, Grid_rows& rows, const Place& place) {
+void visit_vertices_of_plane(const Isosurface_plan& plan, std::size_t k, const Place& place) {
   const Node_signs& signs = plan.signs;
   for (std::size_t j = 0; j < signs.size()[1]; ++j) {
     if (!plan.numbering.has_vertices(j, k)) continue;
     auto vertex = plan.numbering.row(j, k).first;
-    bool has_vertex_at_node = false;
     const Node_signs::Edge_row<HasUndefined> edges(signs, j, k);
     signs.for_each_word(j, k, [&](std::size_t w) {
       const auto crossed = edges.crossed(w);
       const auto visit_along = [&](auto axis) {
         for (Node_signs::Word bits = crossed[axis]; bits != 0; bits &= bits - 1)
-          has_vertex_at_node |= place(vertex[axis]++, 64 * w + std::size_t(std::countr_zero(bits)), j, k, axis);
+          place(vertex[axis]++, 64 * w + std::size_t(std::countr_zero(bits)), j, k, axis);
       };
       if ((crossed[0] | crossed[1] | crossed[2]) == 0) return;
       visit_along(std::integral_constant<std::size_t, 0>());
       visit_along(std::integral_constant<std::size_t, 1>());
       visit_along(std::integral_constant<std::size_t, 2>());
     });
-    if (has_vertex_at_node) rows.add(j, k);
   }
 }
 
 /// Calls place(vertex, i, j, k, axis) for every vertex on an edge that begins in plane k. (i, j, k) is the node at
-/// which the edge begins, and `axis` is a std::integral_constant. `place` returns whether the vertex lies at a node;
-/// rows of nodes with such vertices are added to `rows`.
+/// which the edge begins, and `axis` is a std::integral_constant.
 template <class Place>
-void for_each_vertex_of_plane(const Isosurface_plan& plan, std::size_t k, Grid_rows& rows, const Place& place) {
-  plan.has_undefined ? visit_vertices_of_plane<true>(plan, k, rows, place)
-                     : visit_vertices_of_plane<false>(plan, k, rows, place);
+void for_each_vertex_of_plane(const Isosurface_plan& plan, std::size_t k, const Place& place) {
+  plan.has_undefined ? visit_vertices_of_plane<true>(plan, k, place) : visit_vertices_of_plane<false>(plan, k, place);
 }
 
 /// Calls visit(vertices, edges) for the vertices on edges that begin in plane k, with up to 64 of them at a time.
@@ -66,14 +62,11 @@ void for_each_batch_of_plane(const Isosurface_plan& plan, std::size_t k, const V
     vertices.clear();
     edges.clear();
   };
-  Grid_rows no_rows(plan.signs.size()[2]);
-  for_each_vertex_of_plane(plan, k, no_rows,
-                           [&](std::size_t v, std::size_t i, std::size_t j, std::size_t, std::size_t axis) {
-                             vertices.push_back(v);
-                             edges.push_back({{i, j, k}, axis});
-                             if (edges.size() == batch) visit_batch();
-                             return false;
-                           });
+  for_each_vertex_of_plane(plan, k, [&](std::size_t v, std::size_t i, std::size_t j, std::size_t, std::size_t axis) {
+    vertices.push_back(v);
+    edges.push_back({{i, j, k}, axis});
+    if (edges.size() == batch) visit_batch();
+  });
   if (!edges.empty()) visit_batch();
 }
 

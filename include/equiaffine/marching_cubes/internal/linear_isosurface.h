@@ -34,10 +34,10 @@ Grid_rows place_on_edges(const Grid& grid, const Isosurface_plan& plan, typename
         }
       });
     } else {
-      for_each_vertex_of_plane(plan, k, rows, [&](std::size_t v, std::size_t i, std::size_t j, std::size_t, auto axis) {
+      for_each_vertex_of_plane(plan, k, [&](std::size_t v, std::size_t i, std::size_t j, std::size_t, auto axis) {
         const auto vertex = grid.edge_vertex({i, j, k}, axis);
         points[v] = vertex.point;
-        return vertex.is_at_node;
+        if (vertex.is_at_node) rows.add(j, k);
       });
     }
   });

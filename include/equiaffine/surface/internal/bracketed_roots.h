@@ -86,10 +86,10 @@ bool is_end_of_domain(const Traits& traits, const Bracket_3<Kernel>& bracket, co
   return is_undefined(distance) || is_undefined(-distance);
 }
 
-/// Newton's method on the restriction of f, kept within the bracket by bisection whenever a step would leave it or not
-/// halve the last one (Press et al., Numerical Recipes, 2007, section 9.4), or where f has a value and no derivatives:
-/// beside such places f may jump, and only a step of Newton's method tells a zero. The caller expands f at the points
-/// that the search asks for, so that many searches can be expanded together.
+/// A search by Newton's method on the restriction of f. Bisection keeps it within the bracket whenever a step would
+/// leave it or not halve the last one (Press et al., Numerical Recipes, 2007, section 9.4), or where f has a value and
+/// no derivatives: beside such places f may jump, and only a step of Newton's method tells a zero. The caller expands f
+/// at the points that the search asks for, so that many searches can be expanded together.
 template <class Kernel>
 class Newton_search_3 {
   using FT = typename Kernel::FT;
@@ -100,7 +100,7 @@ public:
 
   const Bracket_3<Kernel>& bracket() const { return bracket_; }
 
-  /// The point where the expansion is needed next; once the search has ended, the zero or the best guess.
+  /// Returns the point where the expansion is needed next and, once the search has ended, the zero or the best guess.
   typename Kernel::Point_3 point() const { return bracket_.a + t_ * bracket_.direction; }
 
   bool has_ended() const { return has_ended_; }
@@ -160,8 +160,8 @@ void finish_together(const Batch_function_traits_3<Traits>& traits, std::span<Ne
   }
 }
 
-/// Inverse quadratic interpolation where it is safe, else bisection (Chandrupatla, A new hybrid quadratic/bisection
-/// algorithm for finding the zero of a nonlinear function without using derivatives, 1997).
+/// Searches by inverse quadratic interpolation where it is safe, else by bisection (Chandrupatla, A new hybrid
+/// quadratic/bisection algorithm for finding the zero of a nonlinear function without using derivatives, 1997).
 template <class Kernel, class Traits>
 Surface_point_3<Kernel> chandrupatla(const Traits& traits, const Bracket_3<Kernel>& bracket) {
   using FT = typename Kernel::FT;

@@ -19,7 +19,7 @@
 
 namespace equiaffine::internal {
 
-/// A step of Newton's method from a point towards a zero of f.
+/// This takes a step of Newton's method from a point towards a zero of f.
 template <class Kernel>
 struct Newton_step_3 {
   using FT = typename Kernel::FT;
@@ -95,7 +95,7 @@ Greatest_distance<typename Traits::FT> greatest_distance_of_block(const Batch_fu
   return result;
 }
 
-/// The algorithm of `max_distance_to_surface`.
+/// This is the algorithm of `max_distance_to_surface`.
 template <class ConcurrencyTag, ImplicitFunctionTraits_3 Traits>
 typename Traits::FT max_distance_to_surface(const Traits& traits, std::span<const typename Traits::Point_3> points,
                                             std::span<const Point_status> status) {
