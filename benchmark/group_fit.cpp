@@ -100,8 +100,8 @@ void cost() {
   for (const double noise : {0., 0.01}) {
     const auto points = disturbed(samples, noise);
     const std::string name = noise > 0 ? "noisy" : "exact";
-    const auto times = compare(
-        wall_clock, 3, [&] { fitted_structures<CGAL::Sequential_tag>(points, samples.triangles); },
+    const auto times = compare_threads(
+        3, [&] { fitted_structures<CGAL::Sequential_tag>(points, samples.triangles); },
         [&] { fitted_structures<CGAL::Parallel_tag>(points, samples.triangles); });
     figure("fit_40k_" + name + "_one_thread", times.a, "s", noise > 0 ? "<=120" : "<=30");
     figure("fit_40k_" + name + "_two_threads_speedup", times.ratio, "ratio", ">=1.8");

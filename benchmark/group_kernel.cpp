@@ -17,7 +17,6 @@
 #endif
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <random>
 #include <string>
@@ -122,7 +121,6 @@ void times() {
   figure("kernel_packs_to_scalar", scalar / time_of(contenders, "compact, packs"), "x",
          Lanes::size >= 8 ? ">=3.8" : ">=1.9");
   figure("kernel_transformation_to_compact", time_of(contenders, "transformation") / scalar, "x", ">=8");
-  figure("kernel_direct_to_compact", time_of(contenders, "direct") / scalar, "x", ">=15");
 }
 
 void threads() {
@@ -135,18 +133,14 @@ void threads() {
   for (std::size_t i = 0; i < size; ++i) points.emplace_back(unit(random), unit(random), unit(random));
   const auto traits = make_analytic_traits<Kernel>(analytic_functions::Metaballs(), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
   const auto selection = select_attributes("affine_gaussian_curvature,affine_mean_curvature");
-  std::array<double, 2> best = {1e300, 1e300};
-  for (int round = 0; round < 3; ++round)
-    for (std::size_t n = 0; n < 2; ++n) {
-      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, n + 1);
-      const auto start = std::chrono::steady_clock::now();
-      keep(compute_attributes<CGAL::Parallel_tag>(traits, points, selection));
-      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-      best[n] = std::min(best[n], time.count());
-    }
-  std::printf("Jets and structure of 10^7 points of metaballs: %.2f s on one thread, %.2f s on two\n", best[0],
-              best[1]);
-  figure("kernel_two_threads", best[0] / best[1], "x", ">=1.8");
+  const auto run = [&](std::size_t threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    keep(compute_attributes<CGAL::Parallel_tag>(traits, points, selection));
+  };
+  const auto best = compare_threads(
+      5, [&] { run(1); }, [&] { run(2); });
+  std::printf("Jets and structure of 10^7 points of metaballs: %.2f s on one thread, %.2f s on two\n", best.a, best.b);
+  figure("kernel_two_threads", best.ratio, "x", ">=1.8");
 #endif
 }
 

@@ -31,13 +31,14 @@ inline double median(std::vector<double> values) {
   return n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
-/// Medians of the times of a and b, and of their ratio.
+/// Times of a and b, and their ratio.
 struct Comparison {
   double ratio, a, b;
 };
 
-/// Runs alternate, so that what disturbs one disturbs the other; the first of each is not counted.
-inline Comparison compare(Clock clock, int runs, const std::function<void()>& a, const std::function<void()>& b) {
+/// Times a and b in turn, so that what disturbs one disturbs the other; the first run of each is not counted.
+inline std::vector<Comparison> neighboring_runs(Clock clock, int runs, const std::function<void()>& a,
+                                                const std::function<void()>& b) {
   const auto seconds = [&](const std::function<void()>& f) {
     const double begin = clock();
     f();
@@ -45,13 +46,31 @@ inline Comparison compare(Clock clock, int runs, const std::function<void()>& a,
   };
   a();
   b();
-  std::vector<double> ratios, times_a, times_b;
+  std::vector<Comparison> pairs;
   for (int n = 0; n < runs; ++n) {
-    times_a.push_back(seconds(a));
-    times_b.push_back(seconds(b));
-    ratios.push_back(times_a.back() / times_b.back());
+    const double time_a = seconds(a), time_b = seconds(b);
+    pairs.push_back({time_a / time_b, time_a, time_b});
   }
-  return {median(ratios), median(times_a), median(times_b)};
+  return pairs;
+}
+
+/// Compares a and b by medians over neighboring runs.
+inline Comparison compare(Clock clock, int runs, const std::function<void()>& a, const std::function<void()>& b) {
+  const auto pairs = neighboring_runs(clock, runs, a, b);
+  const auto median_of = [&](double Comparison::*member) {
+    std::vector<double> numbers;
+    for (const Comparison& pair : pairs) numbers.push_back(pair.*member);
+    return median(numbers);
+  };
+  return {median_of(&Comparison::ratio), median_of(&Comparison::a), median_of(&Comparison::b)};
+}
+
+/// Compares one thread with several in wall time, by the neighboring runs that took least time together. Other work takes
+/// a core away from the second thread and makes most pairs say less than is true.
+inline Comparison compare_threads(int runs, const std::function<void()>& one, const std::function<void()>& several) {
+  const auto pairs = neighboring_runs(wall_clock, runs, one, several);
+  return *std::min_element(pairs.begin(), pairs.end(),
+                           [](const Comparison& p, const Comparison& q) { return p.a + p.b < q.a + q.b; });
 }
 
 /// Peak memory of a child of this process that runs f, in MB.
