@@ -22,7 +22,10 @@
 #include <vtkPolyData.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdlib>
+#include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -151,6 +154,43 @@ void compare_skipping(const std::string& name, const Function& function, std::si
   figure("skipping_empty_space_" + name, c.ratio, "x", target);
 }
 
+/// An expression that is never shortened.
+struct Whole_expression {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    return f(x, y, z);
+  }
+  template <class T>
+  void operator()(std::span<const T> x, std::span<const T> y, std::span<const T> z, std::span<T> out) const {
+    f(x, y, z, out);
+  }
+  Expression_3 f;
+};
+
+/// A union of spheres, whose expression Marching Cubes shortens to those that are near.
+void compare_shortening(std::size_t spheres, std::size_t n, int runs) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(-0.8, 0.8);
+  std::string text;
+  for (std::size_t s = 0; s < spheres; ++s) {
+    text += s == 0 ? "min(" : ", ";
+    for (const char* coordinate : {"(x", " + (y", " + (z"})
+      text += coordinate + (" + (" + std::to_string(unit(random)) + "))^2");
+    text += " - " + std::to_string(0.01 * double(1 + s % 4));
+  }
+  const Expression_3 f(text + ")");
+  const auto nodes = parameters::number_of_nodes(n).skip_empty_space();
+  const auto mesh_of = [&](const auto& function) {
+    marching_cubes(make_analytic_traits<Kernel>(function, box), nodes);
+  };
+  const auto c = compare(
+      processor_clock, runs, [&] { mesh_of(Whole_expression{f}); }, [&] { mesh_of(f); });
+  const std::string name = std::to_string(spheres) + "_spheres_" + std::to_string(n);
+  std::printf("%s, %zu instructions: %.1f ms, shortened %.1f ms\n", name.c_str(), f.number_of_instructions(), 1e3 * c.a,
+              1e3 * c.b);
+  figure("shortening_" + name, c.ratio, "x", ">1");
+}
+
 /// Peak memory beside the output and the input.
 void measure_memory() {
   constexpr double megabyte = 1048576;
@@ -191,5 +231,7 @@ int main(int argc, char** argv) {
     compare_field<double>(kind, 128, runs, ">=1");
   }
   compare_skipping("sphere_512", Sphere(), 512, runs, ">=8");
+  compare_shortening(10, 256, runs);
+  compare_shortening(100, 128, runs);
   compare_skipping("expression_sphere_512", Expression_3("x^2+y^2+z^2-0.64"), 512, runs, ">=6");
 }

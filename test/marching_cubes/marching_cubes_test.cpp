@@ -339,4 +339,33 @@ TEST(Project_to_surface, it_finds_the_nearby_zero_and_says_when_there_is_none) {
   EXPECT_FALSE(project_to_surface(sphere, Point_3(0, 0, 0), 2.0).has_converged) << "no direction at a critical point";
 }
 
+/// Is an expression that is never replaced by a shorter one on a box.
+struct Whole_expression {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    return f(x, y, z);
+  }
+  Expression_3 f;
+};
+
+TEST(Marching_cubes, parts_of_a_long_expression_give_the_mesh_of_the_whole) {
+  const Expression_3 f("max(min((x-.4)^2+y^2+z^2-.1, abs(x+.5)^3+abs(y)^3+abs(z)^3-.05, sqrt(x^2+(y-.6)^2+z^2)-.3,"
+                       "x^2+(y+.5)^4+(z-.2)^2-.04, (x-.2)^2+(y-.2)^2+(z+.5)^2-.09), x-.6, abs(z)-.7)");
+  const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
+  const Kernel::Aff_transformation_3 map(1, .2, 0, .1, 0, .9, .3, 0, .1, 0, 1.1, -.2);
+  const auto mesh_of = [&](const auto& traits) {
+    const Level_set_traits_3 level_set(Transformed_function_traits_3(traits, map), .01,
+                                       Orientation_of_level_set::AGAINST_GRADIENT);
+    return marching_cubes(level_set, parameters::number_of_nodes(50).skip_empty_space());
+  };
+  static_assert(RestrictableImplicitFunctionTraits_3<
+                Level_set_traits_3<Transformed_function_traits_3<Analytic_function_traits_3<Kernel, Expression_3>>>>);
+  const auto in_parts = mesh_of(make_analytic_traits<Kernel>(f, box));
+  const auto whole = mesh_of(make_analytic_traits<Kernel>(Whole_expression{f}, box));
+  EXPECT_GT(whole.points.size(), 3000u);
+  EXPECT_EQ(in_parts.points, whole.points);
+  EXPECT_EQ(in_parts.triangles, whole.triangles);
+  EXPECT_EQ(in_parts.vertex_status, whole.vertex_status);
+}
+
 } // namespace

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_FORMULA_EXPRESSION_3_H
 
 #include <equiaffine/formula/internal/expression_parser.h>
+#include <equiaffine/formula/internal/expression_shortening.h>
 #include <equiaffine/formula/internal/expression_taylor.h>
 
 #include <CGAL/assertions.h>
@@ -11,9 +12,11 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace equiaffine {
 
@@ -56,9 +59,11 @@ public:
   /// Parses n characters in O(n log n). Throws Input_error, with the column in what() and a caret under it in
   /// excerpt(), for a text outside the grammar and for a constant subexpression that is not finite; also for an entry
   /// of `constants` that is not finite or whose name is not an identifier or has a meaning already.
-  explicit Expression_3(std::string_view text, const std::map<std::string, double>& constants = {}) : text_(text) {
+  explicit Expression_3(std::string_view text, const std::map<std::string, double>& constants = {})
+      : text_(std::make_shared<const std::string>(text)) {
     internal::expression::check_constants(constants);
-    tape_ = internal::expression::Parser(text_, constants).parse();
+    tape_ = internal::expression::Parser(*text_, constants).parse();
+    has_choices_ = std::any_of(tape_.instructions.begin(), tape_.instructions.end(), internal::expression::is_choice);
   }
 
   /// The value at (x, y, z).
@@ -98,14 +103,27 @@ public:
     expand_in_blocks<internal::expression::block_size<T>>(x, y, z, out);
   }
 
+  /// Returns the expression without the operands of min, max and abs that are not chosen anywhere in a box, if there are
+  /// some and the expression is so long that this saves time. In the box it has the same values and expansions in double,
+  /// bit for bit.
+  std::optional<Expression_3> restricted(const Interval& x, const Interval& y, const Interval& z) const {
+    constexpr std::size_t worth_it = 24; // a shorter tape takes less time than it takes to shorten it
+    if (!has_choices_ || tape_.instructions.size() < worth_it) return std::nullopt;
+    auto tape = internal::expression::shortened(tape_, {x, y, z});
+    return tape ? std::optional(Expression_3(text_, *std::move(tape))) : std::nullopt;
+  }
+
   /// The text that the constructor parsed.
-  const std::string& text() const { return text_; }
+  const std::string& text() const { return *text_; }
 
   /// The number of operations per evaluation, after sharing equal subexpressions and folding constants; 0 for a lone
   /// variable.
   std::size_t number_of_instructions() const { return tape_.instructions.size(); }
 
 private:
+  Expression_3(std::shared_ptr<const std::string> text, internal::expression::Tape tape)
+      : text_(std::move(text)), tape_(std::move(tape)), has_choices_(true) {}
+
   template <std::size_t Block, class T>
   void expand_in_blocks(std::span<const T> x, std::span<const T> y, std::span<const T> z,
                         std::span<Jet_3<T>> out) const {
@@ -118,8 +136,9 @@ private:
     internal::expression::run_in_blocks<Block>(taylor_->get(tape_), x, y, z, store);
   }
 
-  std::string text_;
+  std::shared_ptr<const std::string> text_; ///< is shared by copies
   internal::expression::Tape tape_;
+  bool has_choices_ = false;
   /// Copies are equal and share it.
   std::shared_ptr<internal::expression::Lazy_taylor_tape> taylor_ =
       std::make_shared<internal::expression::Lazy_taylor_tape>();

@@ -11,6 +11,7 @@
 #include <CGAL/Bbox_3.h>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -91,6 +92,15 @@ public:
   Jet_3<Interval, 2> second_order_bounds(const CGAL::Bbox_3& box) const {
     const auto [x, y, z] = internal::sides_of(box);
     return internal::expand<2, Interval>(function_, x, y, z);
+  }
+
+  /// The model of the function that f.restricted(x, y, z) returns for the sides of a box, if it returns one.
+  std::optional<Analytic_function_traits_3>
+  restricted(const CGAL::Bbox_3& box) const requires internal::HasRestriction<Function> && std::is_same_v<FT, double> {
+    const auto [x, y, z] = internal::sides_of(box);
+    auto function = function_.restricted(x, y, z);
+    if (!function) return std::nullopt;
+    return Analytic_function_traits_3(*std::move(function), box_);
   }
 
   CGAL::Bbox_3 bbox() const { return box_; }

@@ -9,6 +9,7 @@
 #include <CGAL/number_utils.h>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -69,6 +70,14 @@ public:
   Jet_3<Interval, 2>
   second_order_bounds(const CGAL::Bbox_3& box) const requires SecondOrderBoundedImplicitFunctionTraits_3<Base> {
     return shifted_bounds(base_.second_order_bounds(box));
+  }
+  std::optional<Level_set_traits_3>
+  restricted(const CGAL::Bbox_3& box) const requires RestrictableImplicitFunctionTraits_3<Base> {
+    auto base = base_.restricted(box);
+    if (!base) return std::nullopt;
+    return Level_set_traits_3(*std::move(base), isovalue_,
+                              is_reversed_ ? Orientation_of_level_set::AGAINST_GRADIENT
+                                           : Orientation_of_level_set::ALONG_GRADIENT);
   }
   FT rounding(const Point_3& p) const requires Has_rounding<Base> { return base_.rounding(p); }
   CGAL::Bbox_3 bbox() const { return base_.bbox(); }

@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -85,6 +86,12 @@ public:
   Jet_3<Interval, 2>
   second_order_bounds(const CGAL::Bbox_3& box) const requires SecondOrderBoundedImplicitFunctionTraits_3<Base> {
     return substitution_of_bounds_(base_.second_order_bounds(preimage(box)));
+  }
+
+  std::optional<Transformed_function_traits_3>
+  restricted(const CGAL::Bbox_3& box) const requires RestrictableImplicitFunctionTraits_3<Base> {
+    auto base = base_.restricted(preimage(box));
+    return base ? std::optional(Transformed_function_traits_3(*std::move(base), map_)) : std::nullopt;
   }
 
   /// The rounding of the base times the square of the greatest sum of magnitudes in a column of A^-1: by the chain rule

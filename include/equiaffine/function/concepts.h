@@ -14,6 +14,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace equiaffine {
@@ -58,6 +59,15 @@ concept SecondOrderBoundedImplicitFunctionTraits_3 =
   FirstOrderBoundedImplicitFunctionTraits_3<Traits> &&
   requires(const Traits& traits, const CGAL::Bbox_3& box) {
     { traits.second_order_bounds(box) } -> std::same_as<Jet_3<Interval, 2>>;
+  };
+
+/// A function that may be cheaper on a box: `restricted(box)` is nothing, or a function with the same values, bounds and
+/// expansions of order 1 in the box, the numbers bit for bit.
+template <class Traits>
+concept RestrictableImplicitFunctionTraits_3 =
+  BoundedImplicitFunctionTraits_3<Traits> &&
+  requires(const Traits& traits, const CGAL::Bbox_3& box) {
+    { traits.restricted(box) } -> std::same_as<std::optional<Traits>>;
   };
 
 /// A function that evaluates many points in one call; the numbers are those of the single calls, bit for bit.

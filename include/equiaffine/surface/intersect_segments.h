@@ -28,7 +28,9 @@ std::vector<Surface_point_3<Kernel_of<Traits>>> intersect_segments(const Batch_f
     searches.reserve(segments.size());
     for (const auto& [ends, values] : segments)
       searches.emplace_back(internal::Bracket_3<Kernel_of<Traits>>(ends[0], ends[1], values[0], values[1]));
-    internal::finish_together(traits, std::span(searches));
+    std::vector<Search*> pointers;
+    for (Search& search : searches) pointers.push_back(&search);
+    internal::finish_in_parts(traits, std::span(pointers));
     for (const auto& search : searches) {
       results.push_back(search.result());
       internal::explain(traits, search.bracket(), results.back());

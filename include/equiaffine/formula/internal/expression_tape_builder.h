@@ -39,11 +39,54 @@ private:
   std::uint32_t number_of_slots_ = 0;
 };
 
+using Node = std::uint32_t; ///< nodes 0, 1, 2 are x, y, z; operands precede the nodes that use them
+
+/// The last reader of a node that nothing reads, and of a root.
+inline constexpr Node no_reader = std::numeric_limits<Node>::max(), end_of_tape = no_reader - 1;
+
+/// Returns for each node the last one that reads it: end_of_tape for a root, and no_reader for a node that the roots do
+/// not need.
+inline std::vector<Node> last_readers(std::span<const Instruction> nodes, std::span<const Node> roots) {
+  std::vector<Node> last_reader(nodes.size(), no_reader);
+  for (const Node root : roots) last_reader[root] = end_of_tape;
+  for (Node n = static_cast<Node>(nodes.size()) - 1; n >= number_of_variables; --n)
+    if (last_reader[n] != no_reader && nodes[n].opcode != Opcode::CONSTANT)
+      for (const Node operand : {nodes[n].a, nodes[n].b})
+        if (last_reader[operand] == no_reader) last_reader[operand] = n;
+  return last_reader;
+}
+
+/// Returns the tape that computes `roots`. The operands of `nodes` are nodes. The tape leaves out nodes that the roots
+/// do not need and reuses the slot of a node after the last instruction that reads it.
+inline Tape tape_of(std::span<const Instruction> nodes, std::span<const Node> roots) {
+  const std::vector<Node> last_reader = last_readers(nodes, roots);
+  std::vector<std::uint32_t> place(nodes.size()); // the operand that holds the value of a node
+  for (std::uint32_t v = 0; v < number_of_variables; ++v) place[v] = v;
+  Slot_pool slots;
+  Tape tape;
+  for (Node n = number_of_variables; n < nodes.size(); ++n) {
+    if (last_reader[n] == no_reader) continue;
+    Instruction i = nodes[n];
+    i.result = place[n] = slots.take(); // before the slots of the operands are given back: it must be none of them
+    if (i.opcode != Opcode::CONSTANT) {
+      const auto is_done = [&](Node operand) { return operand >= number_of_variables && last_reader[operand] == n; };
+      if (is_done(i.a)) slots.give_back(place[i.a]);
+      if (i.b != i.a && is_done(i.b)) slots.give_back(place[i.b]);
+      i.a = place[i.a];
+      i.b = place[i.b];
+    }
+    tape.instructions.push_back(i);
+  }
+  tape.number_of_slots = slots.number_of_slots();
+  for (const Node root : roots) tape.results.push_back(place[root]);
+  return tape;
+}
+
 /// Builds a tape bottom-up. Equal subexpressions become one node and constant ones one number. Only identities that
 /// hold bit for bit in IEEE arithmetic are applied (up to the sign of a NaN), so the tape computes what the text says.
 class Tape_builder {
 public:
-  using Node = std::uint32_t; ///< nodes 0, 1, 2 are x, y, z; operands precede the nodes that use them
+  using Node = expression::Node;
 
   Tape_builder() : nodes_(number_of_variables, Instruction{Opcode::VARIABLE, 0, 0, 0, 0}) {}
 
@@ -100,35 +143,10 @@ public:
     return i.opcode == Opcode::CONSTANT ? constant(i.constant) : node(i.opcode, a, b, i.constant);
   }
 
-  /// The tape that computes `roots`. It leaves out nodes that the roots do not need and reuses the slot of a node after
-  /// the last instruction that reads it.
-  Tape tape(std::span<const Node> roots) const {
-    const std::vector<Node> last_reader = last_readers(roots);
-    std::vector<std::uint32_t> place(nodes_.size()); // the operand that holds the value of a node
-    for (std::uint32_t v = 0; v < number_of_variables; ++v) place[v] = v;
-    Slot_pool slots;
-    Tape tape;
-    for (Node n = number_of_variables; n < nodes_.size(); ++n) {
-      if (last_reader[n] == NONE) continue;
-      Instruction i = nodes_[n];
-      i.result = place[n] = slots.take(); // before the slots of the operands are given back: it must be none of them
-      if (i.opcode != Opcode::CONSTANT) {
-        const auto is_done = [&](Node operand) { return operand >= number_of_variables && last_reader[operand] == n; };
-        if (is_done(i.a)) slots.give_back(place[i.a]);
-        if (i.b != i.a && is_done(i.b)) slots.give_back(place[i.b]);
-        i.a = place[i.a];
-        i.b = place[i.b];
-      }
-      tape.instructions.push_back(i);
-    }
-    tape.number_of_slots = slots.number_of_slots();
-    for (const Node root : roots) tape.results.push_back(place[root]);
-    return tape;
-  }
+  Tape tape(std::span<const Node> roots) const { return tape_of(nodes_, roots); }
 
 private:
   using Key = std::tuple<Opcode, Node, Node, std::uint64_t>;
-  static constexpr Node NONE = std::numeric_limits<Node>::max(), END = NONE - 1;
 
   /// The node of an instruction, which is an earlier one if the instruction occurred before.
   Node intern(const Instruction& i) {
@@ -161,17 +179,6 @@ private:
     if (n == 0) return constant(1);
     if (n == 1) return a;
     return n == 2 ? node(Opcode::SQUARE, a, a) : node(Opcode::INTEGER_POWER, a, a, n);
-  }
-
-  /// Returns for each node the last one that reads it: END for a root, and NONE for a node that the roots do not need.
-  std::vector<Node> last_readers(std::span<const Node> roots) const {
-    std::vector<Node> last_reader(nodes_.size(), NONE);
-    for (const Node root : roots) last_reader[root] = END;
-    for (Node n = static_cast<Node>(nodes_.size()) - 1; n >= number_of_variables; --n)
-      if (last_reader[n] != NONE && nodes_[n].opcode != Opcode::CONSTANT)
-        for (const Node operand : {nodes_[n].a, nodes_[n].b})
-          if (last_reader[operand] == NONE) last_reader[operand] = n;
-    return last_reader;
   }
 
   std::vector<Instruction> nodes_;

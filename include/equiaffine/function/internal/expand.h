@@ -2,10 +2,12 @@
 #ifndef EQUIAFFINE_FUNCTION_INTERNAL_EXPAND_H
 #define EQUIAFFINE_FUNCTION_INTERNAL_EXPAND_H
 
+#include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/number/Pack.h>
 
 #include <concepts>
+#include <optional>
 #include <span>
 
 namespace equiaffine::internal {
@@ -58,6 +60,12 @@ Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z
     return f(Jet(sx), Jet(sy), Jet(sz));
   }
 }
+
+/// A function that may be a cheaper one, of the same type, on a box.
+template <class Function>
+concept HasRestriction = requires(const Function& f, const Interval& x) {
+  { f.restricted(x, x, x) } -> std::same_as<std::optional<Function>>;
+};
 
 /// A function that computes its Taylor polynomials itself, for numbers and for spans of packs.
 template <class Function, class FT>

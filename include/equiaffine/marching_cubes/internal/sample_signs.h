@@ -55,31 +55,43 @@ public:
     for (std::size_t k = block[2].first; k < block[2].end; ++k)
       for (std::size_t j = block[1].first; j < block[1].end; ++j)
         for (std::size_t i = block[0].first; i < block[0].end; i += batch)
-          sample_batch({{{i, std::min(i + batch, block[0].end)}, {j, j + 1}, {k, k + 1}}});
+          sample_batch(function_.traits(), {{{i, std::min(i + batch, block[0].end)}, {j, j + 1}, {k, k + 1}}});
   }
 
   /// Halves a block along all its long axes until the function's bounds on the block and one node around it have one
   /// sign, or the block is small and is sampled. The margin makes every cell that has a node in a skipped block free of
   /// the surface, also if the function has no value at some nodes there, of which its bounds know nothing.
-  void sample_near_surface(const Node_block& block) {
-    const Interval bounds = function_.traits().bounds(box_around(function_.lattice(), block));
+  void sample_near_surface(const Node_block& block) { sample_part(function_.traits(), block); }
+
+private:
+  /// Samples a block of which `traits` has the values: deep in the recursion it is a part of the function.
+  void sample_part(const Batch_function_traits_3<Traits>& traits, const Node_block& block) {
+    const auto box = box_around(function_.lattice(), block);
+    const Interval bounds = traits.bounds(box);
     if (bounds.upper() < 0) return;
     if (bounds.lower() >= 0) return signs_.set_positive(block);
     const std::size_t longest = std::max({block[0].size(), block[1].size(), block[2].size()});
-    if (longest <= smallest_block) return sample_batch(block);
+    if (longest <= smallest_block) return sample_batch(traits, block);
+    if constexpr (RestrictableImplicitFunctionTraits_3<Traits>)
+      if (auto part = traits.restricted(box))
+        return sample_parts(Batch_function_traits_3<Traits>(*std::move(part)), block, longest);
+    sample_parts(traits, block, longest);
+  }
+
+  /// Halves a block along its long axes.
+  void sample_parts(const Batch_function_traits_3<Traits>& traits, const Node_block& block, std::size_t longest) {
     const std::size_t half = (longest / 2 + smallest_block - 1) / smallest_block * smallest_block;
     for (std::size_t k = block[2].first; k < block[2].end; k += half)
       for (std::size_t j = block[1].first; j < block[1].end; j += half)
         for (std::size_t i = block[0].first; i < block[0].end; i += half)
-          sample_near_surface({{{i, std::min(i + half, block[0].end)},
+          sample_part(traits, {{{i, std::min(i + half, block[0].end)},
                                 {j, std::min(j + half, block[1].end)},
                                 {k, std::min(k + half, block[2].end)}}});
   }
 
-private:
   /// Samples a block that has no more nodes than a batch, and those of each row in one word of Node_signs.
-  void sample_batch(const Node_block& block) {
-    const std::size_t n = compute_values(block), row = block[0].size();
+  void sample_batch(const Batch_function_traits_3<Traits>& traits, const Node_block& block) {
+    const std::size_t n = compute_values(traits, block), row = block[0].size();
     Sign_word signs = sign_word(values_.data(), n, FT(0));
     const auto first_bits = [&](Node_signs::Word word) { return Node_signs::within(word, 0, row); };
     for (std::size_t k = block[2].first; k < block[2].end; ++k)
@@ -91,15 +103,15 @@ private:
   }
 
   /// Returns the number of values.
-  std::size_t compute_values(const Node_block& block) {
+  std::size_t compute_values(const Batch_function_traits_3<Traits>& traits, const Node_block& block) {
     std::size_t n = 0;
     for (std::size_t k = block[2].first; k < block[2].end; ++k)
       for (std::size_t j = block[1].first; j < block[1].end; ++j)
         for (std::size_t i = block[0].first; i < block[0].end; ++i, ++n)
-          if constexpr (has_samples) values_[n] = function_.traits().sample(i, j, k);
+          if constexpr (has_samples) values_[n] = traits.sample(i, j, k);
           else points_[n] = function_.point({i, j, k});
     if constexpr (!has_samples) {
-      function_.traits().values(std::span<const Point_3>(points_).first(n), std::span(values_).first(n));
+      traits.values(std::span<const Point_3>(points_).first(n), std::span(values_).first(n));
       evaluations_ += n;
     }
     return n;

@@ -19,7 +19,7 @@
 namespace equiaffine::internal {
 
 /// Nodes first[n] .. first[n] + size[n] - 1 along each axis n of a lattice.
-struct Node_block {
+struct Lattice_block {
   std::array<std::size_t, 3> first, size;
 
   std::size_t number_of_nodes() const { return size[0] * size[1] * size[2]; }
@@ -99,7 +99,7 @@ private:
   }
 
   /// The region of a block, without a point of the surface.
-  Node_region region(const Node_block& block) const {
+  Node_region region(const Lattice_block& block) const {
     const auto& [i, j, k] = block.first;
     const auto& [nx, ny, nz] = block.size;
     const Point_3 p = node(i, j, k);
@@ -170,7 +170,7 @@ private:
   }
 
   /// Measures at the nodes of a block, one by one.
-  void measure_nodes(const Node_block& block, const Point_3& center, const Candidates& candidates, Part guess) {
+  void measure_nodes(const Lattice_block& block, const Point_3& center, const Candidates& candidates, Part guess) {
     const auto project = Distance_kernel().construct_projected_point_3_object();
     block.for_each_node([&](std::size_t i, std::size_t j, std::size_t k) {
       const Nearest nearest = find_nearest(node(i, j, k), center, candidates, guess, project);
@@ -180,14 +180,14 @@ private:
   }
 
   /// The block cut in half along those axes along which it is more than half as long as along its longest.
-  static std::vector<Node_block> halves(const Node_block& block, const std::array<Vector_3, 3>& half_sides) {
+  static std::vector<Lattice_block> halves(const Lattice_block& block, const std::array<Vector_3, 3>& half_sides) {
     double longest = 0;
     for (const Vector_3& h : half_sides) longest = std::max(longest, h.squared_length());
-    std::vector<Node_block> blocks = {block};
+    std::vector<Lattice_block> blocks = {block};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (4 * half_sides[axis].squared_length() <= longest) continue;
       for (std::size_t n = 0, count = blocks.size(); n < count; ++n) {
-        Node_block upper = blocks[n];
+        Lattice_block upper = blocks[n];
         blocks[n].size[axis] /= 2;
         upper.first[axis] += blocks[n].size[axis];
         upper.size[axis] -= blocks[n].size[axis];
@@ -198,7 +198,7 @@ private:
   }
 
   /// Measures at the nodes of a block that lies in one with the given center and candidates.
-  void measure(const Node_block& block, const Point_3& outer_center, const Candidates& outer, Part guess) {
+  void measure(const Lattice_block& block, const Point_3& outer_center, const Candidates& outer, Part guess) {
     Node_region region = this->region(block);
     const Nearest nearest =
         find_nearest(region.center, outer_center, outer, guess,
