@@ -11,6 +11,8 @@
 #include <cfenv>
 #include <cmath>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace {
@@ -30,6 +32,8 @@ bool has_powers(const Expression_3& f) {
 }
 
 bool have_same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+bool are_same(double a, double b) { return have_same_bits(a, b) || (std::isnan(a) && std::isnan(b)); }
 
 template <class T>
 Jet_3<T, 1> first_order(const Expression_3& f, const std::array<double, 3>& p) {
@@ -76,6 +80,31 @@ void check_blocks(const Expression_3& f) {
   }
 }
 
+/// Puts the text, if it is no equation, among operands of min, max and abs, and compares the expression with its part on
+/// boxes around the points.
+void check_parts(std::string_view text) {
+  if (text.find('=') != std::string_view::npos) return;
+  const std::string sum = "(" + std::string(text) + ")";
+  const Expression_3 f("max(min(" + sum + ",x+y+1,abs(" + sum + "-2)),z-x*y-1,min(abs(x-.3)*" + sum +
+                           ",y^3-z^2,sqrt(x+1))-2)+abs(x*y-z/3+.1)+min(x-y/7,2*z+x*z,y*z+.3)",
+                       {{"R", 2.0}, {"r", 0.5}});
+  for (const auto& p : points)
+    for (const double r : {0.0, 1e-9, 0.1, 2.0}) {
+      const auto side = [&](std::size_t axis) { return Interval(p[axis] - r, p[axis] + r); };
+      const auto part = f.restricted(side(0), side(1), side(2));
+      if (!part) continue;
+      for (int corner = 0; corner <= 8; ++corner) { // 8 is the point itself
+        const auto q = [&](int axis) { return p[std::size_t(axis)] + (corner == 8 ? 0 : corner >> axis & 1 ? r : -r); };
+        const std::array<double, 3> point = {q(0), q(1), q(2)};
+        const auto jet = first_order<double>(f, point), of_part = first_order<double>(*part, point);
+        const double value = f(point[0], point[1], point[2]), value_of_part = (*part)(point[0], point[1], point[2]);
+        expect(are_same(value, value_of_part), "the part of an expression on a box has the values of the whole");
+        for (std::size_t n = 0; n < 4; ++n)
+          expect(are_same(jet.coefficients()[n], of_part.coefficients()[n]), "a part has the jets of the whole");
+      }
+    }
+}
+
 } // namespace
 
 EQUIAFFINE_FUZZ_TARGET(expression) {
@@ -83,5 +112,6 @@ EQUIAFFINE_FUZZ_TARGET(expression) {
     const Expression_3 f(input, {{"R", 2.0}, {"r", 0.5}});
     for (const auto& p : points) check_point(f, p);
     check_blocks(f);
+    check_parts(input);
   });
 }

@@ -24,52 +24,70 @@ inline bool is_choice(const Instruction& i) {
 }
 
 /// What is known of an operand on a box: the node that computes it, the interval of its values, and whether it has a
-/// value everywhere. The interval says nothing of the points where the operand is NaN.
+/// moderate value everywhere. The interval says nothing of the points where it has none.
 struct Operand_on_box {
   std::uint32_t node = 0;
   Interval values;
   bool is_total = false;
 };
 
-/// Whether an instruction has a finite value on all of a box if its operands have one.
+/// Whether no way to compute a number overflows: jets compute quotients by reciprocals and lengths by squares.
+inline bool is_moderate(const Interval& values) { return values.lower() > -1e150 && values.upper() < 1e150; }
+
+/// Whether an instruction has a moderate value on all of a box if its operands have one.
 inline bool is_total(const Instruction& i, const Interval& a, const Interval& b, const Interval& result) {
-  if (!std::isfinite(result.lower()) || !std::isfinite(result.upper())) return false;
+  if (!is_moderate(result)) return false;
   switch (i.opcode) {
   case Opcode::SQRT: return a.lower() >= 0;
   case Opcode::LOG:
   case Opcode::POWER_CONSTANT:
-  case Opcode::POWER: return a.lower() > 0;
+  case Opcode::POWER: return a.lower() > 1e-150;
   case Opcode::ASIN:
   case Opcode::ACOS: return a.lower() >= -1 && a.upper() <= 1;
-  case Opcode::DIVIDE: return !b.contains(0);
-  case Opcode::DIVIDE_CONSTANT: return !a.contains(0);
-  case Opcode::DIVIDE_BY_CONSTANT: return i.constant != 0;
+  case Opcode::ATAN2: return !a.contains(0) || b.lower() > 0; // for atan2(-0, -1) is not atan2(0, -1)
+  case Opcode::DIVIDE: return is_moderate(Interval(1.0) / b);
+  case Opcode::DIVIDE_CONSTANT: return is_moderate(Interval(1.0) / a);
+  case Opcode::DIVIDE_BY_CONSTANT: return std::abs(i.constant) > 1e-150;
   default: return true;
   }
 }
 
-/// Returns the interval of an instruction. A whole power is a product of many factors in double, whose rounding the
-/// interval of the power does not follow.
+/// Returns how many rounding errors the value of an instruction may have beyond those that its interval follows: a whole
+/// power is a product of many factors, and jets compute some functions from others.
+inline double further_roundings(const Instruction& i) {
+  switch (i.opcode) {
+  case Opcode::INTEGER_POWER: return i.constant;
+  case Opcode::POWER:
+  case Opcode::POWER_CONSTANT:
+  case Opcode::HYPOT:
+  case Opcode::DIVIDE:
+  case Opcode::DIVIDE_CONSTANT:
+  case Opcode::DIVIDE_BY_CONSTANT: return 8;
+  default: return 0;
+  }
+}
+
+/// Returns an interval that contains the values of an instruction as numbers and as values of jets.
 inline Interval values_on_box(const Instruction& i, const Interval& a, const Interval& b) {
   Interval result;
   execute<1>(i, &a, &b, &result, 1);
-  if (i.opcode != Opcode::INTEGER_POWER) return result;
   using Limits = std::numeric_limits<double>;
   const double largest = std::max(std::abs(result.lower()), std::abs(result.upper()));
-  const double rounding = i.constant * (Limits::epsilon() * largest + Limits::min());
+  const double roundings = further_roundings(i);
+  if (roundings == 0) return result;
+  const double rounding = roundings * (Limits::epsilon() * largest + Limits::min());
   const double least = result.lower() < 0 ? -Limits::infinity() : 0; // rounding does not change a sign
   return Interval(std::max(result.lower() - rounding, least), result.upper() + rounding);
 }
 
-/// Returns the operand that a choice returns at every point of the box, if it is always the same. The operand that it
-/// does not return must have a value everywhere, as min and max are NaN where one of them is.
+/// Returns the operand that a choice returns at every point of the box, if it is always the same. Both operands must have
+/// moderate values everywhere: min and max are NaN where one of them is, and intervals do not follow signed infinities.
 inline std::optional<std::uint32_t> decided(const Instruction& i, const Operand_on_box& a, const Operand_on_box& b) {
+  if (!a.is_total || !b.is_total) return std::nullopt;
   if (i.opcode == Opcode::ABS) return a.values.lower() > 0 ? std::optional(a.node) : std::nullopt;
   const bool is_a_less = a.values.upper() < b.values.lower(), is_b_less = b.values.upper() < a.values.lower();
   if (!is_a_less && !is_b_less) return std::nullopt;
-  const bool returns_a = is_a_less == (i.opcode == Opcode::MIN);
-  if (!(returns_a ? b : a).is_total) return std::nullopt;
-  return (returns_a ? a : b).node;
+  return is_a_less == (i.opcode == Opcode::MIN) ? a.node : b.node;
 }
 
 /// Returns a shorter tape whose results have the same bits at the points of the box with the given sides, computed in
@@ -77,7 +95,7 @@ inline std::optional<std::uint32_t> decided(const Instruction& i, const Operand_
 inline std::optional<Tape> shortened(const Tape& tape, const std::array<Interval, number_of_variables>& sides) {
   std::vector<Operand_on_box> operands(number_of_variables + tape.number_of_slots);
   std::vector<Instruction> nodes(number_of_variables, Instruction{Opcode::VARIABLE, 0, 0, 0, 0});
-  for (std::uint32_t v = 0; v < number_of_variables; ++v) operands[v] = {v, sides[v], true};
+  for (std::uint32_t v = 0; v < number_of_variables; ++v) operands[v] = {v, sides[v], is_moderate(sides[v])};
   bool is_shorter = false;
   for (const Instruction& i : tape.instructions) {
     const Operand_on_box &a = operands[i.a], &b = operands[i.b];
