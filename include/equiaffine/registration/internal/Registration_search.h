@@ -120,7 +120,6 @@ private:
       parallel_for<ConcurrencyTag>(0, count, [&](std::size_t n) {
         found[n] = find_counterpart(source_, target_, pairs[begin + n], request_.kind);
       });
-      std::erase_if(found, [](const Counterpart& c) { return !c.exists(); });
       std::stable_sort(found.begin(), found.end(),
                        [](const Counterpart& a, const Counterpart& b) { return a.cost() < b.cost(); });
       for (const Counterpart& c : found)

@@ -90,7 +90,7 @@ private:
         0, pairs.size(), [&](std::size_t n) { found[n] = find_counterpart(surface_, surface_, pairs[n], kind_); });
     std::vector<Affine_map_3> tried;
     for (const Counterpart& c : found) {
-      if (!c.exists() || c.cost() > 1) continue;
+      if (c.cost() > 1) continue;
       const Affine_map_3 map = map_between(surface_.points[c.source], c.target, kind_);
       if (!map.matrix.allFinite() || !(condition(map.matrix) < 1e4) || contains(tried, map)) continue;
       tried.push_back(map);

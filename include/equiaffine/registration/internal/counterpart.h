@@ -19,8 +19,6 @@ struct Counterpart {
   double residual = 0;   ///< of the invariants
   double mismatched = 0; ///< of their gradients
 
-  bool exists() const { return target.has_frame(); }
-
   /// 0 for a perfect pair; both parts are about 1 for an accidental one.
   double cost() const { return residual / 0.1 + mismatched / 0.3; }
 };
