@@ -98,6 +98,14 @@ TEST(Register_surfaces, surfaces_that_have_nothing_in_common_have_no_map) {
   EXPECT_FALSE(result.found());
 }
 
+TEST(Register_surfaces, each_pair_of_points_is_tried_once_where_none_gives_a_map) {
+  const Formula source = named("blobs5").traits(), target = named("blobs8").traits();
+  const Result result = register_surfaces(source, points_on_surface(source, 8), target, points_on_surface(target, 8));
+  EXPECT_FALSE(result.found());
+  EXPECT_GT(result.hypotheses, 150u) << "pairs that are less alike are tried, too";
+  EXPECT_LT(result.hypotheses, 250u) << "there are 218 of different pairs, and 286 if those that are alike come twice";
+}
+
 TEST(Register_surfaces, much_noise_makes_no_map_between_surfaces_that_have_nothing_in_common) {
   const auto surfaces = generic_surfaces();
   for (const std::size_t i : {std::size_t(0), surfaces.size() - 2}) {

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -43,7 +44,7 @@ public:
         tolerance_(request.tolerance.value_or(
             std::clamp(8 * std::max(source.noise, target.noise), exact_tolerance, greatest_tolerance))) {}
 
-  /// Tries pairs that are alike, then, as long as no map is accepted, pairs that may be alike where structure is wrong.
+  /// Tries pairs that are alike, then, as long as no map is accepted, others that may be alike where structure is wrong.
   void run() {
     const auto points = points_to_try<ConcurrencyTag>(source_, request_.kind, most_points_to_try);
     try_all(points, {});
@@ -113,7 +114,8 @@ private:
   }
 
   void try_points(std::span<const std::size_t> points, const Candidate_limits& limits) {
-    const auto pairs = candidate_pairs<ConcurrencyTag>(source_, target_, points, request_.kind, limits);
+    auto pairs = candidate_pairs<ConcurrencyTag>(source_, target_, points, request_.kind, limits);
+    std::erase_if(pairs, [&](const Candidate_pair& p) { return !tried_.insert({p.source, p.target}).second; });
     for (std::size_t begin = 0; begin < pairs.size() && !is_done(); begin += pairs_at_once) {
       const std::size_t count = std::min(pairs_at_once, pairs.size() - begin);
       std::vector<Counterpart> found(count);
@@ -181,6 +183,7 @@ private:
   double tolerance_; ///< in the unit of distances: surfaces that are nearer may be equal
   std::size_t hypotheses_ = 0, first_accepted_ = 0;
   std::vector<Judged_map> maps_;
+  std::set<std::array<std::size_t, 2>> tried_; ///< pairs of points of the source and of the target
 };
 
 } // namespace equiaffine::internal
