@@ -129,20 +129,18 @@ private:
     if (least == 0) option.expected(0);
     else if (most == unlimited) option.expected(least, CLI::detail::expected_max_vector_size)->allow_extra_args();
     else if (least == 1 && most > 1) option.expected(1, most);
-    else if (most > least) number_lists_.push_back({&command, &option, row.name(), std::size_t(most)});
+    else if (most > least) number_lists_.push_back({&command, &option, row.name(), least});
     option.group(title);
   }
 
-  /// Lets options take the most numbers that they can have where so many follow: CLI11 itself would take a number such
-  /// as -.5 beyond the least ones for an option.
+  /// Lets options take all numbers that follow them: CLI11 itself would take a number such as -.5 beyond the least ones
+  /// for an option. How many are too many the option says itself.
   void admit_longer_lists(const Words& arguments) {
-    for (const auto& [command, option, name, most] : number_lists_)
+    for (const auto& [command, option, name, least] : number_lists_)
       for (auto word = arguments.begin(); word != arguments.end(); ++word) {
-        const auto numbers = word + 1;
-        if (*word == name && command->get_name() == arguments.front() &&
-            std::size_t(arguments.end() - numbers) >= most &&
-            std::all_of(numbers, numbers + std::ptrdiff_t(most), is_number))
-          option->type_size(int(most));
+        if (*word != name || command->get_name() != arguments.front()) continue;
+        const auto count = std::find_if_not(word + 1, arguments.end(), is_number) - (word + 1);
+        if (count > least) option->type_size(int(count));
       }
   }
 
@@ -197,12 +195,12 @@ private:
     }
   }
 
-  /// An option that takes more than one number, and may take `most`.
+  /// An option that takes `least` numbers or more.
   struct Number_list {
     const CLI::App* command;
     CLI::Option* option;
     std::string name;
-    std::size_t most;
+    int least;
   };
 
   CLI::App app_;

@@ -123,6 +123,9 @@ CGAL::Bbox_3 parse_box(const Option_words& option) {
 
 CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& option) {
   const auto& [name, words] = option;
+  if (words.size() != 9 && words.size() != 12)
+    fail_option(name, std::to_string(words.size()) + " numbers are given",
+                "give 9, a matrix row by row, or 12, a matrix and a translation");
   std::array<double, 9> m{}, n{};
   std::array<double, 3> t{};
   for (std::size_t i = 0; i < 9; ++i) m[i] = parse_finite_number(name, words[i]);

@@ -159,8 +159,12 @@ TEST_F(Program_errors, a_transform_has_an_inverse) {
     expect_error(mesh_of("x") + box + Arguments{"--transform", scale, "0", "0", "0", scale, "0", "0", "0", scale},
                  {"--transform", "determinant", "choose another unit"});
   expect_error(mesh_of("x") + box + Arguments{"--transform", "1", "2"}, {"--transform", "it needs A11"});
-  expect_error(mesh_of("x") + box + Arguments{"--transform", "1", "0", "0", "0", "1", "0", "0", "0", "1", "7"},
-               {"'7' is not expected there"});
+  Arguments numbers = {"--transform", "1", "0", "0", "0", "1", "0", "0", "0", "1"};
+  for (const std::string count : {"10", "11", "12", "13"}) {
+    numbers.push_back("-.5");
+    if (count == "12") continue;
+    expect_error(mesh_of("x") + box + numbers, {"--transform: " + count + " numbers are given", "give 9", "or 12"});
+  }
 }
 
 TEST_F(Program_errors, words_to_choose_from_are_listed) {
