@@ -28,8 +28,8 @@ public:
   Disturbed_structure(const Surface_oracle_3& base, double part, unsigned seed)
       : base_(base), part_(part), seed_(seed) {}
 
-  Framed_point_3 framed_point(const Eigen::Vector3d& p) const override {
-    Framed_point_3 result = base_.framed_point(p);
+  Framed_point_3 framed_point(const Eigen::Vector3d& p, equiaffine::Map_kind kind) const override {
+    Framed_point_3 result = base_.framed_point(p, kind);
     if (!result.has_frame()) return result;
     Random random(number_of(p));
     const double before = result.invariants[4];

@@ -4,8 +4,6 @@
 #include "output/arrow_mesh.h"
 #include "output/maps.h"
 #include <equiaffine/base/parallel_for.h>
-#include <equiaffine/geometry/affine_frame.h>
-#include <equiaffine/geometry/local_structure.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/tags.h>
@@ -63,16 +61,6 @@ Mesh moved(Mesh mesh, const Map& map) {
   return mesh;
 }
 
-/// Vectors that an affine map carries to those of the image: e1 and e2 of the affine frame over the root of its scale, and
-/// xi over the scale.
-std::array<Vector, 3> frame_at(const Level_set_of_source& surface, const Point& p) {
-  const auto structure = regular_structure<double>(surface.taylor(p), {p.x(), p.y(), p.z()});
-  const Affine_frame_3<double> frame = affine_frame(structure.structure.affine);
-  const auto vector = [](const std::array<double, 3>& v, double scale) { return Vector(v[0], v[1], v[2]) / scale; };
-  const double root = std::sqrt(frame.scale);
-  return {vector(frame.e1, root), vector(frame.e2, root), vector(frame.xi, frame.scale)};
-}
-
 double diagonal_of(const std::vector<Point>& points) {
   CGAL::Bbox_3 box;
   for (const Point& p : points) box += p.bbox();
@@ -99,20 +87,19 @@ private:
 };
 
 /// Adds the frames of the pair as arrows, the longest one of a fifth of the diagonal.
-void add_frames(const Surface_to_register& source, const Surface_to_register& target,
-                const Registered_map_3<Kernel>& registered, double diagonal, Joined_meshes& all) {
-  const auto& [p, q] = *registered.pair;
-  const std::array<Vector, 3> frame = frame_at(target.function, q);
-  std::array<Vector, 3> moved_frame = frame_at(source.function, p);
+void add_frames(const Registered_map_3<Kernel>& registered, double diagonal, Joined_meshes& all) {
+  const auto& [points, frames] = *registered.pair;
+  const Point p = registered.map(points[0]), q = points[1];
+  std::array<Vector, 3> moved_frame = frames[0];
   double longest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     moved_frame[k] = registered.map(moved_frame[k]);
-    longest = std::max({longest, std::sqrt(frame[k].squared_length()), std::sqrt(moved_frame[k].squared_length())});
+    for (const Vector& v : {moved_frame[k], frames[1][k]}) longest = std::max(longest, std::sqrt(v.squared_length()));
   }
   const double scale = 0.2 * diagonal / longest, radius = 0.004 * diagonal;
   for (std::size_t k = 0; k < 3; ++k) {
-    all.add(arrow_mesh(q, scale * frame[k], radius), 2, {});
-    all.add(arrow_mesh(registered.map(p), scale * moved_frame[k], radius), 3, {});
+    all.add(arrow_mesh(q, scale * frames[1][k], radius), 2, {});
+    all.add(arrow_mesh(p, scale * moved_frame[k], radius), 3, {});
   }
 }
 
@@ -133,8 +120,7 @@ Annotated_mesh_3<Kernel> registered_surfaces(const Surface_to_register& source, 
   Joined_meshes all;
   all.add(target.shown(), 0, distances(target.shown().points, source.refined(), map.inverse()));
   all.add(image, 1, distances(image.points, target.refined(), Map(CGAL::IDENTITY)));
-  if (registration.found() && registration.best().pair)
-    add_frames(source, target, registration.best(), diagonal_of(image.points), all);
+  if (registration.found() && registration.best().pair) add_frames(registration.best(), diagonal_of(image.points), all);
   return std::move(all).result();
 }
 

@@ -15,8 +15,8 @@ namespace equiaffine {
 Annotated_mesh_3<Kernel> moved_source(const Surface_to_register& source, const Surface_to_register& target,
                                       const CGAL::Aff_transformation_3<Kernel>& map);
 
-/// The target, the source moved by the best map over it, or as it is if there is none, and the affine frames of the pair
-/// of points that gave the map, as arrows. The columns are `distance` from the other surface, and `surface`: 0 for the
+/// The target, the source moved by the best map over it, or as it is if there is none, and the frames of the pair of
+/// points that gave the map, as arrows. The columns are `distance` from the other surface, and `surface`: 0 for the
 /// target, 1 for the source, 2 and 3 for the frames of the target and of the source.
 Annotated_mesh_3<Kernel> registered_surfaces(const Surface_to_register& source, const Surface_to_register& target,
                                              const Surface_registration_3<Kernel>& registration);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -76,6 +77,56 @@ TEST(Affine_symmetries, continuous_ones_have_generators) {
       EXPECT_EQ(result.order(), std::nullopt);
       EXPECT_EQ(result.maps.size(), 1u) << "the identity";
     }
+}
+
+/// The symmetries of a kind of the image of a surface under a similarity.
+Affine_symmetries_3<Kernel> symmetries_of_kind(const Expected& e, Map_kind kind, bool with_reflections) {
+  Random random(6);
+  const Formula formula = Surface{"", e.formula, e.box}.traits();
+  const Image image(formula, map_of(1.3 * random_rotation(random), Eigen::Vector3d(1, 2, 3)));
+  return affine_symmetries(image, points_on_surface(image, 24),
+                           parameters::map_kind(kind).reflections(with_reflections));
+}
+
+TEST(Affine_symmetries, rigid_ones_are_finite_groups_where_affine_ones_are_continuous_or_more) {
+  const CGAL::Bbox_3 scherk(-1.4, -1.4, -1.4, 1.4, 1.4, 1.4), octant(.3, .3, .3, 2, 2, 2);
+  const std::vector<Expected> cases = {{"x^2+2*y^2+3*z^2-1", cube(1.2), 8},
+                                       {"x^2+2*y^2-z^2-.5", cube(1.2), 8},
+                                       {"z-x^2+.5*y^2", cube(1), 4},
+                                       {"z-x^2+y^2", cube(1), 8},
+                                       {"x*y*z-1", octant, 6},
+                                       {"(x^2/2+y^2+z^2+.84)^2-4*(x^2/2+y^2)", cube(2.2), 8},
+                                       {"exp(z)*cos(x)-cos(y)", scherk, 8},
+                                       {"x^4+y^4+z^4-1", cube(1.2), 48},
+                                       {"x^6+2*y^6+.5*z^6-1", cube(1.3), 8},
+                                       {"x^4+y^4+z^4+1.2*x*y*z-1", cube(1.6), 24},
+                                       {"x^2+y^2+z^2-1+1e-4*x*y*z", cube(1.2), 24}};
+  for (const Expected& e : cases)
+    for (const auto& [kind, with_reflections] :
+         {std::pair(Map_kind::RIGID, true), {Map_kind::RIGID, false}, {Map_kind::SIMILARITY, true}}) {
+      const auto result = symmetries_of_kind(e, kind, with_reflections);
+      EXPECT_EQ(result.order(), with_reflections ? e.number : e.number / 2) << e.formula;
+      for (const auto& s : result.maps) {
+        EXPECT_LT(s.rms, 1e-12);
+        const Eigen::Matrix3d matrix = matrix_of(s.map);
+        EXPECT_LT((matrix * matrix.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12) << e.formula;
+        EXPECT_TRUE(with_reflections || matrix.determinant() > 0);
+      }
+    }
+}
+
+TEST(Affine_symmetries, the_dimension_of_continuous_ones_is_that_of_their_kind) {
+  const auto dimension = [](const Expected& e, Map_kind kind) {
+    return symmetries_of_kind(e, kind, true).continuous.dimension();
+  };
+  const Expected torus = {"(x^2+y^2+z^2+.84)^2-4*(x^2+y^2)", cube(1.6), 0}, sphere = {"x^2+y^2+z^2-1", cube(1.2), 0},
+                 cone = {"x^2+2*y^2-3*z^2", cube(1), 0}, ellipsoid = {"x^2+2*y^2+3*z^2-1", cube(1.2), 0};
+  EXPECT_EQ(dimension(torus, Map_kind::RIGID), 1u);
+  EXPECT_EQ(dimension(sphere, Map_kind::RIGID), 3u);
+  EXPECT_EQ(dimension(cone, Map_kind::RIGID), 0u);
+  EXPECT_EQ(dimension(cone, Map_kind::SIMILARITY), 1u);
+  EXPECT_EQ(dimension(ellipsoid, Map_kind::SIMILARITY), 0u);
+  EXPECT_EQ(dimension(ellipsoid, Map_kind::EQUIAFFINE), 3u);
 }
 
 TEST(Affine_symmetries, generators_are_tangent_to_the_surface) {

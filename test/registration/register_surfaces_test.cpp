@@ -190,6 +190,24 @@ TEST(Register_surfaces, quadrics_have_generators_and_one_map_of_many) {
   }
 }
 
+TEST(Register_surfaces, quadrics_whose_axes_differ_have_rigid_maps_from_pairs_of_points) {
+  Random random(10);
+  const Map map = map_of(random_rotation(random), Eigen::Vector3d(1, 2, 3));
+  const Pair ellipsoids({"", "x^2+2*y^2+3*z^2-1", cube(1.2)}, map);
+  const Result result = ellipsoids.result(parameters::map_kind(Map_kind::RIGID).number_of_maps(20));
+  EXPECT_EQ(result.maps.size(), 8u) << "an ellipsoid has as many rigid symmetries";
+  EXPECT_EQ(result.slippage.dimension(), 0u);
+  for (const auto& found : result.maps) {
+    EXPECT_LT(found.rms, 1e-12);
+    ASSERT_TRUE(found.pair);
+    const auto& [points, frames] = *found.pair;
+    EXPECT_LT(std::sqrt(CGAL::squared_distance(found.map(points[0]), points[1])), 1e-6);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_LT(std::sqrt((found.map(frames[0][k]) - frames[1][k]).squared_length()), 1e-5)
+          << "frames are carried along";
+  }
+}
+
 TEST(Register_surfaces, equivalent_surfaces_are_moved_onto_each_other_all_of_them) {
   Random random(9);
   const auto are_equivalent = [](const auto& source, const auto& points, const Pair& pair) {

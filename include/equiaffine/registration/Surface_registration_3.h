@@ -13,6 +13,13 @@
 
 namespace equiaffine {
 
+/// A point of the source and one of the target whose frames gave a map, which carries one frame to the other.
+template <class Kernel>
+struct Pair_of_frames_3 {
+  std::array<typename Kernel::Point_3, 2> points;
+  std::array<std::array<typename Kernel::Vector_3, 3>, 2> frames; ///< two tangent vectors and a transversal one each
+};
+
 /// A map that moves the source, or a part of it, onto the target, and what there is to trust it.
 template <class Kernel>
 struct Registered_map_3 {
@@ -22,8 +29,7 @@ struct Registered_map_3 {
   /// The parts of the points of the source, and of the target, that lie on the other surface.
   std::array<double, 2> inliers;
   double rms; ///< the root of the mean squared distance of these points, in the unit of the target
-  /// The points of the source and of the target whose frames gave the map; none for quadrics, which have no frames.
-  std::optional<std::array<typename Kernel::Point_3, 2>> pair;
+  std::optional<Pair_of_frames_3<Kernel>> pair; ///< none if the map is one of a continuous family
 };
 
 /// The result of `register_surfaces`.

@@ -18,15 +18,16 @@ namespace equiaffine {
 /// and a range of points on its zero set, which are moved onto it if they are near; the functions are of any models of
 /// the concept, and defined on their boxes.
 ///
-/// The affine frame at one generic point of the source and that at its counterpart give the map. Counterparts are found
-/// by their signatures: the nearest ones among the points of the target, by a tree, then exactly, by Newton's steps on
-/// the target. A map is judged by the distances of points both ways, refined by least squares, and accepted if fewer
-/// than 1e-6 as good ones are expected by chance: neither an overlap nor the absence of other things is assumed. Points
-/// lie on the other surface if they are within the noise, which is that of the given points: `tolerance` is 8 times
-/// their median distance from the zero sets, at least 1e-5 of the size of the target, and at most 3e-3 of it, since large
-/// parts of unrelated surfaces can be moved onto each other to within more. Where the frame of a point is not determined,
-/// as on quadrics, it is not matched: surfaces with continuous symmetries have a slippage, see Surface_registration_3. A
-/// fit (Fitted_function_traits_3) estimates its errors: points where its curvatures are uncertain are tried later.
+/// The affine frame at one generic point of the source and that at its counterpart give the map, or the frames of the
+/// principal directions for maps that keep angles. Counterparts are found by their signatures: the nearest ones among
+/// the points of the target, by a tree, then exactly, by Newton's steps on the target. A map is judged by the distances
+/// of points both ways, refined by least squares, and accepted if fewer than 1e-6 as good ones are expected by chance:
+/// neither an overlap nor the absence of other things is assumed. Points lie on the other surface if they are within
+/// the noise, which is that of the given points: `tolerance` is 8 times their median distance from the zero sets, at
+/// least 1e-5 of the size of the target, and at most 3e-3 of it, since large parts of unrelated surfaces can be moved
+/// onto each other to within more. Where the frame of a point is not determined, as the affine one on quadrics, it is
+/// not matched: surfaces with continuous symmetries have a slippage, see Surface_registration_3. A fit
+/// (Fitted_function_traits_3) estimates its errors: points where its curvatures are uncertain are tried later.
 ///
 /// Takes 5 expansions for each of up to 6000 points of a surface, and a number of hypotheses that does not depend on the
 /// number of points. The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit.

@@ -162,7 +162,7 @@ Framed_surface_3 framed_surface(const Surface_oracle_3& function, const Surface_
   parallel_for<ConcurrencyTag>(
       0, points.size(),
       [&](std::size_t i) {
-        result.points[i] = function.framed_point(points[i]);
+        result.points[i] = function.framed_point(points[i], kind);
         result.points[i].certainty = function.certainty(points[i]);
       },
       16);

@@ -24,7 +24,7 @@
 namespace equiaffine::internal {
 
 /// The points of the source and of the target whose frames give a map.
-using Pair_of_points = std::array<Eigen::Vector3d, 2>;
+using Pair_of_points = std::array<Framed_point_3, 2>;
 
 /// A map that was refined, and what is known of it.
 struct Judged_map {
@@ -131,13 +131,12 @@ private:
 
   void try_counterpart(const Counterpart& pair) {
     const Framed_point_3& p = source_.points[pair.source];
-    if (keeps_angles(request_.kind) && condition(pair.target.basis * p.basis.inverse()) > 1.5) return;
     const Affine_map_3 map = map_between(p, pair.target, request_.kind);
     const double determinant = map.matrix.determinant();
     if (!map.matrix.allFinite() || !(condition(map.matrix) < 1e4)) return;
     if (determinant < 0 && !request_.allows_reflections) return;
     if (is_known(map, 0.02)) return;
-    try_map(map, Pair_of_points{p.point, pair.target.point});
+    try_map(map, Pair_of_points{p, pair.target});
   }
 
   std::optional<Affine_map_3> refined_map(const Affine_map_3& map, const Refinement& how) const {

@@ -5,7 +5,7 @@
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/registration/certainty_of_fit.h>
-#include <equiaffine/registration/internal/Framed_point_3.h>
+#include <equiaffine/registration/internal/framed_point.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>
@@ -28,7 +28,7 @@ struct Signed_distance_3 {
 class Surface_oracle_3 {
 public:
   virtual ~Surface_oracle_3() = default;
-  virtual Framed_point_3 framed_point(const Eigen::Vector3d& p) const = 0;
+  virtual Framed_point_3 framed_point(const Eigen::Vector3d& p, Map_kind kind) const = 0;
   virtual Jet_3<double, 1> first_order(const Eigen::Vector3d& p) const = 0;
 
   /// How far the curvatures at a point can be trusted, from 0 to 1: less than 1 for fits, which estimate their errors.
@@ -61,8 +61,8 @@ public:
 
   explicit Oracle_of_traits_3(const Traits& traits) : traits_(traits), box_(traits.bbox()) {}
 
-  Framed_point_3 framed_point(const Eigen::Vector3d& p) const override {
-    return internal::framed_point([this](const Eigen::Vector3d& q) { return taylor(q); }, p);
+  Framed_point_3 framed_point(const Eigen::Vector3d& p, Map_kind kind) const override {
+    return internal::framed_point([this](const Eigen::Vector3d& q) { return taylor(q); }, p, kind);
   }
 
   Jet_3<double, 1> first_order(const Eigen::Vector3d& p) const override {

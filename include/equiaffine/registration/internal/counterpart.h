@@ -43,7 +43,7 @@ inline Counterpart find_counterpart(const Framed_surface_3& source, const Framed
     Eigen::Vector3d move = q.basis.leftCols<2>() * step_to(gradient, difference, 1e-9);
     if (move.norm() < 1e-14 * target.size) return best;
     move *= std::min(1.0, 1.5 * target.spacing / move.norm());
-    next.target = target.function.framed_point(target.function.moved_to_surface(q.point + move, 3));
+    next.target = target.function.framed_point(target.function.moved_to_surface(q.point + move, 3), kind);
     const bool is_near = (next.target.point - begin).norm() < 6 * target.spacing;
     if (!next.target.has_frame() || next.target.is_elliptic != p.is_elliptic || !is_near) return best;
   }

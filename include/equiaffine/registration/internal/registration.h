@@ -24,13 +24,21 @@ namespace equiaffine::internal {
 
 template <class Kernel>
 Registered_map_3<Kernel> registered_map(const Judged_map& m) {
-  const auto point = [](const Eigen::Vector3d& p) { return typename Kernel::Point_3(p[0], p[1], p[2]); };
   Registered_map_3<Kernel> result{m.map.to_CGAL<typename Kernel::Aff_transformation_3>(),
                                   m.evidence.log10_false_alarms,
                                   m.evidence.inliers,
                                   m.evidence.rms,
                                   {}};
-  if (m.pair) result.pair = {point((*m.pair)[0]), point((*m.pair)[1])};
+  if (!m.pair) return result;
+  result.pair.emplace();
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Framed_point_3& framed = (*m.pair)[side];
+    const Eigen::Vector3d& p = framed.point;
+    const Eigen::Matrix3d& basis = framed.basis;
+    result.pair->points[side] = typename Kernel::Point_3(p[0], p[1], p[2]);
+    for (int k = 0; k < 3; ++k)
+      result.pair->frames[side][std::size_t(k)] = typename Kernel::Vector_3(basis(0, k), basis(1, k), basis(2, k));
+  }
   return result;
 }
 
