@@ -26,8 +26,7 @@ struct Draft {
   Estimator estimator = Estimator::COMPACT;
   Display_options display;
   bool samples_are_float = false;
-  Map_kind map_kind = Map_kind::AFFINE;
-  bool allows_reflections = true;
+  Map_options maps;
   std::optional<std::size_t> number_of_maps;
   double least_overlap = 0.05;
   std::optional<double> tolerance;

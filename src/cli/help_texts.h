@@ -109,14 +109,15 @@ Examples:
   equiaffine register --function "x^2+2*y^4+z^4+x*y*z=1" --box -2 2 -2 2 -2 2 to scan.nrrd --isovalue 7 -o map.json)";
 
 inline constexpr const char* symmetries_description =
-    R"(find all affine maps that move a surface onto itself
+    R"(find all maps that move a surface onto itself
 
 Usage: equiaffine symmetries SOURCE -o MAPS.json [options]
 )";
 
 inline constexpr const char* symmetries_footer =
     R"(A surface with continuous symmetries, such as an ellipsoid or a surface of revolution, has infinitely many: then
-generators are found, "order" is null, and "maps" has the identity alone.
+generators are found, "order" is null, and "maps" has the identity alone. Of an ellipsoid only the affine ones are
+continuous: with --kind rigid it has 8 if its axes differ.
 
 Example: equiaffine symmetries --function "x^4+y^4+z^4=1" --box -2 2 -2 2 -2 2 -o maps.json)";
 

@@ -8,14 +8,14 @@ namespace {
 using enum Option_group;
 
 void read_kind(const Option_words& option, Draft& draft) {
-  draft.map_kind = parse_choice<Map_kind>(option, {{"affine", Map_kind::AFFINE},
-                                                   {"equiaffine", Map_kind::EQUIAFFINE},
-                                                   {"similarity", Map_kind::SIMILARITY},
-                                                   {"rigid", Map_kind::RIGID}});
+  draft.maps.kind = parse_choice<Map_kind>(option, {{"affine", Map_kind::AFFINE},
+                                                    {"equiaffine", Map_kind::EQUIAFFINE},
+                                                    {"similarity", Map_kind::SIMILARITY},
+                                                    {"rigid", Map_kind::RIGID}});
 }
 
 void read_no_reflection(const Option_words& option, Draft& draft) {
-  draft.allows_reflections = parse_choice<bool>(option, {{"true", false}, {"false", true}});
+  draft.maps.allows_reflections = parse_choice<bool>(option, {{"true", false}, {"false", true}});
 }
 
 void read_least_overlap(const Option_words& option, Draft& draft) {
@@ -33,11 +33,11 @@ void read_tolerance(const Option_words& option, Draft& draft) {
 }
 
 const std::vector<Option_row> rows = {
-    {"--kind", REGISTER, MAPS, 1, "affine|equiaffine|similarity|rigid",
-     "the maps among which one is sought: all (affine, the default), those that keep volumes,\n"
+    {"--kind", registering, MAPS, 1, "affine|equiaffine|similarity|rigid",
+     "the maps that are sought: all (affine, the default), those that keep volumes,\n"
      "those that keep angles, or those that keep lengths",
      read_kind},
-    {"--no-reflection", REGISTER, MAPS, 0, "", "no map that turns left into right", read_no_reflection},
+    {"--no-reflection", registering, MAPS, 0, "", "no map that turns left into right", read_no_reflection},
     {"--all", REGISTER, MAPS, 1, "N", "all maps with evidence, up to N, as those of a symmetric target or of copies",
      [](const Option_words& option, Draft& draft) {
        draft.number_of_maps = parse_count(option.name, option.word(), 1);

@@ -78,8 +78,7 @@ Register_options make_register_options(Option_reader& reader, Option_reader& tar
   for (const std::string& file : input_files(target_reader)) inputs.push_back(file);
   const Draft& draft = reader.draft();
   check_outputs(inputs, {draft.output, draft.moved, draft.display.html, draft.display.png});
-  options.kind = draft.map_kind;
-  options.allows_reflections = draft.allows_reflections;
+  options.maps = draft.maps;
   options.number_of_maps = draft.number_of_maps;
   options.least_overlap = draft.least_overlap;
   options.output = *draft.output;
@@ -111,6 +110,7 @@ Symmetries_options read_symmetries_options(Option_reader& reader) {
   read_outputs(reader, {"distance", "plain"});
   const Draft& draft = reader.draft();
   check_outputs(input_files(reader), {draft.output, draft.display.html, draft.display.png});
+  options.maps = draft.maps;
   options.tolerance = draft.tolerance;
   options.output = *draft.output;
   options.display = draft.display;

@@ -20,8 +20,8 @@ namespace {
 
 Surface_registration_3<Kernel> register_with(const Register_options& options, const Surface_to_register& source,
                                              const Surface_to_register& target) {
-  const auto parameters = parameters::map_kind(options.kind)
-                              .reflections(options.allows_reflections)
+  const auto parameters = parameters::map_kind(options.maps.kind)
+                              .reflections(options.maps.allows_reflections)
                               .number_of_maps(options.number_of_maps.value_or(1))
                               .least_overlap(options.least_overlap)
                               .refined_functions(std::pair<const Level_set_of_source&, const Level_set_of_source&>(

@@ -55,9 +55,11 @@ void run_symmetries(const Symmetries_options& options, std::ostream& out, Progre
   const Surface_to_register surface = make_surface_to_register(options.surface, is_shown, progress);
   progress.begin("looking for symmetries");
   const double tolerance = options.tolerance.value_or(default_tolerance(options.surface.source));
-  const Symmetries_report report = {describe(options.surface.source),
-                                    affine_symmetries<CGAL::Parallel_if_available_tag>(
-                                        surface.function, surface.mesh.points, parameters::tolerance(tolerance))};
+  const auto parameters =
+      parameters::map_kind(options.maps.kind).reflections(options.maps.allows_reflections).tolerance(tolerance);
+  const Symmetries_report report = {
+      describe(options.surface.source),
+      affine_symmetries<CGAL::Parallel_if_available_tag>(surface.function, surface.mesh.points, parameters)};
   if (!std::isfinite(report.symmetries.maps.front().rms))
     throw Input_error("nothing is known of the symmetries of " + report.source +
                       ": it has a surface beside none of its points; give more points");

@@ -135,10 +135,15 @@ struct Surface_options {
   double isovalue = 0;
 };
 
-struct Register_options {
-  Surface_options source, target;
+/// The maps among which one is sought.
+struct Map_options {
   Map_kind kind = Map_kind::AFFINE;
   bool allows_reflections = true;
+};
+
+struct Register_options {
+  Surface_options source, target;
+  Map_options maps;
   std::optional<std::size_t> number_of_maps; ///< if all maps were asked for, up to this number
   double least_overlap = 0.05;               ///< a part of a surface
   std::string output;
@@ -148,6 +153,7 @@ struct Register_options {
 
 struct Symmetries_options {
   Surface_options surface;
+  Map_options maps;
   std::optional<double> tolerance; ///< a part of the size of the surface; if there is none, the source decides
   std::string output;
   Display_options display;

@@ -237,6 +237,7 @@ TEST_F(Program_register, what_cannot_be_used_is_refused) {
   expect_error({"register", "none.csv", "to", "a.ply", "-o", "m.json"}, {"none.csv", "no points"});
   expect_error({"symmetries", "none.csv", "-o", "m.json"}, {"none.csv", "no points"});
   expect_error({"symmetries", "a.ply", "-o", "m.json", "--tolerance", "2"}, {"--tolerance", "'2'"});
+  expect_error({"symmetries", "a.ply", "-o", "m.json", "--kind", "afine"}, {"--kind", "afine", "affine"});
   expect_error({"symmetries", "-o", "m.json"}, {"no source", "file"});
   expect_error({"symmetries", "a.ply", "--box", "5", "6", "5", "6", "5", "6", "-o", "m.json"},
                {"no part of the fit to 'a.ply' is in the box"});
@@ -256,6 +257,34 @@ TEST_F(Program_register, symmetries_of_a_formula_are_a_group) {
     EXPECT_EQ(found["continuous"]["generators"], Json::array());
   }
   EXPECT_EQ(symmetries(surface)["order"], 1);
+}
+
+TEST_F(Program_register, symmetries_are_of_the_kind_that_is_asked_for) {
+  const Arguments resolution = {"--resolution", "32"}, rigid = {"--kind", "rigid"}, proper = {"--no-reflection"};
+  const Arguments ellipsoid = Arguments{"--function", "x^2+2*y^2+3*z^2-1"} + box + resolution,
+                  cube = Arguments{"--function", "x^4+y^4+z^4-1"} + box + resolution,
+                  torus = Arguments{"--function", "(x^2+y^2+z^2+.84)^2=4*(x^2+y^2)"} + box + resolution;
+  EXPECT_EQ(symmetries(ellipsoid)["continuous"]["dimension"], 3);
+  EXPECT_EQ(symmetries(ellipsoid + Arguments{"--kind", "equiaffine"})["continuous"]["dimension"], 3);
+  EXPECT_EQ(symmetries(ellipsoid + rigid)["order"], 8);
+  EXPECT_EQ(symmetries(ellipsoid + rigid + proper)["order"], 4);
+  EXPECT_EQ(symmetries(ellipsoid + Arguments{"--kind", "similarity"})["order"], 8);
+  EXPECT_EQ(symmetries(cube + rigid)["order"], 48);
+  EXPECT_EQ(symmetries(cube + proper)["order"], 24);
+  EXPECT_EQ(symmetries(torus + rigid)["continuous"]["dimension"], 1);
+  run_well(Arguments{"sample", "-o", "s.vti"} + ellipsoid);
+  run_well(Arguments{"mesh", "-o", "s.ply", "--attributes", "none"} + ellipsoid);
+  for (const char* file : {"s.vti", "s.ply"}) EXPECT_EQ(symmetries(Arguments{file} + rigid)["order"], 8) << file;
+}
+
+TEST_F(Program_register, a_rigid_map_of_quadrics_has_frames_that_pages_show) {
+  const Arguments ellipsoid = Arguments{"--function", "x^2+2*y^2+3*z^2=1", "--resolution", "24"} + box;
+  const Arguments turn = {"--transform", "0", "-1", "0", "1", "0", "0", "0", "0", "1"};
+  const Json found = registered(ellipsoid, ellipsoid + turn, {"--kind", "rigid", "--html", "page.html"});
+  EXPECT_EQ(found["found"], true);
+  EXPECT_LT(found["rms"], 1e-12);
+  EXPECT_EQ(found["slippage"]["dimension"], 0);
+  EXPECT_NE(file("page.html").find("2 and 3 the frames of the pair of points"), std::string::npos);
 }
 
 TEST_F(Program_register, continuous_symmetries_have_generators_and_no_order) {
