@@ -339,7 +339,7 @@ TEST(Project_to_surface, it_finds_the_nearby_zero_and_says_when_there_is_none) {
   EXPECT_FALSE(project_to_surface(sphere, Point_3(0, 0, 0), 2.0).has_converged) << "no direction at a critical point";
 }
 
-/// Is an expression that is never replaced by a shorter one on a box.
+/// This expression is never replaced by a shorter one on a box.
 struct Whole_expression {
   template <class T>
   T operator()(const T& x, const T& y, const T& z) const {

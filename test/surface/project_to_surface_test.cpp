@@ -117,7 +117,7 @@ TEST(Intersect_segment, a_triple_root_is_found) {
   EXPECT_NEAR(intersect_segment(Values_only<Expression_3>{f}, a, b, fa, fb).point.x(), 0.3, 1e-12);
 }
 
-/// Is negative in a ball and branches at x = y, so that points on both sides disagree in a pack.
+/// This function is negative in a ball and branches at x = y, so that points on both sides disagree in a pack.
 struct Branching_function {
   template <class T>
   T operator()(const T& x, const T& y, const T& z) const {

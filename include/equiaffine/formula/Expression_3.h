@@ -63,7 +63,7 @@ public:
       : text_(std::make_shared<const std::string>(text)) {
     internal::expression::check_constants(constants);
     tape_ = internal::expression::Parser(*text_, constants).parse();
-    has_choices_ = std::any_of(tape_.instructions.begin(), tape_.instructions.end(), internal::expression::is_choice);
+    has_choices_ = internal::expression::has_choices(tape_);
   }
 
   /// The value at (x, y, z).
@@ -103,9 +103,9 @@ public:
     expand_in_blocks<internal::expression::block_size<T>>(x, y, z, out);
   }
 
-  /// Returns the expression without the operands of min, max and abs that are not chosen anywhere in a box, if there are
-  /// some and the expression is so long that this saves time. In the box it has the same values and expansions in double,
-  /// bit for bit.
+  /// Returns the expression without the operands of min, max and abs that are not chosen anywhere in a box, if there
+  /// are some and the expression is so long that this saves time. In the box it has the same values and expansions of
+  /// order 1 in double, bit for bit; those of taylor() agree to rounding where both exist.
   std::optional<Expression_3> restricted(const Interval& x, const Interval& y, const Interval& z) const {
     constexpr std::size_t worth_it = 24; // a shorter tape takes less time than it takes to shorten it
     if (!has_choices_ || tape_.instructions.size() < worth_it) return std::nullopt;
@@ -122,7 +122,7 @@ public:
 
 private:
   Expression_3(std::shared_ptr<const std::string> text, internal::expression::Tape tape)
-      : text_(std::move(text)), tape_(std::move(tape)), has_choices_(true) {}
+      : text_(std::move(text)), tape_(std::move(tape)), has_choices_(internal::expression::has_choices(tape_)) {}
 
   template <std::size_t Block, class T>
   void expand_in_blocks(std::span<const T> x, std::span<const T> y, std::span<const T> z,

@@ -23,6 +23,10 @@ inline bool is_choice(const Instruction& i) {
   return i.opcode == Opcode::MIN || i.opcode == Opcode::MAX || i.opcode == Opcode::ABS;
 }
 
+inline bool has_choices(const Tape& tape) {
+  return std::any_of(tape.instructions.begin(), tape.instructions.end(), is_choice);
+}
+
 /// What is known of an operand on a box: the node that computes it, the interval of its values, and whether it has a
 /// moderate value everywhere. The interval says nothing of the points where it has none.
 struct Operand_on_box {
@@ -52,8 +56,8 @@ inline bool is_total(const Instruction& i, const Interval& a, const Interval& b,
   }
 }
 
-/// Returns how many rounding errors the value of an instruction may have beyond those that its interval follows: a whole
-/// power is a product of many factors, and jets compute some functions from others.
+/// Returns how many rounding errors the value of an instruction may have beyond those that its interval follows: a
+/// whole power is a product of many factors, and jets compute some functions from others.
 inline double further_roundings(const Instruction& i) {
   switch (i.opcode) {
   case Opcode::INTEGER_POWER: return i.constant;
@@ -80,8 +84,9 @@ inline Interval values_on_box(const Instruction& i, const Interval& a, const Int
   return Interval(std::max(result.lower() - rounding, least), result.upper() + rounding);
 }
 
-/// Returns the operand that a choice returns at every point of the box, if it is always the same. Both operands must have
-/// moderate values everywhere: min and max are NaN where one of them is, and intervals do not follow signed infinities.
+/// Returns the operand that a choice returns at every point of the box, if it is always the same. Both operands must
+/// have moderate values everywhere: min and max are NaN where one of them is, and intervals do not follow signed
+/// infinities.
 inline std::optional<std::uint32_t> decided(const Instruction& i, const Operand_on_box& a, const Operand_on_box& b) {
   if (!a.is_total || !b.is_total) return std::nullopt;
   if (i.opcode == Opcode::ABS) return a.values.lower() > 0 ? std::optional(a.node) : std::nullopt;
@@ -90,8 +95,8 @@ inline std::optional<std::uint32_t> decided(const Instruction& i, const Operand_
   return is_a_less == (i.opcode == Opcode::MIN) ? a.node : b.node;
 }
 
-/// Returns a shorter tape whose results have the same bits at the points of the box with the given sides, computed in
-/// double, if there is one.
+/// Returns a shorter tape, if there is one, whose results in double have the same bits at the points of the box with
+/// the given sides, as numbers and as jets of order 1.
 inline std::optional<Tape> shortened(const Tape& tape, const std::array<Interval, number_of_variables>& sides) {
   std::vector<Operand_on_box> operands(number_of_variables + tape.number_of_slots);
   std::vector<Instruction> nodes(number_of_variables, Instruction{Opcode::VARIABLE, 0, 0, 0, 0});

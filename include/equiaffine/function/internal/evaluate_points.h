@@ -13,7 +13,7 @@
 
 namespace equiaffine::internal {
 
-/// The function takes spans of coordinates and a span for the values.
+/// A functor has a call on spans of coordinates and a span for the values.
 template <class Function, class FT>
 concept TakesSpans = requires(const Function& f, std::span<const FT> coordinates, std::span<FT> values) {
   f(coordinates, coordinates, coordinates, values);
