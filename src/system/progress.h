@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_SRC_SYSTEM_PROGRESS_H
 #define EQUIAFFINE_SRC_SYSTEM_PROGRESS_H
 
+#include "system/Progress_report.h"
+
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -13,13 +15,13 @@
 
 namespace equiaffine {
 
-/// A line on a terminal that says what a long computation is doing. It appears after a second and is wiped away at the
-/// end; where there is no terminal it never appears. Warnings follow it.
+/// Says what a long computation is doing. On a terminal a line appears after a second and is wiped away at the end; where
+/// there is no terminal a line is written every ten seconds. Warnings follow it.
 class Progress {
 public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = Progress_report::Clock;
 
-  Progress(std::ostream& terminal, bool is_terminal, Clock::duration patience = std::chrono::seconds(1));
+  Progress(std::ostream& stream, bool is_terminal, Clock::duration patience = std::chrono::seconds(1));
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -37,17 +39,13 @@ public:
   void warn(const std::string& text);
 
 private:
-  void show_until_ended();
-  std::string line() const;
+  void show(Clock::duration patience);
 
-  std::ostream& terminal_;
-  const Clock::time_point start_ = Clock::now();
-  const Clock::duration patience_;
-  mutable std::mutex mutex_; // guards the members from here to the thread
+  std::ostream& stream_;
+  std::mutex mutex_; // guards the report and whether the work is ended
   std::condition_variable ended_;
+  Progress_report report_;
   bool is_ended_ = false;
-  std::string stage_;
-  std::size_t steps_ = 0;
   std::atomic<std::size_t> done_ = 0;
   std::thread thread_;
 };

@@ -765,7 +765,7 @@ TEST(Program_progress, is_shown_on_a_terminal_and_wiped_away) {
     progress.advance(3);
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
   }
-  EXPECT_NE(terminal.str().find("[##################......]  75 %  counting, 0 s"), std::string::npos)
+  EXPECT_NE(terminal.str().find("[##################......]  75 %  counting, 0 s, about 0 s left"), std::string::npos)
       << terminal.str();
   EXPECT_TRUE(terminal.str().ends_with("\r\x1b[K"));
 }

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,6 +27,15 @@ inline std::string read_file(const std::filesystem::path& path) {
 
 inline void write_file(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
+}
+
+/// The text without lines that say how far a long computation is: their number depends on the computer.
+inline std::string without_progress(const std::string& text) {
+  std::istringstream lines(text);
+  std::string rest;
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with("equiaffine: progress: ")) rest += line + (lines.eof() ? "" : "\n");
+  return rest;
 }
 
 struct Result {
@@ -78,7 +88,8 @@ protected:
   Result wait_for(pid_t child) const {
     int status = 0;
     ::waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(root_ / "out"), read_file(root_ / "error")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(root_ / "out"),
+            without_progress(read_file(root_ / "error"))};
   }
 
   /// Runs the program, expects that nothing goes wrong, and returns what is on standard output.
