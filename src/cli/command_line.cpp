@@ -3,6 +3,7 @@
 
 #include "cli/Option_row.h"
 #include "cli/help_texts.h"
+#include "cli/slips.h"
 #include <equiaffine/Input_error.h>
 
 #include <CLI/App.hpp>
@@ -175,15 +176,20 @@ private:
                         see_help());
     Words names;
     for (const Command_text& text : command_texts) names.emplace_back(text.name);
-    throw Input_error("unknown command '" + word + "'" + suggestion(word, names) + "; " + see_help());
+    throw Input_error("unknown command '" + word + "'" + suggestion(word, names) + "; " +
+                      advice_or_help(advice_on_command(word)));
   }
 
   [[noreturn]] void fail_after_command(const CLI::App& command, const std::string& word) const {
-    if (word.size() > 1 && word.starts_with('-'))
-      throw Input_error("unknown option '" + word + "'" + suggestion(word.substr(0, word.find('=')), names(command)) +
-                        "; " + see_help());
-    throw Input_error("'" + word + "' is not expected there; " + see_help());
+    if (word.size() > 1 && word.starts_with('-')) {
+      const std::string name = word.substr(0, word.find('=')), advice = advice_on_option(result_.command, name);
+      throw Input_error("unknown option '" + word + "'" + (advice.empty() ? suggestion(name, names(command)) : "") +
+                        "; " + advice_or_help(advice));
+    }
+    throw Input_error("'" + word + "' is not expected there; " + advice_or_help(advice_on_word(result_, word)));
   }
+
+  std::string advice_or_help(const std::string& advice) const { return advice.empty() ? see_help() : advice; }
 
   void check_words_of(const CLI::App& command, const std::string& name, const Words& words) const {
     if (words.size() > std::max<std::size_t>(1, std::size_t(command.get_option(name)->get_items_expected_max())))

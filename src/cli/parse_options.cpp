@@ -6,6 +6,7 @@
 #include "cli/check_outputs.h"
 #include "cli/read_registration.h"
 #include "cli/read_source.h"
+#include "cli/slips.h"
 #include <equiaffine/Input_error.h>
 
 #include <algorithm>
@@ -139,6 +140,7 @@ Sample_options read_sample_options(Option_reader& reader) {
 
 View_options read_view_options(Option_reader& reader) {
   if (!reader.has("MESH.ply")) throw Input_error("no mesh is given; write 'equiaffine view MESH.ply -o PAGE.html'");
+  check_is_viewable(reader.word("MESH.ply"));
   reader.read({"--up"});
   refuse_picture_options(reader);
   reader.read_rest();
@@ -153,6 +155,7 @@ View_options read_view_options(Option_reader& reader) {
 
 Annotate_options read_annotate_options(Option_reader& reader) {
   if (!reader.has("MESH")) throw Input_error("no mesh is given; write 'equiaffine annotate MESH -o OUT.ply'");
+  check_is_annotatable(reader.word("MESH"));
   reader.draft().estimates = {error_attributes.begin(), error_attributes.end()};
   reader.read({"--scale", "--noise", "--degree", "--attributes"});
   need_output(reader);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/read_source.h"
 
+#include "cli/slips.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/io/input_file.h>
 
@@ -17,6 +18,22 @@ namespace {
                                                                     : "; use " + options));
 }
 
+/// Throws for an option of fits with a source that is none.
+void refuse_fit_options(const Option_reader& reader) {
+  const auto refuse = [&](const std::string& reason, const std::string& advice) {
+    reader.refuse({"--scale", "--noise", "--degree"}, "it is for the polynomials of --fit, and " + reason, advice);
+  };
+  const Source_options& source = reader.draft().source;
+  switch (source.kind) {
+  case Source_kind::FUNCTION: return refuse("a formula has no points to fit", "leave it out");
+  case Source_kind::VOLUME:
+    return refuse("a volume gets a spline", "leave it out, and smooth the samples with --smoothing auto");
+  case Source_kind::DISTANCE:
+    return refuse("a distance gets a spline", "use --fit " + source.text + " in place of --distance-to");
+  case Source_kind::FIT: return;
+  }
+}
+
 void read_kind(Option_reader& reader) {
   std::string given;
   for (const char* option : {"FILE", "--function", "--volume", "--distance-to", "--fit"}) {
@@ -26,6 +43,7 @@ void read_kind(Option_reader& reader) {
     reader.read({option});
   }
   if (given.empty()) fail_without_source(reader.command());
+  if (reader.has("FILE")) check_is_no_formula(reader.word("FILE"));
   Source_options& source = reader.draft().source;
   const bool has_derivatives = source.kind == Source_kind::FUNCTION || source.kind == Source_kind::FIT;
   source.derivatives = has_derivatives ? Derivatives::JETS : Derivatives::SPLINE;
@@ -85,8 +103,7 @@ void read_source(Option_reader& reader) {
   read_raw_layout(reader);
   if (reader.draft().source.kind != Source_kind::DISTANCE)
     reader.refuse({"--narrow-band"}, "it is for --distance-to", "leave it out");
-  if (reader.draft().source.kind != Source_kind::FIT)
-    reader.refuse({"--scale", "--noise", "--degree"}, "it is for --fit", "leave it out");
+  refuse_fit_options(reader);
   reader.read({"--narrow-band", "--scale", "--noise", "--degree"});
 }
 

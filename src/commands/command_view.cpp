@@ -47,7 +47,9 @@ void run_view(const View_options& options, std::ostream& out) {
     if (path) outputs.emplace_back(*path);
   const std::string name = options.mesh == "-" ? "standard input" : name_of_file(options.mesh);
   const Annotated_mesh_3<Kernel> surface = read_mesh(options.mesh);
-  if (surface.mesh.triangles.empty()) throw Input_error("cannot show '" + name + "': it has no faces; give a mesh");
+  if (surface.mesh.triangles.empty())
+    throw Input_error("cannot show '" + name + "': it has no faces; 'equiaffine mesh --fit " + options.mesh +
+                      " -o OUT.ply --html PAGE.html' shows the surface through the points");
   check_color(options.display.color, surface.attributes);
   check_arrows(options.display.arrows, surface.attributes);
   write_displays(outputs.begin(), surface.mesh, surface.attributes, options.display,

@@ -79,6 +79,60 @@ TEST_F(Program_errors, an_unknown_command_or_option_is_named_and_the_nearest_sug
   expect_error({"sample", "--volume", "v.nrrd"}, {"unknown option '--volume'"});
 }
 
+TEST_F(Program_errors, a_file_or_formula_without_its_option_is_told_how_to_give_it) {
+  expect_error({"mesh", "bunny.off"},
+               {"'bunny.off' is not expected there", "--fit bunny.off", "--distance-to bunny.off",
+                "'equiaffine annotate bunny.off -o bunny-curvatures.ply'"});
+  expect_error({"mesh", "p.xyz"}, {"--fit p.xyz", "points", "annotate p.xyz -o p-curvatures.csv"});
+  expect_error({"mesh", "v.nrrd", "-o", "out.ply"}, {"'v.nrrd' is not expected", "write --volume v.nrrd"});
+  expect_error({"mesh", "x^2+y^2=1"}, {"write --function 'x^2+y^2=1'"});
+  expect_error({"evaluate", "bunny.off"}, {"--fit bunny.off", "--points FILE", "annotate bunny.off"});
+  expect_error({"sample", "bunny.off"}, {"--distance-to bunny.off"});
+  expect_error({"sample", "v.nrrd"}, {"a volume already", "mesh --volume v.nrrd"});
+  expect_error({"mesh", "--fit", "bunny.off", "bunny.ply"}, {"'bunny.ply'", "name the output by -o bunny.ply"});
+  expect_error({"mesh", "--fit", "bunny.off", "-o", "out.ply", "b.html"}, {"name the page by --html b.html"});
+  expect_error({"view", "bunny.ply", "bunny.html"}, {"name the page by -o bunny.html"});
+  expect_error({"annotate", "bunny.off", "-o", "out.ply", "b.png"}, {"name the picture by --png b.png"});
+  expect_error({"bunny.off"}, {"unknown command 'bunny.off'", "equiaffine annotate bunny.off"});
+  expect_error({"mesh", "--function", "x^2", "+", "y^2=1", "-o", "out.ply"},
+               {"'+' is not expected there", "put the formula into quotes"});
+  expect_error({"symmetries", "x^4+y^4=1", "-o", "m.json"}, {"'x^4+y^4=1' is no file", "write --function 'x^4+y^4=1'"});
+  expect_error({"annotate", "v.nrrd", "-o", "out.ply"}, {"'v.nrrd'", "no vertices", "equiaffine mesh --volume v.nrrd"});
+  expect_error({"annotate", "x^4+y^4=1", "-o", "out.ply"}, {"'x^4+y^4=1'", "equiaffine mesh --function"});
+  expect_error({"mesh", "my-file"}, {"'my-file' is not expected there; see 'equiaffine mesh --help'"});
+  expect_error({"v.nrrd"}, {"unknown command 'v.nrrd'", "equiaffine mesh --volume v.nrrd -o v.ply"});
+}
+
+TEST_F(Program_errors, an_option_of_another_command_names_that_command) {
+  expect_error({"annotate", "--function", "x*y"},
+               {"unknown option '--function'", "equiaffine mesh --function", "evaluate"});
+  expect_error({"annotate", "--fit", "bunny.off"}, {"'--fit'", "'equiaffine annotate FILE -o OUT.ply'"});
+  expect_error({"view", "a.ply", "--html", "a.html"}, {"'--html'", "-o PAGE.html"});
+  expect_error({"view", "--volume", "v.nrrd"},
+               {"'--volume'", "equiaffine mesh --volume FILE -o OUT.ply --html PAGE.html"});
+  expect_error({"evaluate", "--function", "x", "--html=a.html"}, {"'--html=a.html'", "annotate"});
+  expect_error({"sample", "--volume", "v.nrrd"}, {"unknown option '--volume'", "mesh --volume"});
+}
+
+TEST_F(Program_errors, a_file_that_has_nothing_to_show_is_told_which_command_makes_a_page) {
+  expect_error({"view", "bunny.off"},
+               {"'bunny.off'", "no attributes", "'equiaffine annotate bunny.off -o bunny.ply --html bunny.html'"});
+  expect_error({"view", "p.xyz", "-o", "p.html"},
+               {"'p.xyz'", "no faces", "'equiaffine mesh --fit p.xyz -o p.ply --html p.html'"});
+  expect_error({"view", "v.nrrd", "-o", "v.html"}, {"'v.nrrd'", "mesh --volume v.nrrd", "--isovalue"});
+  add_input("p.csv", "x,y,z\n1,2,3\n");
+  expect_error({"annotate", "p.csv", "-o", "o.csv", "--html", "o.html"},
+               {"'p.csv'", "no faces", "'equiaffine mesh --fit p.csv -o OUT.ply --html PAGE.html'"});
+}
+
+TEST_F(Program_errors, options_of_fits_with_another_source_say_what_that_has) {
+  expect_error(mesh_of("x") + box + Arguments{"--scale", "1"},
+               {"--scale", "--fit", "a formula has no points", "leave it out"});
+  expect_error({"mesh", "--volume", "v.nrrd", "--noise", "1", "-o", "out.ply"}, {"--noise", "--smoothing auto"});
+  expect_error({"mesh", "--distance-to", "m.off", "--scale", "1", "-o", "out.ply"},
+               {"--scale", "use --fit m.off in place of --distance-to"});
+}
+
 TEST_F(Program_errors, an_unknown_name_in_a_formula_is_shown_with_a_caret) {
   expect_error(mesh_of("x + foo") + box, {"foo"}, "x + foo\n    ^\n");
 }

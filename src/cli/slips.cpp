@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/slips.h"
+
+#include "volume/volume_io.h"
+#include <equiaffine/Input_error.h>
+#include <equiaffine/io/input_file.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <initializer_list>
+#include <string_view>
+
+namespace equiaffine {
+
+namespace {
+
+enum class Word_kind { MESH_FILE, POINTS, VOLUME_FILE, FORMULA, PAGE, PICTURE, OTHER };
+
+bool has_one_of(const std::string& path, std::initializer_list<std::string_view> extensions) {
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](std::string_view extension) { return has_extension(path, extension); });
+}
+
+Word_kind kind_of(const std::string& word) {
+  if (has_one_of(word, {".ply", ".off", ".obj", ".stl"})) return Word_kind::MESH_FILE;
+  if (has_one_of(word, {".csv", ".xyz"})) return Word_kind::POINTS;
+  if (has_one_of(word, {".html", ".htm"})) return Word_kind::PAGE;
+  if (has_one_of(word, {".png"})) return Word_kind::PICTURE;
+  if (is_volume(word)) return Word_kind::VOLUME_FILE;
+  const bool is_formula =
+      word.find_first_of("xyz") != std::string::npos && word.find_first_of("+*^=(") != std::string::npos;
+  return is_formula ? Word_kind::FORMULA : Word_kind::OTHER;
+}
+
+std::string stem_of(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+std::string annotate(const std::string& path, const std::string& extension) {
+  return "'equiaffine annotate " + path + " -o " + stem_of(path) + "-curvatures" + extension + "'";
+}
+
+/// What to write for a surface of the file or formula that stands where no word is expected.
+std::string advice_on_source(Command command, Word_kind kind, const std::string& word) {
+  switch (kind) {
+  case Word_kind::FORMULA: return "write --function '" + word + "' for a formula";
+  case Word_kind::VOLUME_FILE:
+    return command == SAMPLE ? "it is a volume already, and 'equiaffine mesh --volume " + word + "' meshes it"
+                             : "write --volume " + word;
+  case Word_kind::MESH_FILE:
+  case Word_kind::POINTS: {
+    const bool is_mesh = kind == Word_kind::MESH_FILE;
+    return "write --fit " + word + " for the smooth surface through its " +
+           (is_mesh ? "vertices, --distance-to " + word + " for its facets" : "points") +
+           (command == EVALUATE ? ", and --points FILE for where" : "") + ", or " +
+           annotate(word, is_mesh ? ".ply" : ".csv") + " for attributes of these " + (is_mesh ? "vertices" : "points") +
+           " themselves";
+  }
+  default: return {};
+  }
+}
+
+/// An option that commands do not have, and what was meant.
+struct Slip {
+  Commands commands;
+  std::string_view option, advice;
+};
+
+constexpr std::array<Slip, 17> slips = {
+    {{ANNOTATE, "--function",
+      "'equiaffine mesh --function EXPR -o OUT.ply' meshes a formula, and 'equiaffine evaluate --function EXPR "
+      "--points FILE -o OUT.csv' computes at points of a file"},
+     {ANNOTATE, "--volume", "'equiaffine mesh --volume FILE -o OUT.ply' meshes a volume"},
+     {ANNOTATE, "--distance-to", "write the file alone: 'equiaffine annotate FILE -o OUT.ply' fits its vertices"},
+     {ANNOTATE, "--fit", "write the file alone: 'equiaffine annotate FILE -o OUT.ply' fits its vertices"},
+     {ANNOTATE, "--points", "write the file alone: 'equiaffine annotate FILE -o OUT.csv' fits its points"},
+     {VIEW, "--html", "name the page by -o PAGE.html"},
+     {VIEW, "--function", "'equiaffine mesh --function EXPR -o OUT.ply --html PAGE.html' shows a formula"},
+     {VIEW, "--volume", "'equiaffine mesh --volume FILE -o OUT.ply --html PAGE.html' shows a volume"},
+     {VIEW, "--fit", "'equiaffine mesh --fit FILE -o OUT.ply --html PAGE.html' shows a fit"},
+     {VIEW, "--attributes", "view shows what the file has: 'equiaffine annotate' computes attributes"},
+     {EVALUATE, "--html", "evaluate writes a table of points, and mesh and annotate make pages"},
+     {EVALUATE, "--png", "evaluate writes a table of points, and mesh and annotate make pictures"},
+     {SAMPLE, "--html", "sample writes a volume, and 'equiaffine mesh' with the same source makes a page"},
+     {SAMPLE, "--png", "sample writes a volume, and 'equiaffine mesh' with the same source makes a picture"},
+     {SAMPLE, "--volume", "it is sampled already, and 'equiaffine mesh --volume FILE -o OUT.ply' meshes it"},
+     {registering, "--points", "write the file alone, or --fit FILE"},
+     {registering, "--attributes", "maps have no attributes: 'equiaffine annotate' computes them"}}};
+
+std::string first_source(const Command_line& line) { return line.has("FILE") ? line.word("FILE") : "SOURCE"; }
+
+bool has_source(const Command_line& line) {
+  return std::any_of(line.options.begin(), line.options.end(), [](const auto& option) {
+    for (const char* name : {"FILE", "--function", "--volume", "--distance-to", "--fit", "MESH", "MESH.ply"})
+      if (option.first == name) return true;
+    return false;
+  });
+}
+
+} // namespace
+
+std::string advice_on_word(const Command_line& line, const std::string& word) {
+  const Word_kind kind = kind_of(word);
+  if (kind == Word_kind::PAGE)
+    return (line.command == VIEW ? "name the page by -o " : "name the page by --html ") + word;
+  if (kind == Word_kind::PICTURE) return "name the picture by --png " + word;
+  const bool is_surface = kind == Word_kind::MESH_FILE || kind == Word_kind::POINTS || kind == Word_kind::VOLUME_FILE;
+  if (line.command == SYMMETRIES && (word == "to" || (is_surface && has_source(line))))
+    return "symmetries are those of one surface, and 'equiaffine register " + first_source(line) + " to " +
+           (is_surface ? word : "OTHER") + " -o MAP.json' finds maps between two";
+  if (!is_surface && line.has("--function"))
+    return is_number(word) ? "" : "put the formula into quotes if it has spaces, --function 'x^2 + y^2 = 1'";
+  if (!is_surface && kind != Word_kind::FORMULA) return {};
+  if (line.command == REGISTER && is_surface)
+    return "one surface stands before the word 'to' and one after it: 'equiaffine register " + first_source(line) +
+           " to " + word + " -o MAP.json'";
+  if (has_source(line)) return !is_surface || line.has("--output") ? "" : "name the output by -o " + word;
+  return advice_on_source(line.command, kind, word);
+}
+
+std::string advice_on_option(Command command, const std::string& option) {
+  const auto slip = std::find_if(slips.begin(), slips.end(),
+                                 [&](const Slip& s) { return (s.commands & command) && s.option == option; });
+  return slip == slips.end() ? std::string() : std::string(slip->advice);
+}
+
+std::string advice_on_command(const std::string& word) {
+  const std::string output = " -o " + stem_of(word) + ".ply";
+  switch (kind_of(word)) {
+  case Word_kind::MESH_FILE: return annotate(word, ".ply") + " computes at its vertices";
+  case Word_kind::POINTS: return annotate(word, ".csv") + " computes at its points";
+  case Word_kind::VOLUME_FILE: return "'equiaffine mesh --volume " + word + output + "' meshes it";
+  case Word_kind::FORMULA: return "'equiaffine mesh --function \"" + word + "\" --box ... -o OUT.ply' meshes it";
+  default: return {};
+  }
+}
+
+void check_is_no_formula(const std::string& path) {
+  if (kind_of(path) == Word_kind::FORMULA)
+    throw Input_error("'" + path + "' is no file with a surface; write --function '" + path + "' for a formula");
+}
+
+void check_is_annotatable(const std::string& path) {
+  const Word_kind kind = kind_of(path);
+  const std::string output = " -o " + stem_of(path) + ".ply'";
+  if (kind == Word_kind::FORMULA)
+    throw Input_error("'" + path + "' is no file with points; use 'equiaffine mesh --function \"" + path +
+                      "\" --box ... -o OUT.ply' for a formula");
+  if (kind == Word_kind::VOLUME_FILE && std::filesystem::path(path).has_extension())
+    throw Input_error("cannot annotate '" + path + "': a volume has no vertices; use 'equiaffine mesh --volume " +
+                      path + output + " and --isovalue for another level than 0");
+}
+
+void check_is_viewable(const std::string& path) {
+  const Word_kind kind = kind_of(path);
+  const std::string stem = stem_of(path), outputs = " -o " + stem + ".ply --html " + stem + ".html'";
+  if (kind == Word_kind::MESH_FILE && !has_extension(path, ".ply"))
+    throw Input_error("cannot show '" + path + "': its format has no attributes; use 'equiaffine annotate " + path +
+                      outputs);
+  if (kind == Word_kind::POINTS)
+    throw Input_error("cannot show '" + path + "': points have no faces; use 'equiaffine mesh --fit " + path + outputs +
+                      " for the surface through them");
+  if (kind == Word_kind::VOLUME_FILE && std::filesystem::path(path).has_extension())
+    throw Input_error("cannot show '" + path + "': a volume has no mesh; use 'equiaffine mesh --volume " + path +
+                      outputs + " and --isovalue for another level than 0");
+}
+
+} // namespace equiaffine
