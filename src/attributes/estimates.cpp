@@ -31,10 +31,16 @@ struct Preimage {
 };
 
 template <class At>
-auto at_points(std::span<const Kernel::Point_3> points, const At& at) {
+auto at_points(std::span<const Kernel::Point_3> points, Progress& progress, const At& at) {
+  progress.begin("estimating errors", points.size());
   std::vector<decltype(at(points.front()))> results(points.size());
   parallel_for<CGAL::Parallel_if_available_tag>(
-      0, points.size(), [&](std::size_t i) { results[i] = at(points[i]); }, 64);
+      0, points.size(),
+      [&](std::size_t i) {
+        results[i] = at(points[i]);
+        progress.advance();
+      },
+      64);
   return results;
 }
 
@@ -51,13 +57,16 @@ Estimates estimates_of(std::span<const Fitted_structure_3<double>> structures) {
   return estimates;
 }
 
-Estimates estimates_at(const Source& source, const Source_options& options, std::span<const Kernel::Point_3> points) {
+Estimates estimates_at(const Source& source, const Source_options& options, std::span<const Kernel::Point_3> points,
+                       Progress& progress) {
   const Preimage preimage(options);
   Estimates estimates;
   if (source.fit) {
-    estimates = estimates_of(at_points(points, [&](const auto& p) { return source.fit->structure(preimage.map(p)); }));
+    estimates = estimates_of(
+        at_points(points, progress, [&](const auto& p) { return source.fit->structure(preimage.map(p)); }));
   } else if (source.errors) {
-    for (const auto& error : at_points(points, [&](const auto& p) { return (*source.errors)(preimage.map(p)); })) {
+    for (const auto& error :
+         at_points(points, progress, [&](const auto& p) { return (*source.errors)(preimage.map(p)); })) {
       estimates.columns[0].push_back(error.gaussian_curvature);
       estimates.columns[1].push_back(error.mean_curvature);
     }

@@ -4,6 +4,7 @@
 
 #include "source/Fit_statistics.h"
 #include "system/kernel.h"
+#include "system/progress.h"
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
@@ -34,8 +35,9 @@ struct Estimates {
   std::optional<Fit_statistics> fit;          ///< is set for a fit
 };
 
-/// The estimates at points of level sets of the source, if it has them.
-Estimates estimates_at(const Source& source, const Source_options& options, std::span<const Kernel::Point_3> points);
+/// The estimates at points of level sets of the source, if it has them; to make them is a stage of its own.
+Estimates estimates_at(const Source& source, const Source_options& options, std::span<const Kernel::Point_3> points,
+                       Progress& progress);
 
 Estimates estimates_of(std::span<const Fitted_structure_3<double>> structures);
 

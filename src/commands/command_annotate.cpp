@@ -60,7 +60,8 @@ struct Outputs {
 void check_has_faces(const Annotate_options& options, const std::string& name,
                      const Indexed_triangle_mesh_3<Kernel>& mesh) {
   if (options.display.shows_something() && mesh.triangles.empty())
-    throw Input_error("cannot show '" + name + "': it has no faces; give a mesh, or leave out --html and --png");
+    throw Input_error("cannot show '" + name + "': it has no faces; leave out --html and --png, or show the surface " +
+                      "through the points by 'equiaffine mesh --fit " + options.mesh + " -o OUT.ply --html PAGE.html'");
 }
 
 } // namespace
@@ -93,7 +94,7 @@ void run_annotate(const Annotate_options& options, std::ostream& out, Progress& 
   progress.end();
   commit_all(outputs.files);
   warn_of_opposed_normals(table, progress);
-  warn_of_doubt(statistics.fit, options.fit, progress);
+  warn_of_doubt(statistics.fit, options.fit, has_affine_curvatures(options.attributes, options.estimates), progress);
   if (use_standard_output(outputs.files)) return;
   out << summary(statistics);
   report_written(out, outputs.files);

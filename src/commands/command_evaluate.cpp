@@ -55,7 +55,7 @@ void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& 
       },
       source.function);
   if (options.source.estimates_errors)
-    add_estimates(estimates_at(source, options.source, points), options.estimates, attributes);
+    add_estimates(estimates_at(source, options.source, points, progress), options.estimates, attributes);
   mark_points_at_infinity(points, attributes);
   progress.begin("writing");
   if (format == Mesh_format::CSV) write_CSV(output.stream(), table, attributes);

@@ -135,7 +135,7 @@ Annotated_surface make_surface(const Traits& function, const Source& source, con
       {function, options.orientation, surface.mesh.points, selection, options.estimator, surface.mesh.vertex_status});
   surface.mesh.function_evaluations += surface.mesh.points.size();
   surface.status = count(*surface.attributes.status);
-  surface.estimates = estimates_at(source, options.source, surface.mesh.points);
+  surface.estimates = estimates_at(source, options.source, surface.mesh.points, progress);
   add_estimates(surface.estimates, options.estimates, surface.attributes);
   if (!options.attributes.has_status) surface.attributes.status.reset();
   surface.annotation_seconds = stopwatch.seconds();
@@ -250,7 +250,9 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
     warn_of_outside(options.source, source, surface.status[std::size_t(Point_status::OUTSIDE)],
                     surface.mesh.points.size(), "vertices", progress);
   if (statistics.close_sheets) warn_of_close_sheets(*statistics.close_sheets, progress);
-  if (statistics.fit) warn_of_doubt(*statistics.fit, options.source.fit, progress);
+  if (statistics.fit)
+    warn_of_doubt(*statistics.fit, options.source.fit, has_affine_curvatures(options.attributes, options.estimates),
+                  progress);
   if (!use_standard_output(outputs.files)) {
     out << summary(statistics);
     if (options.curves) out << summary(*surface.curves);

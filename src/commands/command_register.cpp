@@ -2,7 +2,9 @@
 #include "commands/Surface_to_register.h"
 #include "commands/commands.h"
 #include "commands/maps_view.h"
+#include "commands/what_to_try.h"
 #include "output/maps.h"
+#include "output/maps_display.h"
 #include "output/surface_output.h"
 #include "source/source.h"
 #include "system/atomic_file.h"
@@ -30,26 +32,6 @@ Surface_registration_3<Kernel> register_with(const Register_options& options, co
                                                             target.mesh.points, parameters);
 }
 
-Description make_description(const Registration_report& report) {
-  const bool is_found = report.registration.found();
-  Description description = {
-      {"Source", report.source}, {"Target", report.target}, {"Map", is_found ? "found" : "none"}};
-  if (!is_found) {
-    description.emplace_back("surface", "0 target, 1 source");
-    return description;
-  }
-  const auto& best = report.registration.best();
-  description.emplace_back("log10 of false alarms", number_text(best.log10_false_alarms, 3));
-  description.emplace_back("on the other surface", number_text(100 * best.inliers[0], 3) + " % of the source, " +
-                                                       number_text(100 * best.inliers[1], 3) + " % of the target");
-  description.emplace_back("rms distance", number_text(best.rms, 3));
-  if (const auto& next = report.registration.next_best_rms)
-    description.emplace_back("of the next best", number_text(*next, 3));
-  description.emplace_back("surface", best.pair ? "0 target, 1 moved source, 2 and 3 the frames of the pair of points"
-                                                : "0 target, 1 moved source");
-  return description;
-}
-
 /// The output files of the command. The constructor throws if one of them cannot be written.
 struct Outputs {
   explicit Outputs(const Register_options& options) {
@@ -72,8 +54,12 @@ void run_register(const Register_options& options, std::ostream& out, Progress& 
   const Surface_to_register source = make_surface_to_register(options.source, is_shown, progress);
   const Surface_to_register target = make_surface_to_register(options.target, is_shown, progress);
   progress.begin("looking for the map");
-  const Registration_report report = {describe(options.source.source), describe(options.target.source),
-                                      register_with(options, source, target), options.number_of_maps.has_value()};
+  Registration_report report = {describe(options.source.source),
+                                describe(options.target.source),
+                                register_with(options, source, target),
+                                options.number_of_maps.has_value(),
+                                {}};
+  if (!report.registration.found()) report.advice = what_to_try(options, report.registration.hypotheses > 0);
 
   progress.begin("writing");
   if (options.moved && !report.registration.found()) outputs.files.pop_back();
@@ -81,8 +67,9 @@ void run_register(const Register_options& options, std::ostream& out, Progress& 
   file++->stream() << to_JSON(report);
   if (is_shown) {
     const auto [mesh, attributes] = registered_surfaces(source, target, report.registration);
-    file = write_displays(file, mesh, attributes, options.display, page_title(options.output, "Registration"),
-                          make_description(report));
+    const Display_options display = display_of(report, options.display);
+    file = write_displays(file, mesh, attributes, display, page_title(options.output, "Registration"),
+                          description_of(report, display), {}, notes_of(report, display));
   }
   if (file != outputs.files.end()) {
     const auto [mesh, attributes] = moved_source(source, target, report.registration.best().map);

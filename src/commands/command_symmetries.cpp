@@ -2,7 +2,9 @@
 #include "commands/Surface_to_register.h"
 #include "commands/commands.h"
 #include "commands/maps_view.h"
+#include "commands/what_to_try.h"
 #include "output/maps.h"
+#include "output/maps_display.h"
 #include "output/surface_output.h"
 #include "picture/draw_surface.h"
 #include "source/source.h"
@@ -40,13 +42,6 @@ struct Outputs {
   std::vector<Output_file> files; // the maps, then those of page and picture that were asked for
 };
 
-Description make_description(const Symmetries_report& report) {
-  const auto order = report.symmetries.order();
-  return {{"Symmetries of", report.source},
-          {"Order", order ? std::to_string(*order) : "infinite"},
-          {"Generators", std::to_string(report.symmetries.continuous.dimension())}};
-}
-
 } // namespace
 
 void run_symmetries(const Symmetries_options& options, std::ostream& out, Progress& progress) {
@@ -57,12 +52,14 @@ void run_symmetries(const Symmetries_options& options, std::ostream& out, Progre
   const double tolerance = options.tolerance.value_or(default_tolerance(options.surface.source));
   const auto parameters =
       parameters::map_kind(options.maps.kind).reflections(options.maps.allows_reflections).tolerance(tolerance);
-  const Symmetries_report report = {
+  Symmetries_report report = {
       describe(options.surface.source),
-      affine_symmetries<CGAL::Parallel_if_available_tag>(surface.function, surface.mesh.points, parameters)};
+      affine_symmetries<CGAL::Parallel_if_available_tag>(surface.function, surface.mesh.points, parameters),
+      {}};
   if (!std::isfinite(report.symmetries.maps.front().rms))
     throw Input_error("nothing is known of the symmetries of " + report.source +
                       ": it has a surface beside none of its points; give more points");
+  if (report.symmetries.order() == 1U) report.advice = what_to_try(options);
 
   progress.begin("writing");
   auto file = outputs.files.begin();
@@ -73,7 +70,7 @@ void run_symmetries(const Symmetries_options& options, std::ostream& out, Progre
       throw Input_error("--arrows: there is no vector '" + options.display.arrows +
                         "'; a continuous symmetry has generator1, and more of them if there are more dimensions");
     write_displays(file, mesh, attributes, options.display, page_title(options.output, "Symmetries"),
-                   make_description(report));
+                   description_of(report), {}, notes_of(report));
   }
   progress.end();
   commit_all(outputs.files);

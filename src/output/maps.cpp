@@ -5,7 +5,7 @@
 
 #include <CGAL/determinant.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <sstream>
@@ -50,6 +50,13 @@ std::string power_of_ten(double logarithm) {
   return text.str();
 }
 
+/// "; try this, or that"
+std::string advice_text(const std::vector<std::string>& advice) {
+  std::string text;
+  for (const std::string& each : advice) text += (text.empty() ? "; try " : ", or ") + each;
+  return text;
+}
+
 std::string ways(std::size_t number) { return std::to_string(number) + (number == 1 ? " way" : " ways"); }
 
 } // namespace
@@ -57,6 +64,30 @@ std::string ways(std::size_t number) { return std::to_string(number) + (number =
 double determinant_of(const CGAL::Aff_transformation_3<Kernel>& map) {
   return CGAL::determinant(map.m(0, 0), map.m(0, 1), map.m(0, 2), map.m(1, 0), map.m(1, 1), map.m(1, 2), map.m(2, 0),
                            map.m(2, 1), map.m(2, 2));
+}
+
+std::string overlap_text(const Registered_map_3<Kernel>& map) {
+  return std::to_string(std::lround(100 * map.inliers[0])) + " % of the source, " +
+         std::to_string(std::lround(100 * map.inliers[1])) + " % of the target";
+}
+
+std::string odds_text(const Registered_map_3<Kernel>& map) {
+  return "as good a one is expected " + power_of_ten(map.log10_false_alarms) + " times by chance";
+}
+
+std::string reason_for_none(const Registration_report& report) {
+  const std::size_t n = report.registration.hypotheses;
+  if (n == 0) return "no map found: no points of the two have frames that agree";
+  return "no map found: " + (n == 1 ? "the only hypothesis is no" : "none of " + std::to_string(n) + " hypotheses is") +
+         " better than chance";
+}
+
+std::string determinants_text(const Symmetries_report& report) {
+  const auto& maps = report.symmetries.maps;
+  const auto reflections =
+      std::count_if(maps.begin(), maps.end(), [](const auto& symmetry) { return determinant_of(symmetry.map) < 0; });
+  return "positive for " + std::to_string(std::ptrdiff_t(maps.size()) - reflections) + ", negative for " +
+         std::to_string(reflections);
 }
 
 std::string to_JSON(const Registration_report& report) {
@@ -94,17 +125,12 @@ std::string summary(const Registration_report& report) {
   const std::size_t dimension = registration.slippage.dimension();
   std::ostringstream text;
   if (!registration.found()) {
-    text << "no map found: ";
-    if (registration.hypotheses > 0)
-      text << "none of " << registration.hypotheses << " hypotheses is better than chance\n";
-    else text << "no points of the two have frames that agree\n";
+    text << reason_for_none(report) << advice_text(report.advice) << '\n';
   } else {
-    const auto& [map, log10_false_alarms, inliers, rms, pair] = registration.best();
+    const auto& best = registration.best();
     text.precision(3);
-    text << "map found, determinant " << determinant_of(map) << ": as good a one is expected "
-         << power_of_ten(log10_false_alarms) << " times by chance\n";
-    text << "on the other surface: " << std::lround(100 * inliers[0]) << " % of the source, "
-         << std::lround(100 * inliers[1]) << " % of the target, rms distance " << rms << '\n';
+    text << "map found, determinant " << determinant_of(best.map) << ": " << odds_text(best) << '\n';
+    text << "on the other surface: " << overlap_text(best) << ", rms distance " << best.rms << '\n';
     text << registration.hypotheses << (registration.hypotheses == 1 ? " hypothesis" : " hypotheses");
     if (registration.next_best_rms) text << ", next best rms distance " << *registration.next_best_rms;
     text << '\n';
@@ -122,8 +148,9 @@ std::string summary(const Symmetries_report& report) {
     return "infinitely many symmetries: the surface slips over itself in " + ways(continuous.dimension()) + '\n';
   std::size_t reflections = 0;
   for (const auto& symmetry : maps) reflections += determinant_of(symmetry.map) < 0;
-  return std::to_string(maps.size()) + (maps.size() == 1 ? " symmetry, the identity\n" : " symmetries, ") +
-         (maps.size() == 1 ? "" : std::to_string(reflections) + " of them change left and right\n");
+  if (maps.size() == 1) return "1 symmetry, the identity" + advice_text(report.advice) + '\n';
+  return std::to_string(maps.size()) + " symmetries, " + std::to_string(reflections) +
+         " of them change left and right\n";
 }
 
 } // namespace equiaffine

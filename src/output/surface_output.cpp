@@ -116,7 +116,8 @@ std::vector<Output_file>::iterator write_displays(std::vector<Output_file>::iter
                                                   const Indexed_triangle_mesh_3<Kernel>& mesh,
                                                   const Vertex_attributes& attributes, const Display_options& options,
                                                   const std::string& title, const Description& description,
-                                                  [[maybe_unused]] const std::vector<Polyline_3<Kernel>>& curves) {
+                                                  [[maybe_unused]] const std::vector<Polyline_3<Kernel>>& curves,
+                                                  [[maybe_unused]] const std::vector<Surface_note>& notes) {
   if (options.html) {
     Html_options page;
     page.title = title;
@@ -128,7 +129,7 @@ std::vector<Output_file>::iterator write_displays(std::vector<Output_file>::iter
   }
 #ifdef EQUIAFFINE_WITH_VTK
   if (options.png) {
-    const Surface_view view = {options.color, options.up, options.size, options.range, options.arrows};
+    const Surface_view view = {options.color, options.up, options.size, options.range, options.arrows, notes};
     write_PNG(file++->stream(), draw_surface(mesh, attributes, view, curves));
   }
 #endif

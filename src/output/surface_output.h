@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_SRC_OUTPUT_SURFACE_OUTPUT_H
 #define EQUIAFFINE_SRC_OUTPUT_SURFACE_OUTPUT_H
 
+#include "picture/Surface_note.h"
 #include "request/options.h"
 #include "system/atomic_file.h"
 #include "system/kernel.h"
@@ -54,12 +55,13 @@ std::string page_title(const std::string& path, const std::string& otherwise);
 void check_display_outputs(const Display_options& options);
 
 /// Writes the page and the picture that are asked for to the next files, without committing, and returns the file after
-/// them. The curves are drawn on the picture only.
+/// them. The curves and the notes are on the picture only.
 std::vector<Output_file>::iterator write_displays(std::vector<Output_file>::iterator file,
                                                   const Indexed_triangle_mesh_3<Kernel>& mesh,
                                                   const Vertex_attributes& attributes, const Display_options& options,
                                                   const std::string& title, const Description& description,
-                                                  const std::vector<Polyline_3<Kernel>>& curves = {});
+                                                  const std::vector<Polyline_3<Kernel>>& curves = {},
+                                                  const std::vector<Surface_note>& notes = {});
 
 } // namespace equiaffine
 

@@ -24,9 +24,9 @@ struct Color_legend {
   Color_scale scale;
 };
 
-/// The meaning of a color that stands for no number.
+/// The meaning of a color that no color bar shows, or a text without a color.
 struct Color_note {
-  CGAL::IO::Color color;
+  std::optional<CGAL::IO::Color> color;
   std::string text;
 };
 

@@ -76,6 +76,18 @@ private:
   std::vector<Vector> normals_, views_; // in the directions of the camera
 };
 
+/// The notes of the view, then those of the paint, which are left out first where there is no room.
+std::vector<Color_note> notes_from_bottom(const Surface_view& view, const Surface_paint& paint) {
+  std::vector<Color_note> notes;
+  for (auto note = view.notes.rbegin(); note != view.notes.rend(); ++note) {
+    notes.push_back({std::nullopt, note->text});
+    if (note->number && paint.legend())
+      notes.back().color = map_color(*note->number, paint.legend()->range, paint.legend()->scale);
+  }
+  notes.insert(notes.end(), paint.notes().begin(), paint.notes().end());
+  return notes;
+}
+
 } // namespace
 
 std::optional<std::array<const std::vector<double>*, 3>> vector_columns(const Vertex_attributes& attributes,
@@ -94,7 +106,7 @@ Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const 
                              const Surface_view& view, std::span<const Polyline_3<Kernel>> curves) {
   const auto [width, height] = view.size;
   const Surface_paint paint(mesh, attributes, view.color, view.range);
-  std::vector<Color_note> notes = paint.notes();
+  std::vector<Color_note> notes = notes_from_bottom(view, paint);
   const std::size_t below = paint.legend() ? legend_height : notes.empty() ? 0 : note_margin;
   notes.resize(std::min(notes.size(), (height - height / 4 - below) / note_height));
   const Camera camera(mesh.points, view.up, width, height - below - note_height * notes.size(), !view.arrows.empty());

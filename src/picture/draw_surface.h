@@ -3,6 +3,7 @@
 #define EQUIAFFINE_SRC_PICTURE_DRAW_SURFACE_H
 
 #include "picture/Canvas.h"
+#include "picture/Surface_note.h"
 #include "picture/Surface_paint.h"
 #include "system/kernel.h"
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
@@ -24,6 +25,7 @@ struct Surface_view {
   std::array<std::size_t, 2> size;            ///< in pixels
   std::optional<std::array<double, 2>> range; ///< the numbers of the end colors, instead of quantiles
   std::string arrows;                         ///< a vector among the columns, or empty
+  std::vector<Surface_note> notes = {};       ///< below the surface, from the top to the bottom
 };
 
 /// A picture of a surface and what its colors mean.

@@ -80,10 +80,11 @@ void fill(Picture& picture, std::size_t left, std::size_t top, std::size_t width
     }
 }
 
-/// Writes what `color` stands for in the row above `bottom`.
-void draw_note(Picture& picture, const CGAL::IO::Color& color, const std::string& text, std::size_t bottom) {
-  fill(picture, margin, bottom - note_height / 2, 2 * bar_height, 2, color);
-  draw_text(picture, text, margin + 2 * bar_height + 8, bottom - note_height / 2 + 5, Alignment::LEFT);
+/// Writes the text in the row above `bottom`, beside its color if it has one.
+void draw_note(Picture& picture, const Color_note& note, std::size_t bottom) {
+  if (note.color) fill(picture, margin, bottom - note_height / 2, 2 * bar_height, 2, *note.color);
+  const std::size_t left = note.color ? margin + 2 * bar_height + 8 : margin;
+  draw_text(picture, note.text, left, bottom - note_height / 2 + 5, Alignment::LEFT);
 }
 
 void draw_legend(Picture& picture, const Color_legend& legend) {
@@ -114,8 +115,7 @@ void write_PNG(std::ostream& stream, Surface_picture surface) {
   Picture& picture = surface.picture;
   if (surface.legend) draw_legend(picture, *surface.legend);
   const std::size_t bottom = picture.height - (surface.legend ? legend_height : note_margin);
-  for (std::size_t i = 0; i < surface.notes.size(); ++i)
-    draw_note(picture, surface.notes[i].color, surface.notes[i].text, bottom - i * note_height);
+  for (std::size_t i = 0; i < surface.notes.size(); ++i) draw_note(picture, surface.notes[i], bottom - i * note_height);
   vtkNew<vtkImageData> image;
   image->SetDimensions(int(picture.width), int(picture.height), 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);

@@ -3,6 +3,7 @@
 
 #include "source/fit_vertices.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -29,22 +30,33 @@ void warn_of_outside(const Source_options& options, const Source& source, std::s
   progress.warn(text.str());
 }
 
-void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, Progress& progress) {
-  const double unknown = fit.without_fit + fit.doubtful_by_noise + fit.doubtful_by_detail;
+bool has_affine_curvatures(const Attribute_selection& attributes, const std::vector<std::string>& estimates) {
+  return !estimates.empty() ||
+         std::any_of(attributes.columns.begin(), attributes.columns.end(), [](const Attribute& column) {
+           return column.name.starts_with("affine_") || column.name.starts_with("pick_invariant") ||
+                  column.name == "quadric_defect";
+         });
+}
+
+void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool has_affine_curvatures,
+                   Progress& progress) {
+  const double doubtful = has_affine_curvatures ? fit.doubtful_by_noise + fit.doubtful_by_detail : 0;
+  const double unknown = fit.without_fit + doubtful;
   if (!(unknown > fit.known.back())) return;
   const auto warn = [&](double part, const std::string& reason) {
     if (part > 0.1 * unknown) progress.warn(std::to_string(std::lround(100 * part)) + " % of the vertices " + reason);
   };
-  const std::string error = "have an estimated error of the affine Gaussian curvature of more than 50 %, ";
-  warn(fit.without_fit, std::string("have no fit: too few points are connected with them; give more points") +
-                            (options.scale ? ", or a larger --scale" : ""));
-  warn(fit.doubtful_by_noise, error +
-                                  "most of it from noise, which is too large for fourth derivatives; give a larger " +
-                                  "--scale, or points with less noise");
+  const std::string larger_scale = options.scale ? ", or a larger --scale" : "";
+  warn(fit.without_fit, "have no fit: too few points are connected with them; give more points" + larger_scale);
+  if (!has_affine_curvatures) return;
+  const std::string error = "have an estimated error of the affine Gaussian curvature of more than 50 %, most of it ";
+  warn(fit.doubtful_by_noise,
+       error +
+           "from noise, which is too large for fourth derivatives; give a larger --scale, or points with less noise");
   warn(fit.doubtful_by_detail,
-       error + (options.scale ? "most of it from detail that --scale leaves out; affine_gaussian_curvature_noise says "
+       error + (options.scale ? "from detail that --scale leaves out; affine_gaussian_curvature_noise says "
                                 "what is known at that scale, else give a smaller --scale or more points"
-                              : "most of it since fits disagree: the surface has detail, creases or contradictions "
+                              : "since fits disagree: the surface has detail, creases or contradictions "
                                 "between too few points; give more points, or say by --scale what counts as detail"));
 }
 

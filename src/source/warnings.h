@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace equiaffine {
 
@@ -19,9 +20,14 @@ namespace equiaffine {
 void warn_of_outside(const Source_options& options, const Source& source, std::size_t outside, std::size_t all,
                      const std::string& points, Progress& progress);
 
+/// Whether columns depend on derivatives of order 3 or 4, so that what is known of affine curvatures concerns them.
+bool has_affine_curvatures(const Attribute_selection& attributes, const std::vector<std::string>& estimates);
+
 /// Warns if the affine Gaussian curvature of a fit is unknown at more than half of the vertices that are not parabolic,
-/// where it does not exist, and says why: for each reason that a tenth of these vertices have.
-void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, Progress& progress);
+/// where it does not exist, and says why: for each reason that a tenth of these vertices have. Without affine
+/// curvatures among the attributes only vertices without a fit count.
+void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool has_affine_curvatures,
+                   Progress& progress);
 
 /// Warns if a grid does not tell sheets of the data of a fit apart.
 void warn_of_close_sheets(const Close_sheets& sheets, Progress& progress);

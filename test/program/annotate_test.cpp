@@ -246,6 +246,19 @@ TEST_F(Program_annotate, points_that_are_too_few_are_outside_and_a_warning_says_
   EXPECT_TRUE(Json::parse(file("stats.json")).at("fit").at("noise").is_null());
 }
 
+TEST_F(Program_annotate, doubts_of_affine_curvatures_are_left_out_where_none_are_written) {
+  std::ostringstream noisy;
+  for (int i = 0; i < 900; ++i) // a bowl with dents of a tenth of its depth, as long as the points are apart
+    noisy << i % 30 << ' ' << i / 30 << ' ' << 0.02 * (i % 30) * (i % 30) + 0.7 * ((7 * i * i + i / 30) % 3) << '\n';
+  write_file(folder_ / "noisy.xyz", noisy.str());
+  const auto warnings = [&](const std::string& attributes) {
+    return run({"annotate", "noisy.xyz", "-o", "out.csv", "--attributes", attributes}).error;
+  };
+  EXPECT_NE(warnings("basic").find("estimated error of the affine Gaussian curvature"), std::string::npos);
+  EXPECT_NE(warnings("affine_gaussian_curvature").find("affine Gaussian curvature"), std::string::npos);
+  for (const char* attributes : {"none", "mean_curvature", "status"}) EXPECT_EQ(warnings(attributes), "") << attributes;
+}
+
 TEST_F(Program_annotate, normals_that_contradict_are_warned_of) {
   make_surface("in.ply", "normal", "24");
   const Mesh exact = mesh("in.ply");

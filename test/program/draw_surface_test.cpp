@@ -195,6 +195,23 @@ TEST(Program_draw_surface, notes_leave_room_for_the_surface) {
   EXPECT_EQ(draw_surface(facing_square(), attributes, options).notes.size(), 3u);
 }
 
+TEST(Program_draw_surface, notes_that_are_given_stand_below_the_others_with_the_colors_of_their_numbers) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Vertex_attributes attributes;
+  attributes.columns = {{"surface", {0, 0, 1, nan}}};
+  Surface_view options = small;
+  options.size = {101, 301};
+  options.range = {{0, 1}};
+  options.notes = {{{}, "a map"}, {1, "the source"}};
+  const auto drawn = draw_surface(facing_square(), attributes, options);
+  ASSERT_EQ(drawn.notes.size(), 3u);
+  EXPECT_EQ(drawn.notes[0].text, "the source");
+  EXPECT_EQ(drawn.notes[0].color, sequential_color(1));
+  EXPECT_EQ(drawn.notes[1].text, "a map");
+  EXPECT_FALSE(drawn.notes[1].color);
+  EXPECT_EQ(drawn.notes[2].text, "no number");
+}
+
 TEST(Program_draw_surface, a_number_in_doubt_is_gray_and_as_light_as_its_color) {
   const auto middle_for = [](double error) {
     Vertex_attributes attributes;

@@ -139,6 +139,47 @@ TEST_F(Program_register, kinds_and_reflections_are_obeyed) {
   EXPECT_EQ(registered(surface, image, {"--kind", "equiaffine"})["found"], false);
 }
 
+TEST_F(Program_register, where_there_is_no_map_it_says_what_to_try) {
+  const auto outcome = [&](const Arguments& source, const Arguments& target, const Arguments& options = {}) {
+    const std::string text =
+        run_well(Arguments{"register"} + source + Arguments{"to"} + target + Arguments{"-o", "map.json"} + options);
+    return text.substr(0, text.find('\n'));
+  };
+  const Arguments plane = Arguments{"--function", "x+2*y-z", "--resolution", "12"} + box;
+  EXPECT_EQ(outcome(plane, plane),
+            "no map found: no points of the two have frames that agree; try --kind similarity, whose frames need fewer "
+            "derivatives and exist on quadrics, too, or surfaces that have more in common");
+  const std::string narrow = outcome(surface, image, {"--kind", "rigid", "--no-reflection", "--html", "page.html"});
+  EXPECT_TRUE(narrow.starts_with("no map found: ")) << narrow;
+  EXPECT_TRUE(narrow.ends_with("; try --kind affine, which allows all maps, or the command without --no-reflection, or "
+                               "surfaces that have more in common"))
+      << narrow;
+  for (const char* text : {"no map found", "--kind affine, which allows all maps", "1 source, not moved (dark violet)"})
+    EXPECT_NE(file("page.html").find(text), std::string::npos) << text;
+  write_file(folder_ / "three.csv", "x,y,z\n0,0,0\n1,0,0\n0,1,0\n");
+  EXPECT_NE(outcome({"three.csv"}, {"three.csv"}).find("; try the same --scale R on both sides"), std::string::npos);
+  EXPECT_NE(
+      outcome({"three.csv", "--scale", "2"}, {"three.csv", "--scale", "2"}).find("; try a larger --scale, the same"),
+      std::string::npos);
+}
+
+TEST_F(Program_register, only_the_identity_says_what_may_find_more) {
+  EXPECT_EQ(run_well(Arguments{"symmetries"} + surface + Arguments{"-o", "m.json", "--kind", "rigid"}),
+            "1 symmetry, the identity; try --kind affine, which allows all maps\nwrote m.json\n");
+}
+
+TEST_F(Program_register, pages_say_how_good_the_map_is_and_which_color_is_which_surface) {
+  registered(surface, image, {"--html", "page.html"});
+  for (const char* text : {"Determinant", "1.06", "Odds", "as good a one is expected 10^-", "On the other surface",
+                           "% of the source", "Rms distance", "0 target (pale yellow), 1 moved source (orange)"})
+    EXPECT_NE(file("page.html").find(text), std::string::npos) << text;
+  registered(surface, image, {"--html", "page.html", "--color", "distance"});
+  EXPECT_NE(file("page.html").find("--color surface tells the two apart"), std::string::npos);
+  run_well(Arguments{"symmetries"} + surface + Arguments{"-o", "m.json", "--html", "page.html"});
+  for (const char* text : {"Order", "positive for 1, negative for 0", "Rms distance"})
+    EXPECT_NE(file("page.html").find(text), std::string::npos) << text;
+}
+
 TEST_F(Program_register, identical_surfaces_have_the_identity) {
   const Json found = registered(surface, surface);
   for (std::size_t row = 0; row < 3; ++row)
@@ -213,7 +254,12 @@ TEST_F(Program_register, options_of_both_stand_on_either_side_and_a_value_may_be
 TEST_F(Program_register, what_cannot_be_used_is_refused) {
   run_well(Arguments{"mesh", "-o", "a.ply", "--attributes", "none"} + surface);
   before_ = names();
-  expect_error({"register", "a.ply", "b.ply", "-o", "m.json"}, {"'b.ply' is not expected there"});
+  expect_error({"register", "a.ply", "b.ply", "-o", "m.json"},
+               {"'b.ply' is not expected there", "'equiaffine register a.ply to b.ply -o MAP.json'"});
+  expect_error({"symmetries", "a.ply", "to", "b.ply", "-o", "m.json"},
+               {"'to' is not expected there", "of one surface", "equiaffine register a.ply to OTHER"});
+  expect_error({"symmetries", "a.ply", "b.ply", "-o", "m.json"}, {"'equiaffine register a.ply to b.ply -o MAP.json'"});
+  expect_error({"register", "--points", "a.ply", "to", "b.ply"}, {"'--points'", "--fit FILE"});
   expect_error({"register", "a.ply", "-o", "m.json"}, {"the word 'to'", "missing", "SOURCE to SOURCE"});
   expect_error({"register", "to", "a.ply", "-o", "m.json"}, {"no source", "side of the word 'to'"});
   expect_error({"register", "a.ply", "to", "a.ply"}, {"--output", "missing"});
@@ -284,7 +330,7 @@ TEST_F(Program_register, a_rigid_map_of_quadrics_has_frames_that_pages_show) {
   EXPECT_EQ(found["found"], true);
   EXPECT_LT(found["rms"], 1e-12);
   EXPECT_EQ(found["slippage"]["dimension"], 0);
-  EXPECT_NE(file("page.html").find("2 and 3 the frames of the pair of points"), std::string::npos);
+  EXPECT_NE(file("page.html").find("2 frame of the target (magenta), 3 frame of the source"), std::string::npos);
 }
 
 TEST_F(Program_register, continuous_symmetries_have_generators_and_no_order) {

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/what_to_try.h"
+
+#include <initializer_list>
+
+namespace equiaffine {
+
+namespace {
+
+bool is_fit(const Surface_options& surface) { return surface.source.kind == Source_kind::FIT; }
+
+/// Derivatives that are too rough to be matched have no frames that agree, or wrong ones.
+void add_for_derivatives(std::initializer_list<const Surface_options*> surfaces, std::vector<std::string>& advice) {
+  bool has_facets = false, has_samples = false;
+  for (const Surface_options* surface : surfaces) {
+    has_facets = has_facets || surface->source.kind == Source_kind::DISTANCE;
+    has_samples =
+        has_samples || (surface->source.kind == Source_kind::VOLUME && surface->source.spline.smoothing == 0.);
+  }
+  if (has_facets) advice.emplace_back("--fit in place of --distance-to, since facets have no affine curvature");
+  if (has_samples) advice.emplace_back("--smoothing auto for the volume");
+}
+
+void add_for_scales(const Surface_options& source, const Surface_options& target, std::vector<std::string>& advice) {
+  const auto &scale = source.source.fit.scale, &other = target.source.fit.scale;
+  if (is_fit(source) && is_fit(target))
+    advice.emplace_back(scale && scale == other ? "a larger --scale, the same on both sides"
+                                                : "the same --scale R on both sides, some ten spacings of the points");
+  else if (is_fit(source) || is_fit(target))
+    advice.emplace_back((is_fit(source) ? scale : other) ? "a larger --scale"
+                                                         : "--scale R for the fit, some ten spacings of its points");
+}
+
+void add_for_kind(const Map_options& maps, std::vector<std::string>& advice) {
+  if (maps.kind != Map_kind::AFFINE) advice.emplace_back("--kind affine, which allows all maps");
+  if (!maps.allows_reflections) advice.emplace_back("the command without --no-reflection");
+}
+
+} // namespace
+
+std::vector<std::string> what_to_try(const Register_options& options, bool has_hypotheses) {
+  std::vector<std::string> advice;
+  add_for_scales(options.source, options.target, advice);
+  add_for_derivatives({&options.source, &options.target}, advice);
+  add_for_kind(options.maps, advice);
+  const bool has_affine_frames = options.maps.kind == Map_kind::AFFINE || options.maps.kind == Map_kind::EQUIAFFINE;
+  if (!has_hypotheses && has_affine_frames)
+    advice.emplace_back("--kind similarity, whose frames need fewer derivatives and exist on quadrics, too");
+  if (has_hypotheses && options.least_overlap > Register_options().least_overlap)
+    advice.emplace_back("a smaller --min-overlap");
+  advice.emplace_back("surfaces that have more in common");
+  return advice;
+}
+
+std::vector<std::string> what_to_try(const Symmetries_options& options) {
+  std::vector<std::string> advice;
+  if (is_fit(options.surface))
+    advice.emplace_back(options.surface.source.fit.scale ? "a larger --scale"
+                                                         : "--scale R, some ten spacings of the points");
+  add_for_derivatives({&options.surface}, advice);
+  add_for_kind(options.maps, advice);
+  if (options.surface.source.derivatives == Derivatives::SPLINE || is_fit(options.surface))
+    advice.emplace_back("a larger --tolerance");
+  return advice;
+}
+
+} // namespace equiaffine

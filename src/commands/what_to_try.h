@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_COMMANDS_WHAT_TO_TRY_H
+#define EQUIAFFINE_SRC_COMMANDS_WHAT_TO_TRY_H
+
+#include "request/options.h"
+
+#include <string>
+#include <vector>
+
+namespace equiaffine {
+
+/// What may find a map where none was found, the most promising first. `has_hypotheses` says whether frames of points
+/// agreed at all.
+std::vector<std::string> what_to_try(const Register_options& options, bool has_hypotheses);
+
+/// What may find symmetries where only the identity was found.
+std::vector<std::string> what_to_try(const Symmetries_options& options);
+
+} // namespace equiaffine
+
+#endif
