@@ -8,13 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace equiaffine {
 
 namespace {
-
-constexpr std::array<std::string_view, 4> names_of_estimates = {error_attributes[0], error_attributes[1],
-                                                                noise_attributes[0], noise_attributes[1]};
 
 /// The way back from points to those of the source before its transformation, and the factor of K on the way there:
 /// under an affine map of determinant D the affine curvatures K and H are divided by |D| and its root.
@@ -44,14 +42,31 @@ auto at_points(std::span<const Kernel::Point_3> points, Progress& progress, cons
   return results;
 }
 
+/// Turns estimates at points of the source into those of its image. Angles and Euclidean curvatures become others than
+/// those that were estimated, so that nothing is known of them.
+void transform(Estimates& estimates, double factor) {
+  const auto& attributes = estimate_attributes();
+  for (auto& column : estimates.columns) {
+    const auto attribute = std::find_if(attributes.begin(), attributes.end(),
+                                        [&](const Estimate_attribute& a) { return a.name == column.name; });
+    const Quantity* const quantity = find_quantity(attribute->row->attribute);
+    const bool is_invariant = quantity && quantity->group == "Affine" && quantity->weight < -1;
+    const double multiple =
+        is_invariant ? std::pow(factor, -quantity->weight / 6.) : std::numeric_limits<double>::infinity();
+    for (double& number : column.values) number *= multiple;
+  }
+}
+
 } // namespace
 
 Estimates estimates_of(std::span<const Fitted_structure_3<double>> structures) {
   Estimates estimates;
-  for (const auto& s : structures) {
-    const std::array<double, 4> numbers = {s.error.gaussian_curvature, s.error.mean_curvature,
-                                           s.noise.gaussian_curvature, s.noise.mean_curvature};
-    for (std::size_t n = 0; n < numbers.size(); ++n) estimates.columns[n].push_back(numbers[n]);
+  for (const auto& attribute : estimate_attributes()) {
+    auto& column = estimates.columns.emplace_back(Vertex_attributes::Column{attribute.name, {}});
+    for (const auto& s : structures)
+      column.values.push_back(attribute.row->get(attribute.kind == Estimate_kind::ERROR   ? s.error
+                                                 : attribute.kind == Estimate_kind::NOISE ? s.noise
+                                                                                          : s.detail));
   }
   estimates.fit = statistics_of(structures);
   return estimates;
@@ -65,28 +80,28 @@ Estimates estimates_at(const Source& source, const Source_options& options, std:
     estimates = estimates_of(
         at_points(points, progress, [&](const auto& p) { return source.fit->structure(preimage.map(p)); }));
   } else if (source.errors) {
-    for (const auto& error :
-         at_points(points, progress, [&](const auto& p) { return (*source.errors)(preimage.map(p)); })) {
-      estimates.columns[0].push_back(error.gaussian_curvature);
-      estimates.columns[1].push_back(error.mean_curvature);
+    const auto errors = at_points(points, progress, [&](const auto& p) { return (*source.errors)(preimage.map(p)); });
+    for (const auto& attribute : estimate_attributes()) {
+      if (!attribute.is_of_splines) continue;
+      auto& column = estimates.columns.emplace_back(Vertex_attributes::Column{attribute.name, {}});
+      for (const auto& error : errors)
+        column.values.push_back(attribute.row->get(Local_structure_error_3<double>{error, 0, 0, 0, 0, 0, 0, 0, 0}));
     }
   }
-  for (std::size_t n = 0; n < estimates.columns.size(); ++n)
-    for (double& number : estimates.columns[n]) number *= n % 2 == 0 ? preimage.factor : std::sqrt(preimage.factor);
+  if (options.transformation) transform(estimates, preimage.factor);
   return estimates;
 }
 
 void add_estimates(const Estimates& estimates, std::span<const std::string> names, Vertex_attributes& attributes) {
   for (const std::string& name : names) {
-    const auto place = std::find(names_of_estimates.begin(), names_of_estimates.end(), name);
-    const auto& numbers = estimates.columns[std::size_t(place - names_of_estimates.begin())];
-    if (!numbers.empty() && !find_column(attributes, name)) attributes.columns.push_back({name, numbers});
+    const auto column =
+        std::find_if(estimates.columns.begin(), estimates.columns.end(), [&](const auto& c) { return c.name == name; });
+    if (column != estimates.columns.end() && !find_column(attributes, name)) attributes.columns.push_back(*column);
   }
 }
 
 void add_errors(const Estimates& estimates, Vertex_attributes& attributes) {
-  const std::array<std::string, 2> names = {std::string(error_attributes[0]), std::string(error_attributes[1])};
-  add_estimates(estimates, names, attributes);
+  add_estimates(estimates, error_attributes(), attributes);
 }
 
 Vertex_attributes attributes_of(std::span<const Fitted_structure_3<double>> structures,

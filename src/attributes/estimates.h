@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_SRC_ATTRIBUTES_ESTIMATES_H
 #define EQUIAFFINE_SRC_ATTRIBUTES_ESTIMATES_H
 
+#include "attributes/estimate_names.h"
 #include "source/Fit_statistics.h"
 #include "system/kernel.h"
 #include "system/progress.h"
@@ -9,11 +10,9 @@
 #include <equiaffine/fit/Fitted_structure_3.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace equiaffine {
@@ -21,18 +20,10 @@ namespace equiaffine {
 struct Source;
 struct Source_options;
 
-/// The columns with estimates of the whole errors of affine curvatures.
-inline constexpr std::array<std::string_view, 2> error_attributes = {"affine_gaussian_curvature_error",
-                                                                     "affine_mean_curvature_error"};
-
-/// The columns with two standard deviations of what noise makes of the affine curvatures.
-inline constexpr std::array<std::string_view, 2> noise_attributes = {"affine_gaussian_curvature_noise",
-                                                                     "affine_mean_curvature_noise"};
-
-/// What is known of the errors of affine curvatures at points.
+/// What is known of the errors of attributes at points.
 struct Estimates {
-  std::array<std::vector<double>, 4> columns; ///< `error_attributes`, then `noise_attributes`; empty ones are unknown
-  std::optional<Fit_statistics> fit;          ///< is set for a fit
+  std::vector<Vertex_attributes::Column> columns;
+  std::optional<Fit_statistics> fit; ///< is set for a fit
 };
 
 /// The estimates at points of level sets of the source, if it has them; to make them is a stage of its own.

@@ -34,6 +34,12 @@ struct Draft {
   std::optional<std::string> output, moved, curves, stats;
 };
 
+/// Formulas and volumes have z up unless something else is asked for; the shapes of data tell what is up.
+inline void choose_up(Source_kind kind, Display_options& display) {
+  const bool is_data = kind == Source_kind::FIT || kind == Source_kind::DISTANCE;
+  if (!is_data && !display.up) display.up = {0, 0, 1};
+}
+
 } // namespace equiaffine
 
 #endif

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/attributes_help.h"
 
-#include "attributes/estimates.h"
+#include "attributes/estimate_names.h"
 #include <equiaffine/attributes/Attribute_selection.h>
 
 #include <cstddef>
 #include <sstream>
+#include <vector>
 
 namespace equiaffine {
 
@@ -30,13 +31,21 @@ std::string wrapped(const std::string& text, std::size_t width) {
   return result + line;
 }
 
+/// The names of the estimates that are not of the error.
+std::vector<std::string> estimates_of_scale() {
+  std::vector<std::string> names;
+  for (const auto& attribute : estimate_attributes())
+    if (attribute.kind != Estimate_kind::ERROR) names.push_back(attribute.name);
+  return names;
+}
+
 } // namespace
 
 std::string attributes_of_fit_help() {
   const Attribute_names names = attribute_names();
   return wrapped("what to compute: basic (the default) is " + joined(names.basic, ", ") + ", status, " +
-                     joined(error_attributes, ", ") + "; all adds " + joined(names.added_by_all, ", ") + ", " +
-                     joined(noise_attributes, ", ") + "; LIST is some of these words with commas between, also " +
+                     joined(error_attributes(), ", ") + "; all adds " + joined(names.added_by_all, ", ") + ", " +
+                     joined(estimates_of_scale(), ", ") + "; LIST is some of these words with commas between, also " +
                      joined(names.by_name, ", "),
                  88);
 }
@@ -46,9 +55,10 @@ std::string attributes_help() {
   return wrapped("what to compute: basic (the default) is " + joined(names.basic, ", ") + ", status; all adds " +
                      joined(names.added_by_all, ", ") + "; LIST is some of these words with commas between, also " +
                      joined(names.by_name, ", ") +
-                     ", signature (affine curvatures, pick_invariant, and the norms of their gradients), and for a "
-                     "spline or fit " +
-                     joined(error_attributes, " and ") + ", for a fit " + joined(noise_attributes, " and "),
+                     ", signature (affine curvatures, pick_invariant, and the norms of their gradients); for a "
+                     "spline affine_gaussian_curvature_error, affine_mean_curvature_error; for a fit basic also has "
+                     "the estimate NAME_error of every NAME in it, and all adds " +
+                     joined(estimates_of_scale(), ", "),
                  88);
 }
 

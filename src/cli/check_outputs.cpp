@@ -31,7 +31,8 @@ bool are_same_file(const std::string& path, const std::string& other) {
 
 std::vector<std::string> input_files(const Option_reader& reader) {
   std::vector<std::string> files;
-  for (const char* option : {"FILE", "--volume", "--distance-to", "--fit", "--points", "MESH.ply", "MESH"})
+  for (const char* option :
+       {"FILE", "--volume", "--distance-to", "--fit", "--points", "--range-of", "MESH.ply", "MESH"})
     if (reader.has(option)) files.push_back(reader.word(option));
   if (reader.has("--function"))
     if (const auto file = formula_file(reader.word("--function"))) files.push_back(*file);
@@ -60,8 +61,8 @@ void refuse_picture_options(const Option_reader& reader) {
 
 void refuse_page_options(const Option_reader& reader) {
   if (!reader.has("--html") && !reader.has("--png"))
-    reader.refuse({"--color", "--up", "--range"}, "it is for the page of --html and the picture of --png",
-                  "add one of them or leave it out");
+    reader.refuse({"--color", "--up", "--colors", "--range", "--range-of"},
+                  "it is for the page of --html and the picture of --png", "add one of them or leave it out");
 }
 
 } // namespace equiaffine

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "attributes/estimates.h"
+#include "attributes/estimate_names.h"
 #include "cli/Option_row.h"
 #include "cli/attributes_help.h"
 #include <equiaffine/Input_error.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -40,58 +42,73 @@ Attribute_selection select(const std::string& list, const std::string& option) {
 /// The words of a list of attributes: those that the library computes, and estimates, which the source makes.
 struct Attribute_words {
   Words attributes;
-  std::set<std::string_view> estimates;
+  std::set<std::string> estimates;
+
+  void add(Estimate_kind kind) {
+    for (const auto& attribute : estimate_attributes())
+      if (attribute.kind == kind) estimates.insert(attribute.name);
+  }
 };
 
 Attribute_words split_attributes(const Option_words& option) {
   Attribute_words words;
+  const auto& known = estimate_attributes();
   for (const std::string& name : split(option.word(), ',')) {
-    bool is_estimate = false;
-    for (const auto& names : {error_attributes, noise_attributes})
-      if (const auto found = std::find(names.begin(), names.end(), name); found != names.end()) {
-        words.estimates.insert(*found);
-        is_estimate = true;
-      }
-    if (!is_estimate) words.attributes.push_back(name);
+    const bool is_estimate = std::any_of(known.begin(), known.end(), [&](const auto& a) { return a.name == name; });
+    if (is_estimate) words.estimates.insert(name);
+    else words.attributes.push_back(name);
   }
   return words;
 }
 
-/// Puts the words into the draft, the estimates in the order of their tables.
+/// Puts the words into the draft, the estimates in the order of their table.
 void select(const Attribute_words& words, const std::string& option, Draft& draft) {
   std::string list;
   for (const std::string& name : words.attributes) list += (list.empty() ? "" : ",") + name;
   draft.attributes = select(list.empty() && !words.estimates.empty() ? "status" : list, option);
   draft.estimates.clear();
-  for (const auto& names : {error_attributes, noise_attributes})
-    for (const std::string_view name : names)
-      if (words.estimates.contains(name)) draft.estimates.emplace_back(name);
+  for (const auto& attribute : estimate_attributes())
+    if (words.estimates.contains(attribute.name)) draft.estimates.push_back(attribute.name);
+}
+
+/// The lists of attributes of a fit have estimates, too.
+void add_estimates_of_lists(Attribute_words& words) {
+  for (const std::string& name : words.attributes) {
+    if (name == "all" || name == "basic") words.add(Estimate_kind::ERROR);
+    if (name != "all") continue;
+    words.add(Estimate_kind::NOISE);
+    words.add(Estimate_kind::DETAIL);
+  }
+}
+
+/// Checks the estimates for a source that is no fit, and adds those that come together.
+void complete_estimates(const Option_words& option, const Draft& draft, Attribute_words& words) {
+  if (words.estimates.empty()) return;
+  for (const auto& attribute : estimate_attributes())
+    if (!attribute.is_of_splines && words.estimates.contains(attribute.name))
+      fail_option(option.name, "'" + attribute.name + "' is estimated for fits", "use --fit or leave it out");
+  if (draft.source.derivatives == Derivatives::JETS)
+    fail_option(option.name, "errors are estimated for splines and fits, and the derivatives of a formula have none",
+                "add --derivatives spline or leave them out");
+  for (const auto& attribute : estimate_attributes())
+    if (attribute.is_of_splines) words.estimates.insert(attribute.name);
 }
 
 void read_attributes(const Option_words& option, Draft& draft) {
   Attribute_words words = split_attributes(option);
-  const bool is_fit = draft.source.kind == Source_kind::FIT;
-  const bool has_noise = std::any_of(noise_attributes.begin(), noise_attributes.end(),
-                                     [&](std::string_view name) { return words.estimates.contains(name); });
-  if (has_noise && !is_fit)
-    fail_option(option.name, "what noise makes of curvatures is estimated for fits", "use --fit or leave it out");
-  if (!words.estimates.empty() && draft.source.derivatives == Derivatives::JETS && !is_fit)
-    fail_option(option.name, "errors are estimated for splines and fits, and the derivatives of a formula have none",
-                "add --derivatives spline or leave them out");
-  if (!words.estimates.empty() && !is_fit) words.estimates.insert(error_attributes.begin(), error_attributes.end());
+  if (draft.source.kind == Source_kind::FIT) add_estimates_of_lists(words);
+  else complete_estimates(option, draft, words);
   select(words, option.name, draft);
 }
 
-/// Reads the attributes of the command annotate, whose default has estimates of errors, too.
+/// Reads the attributes of the command annotate.
 void read_attributes_of_fit(const Option_words& option, Draft& draft) {
   Attribute_words words = split_attributes(option);
-  for (const std::string& name : words.attributes) {
-    if (name == "all" || name == "basic") words.estimates.insert(error_attributes.begin(), error_attributes.end());
-    if (name == "all") words.estimates.insert(noise_attributes.begin(), noise_attributes.end());
+  for (const std::string& name : words.attributes)
     if (name == "signature" || name.ends_with("_gradient"))
       fail_option(option.name, "'" + name + "' needs a function, and a fit at points has no gradients of curvatures",
                   "leave it out, or use mesh --fit");
-  }
+  add_estimates_of_lists(words);
   select(words, option.name, draft);
 }
 
@@ -103,8 +120,17 @@ void read_estimator(const Option_words& option, Draft& draft) {
 }
 
 void read_up(const Option_words& option, Draft& draft) {
+  using Up = std::optional<std::array<double, 3>>;
   draft.display.up =
-      parse_choice<std::array<double, 3>>(option, {{"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}});
+      parse_choice<Up>(option, {{"x", {{1, 0, 0}}}, {"y", {{0, 1, 0}}}, {"z", {{0, 0, 1}}}, {"auto", std::nullopt}});
+}
+
+void read_colors(const Option_words& option, Draft& draft) {
+  using Scale = std::optional<Color_scale>;
+  draft.display.scale = parse_choice<Scale>(option, {{"linear", Color_scale::LINEAR},
+                                                     {"logarithmic", Color_scale::ASINH},
+                                                     {"equalized", Color_scale::EQUALIZED},
+                                                     {"auto", std::nullopt}});
 }
 
 void read_size(const Option_words& option, Draft& draft) {
@@ -170,14 +196,29 @@ const std::vector<Option_row> rows = {
     {"--color", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "NAME",
      "the attribute that page and picture show first, or status or plain",
      [](const Option_words& option, Draft& draft) { draft.display.color = option.word(); }},
-    {"--up", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "x|y|z", "the axis that points up on them, by default z",
+    {"--up", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "x|y|z|auto",
+     "the axis that points up on them: by default z for formulas and volumes; auto, the default\n"
+     "for all else, is y, as in most scans, or z if the shape stands on a wider foot along z",
      read_up},
+    {"--colors", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "linear|logarithmic|equalized|auto",
+     "how numbers become colors; equalized gives equal areas of the surface equal parts of the\n"
+     "color bar, for each sign. By default, auto, the first of them by which the median is an\n"
+     "eighth of the bar away from white",
+     read_colors},
     {"--size", MESH | VIEW | ANNOTATE | registering, OUTPUT, 2, "WIDTH HEIGHT",
      "of the picture in pixels, by default 1000 800", read_size},
     {"--range", MESH | VIEW | ANNOTATE | registering, OUTPUT, 2, "LOW HIGH",
      "the numbers of the end colors of page and picture, by default quantiles;\n"
      "blue and red about white if LOW is -HIGH",
      read_range},
+    {"--range-of", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "FILE",
+     "numbers get the colors that they have in a page of ours, .html, or would have in a mesh\n"
+     "with the same attribute, .ply, so that two surfaces can be compared",
+     [](const Option_words& option, Draft& draft) {
+       if (draft.display.range)
+         fail_option(option.name, "--range says which numbers have the end colors, too", "leave one of them out");
+       draft.display.range_of = option.word();
+     }},
     {"--arrows", MESH | VIEW | ANNOTATE | SYMMETRIES, OUTPUT, 1, "VECTOR",
      "arrows on the picture, such as affine_normal",
      [](const Option_words& option, Draft& draft) { draft.display.arrows = option.word(); }},

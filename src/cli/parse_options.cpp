@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/parse_options.h"
 
-#include "attributes/estimates.h"
+#include "attributes/estimate_names.h"
 #include "cli/Option_reader.h"
 #include "cli/check_outputs.h"
 #include "cli/read_registration.h"
@@ -50,7 +50,8 @@ bool has_column(const Draft& draft, const std::string& name) {
 
 /// Whether there is a column whose errors are estimated.
 bool has_column_with_error(const Draft& draft) {
-  return has_column(draft, "affine_gaussian_curvature") || has_column(draft, "affine_mean_curvature");
+  return std::any_of(error_table<double>.begin(), error_table<double>.end(),
+                     [&](const auto& row) { return has_column(draft, std::string(row.attribute)); });
 }
 
 bool has_color(const Draft& draft, const std::string& name) {
@@ -82,6 +83,7 @@ void check_scheme(const Draft& draft) {
 
 Mesh_options read_mesh_options(Option_reader& reader) {
   read_source(reader);
+  if (reader.draft().source.kind == Source_kind::FIT) reader.draft().estimates = error_attributes();
   reader.read({"--isovalue", "--orientation"});
   read_method(reader);
   reader.read({"--attributes", "--estimator"});
@@ -111,11 +113,13 @@ Mesh_options read_mesh_options(Option_reader& reader) {
   options.curves = draft.curves;
   options.stats = draft.stats;
   options.display = draft.display;
+  choose_up(options.source.kind, options.display);
   return options;
 }
 
 Evaluate_options read_evaluate_options(Option_reader& reader) {
   read_source(reader);
+  if (reader.draft().source.kind == Source_kind::FIT) reader.draft().estimates = error_attributes();
   reader.read_rest();
   reader.need("--points", "name the file with the points");
   need_output(reader);
@@ -156,7 +160,7 @@ View_options read_view_options(Option_reader& reader) {
 Annotate_options read_annotate_options(Option_reader& reader) {
   if (!reader.has("MESH")) throw Input_error("no mesh is given; write 'equiaffine annotate MESH -o OUT.ply'");
   check_is_annotatable(reader.word("MESH"));
-  reader.draft().estimates = {error_attributes.begin(), error_attributes.end()};
+  reader.draft().estimates = error_attributes();
   reader.read({"--scale", "--noise", "--degree", "--attributes"});
   need_output(reader);
   reader.read({"--up"});

@@ -84,6 +84,7 @@ Register_options make_register_options(Option_reader& reader, Option_reader& tar
   options.output = *draft.output;
   options.moved = draft.moved;
   options.display = draft.display;
+  for (const auto* surface : {&options.source, &options.target}) choose_up(surface->source.kind, options.display);
   return options;
 }
 
@@ -114,6 +115,7 @@ Symmetries_options read_symmetries_options(Option_reader& reader) {
   options.tolerance = draft.tolerance;
   options.output = *draft.output;
   options.display = draft.display;
+  choose_up(options.surface.source.kind, options.display);
   return options;
 }
 

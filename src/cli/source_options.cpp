@@ -43,7 +43,8 @@ void read_raw_dims(const Option_words& option, Draft& draft) {
 }
 
 void read_scale(const Option_words& option, Draft& draft) {
-  if (option.word() != "auto") draft.source.fit.scale = parse_length(option);
+  if (option.word() == "none") draft.source.fit.scale = 0;
+  else if (option.word() != "auto") draft.source.fit.scale = parse_length(option);
 }
 
 void read_noise(const Option_words& option, Draft& draft) {
@@ -122,9 +123,11 @@ const std::vector<Option_row> rows = {
      "a mesh, .ply .off .obj .stl, or points, .csv .xyz or a file without faces; columns nx,\n"
      "ny, nz of points are their normals; - reads PLY, OFF or CSV from standard input",
      [](const Option_words& option, Draft& draft) { draft.mesh = option.word(); }},
-    {"--scale", fitting, FIT, 1, "R|auto",
-     "the radius around a vertex whose points say what the curvature is there, a length;\n"
-     "chosen by the data (auto) by default",
+    {"--scale", fitting, FIT, 1, "R|auto|none",
+     "the length that tells shape from detail: curvatures are those of polynomials fitted within\n"
+     "about R. By default (auto) they are the surface's own where the data resolve them, else\n"
+     "those at the smallest scale at which half of the vertices are known to 20 %; none insists on\n"
+     "the surface's own",
      read_scale},
     {"--noise", fitting, FIT, 1, "S|auto",
      "the standard deviation of the points from the surface, a length; estimated (auto) by\n"

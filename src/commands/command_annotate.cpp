@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "attributes/estimates.h"
 #include "commands/commands.h"
+#include "output/fit_display.h"
 #include "output/statistics.h"
 #include "output/surface_output.h"
 #include "source/fit_vertices.h"
@@ -40,6 +41,7 @@ Description make_description(const Annotate_options& options, const Annotation_s
   description.emplace_back("Triangles", std::to_string(statistics.faces));
   description.emplace_back("Components", std::to_string(statistics.topology.components));
   description.emplace_back("Euler characteristic", std::to_string(statistics.topology.euler_characteristic));
+  for (const auto& row : description_of(statistics.fit)) description.push_back(row);
   return description;
 }
 
@@ -86,8 +88,9 @@ void run_annotate(const Annotate_options& options, std::ostream& out, Progress& 
   auto file = outputs.files.begin();
   write_vertices(*file++, table, attributes);
   add_errors(estimates, attributes);
-  file = write_displays(file, table.mesh, attributes, options.display, page_title(options.output, name),
-                        make_description(options, statistics));
+  file = write_displays(
+      file, table.mesh, attributes, options.display, page_title(options.output, name) + label_suffix(statistics.fit),
+      make_description(options, statistics), {}, notes_of(statistics.fit), label_suffix(statistics.fit));
   for (Output_file& output : outputs.files) output.close();
   statistics.write_seconds = write_stopwatch.seconds();
   if (options.stats) file->stream() << to_JSON(statistics);

@@ -5,6 +5,7 @@
 #include "commands/fail_without_surface.h"
 #include "commands/remove_crumbs.h"
 #include "engine/Engine.h"
+#include "output/fit_display.h"
 #include "output/statistics.h"
 #include "output/surface_output.h"
 #include "source/source.h"
@@ -193,6 +194,8 @@ Description make_description(const Mesh_options& options, const Statistics& stat
   description.emplace_back("Triangles", std::to_string(statistics.faces));
   description.emplace_back("Components", std::to_string(statistics.topology.components));
   description.emplace_back("Euler characteristic", std::to_string(statistics.topology.euler_characteristic));
+  if (statistics.fit)
+    for (const auto& row : description_of(*statistics.fit)) description.push_back(row);
   return description;
 }
 
@@ -237,9 +240,11 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   auto file = outputs.files.begin();
   write_surface(*file++, surface.mesh, surface.attributes);
   if (options.source.estimates_errors) add_errors(surface.estimates, surface.attributes);
+  const std::string suffix = statistics.fit ? label_suffix(*statistics.fit) : std::string();
   file = write_displays(file, surface.mesh, surface.attributes, options.display,
-                        page_title(options.output, statistics.source), make_description(options, statistics),
-                        surface.curves ? surface.curves->polylines : std::vector<Polyline_3<Kernel>>());
+                        page_title(options.output, statistics.source) + suffix, make_description(options, statistics),
+                        surface.curves ? surface.curves->polylines : std::vector<Polyline_3<Kernel>>(),
+                        statistics.fit ? notes_of(*statistics.fit) : std::vector<Surface_note>(), suffix);
   if (options.curves) write_curves(*file++, *surface.curves);
   for (Output_file& output : outputs.files) output.close();
   statistics.write_seconds = write_stopwatch.seconds();

@@ -4,6 +4,7 @@
 #include "output/json_text.h"
 
 #include <cmath>
+#include <iomanip>
 #include <ostream>
 #include <sstream>
 
@@ -39,11 +40,17 @@ void add(const Mesh_facts& facts, Json& json) {
 
 void add(const Fit_statistics& fit, Json& json) {
   const auto& [least, median, greatest] = fit.scales;
-  json["fit"] = {{"scales", {{"least", least}, {"median", median}, {"greatest", greatest}}},
+  json["fit"] = {{"scale", fit.scale ? Json(*fit.scale) : Json()},
+                 {"scales", {{"least", least}, {"median", median}, {"greatest", greatest}}},
                  {"noise", fit.noise},
-                 {"below_10", fit.known[0]},
-                 {"below_20", fit.known[1]},
-                 {"below_50", fit.known[2]}};
+                 {"below_10", fit.known[0][0]},
+                 {"below_20", fit.known[0][1]},
+                 {"below_50", fit.known[0][2]}};
+  for (std::size_t row = 0; row < fit.known.size(); ++row) {
+    const auto& [to_10, to_20, to_50] = fit.known[row];
+    json["fit"]["known"][std::string(error_table<double>[row].attribute)] = {
+        {"below_10", to_10}, {"below_20", to_20}, {"below_50", to_50}};
+  }
 }
 
 void add_topology(const Mesh_facts& facts, std::ostream& text) {
@@ -66,12 +73,22 @@ void add_status(const Mesh_facts& facts, std::ostream& text) {
 }
 
 void add_fit(const Fit_statistics& fit, std::ostream& text) {
-  text.precision(2);
-  if (std::isfinite(fit.noise))
-    text << "fits of radius " << fit.scales[0] << " to " << fit.scales[2] << ", noise " << fit.noise << '\n';
-  text << "affine Gaussian curvature known to 10 %: " << std::lround(100 * fit.known[0])
-       << " %, to 20 %: " << std::lround(100 * fit.known[1]) << " %, to 50 %: " << std::lround(100 * fit.known[2])
-       << " % of the vertices\n";
+  const auto percent = [](double part) { return std::lround(100 * part); };
+  text.precision(3);
+  if (fit.scale) {
+    const auto [label, parts] = first_known(fit);
+    const auto& [to_10, to_20, to_50] = parts;
+    text << "at scale " << *fit.scale << ": " << label << " known to 20 % at " << percent(to_20) << " %, to 50 % at "
+         << percent(to_50) << " % of the vertices; noise " << fit.noise << '\n';
+  } else {
+    text.precision(2);
+    if (std::isfinite(fit.noise))
+      text << "fits of radius " << fit.scales[0] << " to " << fit.scales[2] << ", noise " << fit.noise << '\n';
+    const auto& [to_10, to_20, to_50] = fit.known[0];
+    text << "affine Gaussian curvature known to 10 %: " << percent(to_10) << " %, to 20 %: " << percent(to_20)
+         << " %, to 50 %: " << percent(to_50) << " % of the vertices\n";
+  }
+  text << "known to 20 / 50 % at so many %: " << table_of_known(fit) << '\n';
 }
 
 } // namespace

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/surface_output.h"
 
+#include "output/read_mappings.h"
 #include "output/write_VTP.h"
+#include "picture/natural_up.h"
 #include "picture/write_PNG.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/io/input_file.h>
+#include <equiaffine/io/trust.h>
 #include <equiaffine/io/write_HTML.h>
 #include <equiaffine/io/write_curves.h>
 #include <equiaffine/io/write_mesh.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -46,6 +51,17 @@ void check_extension(const std::string& path, std::initializer_list<std::string_
                                     [&](std::string_view extension) { return has_extension(path, extension); });
   if (is_right || path == "-" || !std::filesystem::path(path).has_extension()) return;
   throw Input_error("cannot write '" + path + "': it is to be " + kind + "; give it the extension " + advised);
+}
+
+/// The mappings in that file. Throws `Input_error` if there is none for the column that is shown first.
+std::map<std::string, Color_mapping> shared_mappings(const std::string& path, const Vertex_attributes& attributes,
+                                                     const std::string& color) {
+  auto mappings = read_mappings(path);
+  const std::string shown = color.empty() ? first_shown(attributes) : color;
+  if (find_column(attributes, shown) && !mappings.contains(shown))
+    throw Input_error("--range-of: '" + path + "' has no attribute '" + shown +
+                      "'; name one that it has, --color NAME");
+  return mappings;
 }
 
 } // namespace
@@ -105,6 +121,7 @@ std::string page_title(const std::string& path, const std::string& otherwise) {
 
 void check_display_outputs(const Display_options& options) {
   if (options.html) check_extension(*options.html, {".html", ".htm"}, "a page", ".html");
+  if (options.range_of) read_mappings(*options.range_of); // an error is to come before the work
   if (!options.png) return;
   if (!has_vtk)
     throw Input_error("cannot write '" + *options.png + "': this equiaffine was built without VTK; use --html");
@@ -112,24 +129,30 @@ void check_display_outputs(const Display_options& options) {
     throw Input_error("cannot write '" + *options.png + "': a picture is a PNG file; give it the extension .png");
 }
 
-std::vector<Output_file>::iterator write_displays(std::vector<Output_file>::iterator file,
-                                                  const Indexed_triangle_mesh_3<Kernel>& mesh,
-                                                  const Vertex_attributes& attributes, const Display_options& options,
-                                                  const std::string& title, const Description& description,
-                                                  [[maybe_unused]] const std::vector<Polyline_3<Kernel>>& curves,
-                                                  [[maybe_unused]] const std::vector<Surface_note>& notes) {
+std::vector<Output_file>::iterator
+write_displays(std::vector<Output_file>::iterator file, const Indexed_triangle_mesh_3<Kernel>& mesh,
+               const Vertex_attributes& attributes, const Display_options& options, const std::string& title,
+               const Description& description, [[maybe_unused]] const std::vector<Polyline_3<Kernel>>& curves,
+               [[maybe_unused]] const std::vector<Surface_note>& notes, const std::string& label_suffix) {
+  const std::array<double, 3> up = options.up ? *options.up : natural_up(mesh.points);
+  std::map<std::string, Color_mapping> mappings;
+  if (options.range_of) mappings = shared_mappings(*options.range_of, attributes, options.color);
   if (options.html) {
     Html_options page;
     page.title = title;
     page.range = options.range;
     page.color = attributes.columns.empty() && !attributes.status ? "plain" : options.color;
-    page.up = options.up;
+    page.up = up;
+    page.scale = options.scale;
+    page.mappings = mappings;
+    page.label_suffix = label_suffix;
     page.description = description;
     write_HTML(file++->stream(), mesh, attributes, page);
   }
 #ifdef EQUIAFFINE_WITH_VTK
   if (options.png) {
-    const Surface_view view = {options.color, options.up, options.size, options.range, options.arrows, notes};
+    const Surface_view view = {options.color, up,       options.size, options.range, options.arrows,
+                               options.scale, mappings, label_suffix, notes};
     write_PNG(file++->stream(), draw_surface(mesh, attributes, view, curves));
   }
 #endif

@@ -1,34 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture/Surface_paint.h"
 
-#include "picture/Camera.h"
 #include "picture/Line_drawing.h"
 #include <equiaffine/attributes/quantities.h>
+#include <equiaffine/io/Parabolic_parts.h>
 #include <equiaffine/io/trust.h>
-
-#include <CGAL/Bbox_3.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <utility>
 
 namespace equiaffine {
 
 namespace {
 
-std::string label_of(const std::string& name) {
+std::string label_of(const std::string& name, const std::string& suffix) {
   const Quantity* const quantity = find_quantity(name);
   if (quantity == nullptr) return name;
-  const std::string label(quantity->label);
+  const std::string label = std::string(quantity->label) + suffix;
   if (quantity->weight == 0) return label;
   return label + (quantity->weight % 2 == 0 ? ", length^" + std::to_string(quantity->weight / 2)
                                             : ", length^(" + std::to_string(quantity->weight) + "/2)");
 }
 
-CGAL::IO::Color color_of_code(std::size_t code) {
-  return code < number_of_point_statuses ? status_color(static_cast<Point_status>(code)) : undefined_color();
+std::string text_of_code(std::size_t code, bool shows_status) {
+  if (code == number_of_point_statuses) return "no number";
+  if (!shows_status && code == std::size_t(Point_status::PARABOLIC)) return parabolic_region_text;
+  return std::string(to_string(static_cast<Point_status>(code)));
 }
 
 } // namespace
@@ -39,15 +37,24 @@ Light light_of(const CGAL::IO::Color& color) {
 }
 
 Surface_paint::Surface_paint(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                             const std::string& name, const std::optional<std::array<double, 2>>& range) {
-  if (attributes.status && name != "plain")
-    for (const Point_status status : *attributes.status) codes_.push_back(static_cast<std::uint8_t>(status));
-  if (const auto* column = find_column(attributes, name.empty() ? first_shown(attributes) : name)) {
-    const CGAL::Bbox_3 box = box_of(mesh.points);
-    use(*column, range, std::hypot(box.x_span(), box.y_span(), box.z_span()));
+                             const Surface_view& view) {
+  if (const auto* column = find_column(attributes, view.color.empty() ? first_shown(attributes) : view.color)) {
+    const Parabolic_parts parabolic(mesh.triangles, attributes);
+    numbers_ = parabolic.filled(column->values);
+    use(*column, Numbers_of_mesh(mesh, attributes), view);
     const auto* errors = find_errors(attributes, column->name);
-    if (errors != nullptr && legend_) find_doubts(*column, *errors);
-    if (is_undefined_at_parabolic_points(column->name)) find_sides(attributes);
+    if (errors != nullptr && legend_) {
+      const std::vector<double> filled = parabolic.filled(errors->values);
+      for (std::size_t i = 0; i < filled.size(); ++i)
+        doubts_.push_back(color_doubt(numbers_[i], filled[i], legend_->mapping));
+    }
+    const auto* curvatures = find_column(attributes, "gaussian_curvature");
+    if (curvatures != nullptr && is_undefined_at_parabolic_points(column->name))
+      sides_ = parabolic.sides(curvatures->values);
+    find_codes(attributes);
+  } else if (attributes.status && view.color != "plain") {
+    shows_status_ = true;
+    for (const Point_status status : *attributes.status) codes_.push_back(static_cast<std::uint8_t>(status));
   }
   for (const std::string& sentence : sentences_of_doubt(attributes)) notes_.push_back({doubt_color(), sentence});
   find_notes(mesh.triangles);
@@ -92,18 +99,16 @@ Light Surface_paint::color_of(double level, double doubt) const {
   return light;
 }
 
-void Surface_paint::find_doubts(const Vertex_attributes::Column& column, const Vertex_attributes::Column& errors) {
-  for (std::size_t i = 0; i < column.values.size(); ++i)
-    doubts_.push_back(color_doubt(column.values[i], errors.values[i], legend_->range, legend_->scale));
+CGAL::IO::Color Surface_paint::color_of_code(std::size_t code) const {
+  if (!shows_status_ && code == std::size_t(Point_status::PARABOLIC)) return parabolic_region_color();
+  return code < number_of_point_statuses ? status_color(static_cast<Point_status>(code)) : undefined_color();
 }
 
-void Surface_paint::find_sides(const Vertex_attributes& attributes) {
-  const auto* column = find_column(attributes, "gaussian_curvature");
-  if (column == nullptr) return;
-  for (std::size_t i = 0; i < column->values.size(); ++i) {
-    if (codes_[i] == std::uint8_t(Point_status::PARABOLIC)) sides_.push_back(0);
-    else
-      sides_.push_back(std::isfinite(column->values[i]) ? column->values[i] : std::numeric_limits<double>::quiet_NaN());
+/// A status is shown where there is no number only.
+void Surface_paint::find_codes(const Vertex_attributes& attributes) {
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    const auto status = attributes.status ? std::uint8_t((*attributes.status)[i]) : std::uint8_t(0);
+    codes_.push_back(std::isfinite(numbers_[i]) ? std::uint8_t(0) : status == 0 ? no_number : status);
   }
 }
 
@@ -130,36 +135,28 @@ void Surface_paint::find_notes(std::span<const Triangle> triangles) {
   if (has_line) notes_.push_back({status_color(Point_status::PARABOLIC), "parabolic curve: no number there"});
   if (!doubts_.empty()) notes_.push_back({doubt_color(), "grayer where the estimated error is larger"});
   for (std::size_t code = legend_ ? 1 : 0; code < is_seen.size(); ++code)
-    if (is_seen[code])
-      notes_.push_back({color_of_code(code),
-                        code == no_number ? "no number" : std::string(to_string(static_cast<Point_status>(code)))});
+    if (is_seen[code]) notes_.push_back({color_of_code(code), text_of_code(code, shows_status_)});
 }
 
-void Surface_paint::use(const Vertex_attributes::Column& column, const std::optional<std::array<double, 2>>& given,
-                        double diagonal) {
-  codes_.resize(column.values.size());
-  std::vector<double> shown;
-  for (std::size_t i = 0; i < codes_.size(); ++i) {
-    if (codes_[i] == 0 && !std::isfinite(column.values[i])) codes_[i] = no_number;
-    if (codes_[i] == 0) shown.push_back(column.values[i]);
+void Surface_paint::use(const Vertex_attributes::Column& column, const Numbers_of_mesh& numbers_of,
+                        const Surface_view& view) {
+  if (std::none_of(numbers_.begin(), numbers_.end(), [](double number) { return std::isfinite(number); })) return;
+  const auto given = view.mappings.find(column.name);
+  Color_mapping mapping = given != view.mappings.end() ? given->second : numbers_of(column).mapping();
+  if (view.range) {
+    mapping.range = given_range((*view.range)[0], (*view.range)[1]);
+    mapping.scale = Color_scale::LINEAR;
   }
-  if (shown.empty()) return;
-  Color_range range = color_range(std::move(shown), default_clip_percent, rounding_of_quantity(column.name, diagonal));
-  Color_scale scale = preferred_scale(range);
-  if (given) {
-    const auto [lower, upper] = *given;
-    range = {lower, upper, 1, lower == -upper};
-    scale = Color_scale::LINEAR;
-  }
-  legend_ = {label_of(column.name), range, scale};
-  for (const double value : column.values) {
-    const double t = std::isfinite(value) ? map_position(value, range, scale) : 0;
-    levels_.push_back(range.is_diverging ? (t + 1) / 2 : t);
+  if (view.scale) mapping.scale = *view.scale;
+  legend_ = {label_of(column.name, view.label_suffix), mapping};
+  for (const double number : numbers_) {
+    const double t = std::isfinite(number) ? mapping.position(number) : 0;
+    levels_.push_back(mapping.range.is_diverging ? (t + 1) / 2 : t);
   }
   constexpr int entries = 257;
   for (int i = 0; i < entries; ++i) {
     const double t = double(i) / (entries - 1);
-    table_.push_back(light_of(range.is_diverging ? diverging_color(2 * t - 1) : sequential_color(t)));
+    table_.push_back(light_of(mapping.range.is_diverging ? diverging_color(2 * t - 1) : sequential_color(t)));
   }
 }
 

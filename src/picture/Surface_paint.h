@@ -3,9 +3,11 @@
 #define EQUIAFFINE_SRC_PICTURE_SURFACE_PAINT_H
 
 #include "picture/Canvas.h"
+#include "picture/Surface_view.h"
 #include "system/kernel.h"
 #include <equiaffine/geometry/Point_status.h>
-#include <equiaffine/io/color_map.h>
+#include <equiaffine/io/Color_mapping.h>
+#include <equiaffine/io/Column_numbers.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <array>
@@ -20,8 +22,7 @@ namespace equiaffine {
 /// The numbers that the colors of a picture stand for.
 struct Color_legend {
   std::string label; ///< the name of the number, with its unit if that is known
-  Color_range range;
-  Color_scale scale;
+  Color_mapping mapping;
 };
 
 /// The meaning of a color that no color bar shows, or a text without a color.
@@ -35,10 +36,8 @@ Light light_of(const CGAL::IO::Color& color);
 /// The color of a surface at its vertices and between them.
 class Surface_paint {
 public:
-  /// `name` is a column, `status`, `plain`, or empty for what the page shows first; `range` has the numbers of the end
-  /// colors, in place of quantiles.
   Surface_paint(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                const std::string& name, const std::optional<std::array<double, 2>>& range);
+                const Surface_view& view);
 
   /// Is set if there is a vertex whose color shows a number.
   const std::optional<Color_legend>& legend() const { return legend_; }
@@ -46,14 +45,14 @@ public:
   /// One for each other color that the surface has somewhere, the most important one first.
   const std::vector<Color_note>& notes() const { return notes_; }
 
-  /// The color at barycentric weights, as on the page: vertices with a number compete by their weights with those of
-  /// each status; the number is interpolated between the vertices that have one. A number that does not exist on a
+  /// The color at barycentric weights, as on the page: vertices with a number compete by their weights with those that
+  /// have none, of each status; the number is interpolated between the vertices that have one. A number that does not exist on a
   /// parabolic curve is interpolated on each side of it from the vertices of that side only. Colors are grayer where the
   /// estimated error is larger.
   Light operator()(const std::array<std::uint32_t, 3>& triangle, const std::array<double, 3>& weights) const;
 
-  /// The Gaussian curvature per vertex, zero where the vertex is parabolic and NaN where it is not known, if the number
-  /// does not exist where that changes its sign; else empty.
+  /// The sides of the vertices (`Parabolic_parts::sides`), if the number does not exist where the Gaussian curvature
+  /// changes its sign; else empty.
   const std::vector<double>& sides() const { return sides_; }
 
 private:
@@ -71,19 +70,21 @@ private:
 
   static constexpr std::uint8_t no_number = number_of_point_statuses;
 
-  void use(const Vertex_attributes::Column& column, const std::optional<std::array<double, 2>>& range, double diagonal);
-  void find_doubts(const Vertex_attributes::Column& column, const Vertex_attributes::Column& errors);
-  void find_sides(const Vertex_attributes& attributes);
+  void use(const Vertex_attributes::Column& column, const Numbers_of_mesh& numbers_of, const Surface_view& view);
+  void find_codes(const Vertex_attributes& attributes);
   void find_notes(std::span<const Triangle> triangles);
   bool can_have_line(const Triangle& triangle) const;
   bool is_convex(std::uint32_t vertex) const { return sides_.empty() || !(sides_[vertex] < 0); }
   Light color_of(double level, double doubt) const;
+  CGAL::IO::Color color_of_code(std::size_t code) const;
 
-  std::vector<std::uint8_t> codes_; // per vertex 0 if its number is shown, else its status or no_number; empty: all 0
+  std::vector<double> numbers_;     // per vertex, interpolated in spots
+  std::vector<std::uint8_t> codes_; // per vertex 0 if it has a number, else its status or no_number; empty: all 0
   std::vector<double> levels_;      // the number of each vertex as a place in [0, 1]
   std::vector<double> sides_;
   std::vector<double> doubts_; // color_doubt per vertex, if errors are known
   std::vector<Light> table_;
+  bool shows_status_ = false; // and no number
   std::optional<Color_legend> legend_;
   std::vector<Color_note> notes_;
 };

@@ -81,8 +81,7 @@ std::vector<Color_note> notes_from_bottom(const Surface_view& view, const Surfac
   std::vector<Color_note> notes;
   for (auto note = view.notes.rbegin(); note != view.notes.rend(); ++note) {
     notes.push_back({std::nullopt, note->text});
-    if (note->number && paint.legend())
-      notes.back().color = map_color(*note->number, paint.legend()->range, paint.legend()->scale);
+    if (note->number && paint.legend()) notes.back().color = paint.legend()->mapping.color(*note->number);
   }
   notes.insert(notes.end(), paint.notes().begin(), paint.notes().end());
   return notes;
@@ -105,7 +104,7 @@ std::optional<std::array<const std::vector<double>*, 3>> vector_columns(const Ve
 Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
                              const Surface_view& view, std::span<const Polyline_3<Kernel>> curves) {
   const auto [width, height] = view.size;
-  const Surface_paint paint(mesh, attributes, view.color, view.range);
+  const Surface_paint paint(mesh, attributes, view);
   std::vector<Color_note> notes = notes_from_bottom(view, paint);
   const std::size_t below = paint.legend() ? legend_height : notes.empty() ? 0 : note_margin;
   notes.resize(std::min(notes.size(), (height - height / 4 - below) / note_height));

@@ -5,6 +5,7 @@
 #include "picture/Canvas.h"
 #include "picture/Surface_note.h"
 #include "picture/Surface_paint.h"
+#include "picture/Surface_view.h"
 #include "system/kernel.h"
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 #include <equiaffine/surface/Polyline_3.h>
@@ -17,16 +18,6 @@
 #include <vector>
 
 namespace equiaffine {
-
-/// Options that say how a surface is shown.
-struct Surface_view {
-  std::string color;                          ///< a column, `status`, `plain`, or empty for the page's choice
-  std::array<double, 3> up = {0, 0, 1};       ///< the direction that points up
-  std::array<std::size_t, 2> size;            ///< in pixels
-  std::optional<std::array<double, 2>> range; ///< the numbers of the end colors, instead of quantiles
-  std::string arrows;                         ///< a vector among the columns, or empty
-  std::vector<Surface_note> notes = {};       ///< below the surface, from the top to the bottom
-};
 
 /// A picture of a surface and what its colors mean.
 struct Surface_picture {

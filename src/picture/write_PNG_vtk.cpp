@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace equiaffine {
@@ -60,13 +61,38 @@ std::string short_number(double value, const Color_range& range) {
   return text.data();
 }
 
-/// The number at place t in [0, 1] of the bar.
-double number_at(const Color_legend& legend, double t) {
-  const auto& [lower, upper, knee, is_diverging] = legend.range;
-  if (is_diverging && t == 0.5) return 0; // the formula gives 0 up to rounding only
-  if (legend.scale == Color_scale::LINEAR) return lower + t * (upper - lower);
-  const double low = std::asinh(lower / knee), high = std::asinh(upper / knee);
-  return knee * std::sinh(low + t * (high - low));
+/// The place of a number on the bar, in [0, 1].
+double place_on_bar(double number, const Color_mapping& mapping) {
+  const double t = mapping.position(number);
+  return mapping.range.is_diverging ? (t + 1) / 2 : t;
+}
+
+/// Numbers with their places on the bar: equal parts of a linear one, else round numbers a `most`-th of the bar apart or
+/// more, the greatest first.
+std::vector<std::pair<double, double>> ticks(const Color_mapping& mapping, std::size_t most) {
+  const auto& [lower, upper, knee, is_diverging] = mapping.range;
+  std::vector<std::pair<double, double>> result;
+  if (mapping.scale == Color_scale::LINEAR) {
+    for (std::size_t i = 0; i <= most; ++i) {
+      const double t = double(i) / double(most);
+      const bool is_zero = is_diverging && 2 * i == most; // the formula gives it up to rounding only
+      result.emplace_back(is_zero ? 0 : lower + t * (upper - lower), t);
+    }
+    return result;
+  }
+  const auto offer = [&](double number) {
+    if (number < lower || number > upper) return;
+    const double place = place_on_bar(number, mapping);
+    const auto is_near = [&](const auto& other) { return std::abs(other.second - place) < 1. / double(most); };
+    if (std::none_of(result.begin(), result.end(), is_near)) result.emplace_back(number, place);
+  };
+  offer(0);
+  constexpr int decades = 12;
+  const int largest = int(std::floor(std::log10(std::max(std::abs(lower), std::abs(upper)))));
+  for (int power = largest; power > largest - decades; --power)
+    for (const double factor : {1., 5., 2.})
+      for (const double sign : {1., -1.}) offer(sign * factor * std::pow(10., power));
+  return result;
 }
 
 void fill(Picture& picture, std::size_t left, std::size_t top, std::size_t width, std::size_t height,
@@ -92,21 +118,26 @@ void draw_legend(Picture& picture, const Color_legend& legend) {
   const std::size_t top = picture.height - margin - 20;
   for (std::size_t i = 0; i < width; ++i) {
     const double t = double(i) / double(width - 1);
-    const CGAL::IO::Color color = legend.range.is_diverging ? diverging_color(2 * t - 1) : sequential_color(t);
+    const CGAL::IO::Color color = legend.mapping.range.is_diverging ? diverging_color(2 * t - 1) : sequential_color(t);
     fill(picture, left + i, top, 1, bar_height, color);
   }
   draw_text(picture, legend.label, left, top - 7, Alignment::LEFT);
-  const auto number = [&](std::size_t i, std::size_t last) {
-    return short_number(number_at(legend, double(i) / double(last)), legend.range);
+  const auto text = [&](double number) { return short_number(number, legend.mapping.range); };
+  const auto touch = [&](const std::vector<std::pair<double, double>>& labels) { // with 8 pixels for a character
+    std::size_t longest = 0;
+    for (const auto& [number, place] : labels) longest = std::max(longest, text(number).size());
+    return legend.mapping.scale == Color_scale::LINEAR && 8 * longest * labels.size() > width;
   };
-  std::size_t last = 4, longest = 0;
-  for (std::size_t i = 0; i <= last; ++i) longest = std::max(longest, number(i, last).size());
-  if (8 * longest * (last + 1) > width) last = 2; // so that the numbers do not touch
-  for (std::size_t i = 0; i <= last; ++i)
-    draw_text(picture, number(i, last), left + i * width / last, top + bar_height + 14,
-              i == 0      ? Alignment::LEFT
-              : i == last ? Alignment::RIGHT
-                          : Alignment::CENTER);
+  auto labels = ticks(legend.mapping, 4);
+  if (touch(labels)) labels = ticks(legend.mapping, 2);
+  for (const auto& [number, place] : labels) {
+    const auto x = std::size_t(std::lround(place * double(width - 1)));
+    fill(picture, left + x, top + bar_height, 1, 3, CGAL::IO::Color(26, 26, 26));
+    draw_text(picture, text(number), left + x, top + bar_height + 15,
+              place < 0.1   ? Alignment::LEFT
+              : place > 0.9 ? Alignment::RIGHT
+                            : Alignment::CENTER);
+  }
 }
 
 } // namespace

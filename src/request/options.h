@@ -8,6 +8,7 @@
 #include <equiaffine/delaunay/Facet_sizing.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/Estimator.h>
+#include <equiaffine/io/color_map.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
 #include <equiaffine/registration/Map_kind.h>
 #include <equiaffine/volume/Spline_scheme.h>
@@ -65,9 +66,11 @@ struct Source_options {
 /// The page and the picture that are asked for, and their first view.
 struct Display_options {
   std::optional<std::string> html, png;
-  std::string color; ///< an attribute, `status`, `plain`, or empty
-  std::array<double, 3> up = {0, 0, 1};
+  std::string color;                             ///< an attribute, `status`, `plain`, or empty
+  std::optional<std::array<double, 3>> up;       ///< guessed from the shape if there is none
   std::optional<std::array<double, 2>> range;    ///< the numbers that have the end colors
+  std::optional<std::string> range_of;           ///< a page or mesh whose colors numbers get
+  std::optional<Color_scale> scale;              ///< of colors, if it is not to be the one that suits the numbers
   std::array<std::size_t, 2> size = {1000, 800}; ///< of the picture, in pixels
   std::string arrows;                            ///< a vector among the attributes, or empty; for the picture
 

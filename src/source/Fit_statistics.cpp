@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <sstream>
 #include <vector>
 
 namespace equiaffine {
@@ -33,27 +34,60 @@ double part(Structures structures, const Condition& condition) {
   return double(std::count_if(structures.begin(), structures.end(), condition)) / double(structures.size());
 }
 
-/// Whether the estimated error of K is below a part of |K| + H^2.
-bool is_known(const Structure& s, double bound) {
-  const auto& affine = s.structure.affine;
-  const double size = std::abs(affine.gaussian_curvature) + affine.mean_curvature * affine.mean_curvature;
-  return s.error.gaussian_curvature < bound * size;
-}
-
 bool is_doubtful(const Structure& s) {
-  return s.structure.status == Point_status::REGULAR && !is_known(s, error_bounds.back());
+  return s.structure.status == Point_status::REGULAR &&
+         !error_table<double>[0].is_known(s.structure, s.error, error_bounds.back());
 }
 
-bool is_noise(const Structure& s) { return s.noise.gaussian_curvature > s.error.gaussian_curvature / 2; }
+bool is_noise(const Structure& s) { return !(s.noise.gaussian_curvature <= s.error.gaussian_curvature / 2); }
+
+struct Words {
+  std::string_view attribute, label, symbol;
+};
+
+constexpr std::array<Words, 5> words = {{{"affine_gaussian_curvature", "affine Gaussian curvature", "K"},
+                                         {"affine_mean_curvature", "affine mean curvature", "H"},
+                                         {"pick_invariant", "Pick invariant", "J"},
+                                         {"affine_normal", "affine normal", "affine normal"},
+                                         {"affine_area_density", "affine area density", "affine area density"}}};
 
 } // namespace
 
+const Fit_statistics::Parts& Fit_statistics::known_of(std::string_view attribute) const {
+  std::size_t row = 0;
+  while (error_table<double>[row].attribute != attribute) ++row;
+  return known[row];
+}
+
+Known_quantity first_known(const Fit_statistics& fit) {
+  for (const auto& [attribute, label, symbol] : words)
+    if (fit.known_of(attribute).back() >= 0.5) return {label, fit.known_of(attribute)};
+  return {words[0].label, fit.known[0]};
+}
+
+std::string table_of_known(const Fit_statistics& fit) {
+  std::ostringstream text;
+  for (const auto& [attribute, label, symbol] : words) {
+    const auto& [to_10, to_20, to_50] = fit.known_of(attribute);
+    text << (text.str().empty() ? "" : ", ") << symbol << ' ' << std::lround(100 * to_20) << " / "
+         << std::lround(100 * to_50);
+  }
+  return text.str();
+}
+
 Fit_statistics statistics_of(Structures structures) {
   Fit_statistics statistics;
+  for (const auto& s : structures)
+    if (s.is_at_scale) statistics.scale = s.scale;
   statistics.scales = spread(structures, [](const auto& s) { return s.scale; });
   statistics.noise = spread(structures, [](const auto& s) { return s.deviation; })[1];
-  for (std::size_t n = 0; n < error_bounds.size(); ++n)
-    statistics.known[n] = part(structures, [n](const Structure& s) { return is_known(s, error_bounds[n]); });
+  for (std::size_t row = 0; row < statistics.known.size(); ++row)
+    for (std::size_t n = 0; n < error_bounds.size(); ++n)
+      statistics.known[row][n] = part(structures, [&](const Structure& s) {
+        return error_table<double>[row].is_known(s.structure, s.error, error_bounds[n]);
+      });
+  statistics.parabolic =
+      part(structures, [](const Structure& s) { return s.structure.status == Point_status::PARABOLIC; });
   statistics.without_fit =
       part(structures, [](const Structure& s) { return s.structure.status == Point_status::OUTSIDE; });
   statistics.doubtful_by_noise = part(structures, [](const Structure& s) { return is_doubtful(s) && is_noise(s); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/fit_vertices.h"
 
+#include <equiaffine/Input_error.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/fit/part_with_opposed_normals.h>
 #include <equiaffine/io/trust.h>
@@ -10,6 +11,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace equiaffine {
@@ -35,7 +38,7 @@ std::vector<Point_with_normal> points_with_normals(const Annotated_mesh_3<Kernel
 
 /// Calls `fit(parameters, data...)`, where the data are points and triangles, points with normals, or points.
 template <class Fit>
-auto fit_with_parameters(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options, const Fit& fit) {
+auto fit_with_parameters(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options, const Fit& fit) try {
   const auto parameters = parameters::scale(options.scale).noise(options.noise).degree(options.degree);
   if (!mesh.mesh.triangles.empty()) return fit(parameters, mesh.mesh.points, mesh.mesh.triangles);
   const auto with_normals = points_with_normals(mesh);
@@ -43,6 +46,8 @@ auto fit_with_parameters(const Annotated_mesh_3<Kernel>& mesh, const Fit_options
   return fit(parameters.point_map(CGAL::First_of_pair_property_map<Point_with_normal>())
                  .normal_map(CGAL::Second_of_pair_property_map<Point_with_normal>()),
              with_normals);
+} catch (const std::invalid_argument& error) {
+  throw Input_error(std::string("--scale: ") + error.what());
 }
 
 } // namespace

@@ -42,7 +42,7 @@ void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool h
                    Progress& progress) {
   const double doubtful = has_affine_curvatures ? fit.doubtful_by_noise + fit.doubtful_by_detail : 0;
   const double unknown = fit.without_fit + doubtful;
-  if (!(unknown > fit.known.back())) return;
+  if (!(unknown > fit.known.front().back())) return;
   const auto warn = [&](double part, const std::string& reason) {
     if (part > 0.1 * unknown) progress.warn(std::to_string(std::lround(100 * part)) + " % of the vertices " + reason);
   };
@@ -51,13 +51,14 @@ void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool h
   if (!has_affine_curvatures) return;
   const std::string error = "have an estimated error of the affine Gaussian curvature of more than 50 %, most of it ";
   warn(fit.doubtful_by_noise,
-       error +
-           "from noise, which is too large for fourth derivatives; give a larger --scale, or points with less noise");
-  warn(fit.doubtful_by_detail,
-       error + (options.scale ? "from detail that --scale leaves out; affine_gaussian_curvature_noise says "
-                                "what is known at that scale, else give a smaller --scale or more points"
-                              : "since fits disagree: the surface has detail, creases or contradictions "
-                                "between too few points; give more points, or say by --scale what counts as detail"));
+       error + (fit.scale
+                    ? "from noise and the distance of the points, too large for fourth derivatives at that scale; "
+                      "give a larger --scale or more points, or use the affine area density or the affine normal, "
+                      "which need derivatives of order 2 and 3"
+                    : "from noise, which is too large for fourth derivatives; leave out --scale none, or give "
+                      "points with less noise"));
+  warn(fit.doubtful_by_detail, error + "since fits disagree: the surface has detail, creases or contradictions between "
+                                       "too few points; give more points, or leave out --scale none");
 }
 
 void warn_of_close_sheets(const Close_sheets& sheets, Progress& progress) {

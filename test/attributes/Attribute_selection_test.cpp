@@ -22,10 +22,12 @@ TEST(Attribute_selection, the_names_are_the_contract_in_its_order) {
   const std::string basic = "nx ny nz k1 k2 gaussian_curvature mean_curvature conormal_x conormal_y conormal_z "
                             "affine_normal_x affine_normal_y affine_normal_z affine_gaussian_curvature "
                             "affine_mean_curvature pick_invariant ";
-  EXPECT_EQ(names("basic"), basic);
+  const std::string later = "affine_normal_angle affine_area_density ";
+  EXPECT_EQ(names("basic"), basic + later);
   EXPECT_EQ(names("all"), basic +
                               "affine_k1 affine_k2 direction1_x direction1_y direction1_z direction2_x direction2_y "
-                              "direction2_z metric_xx metric_xy metric_xz metric_yy metric_yz metric_zz ");
+                              "direction2_z metric_xx metric_xy metric_xz metric_yy metric_yz metric_zz " +
+                              later);
   EXPECT_EQ(names("none"), "");
   EXPECT_EQ(names("metric_xx,normal,k2"), "nx ny nz k2 metric_xx ");
   EXPECT_EQ(names("status"), "");
@@ -45,7 +47,8 @@ std::string joined(const std::vector<std::string_view>& names) {
 TEST(Attribute_selection, names_for_people_have_vectors_by_one_name) {
   const Attribute_names names = attribute_names();
   EXPECT_EQ(joined(names.basic), "normal k1 k2 gaussian_curvature mean_curvature conormal affine_normal "
-                                 "affine_gaussian_curvature affine_mean_curvature pick_invariant ");
+                                 "affine_gaussian_curvature affine_mean_curvature pick_invariant affine_normal_angle "
+                                 "affine_area_density ");
   EXPECT_EQ(joined(names.added_by_all), "affine_k1 affine_k2 direction1 direction2 metric ");
   EXPECT_EQ(joined(names.by_name), "quadric_defect shape_index curvedness affine_frame1 affine_frame2 affine_frame3 "
                                    "affine_frame_scale affine_frame_quality affine_signature ");

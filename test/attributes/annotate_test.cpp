@@ -109,7 +109,7 @@ TEST(Annotate, columns_and_maps_hold_the_same_numbers_for_any_number_of_threads)
     ++scalars;
     for (std::size_t i = 0; i < surface.points.size(); ++i) ASSERT_EQ(column.values[i], map[Vertex_index(unsigned(i))]);
   }
-  EXPECT_EQ(scalars, 18u);
+  EXPECT_EQ(scalars, 20u);
 }
 
 } // namespace

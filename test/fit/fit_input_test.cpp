@@ -70,7 +70,7 @@ TEST(Fit_input, points_with_coordinates_that_are_no_numbers_are_refused) {
 
 TEST(Fit_input, parameters_that_make_no_sense_are_refused) {
   const Fit_mesh mesh = height_field(5, bowl);
-  EXPECT_THROW(fitted_structures(mesh, parameters::scale(0)), std::invalid_argument);
+  EXPECT_THROW(fitted_structures(mesh, parameters::scale(-1)), std::invalid_argument);
   EXPECT_THROW(fitted_structures(mesh, parameters::scale(std::numeric_limits<double>::quiet_NaN())),
                std::invalid_argument);
   EXPECT_THROW(fitted_structures(mesh, parameters::noise(-1)), std::invalid_argument);

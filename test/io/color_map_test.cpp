@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/io/Color_mapping.h>
+#include <equiaffine/io/Column_numbers.h>
 #include <equiaffine/io/color_map.h>
 
 #include <gtest/gtest.h>
@@ -35,6 +37,10 @@ double lightness(const CGAL::IO::Color& color) {
   };
   const double y = 0.2126 * linear(color.red()) + 0.7152 * linear(color.green()) + 0.0722 * linear(color.blue());
   return 116 * std::cbrt(y) - 16;
+}
+
+double position(const Color_range& range, Color_scale scale, double value) {
+  return Color_mapping{range, scale}.position(value);
 }
 
 TEST(Color_map, quantiles_interpolate_between_order_statistics) {
@@ -90,7 +96,7 @@ TEST(Color_map, no_numbers_at_all_still_give_a_range) {
 TEST(Color_map, rounding_noise_around_zero_looks_like_zero) {
   const Color_range range = color_range({1e-15, -2e-15, 3e-16, 5e-15}, 0, 1e-9);
   EXPECT_TRUE(range.is_diverging);
-  EXPECT_EQ(rgb(map_color(5e-15, range)), rgb(diverging_color(0)));
+  EXPECT_EQ(rgb(Color_mapping{range}.color(5e-15)), rgb(diverging_color(0)));
 }
 
 TEST(Color_map, rounding_noise_that_grows_beside_a_curve_looks_like_zero) {
@@ -99,20 +105,21 @@ TEST(Color_map, rounding_noise_that_grows_beside_a_curve_looks_like_zero) {
   for (const double noise : {1e-12, 4e-8}) {
     for (std::size_t i = 15; i < 50; ++i) values[i] = noise;
     const Color_range range = color_range(values, default_clip_percent, 1e-9);
-    for (const double value : values) EXPECT_EQ(rgb(map_color(value, range)), rgb(diverging_color(0))) << noise;
+    for (const double value : values)
+      EXPECT_EQ(rgb(Color_mapping{range}.color(value)), rgb(diverging_color(0))) << noise;
   }
 }
 
 TEST(Color_map, few_numbers_that_are_not_noise_have_their_color) {
   std::vector<double> values(1000, 1e-15);
   for (std::size_t i = 0; i < 10; ++i) values[i] = 0.5;
-  EXPECT_EQ(rgb(map_color(0.5, color_range(values, default_clip_percent, 1e-9))), rgb(diverging_color(0.5)));
+  EXPECT_EQ(rgb(Color_mapping{color_range(values, default_clip_percent, 1e-9)}.color(0.5)), rgb(diverging_color(0.5)));
 }
 
 TEST(Color_map, a_constant_up_to_rounding_has_one_color) {
   const std::vector<double> values = {-0.55, -0.55 + 1e-13, -0.55 - 1e-13};
   const Color_range range = color_range(values, 0, 1e-9);
-  for (const double value : values) EXPECT_EQ(rgb(map_color(value, range)), rgb(sequential_color(0.5)));
+  for (const double value : values) EXPECT_EQ(rgb(Color_mapping{range}.color(value)), rgb(sequential_color(0.5)));
 }
 
 TEST(Color_map, noise_of_the_other_sign_does_not_make_a_quantity_signed) {
@@ -135,37 +142,37 @@ TEST(Color_map, diverging_positions_are_odd_monotone_and_end_at_one) {
   for (const Color_scale scale : {Color_scale::LINEAR, Color_scale::ASINH}) {
     double previous = -1;
     for (double value = -4; value <= 4; value += 0.125) {
-      const double t = map_position(value, range, scale);
-      EXPECT_EQ(t, -map_position(-value, range, scale));
+      const double t = position(range, scale, value);
+      EXPECT_EQ(t, -position(range, scale, -value));
       if (value > -4) {
         EXPECT_GT(t, previous);
       }
       previous = t;
     }
-    EXPECT_EQ(map_position(0, range, scale), 0);
-    EXPECT_EQ(map_position(4, range, scale), 1);
-    EXPECT_EQ(map_position(infinity, range, scale), 1);
-    EXPECT_EQ(map_position(-1e300, range, scale), -1);
+    EXPECT_EQ(position(range, scale, 0), 0);
+    EXPECT_EQ(position(range, scale, 4), 1);
+    EXPECT_EQ(position(range, scale, infinity), 1);
+    EXPECT_EQ(position(range, scale, -1e300), -1);
   }
 }
 
 TEST(Color_map, sequential_positions_run_from_zero_to_one) {
   const Color_range range{2, 10, 3, false};
   for (const Color_scale scale : {Color_scale::LINEAR, Color_scale::ASINH}) {
-    EXPECT_EQ(map_position(1, range, scale), 0);
-    EXPECT_EQ(map_position(2, range, scale), 0);
-    EXPECT_EQ(map_position(10, range, scale), 1);
+    EXPECT_EQ(position(range, scale, 1), 0);
+    EXPECT_EQ(position(range, scale, 2), 0);
+    EXPECT_EQ(position(range, scale, 10), 1);
     double previous = 0;
     for (double value = 2.25; value <= 10; value += 0.25) {
-      EXPECT_GT(map_position(value, range, scale), previous);
-      previous = map_position(value, range, scale);
+      EXPECT_GT(position(range, scale, value), previous);
+      previous = position(range, scale, value);
     }
   }
 }
 
 TEST(Color_map, asinh_gives_equal_steps_to_equal_ratios_far_above_the_knee) {
   const Color_range range{-1e6, 1e6, 1, true};
-  const auto t = [&](double value) { return map_position(value, range, Color_scale::ASINH); };
+  const auto t = [&](double value) { return position(range, Color_scale::ASINH, value); };
   // asinh(x) = log(2 x) + O(x^-2): from x = 1e3 on the steps of a decade differ by less than 1e-6.
   EXPECT_NEAR(t(1e4) - t(1e3), t(1e6) - t(1e5), 1e-6);
   // asinh(x) = x + O(x^3)
@@ -214,8 +221,8 @@ TEST(Color_map, known_colors_of_oklab) {
 }
 
 TEST(Color_map, a_missing_number_is_gray_in_both_maps) {
-  EXPECT_EQ(rgb(map_color(nan, {-1, 1, 1, true})), rgb(undefined_color()));
-  EXPECT_EQ(rgb(map_color(nan, {0, 1, 1, false}, Color_scale::ASINH)), rgb(undefined_color()));
+  EXPECT_EQ(rgb(Color_mapping{{-1, 1, 1, true}}.color(nan)), rgb(undefined_color()));
+  EXPECT_EQ(rgb(Color_mapping{{0, 1, 1, false}, Color_scale::ASINH}.color(nan)), rgb(undefined_color()));
 }
 
 TEST(Color_map, every_status_has_its_own_color_away_from_both_maps) {
@@ -235,12 +242,72 @@ TEST(Color_map, every_status_has_its_own_color_away_from_both_maps) {
     }
 }
 
-TEST(Color_map, a_range_far_wider_than_its_numbers_prefers_the_logarithmic_scale) {
+Column_numbers numbers_of(const std::vector<double>& values, const std::vector<double>& errors = {}) {
+  std::vector<bool> known;
+  for (std::size_t i = 0; i < errors.size(); ++i) known.push_back(is_known(std::abs(values[i]), errors[i]));
+  return {values, known, std::vector<double>(values.size(), 1.), 0};
+}
+
+TEST(Color_map, the_automatic_scale_is_the_first_by_which_the_median_is_not_near_white) {
   std::vector<double> values(1000, 1.0);
   for (std::size_t i = 0; i < values.size(); i += 2) values[i] = -1;
-  EXPECT_EQ(preferred_scale(color_range(values)), Color_scale::LINEAR);
+  EXPECT_EQ(numbers_of(values).mapping().scale, Color_scale::LINEAR);
+  for (std::size_t i = 0; i < 100; ++i) values[i] *= 100;
+  EXPECT_EQ(numbers_of(values).mapping().scale, Color_scale::ASINH);
   for (std::size_t i = 0; i < 100; ++i) values[i] *= 1e4;
-  EXPECT_EQ(preferred_scale(color_range(values)), Color_scale::ASINH);
+  const Color_mapping mapping = numbers_of(values).mapping();
+  EXPECT_EQ(mapping.scale, Color_scale::EQUALIZED);
+  EXPECT_GE(mapping.position(1), 0.125);
+  EXPECT_LE(mapping.position(-1), -0.125);
+}
+
+TEST(Color_map, zero_is_the_middle_by_every_scale) {
+  std::vector<double> values(1000, 0.);
+  for (std::size_t i = 0; i < 300; ++i) values[i] = (i % 2 == 0 ? 1 : -1) * std::pow(1.1, double(i));
+  const Color_mapping mapping = numbers_of(values).mapping();
+  for (const Color_scale scale : {Color_scale::LINEAR, Color_scale::ASINH, Color_scale::EQUALIZED})
+    EXPECT_EQ((Color_mapping{mapping.range, scale, mapping.equalization}.position(0)), 0);
+}
+
+TEST(Color_map, equalized_numbers_have_the_rank_of_their_sign_by_area) {
+  std::vector<Weighted_number> numbers;
+  for (int i = 1; i <= 640; ++i) numbers.push_back({std::pow(2., i), 1});
+  for (int i = 1; i <= 64; ++i) numbers.push_back({-double(i), 10});
+  const Equalization equalization(numbers);
+  EXPECT_EQ(equalization(0), 0);
+  EXPECT_DOUBLE_EQ(equalization(std::pow(2., 320)), 0.5);
+  EXPECT_DOUBLE_EQ(equalization(-32), -0.5);
+  EXPECT_EQ(equalization(infinity), 1);
+  EXPECT_EQ(equalization(-1e300), -1);
+  const Equalization of_areas({{1, 3}, {2, 1}, {3, 4}});
+  EXPECT_LT(of_areas(1), of_areas(2));
+  EXPECT_LT(of_areas(2), of_areas(3));
+  EXPECT_NEAR(of_areas(2), 7. / 16, 1. / 64) << "the middle of the areas from 3/8 to 1/2";
+}
+
+TEST(Color_map, equalized_places_are_monotone_also_among_equal_numbers) {
+  const Equalization equalization({{5, 1}, {5, 1}, {5, 1}, {7, 1}, {-2, 1}});
+  double previous = -1;
+  for (double x = -3; x <= 8; x += 0.01) {
+    const double place = equalization(x);
+    EXPECT_GE(place, previous) << x;
+    previous = place;
+  }
+  EXPECT_GT(equalization(5), equalization(4.9));
+}
+
+TEST(Color_map, numbers_in_doubt_do_not_count_beside_known_ones) {
+  std::vector<double> values = integers(1, 1000), errors(1000, 0.1);
+  const Color_mapping known = numbers_of(values, errors).mapping();
+  for (int i = 0; i < 500; ++i) {
+    values.push_back(-1e9);
+    errors.push_back(1e9);
+  }
+  const Column_numbers numbers = numbers_of(values, errors);
+  EXPECT_EQ(numbers.mapping(), known);
+  EXPECT_DOUBLE_EQ(numbers.part_unknown(), 1. / 3);
+  const std::vector<double> unknown(1500, 1e10);
+  EXPECT_EQ(numbers_of(values, unknown).mapping(), numbers_of(values).mapping()) << "if none is known, all count";
 }
 
 } // namespace

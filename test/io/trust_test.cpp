@@ -39,6 +39,21 @@ TEST(Trust, numbers_smaller_than_their_errors_are_not_shown_first_nor_what_is_ma
   EXPECT_EQ(first_of({gaussian, affine, errors({infinity, nan, 0.1})}), "gaussian_curvature");
 }
 
+TEST(Trust, errors_are_parts_of_sizes_that_are_not_zero_where_curvatures_change_their_sign) {
+  const Vertex_attributes::Column K = {"affine_gaussian_curvature", {0.1, 0, -0.1}},
+                                  H = {"affine_mean_curvature", {1, 1, 1}};
+  EXPECT_EQ(first_of({gaussian, K, H, errors({0.4, 0.4, 0.4})}), "affine_gaussian_curvature");
+  EXPECT_EQ(first_of({gaussian, K, H, errors({0.6, 0.6, 0.6})}), "gaussian_curvature");
+  const Vertex_attributes::Column angle = {"affine_normal_angle", {2, 3, 4}},
+                                  error = {"affine_normal_angle_error", {14, 14, 16}};
+  EXPECT_EQ(first_of({K, H, errors({6, 6, 6}), angle, error}), "affine_normal_angle");
+}
+
+TEST(Trust, errors_of_vectors_are_no_quantities) {
+  const Vertex_attributes::Column error = {"affine_normal_error", {1, 1, 1}}, x = {"affine_normal_x", {1, 0, 0}};
+  EXPECT_TRUE(first_of({x, error}) == "plain");
+}
+
 TEST(Trust, a_sentence_says_which_numbers_are_unknown_at_most_vertices) {
   Vertex_attributes attributes;
   attributes.columns = {gaussian, affine, errors({0.1, 5, 7})};
@@ -74,11 +89,11 @@ TEST(Trust, a_column_without_numbers_is_not_shown_first) {
 TEST(Trust, a_color_is_in_doubt_by_the_share_of_the_bar_that_the_error_takes) {
   const Color_range diverging = {-4, 4, 1, true}, sequential = {0, 8, 1, false};
   for (const Color_range& range : {diverging, sequential}) {
-    EXPECT_EQ(color_doubt(2, 0, range, Color_scale::LINEAR), 0);
-    EXPECT_DOUBLE_EQ(color_doubt(2, 1, range, Color_scale::LINEAR), 0.5);
-    EXPECT_EQ(color_doubt(2, 2, range, Color_scale::LINEAR), 1);
-    EXPECT_EQ(color_doubt(2, std::numeric_limits<double>::infinity(), range, Color_scale::LINEAR), 1);
-    EXPECT_EQ(color_doubt(100, 50, range, Color_scale::LINEAR), 0) << "the whole interval has the end color";
+    EXPECT_EQ(color_doubt(2, 0, Color_mapping{range}), 0);
+    EXPECT_DOUBLE_EQ(color_doubt(2, 1, Color_mapping{range}), 0.5);
+    EXPECT_EQ(color_doubt(2, 2, Color_mapping{range}), 1);
+    EXPECT_EQ(color_doubt(2, std::numeric_limits<double>::infinity(), Color_mapping{range}), 1);
+    EXPECT_EQ(color_doubt(100, 50, Color_mapping{range}), 0) << "the whole interval has the end color";
   }
 }
 

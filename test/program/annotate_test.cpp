@@ -18,9 +18,13 @@ using Json = nlohmann::json;
 
 const std::string basic_names = "nx,ny,nz,k1,k2,gaussian_curvature,mean_curvature,conormal_x,conormal_y,conormal_z,"
                                 "affine_normal_x,affine_normal_y,affine_normal_z,affine_gaussian_curvature,"
-                                "affine_mean_curvature,pick_invariant",
-                  error_names = "affine_gaussian_curvature_error,affine_mean_curvature_error",
-                  noise_names = "affine_gaussian_curvature_noise,affine_mean_curvature_noise";
+                                "affine_mean_curvature,pick_invariant,affine_normal_angle,affine_area_density",
+                  error_names = "affine_gaussian_curvature_error,affine_mean_curvature_error,pick_invariant_error,"
+                                "affine_normal_error,affine_normal_angle_error,affine_area_density_error,"
+                                "conormal_error,normal_error,gaussian_curvature_error,mean_curvature_error,k1_error,"
+                                "k2_error",
+                  noise_names = "affine_gaussian_curvature_noise,affine_mean_curvature_noise,"
+                                "affine_gaussian_curvature_detail,affine_mean_curvature_detail";
 
 /// The surface is none of those that polynomials of the fits contain.
 const Arguments surface = {"--function", "x^2 + y^2/2 + z^2 + sin(x*y)/5 = 2", "--box", "-3", "3", "-3", "3", "-3",
@@ -145,7 +149,9 @@ TEST_F(Program_annotate, attributes_can_be_chosen) {
   EXPECT_EQ(header({"--attributes", "affine_mean_curvature_noise"}), "x,y,z,affine_mean_curvature_noise,status");
   EXPECT_EQ(header({"--attributes", "k1,affine_gaussian_curvature_error"}),
             "x,y,z,k1,affine_gaussian_curvature_error,status");
-  EXPECT_TRUE(header({"--attributes", "all"}).ends_with("metric_zz," + error_names + "," + noise_names + ",status"));
+  EXPECT_TRUE(header({"--attributes", "all"})
+                  .ends_with("metric_zz,affine_normal_angle,affine_area_density," + error_names + "," + noise_names +
+                             ",status"));
   expect_error({"annotate", "in.ply", "-o", "out.ply", "--attributes", "signature"}, {"--attributes", "'signature'"});
 }
 
@@ -165,7 +171,10 @@ TEST_F(Program_annotate, scale_noise_and_degree_are_obeyed) {
     run(Arguments{"annotate", "in.ply", "-o", "out.ply", "--stats", "stats.json"} + choice);
     return Json::parse(file("stats.json")).at("fit");
   };
-  EXPECT_NEAR(fit({"--scale", "2"}).at("scales").at("median"), 2, 1e-12);
+  EXPECT_TRUE(fit({}).at("scale").is_null());
+  EXPECT_NEAR(fit({"--scale", "1.2"}).at("scales").at("median"), 1.2, 1e-12);
+  EXPECT_EQ(fit({"--scale", "1.2"}).at("scale"), 1.2);
+  EXPECT_TRUE(fit({"--scale", "none"}).at("scale").is_null());
   EXPECT_NEAR(fit({"--noise", "0.0001"}).at("noise"), 0.0001, 1e-16);
   const Json chosen = fit({"--scale", "auto", "--degree", "auto", "--noise", "auto"});
   const std::string by_data = file("out.ply");
@@ -214,8 +223,18 @@ TEST_F(Program_annotate, statistics_say_what_was_fitted) {
   EXPECT_LE(fit.at("below_10"), fit.at("below_20"));
   EXPECT_LE(fit.at("below_20"), fit.at("below_50"));
   EXPECT_LE(fit.at("below_50"), 1.);
+  EXPECT_EQ(fit.at("known").at("affine_gaussian_curvature").at("below_20"), fit.at("below_20"));
+  EXPECT_GE(fit.at("known").at("affine_area_density").at("below_20"), fit.at("below_20"));
+  EXPECT_NE(out.find("known to 20 / 50 % at so many %: K "), std::string::npos) << out;
   EXPECT_NE(out.find("wrote out.ply\nwrote stats.json\n"), std::string::npos) << out;
   EXPECT_NE(out.find("Euler characteristic 2, closed"), std::string::npos) << out;
+}
+
+TEST_F(Program_annotate, a_scale_that_is_too_large_or_too_small_is_refused) {
+  make_surface("in.ply");
+  expect_error({"annotate", "in.ply", "-o", "out.ply", "--scale", "180"}, {"--scale", "180", "third", "give at most"});
+  expect_error({"annotate", "in.ply", "-o", "out.ply", "--scale", "0.01"}, {"--scale", "0.01", "give at least"});
+  expect_error({"mesh", "--fit", "in.ply", "-o", "out.ply", "--scale", "180"}, {"--scale", "180", "give at most"});
 }
 
 TEST_F(Program_annotate, any_number_of_threads_gives_the_same_bytes) {

@@ -36,6 +36,7 @@ const std::string basic_names = "nx,ny,nz,k1,k2,gaussian_curvature,mean_curvatur
 const std::string further_names =
     "affine_k1,affine_k2,direction1_x,direction1_y,direction1_z,direction2_x,direction2_y,"
     "direction2_z,metric_xx,metric_xy,metric_xz,metric_yy,metric_yz,metric_zz";
+const std::string later_basic_names = "affine_normal_angle,affine_area_density";
 
 Arguments operator+(Arguments first, const Arguments& second) {
   first.insert(first.end(), second.begin(), second.end());
@@ -194,9 +195,9 @@ TEST_F(Program_command_line, a_PLY_has_the_names_of_the_contract_in_order) {
   std::string names;
   for (const std::string& line : split(header, '\n'))
     if (line.starts_with("property double ")) names += line.substr(16) + ",";
-  EXPECT_EQ(names, "x,y,z," + basic_names + "," + further_names + ",");
+  EXPECT_EQ(names, "x,y,z," + basic_names + "," + further_names + "," + later_basic_names + ",");
   EXPECT_TRUE(header.starts_with("ply\nformat binary_little_endian 1.0\n"));
-  EXPECT_NE(header.find("metric_zz\nproperty uchar status\nelement face "), std::string::npos);
+  EXPECT_NE(header.find("affine_area_density\nproperty uchar status\nelement face "), std::string::npos);
   EXPECT_TRUE(header.ends_with("\nproperty list uchar int vertex_indices\n"));
 }
 
@@ -205,8 +206,9 @@ TEST_F(Program_command_line, attributes_can_be_chosen) {
     run_well(Arguments{"mesh", "-o", "s.csv", "--resolution", "4"} + sphere + choice);
     return split(file("s.csv"), '\n').at(0);
   };
-  EXPECT_EQ(header({}), "x,y,z," + basic_names + ",status");
-  EXPECT_EQ(header({"--attributes", "all"}), "x,y,z," + basic_names + "," + further_names + ",status");
+  EXPECT_EQ(header({}), "x,y,z," + basic_names + "," + later_basic_names + ",status");
+  EXPECT_EQ(header({"--attributes", "all"}),
+            "x,y,z," + basic_names + "," + further_names + "," + later_basic_names + ",status");
   EXPECT_EQ(header({"--attributes", "none"}), "x,y,z");
   EXPECT_EQ(header({"--attributes", "k2,normal"}), "x,y,z,nx,ny,nz,k2,status");
 }
@@ -352,7 +354,7 @@ TEST_F(Program_command_line, standard_output_carries_one_file_and_nothing_else) 
 
 TEST_F(Program_command_line, a_page_is_made_with_the_mesh_or_from_it_later) {
   run_well(Arguments{"mesh", "-o", "s.ply", "--html", "s.html", "--resolution", "8", "--color", "k1"} + sphere);
-  run_well({"view", "s.ply", "-o", "later.html", "--color", "k1"});
+  run_well({"view", "s.ply", "-o", "later.html", "--color", "k1", "--up", "z"});
   const std::string page = file("s.html"), later = file("later.html");
   const auto data = [](const std::string& text) {
     const std::size_t begin = text.find("<script type=\"application/json\"");
@@ -643,8 +645,41 @@ TEST_F(Program_command_line, any_axis_may_point_up_on_a_page) {
   EXPECT_NE(file("usual.html").find("\"up\":[0,0,1]"), std::string::npos);
   run_well(Arguments{"mesh", "-o", "s.ply", "--html", "s.html", "--resolution", "8", "--up", "y"} + sphere);
   EXPECT_NE(file("s.html").find("\"up\":[0,1,0]"), std::string::npos);
+  run_well({"view", "s.ply", "-o", "guessed.html"});
+  EXPECT_NE(file("guessed.html").find("\"up\":[0,1,0]"), std::string::npos) << "a ball stands on nothing";
   run_well({"view", "s.ply", "-o", "later.html", "--up", "x"});
   EXPECT_NE(file("later.html").find("\"up\":[1,0,0]"), std::string::npos);
+}
+
+TEST_F(Program_command_line, a_page_can_have_the_colors_of_another_page_or_of_a_mesh) {
+  const auto mapping_of = [&](const std::string& page) { // range, scale and ranks of the affine Gaussian curvature
+    const std::string text = file(page), begin = "<script type=\"application/json\" id=\"facts\">";
+    const auto at = text.find(begin) + begin.size();
+    const Json facts = Json::parse(text.substr(at, text.find("</script>", at) - at));
+    for (const Json& column : facts.at("columns"))
+      if (column.at("name") == "affine_gaussian_curvature") {
+        const Json& ranges = column.at("ranges");
+        return Json{ranges.at(ranges.size() == 1 ? 0 : 5), column.at("knots")};
+      }
+    return Json();
+  };
+  const Arguments torus = {
+      "--function", "(sqrt(x^2+y^2)-0.5)^2 + z^2 - 0.04", "--box", "-1", "1", "-1", "1", "-1", "1", "--resolution",
+      "24"};
+  run_well(Arguments{"mesh", "-o", "t.ply", "--html", "t.html"} + torus);
+  run_well(Arguments{"mesh", "-o", "s.ply", "--html", "own.html", "--resolution", "8"} + sphere);
+  for (const char* other : {"t.html", "t.ply"}) {
+    run_well({"view", "s.ply", "-o", "s.html", "--range-of", other});
+    EXPECT_EQ(mapping_of("s.html"), mapping_of("t.html")) << other;
+  }
+  EXPECT_NE(mapping_of("own.html"), mapping_of("t.html"));
+}
+
+TEST_F(Program_command_line, the_scale_of_colors_can_be_chosen) {
+  run_well(Arguments{"mesh", "-o", "s.ply", "--html", "s.html", "--resolution", "8"} + sphere);
+  EXPECT_NE(file("s.html").find("\"scale\":\"auto\""), std::string::npos);
+  run_well({"view", "s.ply", "-o", "equal.html", "--colors", "equalized"});
+  EXPECT_NE(file("equal.html").find("\"range\":null,\"scale\":\"equalized\""), std::string::npos);
 }
 
 TEST_F(Program_command_line, a_run_that_is_interrupted_leaves_nothing_behind) {

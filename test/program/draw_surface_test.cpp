@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture/draw_surface.h"
+#include <equiaffine/io/Parabolic_parts.h>
 
 #include <gtest/gtest.h>
 
@@ -7,8 +8,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace {
@@ -17,7 +20,7 @@ using namespace equiaffine;
 using Vector = Kernel::Vector_3;
 using Mesh = Indexed_triangle_mesh_3<Kernel>;
 
-const Surface_view small = {{}, {0, 0, 1}, {101, 101}, {}, {}};
+const Surface_view small = {{}, {0, 0, 1}, {101, 101}, {}, {}, {}, {}};
 
 /// A square that faces the eye of the first view.
 Mesh facing_square() {
@@ -63,9 +66,9 @@ TEST(Program_draw_surface, numbers_have_the_colors_and_the_range_of_the_page) {
   const auto drawn = draw_surface(facing_square(), attributes, small);
   ASSERT_TRUE(drawn.legend);
   EXPECT_EQ(drawn.legend->label, "Mean curvature, length^-1");
-  EXPECT_EQ(drawn.legend->range, color_range({-1, -1, 3, 3}));
+  EXPECT_EQ(drawn.legend->mapping.range, color_range({-1, -1, 3, 3}));
   const std::size_t row = (101 - legend_height) / 2; // the middle of the square
-  expect_near(middle(drawn.picture, row), shaded(map_color(1, drawn.legend->range)));
+  expect_near(middle(drawn.picture, row), shaded(drawn.legend->mapping.color(1)));
 }
 
 TEST(Program_draw_surface, a_range_can_be_given) {
@@ -75,7 +78,7 @@ TEST(Program_draw_surface, a_range_can_be_given) {
   options.range = {{-10, 10}};
   const auto drawn = draw_surface(facing_square(), attributes, options);
   ASSERT_TRUE(drawn.legend);
-  EXPECT_TRUE(drawn.legend->range.is_diverging);
+  EXPECT_TRUE(drawn.legend->mapping.range.is_diverging);
   expect_near(middle(drawn.picture, (101 - legend_height) / 2), shaded(diverging_color(0.5)));
   options.range = {{0, 10}};
   expect_near(middle(draw_surface(facing_square(), attributes, options).picture, (101 - legend_height) / 2),
@@ -92,7 +95,9 @@ TEST(Program_draw_surface, what_has_no_number_has_the_color_of_its_status) {
   expect_near(middle(draw_surface(facing_square(), attributes, options).picture, row), shaded(undefined_color()));
   attributes.status.emplace(4, Point_status::PARABOLIC);
   expect_near(middle(draw_surface(facing_square(), attributes, options).picture, row),
-              shaded(status_color(Point_status::PARABOLIC)));
+              shaded(parabolic_region_color()));
+  attributes.columns[0].values = {1, 1, 1, 1};
+  EXPECT_TRUE(draw_surface(facing_square(), attributes, options).notes.empty()) << "a number that exists is shown";
 }
 
 TEST(Program_draw_surface, a_number_that_is_infinite_on_a_curve_does_not_pass_through_zero) {
@@ -138,6 +143,77 @@ TEST(Program_draw_surface, a_parabolic_vertex_has_a_line_and_no_share_of_the_tri
   EXPECT_GT(numbers, 15u);
 }
 
+/// A square of 6 x 6 vertices that faces the eye, with an affine curvature of 5 where it exists.
+struct Grid {
+  static constexpr std::size_t side = 6;
+  Mesh mesh;
+  Vertex_attributes attributes;
+
+  Grid() {
+    const Mesh square = facing_square();
+    const Vector right = square.points[1] - square.points[0], up = square.points[3] - square.points[0];
+    for (std::size_t i = 0; i < side * side; ++i)
+      mesh.points.push_back(square.points[0] + double(i % side) / (side - 1) * right +
+                            double(i / side) / (side - 1) * up);
+    for (std::uint32_t j = 0; j + 1 < side; ++j)
+      for (std::uint32_t i = 0; i + 1 < side; ++i) {
+        const std::uint32_t a = std::uint32_t(side) * j + i, b = a + 1, c = a + std::uint32_t(side), d = c + 1;
+        mesh.triangles.push_back({a, b, d});
+        mesh.triangles.push_back({a, d, c});
+      }
+    attributes.columns = {{"affine_gaussian_curvature", std::vector<double>(side * side, 5)},
+                          {"gaussian_curvature", std::vector<double>(side * side, -1)}};
+    attributes.status.emplace(side * side, Point_status::REGULAR);
+  }
+
+  void make_parabolic(std::size_t vertex) {
+    attributes.columns[0].values[vertex] = std::numeric_limits<double>::quiet_NaN();
+    attributes.columns[1].values[vertex] = 1e-9;
+    (*attributes.status)[vertex] = Point_status::PARABOLIC;
+  }
+};
+
+TEST(Program_draw_surface, a_parabolic_vertex_amid_regular_ones_is_no_spot) {
+  Grid grid;
+  const auto without = draw_surface(grid.mesh, grid.attributes, small);
+  grid.make_parabolic(14);
+  const auto drawn = draw_surface(grid.mesh, grid.attributes, small);
+  EXPECT_TRUE(drawn.notes.empty());
+  EXPECT_EQ(drawn.picture.rgb, without.picture.rgb);
+}
+
+TEST(Program_draw_surface, a_parabolic_region_is_tinted_without_a_line_around_it) {
+  Grid grid;
+  for (std::size_t i = 0; i < Grid::side * Grid::side; ++i)
+    if (i % Grid::side < 3) grid.make_parabolic(i);
+  const auto drawn = draw_surface(grid.mesh, grid.attributes, small);
+  ASSERT_EQ(drawn.notes.size(), 1u);
+  EXPECT_EQ(drawn.notes[0].text, parabolic_region_text);
+  EXPECT_EQ(drawn.notes[0].color, parabolic_region_color());
+  const std::size_t row = (101 - legend_height - note_height) / 2;
+  const auto at = [&](std::size_t column) {
+    const unsigned char* const first = &drawn.picture.rgb[3 * (row * 101 + column)];
+    return std::array<int, 3>{first[0], first[1], first[2]};
+  };
+  expect_near(at(47), shaded(parabolic_region_color()));
+  expect_near(at(55), shaded(sequential_color(0.5)));
+}
+
+TEST(Program_draw_surface, a_picture_can_have_the_colors_of_another) {
+  Vertex_attributes attributes;
+  attributes.columns = {{"k1", {5, 5, 5, 5}}};
+  Surface_view options = small;
+  const Equalization equalization({{1, 1}, {2, 1}, {5, 1}, {9, 1}, {-1, 1}});
+  options.mappings = {{"k1", {{-9, 9, 1, true}, Color_scale::EQUALIZED, equalization}}};
+  const auto drawn = draw_surface(facing_square(), attributes, options);
+  EXPECT_EQ(drawn.legend->mapping, options.mappings.at("k1"));
+  expect_near(middle(drawn.picture, (101 - legend_height) / 2),
+              shaded(diverging_color(equalization(5) / equalization(9))));
+  options.scale = Color_scale::LINEAR;
+  expect_near(middle(draw_surface(facing_square(), attributes, options).picture, (101 - legend_height) / 2),
+              shaded(diverging_color(5. / 9)));
+}
+
 std::ptrdiff_t green_pixels(const Picture& picture) {
   std::ptrdiff_t result = 0;
   for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
@@ -169,15 +245,15 @@ TEST(Program_draw_surface, colors_that_show_no_number_have_notes_and_no_bar) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   using enum Point_status;
   Vertex_attributes attributes;
-  attributes.columns = {{"affine_gaussian_curvature", {nan, nan, nan, nan}}, {"gaussian_curvature", {0, 0, 0, nan}}};
+  attributes.columns = {{"affine_gaussian_curvature", {nan, nan, nan, nan}}};
   attributes.status = {PARABOLIC, PARABOLIC, PARABOLIC, OUTSIDE};
-  for (const char* name : {"", "affine_gaussian_curvature", "status"}) {
+  for (const char* name : {"affine_gaussian_curvature", "status"}) {
     Surface_view options = small;
     options.color = name;
     const auto drawn = draw_surface(facing_square(), attributes, options);
     EXPECT_FALSE(drawn.legend) << name;
     ASSERT_EQ(drawn.notes.size(), 2u) << name;
-    EXPECT_EQ(drawn.notes[0].text, "parabolic");
+    EXPECT_EQ(drawn.notes[0].text, std::string(name) == "status" ? "parabolic" : parabolic_region_text);
     EXPECT_EQ(drawn.notes[1].text, "outside");
     EXPECT_EQ(drawn.notes[1].color, status_color(OUTSIDE));
   }

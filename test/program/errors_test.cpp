@@ -492,10 +492,26 @@ TEST_F(Program_errors, a_page_shows_what_the_mesh_has) {
   before_ = names();
   expect_error({"view", "in.ply", "-o", "o.html", "--color", "affine_k1"},
                {"--color", "'affine_k1'", "mean_curvature"});
-  expect_error({"view", "in.ply", "-o", "o.html", "--up", "w"}, {"--up", "'w'", "x or y or z"});
+  expect_error({"view", "in.ply", "-o", "o.html", "--up", "w"}, {"--up", "'w'", "x or y or z or auto"});
   for (const char* option : {"--color", "--up"})
     expect_error(mesh_of("x") + box + Arguments{option, "x"}, {option, "page", "--html", "--png"});
+  expect_error(mesh_of("x") + box + Arguments{"--colors", "linear"}, {"--colors", "page", "--html", "--png"});
+  expect_error({"view", "in.ply", "-o", "o.html", "--colors", "red"}, {"--colors", "'red'", "equalized"});
   expect_error({"view", "in.ply"}, {"no output", "-o PAGE.html", "--png"});
+}
+
+TEST_F(Program_errors, colors_come_from_a_page_or_a_mesh) {
+  run_well(Arguments{"mesh", "--function", "x", "--resolution", "3", "-o", "in.ply"} + box);
+  run_well(Arguments{"mesh", "--function", "x", "--resolution", "3", "-o", "few.ply", "--attributes", "k1"} + box);
+  write_file(folder_ / "other.html", "<html></html>");
+  before_ = names();
+  const Arguments view = {"view", "in.ply", "-o", "o.html", "--color", "mean_curvature", "--range-of"};
+  expect_error(view + Arguments{"other.html"}, {"'other.html'", "no ranges of colors", "page"});
+  expect_error(view + Arguments{"none.html"}, {"'none.html'"});
+  expect_error(view + Arguments{"in.off"}, {"--range-of", "'in.off'", ".html", ".ply"});
+  expect_error(view + Arguments{"few.ply"}, {"--range-of", "'few.ply'", "'mean_curvature'", "--color"});
+  expect_error(view + Arguments{"in.ply", "--range", "1", "2"}, {"--range-of", "--range", "leave one"});
+  expect_error(view + Arguments{"o.html"}, {"'o.html'", "would replace"});
 }
 
 #ifdef EQUIAFFINE_WITH_VTK

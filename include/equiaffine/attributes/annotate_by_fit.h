@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_ANNOTATE_BY_FIT_H
 #define EQUIAFFINE_ATTRIBUTES_ANNOTATE_BY_FIT_H
 
+#include <equiaffine/attributes/error_table.h>
 #include <equiaffine/attributes/internal/Property_maps.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/fitted_structures.h>
@@ -12,13 +13,14 @@
 
 #include <cstddef>
 #include <ranges>
+#include <string>
 #include <vector>
 
 namespace equiaffine {
 
 /// Fills property maps of the vertices of `mesh` with the local structure of the surface that the vertices are samples
-/// of, as `fitted_structures` finds it: the maps that `annotate` with a function fills, and the estimates of errors
-/// `v:affine_gaussian_curvature_error`, `v:affine_mean_curvature_error`, `v:affine_gaussian_curvature_noise` and
+/// of, as `fitted_structures` finds it: the maps that `annotate` with a function fills, the estimates `v:NAME_error` of
+/// the errors of all NAMEs in error_table.h, and `v:affine_gaussian_curvature_noise` and
 /// `v:affine_mean_curvature_noise`. Named parameters: `noise`, `scale`, `degree`, `orientation`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Point, class Parameters = internal::No_parameters>
 void annotate_by_fit(CGAL::Surface_mesh<Point>& mesh, const Parameters& parameters = {}) {
@@ -27,16 +29,16 @@ void annotate_by_fit(CGAL::Surface_mesh<Point>& mesh, const Parameters& paramete
   using Maps = internal::Property_maps<Mesh>;
   const std::vector<Fitted_structure_3<double>> structures = fitted_structures<ConcurrencyTag>(mesh, parameters);
   Maps maps(mesh);
-  auto gaussian_error = Maps::template add<double>(mesh, "affine_gaussian_curvature_error");
-  auto mean_error = Maps::template add<double>(mesh, "affine_mean_curvature_error");
+  std::vector<typename Mesh::template Property_map<typename Mesh::Vertex_index, double>> errors;
+  for (const auto& row : error_table<double>)
+    errors.push_back(Maps::template add<double>(mesh, std::string(row.attribute) + "_error"));
   auto gaussian_noise = Maps::template add<double>(mesh, "affine_gaussian_curvature_noise");
   auto mean_noise = Maps::template add<double>(mesh, "affine_mean_curvature_noise");
   std::size_t i = 0;
   for (const auto v : mesh.vertices()) {
     const auto& s = structures[i++];
     maps.set(v, s.structure);
-    gaussian_error[v] = s.error.gaussian_curvature;
-    mean_error[v] = s.error.mean_curvature;
+    for (std::size_t n = 0; n < errors.size(); ++n) errors[n][v] = error_table<double>[n].get(s.error);
     gaussian_noise[v] = s.noise.gaussian_curvature;
     mean_noise[v] = s.noise.mean_curvature;
   }

@@ -4,10 +4,13 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_ATTRIBUTE_TABLE_H
 #define EQUIAFFINE_ATTRIBUTES_ATTRIBUTE_TABLE_H
 
+#include <equiaffine/attributes/quantity_meanings.h>
 #include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/geometry/affine_area_density.h>
 #include <equiaffine/geometry/affine_frame.h>
 #include <equiaffine/geometry/euclidean_structure.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -28,10 +31,12 @@ struct Quantity {
   std::string_view label;  ///< if it is empty, people read the name of the attribute
   std::string_view symbol; ///< UTF-8
   std::string_view group;
-  int weight = 0;      ///< under p -> s p the number is multiplied by s^(weight / 2)
-  int rank = unranked; ///< attributes with smaller ranks are offered first
+  int weight = 0;                          ///< under p -> s p the number is multiplied by s^(weight / 2)
+  int rank = unranked;                     ///< attributes with smaller ranks are offered first
+  bool exists_at_parabolic_points = false; ///< said of an affine one, most of which do not
+  std::string_view meaning = {};           ///< what it is, and what red (positive) and blue (negative) mean
 
-  static constexpr int unranked = 10; ///< offered after all others, in the order of the columns
+  static constexpr int unranked = 12; ///< offered after all others, in the order of the columns
 };
 
 /// A scalar, or a vector or form with several components.
@@ -59,48 +64,12 @@ struct Attribute_row {
 
 // clang-format off
 
-/// All attributes in the order of the columns of a file.
+/// The attributes of frames, and norms of gradients, which are computed by name only.
 template <class FT>
-inline constexpr auto attribute_table = [] {
+inline constexpr auto attribute_table_of_frames = [] {
   using namespace attribute_lists;
   using Row = Attribute_row<FT>;
   return std::array{
-      Row{"normal", {"nx", "ny", "nz"}, basic, [](const auto& s, auto i) { return s.euclidean.normal[i]; }},
-      Row{"k1", {}, basic, [](const auto& s, auto) { return s.euclidean.k1; },
-          {"Principal curvature 1", "k₁", "Euclidean", -2, 8}},
-      Row{"k2", {}, basic, [](const auto& s, auto) { return s.euclidean.k2; },
-          {"Principal curvature 2", "k₂", "Euclidean", -2, 9}},
-      Row{"gaussian_curvature", {}, basic, [](const auto& s, auto) { return s.euclidean.gaussian_curvature; },
-          {"Gaussian curvature", "Kₑ", "Euclidean", -4, 7}},
-      Row{"mean_curvature", {}, basic, [](const auto& s, auto) { return s.euclidean.mean_curvature; },
-          {"Mean curvature", "Hₑ", "Euclidean", -2, 6}},
-      Row{"conormal", {"conormal_x", "conormal_y", "conormal_z"}, basic,
-          [](const auto& s, auto i) { return s.affine.conormal[i]; }},
-      Row{"affine_normal", {"affine_normal_x", "affine_normal_y", "affine_normal_z"}, basic,
-          [](const auto& s, auto i) { return s.affine.normal[i]; }},
-      Row{"affine_gaussian_curvature", {}, basic | signature,
-          [](const auto& s, auto) { return s.affine.gaussian_curvature; },
-          {"Affine Gaussian curvature", "K", "Affine", -6, 0}},
-      Row{"affine_mean_curvature", {}, basic | signature, [](const auto& s, auto) { return s.affine.mean_curvature; },
-          {"Affine mean curvature", "H", "Affine", -3, 1}},
-      Row{"pick_invariant", {}, basic | signature, [](const auto& s, auto) { return s.affine.pick_invariant; },
-          {"Pick invariant", "J", "Affine", -3, 2}},
-      Row{"affine_k1", {}, all, [](const auto& s, auto) { return s.affine.k1; },
-          {"Affine principal curvature 1", "κ₁", "Affine", -3, 3}},
-      Row{"affine_k2", {}, all, [](const auto& s, auto) { return s.affine.k2; },
-          {"Affine principal curvature 2", "κ₂", "Affine", -3, 4}},
-      Row{"direction1", {"direction1_x", "direction1_y", "direction1_z"}, all,
-          [](const auto& s, auto i) { return s.euclidean.direction1[i]; }},
-      Row{"direction2", {"direction2_x", "direction2_y", "direction2_z"}, all,
-          [](const auto& s, auto i) { return s.euclidean.direction2[i]; }},
-      Row{"metric", {"metric_xx", "metric_xy", "metric_xz", "metric_yy", "metric_yz", "metric_zz"}, all,
-          [](const auto& s, auto i) { return s.affine.metric[i]; }},
-      Row{"quadric_defect", {}, none, [](const auto& s, auto) { return s.affine.quadric_defect; },
-          {"Quadric defect", "|T| / |II|²", "Affine", 0, 5}},
-      Row{"shape_index", {}, none, [](const auto& s, auto) { return shape_index(s.euclidean.k1, s.euclidean.k2); },
-          {"Shape index", "s", "Euclidean", 0}},
-      Row{"curvedness", {}, none, [](const auto& s, auto) { return curvedness(s.euclidean.k1, s.euclidean.k2); },
-          {"Curvedness", "c", "Euclidean", -2}},
       Row{"affine_frame1", {"affine_frame1_x", "affine_frame1_y", "affine_frame1_z"}, none,
           [](const auto& s, auto i) { return affine_frame(s.affine).e1[i]; }},
       Row{"affine_frame2", {"affine_frame2_x", "affine_frame2_y", "affine_frame2_z"}, none,
@@ -108,15 +77,70 @@ inline constexpr auto attribute_table = [] {
       Row{"affine_frame3", {"affine_frame3_x", "affine_frame3_y", "affine_frame3_z"}, none,
           [](const auto& s, auto i) { return affine_frame(s.affine).xi[i]; }},
       Row{"affine_frame_scale", {}, none, [](const auto& s, auto) { return affine_frame(s.affine).scale; },
-          {"Scale of the affine frame", "r", "Affine", -3}},
+          {"Scale of the affine frame", "r", "Affine", -3, Quantity::unranked, false, meanings::affine_frame_scale}},
       Row{"affine_frame_quality", {}, none, [](const auto& s, auto) { return affine_frame(s.affine).quality; },
-          {"Quality of the affine frame", "q", "Affine", 0}},
+          {"Quality of the affine frame", "q", "Affine", 0, Quantity::unranked, false, meanings::affine_frame_quality}},
       Row{"affine_signature", {"affine_signature1", "affine_signature2", "affine_signature3", "affine_signature4"}, none,
           [](const auto& s, auto i) { return affine_frame(s.affine).signature[i]; }},
       Row{"affine_gaussian_curvature_gradient", {}, signature, nullptr, {}, 0},
       Row{"affine_mean_curvature_gradient", {}, signature, nullptr, {}, 1},
       Row{"pick_invariant_gradient", {}, signature, nullptr, {}, 2},
   };
+}();
+
+/// All attributes in the order of the columns of a file.
+template <class FT>
+inline constexpr auto attribute_table = [] {
+  using namespace attribute_lists;
+  using Row = Attribute_row<FT>;
+  const std::array rows = {
+      Row{"normal", {"nx", "ny", "nz"}, basic, [](const auto& s, auto i) { return s.euclidean.normal[i]; }},
+      Row{"k1", {}, basic, [](const auto& s, auto) { return s.euclidean.k1; },
+          {"Principal curvature 1", "k₁", "Euclidean", -2, 10, false, meanings::k1}},
+      Row{"k2", {}, basic, [](const auto& s, auto) { return s.euclidean.k2; },
+          {"Principal curvature 2", "k₂", "Euclidean", -2, 11, false, meanings::k2}},
+      Row{"gaussian_curvature", {}, basic, [](const auto& s, auto) { return s.euclidean.gaussian_curvature; },
+          {"Gaussian curvature", "Kₑ", "Euclidean", -4, 9, false, meanings::gaussian_curvature}},
+      Row{"mean_curvature", {}, basic, [](const auto& s, auto) { return s.euclidean.mean_curvature; },
+          {"Mean curvature", "Hₑ", "Euclidean", -2, 8, false, meanings::mean_curvature}},
+      Row{"conormal", {"conormal_x", "conormal_y", "conormal_z"}, basic,
+          [](const auto& s, auto i) { return s.affine.conormal[i]; }},
+      Row{"affine_normal", {"affine_normal_x", "affine_normal_y", "affine_normal_z"}, basic,
+          [](const auto& s, auto i) { return s.affine.normal[i]; }},
+      Row{"affine_gaussian_curvature", {}, basic | signature,
+          [](const auto& s, auto) { return s.affine.gaussian_curvature; },
+          {"Affine Gaussian curvature", "K", "Affine", -6, 0, false, meanings::affine_gaussian_curvature}},
+      Row{"affine_mean_curvature", {}, basic | signature, [](const auto& s, auto) { return s.affine.mean_curvature; },
+          {"Affine mean curvature", "H", "Affine", -3, 1, false, meanings::affine_mean_curvature}},
+      Row{"pick_invariant", {}, basic | signature, [](const auto& s, auto) { return s.affine.pick_invariant; },
+          {"Pick invariant", "J", "Affine", -3, 2, false, meanings::pick_invariant}},
+      Row{"affine_k1", {}, all, [](const auto& s, auto) { return s.affine.k1; },
+          {"Affine principal curvature 1", "κ₁", "Affine", -3, 5, false, meanings::affine_k1}},
+      Row{"affine_k2", {}, all, [](const auto& s, auto) { return s.affine.k2; },
+          {"Affine principal curvature 2", "κ₂", "Affine", -3, 6, false, meanings::affine_k2}},
+      Row{"direction1", {"direction1_x", "direction1_y", "direction1_z"}, all,
+          [](const auto& s, auto i) { return s.euclidean.direction1[i]; }},
+      Row{"direction2", {"direction2_x", "direction2_y", "direction2_z"}, all,
+          [](const auto& s, auto i) { return s.euclidean.direction2[i]; }},
+      Row{"metric", {"metric_xx", "metric_xy", "metric_xz", "metric_yy", "metric_yz", "metric_zz"}, all,
+          [](const auto& s, auto i) { return s.affine.metric[i]; }},
+      Row{"affine_normal_angle", {}, basic,
+          [](const auto& s, auto) { return angle_in_degrees(s.affine.normal, s.euclidean.normal); },
+          {"Angle of affine and Euclidean normal", "∠(ξ, n)", "Affine", 0, 3, false, meanings::affine_normal_angle}},
+      Row{"affine_area_density", {}, basic,
+          [](const auto& s, auto) { return affine_area_density(s.euclidean.gaussian_curvature); },
+          {"Affine area density", "|Kₑ|^¼", "Affine", -1, 4, true, meanings::affine_area_density}},
+      Row{"quadric_defect", {}, none, [](const auto& s, auto) { return s.affine.quadric_defect; },
+          {"Quadric defect", "|T| / |II|²", "Affine", 0, 7, false, meanings::quadric_defect}},
+      Row{"shape_index", {}, none, [](const auto& s, auto) { return shape_index(s.euclidean.k1, s.euclidean.k2); },
+          {"Shape index", "s", "Euclidean", 0, Quantity::unranked, false, meanings::shape_index}},
+      Row{"curvedness", {}, none, [](const auto& s, auto) { return curvedness(s.euclidean.k1, s.euclidean.k2); },
+          {"Curvedness", "c", "Euclidean", -2, Quantity::unranked, false, meanings::curvedness}},
+  };
+  std::array<Row, rows.size() + attribute_table_of_frames<FT>.size()> all_rows{};
+  std::copy(attribute_table_of_frames<FT>.begin(), attribute_table_of_frames<FT>.end(),
+            std::copy(rows.begin(), rows.end(), all_rows.begin()));
+  return all_rows;
 }();
 
 // clang-format on

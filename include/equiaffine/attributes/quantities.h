@@ -26,7 +26,7 @@ constexpr int rank_of_quantity(std::string_view name) {
 /// curve they grow without bound, unless they are zero.
 constexpr bool is_undefined_at_parabolic_points(std::string_view name) {
   const Quantity* const quantity = find_quantity(name);
-  return quantity != nullptr && quantity->group == "Affine";
+  return quantity != nullptr && quantity->group == "Affine" && !quantity->exists_at_parabolic_points;
 }
 
 /// Returns the difference below which two numbers of a column are equal up to rounding, on a surface whose box has that

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <ranges>
 #include <utility>
 #include <vector>
@@ -134,6 +135,9 @@ public:
     return internal::structure_of(jet, state_->fit, state_->blend.accuracy(place, jet),
                                   Orientation_of_level_set::ALONG_GRADIENT);
   }
+
+  /// The scale of the curvatures, in the unit of the points; nothing if they are the surface's own.
+  std::optional<double> scale() const { return state_->fit.scale(); }
 
   /// The distance of the points around the one whose foot is nearest to p, in their unit of length.
   FT spacing(const Point_3& p) const {

@@ -20,28 +20,34 @@ namespace equiaffine {
 /// facets only say which vertices are neighbors, and on which side normals are. They are those of the point of the fit
 /// that is nearest along its gradient.
 ///
-/// The data choose what to fit. Where they lie on a smooth surface, to within little, these are heights over a tangent
-/// plane, of degree up to 10, else polynomials in space (up to 6), which can go round a corner. Trials at up to 200
-/// places tell degree and radius: those whose results agree best with the next degree, and whose residuals leave the
-/// least deviation. The estimated error is 2.2 times the root of the sum of two squares: of the greatest difference to
-/// other fits there and around, and of the standard deviation of the curvature if residuals are white noise. Among the
-/// others around is the next degree of the same parity, since a shape with a center of symmetry that lies in one ball
-/// looks the same to the degrees 4 and 5, whatever they miss.
+/// Where the data resolve the surface, its own curvatures come out. The data choose what to fit: heights over a tangent
+/// plane, of degree up to 12, where they lie on a smooth surface, to within little, else polynomials in space (up to 6),
+/// which can go round a corner. Trials at up to 200 places tell degree and radius: those whose results agree best with
+/// the next degree, and whose residuals leave the least deviation. The estimated error is 2.2 times the root of the sum
+/// of two squares: of the greatest difference to other fits there and around, and of the standard deviation of the
+/// number if residuals are white noise. Among the others around is the next degree of the same parity, since a shape with
+/// a center of symmetry that lies in one ball looks the same to the degrees 4 and 5, whatever they miss. On exact data
+/// the greater degree answers, and a smaller ball tells its error.
 ///
-/// With `scale`, curvatures are by definition those of a polynomial in space of degree 4, or of `degree`, fitted within
-/// that radius: a scan has detail at every scale. Fits are made at most 0.02 of it apart.
+/// Where they do not, as on scans and coarse meshes, curvatures are sensible at a scale only, by definition those, see
+/// doc/conventions.md: of polynomials in space of degree 4, or of `degree`, fitted within 1.14 of the scale. `scale` is
+/// that scale; `scale(std::nullopt)` lets the data choose: none where they resolve the surface, else the smallest at which
+/// K is known to 20 % at half of the vertices, at most an eighth of the diagonal. Without the parameter, or with 0,
+/// curvatures are the surface's own. Fits are made at most 0.02 of the scale apart, and
+/// errors are twice the standard deviation that noise and sampling make of the numbers at that scale.
 ///
 /// A mesh that is mapped by an affine map of determinant 1 gets the same affine curvatures to within rounding, since
 /// neighborhoods are balls in coordinates in which the edges have no preferred direction. `scale` and `noise` are
 /// lengths there, divided by the factor of volumes to the power 1/3.
 ///
 /// Statuses: OUTSIDE for a vertex that no fit belongs to, since it has no faces, or fewer than some 20 vertices are
-/// connected with it. PARABOLIC for one whose K_e is zero within its estimated error, as on a plane or a cylinder; with
-/// `scale`, within rounding. At a crease a fit exists, and its error says that it means nothing.
+/// connected with it. PARABOLIC for one whose K_e is zero within its estimated error, as on a plane or a cylinder. At a
+/// crease a fit exists, and its error says that it means nothing.
 ///
-/// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
+/// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense, as a scale beyond a third
+/// of the diagonal of the data, or one within which most vertices have too few others.
 ///
-/// Takes about 0.4 ms per vertex of exact data, 3 ms of noisy ones, also at a given scale; memory is linear in the number
+/// Takes about 1 ms per vertex, also at a scale; memory is linear in the number
 /// of vertices. The numbers are the same for CGAL::Sequential_tag and CGAL::Parallel_tag. Named parameters:
 /// `vertex_point_map`, `noise`, `scale`, `degree`, `orientation`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, internal::Face_graph Graph,

@@ -2,7 +2,10 @@
 #ifndef EQUIAFFINE_IO_HTML_OPTIONS_H
 #define EQUIAFFINE_IO_HTML_OPTIONS_H
 
+#include <equiaffine/io/Color_mapping.h>
+
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +21,12 @@ struct Html_options {
   std::string color = {};
   /// The numbers of the end colors of the attribute shown first; nothing: quantiles of its numbers.
   std::optional<std::array<double, 2>> range = {};
+  /// The scale of colors for all attributes; nothing: the one that suits the numbers of each.
+  std::optional<Color_scale> scale = {};
+  /// By name, the mappings of attributes whose colors do not depend on their own numbers, as those of another page.
+  std::map<std::string, Color_mapping> mappings = {};
+  /// What follows the labels of the library's quantities, such as " at scale 0.1".
+  std::string label_suffix = {};
   /// A table that says what the surface is and how it was made.
   std::vector<std::pair<std::string, std::string>> description = {};
   /// The direction that is up in the first view and around which dragging turns.

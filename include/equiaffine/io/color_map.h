@@ -9,13 +9,16 @@
 #include <CGAL/assertions.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <string_view>
 #include <vector>
 
 /// \file
 /// The one mapping from a number to a color: every picture of this library uses it.
-/// The steps are: number -> `Color_range` of the whole column -> position on the map -> color, sRGB.
+/// The steps are: number -> `Color_range` of the whole column -> position on the map by a `Color_mapping` -> color, sRGB.
 /// The maps are straight paths in Oklab (B. Ottosson, "A perceptual color space for image processing", 2020): lightness
 /// alone, which no form of color blindness takes away, tells the order.
 
@@ -23,7 +26,8 @@ namespace equiaffine {
 
 enum class Color_scale {
   LINEAR,
-  ASINH ///< linear below `Color_range::knee`, logarithmic above, with the sign kept
+  ASINH,    ///< linear below `Color_range::knee`, logarithmic above, with the sign kept
+  EQUALIZED ///< by rank, with the sign kept: see `Color_mapping`
 };
 
 /// The numbers that get the two end colors; beyond them colors stay the same.
@@ -39,6 +43,18 @@ struct Color_range {
 /// The share of numbers, in percent, that gets an end color at each end unless said otherwise.
 inline constexpr double default_clip_percent = 2;
 
+/// The shares, in percent, that pages can clip off the range at each end.
+inline constexpr std::array<double, 12> clip_steps = {0, 0.1, 0.2, 0.5, 1, 2, 3, 5, 10, 15, 20, 25};
+
+constexpr std::string_view to_string(Color_scale scale) {
+  switch (scale) {
+  case Color_scale::ASINH: return "logarithmic";
+  case Color_scale::EQUALIZED: return "equalized";
+  case Color_scale::LINEAR: break;
+  }
+  return "linear";
+}
+
 /// The `percent`-quantile of the numbers, linear between order statistics; reorders `values`, which must not be empty.
 inline double quantile(std::vector<double>& values, double percent) {
   CGAL_precondition(!values.empty() && percent >= 0 && percent <= 100);
@@ -51,6 +67,24 @@ inline double quantile(std::vector<double>& values, double percent) {
   return *nth + (rank - double(below)) * (next - *nth);
 }
 
+/// The same of ascending numbers.
+inline double quantile_of_sorted(const std::vector<double>& sorted, double percent) {
+  CGAL_precondition(!sorted.empty() && percent >= 0 && percent <= 100);
+  const double rank = percent / 100 * double(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(rank);
+  if (below + 1 == sorted.size()) return sorted[below];
+  return sorted[below] + (rank - double(below)) * (sorted[below + 1] - sorted[below]);
+}
+
+/// The absolute values of ascending numbers, ascending.
+inline std::vector<double> sorted_magnitudes(const std::vector<double>& sorted) {
+  const auto zero = std::lower_bound(sorted.begin(), sorted.end(), 0.);
+  std::vector<double> negative(std::make_reverse_iterator(zero), sorted.rend()), result(sorted.size());
+  for (double& value : negative) value = -value;
+  std::merge(negative.begin(), negative.end(), zero, sorted.end(), result.begin());
+  return result;
+}
+
 /// The range of a column of numbers; infinities and NaNs do not count. For numbers of both signs the bounds are +-(the
 /// (100 - clip_percent)-quantile of |value|), for numbers of one sign the quantiles at clip_percent and 100 -
 /// clip_percent. A sign counts when it reaches a millionth of that largest |value|. `resolution` >= 0, in the unit of
@@ -59,51 +93,45 @@ inline double quantile(std::vector<double>& values, double percent) {
 /// noise if at least half of them are below the resolution and that largest |value| is below a thousand resolutions,
 /// since rounding grows beside a parabolic curve: their range is a billion resolutions, which is the unit of the numbers
 /// where the resolution is 1e-9 of it.
-inline Color_range color_range(std::vector<double> values, double clip_percent = default_clip_percent,
-                               double resolution = 0) {
+/// \pre `sorted` is ascending and finite, `magnitudes` has its absolute values, ascending
+inline Color_range color_range_of_sorted(const std::vector<double>& sorted, const std::vector<double>& magnitudes,
+                                         double clip_percent, double resolution) {
   CGAL_precondition(clip_percent >= 0 && clip_percent < 50 && resolution >= 0);
   constexpr double relative_resolution = 1e-6;
-  std::erase_if(values, [](double value) { return !std::isfinite(value); });
   constexpr double resolutions_of_rounding = 1e3, resolutions_of_unit = 1e9;
   const double unit = resolution > 0 ? resolutions_of_unit * resolution : 1;
   const Color_range range_of_zero = {-unit, unit, unit, true};
-  if (values.empty()) return range_of_zero;
+  if (sorted.empty()) return range_of_zero;
 
-  std::vector<double> magnitudes(values.size());
-  std::transform(values.begin(), values.end(), magnitudes.begin(), [](double value) { return std::abs(value); });
-  double largest = quantile(magnitudes, 100 - clip_percent);
-  if (largest == 0) largest = *std::max_element(magnitudes.begin(), magnitudes.end());
-  const double median = quantile(magnitudes, 50);
+  double largest = quantile_of_sorted(magnitudes, 100 - clip_percent);
+  if (largest == 0) largest = magnitudes.back();
+  const double median = quantile_of_sorted(magnitudes, 50);
   if (median <= resolution && largest <= resolutions_of_rounding * resolution) return range_of_zero;
   const double knee = std::max({median, resolution, relative_resolution * largest});
 
-  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   const double negligible = relative_resolution * largest;
-  const bool has_both_signs = -negligible > *least && negligible < *greatest;
+  const bool has_both_signs = -negligible > sorted.front() && negligible < sorted.back();
   if (has_both_signs) return {-largest, largest, knee, true};
-  const double lower = quantile(values, clip_percent);
-  const double upper = quantile(values, 100 - clip_percent);
+  const double lower = quantile_of_sorted(sorted, clip_percent);
+  const double upper = quantile_of_sorted(sorted, 100 - clip_percent);
   const double middle = lower + (upper - lower) / 2;
   const double half_width = std::max({(upper - lower) / 2, resolution, relative_resolution * std::abs(middle)});
   return {middle - half_width, middle + half_width, knee, false};
 }
 
-/// The place of a number on its map: in [-1, 1] with zero at 0 for a diverging range, otherwise in [0, 1]. Monotone;
-/// odd for a diverging range; NaN stays NaN.
-inline double map_position(double value, const Color_range& range, Color_scale scale = Color_scale::LINEAR) {
-  if (std::isnan(value)) return value;
-  const auto scaled = [&](double x) { return scale == Color_scale::LINEAR ? x : std::asinh(x / range.knee); };
-  const double clipped = std::clamp(value, range.lower, range.upper);
-  if (range.is_diverging) return scaled(clipped) / scaled(range.upper);
-  return (scaled(clipped) - scaled(range.lower)) / (scaled(range.upper) - scaled(range.lower));
+/// The same of numbers in any order.
+inline Color_range color_range(std::vector<double> values, double clip_percent = default_clip_percent,
+                               double resolution = 0) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  std::sort(values.begin(), values.end());
+  return color_range_of_sorted(values, sorted_magnitudes(values), clip_percent, resolution);
 }
 
-/// The scale that shows most of a quantity: logarithmic where the range is wider than a hundred times the typical
-/// number, as for curvatures near a parabolic curve, which would leave all else in the middle color.
-inline Color_scale preferred_scale(const Color_range& range) {
-  constexpr double widest_linear = 100;
-  const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
-  return largest > widest_linear * range.knee ? Color_scale::ASINH : Color_scale::LINEAR;
+/// A range that was typed: it depends on nothing but its bounds, so that pictures that share it can be compared.
+inline Color_range given_range(double lower, double upper) {
+  CGAL_precondition(lower < upper);
+  constexpr double knees = 100;
+  return {lower, upper, std::max(std::abs(lower), std::abs(upper)) / knees, lower == -upper};
 }
 
 /// The color of a number that does not exist.
@@ -115,6 +143,10 @@ inline CGAL::IO::Color plain_color() { return CGAL::IO::Color(201, 209, 220); }
 /// The gray of colors that say nothing, in legends: a color in doubt keeps its own lightness.
 inline CGAL::IO::Color doubt_color() { return CGAL::IO::Color(136, 136, 136); }
 
+/// The color of regions where a number does not exist because the Gaussian curvature is zero within its error: the hue of
+/// parabolic points, too pale to be taken for a curve.
+inline CGAL::IO::Color parabolic_region_color() { return CGAL::IO::Color(166, 205, 178); }
+
 /// The diverging map, for t in [-1, 1]: blue, near-white at 0, red; gray for NaN.
 inline CGAL::IO::Color diverging_color(double t) {
   CGAL_precondition(!(std::abs(t) > 1));
@@ -125,12 +157,6 @@ inline CGAL::IO::Color diverging_color(double t) {
 inline CGAL::IO::Color sequential_color(double t) {
   CGAL_precondition(!(t < 0 || t > 1));
   return std::isnan(t) ? undefined_color() : internal::color_from_linear_rgb(internal::sequential_linear_rgb(t));
-}
-
-/// The color of a number in a column with that range.
-inline CGAL::IO::Color map_color(double value, const Color_range& range, Color_scale scale = Color_scale::LINEAR) {
-  const double t = map_position(value, range, scale);
-  return range.is_diverging ? diverging_color(t) : sequential_color(t);
 }
 
 /// The color of a point by its status: hues and darkness that neither map has.

@@ -2,8 +2,9 @@
 #ifndef EQUIAFFINE_IO_TRUST_H
 #define EQUIAFFINE_IO_TRUST_H
 
+#include <equiaffine/attributes/error_table.h>
 #include <equiaffine/attributes/quantities.h>
-#include <equiaffine/io/color_map.h>
+#include <equiaffine/io/Color_mapping.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>
@@ -29,14 +30,35 @@ inline const Vertex_attributes::Column* find_errors(const Vertex_attributes& att
   return find_column(attributes, name + "_error");
 }
 
-/// Returns the part of the numbers that are not known to one digit: the estimated error is more than half of the number.
-/// It is 0 without numbers.
-inline double part_in_doubt(const std::vector<double>& numbers, const std::vector<double>& errors) {
+/// Returns whether a number is known to one digit: the estimated error is at most half of the size of the number.
+inline bool is_known(double size, double error) { return error <= size / 2; }
+
+/// Returns the numbers that errors of a column are called parts of: those of error_table.h, or the numbers themselves.
+inline std::vector<double> sizes_of_numbers(const Vertex_attributes::Column& column,
+                                            const Vertex_attributes& attributes) {
+  std::vector<double> sizes = column.values;
+  const auto *K = find_column(attributes, "affine_gaussian_curvature"),
+             *H = find_column(attributes, "affine_mean_curvature");
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (column.name == "affine_normal_angle") sizes[i] = internal::whole_angle;
+    else if (K && H && (&column == K || &column == H)) {
+      const double size = std::abs(K->values[i]) + H->values[i] * H->values[i];
+      sizes[i] = &column == K ? size : std::sqrt(size);
+    } else sizes[i] = std::abs(sizes[i]);
+  }
+  return sizes;
+}
+
+/// Returns the part of the numbers of a column that are not known to one digit: the estimated error is more than half of
+/// the size of the number. It is 0 without numbers.
+inline double part_in_doubt(const Vertex_attributes::Column& column, const std::vector<double>& errors,
+                            const Vertex_attributes& attributes) {
+  const std::vector<double> sizes = sizes_of_numbers(column, attributes);
   std::size_t unknown = 0, all = 0;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (!std::isfinite(numbers[i])) continue;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (!std::isfinite(column.values[i])) continue;
     ++all;
-    unknown += !(errors[i] <= std::abs(numbers[i]) / 2);
+    unknown += !is_known(sizes[i], errors[i]);
   }
   return all == 0 ? 0 : double(unknown) / double(all);
 }
@@ -46,7 +68,7 @@ inline std::vector<std::string> sentences_of_doubt(const Vertex_attributes& attr
   std::vector<std::string> sentences;
   for (const auto& column : attributes.columns) {
     const auto* errors = find_errors(attributes, column.name);
-    const double part = errors == nullptr ? 0 : part_in_doubt(column.values, errors->values);
+    const double part = errors == nullptr ? 0 : part_in_doubt(column, errors->values, attributes);
     if (!(part > 0.5)) continue;
     const Quantity* const quantity = find_quantity(column.name);
     sentences.push_back((quantity ? std::string(quantity->label) : column.name) + " is unknown at " +
@@ -59,7 +81,7 @@ inline std::vector<std::string> sentences_of_doubt(const Vertex_attributes& attr
 /// they are affine ones beside others that are not: they are made of the same derivatives.
 inline bool is_trusted(const Vertex_attributes::Column& column, const Vertex_attributes& attributes) {
   if (const auto* errors = find_errors(attributes, column.name))
-    return part_in_doubt(column.values, errors->values) <= 0.5;
+    return part_in_doubt(column, errors->values, attributes) <= 0.5;
   const auto is_affine = [](const auto& other) {
     const Quantity* const quantity = find_quantity(other.name);
     return quantity != nullptr && quantity->group == "Affine";
@@ -70,11 +92,14 @@ inline bool is_trusted(const Vertex_attributes::Column& column, const Vertex_att
          });
 }
 
-/// Returns whether a column is shown on request only: a component of a vector or of the metric, errors, or what
-/// noise makes of them.
+/// Returns whether a column is shown on request only: a component of a vector or of the metric, errors, or what noise
+/// or detail make of numbers. The error of a vector, an angle, has no column of that name beside it.
 inline bool is_component_or_error(const std::string& name, const Vertex_attributes& attributes) {
-  for (const std::string suffix : {"_error", "_noise"})
-    if (name.ends_with(suffix) && find_column(attributes, name.substr(0, name.size() - suffix.size()))) return true;
+  for (const std::string suffix : {"_error", "_noise", "_detail"})
+    if (name.ends_with(suffix)) {
+      const std::string of = name.substr(0, name.size() - suffix.size());
+      if (of == "normal" || find_column(attributes, of) || find_column(attributes, of + "_x")) return true;
+    }
   return name.size() > 1 && (name.ends_with("_x") || name.ends_with("_y") || name.ends_with("_z") || name == "nx" ||
                              name == "ny" || name == "nz" || name.starts_with("metric_"));
 }
@@ -102,11 +127,11 @@ inline std::string first_shown(const Vertex_attributes& attributes) {
 
 /// Returns how little the color of a number says, from 0 for an exact one to 1 if the numbers within the error take half
 /// of the color bar or more. An error that is not known is infinite.
-inline double color_doubt(double value, double error, const Color_range& range, Color_scale scale) {
+inline double color_doubt(double value, double error, const Color_mapping& mapping) {
   if (!std::isfinite(value)) return 0;
   if (!std::isfinite(error)) return 1;
-  const double span = map_position(value + error, range, scale) - map_position(value - error, range, scale);
-  return std::min(1., range.is_diverging ? span : 2 * span);
+  const double span = mapping.position(value + error) - mapping.position(value - error);
+  return std::min(1., mapping.range.is_diverging ? span : 2 * span);
 }
 
 } // namespace equiaffine

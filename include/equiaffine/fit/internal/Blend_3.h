@@ -38,7 +38,7 @@ public:
 
   template <class ConcurrencyTag>
   Blend_3(const Data_points_3& data, const Fit_choice_3& choices, ConcurrencyTag tag) {
-    auto cover = patch_cover(data, choices, reach * distance_of_centers, tag);
+    auto cover = patch_cover(data, choices, Fit_use::BLEND, reach * distance_of_centers, tag);
     std::vector<Data_points_3::Index> centers;
     for (std::size_t k = 0; k < cover.centers.size(); ++k) {
       if (!cover.fits[k]) continue;
@@ -75,23 +75,24 @@ public:
   /// these differ by orders of magnitude where K_e is about 0 for some of the fits. Where the curvatures of the expansion
   /// are larger than those of the fits, they are as uncertain relative to their own size.
   Fit_accuracy accuracy(const Vector& p, const Jet_3<double>& jet) const {
-    using Numbers = Eigen::Array<double, 7, 1>;
+    constexpr Eigen::Index n = number_of_fitted_numbers;
+    using Numbers = Eigen::Array<double, 4 * n + 1, 1>;
     Numbers sum = Numbers::Zero();
     double weights = 0, least = std::numeric_limits<double>::infinity();
     for_each_weight(p, [&](std::size_t k, double weight, double) {
-      const auto& [error, noise, radius, deviation, euclidean_error] = fits_[k].accuracy;
+      const auto& [error, noise, detail, radius, deviation] = fits_[k].accuracy;
       least = std::min(least, radius);
       Numbers numbers;
-      numbers << error.gaussian, error.mean, noise.gaussian, noise.mean, deviation, euclidean_error,
-          curvatures_of(fits_[k].patch.taylor(p)).size();
+      numbers << error, noise, detail, Fitted_numbers(fits_[k].patch.taylor(p)).sizes(), deviation;
       sum += weight * numbers.log();
       weights += weight;
     });
     Numbers mean = (sum / weights).exp();
     for (double& number : mean)
-      if (!std::isnormal(number)) number = 0; // the exponential of minus infinity is not quite 0
-    const double factor = std::max(1., mean[6] / curvatures_of(jet).size()), root = std::sqrt(factor);
-    return {{mean[0] * factor, mean[1] * root}, {mean[2] * factor, mean[3] * root}, least, mean[4], mean[5]};
+      if (number < std::numeric_limits<double>::min()) number = 0; // the exponential of minus infinity is not quite 0
+    const Number_errors factor = (mean.segment<n>(3 * n) / Fitted_numbers(jet).sizes()).max(1);
+    return {mean.segment<n>(0) * factor, mean.segment<n>(n) * factor, mean.segment<n>(2 * n) * factor, least,
+            mean[4 * n]};
   }
 
 private:

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -74,6 +73,24 @@ std::vector<T> elements_at(const std::vector<T>& elements, const std::vector<Dat
   return result;
 }
 
+/// Which points a search has met. Each thread keeps one, since a search meets few of the points.
+class Visited_points {
+public:
+  explicit Visited_points(std::size_t size) {
+    if (marks_.size() < size) marks_.resize(size, 0);
+    if (++now_ != 0) return;
+    std::fill(marks_.begin(), marks_.end(), 0);
+    now_ = 1;
+  }
+
+  /// Returns whether this is the first time.
+  bool insert(Data_points_3::Index i) { return std::exchange(marks_[i], now_) != now_; }
+
+private:
+  static inline thread_local std::vector<std::uint32_t> marks_;
+  static inline thread_local std::uint32_t now_ = 0;
+};
+
 /// Returns the points in the ball of the given radius around point `center` that are connected with it inside the ball,
 /// the center first, so that another sheet of the surface close by does not come in. A point to which `admits(i)` is
 /// false blocks the way.
@@ -81,10 +98,11 @@ template <class Admits>
 std::vector<Data_points_3::Index> connected_ball(const Data_points_3& data, Data_points_3::Index center, double radius,
                                                  Admits admits) {
   std::vector<Data_points_3::Index> ball = {center};
-  std::unordered_set<Data_points_3::Index> seen = {center};
+  Visited_points visited(data.size());
+  visited.insert(center);
   for (std::size_t k = 0; k < ball.size(); ++k)
     for (const auto j : data.neighbors_of(ball[k]))
-      if (seen.insert(j).second && (data.points[j] - data.points[center]).squaredNorm() < radius * radius && admits(j))
+      if (visited.insert(j) && (data.points[j] - data.points[center]).squaredNorm() < radius * radius && admits(j))
         ball.push_back(j);
   return ball;
 }

@@ -12,7 +12,8 @@ namespace equiaffine::internal {
 
 /// The parameters of fits that a user gave; the data decide the others.
 struct Fit_request {
-  std::optional<double> noise, scale; ///< lengths
+  std::optional<double> noise;     ///< a length
+  std::optional<double> scale = 0; ///< a length, or 0 for the surface's own curvature; nothing for one by the data
   std::optional<int> degree;
 };
 
@@ -39,8 +40,8 @@ Fit_request fit_request(const Parameters& parameters) {
   }
   if constexpr (has_parameter<Scale_tag, Parameters>) {
     request.scale = given_parameter<Scale_tag>(parameters);
-    check_argument(!request.scale || (*request.scale > 0 && std::isfinite(*request.scale)),
-                   "the scale is a length, more than 0");
+    check_argument(!request.scale || (*request.scale >= 0 && std::isfinite(*request.scale)),
+                   "the scale is a length, or 0 for the surface's own curvature");
   }
   if constexpr (has_parameter<Degree_tag, Parameters>) {
     request.degree = given_parameter<Degree_tag>(parameters);

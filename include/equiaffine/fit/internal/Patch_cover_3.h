@@ -26,12 +26,13 @@ struct Patch_cover_3 {
 
 /// Chooses centers in random order, unless another is nearer than `part` of the radius of its fit, and fits there.
 template <class ConcurrencyTag>
-Patch_cover_3 patch_cover(const Data_points_3& data, const Fit_choice_3& choices, double part, ConcurrencyTag) {
+Patch_cover_3 patch_cover(const Data_points_3& data, const Fit_choice_3& choices, Fit_use use, double part,
+                          ConcurrencyTag) {
   using Index = Data_points_3::Index;
   Patch_cover_3 cover;
   cover.nearest.assign(data.size(), Patch_cover_3::none);
   std::vector<double> squares(data.size(), std::numeric_limits<double>::infinity());
-  std::vector<std::optional<Fit_choice_3::Choice>> choice(data.size());
+  std::vector<std::optional<Fit_choice>> choice(data.size());
   parallel_for<ConcurrencyTag>(
       0, data.size(), [&](std::size_t i) { choice[i] = choices.at(data.points[i]); }, 256);
 
@@ -47,7 +48,7 @@ Patch_cover_3 patch_cover(const Data_points_3& data, const Fit_choice_3& choices
   }
   cover.fits.resize(cover.centers.size());
   parallel_for<ConcurrencyTag>(0, cover.centers.size(), [&](std::size_t k) {
-    cover.fits[k] = curvature_fit(data, cover.centers[k], *choice[cover.centers[k]], choices);
+    cover.fits[k] = curvature_fit(data, cover.centers[k], *choice[cover.centers[k]], choices, use);
   });
   return cover;
 }

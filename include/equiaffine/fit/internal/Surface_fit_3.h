@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_SURFACE_FIT_3_H
 #define EQUIAFFINE_FIT_INTERNAL_SURFACE_FIT_3_H
 
-#include <equiaffine/fit/internal/Fit_choice_3.h>
 #include <equiaffine/fit/internal/Normalization_3.h>
+#include <equiaffine/fit/internal/choose_fit.h>
 #include <equiaffine/number/Linear_substitution_3.h>
 
 #include <Eigen/Core>
@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,13 +26,18 @@ public:
   template <class ConcurrencyTag>
   Surface_fit_3(Normalized_data data, Fit_request request, ConcurrencyTag tag)
       : data_(std::move(data)), greatest_coordinate_(greatest_coordinate(data_)),
-        choices_(data_.data, in_normal_coordinates(request), tag), substitution_(matrix()) {}
+        choices_(choose_fit(data_, in_normal_coordinates(request), tag)), substitution_(matrix()) {}
 
   Surface_fit_3(const Surface_fit_3&) = delete;
   Surface_fit_3& operator=(const Surface_fit_3&) = delete;
 
   const Data_points_3& data() const { return data_.data; }
   const Fit_choice_3& choices() const { return choices_; }
+  /// The scale of the curvatures in the unit of the data; nothing for the surface's own.
+  std::optional<double> scale() const {
+    if (!choices_.scale()) return {};
+    return *choices_.scale() / data_.normalization.scale();
+  }
   const Normalization_3& normalization() const { return data_.normalization; }
 
   /// Turns the expansion of a function in normal coordinates into one in those of the data, in their unit of length.

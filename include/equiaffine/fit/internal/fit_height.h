@@ -75,6 +75,7 @@ struct Height_system {
   Eigen::Matrix3d frame;
   Eigen::MatrixXd rows; ///< a column for each point
   Eigen::VectorXd heights, roots_of_weights;
+  Eigen::VectorXd noise; ///< in radii; empty if it is not known
   double least_cosine = 1;
 };
 
@@ -120,8 +121,8 @@ inline std::vector<double> height_coefficients(const Eigen::VectorXd& legendre, 
   return coefficients;
 }
 
-/// Returns how the curvatures at the center change with the coefficients of the basis, a column for each curvature.
-inline Eigen::MatrixXd height_gradient(const Curvature_gradient& gradient, std::size_t count) {
+/// Returns how numbers at the center change with the coefficients of the basis, a column for each number.
+inline Eigen::MatrixXd height_gradient(const Number_gradient& gradient, std::size_t count) {
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(Eigen::Index(count), gradient.cols());
   for (std::size_t m = 0; m < count; ++m) {
     const auto [u, v] = legendre_basis_2.exponents(m);
@@ -137,7 +138,7 @@ inline Eigen::MatrixXd height_gradient(const Curvature_gradient& gradient, std::
 /// Completes the fit of one degree from the leading part of the Cholesky factor `lower` of the normal equations, whose
 /// right-hand side `reduced` has been solved for already.
 inline Local_fit_3 height_fit(const Height_system& system, const Eigen::MatrixXd& lower, const Eigen::VectorXd& reduced,
-                              const Eigen::Vector3d& center, double radius, int degree) {
+                              const Eigen::Vector3d& center, double radius, int degree, const Number_request* request) {
   const auto count = Eigen::Index(number_of_coefficients(Fit_family::HEIGHT, degree));
   const auto factor = lower.topLeftCorner(count, count).triangularView<Eigen::Lower>();
   const auto rows = system.rows.topRows(count);
@@ -160,25 +161,33 @@ inline Local_fit_3 height_fit(const Height_system& system, const Eigen::MatrixXd
       if (i + j > 0)
         jet.coefficients()[std::size_t(Jet_3<double>::index(i, j, 0))] = -p[std::size_t(i)][std::size_t(j)];
   jet.coefficients()[std::size_t(Jet_3<double>::index(0, 0, 1))] = 1;
+  fit.jet = jet;
   fit.curvatures = in_unit(curvatures_of(jet), radius);
 
   const double weight = system.roots_of_weights.squaredNorm();
   const double squares = (system.heights - rows.transpose() * legendre).squaredNorm();
   const double residual = std::sqrt(squares / (weight * (1 - double(count) / double(points))));
   fit.residual = residual * radius;
-  Eigen::MatrixXd gradient = height_gradient(curvature_gradient(jet), std::size_t(count));
-  factor.solveInPlace(gradient);
-  factor.transpose().solveInPlace(gradient);
-  const Eigen::MatrixXd influence = system.roots_of_weights.asDiagonal() * (rows.transpose() * gradient);
-  const auto deviation = [&](Eigen::Index c) { return residual * influence.col(c).norm(); };
-  fit.deviations = in_unit({deviation(0), deviation(1), deviation(2)}, radius);
+  const auto influence = [&](const Number_gradient& gradient) -> Eigen::MatrixXd {
+    Eigen::MatrixXd columns = height_gradient(gradient, std::size_t(count));
+    factor.solveInPlace(columns);
+    factor.transpose().solveInPlace(columns);
+    return system.roots_of_weights.asDiagonal() * (rows.transpose() * columns);
+  };
+  const Eigen::VectorXd deviations = residual * influence(curvature_gradient(jet)).colwise().norm();
+  fit.deviations = in_unit({deviations[0], deviations[1], deviations[2]}, radius);
+  if (request != nullptr) {
+    const Jets_of_data jets(system.frame * request->matrix / radius);
+    fit.estimates = number_estimates(jets.numbers(jet), influence(jets.gradient(jet)), residual, system.noise,
+                                     request->is_given, 1);
+  }
   return fit;
 }
 
 /// Fits heights of several even degrees, at most `maximal_height_degree`, to the points of a connected ball. A degree
-/// is left out where there are not 1.2 points to a coefficient.
+/// is left out where there are not 1.2 points to a coefficient. Estimates are made on request.
 inline std::vector<Local_fit_3> fit_heights(const Data_points_3& data, Data_points_3::Index center, double radius,
-                                            std::span<const int> degrees) {
+                                            std::span<const int> degrees, const Number_request* request = nullptr) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   const Eigen::Vector3d& origin = data.points[center];
   for (const auto i : connected_ball(data, center, radius))
@@ -189,7 +198,8 @@ inline std::vector<Local_fit_3> fit_heights(const Data_points_3& data, Data_poin
 
   const int greatest = greatest_degree(Fit_family::HEIGHT, degrees, ball.size());
   if (greatest == 0) return {};
-  const Height_system system = height_system(data, ball, radius, normal, greatest);
+  Height_system system = height_system(data, ball, radius, normal, greatest);
+  if (request != nullptr) system.noise = noise_in_radii(request->noise, ball, radius);
 
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(system.rows.rows(), system.rows.rows());
   gram.selfadjointView<Eigen::Lower>().rankUpdate(system.rows);
@@ -203,7 +213,7 @@ inline std::vector<Local_fit_3> fit_heights(const Data_points_3& data, Data_poin
     if (degree > greatest) continue;
     const auto diagonal = lower.diagonal().head(count);
     if (!(diagonal.minCoeff() > 1e-6 * diagonal.maxCoeff())) continue;
-    auto fit = height_fit(system, lower, reduced, origin, radius, degree);
+    auto fit = height_fit(system, lower, reduced, origin, radius, degree, request);
     if (std::isfinite(fit.deviations.euclidean)) fits.push_back(std::move(fit));
   }
   return fits;

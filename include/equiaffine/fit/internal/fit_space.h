@@ -2,8 +2,10 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_FIT_SPACE_H
 #define EQUIAFFINE_FIT_INTERNAL_FIT_SPACE_H
 
+#include <equiaffine/fit/internal/Bombieri_basis_3.h>
 #include <equiaffine/fit/internal/Data_points_3.h>
 #include <equiaffine/fit/internal/Local_fit_3.h>
+#include <equiaffine/fit/internal/monomial_moments.h>
 #include <equiaffine/number/monomials_3.h>
 
 #include <Eigen/Cholesky>
@@ -20,45 +22,14 @@
 
 namespace equiaffine::internal {
 
-constexpr int maximal_space_degree = 7;
-
-/// The monomials x^i y^j z^k of total degree n up to 7, ordered by degree, each times the root of n! / (i! j! k!). Sums
-/// of squares of coefficients beside them do not change when space is rotated (Bombieri's norm).
-class Bombieri_basis_3 {
-public:
-  static constexpr std::size_t size = number_of_coefficients(Fit_family::SPACE, maximal_space_degree);
-
-  struct Element {
-    int i, j, k;
-    double factor;
-  };
-
-  Bombieri_basis_3() {
-    std::size_t m = 0;
-    for (int n = 0; n <= maximal_space_degree; ++n)
-      for (int i = n; i >= 0; --i)
-        for (int j = n - i; j >= 0; --j, ++m)
-          elements_[m] = {i, j, n - i - j, std::sqrt(binomial(n, i) * binomial(n - i, j))};
-  }
-
-  static double binomial(int n, int k) {
-    double result = 1;
-    for (int i = 0; i < k; ++i) result = result * (n - i) / (i + 1);
-    return result;
-  }
-
-  const Element& operator[](std::size_t m) const { return elements_[m]; }
-
-private:
-  std::array<Element, size> elements_;
-};
-
-inline const Bombieri_basis_3 bombieri_basis_3;
-
-/// The rows of the points of a ball: that f is zero there, and that its derivative along the normal is 1.
+/// The rows of points of a ball: that f is zero there, and that its derivative along the normal is 1.
 struct Space_system {
   Eigen::MatrixXd values, derivatives; ///< a column for each point, times the root of its weight
   Eigen::VectorXd roots_of_weights;
+  Eigen::VectorXd noise;  ///< in radii; empty if it is not known
+  std::size_t points = 0; ///< of the ball, of which some may be left out here
+
+  double part() const { return double(values.cols()) / double(points); }
 };
 
 inline Space_system space_system(const Data_points_3& data, std::span<const Data_points_3::Index> ball,
@@ -70,7 +41,7 @@ inline Space_system space_system(const Data_points_3& data, std::span<const Data
   system.roots_of_weights.resize(Eigen::Index(ball.size()));
   for (std::size_t p = 0; p < ball.size(); ++p) {
     const Eigen::Vector3d local = (data.points[ball[p]] - center) / radius, normal = data.normals[ball[p]];
-    const double root = std::sqrt(std::max(1e-9, 1 - local.squaredNorm()));
+    const double root = std::sqrt(fit_weight(local.squaredNorm()));
     std::array<std::array<double, maximal_space_degree + 1>, 3> power, slope;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       power[axis][0] = 1;
@@ -126,8 +97,8 @@ inline std::optional<Eigen::Vector3d> foot_of_center(const Patch_3& patch, Jet_3
   return {};
 }
 
-/// Returns how the curvatures at a point change with the coefficients of the basis, a column for each curvature.
-inline Eigen::MatrixXd space_gradient(const Curvature_gradient& gradient, const Eigen::Vector3d& p, std::size_t count) {
+/// Returns how numbers at a point change with the coefficients of the basis, a column for each number.
+inline Eigen::MatrixXd space_gradient(const Number_gradient& gradient, const Eigen::Vector3d& p, std::size_t count) {
   std::array<std::array<std::array<double, 5>, maximal_space_degree + 1>, 3> taylor = {}; // of t^n along every axis
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (int n = 0; n <= maximal_space_degree; ++n)
@@ -152,39 +123,47 @@ inline Eigen::MatrixXd space_gradient(const Curvature_gradient& gradient, const 
 inline std::optional<Local_fit_3> space_fit(const Space_system& system, const Eigen::MatrixXd& lower,
                                             const Eigen::VectorXd& reduced, const Eigen::VectorXd& traces,
                                             const Eigen::Vector3d& center, double radius, int degree,
-                                            double normal_weight) {
-  const auto count = Eigen::Index(number_of_coefficients(Fit_family::SPACE, degree));
+                                            double normal_weight, const Number_request* request) {
+  const Eigen::Index count = number_of_monomials_3(degree);
   const auto factor = lower.topLeftCorner(count, count).triangularView<Eigen::Lower>();
   const Eigen::VectorXd bombieri = factor.transpose().solve(reduced.head(count));
-  const auto values = system.values.topRows(count);
-  const double points = double(values.cols());
+  const auto values = system.values.topRows(count), derivatives = system.derivatives.topRows(count);
 
   Local_fit_3 fit;
-  fit.points = std::size_t(values.cols());
+  fit.points = system.points;
   fit.patch = {
       Fit_family::SPACE, degree, radius, center, Eigen::Matrix3d::Identity(), 1, space_coefficients(bombieri, degree)};
-  Jet_3<double> jet;
-  const auto foot = foot_of_center(fit.patch, jet);
+  const auto foot = foot_of_center(fit.patch, fit.jet);
   if (!foot) return {};
-  fit.curvatures = in_unit(curvatures_of(jet), radius);
+  fit.curvatures = in_unit(curvatures_of(fit.jet), radius);
   fit.weight_of_normals = normal_weight;
 
   const double weight = system.roots_of_weights.squaredNorm();
-  const double freedom = std::max(0.05, 1 - traces.head(count).sum() / points);
+  const double freedom = std::max(0.05, 1 - traces.head(count).sum() / double(system.points));
   const double residual = std::sqrt((values.transpose() * bombieri).squaredNorm() / (weight * freedom));
   fit.residual = residual * radius;
-  Eigen::MatrixXd gradient = space_gradient(curvature_gradient(jet), *foot, std::size_t(count));
-  factor.solveInPlace(gradient);
-  factor.transpose().solveInPlace(gradient);
-  const Eigen::MatrixXd of_values = system.roots_of_weights.asDiagonal() * (values.transpose() * gradient);
-  const auto derivatives = system.derivatives.topRows(count);
+  const auto solved = [&](const Number_gradient& gradient) {
+    Eigen::MatrixXd columns = space_gradient(gradient, *foot, std::size_t(count));
+    factor.solveInPlace(columns);
+    factor.transpose().solveInPlace(columns);
+    return columns;
+  };
+  const Eigen::MatrixXd columns = solved(curvature_gradient(fit.jet));
+  const Eigen::MatrixXd of_values = system.roots_of_weights.asDiagonal() * (values.transpose() * columns);
   const double slope = std::sqrt((derivatives.transpose() * bombieri - system.roots_of_weights).squaredNorm() / weight);
   const Eigen::MatrixXd of_normals =
-      normal_weight * normal_weight * (system.roots_of_weights.asDiagonal() * (derivatives.transpose() * gradient));
+      normal_weight * normal_weight * (system.roots_of_weights.asDiagonal() * (derivatives.transpose() * columns));
   const auto deviation = [&](Eigen::Index c) {
-    return std::hypot(residual * of_values.col(c).norm(), slope * of_normals.col(c).norm());
+    return std::hypot(residual * of_values.col(c).norm(), slope * of_normals.col(c).norm()) / std::sqrt(system.part());
   };
   fit.deviations = in_unit({deviation(0), deviation(1), deviation(2)}, radius);
+  if (request != nullptr) {
+    const Jets_of_data jets(request->matrix / radius);
+    fit.estimates =
+        number_estimates(jets.numbers(fit.jet),
+                         system.roots_of_weights.asDiagonal() * (values.transpose() * solved(jets.gradient(fit.jet))),
+                         residual, system.noise, request->is_given, system.part());
+  }
   return fit;
 }
 
@@ -199,45 +178,51 @@ inline bool spread_over_surface(const Data_points_3& data, std::span<const Data_
   return squares[1] > 1e-4 * squares[2];
 }
 
+/// Returns at most `most` of the points of a ball, as evenly spread as these are.
+inline std::vector<Data_points_3::Index> thinned(const std::vector<Data_points_3::Index>& ball, std::size_t most) {
+  if (ball.size() <= most) return ball;
+  std::vector<Data_points_3::Index> result(most);
+  for (std::size_t k = 0; k < most; ++k) result[k] = ball[k * ball.size() / most];
+  return result;
+}
+
 /// Fits polynomials in space of several degrees, at most `maximal_space_degree`, and with several weights of the
-/// conditions on normals, to the points of a connected ball, of which it takes at most 2000. A degree is left out where
-/// there are not 1.2 points to a coefficient.
+/// conditions on normals, to the points of a connected ball. A degree is left out where there are not 1.2 points to a
+/// coefficient. Some hundreds of the points say what residuals are and how noise changes the result. Estimates are made
+/// on request.
 inline std::vector<Local_fit_3> fit_spaces(const Data_points_3& data, Data_points_3::Index center, double radius,
-                                           std::span<const int> degrees, std::span<const double> weights_of_normals) {
-  constexpr std::size_t most = 2000;
+                                           std::span<const int> degrees, std::span<const double> weights_of_normals,
+                                           const Number_request* request = nullptr) {
+  constexpr std::size_t most_rows = 500;
   constexpr double ridge = 1e-9;
-  auto ball = connected_ball(data, center, radius);
-  if (ball.size() > most) {
-    for (std::size_t k = 0; k < most; ++k) ball[k] = ball[k * ball.size() / most];
-    ball.resize(most);
-  }
+  const auto ball = connected_ball(data, center, radius);
   const int greatest = greatest_degree(Fit_family::SPACE, degrees, ball.size());
   if (greatest == 0 || !spread_over_surface(data, ball)) return {};
   const Eigen::Vector3d& origin = data.points[center];
-  const Space_system system = space_system(data, ball, origin, radius, greatest);
-
-  const Eigen::Index size = system.values.rows();
-  Eigen::MatrixXd of_values = Eigen::MatrixXd::Zero(size, size);
-  of_values.selfadjointView<Eigen::Lower>().rankUpdate(system.values);
-  Eigen::MatrixXd of_derivatives = Eigen::MatrixXd::Zero(size, size);
-  of_derivatives.selfadjointView<Eigen::Lower>().rankUpdate(system.derivatives);
+  const auto some = thinned(ball, most_rows);
+  Space_system system = space_system(data, some, origin, radius, greatest);
+  system.points = ball.size();
+  if (request != nullptr) system.noise = noise_in_radii(request->noise, some, radius);
+  const Monomial_moments moments = monomial_moments(data, ball, origin, radius, greatest);
+  const Eigen::MatrixXd of_values = bombieri_basis_3.products(moments, greatest),
+                        of_derivatives = bombieri_basis_3.products_of_derivatives(moments, greatest);
+  const Eigen::VectorXd derivatives = bombieri_basis_3.derivatives(moments, greatest);
 
   std::vector<Local_fit_3> fits;
   for (const double weight : weights_of_normals) {
     Eigen::MatrixXd gram = of_values + weight * weight * of_derivatives;
-    gram.diagonal().array() += ridge * system.roots_of_weights.squaredNorm();
+    gram.diagonal().array() += ridge * of_values(0, 0);
     const Eigen::LLT<Eigen::MatrixXd> cholesky(gram);
     if (cholesky.info() != Eigen::Success) continue;
     const Eigen::MatrixXd lower = cholesky.matrixL();
-    const Eigen::VectorXd reduced =
-        cholesky.matrixL().solve(weight * weight * (system.derivatives * system.roots_of_weights));
-    Eigen::MatrixXd hat = of_values.selfadjointView<Eigen::Lower>();
+    const Eigen::VectorXd reduced = cholesky.matrixL().solve(weight * weight * derivatives);
+    Eigen::MatrixXd hat = of_values;
     cholesky.matrixL().solveInPlace(hat);
     hat.transposeInPlace();
     cholesky.matrixL().solveInPlace(hat);
     for (const int degree : degrees) {
       if (degree > greatest) continue;
-      auto fit = space_fit(system, lower, reduced, hat.diagonal(), origin, radius, degree, weight);
+      auto fit = space_fit(system, lower, reduced, hat.diagonal(), origin, radius, degree, weight, request);
       if (fit && std::isfinite(fit->deviations.euclidean)) fits.push_back(std::move(*fit));
     }
   }

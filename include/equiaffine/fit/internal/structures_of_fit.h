@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -31,19 +32,42 @@ inline std::optional<Eigen::Vector3d> foot_on_patch(const Patch_3& patch, Eigen:
   return {};
 }
 
+/// The errors of second derivatives that roundings make; infinity where K_e is zero within its estimated error, and no
+/// more than that of a sphere whose radius is ten times that of the fit: an error may be large beside any curvature.
+inline double rounding_of(const Jet_3<double>& jet, const Surface_fit_3& fit, const Fit_accuracy& accuracy) {
+  const Fitted_numbers numbers(jet);
+  const double curvature = std::abs(numbers.components[GAUSSIAN]);
+  const bool is_flat = curvature <= accuracy.error[GAUSSIAN] * numbers.sizes()[GAUSSIAN] &&
+                       curvature * accuracy.radius * accuracy.radius <= 0.01;
+  return is_flat ? std::numeric_limits<double>::infinity() : fit.rounding(fit.to_space(jet), accuracy.radius);
+}
+
+/// The errors of the numbers of a structure that exist, from errors relative to their sizes. Angles are in degrees.
+inline Local_structure_error_3<double> structure_error(const Number_errors& relative, const Number_errors& sizes,
+                                                       Point_status status) {
+  Number_errors e = relative * sizes;
+  e.tail<2>() = (e.tail<2>() * (180 / std::numbers::pi)).min(180);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  if (status != Point_status::REGULAR) e[AFFINE_GAUSSIAN] = e[AFFINE_MEAN] = e[PICK] = e[AFFINE_NORMAL] = nan;
+  if (status != Point_status::REGULAR && status != Point_status::PARABOLIC) e.setConstant(nan);
+  return {{e[AFFINE_GAUSSIAN], e[AFFINE_MEAN]},
+          e[PICK],
+          e[AREA_DENSITY],
+          e[AFFINE_NORMAL],
+          e[NORMAL],
+          e[GAUSSIAN],
+          e[MEAN],
+          e[K1],
+          e[K2]};
+}
+
 inline Fitted_structure_3<double> structure_without_fit() {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   auto structure = local_structure(Jet_3<double>(nan));
   structure.status = Point_status::OUTSIDE;
-  return {structure, {nan, nan}, {nan, nan}, nan, nan};
-}
-
-/// The errors of second derivatives that roundings make; infinity where K_e is zero within its estimated error, and no
-/// more than that of a sphere whose radius is ten times that of the fit: an error may be large beside any curvature.
-inline double rounding_of(const Jet_3<double>& jet, const Surface_fit_3& fit, const Fit_accuracy& accuracy) {
-  const double curvature = std::abs(curvatures_of(jet).euclidean);
-  const bool is_flat = curvature <= accuracy.euclidean_error && curvature * accuracy.radius * accuracy.radius <= 0.01;
-  return is_flat ? std::numeric_limits<double>::infinity() : fit.rounding(fit.to_space(jet), accuracy.radius);
+  const Local_structure_error_3<double> unknown =
+      structure_error(Number_errors::Constant(nan), Number_errors::Ones(), structure.status);
+  return {structure, unknown, unknown, unknown, nan, false, nan};
 }
 
 /// The structure of the level set through a point, from the expansion there of a fit, or of a blend of fits.
@@ -52,12 +76,12 @@ inline Fitted_structure_3<double> structure_of(const Jet_3<double>& jet, const S
   Fitted_structure_3<double> result;
   const double sign = orientation == Orientation_of_level_set::AGAINST_GRADIENT ? -1 : 1;
   result.structure = local_structure(fit.to_space(jet) * sign, {0, 0, 0}, rounding_of(jet, fit, accuracy));
-  const double size = result.structure.status == Point_status::REGULAR
-                          ? curvatures_of(jet).size() * fit.normalization().matrix.determinant()
-                          : std::numeric_limits<double>::quiet_NaN();
-  result.error = {accuracy.error.gaussian * size, accuracy.error.mean * std::sqrt(size)};
-  result.noise = {accuracy.noise.gaussian * size, accuracy.noise.mean * std::sqrt(size)};
-  result.scale = accuracy.radius / fit.normalization().scale();
+  const Number_errors sizes = Fitted_numbers(fit.to_space(jet)).sizes();
+  result.error = structure_error(accuracy.error, sizes, result.structure.status);
+  result.noise = structure_error(accuracy.noise, sizes, result.structure.status);
+  result.detail = structure_error(accuracy.detail, sizes, result.structure.status);
+  result.scale = fit.scale().value_or(accuracy.radius / fit.normalization().scale());
+  result.is_at_scale = fit.scale().has_value();
   result.deviation = accuracy.deviation / fit.normalization().scale();
   return result;
 }
@@ -73,8 +97,8 @@ template <class ConcurrencyTag, class Parameters>
 std::vector<Fitted_structure_3<double>> structures_of_fit(const Surface_fit_3& fit, const Parameters& parameters) {
   const auto orientation = get_parameter<Orientation_tag>(parameters, Orientation_of_level_set::ALONG_GRADIENT);
   const Data_points_3& data = fit.data();
-  const double distance = fit.choices().has_scale() ? distance_of_direct_fits_at_scale : distance_of_direct_fits;
-  const Patch_cover_3 cover = patch_cover(data, fit.choices(), distance, ConcurrencyTag());
+  const double distance = fit.choices().scale() ? distance_of_direct_fits_at_scale : distance_of_direct_fits;
+  const Patch_cover_3 cover = patch_cover(data, fit.choices(), Fit_use::NUMBERS, distance, ConcurrencyTag());
   std::vector<Fitted_structure_3<double>> structures(data.size(), structure_without_fit());
   parallel_for<ConcurrencyTag>(
       0, data.size(),

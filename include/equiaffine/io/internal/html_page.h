@@ -3,6 +3,7 @@
 #define EQUIAFFINE_IO_INTERNAL_HTML_PAGE_H
 
 #include <equiaffine/io/Html_options.h>
+#include <equiaffine/io/Parabolic_parts.h>
 #include <equiaffine/io/internal/html_text.h>
 #include <equiaffine/io/internal/page_arrays.h>
 #include <equiaffine/io/internal/page_facts.h>
@@ -23,7 +24,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <ostream>
@@ -67,18 +67,17 @@ template <class Kernel>
 void write_page(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
                 const Html_options& options) {
   std::array<double, 3> center = {0, 0, 0};
-  double diagonal = 0;
   if (!mesh.points.empty()) {
     CGAL::Bbox_3 box;
     for (const auto& point : mesh.points) box += point.bbox();
     center = {box.xmin() + (box.xmax() - box.xmin()) / 2, box.ymin() + (box.ymax() - box.ymin()) / 2,
               box.zmin() + (box.zmax() - box.zmin()) / 2};
-    diagonal = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
   }
+  const Parabolic_parts parabolic(mesh.triangles, attributes);
   write_head_and_panel(out, options);
-  out << "<script type=\"application/json\" id=\"facts\">" << page_facts(attributes, options, center, diagonal)
+  out << "<script type=\"application/json\" id=\"facts\">" << page_facts(mesh, attributes, options, center, parabolic)
       << "</script>\n";
-  write_data(out, mesh, attributes, center);
+  write_data(out, mesh, attributes, center, parabolic);
   out << "<script>\n'use strict';\n(() => {";
   for (const std::string_view part : {viewer_data, viewer_graphics, viewer_shaders, viewer_scene, viewer_panel,
                                       viewer_scale, viewer_picked, viewer_picture, viewer_address, viewer_control})

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_PAGE_ARRAYS_H
 #define EQUIAFFINE_IO_INTERNAL_PAGE_ARRAYS_H
 
+#include <equiaffine/io/Parabolic_parts.h>
 #include <equiaffine/io/internal/base64.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
@@ -35,10 +36,11 @@ void write_data_block(std::ostream& out, const std::string& id, PutAll put_all) 
   out << "</script>\n";
 }
 
-/// Writes all arrays: positions relative to `center`, triangles, status, and one per column.
+/// Writes all arrays: positions relative to `center`, triangles, status, parts (`Parabolic_part`, empty if no vertex is
+/// parabolic), and one per column.
 template <class Kernel>
 void write_data(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                const std::array<double, 3>& center) {
+                const std::array<double, 3>& center, const Parabolic_parts& parabolic) {
   write_data_block(out, "positions", [&](Base64_writer& writer) {
     for (const auto& point : mesh.points)
       for (int i = 0; i < 3; ++i)
@@ -51,6 +53,9 @@ void write_data(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, 
   write_data_block(out, "status", [&](Base64_writer& writer) {
     if (!attributes.status) return;
     for (const Point_status status : *attributes.status) writer.put(static_cast<std::uint8_t>(status));
+  });
+  write_data_block(out, "parts", [&](Base64_writer& writer) {
+    for (const Parabolic_part part : parabolic.parts()) writer.put(static_cast<std::uint8_t>(part));
   });
   for (std::size_t i = 0; i < attributes.columns.size(); ++i)
     write_data_block(out, "column-" + std::to_string(i), [&](Base64_writer& writer) {

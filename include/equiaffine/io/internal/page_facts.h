@@ -2,10 +2,11 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_PAGE_FACTS_H
 #define EQUIAFFINE_IO_INTERNAL_PAGE_FACTS_H
 
-#include <equiaffine/attributes/quantities.h>
 #include <equiaffine/io/Html_options.h>
+#include <equiaffine/io/Parabolic_parts.h>
 #include <equiaffine/io/color_map.h>
 #include <equiaffine/io/internal/html_text.h>
+#include <equiaffine/io/internal/page_columns.h>
 #include <equiaffine/io/trust.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
@@ -29,22 +30,6 @@ std::string color_table(Function function, double first) {
   return result + ']';
 }
 
-/// The names of the columns, and what the library knows about the quantities among them, as JSON.
-inline void write_column_facts(std::ostream& json, const Vertex_attributes& attributes, double diagonal) {
-  const char* separator = "";
-  for (const auto& column : attributes.columns) {
-    const Quantity* const known = find_quantity(column.name);
-    json << separator << "{\"name\":" << json_string(column.name)
-         << ",\"label\":" << json_string(known ? known->label : column.name)
-         << ",\"symbol\":" << json_string(known ? known->symbol : "")
-         << ",\"group\":" << json_string(known ? known->group : "") << ",\"weight\":" << (known ? known->weight : 0)
-         << ",\"isUndefinedAtParabolicPoints\":" << (is_undefined_at_parabolic_points(column.name) ? "true" : "false")
-         << ",\"order\":" << rank_of_quantity(column.name)
-         << ",\"resolution\":" << rounding_of_quantity(column.name, diagonal) << '}';
-    separator = ",\n";
-  }
-}
-
 /// The words and colors of the statuses, as JSON.
 inline void write_status_facts(std::ostream& json) {
   for (std::size_t i = 0; i < number_of_point_statuses; ++i) {
@@ -54,22 +39,32 @@ inline void write_status_facts(std::ostream& json) {
   }
 }
 
-/// Everything that the page has to know besides the arrays, as JSON. The columns' tolerances depend on the diagonal of
-/// the bounding box.
-inline std::string page_facts(const Vertex_attributes& attributes, const Html_options& options,
-                              const std::array<double, 3>& center, double diagonal) {
+/// Everything that the page has to know besides the arrays, as JSON.
+template <class Kernel>
+std::string page_facts(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
+                       const Html_options& options, const std::array<double, 3>& center,
+                       const Parabolic_parts& parabolic) {
   std::ostringstream json;
   json.imbue(std::locale::classic());
   json.precision(17);
-  json << "{\"center\":[" << center[0] << ',' << center[1] << ',' << center[2] << "],\"up\":[" << options.up[0] << ','
-       << options.up[1] << ',' << options.up[2]
-       << "],\"color\":" << json_string(options.color.empty() ? first_shown(attributes) : options.color)
+  json << "{\"center\":";
+  write_numbers(json, center);
+  json << ",\"up\":";
+  write_numbers(json, options.up);
+  json << ",\"color\":" << json_string(options.color.empty() ? first_shown(attributes) : options.color)
        << ",\"range\":";
-  if (options.range) json << '[' << (*options.range)[0] << ',' << (*options.range)[1] << ']';
+  if (options.range) write_numbers(json, *options.range);
   else json << "null";
-  json << ",\"clip\":" << default_clip_percent << ",\n\"columns\":[";
-  write_column_facts(json, attributes, diagonal);
-  json << "],\n\"doubts\":[";
+  json << ",\"scale\":\"" << (options.scale ? to_string(*options.scale) : "auto")
+       << "\",\"clip\":" << default_clip_percent << ",\"clipSteps\":";
+  write_numbers(json, clip_steps);
+  json << ",\n\"columns\":[";
+  write_column_facts(json, attributes, options, Numbers_of_mesh(mesh, attributes), parabolic);
+  json << "],\n\"spotSides\":";
+  const auto* curvatures = find_column(attributes, "gaussian_curvature");
+  write_spots(json, curvatures ? parabolic.sides(curvatures->values) : std::vector<double>(mesh.points.size()),
+              parabolic);
+  json << ",\n\"doubts\":[";
   const char* separator = "";
   for (const std::string& sentence : sentences_of_doubt(attributes)) {
     json << separator << json_string(sentence);
@@ -78,7 +73,9 @@ inline std::string page_facts(const Vertex_attributes& attributes, const Html_op
   json << "],\n\"statuses\":[";
   write_status_facts(json);
   json << "],\n\"plain\":\"" << hexadecimal(plain_color()) << "\",\"undefined\":\"" << hexadecimal(undefined_color())
-       << "\",\"doubt\":\"" << hexadecimal(doubt_color()) << "\",\n\"diverging\":" << color_table(diverging_color, -1)
+       << "\",\"doubt\":\"" << hexadecimal(doubt_color()) << "\",\"region\":\"" << hexadecimal(parabolic_region_color())
+       << "\",\"regionText\":" << json_string(parabolic_region_text)
+       << ",\n\"diverging\":" << color_table(diverging_color, -1)
        << ",\n\"sequential\":" << color_table(sequential_color, 0) << '}';
   return json.str();
 }

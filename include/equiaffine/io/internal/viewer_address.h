@@ -15,7 +15,8 @@ function fragment() {
   const list = (values, digits) => values.map(value => Number(value.toPrecision(digits))).join(',');
   const parts = {
     color: encodeURIComponent(choice.quantity.name), clip: choice.clip,
-    scale: choice.isScaleChosen ? (choice.isLog ? 'log' : 'linear') : 'auto',
+    scale: choice.scale === 'logarithmic' ? 'log' : choice.scale,
+    up: ['x', 'y', 'z'][camera.axis.indexOf(1)] ?? '',
     view: list([...camera.back, ...camera.up], 5), target: list(add(facts.center, camera.target), 9),
     zoom: list([4 * radius / camera.distance], 5), edges: Number(choice.edges),
     isolines: Number(choice.isolines), marks: Number(choice.hasMarks),
@@ -47,8 +48,8 @@ function followAddress() {
   fitDistance(aspect());
   if (isFine(target, 3)) camera.target = add(target, facts.center, -1);
   if (zoomed > 0) camera.distance = 4 * radius / zoomed;
-  choice.isScaleChosen = /^(linear|log)$/.test(asked.get('scale') ?? '');
-  choice.isLog = asked.get('scale') === 'log';
+  const word = asked.get('scale') === 'log' ? 'logarithmic' : asked.get('scale');
+  choice.scale = [...scales, 'auto'].includes(word) ? word : facts.scale;
   if (Number(asked.get('clip') ?? NaN) >= 0) setClip(Number(asked.get('clip')));
   choice.edges = isOn('edges', false);
   choice.isolines = isOn('isolines', false);

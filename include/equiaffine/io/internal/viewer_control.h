@@ -134,10 +134,13 @@ function toggle(name) {
   if (name === 'hasMarks') update();
   else updateColors();
 }
-// Until then the scale is the one that suits the quantity.
-function chooseScale(isLog) {
-  choice.isLog = isLog;
-  choice.isScaleChosen = true;
+// The scale that is chosen already is the automatic one again.
+function chooseScale(word) {
+  choice.scale = word === choice.scale ? 'auto' : word;
+  updateColors();
+}
+function nextScale() {
+  choice.scale = scales[(scales.indexOf(scale) + 1) % scales.length];
   updateColors();
 }
 function toggleHelp() {
@@ -162,7 +165,7 @@ const keys = {
   ArrowUp: () => orbit(0, -0.1), ArrowDown: () => orbit(0, 0.1),
   '+': () => zoom(0.85, 0, 0, aspect()), '=': () => zoom(0.85, 0, 0, aspect()),
   '-': () => zoom(1 / 0.85, 0, 0, aspect()),
-  r: resetView, e: () => toggle('edges'), i: () => toggle('isolines'), l: () => chooseScale(!choice.isLog),
+  r: resetView, e: () => toggle('edges'), i: () => toggle('isolines'), l: nextScale,
   v: nextVectors, m: measureFromPicked, n: () => stepQuantity(1), p: () => stepQuantity(-1), s: savePicture,
   h: togglePanel, '?': toggleHelp,
   x: () => lookAlong(0, 1), y: () => lookAlong(1, 1), z: () => lookAlong(2, 1),
@@ -179,8 +182,7 @@ document.addEventListener('keydown', event => {
 const on = (id, type, act) => byId(id).addEventListener(type, act);
 on('quantity', 'change', event => setQuantity(quantities.find(quantity => quantity.name === event.target.value)));
 on('clip', 'input', event => { choice.clip = clipSteps[event.target.value]; updateColors(); });
-on('scale-linear', 'click', () => chooseScale(false));
-on('scale-log', 'click', () => chooseScale(true));
+for (const word of scales) on(`scale-${word}`, 'click', () => chooseScale(word));
 on('edges', 'change', () => toggle('edges'));
 on('isolines', 'change', () => toggle('isolines'));
 on('marks', 'change', () => toggle('hasMarks'));

@@ -5,8 +5,8 @@
 #include <string_view>
 
 /// \file
-/// The page's script, first part: the arrays, what can be shown, and the color map of `io/color_map.h` in JavaScript
-/// (the colors themselves are tables computed by that header).
+/// The page's script, first part: the arrays, what can be shown, and the color map. Ranges, scales, ranks and
+/// colors are numbers of `facts`, by the rules of `io/Column_numbers.h`; here they are only looked up.
 
 namespace equiaffine::internal {
 
@@ -27,6 +27,7 @@ const mesh = {
   positions: new Float32Array(takeBytes('positions').buffer),
   triangles: new Uint32Array(takeBytes('triangles').buffer),
   status: takeBytes('status'),
+  parts: takeBytes('parts'),  // Parabolic_part of every vertex, or nothing
 };
 mesh.size = mesh.positions.length / 3;
 
@@ -34,6 +35,14 @@ facts.columns.forEach((column, i) => {
   let values = null;
   column.values = () => values ??= new Float32Array(takeBytes('column-' + i).buffer);
 });
+const spots = [...mesh.parts.keys()].filter(i => mesh.parts[i] === 1);
+// With the numbers that pictures interpolate in parabolic spots.
+function filled(column) {
+  if (!spots.length) return column.values();
+  const result = column.values().slice();
+  spots.forEach((vertex, k) => { result[vertex] = column.spots[k] ?? NaN; });
+  return result;
+}
 const columnNamed = name => facts.columns.find(column => column.name === name);
 
 // Three columns NAME_x, NAME_y, NAME_z (or nx, ny, nz) are a vector.
@@ -51,13 +60,10 @@ for (const column of facts.columns) {
   vectors.push({name, parts, label: vectorLabels[name] ?? name, isLine: /^direction/.test(name)});
 }
 
-// Scalars; components of vectors and of the metric only when the page was asked for them.
-function isOffered(column) {
-  return !vectors.some(vector => vector.parts.includes(column)) && !/^metric_[xyz]{2}$/.test(column.name);
-}
+// Scalars; components of vectors and of the metric, which have no colors, only when the page was asked for them.
 const plain = {name: 'plain', label: 'No color', group: 'Surface'};
 const statusQuantity = {name: 'status', label: 'Status of the points', group: 'Surface'};
-const quantities = facts.columns.filter(column => isOffered(column) || column.name === facts.color)
+const quantities = facts.columns.filter(column => column.ranges)
     .sort((a, b) => a.order - b.order);
 if (mesh.status.length) quantities.push(statusQuantity);
 quantities.push(plain);
@@ -105,14 +111,15 @@ function vertexAreas() {
   return total > 0 ? areas : areas.fill(1);
 }
 
-// The Gaussian curvature, scaled, 0 where the vertex is parabolic and NaN where it is not known, if the quantity
-// does not exist where that changes its sign; else null.
+// The Gaussian curvature, scaled, 0 on parabolic curves and NaN in such regions and where it is not known, if the
+// quantity does not exist where that changes its sign; else null.
 function vertexSides(quantity) {
   const curvature = quantity.isUndefinedAtParabolicPoints && columnNamed('gaussian_curvature')?.values();
   if (!curvature) return null;
-  const sides = curvature.map((value, i) => mesh.status[i] === 1 ? 0 : isFinite(value) ? value : NaN);
-  const largest = sides.reduce((most, side) => isNaN(side) ? most : Math.max(most, Math.abs(side)), 0) || 1;
-  return sides.map(side => side / largest);
+  const sides = curvature.map((value, i) => mesh.parts[i] === 2 ? NaN : mesh.status[i] === 1 ? 0 : value);
+  spots.forEach((vertex, k) => { sides[vertex] = facts.spotSides[k] ?? NaN; });
+  const largest = sides.reduce((most, side) => isFinite(side) ? Math.max(most, Math.abs(side)) : most, 0) || 1;
+  return sides.map(side => isFinite(side) ? side / largest : NaN);
 }
 
 // Whether the sides have different signs in a triangle where all three are known.
@@ -124,24 +131,25 @@ function hasParabolicLine(sides) {
   return false;
 }
 
-// The estimated errors of a quantity, or undefined.
-const errorsOf = quantity => columnNamed(quantity.name + '_error')?.values();
+const errorColumn = quantity => columnNamed(quantity.name + '_error');
 
 // color_doubt of io/trust.h.
-function colorDoubt(value, error, range, isLog) {
+function colorDoubt(value, error, place) {
   if (!isFinite(error)) return 1;
-  const span = mapPosition(value + error, range, isLog) - mapPosition(value - error, range, isLog);
-  return Math.min(1, 2 * span);
+  const clamped = number => Math.min(1, Math.max(0, place(number)));
+  return Math.min(1, 2 * (clamped(value + error) - clamped(value - error)));
 }
 
 // What every vertex is drawn as: 0 by its number, 1 to 4 by its status, 5 because it has no number. With sides,
-// parabolic vertices are those that a line is drawn through.
-function vertexCodes(values, withStatus, sides) {
+// parabolic vertices outside of regions are those that a line is drawn through.
+function vertexCodes(numbers, withStatus, sides) {
   const codes = new Uint8Array(mesh.size);
-  if (withStatus) codes.set(mesh.status);
-  else if (sides) mesh.status.forEach((status, i) => { codes[i] = Number(status === 1); });
-  if (values)
-    for (let i = 0; i < codes.length; ++i) if (codes[i] === 0 && !isFinite(values[i])) codes[i] = 5;
+  if (!numbers) return withStatus ? mesh.status.slice() : codes;
+  for (let i = 0; i < codes.length; ++i) {
+    if (isFinite(numbers[i])) continue;
+    const isLine = sides && mesh.status[i] === 1 && mesh.parts[i] !== 2;
+    codes[i] = ((withStatus || isLine) && mesh.status[i]) || 5;
+  }
   return codes;
 }
 
@@ -151,73 +159,70 @@ function quantile(sorted, percent) {
   return sorted[below] + (rank - below) * (sorted[below + 1] - sorted[below]);
 }
 
-// color_range of io/color_map.h; both arrays sorted, finite.
-function colorRange(sorted, magnitudes, clip, resolution) {
-  const unit = resolution > 0 ? 1e9 * resolution : 1;
-  const nothing = {lower: -unit, upper: unit, knee: unit, isDiverging: true};
-  if (!sorted.length) return nothing;
-  const largest = quantile(magnitudes, 100 - clip) || magnitudes[magnitudes.length - 1];
-  const median = quantile(magnitudes, 50);
-  if (median <= resolution && largest <= 1e3 * resolution) return nothing;
-  const knee = Math.max(median, resolution, 1e-6 * largest);
-  if (sorted[0] < -1e-6 * largest && sorted[sorted.length - 1] > 1e-6 * largest)
-    return {lower: -largest, upper: largest, knee, isDiverging: true};
-  const lower = quantile(sorted, clip), upper = quantile(sorted, 100 - clip);
-  const middle = lower + (upper - lower) / 2;
-  const halfWidth = Math.max((upper - lower) / 2, resolution, 1e-6 * Math.abs(middle));
-  return {lower: middle - halfWidth, upper: middle + halfWidth, knee, isDiverging: false};
+// A range that was typed, as given_range of io/color_map.h: it depends on nothing else, so that two pages can share it.
+const givenRange = (lower, upper) => ({lower, upper, knee: Math.max(Math.abs(lower), Math.abs(upper)) / 100,
+                                       isDiverging: lower === -upper, scale: 'linear'});
+
+// The place in [-1, 1] of a number among ascending ones: an Equalization of io/Color_mapping.h.
+function rankAmong(knots, number) {
+  const last = knots.length - 1;
+  let first = 0, end = last + 1;
+  while (first < end) {
+    const middle = (first + end) >> 1;
+    if (knots[middle] < number) first = middle + 1;
+    else end = middle;
+  }
+  if (first > last) return 1;
+  while (end <= last && knots[end] === number) ++end;
+  if (end > first) return (first + end - 1) / last - 1;
+  if (first === 0) return -1;
+  return 2 * (first - 1 + (number - knots[first - 1]) / (knots[first] - knots[first - 1])) / last - 1;
 }
 
-// A range that was typed: it depends on nothing else, so that two pages can share it.
-const givenRange = (lower, upper) =>
-    ({lower, upper, knee: Math.max(Math.abs(lower), Math.abs(upper)) / 100, isDiverging: lower === -upper});
-
-// Whether preferred_scale of io/color_map.h is ASINH.
-const prefersLog = range => Math.max(Math.abs(range.lower), Math.abs(range.upper)) > 100 * range.knee;
-
-// The share of the way from the lower to the upper end of the range, not clipped. Clipped, this is map_position of
-// io/color_map.h, with [-1, 1] of the diverging map brought to [0, 1].
-function barPosition(value, range, isLog) {
-  const scaled = isLog ? x => Math.asinh(x / range.knee) : x => x;
-  const lower = scaled(range.lower);
-  return (scaled(value) - lower) / (scaled(range.upper) - lower);
+// The function from numbers to places along the bar: 0 and 1 at the ends of the range, not clipped beyond. Inside, this
+// is Color_mapping of io/Color_mapping.h, with [-1, 1] of the diverging map brought to [0, 1].
+function placesAlong({lower, upper, knee, isDiverging}, scale, knots) {
+  const scaled = {linear: x => x, logarithmic: x => Math.asinh(x / knee), equalized: x => rankAmong(knots, x)}[scale];
+  const part = (begin, end) => {
+    const from = scaled(begin), to = scaled(end);
+    return from === to ? x => (x - begin) / (end - begin) : x => (scaled(x) - from) / (to - from);
+  };
+  if (!isDiverging) return part(lower, upper);
+  const down = part(0, lower), up = part(0, upper);
+  return x => x < 0 ? 0.5 - down(x) / 2 : 0.5 + up(x) / 2;
 }
-const mapPosition = (value, range, isLog) => Math.min(1, Math.max(0, barPosition(value, range, isLog)));
 
 function colorAt(position, range) {
   const table = range.isDiverging ? facts.diverging : facts.sequential;
   return table[Math.round(position * (table.length - 1))];
 }
 
-// The numbers of the quantity that are colored as numbers, sorted, with everything that depends on them only.
-function summarize(values, codes) {
-  const shown = values.filter((value, i) => codes[i] === 0);
-  return {sorted: shown.slice().sort(), magnitudes: shown.map(Math.abs).sort()};
-}
-
 // Round numbers inside the range, at most about `most` of them.
-function ticks(range, isLog, most) {
+function ticks(range, scale, place, most) {
   const result = [];
-  if (!isLog) {
+  if (scale === 'linear') {
     const raw = (range.upper - range.lower) / most, power = 10 ** Math.floor(Math.log10(raw));
     const step = power * [1, 2, 5, 10].find(factor => factor * power >= raw * (1 - 1e-9));
     for (let k = Math.ceil(range.lower / step - 1e-6); k * step <= range.upper + 1e-6 * step; ++k)
       result.push(Number((k * step).toPrecision(12)));
     return result;
   }
-  const largest = Math.max(Math.abs(range.lower), Math.abs(range.upper));
-  const inside = value => value >= range.lower && value <= range.upper;
+  const largest = Math.floor(Math.log10(Math.max(Math.abs(range.lower), Math.abs(range.upper)))), decades = 12;
   const taken = [];
   const offer = value => {
-    const place = barPosition(value, range, true);
-    if (!inside(value) || taken.some(other => Math.abs(other - place) < 0.9 / most)) return;
-    taken.push(place);
+    const t = place(value), isInside = value >= range.lower && value <= range.upper;
+    if (!isInside || taken.some(other => Math.abs(other - t) < 0.9 / most)) return;
+    taken.push(t);
     result.push(value);
   };
   offer(0);
-  for (let power = Math.floor(Math.log10(largest)); 10 ** power > range.knee / 10; --power)
-    for (const factor of [1, 5, 2]) { offer(factor * 10 ** power); offer(-factor * 10 ** power); }
-  return result.length > 1 ? result.sort((a, b) => a - b) : ticks(range, false, most);
+  for (let power = largest; power > largest - decades; --power)
+    for (const factor of [1, 5, 2]) {
+      const value = Number(factor + 'e' + power);
+      offer(value);
+      offer(-value);
+    }
+  return result.length > 1 ? result.sort((a, b) => a - b) : ticks(range, 'linear', place, most);
 }
 
 const superscript = text => text.replace(/./g, c => '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'['-0123456789'.indexOf(c)]);
@@ -229,11 +234,11 @@ function readable(value, digits = 6) {
   const rounded = Number(value.toPrecision(digits)), places = rounded.toExponential().split('e')[1];
   return scientific(places >= digits || places < -5 ? rounded.toExponential() : String(rounded));
 }
-// With the digits that the estimated error leaves.
-function readableWithin(value, error) {
+// With the digits that the estimated error leaves; an error of more than the column's range leaves none.
+function readableWithin(value, error, range) {
   if (error === undefined || !isFinite(value)) return readable(value);
-  if (!isFinite(error)) return 'not known';
-  if (!(error > 0)) return readable(value);
+  if (!(error <= range.upper - range.lower)) return 'unknown';
+  if (error === 0) return readable(value);
   const place = number => Math.floor(Math.log10(Math.abs(number))), digits = place(value) - place(error) + 1;
   return (digits >= 1 ? readable(value, Math.min(digits, 6)) : '0') + ' ± ' + readable(error, 2);
 }

@@ -89,7 +89,8 @@ input[type=number] {
 input[aria-invalid=true] { border-color: #c8102e; }
 #range-auto { padding: 4px 8px; }
 #cut { width: 88px; flex: none; }
-#picture-message { margin: 6px 0 0; }
+#picture-message, #meaning { margin: 6px 0 0; }
+#meaning { font-size: 13px; }
 #hint .touch { display: none; }
 @media (pointer: coarse) {
   #hint .mouse { display: none; }
@@ -145,6 +146,10 @@ dd { margin: 0; overflow-wrap: anywhere; }
   #panel { border: 0; }
 }
 @media (max-width: 720px) {
+  #view, #message { bottom: 26px; height: calc(100% - 26px); }
+  #hint { bottom: 3px; max-width: 100%; white-space: nowrap; font-size: 12px; }
+  #axes { bottom: 30px; width: 60px; height: 60px; }
+  #help { position: fixed; inset: auto 0 0 0; max-width: none; height: 42%; max-height: none; z-index: 1; }
   body { grid-template-columns: 1fr; grid-template-rows: minmax(0, 1fr) 42%; }
   body.no-panel { grid-template-columns: 1fr; grid-template-rows: 1fr; }
   #panel { border-left: 0; border-top: 1px solid var(--line); }
@@ -175,14 +180,15 @@ inline constexpr std::string_view viewer_stage = R"html(
 <tr><td>r</td><td>back to the first view</td></tr>
 <tr><td>x y z</td><td>look along an axis; with shift, from the other side</td></tr>
 <tr><td>n p</td><td>next, previous quantity</td></tr>
-<tr><td>l</td><td>linear or logarithmic colors</td></tr>
+<tr><td>l</td><td>linear, logarithmic or equalized colors</td></tr>
 <tr><td>e i v</td><td>edges, isolines, vectors</td></tr>
 <tr><td>m</td><td>measure distances from the picked vertex</td></tr>
 <tr><td>s</td><td>save the picture</td></tr>
 <tr><td>h</td><td>show or hide the panel</td></tr>
 </table>
 <p>The address takes the same choices: #color=NAME, view=X,Y,Z (from where; three more numbers: what is up),
-target=X,Y,Z, zoom=1, scale=linear or log, clip=PERCENT, edges=1, isolines=1, marks=0, vectors=NAME, up=z, pick=VERTEX,
+target=X,Y,Z, zoom=1, scale=linear, log, equalized or auto,
+clip=PERCENT, edges=1, isolines=1, marks=0, vectors=NAME, up=z, pick=VERTEX,
 from=VERTEX (to measure from), range=LOW,HIGH, cut=-x,0.5 (which side, and where), panel=0, theme=dark or light, joined
 by &amp;.</p>
 <p>Numbers are stored in single precision: seven digits are true.</p>
@@ -196,10 +202,13 @@ inline constexpr std::string_view viewer_controls = R"html(
 <figcaption><span id="scale-title"></span><span id="scale-unit"></span></figcaption>
 <canvas id="histogram" role="img" aria-label="Histogram and color bar"></canvas>
 </figure>
+<p id="meaning" class="quiet"></p>
 <div id="mapping">
-<div class="row"><span>Colors</span><div class="segments">
+<div class="row"><div class="segments" aria-label="Colors">
 <button id="scale-linear" aria-pressed="true">linear</button>
-<button id="scale-log" aria-pressed="false">logarithmic</button>
+<button id="scale-logarithmic" aria-pressed="false">logarithmic</button>
+<button id="scale-equalized" aria-pressed="false"
+title="Equal areas of the surface have equal parts of the bar">equalized</button>
 </div></div>
 <div class="row"><label for="clip">Clip</label><input type="range" id="clip" min="0" step="1">
 <output id="clip-text" for="clip"></output></div>
@@ -220,7 +229,7 @@ inline constexpr std::string_view viewer_controls = R"html(
 <div class="checks">
 <label><input type="checkbox" id="edges"> edges</label>
 <label><input type="checkbox" id="isolines"> isolines at ticks</label>
-<label id="marks-label" class="wide"><input type="checkbox" id="marks"> own colors where not regular</label>
+<label id="marks-label" class="wide"><input type="checkbox" id="marks"> why there is no number</label>
 </div>
 <div class="row" id="vectors-row"><label for="vectors">Vectors</label><select id="vectors"></select></div>
 <div class="row"><span>Up</span><div class="segments" id="up">

@@ -10,12 +10,13 @@
 namespace equiaffine::internal {
 
 inline constexpr std::string_view viewer_panel = R"js(
-const clipSteps = [0, 0.1, 0.2, 0.5, 1, 2, 3, 5, 10, 15, 20, 25];
+const {clipSteps} = facts;
 const canvas = byId('view'), stage = byId('stage');
-const choice = {quantity: plain, isLog: false, isScaleChosen: false, clip: facts.clip, hasMarks: true, edges: false,
+// scale: linear, logarithmic, equalized, or auto for the one that suits the quantity.
+const choice = {quantity: plain, scale: facts.scale, clip: facts.clip, hasMarks: true, edges: false,
                 isolines: false, vectors: null, picked: null, origin: null, range: null, cut: ['none', 0.5]};
-// shown: {values, codes, sides, errors, sorted, magnitudes} of the quantity.
-let scene = null, range = null, shown = null, areas = null;
+// shown: {values, codes, sides, errors} of the quantity. The bar has its range, scale, and place(number) along it.
+let scene = null, range = null, scale = 'linear', place = null, shown = null, areas = null;
 const aspect = () => canvas.width / canvas.height;
 
 let isDrawPending = false;
@@ -56,11 +57,11 @@ function element(tag, className, text = '') {
 
 // The quantity changed, or which points count.
 function update() {
-  const {quantity} = choice, numbers = quantity.values?.() ?? null;
+  const {quantity} = choice, numbers = quantity.ranges ? filled(quantity) : null, errors = errorColumn(quantity);
   const withStatus = mesh.status.length && (quantity === statusQuantity || (numbers && choice.hasMarks));
   const sides = vertexSides(quantity), codes = vertexCodes(numbers, withStatus, sides);
   const values = codes.includes(0) ? numbers : null;  // no bar without a color that shows a number
-  shown = {values, codes, sides, errors: values && errorsOf(quantity), ...(values && summarize(values, codes))};
+  shown = {values, codes, sides, errors: values && errors && filled(errors)};
   byId('quantity').value = quantity.name;
   byId('mapping').hidden = byId('scale').hidden = !values;
   byId('marks-label').hidden = !mesh.status.length;
@@ -69,49 +70,67 @@ function update() {
   updateColors();
 }
 
+// The range of a column for the clip that is chosen, or the only one.
+const rangeOf = column => column.ranges[clipSteps.indexOf(choice.clip)] ?? column.ranges[0];
+
+// What the quantity is; a range of one sign is not red and blue.
+function showMeaning() {
+  const {meaning = ''} = choice.quantity;
+  const isOfOneSign = meaning && range && !range.isDiverging;
+  byId('meaning').textContent = meaning + (isOfOneSign ? ' Here, pale is the least number and dark the greatest.' : '');
+}
+
 // The same numbers, other colors.
 function updateColors() {
   const {values, codes, sides, errors} = shown, levels = new Float32Array(mesh.size);
-  const doubts = new Float32Array(mesh.size);
-  const {quantity, clip} = choice;
-  range = values && (choice.range ? givenRange(...choice.range)
-                                  : colorRange(shown.sorted, shown.magnitudes, clip, quantity.resolution));
-  if (values && !choice.isScaleChosen) choice.isLog = prefersLog(range);
-  if (values)
+  const doubts = new Float32Array(mesh.size), {quantity} = choice;
+  range = values && (choice.range ? givenRange(...choice.range) : rangeOf(quantity));
+  if (values) {
+    scale = choice.scale === 'auto' ? range.scale : choice.scale;
+    place = placesAlong(range, scale, quantity.knots);
     for (let i = 0; i < levels.length; ++i) {
       if (codes[i] !== 0) continue;
-      levels[i] = mapPosition(values[i], range, choice.isLog);
-      if (errors) doubts[i] = colorDoubt(values[i], errors[i], range, choice.isLog);
+      levels[i] = Math.min(1, Math.max(0, place(values[i])));
+      if (errors) doubts[i] = colorDoubt(values[i], errors[i], place);
     }
-  scene.setColors({levels, doubts, codes, sides}, values && (range.isDiverging ? facts.diverging : facts.sequential));
-  for (const [id, isOn] of [['scale-linear', !choice.isLog], ['scale-log', choice.isLog]])
-    byId(id).setAttribute('aria-pressed', isOn);
+  }
+  const region = quantity === statusQuantity ? facts.statuses[1].color : facts.region;
+  const table = values && (range.isDiverging ? facts.diverging : facts.sequential);
+  scene.setColors({levels, doubts, codes, sides, region}, table);
+  for (const word of scales) byId(`scale-${word}`).setAttribute('aria-pressed', word === scale);
   byId('clip').value = clipSteps.indexOf(choice.clip);
   byId('clip-text').value = choice.clip + ' %';
   for (const [id, isOn] of [['edges', choice.edges], ['isolines', choice.isolines], ['marks', choice.hasMarks]])
     byId(id).checked = isOn;
   byId('vectors').value = choice.vectors?.name ?? '';
+  showMeaning();
   showRange();
   drawScale();
   showPicked();
   redraw();
 }
+const scales = ['linear', 'logarithmic', 'equalized'];
 
+const rounded = number => Number(number.toPrecision(4));
+function shortText(number) {
+  const text = String(rounded(number));
+  return text.length <= 7 ? text : rounded(number).toExponential();
+}
 function showRange() {
-  byId('clip').disabled = Boolean(choice.range);
+  byId('clip').disabled = Boolean(choice.range) || choice.quantity.ranges?.length === 1;
   if (!range) return;
   [['lowest', range.lower], ['highest', range.upper]].forEach(([id, bound], k) => {
-    byId(id).value = choice.range ? choice.range[k] : '';
-    byId(id).placeholder = bound.toPrecision(3);
+    byId(id).value = choice.range ? shortText(choice.range[k]) : '';
+    byId(id).placeholder = shortText(bound);
     byId(id).removeAttribute('aria-invalid');
   });
 }
 
-// A bound that is left empty stays what it is.
+// A bound that is left empty, or as it was shown, stays what it is.
 function takeTypedRange() {
   const typed = ['lowest', 'highest'].map((id, k) => {
-    const text = byId(id).value.trim();
-    return text ? Number(text) : [range.lower, range.upper][k];
+    const text = byId(id).value.trim(), bound = [range.lower, range.upper][k];
+    return text && Number(text) !== rounded(bound) ? Number(text) : bound;
   });
   const isFine = typed.every(Number.isFinite) && typed[0] < typed[1];
   for (const id of ['lowest', 'highest']) byId(id).setAttribute('aria-invalid', !isFine);
@@ -119,31 +138,32 @@ function takeTypedRange() {
   setRange(typed);
 }
 
+// Of the numbers that are known, if there are errors.
 function showStatistics() {
-  const {sorted, values, errors} = shown, table = byId('statistics');
-  const errorOf = number => errors?.[values.indexOf(number)];  // of the vertex that has the extreme
+  const {statistics, unknown} = choice.quantity, table = byId('statistics');
   table.replaceChildren();
-  for (const [name, percent] of [['minimum', 0], ['median', 50], ['maximum', 100]]) {
-    const number = sorted.length ? quantile(sorted, percent) : NaN;
-    const error = percent === 50 && errors ? quantile(errors.slice().sort(), 50) : errorOf(number);
-    addRow(table, element('span', 'quiet', name), readableWithin(number, error));
-  }
+  ['minimum', 'median', 'maximum'].forEach((name, k) => {
+    const [number, error] = statistics[k];
+    addRow(table, element('span', 'quiet', name),
+           readableWithin(number ?? NaN, shown.errors ? error ?? Infinity : undefined, rangeOf(choice.quantity)));
+  });
+  if (shown.errors) addRow(table, element('span', 'quiet', 'unknown'), readable(100 * unknown, 3) + ' %');
 }
 
 // The colors of points without a number, as [color, text, number of points]; the last is missing for a curve.
 function legendEntries() {
-  const isStatus = choice.quantity === statusQuantity, counts = facts.statuses.map(() => 0), entries = [];
-  for (const status of mesh.status) ++counts[status];
-  if (choice.quantity !== plain && (choice.hasMarks || isStatus))
-    facts.statuses.forEach(({word, color}, i) => {
-      if (counts[i] && (i > 0 || isStatus)) entries.push([color, word, counts[i]]);
-    });
-  if (shown.sides && hasParabolicLine(shown.sides))
-    entries.push([facts.statuses[1].color, 'parabolic curve: no number there']);
+  const isStatus = choice.quantity === statusQuantity, {codes, sides} = shown, entries = [];
+  const countOf = code => codes.reduce((sum, each) => sum + (each === code), 0);
+  const regions = codes.reduce((sum, code, i) => sum + (code === 1 && mesh.parts[i] === 2), 0);
+  facts.statuses.forEach(({word, color}, i) => {
+    const number = isStatus || i > 1 ? countOf(i) : i === 1 && !sides ? countOf(1) - regions : 0;
+    if (number && choice.quantity !== plain) entries.push([color, word, number]);
+  });
+  if (regions && !isStatus) entries.push([facts.region, facts.regionText, regions]);
+  if (sides && hasParabolicLine(sides)) entries.push([facts.statuses[1].color, 'parabolic curve: no number there']);
   for (const sentence of facts.doubts) entries.push([facts.doubt, sentence]);
   if (shown.errors) entries.push([facts.doubt, 'grayer where the estimated error is larger']);
-  const missing = shown.codes.reduce((sum, code) => sum + (code === 5), 0);
-  if (missing) entries.push([facts.undefined, 'no number', missing]);
+  if (countOf(5)) entries.push([facts.undefined, 'no number', countOf(5)]);
   return entries;
 }
 

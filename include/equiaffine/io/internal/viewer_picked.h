@@ -37,9 +37,10 @@ function showPicked() {
   const rows = numbersOf(picked);
   rows.sort(([a], [b]) => Number(b === quantity) - Number(a === quantity));
   for (const [column, value, digits] of rows) {
-    const {label, symbol, values} = column;
+    const {label, symbol, ranges} = column;
     addRow(table, element('span', 'quiet', label.replaceAll('_', ' ') + (symbol ? ' ' + symbol : '')),
-           values ? readableWithin(value, errorsOf(column)?.[picked]) : readable(value, digits));
+           ranges ? readableWithin(value, errorColumn(column)?.values()[picked], rangeOf(column))
+                  : readable(value, digits));
   }
 }
 

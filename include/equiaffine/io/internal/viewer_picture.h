@@ -55,8 +55,8 @@ function drawLegend(pen, height, notes) {
   });
   if (!range) return;
   drawColorBar(pen, left + tail + 2, left + width - tail - 2, top);
-  const place = t => tail + 2 + t * (width - 2 * tail - 4);
-  const {labels, power} = labelledTicks(text => pen.measureText(text).width, place, width);
+  const pixel = t => tail + 2 + t * (width - 2 * tail - 4);
+  const {labels, power} = labelledTicks(text => pen.measureText(text).width, pixel, width);
   pen.fillStyle = '#1a1a1a';
   pen.textAlign = 'left';
   pen.fillText(byId('scale-title').textContent + unitText(power), left, top - 7);

@@ -26,17 +26,17 @@ function unitText(power) {
 // Without long rows of zeros: the ticks of a logarithmic scale are round, but of any size.
 function compact(value) {
   const size = Math.abs(value), isNear = value === 0 || (size >= 1e-3 && size < 1e5);
-  return isNear || !choice.isLog ? readable(value, 12) : scientific(value.toExponential());
+  return isNear || scale === 'linear' ? readable(value, 12) : scientific(value.toExponential());
 }
 
 // As many ticks as have room for their labels; large and small numbers share a power of ten on a linear scale.
-function labelledTicks(widthOf, place, width) {
+function labelledTicks(widthOf, pixel, width) {
   for (let most = 6;; --most) {
-    const values = ticks(range, choice.isLog, most);
+    const values = ticks(range, scale, place, most);
     const size = Math.floor(Math.log10(Math.max(...values.map(Math.abs)))), isFar = size < -3 || size > 4;
-    const power = isFar && isFinite(size) && !choice.isLog ? size : 0;
+    const power = isFar && isFinite(size) && scale === 'linear' ? size : 0;
     const labels = values.map(value => {
-      const t = barPosition(value, range, choice.isLog), x = place(t);
+      const t = place(value), x = pixel(t);
       const text = power ? readable(value / 10 ** power, 12) : compact(value), half = widthOf(text) / 2;
       return {t, x, text, half, middle: Math.min(width - half - 1, Math.max(half + 1, x))};
     });
@@ -52,10 +52,10 @@ function areaShares(count) {
   let total = 0;
   for (let i = 0; i < mesh.size; ++i) {
     if (shown.codes[i] !== 0) continue;
-    const t = barPosition(shown.values[i], range, choice.isLog);
+    const value = shown.values[i];
     total += areas[i];
-    if (t < 0 || t > 1) tails[t < 0 ? 0 : 1] += areas[i];
-    else bars[Math.min(count - 1, Math.floor(t * count))] += areas[i];
+    if (value < range.lower || value > range.upper) tails[value < range.lower ? 0 : 1] += areas[i];
+    else bars[Math.min(count - 1, Math.floor(place(value) * count))] += areas[i];
   }
   total ||= 1;
   return {bars: bars.map(area => area / total), tails: tails.map(area => area / total)};
@@ -119,19 +119,19 @@ function drawScale() {
   [canvas.width, canvas.height] = [width * pixels, height * pixels];
   pen.scale(pixels, pixels);
   pen.font = `11px ${style.fontFamily}`;
-  const left = tail + 6, right = width - tail - 6, base = height - 40, place = t => left + t * (right - left);
+  const left = tail + 6, right = width - tail - 6, base = height - 40, pixel = t => left + t * (right - left);
   drawHistogram(pen, left, right, base, style.getPropertyValue('--quiet'));
   drawColorBar(pen, left, right, base + 3);
 
   pen.fillStyle = style.color;
   pen.textAlign = 'center';
-  const {labels, power} = labelledTicks(text => pen.measureText(text).width, place, width);
+  const {labels, power} = labelledTicks(text => pen.measureText(text).width, pixel, width);
   for (const {x, middle, text} of labels) {
     pen.fillRect(x - 0.5, base + 15, 1, 4);
     pen.fillText(text, middle, base + 31);
   }
   if (picked !== null && shown.codes[picked] === 0) {
-    const x = place(barPosition(shown.values[picked], range, choice.isLog));
+    const x = pixel(place(shown.values[picked]));
     drawPointer(pen, Math.min(right + 4, Math.max(left - 4, x)), base, style.getPropertyValue('--panel'));
   }
   showUnit(power);

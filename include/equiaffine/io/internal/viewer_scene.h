@@ -42,7 +42,7 @@ class Scene {
     this.mark = createProgram(gl, markVertex, markFragment);
     this.needle = createProgram(gl, needleVertex, needleFragment);
     this.colors = {statuses: facts.statuses.slice(1).flatMap(s => channels(s.color)), isMapped: false,
-                   hasSides: false, isolines: []};
+                   hasSides: false, region: channels(facts.region), isolines: []};
     this.fillBuffers();
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
@@ -99,17 +99,18 @@ class Scene {
 
   // levels in [0, 1] along `table`, grayer where `doubts` are near 1, or a plain surface without a table; isolines are
   // levels. `sides` is null, or separates the surface where it is 0; it is NaN where it is not known.
-  setColors({levels, doubts, codes, sides}, table) {
+  setColors({levels, doubts, codes, sides, region}, table) {
     this.fill('level', levels);
     this.fill('doubt', doubts);
     this.fill('code', codes);
     const hasNoSide = Uint8Array.from({length: mesh.size}, (_, i) => Number(sides !== null && isNaN(sides[i])));
     this.fill('side', sides?.map(side => isNaN(side) ? 0 : side) ?? new Float32Array(mesh.size));
     this.fill('hasNoSide', hasNoSide);
-    Object.assign(this.colors, {isMapped: Boolean(table), hasSides: Boolean(sides)});
+    Object.assign(this.colors, {isMapped: Boolean(table), hasSides: Boolean(sides), region: channels(region)});
     if (table) this.setMap(table);
     const marked = [];
-    codes.forEach((value, i) => { if (value >= (sides ? 2 : 1) && value <= 4) marked.push(i); });
+    const isMarked = (code, i) => code === 1 ? !sides && mesh.parts[i] !== 2 : code >= 2 && code <= 4;
+    codes.forEach((code, i) => { if (isMarked(code, i)) marked.push(i); });
     this.markedCount = marked.length <= 3000 ? marked.length : 0;  // more of them are seen without dots
     this.fill('marked', new Uint32Array(marked.slice(0, this.markedCount)), this.gl.ELEMENT_ARRAY_BUFFER);
   }
@@ -145,6 +146,7 @@ class Scene {
     gl.uniform3fv(surface.at('plain'), channels(facts.plain));
     gl.uniform3fv(surface.at('undefinedColor'), channels(facts.undefined));
     gl.uniform3fv(surface.at('statusColors'), colors.statuses);
+    gl.uniform3fv(surface.at('regionColor'), colors.region);
     gl.uniform1i(surface.at('isolineCount'), colors.isolines.length);
     if (colors.isolines.length) gl.uniform1fv(surface.at('isolines'), colors.isolines);
     gl.enable(gl.POLYGON_OFFSET_FILL);

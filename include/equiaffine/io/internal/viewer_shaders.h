@@ -44,7 +44,8 @@ void main() {
 const surfaceFragment = `#version 300 es
 precision highp float;
 in vec3 vPosition, vNormal, vConvex, vSaddle; in vec4 vStatus; in float vUndefined, vSide, vNoSide, vKept;
-uniform sampler2D map; uniform bool isMapped; uniform vec3 plain, undefinedColor, statusColors[4];
+uniform sampler2D map; uniform bool isMapped; uniform vec3 plain, undefinedColor, regionColor;
+uniform vec3 statusColors[4];
 uniform float isolines[24], pixels; uniform int isolineCount; uniform bool hasSides;
 out vec4 color;
 void main() {
@@ -65,7 +66,7 @@ void main() {
   base = mix(base, statusColors[0], parabolic);
   line *= 1.0 - parabolic;
   for (int i = hasLine && all.y > 0.0 ? 1 : 0; i < 4; ++i)
-    if (vStatus[i] > most) { most = vStatus[i]; base = statusColors[i]; line = 0.0; }
+    if (vStatus[i] > most) { most = vStatus[i]; base = i == 0 ? regionColor : statusColors[i]; line = 0.0; }
   if (vUndefined > most) { base = undefinedColor; line = 0.0; }
   vec3 n = normalize(vNormal), view = normalize(-vPosition), lamp = normalize(vec3(-0.35, 0.5, 1.0));
   float side = gl_FrontFacing ? 1.0 : -1.0;
