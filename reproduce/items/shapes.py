@@ -76,28 +76,19 @@ PAPER = ["--spline-scheme", "paper", "--estimator", "transformation", "--attribu
 ERRORS = "affine_gaussian_curvature_error,affine_mean_curvature_error"
 
 
-def trusted(samples, estimate="error"):
-    """Where the estimates are less than half of K and of H."""
+def trusted(samples):
+    """Where the estimated errors are less than half of K and of H."""
     columns = (samples[name] for column in ("affine_gaussian_curvature", "affine_mean_curvature")
-               for name in (column, f"{column}_{estimate}"))
+               for name in (column, f"{column}_error"))
     return [s == 0 and e < 0.5 * abs(K) and f < 0.5 * abs(H) for K, e, H, f, s in zip(*columns, samples["status"])]
 
 
 def field_samples(lab, name, words, method=()):
-    """The surface of a distance field, its curvatures, and where they can be trusted."""
-    surface = lab.mesh(name, *words, *method, "--attributes", f"normal,{invariance.CURVATURES}")
+    """The surface of a distance field or a fit, its curvatures, and where they can be trusted."""
+    surface = lab.mesh(name, *words, *method, "--attributes", f"normal,gaussian_curvature,{invariance.CURVATURES}")
     samples = invariance.sampled(lab, name + "-samples", surface, *words, "--attributes",
                                  f"{invariance.CURVATURES},{ERRORS}")
     return surface, samples, trusted(samples)
-
-
-def fit_samples(lab, name, mesh, scale):
-    """The surface of a fit to the vertices of a mesh, its curvatures, and where noise leaves them at that scale."""
-    words = ["--fit", mesh, "--scale", scale]
-    surface = lab.mesh(name, *words, "--attributes", f"normal,{invariance.CURVATURES}")
-    samples = invariance.sampled(lab, name + "-samples", surface, *words, "--attributes",
-                                 f"{invariance.CURVATURES},{ERRORS.replace('error', 'noise')}")
-    return surface, samples, trusted(samples, "noise")
 
 
 def compare_field_with_image(lab, name, smoothing, radius):
@@ -149,8 +140,8 @@ def fig1(lab):
     nodes, scale = lab.choose((129, 0.18), (40, 0.5))
     sample_distance(lab, "bunny", points, triangles, nodes)  # writes bunny.off, too
     write_off(lab.folder / "moved.off", [image(SHEAR, p) for p in points], triangles)
-    surface, before, is_used = fit_samples(lab, "bunny-before", "bunny.off", scale)
-    image_surface, after, is_used_after = fit_samples(lab, "bunny-after", "moved.off", scale)
+    surface, before, is_used = field_samples(lab, "bunny-before", ["--fit", "bunny.off", "--scale", scale])
+    image_surface, after, is_used_after = field_samples(lab, "bunny-after", ["--fit", "moved.off", "--scale", scale])
     masks = is_used, is_used_after
     found = invariance.compared(before, after, masks)
     volume, map_words = ["--volume", "bunny.nrrd", *PAPER], ["--transform", *words_of(SHEAR)]
@@ -170,8 +161,8 @@ def fig1(lab):
     lab.say(f"Polynomials of degree 4 are fitted to the vertices within {scale}, afresh for the image: its vertices are "
             "those of the bunny after the map, and nothing else is known of it. A scan has detail at every scale, and "
             f"curvatures are those at this one. {100 * shares[0]:.0f} % of the area, {100 * shares[1]:.0f} % of that of "
-            "the image, have noise of less than half of K and of H, and are compared. The paper's method is measured at "
-            "the same points, on a grid of the distance that goes along with the map.")
+            "the image, have errors of less than half of K and of H at that scale, and are compared. The paper's method "
+            "is measured at the same points, on a grid of the distance that goes along with the map.")
 
 
 @item("fig12", "The banana and its images",

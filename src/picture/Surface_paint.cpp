@@ -56,7 +56,9 @@ Surface_paint::Surface_paint(const Indexed_triangle_mesh_3<Kernel>& mesh, const 
     shows_status_ = true;
     for (const Point_status status : *attributes.status) codes_.push_back(static_cast<std::uint8_t>(status));
   }
-  for (const std::string& sentence : sentences_of_doubt(attributes)) notes_.push_back({doubt_color(), sentence});
+  // The notes of a fit say what is known of every quantity.
+  if (view.notes.empty())
+    for (const std::string& sentence : sentences_of_doubt(attributes)) notes_.push_back({doubt_color(), sentence});
   find_notes(mesh.triangles);
 }
 
