@@ -116,14 +116,13 @@ def compare_field_with_image(lab, name, smoothing, radius):
     return surface, before, is_used
 
 
-def draw(lab, name, surface, captions, up):
-    """K, H and H_e of the surface `name`-before and of `name`-after, on one scale each."""
+def draw(lab, name, captions, up):
+    """K, H and H_e of the surface `name`-before and of `name`-after, in the colors of the first."""
     for column, symbol in (("affine_gaussian_curvature", "K"), ("affine_mean_curvature", "H"),
                            ("mean_curvature", "Hₑ")):
-        bound = quantile([abs(x) for x in surface[column]], 0.7)
         for when, caption in captions.items():
             lab.picture(f"{name}-{when}-{column}", f"{symbol}, {caption}", "--color", column, "--up", up,
-                        "--range", -bound, bound, of=f"{name}-{when}")
+                        "--range-of", f"{name}-before.ply", of=f"{name}-{when}")
 
 
 @item("fig1", "The Stanford bunny and its image",
@@ -150,11 +149,12 @@ def fig1(lab):
     invariance.require_invariance(lab, "bunny", found, 1 / 3, invariance.compared(*by_paper, masks))
     invariance.plot_distributions(lab, "bunny", found)
     invariance.tabulate(lab, "bunny", found)
-    draw(lab, "bunny", surface, {"before": "the bunny", "after": "its image"}, "y")
-    bound = quantile([abs(x) for x in surface["affine_gaussian_curvature"]], 0.7)
+    for when, mesh in (("before", "bunny.off"), ("after", "moved.off")):
+        lab.program.run("annotate", mesh, "--scale", scale, "-o", f"scan-{when}.ply")
+    draw(lab, "scan", {"before": "the bunny", "after": "its image"}, "y")
     for when, words in (("before", []), ("after", map_words)):
         lab.mesh("paper-" + when, *volume, "--vertices", "linear", *words, "--up", "y", "--png", f"paper-{when}.png",
-                 "--color", "affine_gaussian_curvature", "--range", -bound, bound, *lab.size)
+                 "--color", "affine_gaussian_curvature", "--range-of", "scan-before.ply", *lab.size)
         lab.pictured("paper-" + when, f"K by the paper's method on the distance, {when} the map: it sees the facets of "
                                       "the mesh")
     shares = [invariance.used_share(*each) for each in zip((before, after), masks)]
@@ -184,7 +184,7 @@ def fig12(lab):
               ">=", 0.99)
     invariance.plot_distributions(lab, "banana, formula", found)
     invariance.tabulate(lab, "banana, formula", found)
-    draw(lab, "formula", before, {"before": "the banana", "after": "its image"}, "z")
+    draw(lab, "formula", {"before": "the banana", "after": "its image"}, "z")
 
     mesh = lab.mesh("mesh", "--function", BANANA, "--box", *BANANA_BOX, "--resolution", lab.choose(100, 32),
                     "--attributes", "none")

@@ -25,7 +25,7 @@ struct Html_options {
   std::optional<Color_scale> scale = {};
   /// By name, the mappings of attributes whose colors do not depend on their own numbers, as those of another page.
   std::map<std::string, Color_mapping> mappings = {};
-  /// What follows the labels of the library's quantities, such as " at scale 0.1".
+  /// What follows the labels and symbols of the library's quantities, such as " at scale 0.1".
   std::string label_suffix = {};
   /// A table that says what the surface is and how it was made.
   std::vector<std::pair<std::string, std::string>> description = {};

@@ -118,8 +118,8 @@ inline void write_column_facts(std::ostream& json, const Vertex_attributes& attr
   for (const auto& column : attributes.columns) {
     const Quantity* const known = find_quantity(column.name);
     json << separator << "{\"name\":" << json_string(column.name)
-         << ",\"label\":" << json_string(known ? std::string(known->label) + options.label_suffix : column.name)
-         << ",\"symbol\":" << json_string(known ? known->symbol : "")
+         << ",\"label\":" << json_string(known ? known->label : column.name)
+         << ",\"symbol\":" << json_string(known ? std::string(known->symbol) + options.label_suffix : "")
          << ",\"group\":" << json_string(known ? known->group : "") << ",\"weight\":" << (known ? known->weight : 0)
          << ",\"meaning\":" << json_string(known ? known->meaning : "")
          << ",\"isUndefinedAtParabolicPoints\":" << (is_undefined_at_parabolic_points(column.name) ? "true" : "false")

@@ -106,6 +106,7 @@ input { accent-color: var(--accent); }
 .row > label:first-child, .row > span:first-child { flex: 0 0 64px; color: var(--quiet); }
 .row input[type=range] { flex: 1; min-width: 0; }
 .row output { flex: 0 0 42px; text-align: right; }
+#lowest, #highest { appearance: textfield; padding: 4px; font-size: 13px; }
 .segments { display: flex; flex: 1; }
 .segments button { flex: 1; border-radius: 0; margin-left: -1px; padding: 4px 6px; }
 .segments button:first-child { border-radius: 7px 0 0 7px; margin-left: 0; }
