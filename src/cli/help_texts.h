@@ -86,7 +86,7 @@ Usage: equiaffine annotate MESH|POINTS -o OUT [options] [--html PAGE.html] [--st
 inline constexpr const char* annotate_footer =
     R"(The vertices are taken for samples of a smooth surface, to which polynomials are fitted around each. They keep their
 number, order and faces and what else is known of them; columns of the same name are replaced. The columns
-affine_gaussian_curvature_error and affine_mean_curvature_error say how far the numbers may be wrong.
+NAME_error say how far the numbers may be wrong: at a scale by noise and sampling alone.
 
 Examples:
   equiaffine annotate scan.ply -o curvatures.ply --html curvatures.html

@@ -126,8 +126,8 @@ const std::vector<Option_row> rows = {
     {"--scale", fitting, FIT, 1, "R|auto|none",
      "the length that tells shape from detail: curvatures are those of polynomials fitted within\n"
      "about R. By default (auto) they are the surface's own where the data resolve them, else\n"
-     "those at the smallest scale at which half of the vertices are known to 20 %; none insists on\n"
-     "the surface's own",
+     "those at the smallest scale at which half of the vertices are known to 20 %, up to an eighth\n"
+     "of the size; none insists on the surface's own",
      read_scale},
     {"--noise", fitting, FIT, 1, "S|auto",
      "the standard deviation of the points from the surface, a length; estimated (auto) by\n"

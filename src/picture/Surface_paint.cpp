@@ -150,7 +150,8 @@ void Surface_paint::use(const Vertex_attributes::Column& column, const Numbers_o
     mapping.scale = Color_scale::LINEAR;
   }
   if (view.scale) mapping.scale = *view.scale;
-  legend_ = {label_of(column.name, view.label_suffix), mapping};
+  const std::string scale = mapping.scale == Color_scale::LINEAR ? "" : ", " + std::string(to_string(mapping.scale));
+  legend_ = {label_of(column.name, view.label_suffix) + scale, mapping};
   for (const double number : numbers_) {
     const double t = std::isfinite(number) ? mapping.position(number) : 0;
     levels_.push_back(mapping.range.is_diverging ? (t + 1) / 2 : t);

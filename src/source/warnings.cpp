@@ -49,16 +49,23 @@ void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool h
   const std::string larger_scale = options.scale ? ", or a larger --scale" : "";
   warn(fit.without_fit, "have no fit: too few points are connected with them; give more points" + larger_scale);
   if (!has_affine_curvatures) return;
+  const std::string without_none = options.scale == 0. ? "leave out --scale none, or " : "";
   const std::string error = "have an estimated error of the affine Gaussian curvature of more than 50 %, most of it ";
   warn(fit.doubtful_by_noise,
        error + (fit.scale
                     ? "from noise and the distance of the points, too large for fourth derivatives at that scale; "
                       "give a larger --scale or more points, or use the affine area density or the affine normal, "
                       "which need derivatives of order 2 and 3"
-                    : "from noise, which is too large for fourth derivatives; leave out --scale none, or give "
-                      "points with less noise"));
-  warn(fit.doubtful_by_detail, error + "since fits disagree: the surface has detail, creases or contradictions between "
-                                       "too few points; give more points, or leave out --scale none");
+                    : "from noise, which is too large for fourth derivatives; " + without_none +
+                          "give points with less noise"));
+  if (fit.scale)
+    warn(fit.doubtful_by_detail, "have no curvature at that scale, since fewer points are within it than a polynomial "
+                                 "needs; give a larger --scale or more points");
+  else
+    warn(fit.doubtful_by_detail, error +
+                                     "since fits disagree: the surface has detail, creases or contradictions "
+                                     "between too few points; " +
+                                     without_none + "give more points");
 }
 
 void warn_of_close_sheets(const Close_sheets& sheets, Progress& progress) {

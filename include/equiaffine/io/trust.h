@@ -4,6 +4,7 @@
 
 #include <equiaffine/attributes/error_table.h>
 #include <equiaffine/attributes/quantities.h>
+#include <equiaffine/geometry/euclidean_structure.h>
 #include <equiaffine/io/Color_mapping.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
@@ -39,9 +40,14 @@ inline std::vector<double> sizes_of_numbers(const Vertex_attributes::Column& col
   std::vector<double> sizes = column.values;
   const auto *K = find_column(attributes, "affine_gaussian_curvature"),
              *H = find_column(attributes, "affine_mean_curvature");
+  const auto *k1 = find_column(attributes, "k1"), *k2 = find_column(attributes, "k2");
+  const bool is_principal = column.name == "k1" || column.name == "k2" || column.name == "mean_curvature";
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     if (column.name == "affine_normal_angle") sizes[i] = internal::whole_angle;
-    else if (K && H && (&column == K || &column == H)) {
+    else if (k1 && k2 && (is_principal || column.name == "gaussian_curvature")) {
+      const double curved = curvedness(k1->values[i], k2->values[i]);
+      sizes[i] = is_principal ? curved : curved * curved;
+    } else if (K && H && (&column == K || &column == H)) {
       const double size = std::abs(K->values[i]) + H->values[i] * H->values[i];
       sizes[i] = &column == K ? size : std::sqrt(size);
     } else sizes[i] = std::abs(sizes[i]);
@@ -72,7 +78,7 @@ inline std::vector<std::string> sentences_of_doubt(const Vertex_attributes& attr
     if (!(part > 0.5)) continue;
     const Quantity* const quantity = find_quantity(column.name);
     sentences.push_back((quantity ? std::string(quantity->label) : column.name) + " is unknown at " +
-                        std::to_string(std::lround(100 * part)) + " % of the vertices: error above half of it");
+                        std::to_string(std::lround(100 * part)) + " % of the vertices: error above half of its size");
   }
   return sentences;
 }

@@ -86,7 +86,9 @@ inline Fit_accuracy own_accuracy(const Local_fit_3& fit, const Local_fit_3& othe
   Number_errors bias = choice.level.max(difference);
   double& of_gaussian = bias[AFFINE_GAUSSIAN];
   const double here = difference[AFFINE_GAUSSIAN];
-  of_gaussian = std::max(here, std::pow(of_gaussian, power_of_level) * std::pow(here, 1 - power_of_level));
+  const bool has_other = &other != &fit; // a ball at a border may have points for one degree only
+  if (has_other)
+    of_gaussian = std::max(here, std::pow(of_gaussian, power_of_level) * std::pow(here, 1 - power_of_level));
   // Noise that is given counts as it is, whatever the residuals are.
   const double factor = has_noise && fit.residual > 0 ? choice.noise / fit.residual : 1;
   const Number_errors deviations = std::max(guard(fit, choice.noise), factor) * estimates.of_residual / sizes;

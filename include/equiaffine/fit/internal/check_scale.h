@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <sstream>
 #include <stdexcept>
@@ -45,6 +46,7 @@ inline void check_scale(const Normalized_data& normalized, Fit_choice_3 choices)
     return; // nothing is known then
   const double unit = normalized.normalization.scale(), scale = *choices.scale() / unit;
   const double diagonal = diagonal_of_data(normalized);
+  const double unit_of_third_digit = std::pow(10, std::floor(std::log10(diagonal)) - 3);
   const auto text = [](const auto&... words) {
     std::ostringstream stream;
     stream.precision(3);
@@ -53,7 +55,8 @@ inline void check_scale(const Normalized_data& normalized, Fit_choice_3 choices)
   };
   if (scale > diagonal / 3)
     throw std::invalid_argument(text("the scale ", scale, " is more than a third of the size ", diagonal,
-                                     " of the data; give at most ", diagonal / 3));
+                                     " of the data; give at most ",
+                                     std::floor(diagonal / 3 / unit_of_third_digit) * unit_of_third_digit));
   constexpr std::size_t most_centers = 200;
   const auto centers = random_subset<Data_points_3::Index>(data.size(), std::min(data.size(), most_centers), 3);
   double least = scale;
@@ -61,7 +64,8 @@ inline void check_scale(const Normalized_data& normalized, Fit_choice_3 choices)
     choices.set_scale(1.1 * least * unit);
   if (least != scale && least < diagonal / 3)
     throw std::invalid_argument(text("within the scale ", scale, " most points have fewer others than a polynomial ",
-                                     "needs; give at least ", least));
+                                     "needs; give at least ",
+                                     std::ceil(least / unit_of_third_digit) * unit_of_third_digit));
 }
 
 } // namespace equiaffine::internal
