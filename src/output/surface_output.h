@@ -51,12 +51,12 @@ std::string number_text(double number, int digits = 6);
 std::string page_title(const std::string& path, const std::string& otherwise);
 
 /// Throws `Input_error` if the page has an extension that is not that of a page, if the picture has another one than
-/// .png, if the colors of `range_of` cannot be read, or if a picture is asked for and this program was built without VTK. Each may be "-".
+/// .png, if the colors of `range_of` cannot be read, or if a picture is asked for and this program was built without
+/// VTK. Each may be "-".
 void check_display_outputs(const Display_options& options);
 
 /// Writes the page and the picture that are asked for to the next files, without committing, and returns the file after
-/// them. The curves and the notes are on the picture only.
-/// `label_suffix` follows the labels of quantities.
+/// them. The curves and the notes are on the picture only. `label_suffix` follows the labels of quantities.
 std::vector<Output_file>::iterator
 write_displays(std::vector<Output_file>::iterator file, const Indexed_triangle_mesh_3<Kernel>& mesh,
                const Vertex_attributes& attributes, const Display_options& options, const std::string& title,

@@ -5,7 +5,7 @@
 #include <string_view>
 
 /// \file
-/// What people read of a quantity: what it is, and what red (positive) and blue (negative) mean.
+/// These sentences tell people what a quantity is, and what red (positive) and blue (negative) mean.
 
 namespace equiaffine::meanings {
 

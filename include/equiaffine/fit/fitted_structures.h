@@ -26,15 +26,15 @@ namespace equiaffine {
 /// the next degree, and whose residuals leave the least deviation. The estimated error is 2.2 times the root of the sum
 /// of two squares: of the greatest difference to other fits there and around, and of the standard deviation of the
 /// number if residuals are white noise. Among the others around is the next degree of the same parity, since a shape with
-/// a center of symmetry that lies in one ball looks the same to the degrees 4 and 5, whatever they miss. On exact data
-/// the greater degree answers, and a smaller ball tells its error.
+/// a center of symmetry that lies in one ball looks the same to the degrees 4 and 5, whatever they miss. For K the
+/// differences around count with the power 0.88, and those at the vertex with the rest. On exact data, whose noise is
+/// below 1e-4 of the spacing, the greater degree answers, and a smaller ball tells its error.
 ///
-/// Where they do not, as on scans and coarse meshes, curvatures are sensible at a scale only, by definition those, see
-/// doc/conventions.md: of polynomials in space of degree 4, or of `degree`, fitted within 1.14 of the scale. `scale` is
-/// that scale; `scale(std::nullopt)` lets the data choose: none where they resolve the surface, else the smallest at which
+/// Scans and coarse meshes have sensible curvatures at a scale only. These are by definition, see doc/conventions.md,
+/// those of polynomials in space of degree 4, or of `degree`, fitted within 1.14 of the scale. `scale` is that scale; `scale(std::nullopt)` lets the data choose: none where they resolve the surface, else the smallest at which
 /// K is known to 20 % at half of the vertices, at most an eighth of the diagonal. Without the parameter, or with 0,
-/// curvatures are the surface's own. Fits are made at most 0.02 of the scale apart, and
-/// errors are twice the standard deviation that noise and sampling make of the numbers at that scale.
+/// curvatures are the surface's own. Fits are made at most 0.02 of the scale apart, and errors are twice the standard
+/// deviation that noise and sampling make of the numbers at that scale.
 ///
 /// A mesh that is mapped by an affine map of determinant 1 gets the same affine curvatures to within rounding, since
 /// neighborhoods are balls in coordinates in which the edges have no preferred direction. `scale` and `noise` are

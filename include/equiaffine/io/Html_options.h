@@ -23,7 +23,7 @@ struct Html_options {
   std::optional<std::array<double, 2>> range = {};
   /// The scale of colors for all attributes; nothing: the one that suits the numbers of each.
   std::optional<Color_scale> scale = {};
-  /// By name, the mappings of attributes whose colors do not depend on their own numbers, as those of another page.
+  /// The attributes named here have these mappings, such as those of another page, whatever their own numbers are.
   std::map<std::string, Color_mapping> mappings = {};
   /// What follows the labels and symbols of the library's quantities, such as " at scale 0.1".
   std::string label_suffix = {};

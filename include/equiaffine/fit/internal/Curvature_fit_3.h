@@ -112,8 +112,8 @@ inline Fit_accuracy accuracy_at_scale(const Local_fit_3& fit, double noise) {
   return accuracy;
 }
 
-/// What fits are made for. Exact data are answered by the greater of two degrees near the center, while a blend, which
-/// reaches half of the radius away, takes the lower one.
+/// A fit gives numbers near its center, where the greater of two degrees answers exact data, or it is part of a blend,
+/// which reaches half of the radius away and takes the lower degree.
 enum class Fit_use { NUMBERS, BLEND };
 
 /// The fit of the greater degree to exact data, if its K is known better than with the accuracy `lower` of the other. Where

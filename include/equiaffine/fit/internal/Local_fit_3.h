@@ -34,7 +34,7 @@ inline Fitted_curvatures curvatures_of(const Jet_3<double>& jet) {
   return {invariants.gaussian_curvature, invariants.mean_curvature, chart.d() / (slope * slope)};
 }
 
-/// What the numbers of a fit are estimated with.
+/// A request says how a fit estimates its numbers and their errors.
 struct Number_request {
   Eigen::Matrix3d matrix;        ///< from the data to the coordinates of the points
   std::span<const double> noise; ///< the standard deviation of each point from a smooth surface; empty if not known

@@ -31,7 +31,8 @@ constexpr Eigen::Index position_of_monomial(int i, int j, int k) {
 /// polynomials of degree d have their normal equations. There are far fewer of them than products of pairs of monomials.
 struct Monomial_moments {
   Eigen::VectorXd of_points; ///< of monomials up to degree 2 d
-  /// Of monomials up to degree 2 d - 2 times n_x n_x, n_x n_y, n_x n_z, n_y n_y, n_y n_z, n_z n_z, n_x, n_y, n_z.
+  /// These are of monomials up to degree 2 d - 2 times n_x n_x, n_x n_y, n_x n_z, n_y n_y, n_y n_z, n_z n_z, n_x, n_y
+  /// and n_z.
   Eigen::Matrix<double, Eigen::Dynamic, 9> of_normals;
 };
 
