@@ -43,8 +43,10 @@ void read_raw_dims(const Option_words& option, Draft& draft) {
 }
 
 void read_scale(const Option_words& option, Draft& draft) {
-  if (option.word() == "none") draft.source.fit.scale = 0;
-  else if (option.word() != "auto") draft.source.fit.scale = parse_length(option);
+  if (option.word() == "auto") return;
+  draft.source.fit.scale = option.word() == "none" ? 0 : parse_number(option);
+  if (option.word() != "none" && !(*draft.source.fit.scale > 0))
+    fail_option(option.name, "'" + option.word() + "' is not a length", "give a length above 0, auto or none");
 }
 
 void read_noise(const Option_words& option, Draft& draft) {

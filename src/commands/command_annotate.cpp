@@ -33,7 +33,8 @@ Annotation_statistics make_statistics(const std::string& source, const Indexed_t
   return statistics;
 }
 
-Description make_description(const Annotate_options& options, const Annotation_statistics& statistics) {
+Description make_description(const Annotate_options& options, const Annotation_statistics& statistics,
+                             const Description& fit) {
   Description description = {{"Vertices of", statistics.source}};
   if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
     description.emplace_back("Normals", "against those of the data");
@@ -41,7 +42,7 @@ Description make_description(const Annotate_options& options, const Annotation_s
   description.emplace_back("Triangles", std::to_string(statistics.faces));
   description.emplace_back("Components", std::to_string(statistics.topology.components));
   description.emplace_back("Euler characteristic", std::to_string(statistics.topology.euler_characteristic));
-  for (const auto& row : description_of(statistics.fit)) description.push_back(row);
+  description.insert(description.end(), fit.begin(), fit.end());
   return description;
 }
 
@@ -82,15 +83,17 @@ void run_annotate(const Annotate_options& options, std::ostream& out, Progress& 
   Vertex_attributes attributes = attributes_of(structures, options.attributes);
   add_estimates(estimates, options.estimates, attributes);
   statistics.annotate_seconds = stopwatch.seconds();
+  const Description fit = description_of(statistics.fit);
+  if (!attributes.columns.empty()) attributes.comments = comments_of(fit);
 
   const Stopwatch write_stopwatch;
   progress.begin("writing");
   auto file = outputs.files.begin();
   write_vertices(*file++, table, attributes);
   add_errors(estimates, attributes);
-  file = write_displays(
-      file, table.mesh, attributes, options.display, page_title(options.output, name) + label_suffix(statistics.fit),
-      make_description(options, statistics), {}, notes_of(statistics.fit), label_suffix(statistics.fit));
+  file = write_displays(file, table.mesh, attributes, options.display,
+                        {page_title(options.output, name) + label_suffix(fit),
+                         make_description(options, statistics, fit), notes_of(fit), label_suffix(fit)});
   for (Output_file& output : outputs.files) output.close();
   statistics.write_seconds = write_stopwatch.seconds();
   if (options.stats) file->stream() << to_JSON(statistics);

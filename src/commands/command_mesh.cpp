@@ -181,7 +181,7 @@ std::string text_of(const CGAL::Aff_transformation_3<Kernel>& map) {
   return text;
 }
 
-Description make_description(const Mesh_options& options, const Statistics& statistics) {
+Description make_description(const Mesh_options& options, const Statistics& statistics, const Description& fit) {
   Description description = {{"Level set f =", number_text(options.isovalue)}, {"of", statistics.source}};
   for (const auto& [name, value] : options.source.constants)
     description.emplace_back("with " + name + " =", number_text(value));
@@ -194,8 +194,7 @@ Description make_description(const Mesh_options& options, const Statistics& stat
   description.emplace_back("Triangles", std::to_string(statistics.faces));
   description.emplace_back("Components", std::to_string(statistics.topology.components));
   description.emplace_back("Euler characteristic", std::to_string(statistics.topology.euler_characteristic));
-  if (statistics.fit)
-    for (const auto& row : description_of(*statistics.fit)) description.push_back(row);
+  description.insert(description.end(), fit.begin(), fit.end());
   return description;
 }
 
@@ -237,14 +236,15 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   progress.begin("writing");
   Statistics statistics = make_statistics(options, surface, source);
   statistics.sample_seconds += source_seconds;
+  const Description fit = statistics.fit ? description_of(*statistics.fit) : Description();
+  if (!surface.attributes.columns.empty()) surface.attributes.comments = comments_of(fit);
   auto file = outputs.files.begin();
   write_surface(*file++, surface.mesh, surface.attributes);
   if (options.source.estimates_errors) add_errors(surface.estimates, surface.attributes);
-  const std::string suffix = statistics.fit ? label_suffix(*statistics.fit) : std::string();
   file = write_displays(file, surface.mesh, surface.attributes, options.display,
-                        page_title(options.output, statistics.source) + suffix, make_description(options, statistics),
-                        surface.curves ? surface.curves->polylines : std::vector<Polyline_3<Kernel>>(),
-                        statistics.fit ? notes_of(*statistics.fit) : std::vector<Surface_note>(), suffix);
+                        {page_title(options.output, statistics.source) + label_suffix(fit),
+                         make_description(options, statistics, fit), notes_of(fit), label_suffix(fit)},
+                        surface.curves ? surface.curves->polylines : std::vector<Polyline_3<Kernel>>());
   if (options.curves) write_curves(*file++, *surface.curves);
   for (Output_file& output : outputs.files) output.close();
   statistics.write_seconds = write_stopwatch.seconds();

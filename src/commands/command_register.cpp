@@ -68,8 +68,9 @@ void run_register(const Register_options& options, std::ostream& out, Progress& 
   if (is_shown) {
     const auto [mesh, attributes] = registered_surfaces(source, target, report.registration);
     const Display_options display = display_of(report, options.display);
-    file = write_displays(file, mesh, attributes, display, page_title(options.output, "Registration"),
-                          description_of(report, display), {}, notes_of(report, display));
+    file = write_displays(
+        file, mesh, attributes, display,
+        {page_title(options.output, "Registration"), description_of(report, display), notes_of(report, display)});
   }
   if (file != outputs.files.end()) {
     const auto [mesh, attributes] = moved_source(source, target, report.registration.best().map);

@@ -69,8 +69,8 @@ void run_symmetries(const Symmetries_options& options, std::ostream& out, Progre
     if (!options.display.arrows.empty() && !vector_columns(attributes, options.display.arrows))
       throw Input_error("--arrows: there is no vector '" + options.display.arrows +
                         "'; a continuous symmetry has generator1, and more of them if there are more dimensions");
-    write_displays(file, mesh, attributes, options.display, page_title(options.output, "Symmetries"),
-                   description_of(report), {}, notes_of(report));
+    write_displays(file, mesh, attributes, options.display,
+                   {page_title(options.output, "Symmetries"), description_of(report), notes_of(report)});
   }
   progress.end();
   commit_all(outputs.files);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/commands.h"
+#include "output/fit_display.h"
 #include "output/surface_output.h"
 #include "picture/draw_surface.h"
 #include "system/atomic_file.h"
@@ -52,11 +53,14 @@ void run_view(const View_options& options, std::ostream& out) {
                       " -o OUT.ply --html PAGE.html' shows the surface through the points");
   check_color(options.display.color, surface.attributes);
   check_arrows(options.display.arrows, surface.attributes);
-  write_displays(outputs.begin(), surface.mesh, surface.attributes, options.display,
-                 page_title(options.mesh, "Surface"),
-                 {{"File", name},
-                  {"Vertices", std::to_string(surface.mesh.points.size())},
-                  {"Triangles", std::to_string(surface.mesh.triangles.size())}});
+  const Description fit = description_of_fit(surface.attributes);
+  Description description = {{"File", name},
+                             {"Vertices", std::to_string(surface.mesh.points.size())},
+                             {"Triangles", std::to_string(surface.mesh.triangles.size())}};
+  description.insert(description.end(), fit.begin(), fit.end());
+  write_displays(
+      outputs.begin(), surface.mesh, surface.attributes, options.display,
+      {page_title(options.mesh, "Surface") + label_suffix(fit), description, notes_of(fit), label_suffix(fit)});
   commit_all(outputs);
   if (!use_standard_output(outputs)) report_written(out, outputs);
 }

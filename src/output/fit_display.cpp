@@ -1,23 +1,68 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/fit_display.h"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
+#include <string_view>
 
 namespace equiaffine {
 
-std::string label_suffix(const Fit_statistics& fit) {
-  return fit.scale ? " at scale " + number_text(*fit.scale, 3) : std::string();
+namespace {
+
+constexpr const char *scale_label = "Scale", *own_scale = "none: the curvatures are the surface's own",
+                     *errors_label = "Errors";
+constexpr std::string_view begin_of_comment = "fit ", separator = ": ";
+
+bool has_errors(const Vertex_attributes& attributes) {
+  return std::any_of(attributes.columns.begin(), attributes.columns.end(),
+                     [](const auto& column) { return column.name.ends_with("_error"); });
 }
+
+} // namespace
 
 Description description_of(const Fit_statistics& fit) {
-  return {{"Scale", fit.scale ? number_text(*fit.scale, 3) : "none: the curvatures are the surface's own"},
-          {"Noise", number_text(fit.noise, 2)},
-          {"Known to 20 / 50 %", "at so many percent of the vertices: " + table_of_known(fit)}};
+  Description rows = {{scale_label, fit.scale ? number_text(*fit.scale, 3) : own_scale},
+                      {"Noise", number_text(fit.noise, 2)}};
+  if (const auto percent = std::lround(100 * fit.parabolic); percent > 0)
+    rows.emplace_back("Parabolic", std::to_string(percent) + " % of the vertices");
+  rows.emplace_back("Vertices known to 20 / 50 %", table_of_known(fit) + " %");
+  return rows;
 }
 
-std::vector<Surface_note> notes_of(const Fit_statistics& fit) {
-  return {{std::nullopt, "noise " + number_text(fit.noise, 2) +
-                             "; known to 20 / 50 % at so many percent of the vertices: " + table_of_known(fit)}};
+std::vector<std::string> comments_of(const Description& fit) {
+  std::vector<std::string> comments;
+  for (const auto& [label, value] : fit)
+    comments.push_back((std::string(begin_of_comment) + label).append(separator) + value);
+  return comments;
+}
+
+Description description_of_fit(const Vertex_attributes& attributes) {
+  Description fit;
+  for (const std::string_view comment : attributes.comments) {
+    const std::size_t colon = comment.find(separator);
+    if (!comment.starts_with(begin_of_comment) || colon == std::string_view::npos) continue;
+    fit.emplace_back(comment.substr(begin_of_comment.size(), colon - begin_of_comment.size()),
+                     comment.substr(colon + separator.size()));
+  }
+  if (!fit.empty() && !has_errors(attributes))
+    fit.emplace_back(errors_label,
+                     "lost: the file has no column NAME_error, so that the colors do not tell what is known");
+  return fit;
+}
+
+std::string label_suffix(const Description& fit) {
+  for (const auto& [label, value] : fit)
+    if (label == scale_label && value != own_scale) return " at scale " + value;
+  return {};
+}
+
+std::vector<Surface_note> notes_of(const Description& fit) {
+  std::string text;
+  for (const auto& [label, value] : fit)
+    if (label != scale_label) text += (text.empty() ? "" : "; ") + label + ": " + value;
+  if (text.empty()) return {};
+  return {{std::nullopt, text}};
 }
 
 } // namespace equiaffine

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What pages and pictures of a fit say about it.
+// What files, pages and pictures of a fit say about it.
 #ifndef EQUIAFFINE_SRC_OUTPUT_FIT_DISPLAY_H
 #define EQUIAFFINE_SRC_OUTPUT_FIT_DISPLAY_H
 
@@ -12,14 +12,21 @@
 
 namespace equiaffine {
 
-/// " at scale 0.1" for what follows the names of quantities; nothing for the surface's own.
-std::string label_suffix(const Fit_statistics& fit);
-
 /// Scale, noise, and the parts of the vertices at which quantities are known, as rows of a description.
 Description description_of(const Fit_statistics& fit);
 
-/// The same as lines below a picture.
-std::vector<Surface_note> notes_of(const Fit_statistics& fit);
+/// The rows as comments of a mesh, by which `view` knows them again.
+std::vector<std::string> comments_of(const Description& fit);
+
+/// The rows that comments_of() wrote, and one that says so if the mesh has lost its columns of errors. Empty for a mesh
+/// that does not come from a fit.
+Description description_of_fit(const Vertex_attributes& attributes);
+
+/// " at scale 0.1" for what follows the names of quantities; nothing for the surface's own, or without a fit.
+std::string label_suffix(const Description& fit);
+
+/// The rows as lines below a picture, without the scale, which stands in its legend.
+std::vector<Surface_note> notes_of(const Description& fit);
 
 } // namespace equiaffine
 

@@ -83,18 +83,26 @@ Mappings mappings_of_page(const std::string& path) {
   return mappings;
 }
 
-} // namespace
-
-Mappings read_mappings(const std::string& path) {
+Mappings mappings_of_file(const std::string& path) {
   if (has_extension(path, ".html") || has_extension(path, ".htm")) return mappings_of_page(path);
   if (!has_extension(path, ".ply"))
-    throw Input_error("--range-of: cannot read '" + path + "': it is neither a page, .html, nor a mesh, .ply");
+    throw Input_error("cannot read '" + path + "': it is neither a page, .html, nor a mesh, .ply");
   std::ifstream file = open_input(path);
   const auto [mesh, attributes] = read_PLY<Kernel>(file, path);
   const Numbers_of_mesh numbers_of(mesh, attributes);
   Mappings mappings;
   for (const auto& column : attributes.columns) mappings.emplace(column.name, numbers_of(column).mapping());
   return mappings;
+}
+
+} // namespace
+
+Mappings read_mappings(const std::string& path) {
+  try {
+    return mappings_of_file(path);
+  } catch (const Input_error& error) {
+    throw Input_error(std::string("--range-of: ") + error.what());
+  }
 }
 
 } // namespace equiaffine

@@ -55,13 +55,21 @@ std::string page_title(const std::string& path, const std::string& otherwise);
 /// VTK. Each may be "-".
 void check_display_outputs(const Display_options& options);
 
+/// What a page and a picture say about a surface.
+struct Surface_texts {
+  std::string title;
+  Description description;
+  std::vector<Surface_note> notes = {}; ///< below the picture
+  std::string label_suffix = {};        ///< what follows the labels of quantities
+};
+
 /// Writes the page and the picture that are asked for to the next files, without committing, and returns the file after
-/// them. The curves and the notes are on the picture only. `label_suffix` follows the labels of quantities.
-std::vector<Output_file>::iterator
-write_displays(std::vector<Output_file>::iterator file, const Indexed_triangle_mesh_3<Kernel>& mesh,
-               const Vertex_attributes& attributes, const Display_options& options, const std::string& title,
-               const Description& description, const std::vector<Polyline_3<Kernel>>& curves = {},
-               const std::vector<Surface_note>& notes = {}, const std::string& label_suffix = {});
+/// them. The curves are on the picture only.
+std::vector<Output_file>::iterator write_displays(std::vector<Output_file>::iterator file,
+                                                  const Indexed_triangle_mesh_3<Kernel>& mesh,
+                                                  const Vertex_attributes& attributes, const Display_options& options,
+                                                  const Surface_texts& texts,
+                                                  const std::vector<Polyline_3<Kernel>>& curves = {});
 
 } // namespace equiaffine
 

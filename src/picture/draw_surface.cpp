@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace equiaffine {
@@ -76,11 +78,26 @@ private:
   std::vector<Vector> normals_, views_; // in the directions of the camera
 };
 
+/// The text in lines that are no wider than a picture, broken between words, by the mean width of a letter.
+std::vector<std::string> lines_of(std::string_view text, std::size_t width) {
+  constexpr std::size_t letter_width = 8, margins = 40;
+  const std::size_t most = std::max<std::size_t>(width, 5 * margins) / letter_width - margins / letter_width;
+  std::vector<std::string> lines;
+  while (text.size() > most) {
+    const std::size_t space = text.rfind(' ', most), end = space == std::string_view::npos ? most : space;
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(space == std::string_view::npos ? end : end + 1);
+  }
+  lines.emplace_back(text);
+  return lines;
+}
+
 /// The notes of the view, then those of the paint, which are left out first where there is no room.
 std::vector<Color_note> notes_from_bottom(const Surface_view& view, const Surface_paint& paint) {
   std::vector<Color_note> notes;
   for (auto note = view.notes.rbegin(); note != view.notes.rend(); ++note) {
-    notes.push_back({std::nullopt, note->text});
+    const std::vector<std::string> lines = lines_of(note->text, view.size[0]);
+    for (auto line = lines.rbegin(); line != lines.rend(); ++line) notes.push_back({std::nullopt, *line});
     if (note->number && paint.legend()) notes.back().color = paint.legend()->mapping.color(*note->number);
   }
   notes.insert(notes.end(), paint.notes().begin(), paint.notes().end());

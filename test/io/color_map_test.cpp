@@ -130,6 +130,15 @@ TEST(Color_map, noise_of_the_other_sign_does_not_make_a_quantity_signed) {
   EXPECT_TRUE(color_range(values).is_diverging);
 }
 
+TEST(Color_map, a_bound_that_is_nearly_zero_is_zero) {
+  for (const double sign : {1., -1.}) {
+    const Color_range range = color_range({sign * 2e-8, sign * 1, sign * 4}, 0);
+    EXPECT_EQ(sign > 0 ? range.lower : range.upper, 0);
+    EXPECT_EQ(sign > 0 ? range.upper : range.lower, sign * 4);
+    EXPECT_FALSE(range.is_diverging);
+  }
+}
+
 TEST(Color_map, mostly_zeros_keep_the_few_numbers_visible) {
   std::vector<double> values(1000, 0.);
   values[3] = 4;

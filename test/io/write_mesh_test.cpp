@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/io/read_PLY.h>
+#include <equiaffine/io/read_points.h>
 #include <equiaffine/io/write_mesh.h>
 
 #include <CGAL/IO/OBJ.h>
@@ -96,6 +98,24 @@ TEST(Write_mesh, the_ply_header_is_the_documented_one) {
             "element face 4\nproperty list uchar int vertex_indices\n");
   const std::size_t header_size = text.find("end_header\n") + std::strlen("end_header\n");
   EXPECT_EQ(text.size(), header_size + 4 * (7 * 8 + 1) + 4 * (1 + 3 * 4));
+}
+
+TEST(Write_mesh, ply_keeps_comments_and_reads_them_again) {
+  Vertex_attributes values = attributes();
+  values.comments = {"fit Scale: 0.18", "two\nlines", ""};
+  std::istringstream stream(written(Mesh_format::PLY, tetrahedron(), values));
+  const auto [mesh, read] = equiaffine::read_PLY<Kernel>(stream, "t.ply");
+  EXPECT_EQ(read.comments, (std::vector<std::string>{"fit Scale: 0.18", "two lines", ""}));
+  EXPECT_EQ(read.columns.size(), values.columns.size());
+  EXPECT_EQ(mesh.points, tetrahedron().points);
+}
+
+TEST(Write_mesh, computed_comments_replace_those_of_the_same_name) {
+  Vertex_attributes first, second;
+  first.comments = {"by a scanner", "fit Scale: 0.18", "fit Noise: 1"};
+  second.comments = {"fit Scale: 0.2"};
+  EXPECT_EQ(equiaffine::merge_attributes(first, second).comments,
+            (std::vector<std::string>{"by a scanner", "fit Noise: 1", "fit Scale: 0.2"}));
 }
 
 TEST(Write_mesh, cgal_reads_the_same_points_and_faces_from_off) {

@@ -230,6 +230,25 @@ TEST_F(Program_annotate, statistics_say_what_was_fitted) {
   EXPECT_NE(out.find("Euler characteristic 2, closed"), std::string::npos) << out;
 }
 
+TEST_F(Program_annotate, view_knows_the_fit_that_a_mesh_comes_from) {
+  make_surface("in.ply");
+  const auto page_of = [&](const Arguments& options) {
+    run_well(Arguments{"annotate", "in.ply", "-o", "out.ply", "--html", "own.html"} + options);
+    run_well({"view", "out.ply", "-o", "view.html"});
+    return file("view.html");
+  };
+  const std::string lost = "lost: the file has no column NAME_error";
+  const std::string with_errors = page_of({"--scale", "1.2"});
+  for (const char* fact :
+       {"<dt>Scale</dt><dd>1.2</dd>", "<dt>Noise</dt>", "<dt>Vertices known to 20", " at scale 1.2"}) {
+    EXPECT_NE(with_errors.find(fact), std::string::npos) << fact;
+    EXPECT_NE(file("own.html").find(fact), std::string::npos) << fact;
+  }
+  EXPECT_EQ(with_errors.find(lost), std::string::npos);
+  EXPECT_NE(page_of({"--scale", "1.2", "--attributes", "affine_gaussian_curvature"}).find(lost), std::string::npos);
+  EXPECT_EQ(page_of({"--scale", "none"}).find(" at scale"), std::string::npos);
+}
+
 TEST_F(Program_annotate, a_scale_that_is_too_large_or_too_small_is_refused) {
   make_surface("in.ply");
   expect_error({"annotate", "in.ply", "-o", "out.ply", "--scale", "180"}, {"--scale", "180", "third", "give at most"});
@@ -320,7 +339,8 @@ TEST_F(Program_annotate, what_cannot_be_used_is_refused) {
   const Arguments to = {"-o", "out.ply"};
   expect_error(Arguments{"annotate"} + to, {"no mesh is given"});
   expect_error({"annotate", "in.xyz"}, {"--output is missing"});
-  expect_error(Arguments{"annotate", "in.xyz", "--scale", "-1"} + to, {"--scale", "'-1'", "not a length"});
+  expect_error(Arguments{"annotate", "in.xyz", "--scale", "-1"} + to,
+               {"--scale", "'-1'", "not a length", "auto or none"});
   expect_error(Arguments{"annotate", "in.xyz", "--noise", "-1"} + to, {"--noise", "'-1'", "less than 0"});
   expect_error(Arguments{"annotate", "in.xyz", "--degree", "7"} + to, {"--degree", "'7'", "4 or 5 or 6 or 8 or 10"});
   expect_error(Arguments{"annotate", "bad.xyz"} + to, {"'bad.xyz'", "line 3", "'x' is not a number"});

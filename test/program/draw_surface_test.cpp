@@ -241,6 +241,17 @@ TEST(Program_draw_surface, there_is_no_parabolic_line_beside_a_vertex_whose_curv
   EXPECT_EQ(crossed.notes[0].text, "parabolic curve: no number there") << "it may be zero on both sides";
 }
 
+TEST(Program_draw_surface, notes_that_are_wider_than_the_picture_have_several_lines) {
+  Surface_view options = small;
+  options.notes = {{std::nullopt, "one two three four five six"}, {std::nullopt, "a-word-that-is-longer-than-a-line"}};
+  const auto drawn = draw_surface(facing_square(), {}, options);
+  std::vector<std::string> lines; // from the bottom
+  for (const auto& note : drawn.notes) lines.push_back(note.text);
+  const std::vector<std::string> expected = {"r-than-a-line", "a-word-that-is-longe", "five six", "one two three four"};
+  ASSERT_FALSE(lines.empty());
+  EXPECT_TRUE(std::equal(lines.begin(), lines.end(), expected.begin())) << lines[0];
+}
+
 TEST(Program_draw_surface, colors_that_show_no_number_have_notes_and_no_bar) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   using enum Point_status;

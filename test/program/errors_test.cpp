@@ -506,8 +506,8 @@ TEST_F(Program_errors, colors_come_from_a_page_or_a_mesh) {
   write_file(folder_ / "other.html", "<html></html>");
   before_ = names();
   const Arguments view = {"view", "in.ply", "-o", "o.html", "--color", "mean_curvature", "--range-of"};
-  expect_error(view + Arguments{"other.html"}, {"'other.html'", "no ranges of colors", "page"});
-  expect_error(view + Arguments{"none.html"}, {"'none.html'"});
+  expect_error(view + Arguments{"other.html"}, {"--range-of", "'other.html'", "no ranges of colors", "page"});
+  expect_error(view + Arguments{"none.html"}, {"--range-of", "'none.html'"});
   expect_error(view + Arguments{"in.off"}, {"--range-of", "'in.off'", ".html", ".ply"});
   expect_error(view + Arguments{"few.ply"}, {"--range-of", "'few.ply'", "'mean_curvature'", "--color"});
   expect_error(view + Arguments{"in.ply", "--range", "1", "2"}, {"--range-of", "--range", "leave one"});

@@ -87,7 +87,7 @@ inline std::vector<double> sorted_magnitudes(const std::vector<double>& sorted) 
 
 /// The range of a column of numbers; infinities and NaNs do not count. For numbers of both signs the bounds are +-(the
 /// (100 - clip_percent)-quantile of |value|), for numbers of one sign the quantiles at clip_percent and 100 -
-/// clip_percent. A sign counts when it reaches a millionth of that largest |value|. `resolution` >= 0, in the unit of
+/// clip_percent, or 0 below a millionth of that largest |value|, from which on a sign counts. `resolution` >= 0, in the unit of
 /// the numbers, is the least half-width worth a color. A
 /// relative half-width is at least a millionth, as pages store single precision. Numbers look like zero instead of like
 /// noise if at least half of them are below the resolution and that largest |value| is below a thousand resolutions,
@@ -112,8 +112,11 @@ inline Color_range color_range_of_sorted(const std::vector<double>& sorted, cons
   const double negligible = relative_resolution * largest;
   const bool has_both_signs = -negligible > sorted.front() && negligible < sorted.back();
   if (has_both_signs) return {-largest, largest, knee, true};
-  const double lower = quantile_of_sorted(sorted, clip_percent);
-  const double upper = quantile_of_sorted(sorted, 100 - clip_percent);
+  const auto bound = [&](double percent) {
+    const double number = quantile_of_sorted(sorted, percent);
+    return std::abs(number) < negligible ? 0 : number;
+  };
+  const double lower = bound(clip_percent), upper = bound(100 - clip_percent);
   const double middle = lower + (upper - lower) / 2;
   const double half_width = std::max({(upper - lower) / 2, resolution, relative_resolution * std::abs(middle)});
   return {middle - half_width, middle + half_width, knee, false};

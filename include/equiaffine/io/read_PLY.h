@@ -15,7 +15,7 @@
 namespace equiaffine {
 
 /// Reads PLY (text or binary): the points, every other scalar property of the vertices as a column, `uchar status` as
-/// the status, and the faces, if any, as fans of triangles. Lists at vertices and other elements are left out. `name`
+/// the status, the comments, and the faces, if any, as fans of triangles. Lists at vertices and other elements are left out. `name`
 /// stands for the file in messages. Throws `Input_error` for what is not a complete PLY file.
 template <class Kernel>
 Annotated_mesh_3<Kernel> read_PLY(std::istream& stream, const std::string& name) {
@@ -23,7 +23,9 @@ Annotated_mesh_3<Kernel> read_PLY(std::istream& stream, const std::string& name)
   std::string_view rest = text;
   const internal::Ply_header header = internal::Ply_header_parser(rest, name).parse();
   internal::Ply_numbers numbers(rest, header.encoding, name);
-  return internal::read_elements<Kernel>(numbers, header.elements);
+  Annotated_mesh_3<Kernel> result = internal::read_elements<Kernel>(numbers, header.elements);
+  result.attributes.comments = header.comments;
+  return result;
 }
 
 } // namespace equiaffine

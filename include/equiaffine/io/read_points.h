@@ -87,12 +87,19 @@ Point_table_3<Kernel> read_points(const std::string& path) {
 }
 
 /// The columns of `first` that `second` does not have, then those of `second`; the status of `second` if it has one.
+/// Comments likewise: those with the same text before the colon are replaced.
 inline Vertex_attributes merge_attributes(Vertex_attributes first, const Vertex_attributes& second) {
   std::erase_if(first.columns, [&](const auto& old) {
     return std::any_of(second.columns.begin(), second.columns.end(), [&](const auto& c) { return c.name == old.name; });
   });
   first.columns.insert(first.columns.end(), second.columns.begin(), second.columns.end());
   if (second.status) first.status = second.status;
+  const auto name = [](const std::string& comment) { return comment.substr(0, comment.find(':')); };
+  std::erase_if(first.comments, [&](const auto& old) {
+    return std::any_of(second.comments.begin(), second.comments.end(),
+                       [&](const auto& c) { return name(c) == name(old); });
+  });
+  first.comments.insert(first.comments.end(), second.comments.begin(), second.comments.end());
   return first;
 }
 

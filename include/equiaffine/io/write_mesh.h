@@ -33,7 +33,8 @@ inline std::optional<Mesh_format> mesh_format(const std::string& path) {
   return std::nullopt;
 }
 
-/// Writes PLY, binary little-endian: `double x y z`, a `double` property per column, `uchar status`, `vertex_indices`.
+/// Writes PLY, binary little-endian: `double x y z`, a `double` property per column, `uchar status`, `vertex_indices`,
+/// and the comments.
 template <class Kernel>
 void write_PLY(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh,
                const Vertex_attributes& attributes = {}) {

@@ -31,6 +31,7 @@ struct Vertex_attributes {
   };
   std::vector<Column> columns;
   std::optional<std::vector<Point_status>> status;
+  std::vector<std::string> comments = {}; ///< lines of text on the numbers, which only PLY keeps
 
   /// Whether every column and the status, if there is one, have `size` entries.
   bool has_length(std::size_t size) const {

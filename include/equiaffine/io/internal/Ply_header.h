@@ -36,6 +36,7 @@ struct Ply_element {
 struct Ply_header {
   Ply_encoding encoding;
   std::vector<Ply_element> elements;
+  std::vector<std::string> comments; ///< all but the one that names this program
 };
 
 /// Takes the header off the text of a PLY file, line by line.
@@ -48,6 +49,7 @@ public:
     if (take_line(text_, line_number_) != "ply") fail_to_read(name_, "it is not a PLY file", "check the path");
     std::optional<Ply_encoding> encoding;
     std::vector<Ply_element> elements;
+    std::vector<std::string> comments;
     while (true) {
       if (text_.empty()) fail_to_read(name_, "it ends within its PLY header", "get the complete file again");
       std::string_view line = take_line(text_, line_number_);
@@ -62,11 +64,12 @@ public:
       } else if (keyword == "property") {
         if (elements.empty()) fail("a property before the first element");
         elements.back().properties.push_back(parse_property(line));
-      } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info")
-        fail("the word '" + std::string(keyword) + "'");
+      } else if (keyword == "comment") {
+        if (!trim(line).starts_with("made by equiaffine")) comments.emplace_back(trim(line));
+      } else if (!keyword.empty() && keyword != "obj_info") fail("the word '" + std::string(keyword) + "'");
     }
     if (!encoding) fail("no format");
-    return {*encoding, std::move(elements)};
+    return {*encoding, std::move(elements), std::move(comments)};
   }
 
 private:

@@ -7,9 +7,11 @@
 
 #include <CGAL/number_utils.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace equiaffine::internal {
@@ -32,6 +34,11 @@ inline void write_ply_header(Buffered_output& out, std::size_t points, std::size
   if (attributes.status) {
     out << "; status:";
     for (std::size_t i = 0; i < number_of_point_statuses; ++i) out << ' ' << i << ' ' << to_string(Point_status(i));
+  }
+  for (std::string line : attributes.comments) {
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    out << "\ncomment " << line;
   }
   out << "\nelement vertex " << points << "\nproperty double x\nproperty double y\nproperty double z\n";
   for (const auto& column : attributes.columns) out << "property double " << column.name << '\n';
