@@ -87,12 +87,11 @@ inline std::vector<double> sorted_magnitudes(const std::vector<double>& sorted) 
 
 /// The range of a column of numbers; infinities and NaNs do not count. For numbers of both signs the bounds are +-(the
 /// (100 - clip_percent)-quantile of |value|), for numbers of one sign the quantiles at clip_percent and 100 -
-/// clip_percent, or 0 below a millionth of that largest |value|, from which on a sign counts. `resolution` >= 0, in the unit of
-/// the numbers, is the least half-width worth a color. A
-/// relative half-width is at least a millionth, as pages store single precision. Numbers look like zero instead of like
-/// noise if at least half of them are below the resolution and that largest |value| is below a thousand resolutions,
-/// since rounding grows beside a parabolic curve: their range is a billion resolutions, which is the unit of the numbers
-/// where the resolution is 1e-9 of it.
+/// clip_percent, or 0 below a millionth of that largest |value|, from which on a sign counts. `resolution` >= 0, in the
+/// unit of the numbers, is the least half-width worth a color. A relative half-width is at least a millionth, as pages
+/// store single precision. Numbers look like zero instead of like noise if at least half of them are below the
+/// resolution and that largest |value| is below a thousand resolutions, since rounding grows beside a parabolic curve:
+/// their range is a billion resolutions, which is the unit of the numbers where the resolution is 1e-9 of it.
 /// \pre `sorted` is ascending and finite, `magnitudes` has its absolute values, ascending
 inline Color_range color_range_of_sorted(const std::vector<double>& sorted, const std::vector<double>& magnitudes,
                                          double clip_percent, double resolution) {

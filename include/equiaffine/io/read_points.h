@@ -103,8 +103,8 @@ inline Vertex_attributes merge_attributes(Vertex_attributes first, const Vertex_
   return first;
 }
 
-/// Writes the rows of `table` as they came, with their separator, then the columns of `attributes` and the status; these replace columns of
-/// the same names.
+/// Writes the rows of `table` as they came, with their separator, then the columns of `attributes` and the status;
+/// these replace columns of the same names.
 template <class Kernel>
 void write_CSV(std::ostream& stream, const Point_table_3<Kernel>& table, const Vertex_attributes& attributes) {
   if (table.header.empty()) return write_CSV(stream, table.mesh.points, merge_attributes(table.attributes, attributes));
