@@ -45,8 +45,8 @@ const std::vector<Option_row> rows = {
     {"--min-overlap", REGISTER, MAPS, 1, "PART",
      "the part of one of the surfaces, at least, that is to lie on the other, by default 0.05", read_least_overlap},
     {"--tolerance", SYMMETRIES, MAPS, 1, "PART",
-     "how far a symmetry may move points from the surface, a part of its size: by default 1e-8\n"
-     "for a formula, and more for others",
+     "the largest rms distance to which a symmetry may move points from the surface, a part of\n"
+     "its size: by default 1e-8 for a formula; a mesh has the first group within 0.01",
      read_tolerance},
 };
 

@@ -108,7 +108,7 @@ Options parse_register_options(const Words& arguments) {
 Symmetries_options read_symmetries_options(Option_reader& reader) {
   Symmetries_options options;
   options.surface = read_surface(reader);
-  read_outputs(reader, {"distance", "plain"});
+  read_outputs(reader, {"distance", "surface", "plain"});
   const Draft& draft = reader.draft();
   check_outputs(input_files(reader), {draft.output, draft.display.html, draft.display.png});
   options.maps = draft.maps;

@@ -8,6 +8,7 @@
 #include <CGAL/Bbox_3.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace equiaffine {
@@ -44,7 +45,8 @@ Surface_to_register make_surface_to_register(const Surface_options& options, boo
       Level_set_of_source(std::move(source.function), options.isovalue, options.source.transformation),
       {},
       std::move(source.data),
-      {}};
+      {},
+      source.fit ? source.fit->scale() : std::nullopt};
   if (source.unsmoothed) surface.unsmoothed.emplace(std::move(*source.unsmoothed), options.isovalue);
   const bool has_data = !surface.mesh.points.empty() && options.isovalue == 0; // the data lie on f = 0
   if (has_data) check_box(surface, options);

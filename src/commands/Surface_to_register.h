@@ -17,6 +17,7 @@ struct Surface_to_register {
   std::optional<Level_set_of_source> unsmoothed; ///< if the function is a spline through smoothed samples
   Indexed_triangle_mesh_3<Kernel> mesh;          ///< the data of a fit, else what Marching Cubes makes
   Indexed_triangle_mesh_3<Kernel> extracted;     ///< what Marching Cubes makes of a fit to points without faces
+  std::optional<double> scale;                   ///< of the curvatures of a fit, unless they are the surface's own
 
   const Level_set_of_source& refined() const { return unsmoothed ? *unsmoothed : function; }
   const Indexed_triangle_mesh_3<Kernel>& shown() const { return mesh.triangles.empty() ? extracted : mesh; }

@@ -84,7 +84,7 @@ void run_annotate(const Annotate_options& options, std::ostream& out, Progress& 
   add_estimates(estimates, options.estimates, attributes);
   statistics.annotate_seconds = stopwatch.seconds();
   const Description fit = description_of(statistics.fit);
-  if (!attributes.columns.empty()) attributes.comments = comments_of(fit);
+  if (!attributes.columns.empty()) attributes.comments = comments_of(statistics.fit);
 
   const Stopwatch write_stopwatch;
   progress.begin("writing");

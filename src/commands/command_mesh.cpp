@@ -237,7 +237,7 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   Statistics statistics = make_statistics(options, surface, source);
   statistics.sample_seconds += source_seconds;
   const Description fit = statistics.fit ? description_of(*statistics.fit) : Description();
-  if (!surface.attributes.columns.empty()) surface.attributes.comments = comments_of(fit);
+  if (statistics.fit && !surface.attributes.columns.empty()) surface.attributes.comments = comments_of(*statistics.fit);
   auto file = outputs.files.begin();
   write_surface(*file++, surface.mesh, surface.attributes);
   if (options.source.estimates_errors) add_errors(surface.estimates, surface.attributes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/Surface_to_register.h"
 #include "commands/commands.h"
+#include "commands/find_map.h"
 #include "commands/maps_view.h"
 #include "commands/what_to_try.h"
 #include "output/maps.h"
@@ -8,29 +8,13 @@
 #include "output/surface_output.h"
 #include "source/source.h"
 #include "system/atomic_file.h"
-#include <equiaffine/register_surfaces.h>
-
-#include <CGAL/tags.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace equiaffine {
 
 namespace {
-
-Surface_registration_3<Kernel> register_with(const Register_options& options, const Surface_to_register& source,
-                                             const Surface_to_register& target) {
-  const auto parameters = parameters::map_kind(options.maps.kind)
-                              .reflections(options.maps.allows_reflections)
-                              .number_of_maps(options.number_of_maps.value_or(1))
-                              .least_overlap(options.least_overlap)
-                              .refined_functions(std::pair<const Level_set_of_source&, const Level_set_of_source&>(
-                                  source.refined(), target.refined()));
-  return register_surfaces<CGAL::Parallel_if_available_tag>(source.function, source.mesh.points, target.function,
-                                                            target.mesh.points, parameters);
-}
 
 /// The output files of the command. The constructor throws if one of them cannot be written.
 struct Outputs {
@@ -51,13 +35,14 @@ struct Outputs {
 void run_register(const Register_options& options, std::ostream& out, Progress& progress) {
   Outputs outputs(options);
   const bool is_shown = options.display.shows_something();
-  const Surface_to_register source = make_surface_to_register(options.source, is_shown, progress);
-  const Surface_to_register target = make_surface_to_register(options.target, is_shown, progress);
-  progress.begin("looking for the map");
+  const Found_map found = find_map(options, progress);
+  const Surface_to_register &source = found.source, &target = found.target;
   Registration_report report = {describe(options.source.source),
                                 describe(options.target.source),
-                                register_with(options, source, target),
+                                found.registration,
                                 options.number_of_maps.has_value(),
+                                found.maps_left_out,
+                                found.tried,
                                 {}};
   if (!report.registration.found()) report.advice = what_to_try(options, report.registration.hypotheses > 0);
 

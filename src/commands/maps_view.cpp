@@ -3,8 +3,12 @@
 
 #include "output/arrow_mesh.h"
 #include "output/maps.h"
+#include "output/symmetry_marks.h"
 #include <equiaffine/base/parallel_for.h>
 
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Bbox_3.h>
 #include <CGAL/tags.h>
 
@@ -14,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -124,25 +129,57 @@ Annotated_mesh_3<Kernel> registered_surfaces(const Surface_to_register& source, 
   return std::move(all).result();
 }
 
-Annotated_mesh_3<Kernel> surface_with_symmetries(const Surface_to_register& surface,
-                                                 const Affine_symmetries_3<Kernel>& symmetries) {
-  Annotated_mesh_3<Kernel> result{surface.shown(), {}};
-  const std::vector<Point>& points = result.mesh.points;
-  std::vector<double> greatest(points.size(), std::numeric_limits<double>::quiet_NaN());
+Distances_of_points distances_from(const Level_set_of_source& surface) {
+  return [&surface](const std::vector<Point>& points) { return distances(points, surface, Map(CGAL::IDENTITY)); };
+}
+
+Distances_of_points distances_from(const Mesh& mesh) {
+  using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
+  struct Tree {
+    std::vector<Kernel::Triangle_3> triangles;
+    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree;
+  };
+  const auto shared = std::make_shared<Tree>();
+  for (const auto& [a, b, c] : mesh.triangles)
+    shared->triangles.emplace_back(mesh.points[a], mesh.points[b], mesh.points[c]);
+  std::erase_if(shared->triangles, [](const Kernel::Triangle_3& triangle) { return triangle.is_degenerate(); });
+  shared->tree.insert(shared->triangles.begin(), shared->triangles.end());
+  shared->tree.build();
+  shared->tree.accelerate_distance_queries();
+  return [shared](const std::vector<Point>& points) {
+    std::vector<double> result(points.size());
+    parallel_for<CGAL::Parallel_if_available_tag>(
+        0, points.size(), [&](std::size_t i) { result[i] = std::sqrt(shared->tree.squared_distance(points[i])); }, 64);
+    return result;
+  };
+}
+
+Annotated_mesh_3<Kernel> surface_with_symmetries(const Mesh& surface, const Affine_symmetries_3<Kernel>& symmetries,
+                                                 const Distances_of_points& distances) {
+  std::vector<double> greatest(surface.points.size(), std::numeric_limits<double>::quiet_NaN());
   for (const auto& symmetry : symmetries.maps) {
-    const auto images = distances(moved(result.mesh, symmetry.map).points, surface.function, Map(CGAL::IDENTITY));
-    for (std::size_t i = 0; i < points.size(); ++i) greatest[i] = std::fmax(greatest[i], images[i]);
+    const auto images = distances(moved(surface, symmetry.map).points);
+    for (std::size_t i = 0; i < images.size(); ++i) greatest[i] = std::fmax(greatest[i], images[i]);
   }
+  const double diagonal = diagonal_of(surface.points);
+  const Symmetry_marks marks = marks_of(symmetries);
+  Joined_meshes all;
+  all.add(surface, 0, std::move(greatest));
+  all.add(mesh_of_planes(marks.planes, surface, 0.002 * diagonal), 1, {});
+  all.add(mesh_of_axes(marks.axes, surface, 0.004 * diagonal), marks.planes.empty() ? 1 : 2, {});
+  Annotated_mesh_3<Kernel> result = std::move(all).result();
   auto& columns = result.attributes.columns;
-  columns.push_back({"distance", std::move(greatest)});
   const auto& generators = symmetries.continuous.generators;
   for (std::size_t n = 0; n < generators.size(); ++n)
     for (int k = 0; k < 3; ++k) {
       const auto& [matrix, translation] = generators[n];
       auto& column = columns.emplace_back();
       column.name = "generator" + std::to_string(n + 1) + '_' + "xyz"[k];
-      for (const Point& p : points)
-        column.values.push_back(matrix(k, 0) * p.x() + matrix(k, 1) * p.y() + matrix(k, 2) * p.z() + translation[k]);
+      column.values.assign(result.mesh.points.size(), std::numeric_limits<double>::quiet_NaN());
+      for (std::size_t i = 0; i < surface.points.size(); ++i) {
+        const Point& p = surface.points[i];
+        column.values[i] = matrix(k, 0) * p.x() + matrix(k, 1) * p.y() + matrix(k, 2) * p.z() + translation[k];
+      }
     }
   return result;
 }

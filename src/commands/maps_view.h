@@ -8,6 +8,9 @@
 #include <equiaffine/registration/Affine_symmetries_3.h>
 #include <equiaffine/registration/Surface_registration_3.h>
 
+#include <functional>
+#include <vector>
+
 namespace equiaffine {
 
 /// The source moved by a map, with the column `distance`: how far vertices are from the target, to first order, or NaN
@@ -21,10 +24,19 @@ Annotated_mesh_3<Kernel> moved_source(const Surface_to_register& source, const S
 Annotated_mesh_3<Kernel> registered_surfaces(const Surface_to_register& source, const Surface_to_register& target,
                                              const Surface_registration_3<Kernel>& registration);
 
-/// The surface with the column `distance`, the greatest distance of images of a vertex under the symmetries, and
-/// columns generatorN_x, generatorN_y, generatorN_z, the velocity of the vertex by each continuous one.
-Annotated_mesh_3<Kernel> surface_with_symmetries(const Surface_to_register& surface,
-                                                 const Affine_symmetries_3<Kernel>& symmetries);
+/// The distances of points from a surface; NaN where they are not known.
+using Distances_of_points = std::function<std::vector<double>(const std::vector<Kernel::Point_3>&)>;
+
+/// Those to first order from the level set, and those from the triangles of a mesh, which has to outlive the result.
+Distances_of_points distances_from(const Level_set_of_source& surface);
+Distances_of_points distances_from(const Indexed_triangle_mesh_3<Kernel>& mesh);
+
+/// The surface with the column `distance`, the greatest distance of images of a vertex under the symmetries, `surface`,
+/// 0 for the surface and the next numbers for planes of reflection and axes of rotation, if there are any, and columns generatorN_x, generatorN_y,
+/// generatorN_z, the velocity of the vertex by each continuous one.
+Annotated_mesh_3<Kernel> surface_with_symmetries(const Indexed_triangle_mesh_3<Kernel>& surface,
+                                                 const Affine_symmetries_3<Kernel>& symmetries,
+                                                 const Distances_of_points& distances);
 
 } // namespace equiaffine
 

@@ -25,10 +25,9 @@ void add_for_scales(const Surface_options& source, const Surface_options& target
   const auto &scale = source.source.fit.scale, &other = target.source.fit.scale;
   if (is_fit(source) && is_fit(target))
     advice.emplace_back(scale && scale == other ? "a larger --scale, the same on both sides"
-                                                : "the same --scale R on both sides, some ten spacings of the points");
+                                                : "the same --scale R on both sides");
   else if (is_fit(source) || is_fit(target))
-    advice.emplace_back((is_fit(source) ? scale : other) ? "a larger --scale"
-                                                         : "--scale R for the fit, some ten spacings of its points");
+    advice.emplace_back((is_fit(source) ? scale : other) ? "a larger --scale" : "--scale R for the fit");
 }
 
 void add_for_kind(const Map_options& maps, std::vector<std::string>& advice) {
@@ -52,15 +51,17 @@ std::vector<std::string> what_to_try(const Register_options& options, bool has_h
   return advice;
 }
 
-std::vector<std::string> what_to_try(const Symmetries_options& options) {
+std::vector<std::string> what_to_try(const Symmetries_options& options, const Symmetries& found) {
   std::vector<std::string> advice;
-  if (is_fit(options.surface))
-    advice.emplace_back(options.surface.source.fit.scale ? "a larger --scale"
-                                                         : "--scale R, some ten spacings of the points");
+  const bool is_affine = options.maps.kind == Map_kind::AFFINE || options.maps.kind == Map_kind::EQUIAFFINE;
+  if (!is_undecided(found)) {
+    if (!found.levels.empty()) advice.emplace_back("a larger --tolerance");
+    add_for_kind(options.maps, advice);
+    return advice;
+  }
   add_for_derivatives({&options.surface}, advice);
-  add_for_kind(options.maps, advice);
-  if (options.surface.source.derivatives == Derivatives::SPLINE || is_fit(options.surface))
-    advice.emplace_back("a larger --tolerance");
+  if (is_affine) advice.emplace_back("--kind rigid, whose maps need no solid");
+  if (!options.tolerance) advice.emplace_back("--tolerance PART for another distance to which maps may move points");
   return advice;
 }
 

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_SRC_COMMANDS_WHAT_TO_TRY_H
 #define EQUIAFFINE_SRC_COMMANDS_WHAT_TO_TRY_H
 
+#include "output/maps.h"
 #include "request/options.h"
 
 #include <string>
@@ -13,8 +14,8 @@ namespace equiaffine {
 /// agreed at all.
 std::vector<std::string> what_to_try(const Register_options& options, bool has_hypotheses);
 
-/// What may find symmetries where only the identity was found.
-std::vector<std::string> what_to_try(const Symmetries_options& options);
+/// What may find symmetries where only the identity was found, or nothing was decided.
+std::vector<std::string> what_to_try(const Symmetries_options& options, const Symmetries& found);
 
 } // namespace equiaffine
 

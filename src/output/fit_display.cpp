@@ -2,7 +2,10 @@
 #include "output/fit_display.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdlib>
 #include <optional>
 #include <string_view>
 
@@ -11,7 +14,10 @@ namespace equiaffine {
 namespace {
 
 constexpr const char *scale_label = "Scale", *own_scale = "none: the curvatures are the surface's own",
-                     *errors_label = "Errors";
+                     *noise_label = "Noise", *parabolic_label = "Parabolic",
+                     *known_label = "Vertices known to 20 / 50 %", *errors_label = "Errors";
+constexpr std::array<std::string_view, 4> labels = {scale_label, noise_label, parabolic_label, known_label};
+constexpr std::size_t longest_value = 200;
 constexpr std::string_view begin_of_comment = "fit ", separator = ": ";
 
 bool has_errors(const Vertex_attributes& attributes) {
@@ -23,14 +29,16 @@ bool has_errors(const Vertex_attributes& attributes) {
 
 Description description_of(const Fit_statistics& fit) {
   Description rows = {{scale_label, fit.scale ? number_text(*fit.scale, 3) : own_scale},
-                      {"Noise", number_text(fit.noise, 2)}};
+                      {noise_label, number_text(fit.noise, 2)}};
   if (const auto percent = std::lround(100 * fit.parabolic); percent > 0)
-    rows.emplace_back("Parabolic", std::to_string(percent) + " % of the vertices");
-  rows.emplace_back("Vertices known to 20 / 50 %", table_of_known(fit) + " %");
+    rows.emplace_back(parabolic_label, std::to_string(percent) + " % of the vertices");
+  rows.emplace_back(known_label, table_of_known(fit) + " %");
   return rows;
 }
 
-std::vector<std::string> comments_of(const Description& fit) {
+std::vector<std::string> comments_of(const Fit_statistics& statistics) {
+  if (!std::isfinite(statistics.noise)) return {}; // nothing was fitted
+  const Description fit = description_of(statistics);
   std::vector<std::string> comments;
   for (const auto& [label, value] : fit)
     comments.push_back((std::string(begin_of_comment) + label).append(separator) + value);
@@ -42,8 +50,11 @@ Description description_of_fit(const Vertex_attributes& attributes) {
   for (const std::string_view comment : attributes.comments) {
     const std::size_t colon = comment.find(separator);
     if (!comment.starts_with(begin_of_comment) || colon == std::string_view::npos) continue;
-    fit.emplace_back(comment.substr(begin_of_comment.size(), colon - begin_of_comment.size()),
-                     comment.substr(colon + separator.size()));
+    const std::string_view label = comment.substr(begin_of_comment.size(), colon - begin_of_comment.size());
+    const std::string_view value = comment.substr(colon + separator.size());
+    const bool is_known = std::find(labels.begin(), labels.end(), label) != labels.end();
+    const bool is_new = std::none_of(fit.begin(), fit.end(), [&](const auto& row) { return row.first == label; });
+    if (is_known && is_new && value.size() < longest_value) fit.emplace_back(label, value);
   }
   if (!fit.empty() && !has_errors(attributes))
     fit.emplace_back(errors_label,
@@ -53,7 +64,7 @@ Description description_of_fit(const Vertex_attributes& attributes) {
 
 std::string label_suffix(const Description& fit) {
   for (const auto& [label, value] : fit)
-    if (label == scale_label && value != own_scale) return " at scale " + value;
+    if (label == scale_label && std::strtod(value.c_str(), nullptr) > 0) return " at scale " + value;
   return {};
 }
 

@@ -15,8 +15,8 @@ namespace equiaffine {
 /// Scale, noise, and the parts of the vertices at which quantities are known, as rows of a description.
 Description description_of(const Fit_statistics& fit);
 
-/// The rows as comments of a mesh, by which `view` knows them again.
-std::vector<std::string> comments_of(const Description& fit);
+/// The rows as comments of a mesh, by which `view` knows them again; none if nothing was fitted.
+std::vector<std::string> comments_of(const Fit_statistics& fit);
 
 /// The rows that comments_of() wrote, and one that says so if the mesh has lost its columns of errors. Empty for a mesh
 /// that does not come from a fit.

@@ -57,6 +57,46 @@ std::string advice_text(const std::vector<std::string>& advice) {
   return text;
 }
 
+std::size_t reflections_of(const Symmetries& symmetries) {
+  return std::size_t(std::count_if(symmetries.maps.begin(), symmetries.maps.end(),
+                                   [](const auto& symmetry) { return determinant_of(symmetry.map) < 0; }));
+}
+
+/// The rms of the level whose maps are the symmetries, a part of the size.
+double rms_of(const Symmetries& symmetries) {
+  for (const auto& level : symmetries.levels)
+    if (level.order() == symmetries.maps.size()) return level.rms;
+  return 0;
+}
+
+std::string verdict_text(Symmetry_verdict verdict) {
+  switch (verdict) {
+  case Symmetry_verdict::EXACT: return "exact";
+  case Symmetry_verdict::APPROXIMATE: return "approximate";
+  case Symmetry_verdict::NONE: return "none";
+  case Symmetry_verdict::UNDECIDED: break;
+  }
+  return "undecided";
+}
+
+/// " to within 0.097 % of the size"; nothing for what is exact to rounding.
+std::string within_text(double rms) {
+  constexpr double rounding = 1e-7;
+  std::ostringstream text;
+  text.precision(2);
+  if (rms > rounding) text << " to within " << 100 * rms << " % of the size";
+  return text.str();
+}
+
+/// A line for each level that is larger than the symmetries.
+std::string greater_levels(const Symmetries& symmetries) {
+  std::string text;
+  for (const auto& level : symmetries.levels)
+    if (level.order() > symmetries.maps.size())
+      text += std::to_string(level.order()) + " symmetries" + within_text(level.rms) + '\n';
+  return text;
+}
+
 std::string ways(std::size_t number) { return std::to_string(number) + (number == 1 ? " way" : " ways"); }
 
 } // namespace
@@ -78,16 +118,35 @@ std::string odds_text(const Registered_map_3<Kernel>& map) {
 std::string reason_for_none(const Registration_report& report) {
   const std::size_t n = report.registration.hypotheses;
   if (n == 0) return "no map found: no points of the two have frames that agree";
+  std::string scales;
+  for (const std::string& scale : report.scales)
+    scales += (scales.empty() ? " at the scales chosen by the data, " : ", ") + scale;
   return "no map found: " + (n == 1 ? "the only hypothesis is no" : "none of " + std::to_string(n) + " hypotheses is") +
-         " better than chance";
+         " better than chance" + (report.maps_left_out > 0 ? " for more than a small part" : "") + scales;
 }
 
-std::string determinants_text(const Symmetries_report& report) {
-  const auto& maps = report.symmetries.maps;
-  const auto reflections =
-      std::count_if(maps.begin(), maps.end(), [](const auto& symmetry) { return determinant_of(symmetry.map) < 0; });
-  return "positive for " + std::to_string(std::ptrdiff_t(maps.size()) - reflections) + ", negative for " +
+bool is_undecided(const Symmetries& symmetries) {
+  return !symmetries.is_decided && symmetries.continuous.dimension() == 0;
+}
+
+std::string reason_for_undecided(const Symmetries& symmetries) {
+  if (!symmetries.reason.empty()) return symmetries.reason;
+  return "other maps move the surface nearly as close to itself as the tolerance";
+}
+
+std::string determinants_text(const Symmetries& symmetries) {
+  const std::size_t reflections = reflections_of(symmetries);
+  return "positive for " + std::to_string(symmetries.maps.size() - reflections) + ", negative for " +
          std::to_string(reflections);
+}
+
+std::string levels_text(const Symmetries& symmetries) {
+  std::string text;
+  for (const auto& level : symmetries.levels) {
+    const std::string within = within_text(level.rms);
+    text += (text.empty() ? "" : ", ") + std::to_string(level.order()) + (within.empty() ? " exactly" : within);
+  }
+  return text;
 }
 
 std::string to_JSON(const Registration_report& report) {
@@ -95,6 +154,7 @@ std::string to_JSON(const Registration_report& report) {
   Json json = begin_JSON(report.source);
   json["target"] = report.target;
   json["found"] = registration.found();
+  if (!report.scales.empty()) json["scales"] = report.scales;
   if (!registration.found()) return text_of(json);
   add(registration.best(), json);
   json["hypotheses"] = registration.hypotheses;
@@ -107,16 +167,22 @@ std::string to_JSON(const Registration_report& report) {
 }
 
 std::string to_JSON(const Symmetries_report& report) {
+  const auto& symmetries = report.symmetries;
   Json json = begin_JSON(report.source);
   json["order"] = nullptr;
+  if (const auto order = symmetries.order()) json["order"] = *order;
+  json["verdict"] = verdict_text(symmetries.verdict);
+  json["undecided"] = nullptr;
+  if (is_undecided(symmetries)) json["undecided"] = reason_for_undecided(symmetries);
+  json["levels"] = Json::array();
+  for (const auto& level : symmetries.levels) json["levels"].push_back({{"order", level.order()}, {"rms", level.rms}});
   json["maps"] = Json::array();
-  if (const auto order = report.symmetries.order()) json["order"] = *order;
-  for (const auto& symmetry : report.symmetries.maps) {
+  for (const auto& symmetry : symmetries.maps) {
     Json& map = json["maps"].emplace_back();
     add(symmetry.map, map);
     map["rms"] = symmetry.rms;
   }
-  json["continuous"] = to_JSON(report.symmetries.continuous);
+  json["continuous"] = to_JSON(symmetries.continuous);
   return text_of(json);
 }
 
@@ -132,6 +198,7 @@ std::string summary(const Registration_report& report) {
     text << "map found, determinant " << determinant_of(best.map) << ": " << odds_text(best) << '\n';
     text << "on the other surface: " << overlap_text(best) << ", rms distance " << best.rms << '\n';
     text << registration.hypotheses << (registration.hypotheses == 1 ? " hypothesis" : " hypotheses");
+    if (!report.scales.empty()) text << ", the last ones at scale " << report.scales.back();
     if (registration.next_best_rms) text << ", next best rms distance " << *registration.next_best_rms;
     text << '\n';
     if (report.has_all_maps) text << registration.maps.size() << (registration.maps.size() == 1 ? " map\n" : " maps\n");
@@ -143,14 +210,18 @@ std::string summary(const Registration_report& report) {
 }
 
 std::string summary(const Symmetries_report& report) {
-  const auto& [maps, continuous] = report.symmetries;
-  if (continuous.dimension() > 0)
-    return "infinitely many symmetries: the surface slips over itself in " + ways(continuous.dimension()) + '\n';
-  std::size_t reflections = 0;
-  for (const auto& symmetry : maps) reflections += determinant_of(symmetry.map) < 0;
-  if (maps.size() == 1) return "1 symmetry, the identity" + advice_text(report.advice) + '\n';
-  return std::to_string(maps.size()) + " symmetries, " + std::to_string(reflections) +
-         " of them change left and right\n";
+  const auto& symmetries = report.symmetries;
+  const std::size_t dimension = symmetries.continuous.dimension();
+  if (dimension > 0) return "infinitely many symmetries: the surface slips over itself in " + ways(dimension) + '\n';
+  if (is_undecided(symmetries))
+    return "undecided: " + reason_for_undecided(symmetries) + advice_text(report.advice) + '\n' +
+           greater_levels(symmetries);
+  if (symmetries.maps.size() == 1)
+    return "1 symmetry, the identity" + advice_text(report.advice) + '\n' + greater_levels(symmetries);
+  const std::size_t reflections = reflections_of(symmetries);
+  return std::to_string(symmetries.maps.size()) + " symmetries" + within_text(rms_of(symmetries)) + ", " +
+         std::to_string(reflections) + " of them change" + (reflections == 1 ? "s" : "") + " left and right\n" +
+         greater_levels(symmetries);
 }
 
 } // namespace equiaffine

@@ -16,14 +16,18 @@ struct Registration_report {
   std::string source, target;
   Surface_registration_3<Kernel> registration;
   bool has_all_maps = false;       ///< whether all maps were asked for
+  std::size_t maps_left_out = 0;   ///< by which too small a part agrees, or with another ratio of sizes than of scales
+  std::vector<std::string> scales; ///< of the fits that were tried one after the other, the last one with success
   std::vector<std::string> advice; ///< what to try if no map was found
 };
+
+using Symmetries = Affine_symmetries_3<Kernel>;
 
 /// The result of `symmetries`, and of what.
 struct Symmetries_report {
   std::string source;
-  Affine_symmetries_3<Kernel> symmetries;
-  std::vector<std::string> advice; ///< what to try if only the identity was found
+  Symmetries symmetries;
+  std::vector<std::string> advice; ///< what to try if nothing is decided
 };
 
 double determinant_of(const CGAL::Aff_transformation_3<Kernel>& map);
@@ -37,8 +41,17 @@ std::string odds_text(const Registered_map_3<Kernel>& map);
 /// "no map found: ..." and why.
 std::string reason_for_none(const Registration_report& report);
 
+/// Whether it is not known how many symmetries there are.
+bool is_undecided(const Symmetries& symmetries);
+
+/// Why it is not.
+std::string reason_for_undecided(const Symmetries& symmetries);
+
 /// How many symmetries have a positive determinant, and how many a negative one.
-std::string determinants_text(const Symmetries_report& report);
+std::string determinants_text(const Symmetries& symmetries);
+
+/// "6 exactly, 48 to within 2.9 % of the size"
+std::string levels_text(const Symmetries& symmetries);
 
 /// One object, see the section on maps of doc/program.md.
 std::string to_JSON(const Registration_report& report);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/maps_display.h"
 
+#include "output/symmetry_marks.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -26,6 +28,32 @@ std::vector<Shown_surface> shown_surfaces(const Registration_report& report) {
 bool shows_surfaces(const Display_options& options) { return options.color == "surface"; }
 
 void add_text(const std::string& text, std::vector<Surface_note>& notes) { notes.emplace_back().text = text; }
+
+void add_surfaces(const std::vector<Shown_surface>& surfaces, std::vector<Surface_note>& notes) {
+  for (std::size_t n = 0; n < surfaces.size(); ++n) {
+    add_text(surfaces[n].name, notes);
+    notes.back().number = double(n);
+  }
+}
+
+/// "0 target (pale yellow), 1 moved source (orange)"
+std::string numbers_text(const std::vector<Shown_surface>& surfaces, bool has_colors) {
+  std::string text;
+  for (std::size_t n = 0; n < surfaces.size(); ++n) {
+    text += (n > 0 ? ", " : "") + std::to_string(n) + ' ' + surfaces[n].name;
+    if (has_colors) text += " (" + surfaces[n].color + ')';
+  }
+  return text;
+}
+
+std::vector<Shown_surface> shown_surfaces(const Symmetries& symmetries) {
+  const Symmetry_marks marks = marks_of(symmetries);
+  std::vector<Shown_surface> surfaces = {{"surface", "pale yellow"}};
+  if (!marks.planes.empty())
+    surfaces.push_back({"planes of reflection", marks.axes.empty() ? "dark violet" : "magenta"});
+  if (!marks.axes.empty()) surfaces.push_back({"axes of rotation", "dark violet"});
+  return surfaces;
+}
 
 const std::string text_of_distances =
     "those of the distance from the other surface; --color surface tells the two apart";
@@ -54,12 +82,7 @@ Description description_of(const Registration_report& report, const Display_opti
     description.emplace_back("Odds", odds_text(best));
     description.emplace_back("log10 of false alarms", number_text(best.log10_false_alarms, 3));
   }
-  std::string numbers;
-  const auto surfaces = shown_surfaces(report);
-  for (std::size_t n = 0; n < surfaces.size(); ++n)
-    numbers += (n > 0 ? ", " : "") + std::to_string(n) + ' ' + surfaces[n].name +
-               (shows_surfaces(options) ? " (" + surfaces[n].color + ')' : "");
-  description.emplace_back("surface", numbers);
+  description.emplace_back("surface", numbers_text(shown_surfaces(report), shows_surfaces(options)));
   if (!shows_surfaces(options)) description.emplace_back("Colors", text_of_distances);
   return description;
 }
@@ -78,31 +101,37 @@ std::vector<Surface_note> notes_of(const Registration_report& report, const Disp
     add_text("colors are " + text_of_distances, notes);
     return notes;
   }
-  const auto surfaces = shown_surfaces(report);
-  for (std::size_t n = 0; n < surfaces.size(); ++n) {
-    add_text(surfaces[n].name, notes);
-    notes.back().number = double(n);
-  }
+  add_surfaces(shown_surfaces(report), notes);
   return notes;
 }
 
-Description description_of(const Symmetries_report& report) {
-  const auto& symmetries = report.symmetries;
+Display_options display_of(const Symmetries_report& report, Display_options options) {
+  const auto surfaces = shown_surfaces(report.symmetries);
+  if (options.color.empty() && !options.range && surfaces.size() > 1) options.color = "surface";
+  if (shows_surfaces(options) && !options.range) options.range = {0., double(surfaces.size() - 1)};
+  return options;
+}
+
+Description description_of(const Symmetries_report& report, const Display_options& options) {
+  const Symmetries& symmetries = report.symmetries;
   const auto order = symmetries.order();
-  double greatest = 0;
-  for (const auto& symmetry : symmetries.maps) greatest = std::max(greatest, symmetry.rms);
-  Description description = {{"Symmetries of", report.source},
-                             {"Order", order ? std::to_string(*order) : "infinite"},
-                             {"Generators", std::to_string(symmetries.continuous.dimension())},
-                             {"Determinants", determinants_text(report)},
-                             {"Rms distance", "at most " + number_text(greatest, 3)}};
+  Description description = {{"Symmetries of", report.source}};
+  if (is_undecided(symmetries)) description.emplace_back("Order", "undecided: " + reason_for_undecided(symmetries));
+  else description.emplace_back("Order", order ? std::to_string(*order) : "infinite");
+  if (!symmetries.levels.empty()) description.emplace_back("Levels", levels_text(symmetries));
+  if (symmetries.continuous.dimension() > 0)
+    description.emplace_back("Generators", std::to_string(symmetries.continuous.dimension()));
+  if (order) description.emplace_back("Determinants", determinants_text(symmetries));
   for (const std::string& advice : report.advice) description.emplace_back("To find more, try", advice);
+  description.emplace_back("surface", numbers_text(shown_surfaces(symmetries), shows_surfaces(options)));
   return description;
 }
 
-std::vector<Surface_note> notes_of(const Symmetries_report& report) {
+std::vector<Surface_note> notes_of(const Symmetries_report& report, const Display_options& options) {
   std::vector<Surface_note> notes;
-  for (const auto& [name, text] : description_of(report)) add_text(name + ": " + text, notes);
+  for (const auto& [name, text] : description_of(report, options))
+    if (name != "surface") add_text(name + ": " + text, notes);
+  if (shows_surfaces(options)) add_surfaces(shown_surfaces(report.symmetries), notes);
   return notes;
 }
 

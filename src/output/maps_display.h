@@ -17,8 +17,10 @@ Display_options display_of(const Registration_report& report, Display_options op
 Description description_of(const Registration_report& report, const Display_options& options);
 std::vector<Surface_note> notes_of(const Registration_report& report, const Display_options& options);
 
-Description description_of(const Symmetries_report& report);
-std::vector<Surface_note> notes_of(const Symmetries_report& report);
+/// The same for symmetries, whose planes and axes stand beside the surface.
+Display_options display_of(const Symmetries_report& report, Display_options options);
+Description description_of(const Symmetries_report& report, const Display_options& options);
+std::vector<Surface_note> notes_of(const Symmetries_report& report, const Display_options& options);
 
 } // namespace equiaffine
 

@@ -219,7 +219,14 @@ TEST(Register_surfaces, equivalent_surfaces_are_moved_onto_each_other_all_of_the
   EXPECT_FALSE(are_equivalent(piece, points_on_surface(piece, 24), pair)) << "a half is not the whole";
   const Pair ellipsoids({"", "x^2+2*y^2+3*z^2-1", cube(1.2)}, random_map(random, 5, 2));
   EXPECT_TRUE(are_equivalent(ellipsoids.source, ellipsoids.points, ellipsoids));
-  EXPECT_FALSE(are_equivalent(pair.source, pair.points, ellipsoids));
+  const Pair bars(
+      {"", "min(min(max(x^2+y^2-.04,abs(z)-1),max(x^2+z^2-.04,abs(y)-1)),max(y^2+z^2-.04,abs(x)-1))", cube(1.2)},
+      random_map(random, 3, 2));
+  const auto not_at_all = are_equivalent(ellipsoids.source, ellipsoids.points, bars);
+  ASSERT_TRUE(not_at_all.is_certain()) << "no rotation moves one near the other";
+  EXPECT_FALSE(not_at_all);
+  const Formula cut({Expression_3("x^3 - x*y^2 + z*(1 + y) + x*z^2/3")}, cube(1));
+  EXPECT_FALSE(are_equivalent(cut, points_on_surface(cut, 20), ellipsoids).is_certain()) << "it leaves its box";
 }
 
 TEST(Register_surfaces, planes_and_three_points_have_no_map) {

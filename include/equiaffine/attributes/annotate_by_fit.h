@@ -6,6 +6,7 @@
 #include <equiaffine/attributes/internal/Property_maps.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/surface/Face_graph.h>
 
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/property_map.h>
@@ -45,7 +46,7 @@ void annotate_by_fit(CGAL::Surface_mesh<Point>& mesh, const Parameters& paramete
 }
 
 /// Puts the `Fitted_structure_3<double>` of every vertex of any model of CGAL's FaceGraph into a property map.
-template <class ConcurrencyTag = CGAL::Sequential_tag, internal::Face_graph Graph, class Structure_map,
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, class Structure_map,
           class Parameters = internal::No_parameters>
 void annotate_by_fit(const Graph& mesh, Structure_map map, const Parameters& parameters = {}) requires requires {
   typename boost::property_traits<Structure_map>::key_type;
@@ -61,7 +62,7 @@ void annotate_by_fit(const Graph& mesh, Structure_map map, const Parameters& par
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points, class Structure_map,
           class Parameters = internal::No_parameters>
     void annotate_by_fit(const Points& points, Structure_map map,
-                         const Parameters& parameters = {}) requires(!internal::Face_graph<Points>) &&
+                         const Parameters& parameters = {}) requires(!Face_graph<Points>) &&
     requires {
   typename boost::property_traits<Structure_map>::key_type;
 }

@@ -12,6 +12,7 @@
 #include <equiaffine/fit/internal/structures_of_fit.h>
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/number/Interval.h>
+#include <equiaffine/surface/Face_graph.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>
@@ -54,7 +55,7 @@ public:
 
   /// From a mesh, a model of CGAL's FaceGraph. Named parameters: `vertex_point_map`, `noise`, `scale`, `degree`.
   /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
-  template <internal::Face_graph Graph, class Parameters = internal::No_parameters,
+  template <Face_graph Graph, class Parameters = internal::No_parameters,
             class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Fitted_function_traits_3(const Graph& mesh, const Parameters& parameters = {}, ConcurrencyTag tag = {}) {
     internal::check_fit_parameters<Parameters, internal::Vertex_point_tag>();
@@ -66,7 +67,7 @@ public:
   template <std::ranges::input_range Points, class Parameters = internal::No_parameters,
             class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Fitted_function_traits_3(const Points& points, const Parameters& parameters = {},
-                                    ConcurrencyTag tag = {}) requires(!internal::Face_graph<Points> &&
+                                    ConcurrencyTag tag = {}) requires(!Face_graph<Points> &&
                                                                       !std::ranges::range<Parameters>) {
     internal::check_point_fit_parameters<Parameters>();
     make(internal::fit_input_of_points<ConcurrencyTag>(points, parameters).data, parameters, tag);

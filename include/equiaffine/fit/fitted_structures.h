@@ -7,6 +7,7 @@
 #include <equiaffine/fit/internal/fit_input.h>
 #include <equiaffine/fit/internal/fit_input_of_soup.h>
 #include <equiaffine/fit/internal/structures_of_fit.h>
+#include <equiaffine/surface/Face_graph.h>
 
 #include <CGAL/tags.h>
 
@@ -50,7 +51,7 @@ namespace equiaffine {
 /// Takes about 1 ms per vertex, also at a scale; memory is linear in the number
 /// of vertices. The numbers are the same for CGAL::Sequential_tag and CGAL::Parallel_tag. Named parameters:
 /// `vertex_point_map`, `noise`, `scale`, `degree`, `orientation`.
-template <class ConcurrencyTag = CGAL::Sequential_tag, internal::Face_graph Graph,
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph,
           class Parameters = internal::No_parameters>
 std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, const Parameters& parameters = {}) {
   internal::check_fit_parameters<Parameters, internal::Vertex_point_tag, internal::Orientation_tag>();
@@ -67,7 +68,7 @@ std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, con
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
           class Parameters = internal::No_parameters>
 std::vector<Fitted_structure_3<double>>
-fitted_structures(const Points& points, const Parameters& parameters = {}) requires(!internal::Face_graph<Points> &&
+fitted_structures(const Points& points, const Parameters& parameters = {}) requires(!Face_graph<Points> &&
                                                                                     !std::ranges::range<Parameters>) {
   internal::check_point_fit_parameters<Parameters, internal::Orientation_tag>();
   auto input = internal::fit_input_of_points<ConcurrencyTag>(points, parameters);

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace equiaffine {
@@ -19,16 +20,42 @@ struct Affine_symmetry_3 {
   double rms; ///< the root of the mean squared distance of moved points from the surface
 };
 
+/// A finite group of maps, each of which moves a surface onto itself to within an rms distance. All products are in the
+/// group, and each map was verified, the other way round, too.
+template <class Kernel>
+struct Symmetry_level_3 {
+  std::vector<Affine_symmetry_3<Kernel>> maps; ///< the identity first
+  double rms;                                  ///< the greatest of the maps, a part of the size of the surface
+
+  std::size_t order() const { return maps.size(); }
+};
+
+/// What is known of the symmetries of a surface.
+enum class Symmetry_verdict {
+  EXACT,       ///< the first level, or the continuous group, is a group to rounding, or to the error of facets
+  APPROXIMATE, ///< the first level, or the continuous group, is one to within 1 % of the size
+  NONE,        ///< no map but the identity moves the surface onto itself
+  UNDECIDED    ///< none of these was verified, for the reason given
+};
+
 /// The result of `affine_symmetries`.
 template <class Kernel>
 struct Affine_symmetries_3 {
-  /// The identity first. A group, if there are finitely many; else the identity alone.
-  std::vector<Affine_symmetry_3<Kernel>> maps;
-  Affine_slippage_3 continuous; ///< the Lie algebra of the group
+  Symmetry_verdict verdict = Symmetry_verdict::UNDECIDED;
+  std::string reason = {}; ///< why nothing more is known, if the verdict is UNDECIDED
+  /// Groups, each larger than the one before and with a greater rms: a cube without a corner has 6 symmetries, and 48
+  /// to within 3 % of its size.
+  std::vector<Symmetry_level_3<Kernel>> levels = {};
+  /// The symmetries to within the tolerance: those of the last level whose rms is not above it. The identity alone, if
+  /// there are no others, infinitely many, or they are not known.
+  std::vector<Affine_symmetry_3<Kernel>> maps = {};
+  Affine_slippage_3 continuous = {}; ///< the Lie algebra of the group
+  bool is_decided = false;           ///< whether `maps` are all symmetries to within the tolerance
 
-  /// The number of symmetries, the identity and reflections counted. None if there are infinitely many.
+  /// The number of symmetries, the identity and reflections counted. None if there are infinitely many, or if it is not
+  /// known.
   std::optional<std::size_t> order() const {
-    if (continuous.dimension() > 0) return std::nullopt;
+    if (continuous.dimension() > 0 || !is_decided) return std::nullopt;
     return maps.size();
   }
 };

@@ -7,6 +7,7 @@
 #include <equiaffine/fit/Normal_orientation.h>
 #include <equiaffine/fit/internal/data_of_mesh.h>
 #include <equiaffine/fit/internal/data_of_points.h>
+#include <equiaffine/surface/Face_graph.h>
 
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/properties.h>
@@ -27,13 +28,6 @@
 
 // Meshes and points of CGAL become arrays of data points.
 namespace equiaffine::internal {
-
-/// A mesh as CGAL's concept FaceGraph describes it.
-template <class T>
-concept Face_graph = requires(const T& t) {
-  vertices(t);
-  faces(t);
-};
 
 template <class Vector>
 Eigen::Vector3d coordinates_of(const Vector& v) {

@@ -27,12 +27,15 @@ class Symmetry_search {
 public:
   /// A symmetry moves no point from the surface by more than `tolerance` times the size of the surface.
   Symmetry_search(const Framed_surface_3& surface, Map_kind kind, double tolerance)
-      : surface_(surface), kind_(kind), tolerance_(tolerance), difference_(std::max(1e-5, 100 * tolerance)) {}
+      : surface_(surface), kind_(kind), tolerance_(tolerance) {}
 
   /// Returns the maps of the group, the identity first.
   std::vector<Affine_map_3> run() {
     group_.assign(1, Affine_map_3());
-    for (const std::size_t point : points_to_match()) {
+    const std::vector<std::size_t> points = points_to_match();
+    good_points_matched_ = std::size_t(std::count_if(
+        points.begin(), points.end(), [&](std::size_t i) { return surface_.points[i].quality > least_quality; }));
+    for (const std::size_t point : points) {
       const std::size_t known = group_.size();
       match(point);
       if (group_.size() > known) close();
@@ -40,6 +43,9 @@ public:
     std::erase_if(group_, [&](const Affine_map_3& map) { return !is_symmetry(map); });
     return group_;
   }
+
+  /// The number of points with good frames that run() matched with all their possible images.
+  std::size_t good_points_matched() const { return good_points_matched_; }
 
   /// The root of the mean squared distance of moved points from the surface, in the unit of space.
   double rms(const Affine_map_3& map) const {
@@ -53,7 +59,8 @@ public:
   }
 
 private:
-  static constexpr std::size_t points_matched = 4, most_neighbors = 3000, most_images = 600, largest_group = 1000;
+  static constexpr std::size_t inner_points = 4, most_neighbors = 3000, most_images = 600, largest_group = 1000;
+  static constexpr double least_difference = 0.01; ///< between maps, a part of their norm and of the size
 
   /// Returns points with different invariants, since images of each other have the same images: some of the inner half
   /// of the surface, then some of all. A symmetry keeps the distance from the center in coordinates where the points
@@ -64,8 +71,8 @@ private:
     for (const Eigen::Vector3d& p : surface_.probes) distances.push_back(whitening(p).norm());
     const auto points = points_to_try<ConcurrencyTag>(surface_, kind_, 200);
     std::vector<std::size_t> chosen;
-    add_different(points, points_matched, median(distances), whitening, chosen);
-    add_different(points, 2 * points_matched, std::numeric_limits<double>::infinity(), whitening, chosen);
+    add_different(points, inner_points, median(distances), whitening, chosen);
+    add_different(points, 2 * inner_points, std::numeric_limits<double>::infinity(), whitening, chosen);
     return chosen;
   }
 
@@ -134,14 +141,15 @@ private:
   bool contains(const std::vector<Affine_map_3>& maps, const Affine_map_3& map) const {
     const Eigen::Vector3d p = surface_.probes.front();
     return std::any_of(maps.begin(), maps.end(), [&](const Affine_map_3& other) {
-      return (map.matrix - other.matrix).norm() < difference_ * other.matrix.norm() &&
-             (map(p) - other(p)).norm() < difference_ * surface_.size;
+      return (map.matrix - other.matrix).norm() < least_difference * other.matrix.norm() &&
+             (map(p) - other(p)).norm() < least_difference * surface_.size;
     });
   }
 
   const Framed_surface_3& surface_;
   Map_kind kind_;
-  double tolerance_, difference_;
+  double tolerance_;
+  std::size_t good_points_matched_ = 0;
   std::vector<Affine_map_3> group_;
 };
 

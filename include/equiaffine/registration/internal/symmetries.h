@@ -5,6 +5,7 @@
 #include <equiaffine/base/check_argument.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/registration/Affine_symmetries_3.h>
+#include <equiaffine/registration/internal/Centered_symmetry_search.h>
 #include <equiaffine/registration/internal/Framed_surface_3.h>
 #include <equiaffine/registration/internal/Symmetry_search.h>
 #include <equiaffine/registration/internal/slippage.h>
@@ -12,37 +13,161 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace equiaffine::internal {
 
-/// Distances from the surface below this part of its size are zero by default.
+/// Distances from the zero set of a function below this part of its size are zero by default.
 constexpr double default_tolerance = 1e-8;
 
-template <class ConcurrencyTag, class Kernel>
-Affine_symmetries_3<Kernel> symmetries_of_framed(const Framed_surface_3& surface, Map_kind kind,
-                                                 bool allows_reflections, double tolerance) {
-  Affine_symmetries_3<Kernel> result;
-  result.continuous = slippage_of(surface, kind, std::max(tolerance, slippage_tolerance));
-  const bool is_finite = result.continuous.dimension() == 0 && !surface.probes.empty();
-  Symmetry_search<ConcurrencyTag> search(surface, kind, tolerance);
-  for (const Affine_map_3& map : is_finite ? search.run() : std::vector<Affine_map_3>(1))
-    if (allows_reflections || map.matrix.determinant() > 0)
-      result.maps.push_back({map.to_CGAL<typename Kernel::Aff_transformation_3>(), search.rms(map)});
+/// The named parameters of affine_symmetries.
+struct Symmetry_request {
+  Map_kind kind = Map_kind::AFFINE;
+  bool allows_reflections = true;
+  std::optional<double> tolerance = {};
+};
+
+template <class Parameters>
+Symmetry_request symmetry_request(const Parameters& parameters) {
+  Symmetry_request request;
+  request.kind = get_parameter<Map_kind_tag>(parameters, request.kind);
+  request.allows_reflections = get_parameter<Reflections_tag>(parameters, request.allows_reflections);
+  if constexpr (has_parameter<Tolerance_tag, Parameters>)
+    request.tolerance = given_parameter<Tolerance_tag>(parameters);
+  check_argument(!request.tolerance || (*request.tolerance > 0 && *request.tolerance < 0.1),
+                 "the tolerance of symmetries is a part of a size, from 0 to 0.1");
+  return request;
+}
+
+template <class Kernel>
+Affine_symmetry_3<Kernel> symmetry(const Affine_map_3& map, double rms) {
+  return {map.to_CGAL<typename Kernel::Aff_transformation_3>(), rms};
+}
+
+/// Sets the maps to within the tolerance: those of the last level that is, or without a tolerance, of the first level
+/// that a verdict stands for. They are all there are unless another map is within the tolerance, too.
+template <class Kernel>
+void choose_maps(Affine_symmetries_3<Kernel>& result, std::optional<double> tolerance,
+                 const Centered_symmetries& found) {
+  result.maps = {symmetry<Kernel>({}, 0)};
+  result.is_decided = result.verdict != Symmetry_verdict::UNDECIDED;
+  if (result.continuous.dimension() > 0) return;
+  if (!tolerance && result.is_decided && !result.levels.empty()) result.maps = result.levels.front().maps;
+  if (!tolerance) return;
+  double next_rms = found.least_rms;
+  for (std::size_t n = 0; n < result.levels.size(); ++n)
+    if (result.levels[n].rms <= *tolerance) {
+      result.maps = result.levels[n].maps;
+      next_rms = found.levels[n].next_rms;
+    }
+  result.is_decided = std::min(found.complete_to, next_rms) > *tolerance;
+}
+
+/// What was found in the types of CGAL. Distances of maps are in the unit of the surface.
+template <class Kernel>
+Affine_symmetries_3<Kernel> to_CGAL(const Centered_symmetries& found, const Centered_surface_3& surface) {
+  const double unit = 1 / std::cbrt(std::abs(surface.map.matrix.determinant()));
+  Affine_symmetries_3<Kernel> result{found.verdict, found.reason};
+  for (const Symmetry_level& level : found.levels) {
+    auto& copy = result.levels.emplace_back();
+    copy.rms = level.rms;
+    for (const Centered_map& map : level.maps) copy.maps.push_back(symmetry<Kernel>(map.map, unit * map.rms));
+  }
+  result.continuous = found.continuous;
   return result;
 }
+
+/// Whether derivatives are those of the surface, and not of a fit, which has errors.
+inline bool has_exact_frames(const Framed_surface_3& surface) {
+  return std::all_of(surface.points.begin(), surface.points.end(),
+                     [](const Framed_point_3& p) { return p.certainty == 1; });
+}
+
+/// The group that affine frames of points give, which are all symmetries to within the tolerance of at least 98 % of
+/// the points. The identity alone is a result only where frames are exact and some good ones were matched.
+template <class ConcurrencyTag, class Kernel>
+Affine_symmetries_3<Kernel> symmetries_by_frames(const Framed_surface_3& surface, const Symmetry_request& request) {
+  Symmetry_search<ConcurrencyTag> search(surface, request.kind, *request.tolerance);
+  Affine_symmetries_3<Kernel> result;
+  Symmetry_level_3<Kernel> level = {{}, 0};
+  for (const Affine_map_3& map : search.run()) {
+    if (!request.allows_reflections && map.matrix.determinant() < 0) continue;
+    const double rms = search.rms(map);
+    level.maps.push_back(symmetry<Kernel>(map, rms));
+    level.rms = std::max(level.rms, rms / surface.size);
+  }
+  constexpr std::size_t fewest_points = 4;
+  result.maps = level.maps;
+  const bool is_exact = has_exact_frames(surface);
+  if (level.maps.size() > 1) {
+    result.verdict = is_exact ? Symmetry_verdict::EXACT : Symmetry_verdict::APPROXIMATE;
+    result.levels.push_back(std::move(level));
+  } else if (is_exact && search.good_points_matched() >= fewest_points) {
+    result.verdict = Symmetry_verdict::NONE;
+  } else {
+    result.reason = is_exact ? "too few points of the surface have an affine frame"
+                             : "the curvatures of the fit are too uncertain for their frames to find all symmetries";
+  }
+  result.is_decided = result.verdict != Symmetry_verdict::UNDECIDED;
+  return result;
+}
+
+/// Up to this tolerance, the frames of a smooth surface decide alone: they take a hundredth of the time of a search of
+/// all rotations, and say nothing of what holds approximately.
+constexpr double greatest_tolerance_of_frames = 1e-6;
 
 template <class ConcurrencyTag, class Traits, class Points, class Parameters>
 Affine_symmetries_3<Kernel_of<Traits>> symmetries_of(const Traits& traits, const Points& points,
                                                      const Parameters& parameters) {
-  const Map_kind kind = get_parameter<Map_kind_tag>(parameters, Map_kind::AFFINE);
-  const bool allows_reflections = get_parameter<Reflections_tag>(parameters, true);
-  const double tolerance = get_parameter<Tolerance_tag>(parameters, default_tolerance);
+  using Kernel = Kernel_of<Traits>;
+  Symmetry_request request = symmetry_request(parameters);
+  request.tolerance = request.tolerance.value_or(default_tolerance);
   const auto vectors = vectors_of(points);
   check_argument(!vectors.empty(), "a surface whose symmetries are sought has no points: give points on it");
-  check_argument(tolerance > 0 && tolerance < 0.1, "the tolerance of symmetries is a part of a size, from 0 to 0.1");
   const Oracle_of_traits_3 function(traits);
-  return symmetries_of_framed<ConcurrencyTag, Kernel_of<Traits>>(
-      framed_surface<ConcurrencyTag>(function, function, vectors, kind), kind, allows_reflections, tolerance);
+  const Framed_surface_3 surface = framed_surface<ConcurrencyTag>(function, function, vectors, request.kind);
+  Affine_symmetries_3<Kernel> result;
+  result.maps = {symmetry<Kernel>({}, surface.probes.empty() ? std::numeric_limits<double>::infinity() : 0)};
+  result.reason = "the surface is beside all of the points";
+  if (surface.probes.empty()) return result;
+  result.continuous = slippage_of(surface, request.kind, std::max(*request.tolerance, slippage_tolerance));
+  if (result.continuous.dimension() > 0) {
+    result.verdict = Symmetry_verdict::EXACT;
+    result.reason.clear();
+    return result;
+  }
+  const bool is_strict = *request.tolerance <= greatest_tolerance_of_frames;
+  if (is_strict || !has_exact_frames(surface)) {
+    auto by_frames = symmetries_by_frames<ConcurrencyTag, Kernel>(surface, request);
+    if (by_frames.is_decided || !has_exact_frames(surface)) return by_frames;
+  }
+  const auto centered = centered_surface<ConcurrencyTag>(traits, request.kind);
+  Centered_symmetry_search<ConcurrencyTag> search(centered, request.kind, request.allows_reflections,
+                                                  *request.tolerance);
+  const Centered_symmetries found = search.run();
+  result = to_CGAL<Kernel>(found, centered);
+  choose_maps(result, request.tolerance, found);
+  if (result.is_decided || is_strict) return result;
+  auto by_frames = symmetries_by_frames<ConcurrencyTag, Kernel>(surface, request);
+  return by_frames.is_decided ? by_frames : result;
+}
+
+template <class ConcurrencyTag, class Kernel, class Parameters>
+Affine_symmetries_3<Kernel> symmetries_of_triangles(const Triangles_3& mesh, const Parameters& parameters) {
+  const Symmetry_request request = symmetry_request(parameters);
+  check_argument(!mesh.triangles.empty(), "a mesh whose symmetries are sought has no faces: give faces");
+  const Centered_surface_3 surface = centered_surface(mesh, request.kind);
+  Centered_symmetry_search<ConcurrencyTag> search(surface, request.kind, request.allows_reflections,
+                                                  request.tolerance.value_or(0));
+  const Centered_symmetries found = search.run();
+  auto result = to_CGAL<Kernel>(found, surface);
+  choose_maps(result, request.tolerance, found);
+  return result;
 }
 
 } // namespace equiaffine::internal

@@ -4,7 +4,7 @@
 
 #include <equiaffine/base/parallel_for.h>
 #include <equiaffine/volume/Lattice_3.h>
-#include <equiaffine/volume/internal/Triangle_tree.h>
+#include <equiaffine/volume/Triangle_tree.h>
 
 #include <CGAL/number_utils.h>
 

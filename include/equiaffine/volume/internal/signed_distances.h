@@ -4,8 +4,8 @@
 
 #include <equiaffine/base/parallel_for.h>
 #include <equiaffine/volume/Lattice_3.h>
+#include <equiaffine/volume/Triangle_tree.h>
 #include <equiaffine/volume/internal/Lattice_distances.h>
-#include <equiaffine/volume/internal/Triangle_tree.h>
 #include <equiaffine/volume/internal/check_bounds_volume.h>
 
 #include <CGAL/Bbox_3.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_VOLUME_INTERNAL_TRIANGLE_TREE_H
-#define EQUIAFFINE_VOLUME_INTERNAL_TRIANGLE_TREE_H
+#ifndef EQUIAFFINE_VOLUME_TRIANGLE_TREE_H
+#define EQUIAFFINE_VOLUME_TRIANGLE_TREE_H
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions_3.h>
@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace equiaffine::internal {
+namespace equiaffine {
 
 /// The kernel in which distances are computed. They are rounded in every kernel of floating-point numbers, and this one
 /// is faster.
@@ -70,7 +70,7 @@ public:
   double radius(Part part) const { return is_triangle(part) ? 0 : boxes_[std::size_t(part)].radius; }
 
   Point_3 nearest_point(Part part, const Point_3& p) const {
-    if (is_triangle(part)) return internal::nearest_point(triangle(part), p);
+    if (is_triangle(part)) return equiaffine::nearest_point(triangle(part), p);
     const auto& [lower, upper, radius, children] = boxes_[std::size_t(part)];
     return {std::clamp(p.x(), lower[0], upper[0]), std::clamp(p.y(), lower[1], upper[1]),
             std::clamp(p.z(), lower[2], upper[2])};
@@ -120,6 +120,6 @@ private:
   std::vector<Box> boxes_;
 };
 
-} // namespace equiaffine::internal
+} // namespace equiaffine
 
 #endif

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_MAPPED_FUNCTION_3_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_MAPPED_FUNCTION_3_H
+
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/registration/internal/Affine_map_3.h>
+#include <equiaffine/surface/intersect_segment.h>
+#include <equiaffine/surface/sign_change.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/number_utils.h>
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// A function in other coordinates, in doubles, on its box, which is a parallelepiped there.
+template <class Traits>
+class Mapped_function_3 {
+public:
+  using FT = typename Traits::FT;
+  using Point_3 = typename Traits::Point_3;
+
+  /// `map` goes from the coordinates of the function to the other ones.
+  Mapped_function_3(const Traits& traits, const Affine_map_3& map)
+      : traits_(traits), map_(map), inverse_(map.inverse()), box_(traits.bbox()) {
+    for (int a = 0; a < 3; ++a) {
+      lower_[a] = box_.min(a);
+      sides_[a] = box_.max(a) - box_.min(a);
+    }
+  }
+
+  const Affine_map_3& map() const { return map_; }
+  Eigen::Vector3d center() const { return map_(lower_ + sides_ / 2); }
+
+  /// The radius of the ball around the center that holds the box.
+  double radius() const {
+    double result = 0;
+    for (int corner = 0; corner < 8; ++corner)
+      result = std::max(
+          result,
+          (map_(lower_ + sides_.cwiseProduct(Eigen::Vector3d(corner & 1, corner >> 1 & 1, corner >> 2 & 1))) - center())
+              .norm());
+    return result;
+  }
+
+  /// The value at parts, from 0 to 1, of the sides of the box.
+  double value_in_box(const Eigen::Vector3d& parts) const {
+    return CGAL::to_double(traits_.value(to_CGAL(lower_ + sides_.cwiseProduct(parts))));
+  }
+
+  std::vector<double> values(const std::vector<Eigen::Vector3d>& points) const {
+    std::vector<Point_3> at;
+    at.reserve(points.size());
+    for (const Eigen::Vector3d& p : points) at.push_back(to_CGAL(inverse_(p)));
+    std::vector<double> result(points.size());
+    if constexpr (BatchImplicitFunctionTraits_3<Traits>) {
+      std::vector<FT> values(points.size());
+      traits_.values(at, values);
+      std::transform(values.begin(), values.end(), result.begin(), [](const FT& f) { return CGAL::to_double(f); });
+    } else {
+      std::transform(at.begin(), at.end(), result.begin(),
+                     [&](const Point_3& p) { return CGAL::to_double(traits_.value(p)); });
+    }
+    return result;
+  }
+
+  /// The part of a line that is in the box: its first and its last parameter.
+  std::pair<double, double> part_in_box(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+    const Eigen::Vector3d from = inverse_(origin) - lower_, along = inverse_.matrix * direction;
+    double first = -std::numeric_limits<double>::infinity(), last = -first;
+    for (int a = 0; a < 3; ++a) {
+      const double s = -from[a] / along[a], t = (sides_[a] - from[a]) / along[a];
+      first = std::max(first, std::min(s, t));
+      last = std::min(last, std::max(s, t));
+    }
+    return {first, last};
+  }
+
+  /// The value, and the gradient in the coordinates of this function. They are NaN outside of the box. Where two parts
+  /// of a maximum are the same, the expansion of it is not finite, and differences take its place.
+  std::pair<double, Eigen::Vector3d> first_order(const Eigen::Vector3d& p) const {
+    const Eigen::Vector3d q = inverse_(p);
+    if (!contains(q)) {
+      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+      return {nan, Eigen::Vector3d::Constant(nan)};
+    }
+    const auto jet = equiaffine::first_order(traits_, to_CGAL(q));
+    const auto& c = jet.coefficients();
+    Eigen::Vector3d gradient(CGAL::to_double(c[1]), CGAL::to_double(c[2]), CGAL::to_double(c[3]));
+    if (!gradient.allFinite()) gradient = differences(q);
+    return {CGAL::to_double(c[0]), inverse_.matrix.transpose() * gradient};
+  }
+
+  Eigen::Vector3d gradient(const Eigen::Vector3d& p) const { return first_order(p).second; }
+
+  /// A zero on a segment at whose ends the signs differ, or nothing where there is a pole or a jump.
+  std::optional<Eigen::Vector3d> zero_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
+    const Point_3 p = to_CGAL(inverse_(a)), q = to_CGAL(inverse_(b));
+    const FT f = traits_.value(p), g = traits_.value(q);
+    if (!is_sign_change(f, g)) return std::nullopt;
+    const auto found = intersect_segment(traits_, p, q, f, g);
+    if (!found.has_converged) return std::nullopt;
+    return map_(Eigen::Vector3d(CGAL::to_double(found.point.x()), CGAL::to_double(found.point.y()),
+                                CGAL::to_double(found.point.z())));
+  }
+
+private:
+  Eigen::Vector3d differences(const Eigen::Vector3d& q) const {
+    const double step = 1e-6 * sides_.maxCoeff();
+    const auto value = [&](const Eigen::Vector3d& p) { return CGAL::to_double(traits_.value(to_CGAL(p))); };
+    Eigen::Vector3d result;
+    for (int a = 0; a < 3; ++a) {
+      const Eigen::Vector3d shift = step * Eigen::Vector3d::Unit(a);
+      result[a] = (value(q + shift) - value(q - shift)) / (2 * step);
+    }
+    return result;
+  }
+
+  static Point_3 to_CGAL(const Eigen::Vector3d& p) { return Point_3(FT(p[0]), FT(p[1]), FT(p[2])); }
+
+  bool contains(const Eigen::Vector3d& p) const {
+    return (p.array() >= lower_.array()).all() && ((p - lower_).array() <= sides_.array()).all();
+  }
+
+  const Traits& traits_;
+  Affine_map_3 map_, inverse_;
+  CGAL::Bbox_3 box_;
+  Eigen::Vector3d lower_, sides_;
+};
+
+} // namespace equiaffine::internal
+
+#endif

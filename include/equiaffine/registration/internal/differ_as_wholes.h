@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_DIFFER_AS_WHOLES_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_DIFFER_AS_WHOLES_H
+
+#include <equiaffine/registration/internal/Centered_surface_3.h>
+#include <equiaffine/registration/internal/Distance_grid.h>
+#include <equiaffine/registration/internal/Rotation_search.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace equiaffine::internal {
+
+/// Whether it was verified that no map of a kind moves one whole surface onto another. Such a map would keep the
+/// centroid of the area, and affine ones the moments of the solid inside, so that all rotations and reflections about
+/// the centroid are tried in the coordinates of the search for symmetries: each moves points of the first away from the
+/// second.
+template <class ConcurrencyTag, class Source, class Target>
+bool differ_as_wholes(const Source& source, const Target& target, Map_kind kind, bool allows_reflections) {
+  constexpr double difference = 0.03; // of what is equal, a part of the size
+  const auto a = centered_surface<ConcurrencyTag>(source, kind), b = centered_surface<ConcurrencyTag>(target, kind);
+  if (!a.reason_against.empty() || !b.reason_against.empty()) return false;
+  const double ratio = std::cbrt(std::abs(a.map.matrix.determinant() / b.map.matrix.determinant()));
+  if (keeps_volume(kind) && std::abs(std::log(ratio)) > difference) return true;
+  const auto grid = Distance_grid::of<ConcurrencyTag>(*b.distances, 1.02 * std::max(a.radius(), b.radius()));
+  const auto& points = a.samples.points;
+  const Rotation_search<ConcurrencyTag> search(grid, {points.begin(), points.begin() + 80},
+                                               a.extents().template tail<2>().norm());
+  const auto candidates = search.run(difference + b.samples.spacing() / 2, allows_reflections);
+  return candidates.rotations.empty();
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/find_map.h"
+
+#include "commands/maps_view.h"
+#include "output/maps.h"
+#include <equiaffine/Input_error.h>
+#include <equiaffine/register_surfaces.h>
+
+#include <CGAL/compute_average_spacing.h>
+#include <CGAL/tags.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace equiaffine {
+
+namespace {
+
+using Tag = CGAL::Parallel_if_available_tag;
+
+/// What is expected less often than this by chance is a map.
+constexpr double accepted_log10 = -6;
+
+/// The scales of the two fits.
+using Scales = std::array<double, 2>;
+
+Surface_registration_3<Kernel> register_with(const Register_options& options, const Surface_to_register& source,
+                                             const Surface_to_register& target) {
+  const auto parameters = parameters::map_kind(options.maps.kind)
+                              .reflections(options.maps.allows_reflections)
+                              .number_of_maps(options.number_of_maps.value_or(1))
+                              .least_overlap(options.least_overlap)
+                              .refined_functions(std::pair<const Level_set_of_source&, const Level_set_of_source&>(
+                                  source.refined(), target.refined()));
+  return register_surfaces<Tag>(source.function, source.mesh.points, target.function, target.mesh.points, parameters);
+}
+
+/// Whether the data choose the scale, and a file can be read again to try another one.
+bool has_free_scale(const Source_options& source) {
+  return source.kind == Source_kind::FIT && !source.fit.scale && source.text != "-";
+}
+
+/// The mean distance of the points of a fit from their six neighbors, before any transformation.
+double spacing_of(const Source_options& source, const Surface_to_register& surface) {
+  std::vector<Kernel::Point_3> points = surface.mesh.points;
+  if (source.transformation)
+    for (Kernel::Point_3& p : points) p = source.transformation->inverse()(p);
+  return CGAL::compute_average_spacing<Tag>(points, 6);
+}
+
+/// The scale that one side has; else those from ten spacings on: the same length on both sides, since maps of scans mostly keep sizes, and each side's
+/// own multiple where points are not as dense.
+std::vector<Scales> scales_to_try(const Register_options& options, const Found_map& first) {
+  for (const Surface_options* side : {&options.source, &options.target})
+    if (const auto& given = side->source.fit.scale; given && *given > 0) return {{*given, *given}};
+  constexpr double same = 1.2;
+  Scales spacings = {spacing_of(options.source.source, first.source), spacing_of(options.target.source, first.target)};
+  if (options.source.source.kind != Source_kind::FIT) spacings[0] = spacings[1];
+  if (options.target.source.kind != Source_kind::FIT) spacings[1] = spacings[0];
+  const double ratio = spacings[0] / spacings[1], greater = std::max(spacings[0], spacings[1]);
+  std::vector<Scales> scales;
+  for (const double multiple : {10., 14., 7., 20.}) {
+    scales.push_back({multiple * greater, multiple * greater});
+    if (std::max(ratio, 1 / ratio) > same) scales.push_back({multiple * spacings[0], multiple * spacings[1]});
+  }
+  return scales;
+}
+
+/// The surfaces with fits at these scales where the scale is free, if such fits are possible.
+std::optional<Found_map> at_scales(Register_options options, const Scales& scales, Progress& progress) {
+  const bool is_shown = options.display.shows_something();
+  Source_options &source = options.source.source, &target = options.target.source;
+  if (has_free_scale(source)) source.fit.scale = scales[0];
+  if (has_free_scale(target)) target.fit.scale = scales[1];
+  try {
+    return Found_map{make_surface_to_register(options.source, is_shown, progress),
+                     make_surface_to_register(options.target, is_shown, progress)};
+  } catch (const Input_error&) {
+    return std::nullopt; // the scale is too large or too small for a surface
+  }
+}
+
+std::string text_of(const Scales& scales) {
+  std::ostringstream text;
+  text.precision(2);
+  text << scales[0];
+  if (scales[1] != scales[0]) text << " and " << scales[1];
+  return text.str();
+}
+
+/// The point of a level set near another one, by Newton's steps along the gradient.
+Kernel::Point_3 on_surface(Kernel::Point_3 p, const Level_set_of_source& surface) {
+  constexpr int steps = 3;
+  for (int n = 0; n < steps; ++n) {
+    const auto jet = surface.first_order(p);
+    const auto& c = jet.coefficients();
+    const Kernel::Vector_3 gradient(c[1], c[2], c[3]);
+    p = p - c[0] / gradient.squared_length() * gradient;
+  }
+  return p;
+}
+
+/// The number of separate parts of the source, each as large as the scale, whose points lie on the target. Frames of a
+/// pair of points make one part agree, and its neighbors with it, however unlike the surfaces are.
+std::size_t number_of_matched_parts(const Found_map& found, const Registered_map_3<Kernel>& map) {
+  constexpr std::size_t most_points = 4000;
+  constexpr double part_on_target = 0.7, deviations = 4, least_part_of_scale = 1e-3;
+  const auto& all = found.source.mesh.points;
+  std::vector<Kernel::Point_3> points;
+  for (std::size_t i = 0; i < all.size(); i += 1 + all.size() / most_points) points.push_back(all[i]);
+  std::vector<Kernel::Point_3> moved;
+  for (const auto& p : points) moved.push_back(map.map(on_surface(p, found.source.refined())));
+  const std::vector<double> distances = distances_from(found.target.refined())(moved);
+  const double scale = *found.source.scale, square = scale * scale;
+  const double greatest = std::max(deviations * map.rms, least_part_of_scale * scale);
+  std::vector<Kernel::Point_3> centers;
+  std::size_t parts = 0;
+  for (const auto& center : points) {
+    const auto is_near = [&](const auto& p) { return CGAL::squared_distance(p, center) < square; };
+    if (std::any_of(centers.begin(), centers.end(), is_near)) continue;
+    centers.push_back(center);
+    double count = 0, on_target = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (4 * CGAL::squared_distance(points[i], center) < square) {
+        ++count;
+        on_target += distances[i] < greatest;
+      }
+    parts += on_target >= part_on_target * count;
+  }
+  return parts;
+}
+
+/// Leaves out maps between fits at scales by which too few parts agree, and those that do not carry one scale to the
+/// other if they were tried, since curvatures at different scales are not the same quantity. Makes the odds those of
+/// all attempts together, and leaves out what is no better than chance then.
+void judge(std::size_t attempts, bool are_scales_tried, Found_map& found) {
+  constexpr std::size_t fewest_parts = 6;
+  constexpr double greatest_factor = 2; // of the volume
+  const bool are_at_scale = found.source.scale && found.target.scale;
+  const double ratio = are_at_scale ? *found.target.scale / *found.source.scale : 1;
+  std::erase_if(found.registration.maps, [&](auto& map) {
+    map.log10_false_alarms = std::min(0., map.log10_false_alarms + std::log10(double(attempts)));
+    if (map.log10_false_alarms > accepted_log10) return true;
+    if (!are_at_scale) return false;
+    const double factor = std::abs(determinant_of(map.map)) / std::pow(ratio, 3);
+    const bool is_of_other_size = std::max(factor, 1 / factor) > greatest_factor;
+    const bool is_left_out =
+        (are_scales_tried && is_of_other_size) || number_of_matched_parts(found, map) < fewest_parts;
+    found.maps_left_out += is_left_out;
+    return is_left_out;
+  });
+}
+
+} // namespace
+
+Found_map find_map(const Register_options& options, Progress& progress) {
+  const bool is_shown = options.display.shows_something();
+  Found_map first{make_surface_to_register(options.source, is_shown, progress),
+                  make_surface_to_register(options.target, is_shown, progress)};
+  std::size_t hypotheses = 0, attempts = 0;
+  const auto look = [&](Found_map& found, bool are_scales_tried) {
+    progress.begin("looking for the map");
+    found.registration = register_with(options, found.source, found.target);
+    judge(++attempts, are_scales_tried, found);
+    found.registration.hypotheses += std::exchange(hypotheses, found.registration.hypotheses + hypotheses);
+    return found.registration.found();
+  };
+  const bool is_free = has_free_scale(options.source.source) || has_free_scale(options.target.source);
+  const bool is_at_scale = first.source.scale || first.target.scale;
+  if ((!is_free || !is_at_scale) && look(first, false)) return first;
+  if (!is_free) return first;
+  for (const Scales& scales : scales_to_try(options, first)) {
+    auto found = at_scales(options, scales, progress);
+    if (!found) continue;
+    first.tried.push_back(text_of(scales));
+    found->tried = first.tried;
+    found->maps_left_out = first.maps_left_out;
+    if (look(*found, true)) return std::move(*found);
+    first.maps_left_out = found->maps_left_out;
+  }
+  if (is_at_scale) look(first, false);
+  else first.registration.hypotheses = hypotheses;
+  return first;
+}
+
+} // namespace equiaffine

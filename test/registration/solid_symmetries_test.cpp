@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Symmetries of solids with faces, edges and corners, which have no curvature to go by, as formulas and as meshes.
+#include "support/points_on_surface.h"
+#include "support/registration_cases.h"
+#include <equiaffine/affine_symmetries.h>
+
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/generators.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using namespace registration_cases;
+
+struct Solid {
+  std::vector<Point_3> points;
+  std::vector<std::vector<std::size_t>> polygons;
+};
+
+/// A prism over a polygon that its first corner sees as a whole; the upper one is `part` as large.
+Solid prism(const std::vector<std::array<double, 2>>& base, double height, double part = 1) {
+  const std::size_t n = base.size();
+  Solid solid;
+  for (const auto& [x, y] : base) solid.points.emplace_back(x, y, 0);
+  for (const auto& [x, y] : base) solid.points.emplace_back(part * x, part * y, height);
+  std::vector<std::size_t> top, bottom;
+  for (std::size_t i = 0; i < n; ++i) {
+    top.push_back(n + i);
+    bottom.push_back(i == 0 ? 0 : n - i);
+    solid.polygons.push_back({i, (i + 1) % n, n + (i + 1) % n, n + i});
+  }
+  solid.polygons.push_back(top);
+  solid.polygons.push_back(bottom);
+  return solid;
+}
+
+std::vector<std::array<double, 2>> regular(std::size_t corners) {
+  std::vector<std::array<double, 2>> polygon;
+  for (std::size_t k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * double(k) / double(corners);
+    polygon.push_back({std::cos(angle), std::sin(angle)});
+  }
+  return polygon;
+}
+
+Solid box(double a, double b, double c) { return prism({{-a, -b}, {a, -b}, {a, b}, {-a, b}}, 2 * c); }
+
+Solid tetrahedron() {
+  return {{{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+}
+
+/// A cube of side 2 without the tip at a corner, `cut` along its edges.
+Solid cube_without_corner(double cut) {
+  const double c = 1 - cut;
+  return {{{-1, -1, -1},
+           {1, -1, -1},
+           {1, 1, -1},
+           {-1, 1, -1},
+           {-1, -1, 1},
+           {1, -1, 1},
+           {-1, 1, 1},
+           {1, 1, c},
+           {1, c, 1},
+           {c, 1, 1}},
+          {{0, 3, 2, 1}, {0, 1, 5, 4}, {0, 4, 6, 3}, {1, 2, 7, 8, 5}, {2, 3, 6, 9, 7}, {4, 5, 8, 9, 6}, {7, 9, 8}}};
+}
+
+Solid moved(Solid solid, const Map& map) {
+  for (Point_3& p : solid.points) p = map(p);
+  return solid;
+}
+
+template <class Parameters>
+Affine_symmetries_3<Kernel> symmetries(const Solid& solid, const Parameters& parameters) {
+  return affine_symmetries<CGAL::Parallel_if_available_tag>(solid.points, solid.polygons, parameters);
+}
+
+/// Checks that maps are a group, and that each moves the corners of a solid onto its corners.
+void expect_group_of_corners(const Solid& solid, const Affine_symmetries_3<Kernel>& result, const std::string& name) {
+  const auto is_corner = [&](const Point_3& p) {
+    return std::any_of(solid.points.begin(), solid.points.end(),
+                       [&](const Point_3& q) { return CGAL::squared_distance(p, q) < 1e-12; });
+  };
+  for (const auto& symmetry : result.maps)
+    for (const Point_3& p : solid.points) ASSERT_TRUE(is_corner(symmetry.map(p))) << name;
+}
+
+struct Expected {
+  std::string name;
+  Solid solid;
+  std::size_t rigid;                 ///< the number of symmetries
+  std::optional<std::size_t> affine; ///< of an affine image, if they are to be tried
+};
+
+std::vector<Expected> solids() {
+  return {{"box", box(1, .7, .4), 8, 48},
+          {"cube", box(1, 1, 1), 48, {}},
+          {"tetrahedron", tetrahedron(), 24, {}},
+          {"hexagonal prism", prism(regular(6), 1.3), 24, 24},
+          {"square frustum", prism(regular(4), 1, .6), 8, {}},
+          {"L", prism({{.4, .4}, {.4, 1.5}, {0, 1.5}, {0, 0}, {1, 0}, {1, .4}}, .5), 2, 2},
+          {"cube without a corner", cube_without_corner(.5), 6, {}},
+          {"no symmetry", {{{0, 0, 0}, {2, 0, 0}, {.3, 1.1, 0}, {.2, .4, 1.6}}, tetrahedron().polygons}, 1, 24}};
+}
+
+TEST(Solid_symmetries, meshes_have_exactly_those_of_their_corners) {
+  Random random(8);
+  for (const Expected& e : solids()) {
+    const Solid turned = moved(e.solid, map_of(1.7 * random_rotation(random), Eigen::Vector3d(1, -2, 3)));
+    const auto rigid = symmetries(turned, parameters::map_kind(Map_kind::RIGID));
+    EXPECT_EQ(rigid.order(), e.rigid) << e.name;
+    EXPECT_EQ(rigid.verdict, e.rigid > 1 ? Symmetry_verdict::EXACT : Symmetry_verdict::NONE) << e.name;
+    expect_group_of_corners(turned, rigid, e.name);
+    if (!e.affine) continue;
+    const Solid sheared = moved(e.solid, random_map(random, 4, 2));
+    const auto affine = symmetries(sheared, parameters::map_kind(Map_kind::AFFINE));
+    EXPECT_EQ(affine.order(), e.affine) << e.name;
+    expect_group_of_corners(sheared, affine, e.name);
+  }
+}
+
+TEST(Solid_symmetries, formulas_with_edges_have_theirs) {
+  struct Case {
+    const char* formula;
+    std::size_t rigid;
+  };
+  const std::vector<Case> cases = {{"max(max(abs(x)-1, abs(y)-.7), abs(z)-.4)", 8},
+                                   {"min(max(x^2+y^2-.16, abs(z)-1), max(x^2+z^2-.16, abs(y)-1))", 16},
+                                   {"max(abs(z)-.3, max(abs(x), abs(y)) - .8 + .5*z)", 8}};
+  for (const auto& [formula, rigid] : cases) {
+    const Formula traits = Surface{"", formula, cube(1.5)}.traits();
+    const auto result = affine_symmetries<CGAL::Parallel_if_available_tag>(traits, points_on_surface(traits, 20),
+                                                                           parameters::map_kind(Map_kind::RIGID));
+    EXPECT_EQ(result.order(), rigid) << formula;
+    EXPECT_EQ(result.verdict, Symmetry_verdict::EXACT) << formula;
+  }
+}
+
+TEST(Solid_symmetries, a_greater_tolerance_never_finds_fewer) {
+  const Solid cube = cube_without_corner(.5);
+  const auto all = symmetries(cube, parameters::map_kind(Map_kind::RIGID));
+  ASSERT_EQ(all.levels.size(), 2u);
+  EXPECT_EQ(all.levels[0].order(), 6u);
+  EXPECT_EQ(all.levels[1].order(), 48u);
+  EXPECT_GT(all.levels[1].rms, 1e-3);
+  std::size_t before = 1;
+  for (const double tolerance : {1e-6, .002, .02, .09}) {
+    const auto result = symmetries(cube, parameters::map_kind(Map_kind::RIGID).tolerance(tolerance));
+    if (!result.order()) continue;
+    EXPECT_GE(*result.order(), before) << tolerance;
+    before = *result.order();
+  }
+  EXPECT_EQ(before, 48u);
+}
+
+TEST(Solid_symmetries, nothing_is_said_of_a_tolerance_that_other_maps_reach) {
+  const Solid nearly_square = box(1, 1.08, .3);
+  const auto order = [&](double tolerance) {
+    return symmetries(nearly_square, parameters::map_kind(Map_kind::RIGID).tolerance(tolerance)).order();
+  };
+  EXPECT_EQ(order(1e-3), 8u);
+  EXPECT_NE(order(.06), 8u) << "a turn by a right angle moves the box by less";
+  const Solid prism16 = prism(regular(16), 1);
+  const auto rigid = parameters::map_kind(Map_kind::RIGID);
+  EXPECT_EQ(symmetries(prism16, rigid.tolerance(1e-6)).order(), 64u);
+  EXPECT_EQ(symmetries(prism16, rigid.tolerance(.03)).continuous.dimension(), 1u);
+}
+
+/// A cube with a pyramid on each face.
+Solid star(double height) {
+  Solid solid = box(.5, .5, .5);
+  const auto faces = std::exchange(solid.polygons, {});
+  for (const auto& face : faces) {
+    Kernel::Vector_3 sum(0, 0, 0);
+    for (const std::size_t i : face) sum = sum + (solid.points[i] - CGAL::ORIGIN) / 4;
+    const Kernel::Vector_3 outward = 2 * (sum - Kernel::Vector_3(0, 0, .5));
+    const std::size_t tip = solid.points.size();
+    solid.points.push_back(CGAL::ORIGIN + sum + height * outward);
+    for (std::size_t k = 0; k < 4; ++k) solid.polygons.push_back({face[k], face[(k + 1) % 4], tip});
+  }
+  return solid;
+}
+
+TEST(Solid_symmetries, rotations_that_are_drawn_to_a_symmetry_nearby_are_no_slipping) {
+  for (const double height : {.48, .5, .52})
+    EXPECT_EQ(symmetries(star(height), parameters::map_kind(Map_kind::RIGID)).order(), 48u) << height;
+}
+
+TEST(Solid_symmetries, a_triangle_is_undecided) {
+  const Solid triangle = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  EXPECT_EQ(symmetries(triangle, parameters::map_kind(Map_kind::RIGID)).order(), std::nullopt);
+}
+
+TEST(Solid_symmetries, without_reflections_they_are_half_as_many) {
+  const auto result = symmetries(box(1, .7, .4), parameters::map_kind(Map_kind::RIGID).reflections(false));
+  EXPECT_EQ(result.order(), 4u);
+  for (const auto& symmetry : result.maps) EXPECT_GT(matrix_of(symmetry.map).determinant(), 0);
+}
+
+TEST(Solid_symmetries, noise_makes_them_approximate) {
+  Random random(3);
+  Solid noisy = box(1, .7, .4);
+  for (Point_3& p : noisy.points)
+    p = Point_3(p.x() + .003 * random.normal(), p.y() + .003 * random.normal(), p.z() + .003 * random.normal());
+  const auto result = symmetries(noisy, parameters::map_kind(Map_kind::RIGID));
+  EXPECT_EQ(result.order(), 8u);
+  EXPECT_EQ(result.verdict, Symmetry_verdict::APPROXIMATE);
+  EXPECT_GT(result.levels[0].rms, 3e-4);
+  EXPECT_LT(result.levels[0].rms, .01);
+  const auto strict = symmetries(noisy, parameters::map_kind(Map_kind::RIGID).tolerance(1e-5));
+  EXPECT_EQ(strict.order(), 1u) << "none is exact";
+}
+
+TEST(Solid_symmetries, meshes_of_cgal_have_theirs) {
+  CGAL::Surface_mesh<Point_3> mesh;
+  CGAL::make_regular_prism(5, mesh, Point_3(1, 2, 3), 1.4, 2, true);
+  const auto result = affine_symmetries(mesh, parameters::map_kind(Map_kind::RIGID));
+  EXPECT_EQ(result.order(), 20u);
+  EXPECT_EQ(result.verdict, Symmetry_verdict::EXACT);
+}
+
+TEST(Solid_symmetries, round_ones_turn) {
+  const auto ways = [](const Solid& solid) {
+    return symmetries(solid, parameters::map_kind(Map_kind::RIGID)).continuous.dimension();
+  };
+  EXPECT_EQ(ways(prism(regular(60), 1)), 1u);
+  EXPECT_EQ(ways(prism(regular(4), 1)), 0u);
+}
+
+TEST(Solid_symmetries, what_is_not_known_is_undecided) {
+  Solid open = box(1, .7, .4);
+  open.polygons.pop_back();
+  const auto affine = symmetries(open, parameters::map_kind(Map_kind::AFFINE));
+  EXPECT_EQ(affine.order(), std::nullopt);
+  EXPECT_EQ(affine.verdict, Symmetry_verdict::UNDECIDED);
+  EXPECT_NE(affine.reason.find("solid"), std::string::npos) << affine.reason;
+  EXPECT_EQ(affine.maps.size(), 1u) << "the identity";
+  EXPECT_EQ(symmetries(open, parameters::map_kind(Map_kind::RIGID)).order(), 4u) << "an open surface has a centroid";
+}
+
+TEST(Solid_symmetries, meshes_that_make_no_sense_are_refused) {
+  const auto rigid = parameters::map_kind(Map_kind::RIGID);
+  EXPECT_THROW(symmetries({{{0, 0, 0}}, {}}, rigid), std::invalid_argument);
+  EXPECT_THROW(symmetries({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 3}}}, rigid), std::invalid_argument);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(symmetries({{{0, 0, nan}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, rigid), std::invalid_argument);
+  EXPECT_THROW(symmetries(box(1, 1, 1), rigid.tolerance(1)), std::invalid_argument);
+}
+
+} // namespace
