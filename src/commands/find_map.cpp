@@ -23,7 +23,7 @@ namespace {
 
 using Tag = CGAL::Parallel_if_available_tag;
 
-/// What is expected less often than this by chance is a map.
+/// A map is accepted if as good ones are expected less often than this by chance.
 constexpr double accepted_log10 = -6;
 
 /// The scales of the two fits.

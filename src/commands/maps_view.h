@@ -27,13 +27,14 @@ Annotated_mesh_3<Kernel> registered_surfaces(const Surface_to_register& source, 
 /// The distances of points from a surface; NaN where they are not known.
 using Distances_of_points = std::function<std::vector<double>(const std::vector<Kernel::Point_3>&)>;
 
-/// Those to first order from the level set, and those from the triangles of a mesh, which has to outlive the result.
+/// Returns the distances to first order from a level set, which has to outlive the result, or those from the triangles of
+/// a mesh.
 Distances_of_points distances_from(const Level_set_of_source& surface);
 Distances_of_points distances_from(const Indexed_triangle_mesh_3<Kernel>& mesh);
 
-/// The surface with the column `distance`, the greatest distance of images of a vertex under the symmetries, `surface`,
-/// 0 for the surface and the next numbers for planes of reflection and axes of rotation, if there are any, and columns generatorN_x, generatorN_y,
-/// generatorN_z, the velocity of the vertex by each continuous one.
+/// The surface with the column `distance`, the greatest distance of images of a vertex under the symmetries, `surface`, 0
+/// for the surface and the next numbers for planes of reflection and axes of rotation, if there are any, and columns
+/// generatorN_x, generatorN_y, generatorN_z, the velocity of the vertex by each continuous one.
 Annotated_mesh_3<Kernel> surface_with_symmetries(const Indexed_triangle_mesh_3<Kernel>& surface,
                                                  const Affine_symmetries_3<Kernel>& symmetries,
                                                  const Distances_of_points& distances);

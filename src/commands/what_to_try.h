@@ -14,7 +14,7 @@ namespace equiaffine {
 /// agreed at all.
 std::vector<std::string> what_to_try(const Register_options& options, bool has_hypotheses);
 
-/// What may find symmetries where only the identity was found, or nothing was decided.
+/// Returns what may find symmetries where only the identity was found, or nothing was decided.
 std::vector<std::string> what_to_try(const Symmetries_options& options, const Symmetries& found);
 
 } // namespace equiaffine

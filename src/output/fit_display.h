@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What files, pages and pictures of a fit say about it.
+// Files, pages and pictures of a fit say its scale, its noise and what is known.
 #ifndef EQUIAFFINE_SRC_OUTPUT_FIT_DISPLAY_H
 #define EQUIAFFINE_SRC_OUTPUT_FIT_DISPLAY_H
 

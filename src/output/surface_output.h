@@ -55,7 +55,7 @@ std::string page_title(const std::string& path, const std::string& otherwise);
 /// VTK. Each may be "-".
 void check_display_outputs(const Display_options& options);
 
-/// What a page and a picture say about a surface.
+/// The texts by which a page and a picture describe a surface.
 struct Surface_texts {
   std::string title;
   Description description;

@@ -30,7 +30,7 @@ struct Symmetry_level_3 {
   std::size_t order() const { return maps.size(); }
 };
 
-/// What is known of the symmetries of a surface.
+/// A verdict says what is known of the symmetries of a surface.
 enum class Symmetry_verdict {
   EXACT,       ///< the first level, or the continuous group, is a group to rounding, or to the error of facets
   APPROXIMATE, ///< the first level, or the continuous group, is one to within 1 % of the size

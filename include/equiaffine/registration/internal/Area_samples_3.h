@@ -16,11 +16,11 @@
 
 namespace equiaffine::internal {
 
-/// Points that are uniform in the area of a surface, the first n of them, too, with unit normals to one side.
+/// Points that are uniform in the area of a surface, the first n of them, too, with unit normals to either side.
 struct Area_samples_3 {
   std::vector<Eigen::Vector3d> points, normals;
   Moments_3 area;
-  std::optional<Moments_3> volume = {}; ///< there is one if the surface bounds a solid
+  std::optional<Moments_3> volume = {}; ///< of a function whose surface bounds a solid
   double facet_error = 0; ///< the rms distance of the triangles from the smooth surface that they stand for
   bool is_cut = false;    ///< whether the surface ends at its box, so that symmetries of the whole keep no centroid
 

@@ -56,19 +56,19 @@ inline Centered_surface_3 surface_without_symmetries(std::string reason) {
 }
 
 inline Centered_surface_3 centered_surface(const Triangles_3& mesh, Map_kind kind) {
-  double double_area = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) double_area += mesh.double_area(t).norm();
-  if (!(double_area > 0)) return surface_without_symmetries("the mesh has no area");
+  const Moments_3 area = area_moments(mesh);
+  if (!(area.measure > 0)) return surface_without_symmetries("the mesh has no area");
+  const auto edges = sorted_edges(mesh);
   Centered_surface_3 result;
   if (!keeps_angles(kind)) {
-    const Moments_3 volume = volume_moments(mesh, area_moments(mesh).centroid);
-    if (!bounds_solid(sorted_edges(mesh)) || volume.covariance.llt().info() != Eigen::Success)
+    const Moments_3 volume = volume_moments(mesh, area.centroid);
+    if (!bounds_solid(edges) || volume.covariance.llt().info() != Eigen::Success)
       return surface_without_symmetries("the mesh bounds no solid, by whose moments affine maps are found");
     result.map = whitening_map(volume);
   }
   result.map = centering_map(area_moments(transformed(mesh, result.map))) * result.map;
   const Triangles_3 centered = transformed(mesh, result.map);
-  result.samples = mesh_samples(centered, samples_of_mesh);
+  result.samples = mesh_samples(centered, edges, samples_of_mesh);
   result.distances = std::make_unique<Mesh_distances>(centered);
   return result;
 }
@@ -96,7 +96,6 @@ Centered_surface_3 centered_surface(const Traits& traits, Map_kind kind) {
   const double size = samples.area.size();
   samples.area = {samples.area.measure / (size * size), Eigen::Vector3d::Zero(),
                   samples.area.covariance / (size * size)};
-  samples.volume.reset();
   result.map = centering * result.map;
   result.distances =
       std::make_unique<Function_distances<Traits>>(Mapped_function_3<Traits>(traits, result.map), samples);

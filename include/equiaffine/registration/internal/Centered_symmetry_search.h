@@ -5,9 +5,8 @@
 #include <equiaffine/base/parallel_for.h>
 #include <equiaffine/registration/internal/Centered_map.h>
 #include <equiaffine/registration/internal/Centered_symmetries.h>
-#include <equiaffine/registration/internal/Distance_grid.h>
 #include <equiaffine/registration/internal/Finite_group.h>
-#include <equiaffine/registration/internal/Rotation_search.h>
+#include <equiaffine/registration/internal/candidate_rotations.h>
 #include <equiaffine/registration/internal/slipping_rotations.h>
 
 #include <algorithm>
@@ -99,13 +98,9 @@ private:
   }
 
   void find_maps() {
-    const auto grid = Distance_grid::of<ConcurrencyTag>(*surface_.distances, 1.02 * surface_.radius());
-    const auto& points = surface_.samples.points;
-    const Eigen::Vector3d extents = surface_.extents();
-    const Rotation_search<ConcurrencyTag> search(grid, {points.begin(), points.begin() + 80}, extents.tail<2>().norm());
-    const double error = surface_.is_exact ? surface_.samples.spacing() / 2 : 0; // of the nearest sample
-    const Rotation_candidates candidates = search.run(1.25 * thresholds_.none + error, allows_reflections_);
-    complete_to_ = candidates.complete_to - error;
+    const Rotation_candidates candidates =
+        candidate_rotations<ConcurrencyTag>(surface_, surface_, 1.25 * thresholds_.none, allows_reflections_);
+    complete_to_ = candidates.complete_to;
     std::vector<Centered_map> maps;
     for (const Rotation_candidate& candidate : candidates.rotations) maps.push_back({{candidate.matrix}});
     maps = different(refined_first(std::move(maps), 3, 40), 2 * gate(), same);

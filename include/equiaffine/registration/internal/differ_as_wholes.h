@@ -3,12 +3,10 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_DIFFER_AS_WHOLES_H
 
 #include <equiaffine/registration/internal/Centered_surface_3.h>
-#include <equiaffine/registration/internal/Distance_grid.h>
-#include <equiaffine/registration/internal/Rotation_search.h>
+#include <equiaffine/registration/internal/candidate_rotations.h>
 
 #include <Eigen/LU>
 
-#include <algorithm>
 #include <cmath>
 
 namespace equiaffine::internal {
@@ -24,12 +22,7 @@ bool differ_as_wholes(const Source& source, const Target& target, Map_kind kind,
   if (!a.reason_against.empty() || !b.reason_against.empty()) return false;
   const double ratio = std::cbrt(std::abs(a.map.matrix.determinant() / b.map.matrix.determinant()));
   if (keeps_volume(kind) && std::abs(std::log(ratio)) > difference) return true;
-  const auto grid = Distance_grid::of<ConcurrencyTag>(*b.distances, 1.02 * std::max(a.radius(), b.radius()));
-  const auto& points = a.samples.points;
-  const Rotation_search<ConcurrencyTag> search(grid, {points.begin(), points.begin() + 80},
-                                               a.extents().template tail<2>().norm());
-  const auto candidates = search.run(difference + b.samples.spacing() / 2, allows_reflections);
-  return candidates.rotations.empty();
+  return candidate_rotations<ConcurrencyTag>(a, b, difference, allows_reflections).rotations.empty();
 }
 
 } // namespace equiaffine::internal

@@ -47,7 +47,7 @@ Signs_on_box signs_on_box(const Mapped_function_3<Traits>& function) {
   return signs;
 }
 
-/// What a line has in common with a surface and the solid that it bounds.
+/// The points in which a line meets a surface, and its segments inside of the solid that this bounds.
 struct Line_of_samples {
   std::vector<Eigen::Vector3d> points, normals;
   std::vector<std::array<Eigen::Vector3d, 2>> inside;

@@ -100,15 +100,14 @@ inline double facet_error(const Triangles_3& mesh, const std::vector<Edge_of_tri
   return area > 0 ? std::sqrt(sum / (3 * area)) : 0;
 }
 
-/// Samples triangles by a sequence that is uniform in their area. The moments are those of the triangles themselves.
+/// Samples triangles by a sequence that is uniform in their area. The moments are those of the triangles themselves, and
+/// `edges` are their sorted edges.
 /// \pre the mesh has an area.
-inline Area_samples_3 mesh_samples(const Triangles_3& mesh, std::size_t count) {
+inline Area_samples_3 mesh_samples(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges,
+                                   std::size_t count) {
   Area_samples_3 result;
   result.area = area_moments(mesh);
-  const auto edges = sorted_edges(mesh);
   result.facet_error = facet_error(mesh, edges);
-  const Moments_3 volume = volume_moments(mesh, result.area.centroid);
-  if (bounds_solid(edges) && std::abs(volume.measure) > 1e-6 * std::pow(result.area.size(), 3)) result.volume = volume;
   std::vector<double> cumulated;
   double sum = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) cumulated.push_back(sum += mesh.double_area(t).norm());
@@ -119,7 +118,7 @@ inline Area_samples_3 mesh_samples(const Triangles_3& mesh, std::size_t count) {
     if (v + w > 1) v = 1 - v, w = 1 - w;
     const Eigen::Vector3d &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
     result.points.push_back(a + v * (b - a) + w * (c - a));
-    result.normals.push_back((volume.measure < 0 ? -1 : 1) * mesh.double_area(t).normalized());
+    result.normals.push_back(mesh.double_area(t).normalized());
   }
   return result;
 }

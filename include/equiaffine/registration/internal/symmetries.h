@@ -68,7 +68,7 @@ void choose_maps(Affine_symmetries_3<Kernel>& result, std::optional<double> tole
   result.is_decided = std::min(found.complete_to, next_rms) > *tolerance;
 }
 
-/// What was found in the types of CGAL. Distances of maps are in the unit of the surface.
+/// Converts what was found to the types of CGAL. Distances of maps are in the unit of the surface.
 template <class Kernel>
 Affine_symmetries_3<Kernel> to_CGAL(const Centered_symmetries& found, const Centered_surface_3& surface) {
   const double unit = 1 / std::cbrt(std::abs(surface.map.matrix.determinant()));
@@ -91,7 +91,8 @@ inline bool has_exact_frames(const Framed_surface_3& surface) {
 /// The group that affine frames of points give, which are all symmetries to within the tolerance of at least 98 % of
 /// the points. The identity alone is a result only where frames are exact and some good ones were matched.
 template <class ConcurrencyTag, class Kernel>
-Affine_symmetries_3<Kernel> symmetries_by_frames(const Framed_surface_3& surface, const Symmetry_request& request) {
+Affine_symmetries_3<Kernel> symmetries_by_frames(const Framed_surface_3& surface, const Symmetry_request& request,
+                                                 bool is_exact) {
   Symmetry_search<ConcurrencyTag> search(surface, request.kind, *request.tolerance);
   Affine_symmetries_3<Kernel> result;
   Symmetry_level_3<Kernel> level = {{}, 0};
@@ -103,7 +104,6 @@ Affine_symmetries_3<Kernel> symmetries_by_frames(const Framed_surface_3& surface
   }
   constexpr std::size_t fewest_points = 4;
   result.maps = level.maps;
-  const bool is_exact = has_exact_frames(surface);
   if (level.maps.size() > 1) {
     result.verdict = is_exact ? Symmetry_verdict::EXACT : Symmetry_verdict::APPROXIMATE;
     result.levels.push_back(std::move(level));
@@ -141,10 +141,10 @@ Affine_symmetries_3<Kernel_of<Traits>> symmetries_of(const Traits& traits, const
     result.reason.clear();
     return result;
   }
-  const bool is_strict = *request.tolerance <= greatest_tolerance_of_frames;
-  if (is_strict || !has_exact_frames(surface)) {
-    auto by_frames = symmetries_by_frames<ConcurrencyTag, Kernel>(surface, request);
-    if (by_frames.is_decided || !has_exact_frames(surface)) return by_frames;
+  const bool is_strict = *request.tolerance <= greatest_tolerance_of_frames, is_exact = has_exact_frames(surface);
+  if (is_strict || !is_exact) {
+    auto by_frames = symmetries_by_frames<ConcurrencyTag, Kernel>(surface, request, is_exact);
+    if (by_frames.is_decided || !is_exact) return by_frames;
   }
   const auto centered = centered_surface<ConcurrencyTag>(traits, request.kind);
   Centered_symmetry_search<ConcurrencyTag> search(centered, request.kind, request.allows_reflections,
@@ -153,7 +153,7 @@ Affine_symmetries_3<Kernel_of<Traits>> symmetries_of(const Traits& traits, const
   result = to_CGAL<Kernel>(found, centered);
   choose_maps(result, request.tolerance, found);
   if (result.is_decided || is_strict) return result;
-  auto by_frames = symmetries_by_frames<ConcurrencyTag, Kernel>(surface, request);
+  auto by_frames = symmetries_by_frames<ConcurrencyTag, Kernel>(surface, request, is_exact);
   return by_frames.is_decided ? by_frames : result;
 }
 
