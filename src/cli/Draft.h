@@ -30,6 +30,7 @@ struct Draft {
   std::optional<std::size_t> number_of_maps;
   double least_overlap = 0.05;
   std::optional<double> tolerance;
+  bool is_complete = false;
   std::string mesh, points; ///< the files that `view` and `annotate`, and that `evaluate` reads
   std::optional<std::string> output, moved, curves, stats;
 };

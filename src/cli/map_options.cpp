@@ -48,6 +48,12 @@ const std::vector<Option_row> rows = {
      "the largest rms distance to which a symmetry may move points from the surface, a part of\n"
      "its size: by default 1e-8 for a formula; a mesh has the first group within 0.01",
      read_tolerance},
+    {"--complete", SYMMETRIES, MAPS, 0, "",
+     "search all rotations and reflections, as for a mesh, where a formula's frames of\n"
+     "curvature decide by themselves",
+     [](const Option_words& option, Draft& draft) {
+       draft.is_complete = parse_choice<bool>(option, {{"true", true}, {"false", false}});
+     }},
 };
 
 } // namespace

@@ -113,6 +113,7 @@ Symmetries_options read_symmetries_options(Option_reader& reader) {
   check_outputs(input_files(reader), {draft.output, draft.display.html, draft.display.png});
   options.maps = draft.maps;
   options.tolerance = draft.tolerance;
+  options.is_complete = draft.is_complete;
   options.output = *draft.output;
   options.display = draft.display;
   choose_up(options.surface.source.kind, options.display);

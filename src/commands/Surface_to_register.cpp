@@ -39,6 +39,12 @@ void check_box(const Surface_to_register& surface, const Surface_options& option
 
 } // namespace
 
+bool is_mesh_itself(const Surface_options& options) {
+  const Source_options& source = options.source;
+  const bool has_mesh = source.kind == Source_kind::FIT || source.kind == Source_kind::DISTANCE;
+  return has_mesh && options.isovalue == 0 && !source.box;
+}
+
 Surface_to_register make_surface_to_register(const Surface_options& options, bool is_shown, Progress& progress) {
   Source source = make_source(options.source, progress);
   Surface_to_register surface{

@@ -23,6 +23,9 @@ struct Surface_to_register {
   const Indexed_triangle_mesh_3<Kernel>& shown() const { return mesh.triangles.empty() ? extracted : mesh; }
 };
 
+/// Whether the triangles of a file are the surface, and no level set of a function.
+bool is_mesh_itself(const Surface_options& options);
+
 /// Makes the source and its surface. `is_shown` says whether faces are needed. Throws `Input_error`, also if there is no
 /// surface.
 Surface_to_register make_surface_to_register(const Surface_options& options, bool is_shown, Progress& progress);

@@ -9,6 +9,7 @@
 #include "source/source.h"
 #include "system/atomic_file.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,15 @@ struct Outputs {
   std::vector<Output_file> files; // the map, then those of page, picture, moved source that were asked for
 };
 
+/// The distances of points from the moved source, or the source as it is if there is no map, and from the target.
+std::array<Distances_of_points, 2> distances_from_surfaces(const Found_map& found) {
+  using Map = CGAL::Aff_transformation_3<Kernel>;
+  const Map map = found.registration.found() ? found.registration.best().map : Map(CGAL::IDENTITY);
+  const Surface_to_register &source = found.source, &target = found.target;
+  if (found.is_by_triangles) return {distances_from(moved(source.mesh, map)), distances_from(target.mesh)};
+  return {distances_from(source.refined(), map.inverse()), distances_from(target.refined())};
+}
+
 } // namespace
 
 void run_register(const Register_options& options, std::ostream& out, Progress& progress) {
@@ -41,6 +51,7 @@ void run_register(const Register_options& options, std::ostream& out, Progress& 
                                 describe(options.target.source),
                                 found.registration,
                                 options.number_of_maps.has_value(),
+                                found.is_by_triangles,
                                 found.maps_left_out,
                                 found.tried,
                                 {}};
@@ -51,14 +62,16 @@ void run_register(const Register_options& options, std::ostream& out, Progress& 
   auto file = outputs.files.begin();
   file++->stream() << to_JSON(report);
   if (is_shown) {
-    const auto [mesh, attributes] = registered_surfaces(source, target, report.registration);
+    const auto [mesh, attributes] =
+        registered_surfaces(source, target, distances_from_surfaces(found), report.registration);
     const Display_options display = display_of(report, options.display);
     file = write_displays(
         file, mesh, attributes, display,
         {page_title(options.output, "Registration"), description_of(report, display), notes_of(report, display)});
   }
   if (file != outputs.files.end()) {
-    const auto [mesh, attributes] = moved_source(source, target, report.registration.best().map);
+    const auto [mesh, attributes] =
+        moved_source(source, distances_from_surfaces(found)[1], report.registration.best().map);
     write_surface(*file, mesh, attributes);
   }
   progress.end();

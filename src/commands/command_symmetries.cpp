@@ -33,13 +33,6 @@ double default_tolerance(const Source_options& source) {
   return source.derivatives == Derivatives::SPLINE ? 1e-5 : 1e-8;
 }
 
-/// Whether the triangles of a file are the surface, and no level set of a function.
-bool is_mesh_itself(const Surface_options& options) {
-  const Source_options& source = options.source;
-  const bool has_mesh = source.kind == Source_kind::FIT || source.kind == Source_kind::DISTANCE;
-  return has_mesh && options.isovalue == 0 && !source.box;
-}
-
 /// The triangles of the file that the source names, none if it has no faces.
 Indexed_triangle_mesh_3<Kernel> read_triangles(const Source_options& source, Progress& progress) {
   progress.begin("reading the mesh");
@@ -85,8 +78,8 @@ Found_symmetries find_symmetries(const Symmetries_options& options, Progress& pr
     if (!found.mesh.triangles.empty()) {
       progress.begin("looking for symmetries");
       found.symmetries = symmetries_of_mesh(found.mesh, options);
-      const bool is_rigid = options.maps.kind == Map_kind::RIGID || options.maps.kind == Map_kind::SIMILARITY;
-      if (!is_undecided(found.symmetries) || is_rigid || !found.symmetries.levels.empty()) return found;
+      if (!is_undecided(found.symmetries) || keeps_angles(options.maps.kind) || !found.symmetries.levels.empty())
+        return found;
     }
   }
   const bool is_fit = source.kind == Source_kind::FIT;
@@ -95,10 +88,11 @@ Found_symmetries find_symmetries(const Symmetries_options& options, Progress& pr
   const bool has_points_only = is_fit && surface.mesh.triangles.empty() && !surface.extracted.triangles.empty();
   const double tolerance = options.tolerance.value_or(default_tolerance(source));
   progress.begin("looking for symmetries");
-  const Symmetries by_function =
-      has_points_only ? symmetries_of_mesh(surface.shown(), options)
-                      : affine_symmetries<CGAL::Parallel_if_available_tag>(surface.function, surface.mesh.points,
-                                                                           parameters_of(options).tolerance(tolerance));
+  const Symmetries by_function = has_points_only
+                                     ? symmetries_of_mesh(surface.shown(), options)
+                                     : affine_symmetries<CGAL::Parallel_if_available_tag>(
+                                           surface.function, surface.mesh.points,
+                                           parameters_of(options).tolerance(tolerance).complete(options.is_complete));
   if (!is_undecided(by_function) || found.mesh.triangles.empty()) found.symmetries = by_function;
   found.mesh = surface.shown();
   return found;
@@ -122,7 +116,7 @@ struct Outputs {
 void run_symmetries(const Symmetries_options& options, std::ostream& out, Progress& progress) {
   Outputs outputs(options);
   Found_symmetries found = find_symmetries(options, progress);
-  Symmetries_report report = {found.name(options.surface.source), found.symmetries, {}};
+  Symmetries_report report = {found.name(options.surface.source), found.symmetries, options.is_complete, {}};
   if (!std::isfinite(report.symmetries.maps.front().rms))
     throw Input_error("nothing is known of the symmetries of " + report.source +
                       ": it has a surface beside none of its points; give more points");

@@ -29,14 +29,17 @@ constexpr double accepted_log10 = -6;
 /// The scales of the two fits.
 using Scales = std::array<double, 2>;
 
+auto parameters_of(const Register_options& options) {
+  return parameters::map_kind(options.maps.kind)
+      .reflections(options.maps.allows_reflections)
+      .number_of_maps(options.number_of_maps.value_or(1))
+      .least_overlap(options.least_overlap);
+}
+
 Surface_registration_3<Kernel> register_with(const Register_options& options, const Surface_to_register& source,
                                              const Surface_to_register& target) {
-  const auto parameters = parameters::map_kind(options.maps.kind)
-                              .reflections(options.maps.allows_reflections)
-                              .number_of_maps(options.number_of_maps.value_or(1))
-                              .least_overlap(options.least_overlap)
-                              .refined_functions(std::pair<const Level_set_of_source&, const Level_set_of_source&>(
-                                  source.refined(), target.refined()));
+  const auto parameters = parameters_of(options).refined_functions(
+      std::pair<const Level_set_of_source&, const Level_set_of_source&>(source.refined(), target.refined()));
   return register_surfaces<Tag>(source.function, source.mesh.points, target.function, target.mesh.points, parameters);
 }
 
@@ -53,8 +56,8 @@ double spacing_of(const Source_options& source, const Surface_to_register& surfa
   return CGAL::compute_average_spacing<Tag>(points, 6);
 }
 
-/// The scale that one side has; else those from ten spacings on: the same length on both sides, since maps of scans mostly keep sizes, and each side's
-/// own multiple where points are not as dense.
+/// The scale that one side has; else those from ten spacings on: the same length on both sides, since maps of scans
+/// mostly keep sizes, and each side's own multiple where points are not as dense.
 std::vector<Scales> scales_to_try(const Register_options& options, const Found_map& first) {
   for (const Surface_options* side : {&options.source, &options.target})
     if (const auto& given = side->source.fit.scale; given && *given > 0) return {{*given, *given}};
@@ -156,9 +159,8 @@ void judge(std::size_t attempts, bool are_scales_tried, Found_map& found) {
   });
 }
 
-} // namespace
-
-Found_map find_map(const Register_options& options, Progress& progress) {
+/// Finds the map by frames of curvature.
+Found_map find_by_frames(const Register_options& options, Progress& progress) {
   const bool is_shown = options.display.shows_something();
   Found_map first{make_surface_to_register(options.source, is_shown, progress),
                   make_surface_to_register(options.target, is_shown, progress)};
@@ -186,6 +188,32 @@ Found_map find_map(const Register_options& options, Progress& progress) {
   if (is_at_scale) look(first, false);
   else first.registration.hypotheses = hypotheses;
   return first;
+}
+
+/// Compares the triangles of two meshes as wholes and, for maps that keep angles, piece by piece.
+void compare_triangles(const Register_options& options, Found_map& found, Progress& progress) {
+  const auto &source = found.source.mesh, &target = found.target.mesh;
+  if (!is_mesh_itself(options.source) || !is_mesh_itself(options.target)) return;
+  if (source.triangles.empty() || target.triangles.empty()) return;
+  progress.begin("comparing the triangles");
+  auto by_triangles =
+      register_surfaces<Tag>(source.points, source.triangles, target.points, target.triangles, parameters_of(options));
+  by_triangles.hypotheses += found.registration.hypotheses;
+  found.is_by_triangles = by_triangles.found();
+  if (by_triangles.found()) {
+    found.registration = std::move(by_triangles);
+  } else {
+    found.registration.hypotheses = by_triangles.hypotheses;
+    found.registration.reason = std::move(by_triangles.reason);
+  }
+}
+
+} // namespace
+
+Found_map find_map(const Register_options& options, Progress& progress) {
+  Found_map found = find_by_frames(options, progress);
+  if (!found.registration.found()) compare_triangles(options, found, progress);
+  return found;
 }
 
 } // namespace equiaffine

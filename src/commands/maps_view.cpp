@@ -58,14 +58,6 @@ std::vector<double> distances(const std::vector<Point>& points, const Level_set_
   return result;
 }
 
-/// The mesh moved by a map, with normals on the same side.
-Mesh moved(Mesh mesh, const Map& map) {
-  for (Point& p : mesh.points) p = map(p);
-  if (determinant_of(map) < 0)
-    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-  return mesh;
-}
-
 double diagonal_of(const std::vector<Point>& points) {
   CGAL::Bbox_3 box;
   for (const Point& p : points) box += p.bbox();
@@ -110,27 +102,35 @@ void add_frames(const Registered_map_3<Kernel>& registered, double diagonal, Joi
 
 } // namespace
 
-Annotated_mesh_3<Kernel> moved_source(const Surface_to_register& source, const Surface_to_register& target,
+Mesh moved(Mesh mesh, const Map& map) {
+  for (Point& p : mesh.points) p = map(p);
+  if (determinant_of(map) < 0)
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  return mesh;
+}
+
+Annotated_mesh_3<Kernel> moved_source(const Surface_to_register& source, const Distances_of_points& from_target,
                                       const Map& map) {
   Annotated_mesh_3<Kernel> result{moved(source.mesh, map), {}};
-  result.attributes.columns.push_back(
-      {"distance", distances(result.mesh.points, target.refined(), Map(CGAL::IDENTITY))});
+  result.attributes.columns.push_back({"distance", from_target(result.mesh.points)});
   return result;
 }
 
 Annotated_mesh_3<Kernel> registered_surfaces(const Surface_to_register& source, const Surface_to_register& target,
+                                             const std::array<Distances_of_points, 2>& from_source_and_target,
                                              const Surface_registration_3<Kernel>& registration) {
+  const auto& [from_source, from_target] = from_source_and_target;
   const Map map = registration.found() ? registration.best().map : Map(CGAL::IDENTITY);
   const Mesh image = moved(source.shown(), map);
   Joined_meshes all;
-  all.add(target.shown(), 0, distances(target.shown().points, source.refined(), map.inverse()));
-  all.add(image, 1, distances(image.points, target.refined(), Map(CGAL::IDENTITY)));
+  all.add(target.shown(), 0, from_source(target.shown().points));
+  all.add(image, 1, from_target(image.points));
   if (registration.found() && registration.best().pair) add_frames(registration.best(), diagonal_of(image.points), all);
   return std::move(all).result();
 }
 
-Distances_of_points distances_from(const Level_set_of_source& surface) {
-  return [&surface](const std::vector<Point>& points) { return distances(points, surface, Map(CGAL::IDENTITY)); };
+Distances_of_points distances_from(const Level_set_of_source& surface, const Map& back) {
+  return [&surface, back](const std::vector<Point>& points) { return distances(points, surface, back); };
 }
 
 Distances_of_points distances_from(const Mesh& mesh) {

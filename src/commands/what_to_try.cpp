@@ -42,8 +42,7 @@ std::vector<std::string> what_to_try(const Register_options& options, bool has_h
   add_for_scales(options.source, options.target, advice);
   add_for_derivatives({&options.source, &options.target}, advice);
   add_for_kind(options.maps, advice);
-  const bool has_affine_frames = options.maps.kind == Map_kind::AFFINE || options.maps.kind == Map_kind::EQUIAFFINE;
-  if (!has_hypotheses && has_affine_frames)
+  if (!has_hypotheses && !keeps_angles(options.maps.kind))
     advice.emplace_back("--kind similarity, whose frames need fewer derivatives and exist on quadrics, too");
   if (has_hypotheses && options.least_overlap > Register_options().least_overlap)
     advice.emplace_back("a smaller --min-overlap");
@@ -53,14 +52,13 @@ std::vector<std::string> what_to_try(const Register_options& options, bool has_h
 
 std::vector<std::string> what_to_try(const Symmetries_options& options, const Symmetries& found) {
   std::vector<std::string> advice;
-  const bool is_affine = options.maps.kind == Map_kind::AFFINE || options.maps.kind == Map_kind::EQUIAFFINE;
   if (!is_undecided(found)) {
     if (!found.levels.empty()) advice.emplace_back("a larger --tolerance");
     add_for_kind(options.maps, advice);
     return advice;
   }
   add_for_derivatives({&options.surface}, advice);
-  if (is_affine) advice.emplace_back("--kind rigid, whose maps need no solid");
+  if (!keeps_angles(options.maps.kind)) advice.emplace_back("--kind rigid, whose maps need no solid");
   if (!options.tolerance) advice.emplace_back("--tolerance PART for another distance to which maps may move points");
   return advice;
 }

@@ -97,6 +97,14 @@ std::string greater_levels(const Symmetries& symmetries) {
   return text;
 }
 
+std::string completeness_text(const Symmetries& symmetries) {
+  if (!symmetries.complete_to) return "not all rotations could be tried\n";
+  std::ostringstream text;
+  text.precision(2);
+  text << "all rotations were tried that may move it to within " << 100 * *symmetries.complete_to << " % of the size\n";
+  return text.str();
+}
+
 std::string ways(std::size_t number) { return std::to_string(number) + (number == 1 ? " way" : " ways"); }
 
 } // namespace
@@ -117,12 +125,15 @@ std::string odds_text(const Registered_map_3<Kernel>& map) {
 
 std::string reason_for_none(const Registration_report& report) {
   const std::size_t n = report.registration.hypotheses;
-  if (n == 0) return "no map found: no points of the two have frames that agree";
+  const std::string& reason = report.registration.reason;
+  const std::string of_triangles = reason.empty() ? "" : "; without curvature, " + reason;
+  if (n == 0) return "no map found: no points of the two have frames that agree" + of_triangles;
   std::string scales;
   for (const std::string& scale : report.scales)
     scales += (scales.empty() ? " at the scales chosen by the data, " : ", ") + scale;
   return "no map found: " + (n == 1 ? "the only hypothesis is no" : "none of " + std::to_string(n) + " hypotheses is") +
-         " better than chance" + (report.maps_left_out > 0 ? " for more than a small part" : "") + scales;
+         " better than chance" + (report.maps_left_out > 0 ? " for more than a small part" : "") + scales +
+         of_triangles;
 }
 
 bool is_undecided(const Symmetries& symmetries) {
@@ -156,6 +167,7 @@ std::string to_JSON(const Registration_report& report) {
   json["found"] = registration.found();
   if (!report.scales.empty()) json["scales"] = report.scales;
   if (!registration.found()) return text_of(json);
+  json["matched_by"] = report.is_by_triangles ? "triangles" : "frames";
   add(registration.best(), json);
   json["hypotheses"] = registration.hypotheses;
   json["next_best_rms"] = nullptr;
@@ -174,6 +186,8 @@ std::string to_JSON(const Symmetries_report& report) {
   json["verdict"] = verdict_text(symmetries.verdict);
   json["undecided"] = nullptr;
   if (is_undecided(symmetries)) json["undecided"] = reason_for_undecided(symmetries);
+  json["complete_to"] = nullptr;
+  if (symmetries.complete_to) json["complete_to"] = *symmetries.complete_to;
   json["levels"] = Json::array();
   for (const auto& level : symmetries.levels) json["levels"].push_back({{"order", level.order()}, {"rms", level.rms}});
   json["maps"] = Json::array();
@@ -198,7 +212,8 @@ std::string summary(const Registration_report& report) {
     text << "map found, determinant " << determinant_of(best.map) << ": " << odds_text(best) << '\n';
     text << "on the other surface: " << overlap_text(best) << ", rms distance " << best.rms << '\n';
     text << registration.hypotheses << (registration.hypotheses == 1 ? " hypothesis" : " hypotheses");
-    if (!report.scales.empty()) text << ", the last ones at scale " << report.scales.back();
+    if (report.is_by_triangles) text << ", the last ones by the triangles without curvature";
+    else if (!report.scales.empty()) text << ", the last ones at scale " << report.scales.back();
     if (registration.next_best_rms) text << ", next best rms distance " << *registration.next_best_rms;
     text << '\n';
     if (report.has_all_maps) text << registration.maps.size() << (registration.maps.size() == 1 ? " map\n" : " maps\n");
@@ -211,17 +226,18 @@ std::string summary(const Registration_report& report) {
 
 std::string summary(const Symmetries_report& report) {
   const auto& symmetries = report.symmetries;
+  const std::string complete = report.is_complete ? completeness_text(symmetries) : "";
   const std::size_t dimension = symmetries.continuous.dimension();
   if (dimension > 0) return "infinitely many symmetries: the surface slips over itself in " + ways(dimension) + '\n';
   if (is_undecided(symmetries))
     return "undecided: " + reason_for_undecided(symmetries) + advice_text(report.advice) + '\n' +
-           greater_levels(symmetries);
+           greater_levels(symmetries) + complete;
   if (symmetries.maps.size() == 1)
-    return "1 symmetry, the identity" + advice_text(report.advice) + '\n' + greater_levels(symmetries);
+    return "1 symmetry, the identity" + advice_text(report.advice) + '\n' + greater_levels(symmetries) + complete;
   const std::size_t reflections = reflections_of(symmetries);
   return std::to_string(symmetries.maps.size()) + " symmetries" + within_text(rms_of(symmetries)) + ", " +
          std::to_string(reflections) + " of them change" + (reflections == 1 ? "s" : "") + " left and right\n" +
-         greater_levels(symmetries);
+         greater_levels(symmetries) + complete;
 }
 
 } // namespace equiaffine

@@ -16,6 +16,7 @@ struct Registration_report {
   std::string source, target;
   Surface_registration_3<Kernel> registration;
   bool has_all_maps = false;       ///< whether all maps were asked for
+  bool is_by_triangles = false;    ///< whether triangles without their curvature gave the map
   std::size_t maps_left_out = 0;   ///< by which too small a part agrees, or with another ratio of sizes than of scales
   std::vector<std::string> scales; ///< of the fits that were tried one after the other, the last one with success
   std::vector<std::string> advice; ///< what to try if no map was found
@@ -27,6 +28,7 @@ using Symmetries = Affine_symmetries_3<Kernel>;
 struct Symmetries_report {
   std::string source;
   Symmetries symmetries;
+  bool is_complete = false;        ///< whether a search of all rotations was asked for
   std::vector<std::string> advice; ///< what to try if nothing is decided
 };
 

@@ -158,6 +158,7 @@ struct Symmetries_options {
   Surface_options surface;
   Map_options maps;
   std::optional<double> tolerance; ///< a part of the size of the surface; if there is none, the source decides
+  bool is_complete = false;        ///< whether all rotations are to be searched
   std::string output;
   Display_options display;
 };

@@ -200,6 +200,31 @@ TEST_F(Program_register, a_quadric_has_one_map_of_many_with_generators) {
             std::string::npos);
 }
 
+TEST_F(Program_register, boxes_have_no_curvature_and_are_found_by_their_triangles) {
+  const std::string faces = "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+  write_file(folder_ / "box.off", "OFF\n8 6 0\n0 0 0\n3 0 0\n3 2 0\n0 2 0\n0 0 1\n3 0 1\n3 2 1\n0 2 1\n" + faces);
+  write_file(folder_ / "other.off", "OFF\n8 6 0\n0 0 0\n3 0 0\n3 2 0\n0 2 0\n0 0 1\n3 0 1\n3 2 1.4\n0 2 1\n" + faces);
+  const Arguments turn = {"--transform", "0", "-1", "0", "1", "0", "0", "0", "0", "1", "5", "6", "7"};
+  const Json found = registered({"box.off"}, Arguments{"box.off"} + turn,
+                                {"--kind", "rigid", "--moved", "moved.ply", "--html", "page.html", "--all", "9"});
+  ASSERT_EQ(found["found"], true);
+  EXPECT_EQ(found["matched_by"], "triangles");
+  EXPECT_EQ(found["maps"].size(), 8U);
+  EXPECT_LT(found["rms"], 1e-12);
+  EXPECT_EQ(found["inliers"], (Json{1., 1.}));
+  for (const double distance : column(mesh("moved.ply"), "distance")) EXPECT_LT(distance, 1e-12);
+  EXPECT_EQ(registered({"box.off"}, {"other.off"}, {"--kind", "rigid"})["found"], false);
+  EXPECT_EQ(registered(surface, image)["matched_by"], "frames");
+}
+
+TEST_F(Program_register, a_search_of_all_rotations_says_how_far_it_went) {
+  const Arguments long_one = Arguments{"--function", "x^4+2*y^4+4*z^4+.3*x*y*z=1", "--kind", "rigid"} + box;
+  EXPECT_TRUE(symmetries(long_one)["complete_to"].is_null());
+  const std::string text = run_well(Arguments{"symmetries"} + long_one + Arguments{"-o", "maps.json", "--complete"});
+  EXPECT_NE(text.find("all rotations were tried that may move it to within "), std::string::npos) << text;
+  EXPECT_GT(Json::parse(file("maps.json"))["complete_to"], .01);
+}
+
 TEST_F(Program_register, planes_and_three_points_are_no_error_and_have_no_map) {
   const Arguments plane = Arguments{"--function", "x+2*y-z", "--resolution", "12"} + box;
   EXPECT_EQ(registered(plane, plane)["found"], false);

@@ -52,7 +52,7 @@ TEST(Register_fits, certainty_falls_with_the_estimated_error) {
   const internal::Oracle_of_traits_3 formula(exact_surface);
   double sum = 0, noisy_sum = 0;
   for (std::size_t i = 0; i < exact.points.size(); i += 20) {
-    const Eigen::Vector3d p = internal::coordinates_of(exact.points[i]), q = internal::coordinates_of(noisy.points[i]);
+    const Eigen::Vector3d p = coordinates_of(exact.points[i]), q = coordinates_of(noisy.points[i]);
     const double certainty = oracle.certainty(p);
     EXPECT_GE(certainty, 0);
     EXPECT_LE(certainty, 1);

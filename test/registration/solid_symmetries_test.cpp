@@ -2,6 +2,7 @@
 // Symmetries of solids with faces, edges and corners, which have no curvature to go by, as formulas and as meshes.
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
+#include "support/solids.h"
 #include <equiaffine/affine_symmetries.h>
 
 #include <CGAL/Surface_mesh.h>
@@ -25,64 +26,7 @@ namespace {
 
 using namespace equiaffine;
 using namespace registration_cases;
-
-struct Solid {
-  std::vector<Point_3> points;
-  std::vector<std::vector<std::size_t>> polygons;
-};
-
-/// A prism over a polygon that its first corner sees as a whole; the upper one is `part` as large.
-Solid prism(const std::vector<std::array<double, 2>>& base, double height, double part = 1) {
-  const std::size_t n = base.size();
-  Solid solid;
-  for (const auto& [x, y] : base) solid.points.emplace_back(x, y, 0);
-  for (const auto& [x, y] : base) solid.points.emplace_back(part * x, part * y, height);
-  std::vector<std::size_t> top, bottom;
-  for (std::size_t i = 0; i < n; ++i) {
-    top.push_back(n + i);
-    bottom.push_back(i == 0 ? 0 : n - i);
-    solid.polygons.push_back({i, (i + 1) % n, n + (i + 1) % n, n + i});
-  }
-  solid.polygons.push_back(top);
-  solid.polygons.push_back(bottom);
-  return solid;
-}
-
-std::vector<std::array<double, 2>> regular(std::size_t corners) {
-  std::vector<std::array<double, 2>> polygon;
-  for (std::size_t k = 0; k < corners; ++k) {
-    const double angle = 2 * std::numbers::pi * double(k) / double(corners);
-    polygon.push_back({std::cos(angle), std::sin(angle)});
-  }
-  return polygon;
-}
-
-Solid box(double a, double b, double c) { return prism({{-a, -b}, {a, -b}, {a, b}, {-a, b}}, 2 * c); }
-
-Solid tetrahedron() {
-  return {{{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
-}
-
-/// A cube of side 2 without the tip at a corner, `cut` along its edges.
-Solid cube_without_corner(double cut) {
-  const double c = 1 - cut;
-  return {{{-1, -1, -1},
-           {1, -1, -1},
-           {1, 1, -1},
-           {-1, 1, -1},
-           {-1, -1, 1},
-           {1, -1, 1},
-           {-1, 1, 1},
-           {1, 1, c},
-           {1, c, 1},
-           {c, 1, 1}},
-          {{0, 3, 2, 1}, {0, 1, 5, 4}, {0, 4, 6, 3}, {1, 2, 7, 8, 5}, {2, 3, 6, 9, 7}, {4, 5, 8, 9, 6}, {7, 9, 8}}};
-}
-
-Solid moved(Solid solid, const Map& map) {
-  for (Point_3& p : solid.points) p = map(p);
-  return solid;
-}
+using namespace solids;
 
 template <class Parameters>
 Affine_symmetries_3<Kernel> symmetries(const Solid& solid, const Parameters& parameters) {
@@ -112,7 +56,7 @@ std::vector<Expected> solids() {
           {"tetrahedron", tetrahedron(), 24, {}},
           {"hexagonal prism", prism(regular(6), 1.3), 24, 24},
           {"square frustum", prism(regular(4), 1, .6), 8, {}},
-          {"L", prism({{.4, .4}, {.4, 1.5}, {0, 1.5}, {0, 0}, {1, 0}, {1, .4}}, .5), 2, 2},
+          {"L", L(), 2, 2},
           {"cube without a corner", cube_without_corner(.5), 6, {}},
           {"no symmetry", {{{0, 0, 0}, {2, 0, 0}, {.3, 1.1, 0}, {.2, .4, 1.6}}, tetrahedron().polygons}, 1, 24}};
 }
@@ -147,6 +91,22 @@ TEST(Solid_symmetries, formulas_with_edges_have_theirs) {
                                                                            parameters::map_kind(Map_kind::RIGID));
     EXPECT_EQ(result.order(), rigid) << formula;
     EXPECT_EQ(result.verdict, Symmetry_verdict::EXACT) << formula;
+  }
+}
+
+TEST(Solid_symmetries, all_rotations_are_searched_where_that_is_asked_for) {
+  const Formula traits = Surface{"", "(x^2*(1-x^2)-y^2)^2+.5*z^2-.03", cube(2)}.traits();
+  const auto points = points_on_surface(traits, 20);
+  for (const Map_kind kind : {Map_kind::RIGID, Map_kind::AFFINE}) {
+    const auto by_frames =
+        affine_symmetries<CGAL::Parallel_if_available_tag>(traits, points, parameters::map_kind(kind));
+    EXPECT_EQ(by_frames.order(), 8u);
+    EXPECT_FALSE(by_frames.complete_to);
+    const auto complete =
+        affine_symmetries<CGAL::Parallel_if_available_tag>(traits, points, parameters::map_kind(kind).complete(true));
+    EXPECT_EQ(complete.order(), 8u);
+    ASSERT_TRUE(complete.complete_to);
+    EXPECT_GT(*complete.complete_to, .01);
   }
 }
 

@@ -176,7 +176,7 @@ private:
     box_ = band_box();
   }
 
-  Eigen::Vector3d normal(const Point_3& p) const { return state_->fit.normalization()(internal::coordinates_of(p)); }
+  Eigen::Vector3d normal(const Point_3& p) const { return state_->fit.normalization()(coordinates_of(p)); }
 
   template <int Order>
   Jet_3<FT, Order> expansion(const Point_3& p) const {

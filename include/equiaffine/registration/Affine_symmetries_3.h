@@ -51,6 +51,9 @@ struct Affine_symmetries_3 {
   std::vector<Affine_symmetry_3<Kernel>> maps = {};
   Affine_slippage_3 continuous = {}; ///< the Lie algebra of the group
   bool is_decided = false;           ///< whether `maps` are all symmetries to within the tolerance
+  /// All rotations and reflections about the centroid were tried that move the surface onto itself to within this rms
+  /// distance, a part of its size. None if they were not searched, as where exact frames decide.
+  std::optional<double> complete_to = {};
 
   /// The number of symmetries, the identity and reflections counted. None if there are infinitely many, or if it is not
   /// known.

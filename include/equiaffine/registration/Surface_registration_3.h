@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace equiaffine {
@@ -29,7 +30,8 @@ struct Registered_map_3 {
   /// The parts of the points of the source, and of the target, that lie on the other surface.
   std::array<double, 2> inliers;
   double rms; ///< the root of the mean squared distance of these points, in the unit of the target
-  std::optional<Pair_of_frames_3<Kernel>> pair; ///< none if the map is one of a continuous family
+  /// None if the map is one of a continuous family, or of whole surfaces or pieces that were matched without curvature.
+  std::optional<Pair_of_frames_3<Kernel>> pair;
 };
 
 /// The result of `register_surfaces`.
@@ -41,6 +43,7 @@ struct Surface_registration_3 {
   /// How the source slips over itself by maps of the kind. If the dimension is not 0, each of `maps` represents a
   /// continuous family.
   Affine_slippage_3 slippage;
+  std::string reason = {}; ///< why the maps between meshes that were tried are not accepted, if that is known
 
   bool found() const { return !maps.empty(); }
   const Registered_map_3<Kernel>& best() const { return maps.front(); } ///< \pre found()

@@ -9,6 +9,7 @@
 #include <equiaffine/registration/internal/symmetries.h>
 #include <equiaffine/registration/internal/triangles_of.h>
 #include <equiaffine/surface/Face_graph.h>
+#include <equiaffine/surface/indexed_polygons.h>
 
 #include <CGAL/Kernel_traits.h>
 #include <CGAL/boost/graph/properties.h>
@@ -24,10 +25,10 @@ namespace equiaffine {
 ///
 /// On a smooth surface they come from affine frames of a few points and of all their possible images, by exact
 /// derivatives; products complete the group. Where there are too few such frames, as on planes, cylinders and spheres,
-/// or with a `tolerance` above 1e-6, all rotations and reflections about the centroid of the area, which every symmetry
-/// of a whole surface keeps, are searched by branch and bound, for affine maps in coordinates in which the solid inside
-/// is round, with points by random lines (Crofton). Maps are refined by least squares, and every element is verified by
-/// thousands of points. A surface that leaves the box of the function has no centroid to go by: points that leave the
+/// with `complete`, or with a `tolerance` above 1e-6, all rotations and reflections about the centroid of the area,
+/// which every symmetry of a whole surface keeps, are searched by branch and bound, for affine maps in coordinates in
+/// which the solid inside is round, with points by random lines (Crofton). Maps are refined by least squares, and every
+/// element is verified by thousands of points. A surface that leaves the box of the function has no centroid to go by: points that leave the
 /// box do not count, so that an unbounded surface in a box has the symmetries of the whole one.
 ///
 /// The order counts the maps to within `tolerance`, a part of the size, 1e-8 by default. A greater tolerance never
@@ -35,13 +36,14 @@ namespace equiaffine {
 /// are sought: an ellipsoid has infinitely many affine symmetries, but 8 rigid ones if its axes differ.
 ///
 /// Takes some 0.1 s for a smooth formula, else 1 to 10 s on one core. The result is the same for CGAL::Sequential_tag
-/// and CGAL::Parallel_tag. Named parameters: `map_kind`, `reflections`, `tolerance`. \throw std::invalid_argument if
-/// there are no points, or a parameter makes no sense.
+/// and CGAL::Parallel_tag. Named parameters: `map_kind`, `reflections`, `tolerance`, `complete`.
+/// \throw std::invalid_argument if there are no points, or a parameter makes no sense.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, std::ranges::input_range Points,
           class Parameters = internal::No_parameters>
 Affine_symmetries_3<Kernel_of<Traits>> affine_symmetries(const Traits& traits, const Points& points,
                                                          const Parameters& parameters = {}) {
-  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag, internal::Tolerance_tag>();
+  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag, internal::Tolerance_tag,
+                             internal::Complete_tag>();
   return internal::symmetries_of<ConcurrencyTag>(traits, points, parameters);
 }
 
@@ -54,7 +56,7 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, class P
 auto affine_symmetries(const Graph& mesh, const Parameters& parameters = {}) {
   internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag, internal::Tolerance_tag,
                              internal::Vertex_point_tag>();
-  using Point_map = decltype(internal::vertex_points_of(mesh, parameters));
+  using Point_map = decltype(vertex_points(mesh, parameters));
   using Kernel_of_points = typename CGAL::Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
   return internal::symmetries_of_triangles<ConcurrencyTag, Kernel_of_points>(
       internal::triangles_of_graph(mesh, parameters), parameters);

@@ -6,9 +6,17 @@
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/registration/Map_kind.h>
 #include <equiaffine/registration/Surface_registration_3.h>
+#include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/registration.h>
+#include <equiaffine/registration/internal/registration_of_triangles.h>
+#include <equiaffine/registration/internal/triangles_of.h>
+#include <equiaffine/surface/Face_graph.h>
+#include <equiaffine/surface/indexed_polygons.h>
 
+#include <CGAL/Kernel_traits.h>
+#include <CGAL/boost/graph/properties.h>
 #include <CGAL/tags.h>
+#include <boost/property_map/property_map.hpp>
 
 #include <ranges>
 
@@ -27,7 +35,8 @@ namespace equiaffine {
 /// least 1e-5 of the size of the target, and at most 3e-3 of it, since large parts of unrelated surfaces can be moved
 /// onto each other to within more. Where the frame of a point is not determined, as the affine one on quadrics, it is
 /// not matched: surfaces with continuous symmetries have a slippage, see Surface_registration_3. A fit
-/// (Fitted_function_traits_3) estimates its errors: points where its curvatures are uncertain are tried later.
+/// (Fitted_function_traits_3) estimates its errors: points where its curvatures are uncertain are tried later. Whole
+/// surfaces of other functions without such frames, as boxes, are matched as meshes are.
 ///
 /// Takes 5 expansions for each of up to 6000 points of a surface, and a number of hypotheses that does not depend on the
 /// number of points. The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit.
@@ -45,6 +54,45 @@ Surface_registration_3<Kernel_of<Target>> register_surfaces(const Source& source
                              internal::Number_of_maps_tag, internal::Least_overlap_tag, internal::Refined_functions_tag,
                              internal::Tolerance_tag>();
   return internal::registration_of<ConcurrencyTag>(source, source_points, target, target_points, parameters).result;
+}
+
+/// The same for the triangles of two meshes, without any curvature: boxes and other CAD parts have none to go by.
+///
+/// If the whole surfaces are equal, the map keeps the centroid of the area, and an affine one the moments of the solid
+/// inside, so that all rotations and reflections about the centroid are searched by branch and bound. Else pieces are
+/// matched by similarities: two points with their normals give a frame, pairs of points with about the same distance and
+/// angles are tried, and a map is accepted if the points in contact leave it no freedom, hardly any point of one surface
+/// lies over an empty part of the other, and fewer than 1e-6 as good maps are expected by chance. The `tolerance` is the
+/// rms distance of surfaces that are equal, a part of the size, by default 0.3 % or what facets explain.
+///
+/// Takes 1 to 20 s on one core. Named parameters: `map_kind`, `reflections`, `number_of_maps`, `least_overlap`,
+/// `tolerance`.
+/// \throw std::invalid_argument if a coordinate is not finite, a mesh has no faces, or a parameter makes no sense.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Source, Face_graph Target,
+          class Parameters = internal::No_parameters>
+auto register_surfaces(const Source& source, const Target& target, const Parameters& parameters = {}) {
+  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag,
+                             internal::Number_of_maps_tag, internal::Least_overlap_tag, internal::Tolerance_tag>();
+  using Point_map = decltype(vertex_points(target, parameters));
+  using Kernel_of_points = typename CGAL::Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
+  return internal::registration_of_triangles<ConcurrencyTag, Kernel_of_points>(
+      internal::triangles_of_graph(source, parameters), internal::triangles_of_graph(target, parameters),
+      internal::registration_request(parameters));
+}
+
+/// The same for points with polygons between them, each a range of positions of points. Equal points count once.
+/// \throw std::invalid_argument also if a polygon has the position of no point.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
+          std::ranges::input_range Polygons, std::ranges::input_range Target_points,
+          std::ranges::input_range Target_polygons, class Parameters = internal::No_parameters>
+auto register_surfaces(const Points& points, const Polygons& polygons, const Target_points& target_points,
+                       const Target_polygons& target_polygons, const Parameters& parameters = {}) {
+  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag,
+                             internal::Number_of_maps_tag, internal::Least_overlap_tag, internal::Tolerance_tag>();
+  using Kernel_of_points = typename CGAL::Kernel_traits<std::ranges::range_value_t<Target_points>>::Kernel;
+  return internal::registration_of_triangles<ConcurrencyTag, Kernel_of_points>(
+      internal::triangles_of_soup(points, polygons), internal::triangles_of_soup(target_points, target_polygons),
+      internal::registration_request(parameters));
 }
 
 } // namespace equiaffine

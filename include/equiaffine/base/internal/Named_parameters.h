@@ -34,6 +34,7 @@ struct Number_of_maps_tag {};
 struct Least_overlap_tag {};
 struct Refined_functions_tag {};
 struct Tolerance_tag {};
+struct Complete_tag {};
 
 /// The empty chain of parameters.
 struct No_parameters {};

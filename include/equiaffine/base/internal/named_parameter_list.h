@@ -129,6 +129,11 @@
   }                                                                                                                    \
                                                                                                                        \
   /** How far a symmetry may move points from a surface, a part of its size; default 1e-8, for exact functions. */     \
-  inline auto tolerance(double part) CONST { return internal::add_parameter<internal::Tolerance_tag>(part, GIVEN); }
+  inline auto tolerance(double part) CONST { return internal::add_parameter<internal::Tolerance_tag>(part, GIVEN); }   \
+                                                                                                                       \
+  /** Whether all rotations are searched even where affine frames of a few points decide; default false. */            \
+  inline auto complete(bool is_wanted) CONST {                                                                         \
+    return internal::add_parameter<internal::Complete_tag>(is_wanted, GIVEN);                                          \
+  }
 
 #endif

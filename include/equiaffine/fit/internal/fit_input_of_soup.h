@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_FIT_INPUT_OF_SOUP_H
 #define EQUIAFFINE_FIT_INTERNAL_FIT_INPUT_OF_SOUP_H
 
-#include <equiaffine/base/check_argument.h>
 #include <equiaffine/fit/internal/data_of_mesh.h>
 #include <equiaffine/fit/internal/fit_input.h>
+#include <equiaffine/surface/indexed_polygons.h>
 
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
@@ -20,19 +20,6 @@
 namespace equiaffine::internal {
 
 using Soup_point = CGAL::Simple_cartesian<double>::Point_3;
-
-template <std::ranges::input_range Polygons>
-std::vector<std::vector<std::size_t>> polygons_of_soup(const Polygons& polygons, std::size_t number_of_points) {
-  std::vector<std::vector<std::size_t>> result;
-  for (const auto& polygon : polygons) {
-    auto& positions = result.emplace_back();
-    for (const auto i : polygon) {
-      check_argument(std::size_t(i) < number_of_points, "a polygon has the position of no point: give all points");
-      positions.push_back(std::size_t(i));
-    }
-  }
-  return result;
-}
 
 /// Returns which point of `repaired` each point is. One that is in no polygon any more is appended.
 inline std::vector<std::uint32_t> positions_after_repair(const std::vector<Soup_point>& points,
@@ -52,19 +39,18 @@ inline std::vector<std::uint32_t> positions_after_repair(const std::vector<Soup_
 /// each of them, and gets what the first says.
 template <std::ranges::input_range Points, std::ranges::input_range Polygons>
 Fit_input_of_points fit_input_of_soup(const Points& range, const Polygons& polygon_range) {
-  std::vector<Eigen::Vector3d> vertices;
-  for (const auto& p : range) vertices.push_back(coordinates_of(p));
-  check_points(vertices);
+  const Indexed_polygons soup = indexed_polygons_of_soup(range, polygon_range);
   std::vector<Soup_point> points;
-  for (const auto& v : vertices) points.emplace_back(v[0], v[1], v[2]);
+  for (const auto& p : soup.points) points.emplace_back(p[0], p[1], p[2]);
   std::vector<Soup_point> repaired = points;
-  auto polygons = polygons_of_soup(polygon_range, points.size());
+  std::vector<std::vector<std::size_t>> polygons;
+  for (const auto& polygon : soup.polygons) polygons.emplace_back(polygon.begin(), polygon.end());
   CGAL::Polygon_mesh_processing::repair_polygon_soup(repaired, polygons);
   CGAL::Polygon_mesh_processing::orient_polygon_soup(repaired, polygons);
 
   Fit_input_of_points result;
   result.positions = positions_after_repair(points, repaired);
-  vertices.clear();
+  std::vector<Eigen::Vector3d> vertices;
   for (const auto& p : repaired) vertices.push_back(coordinates_of(p));
   std::vector<std::vector<std::uint32_t>> faces;
   for (const auto& polygon : polygons) faces.emplace_back(polygon.begin(), polygon.end());

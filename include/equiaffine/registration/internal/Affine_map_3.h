@@ -46,9 +46,6 @@ inline int degrees_of_freedom(Map_kind kind) {
   }
 }
 
-inline bool keeps_volume(Map_kind kind) { return kind == Map_kind::EQUIAFFINE || kind == Map_kind::RIGID; }
-inline bool keeps_angles(Map_kind kind) { return kind == Map_kind::SIMILARITY || kind == Map_kind::RIGID; }
-
 /// The matrix of that kind nearest to `matrix`, with the same sign of the determinant: its orthogonal part is that of
 /// the singular value decomposition.
 inline Eigen::Matrix3d nearest_of_kind(const Eigen::Matrix3d& matrix, Map_kind kind) {

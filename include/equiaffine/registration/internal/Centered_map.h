@@ -7,7 +7,6 @@
 #include <equiaffine/registration/internal/refine_map.h>
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +16,8 @@
 
 namespace equiaffine::internal {
 
-/// A map in the coordinates of a Centered_surface_3, with the rms distance, both ways, between moved points and the
-/// surface.
+/// A map between the coordinates of two Centered_surface_3, or of one, with the rms distance, both ways, between moved
+/// points and the surface.
 struct Centered_map {
   Affine_map_3 map = {};
   double rms = std::numeric_limits<double>::infinity();
@@ -28,18 +27,28 @@ inline double difference(const Centered_map& a, const Centered_map& b) {
   return difference(a.map.matrix, b.map.matrix);
 }
 
-/// The distances of the first `count` points of a surface: of moved ones, and of the others beside the moved surface.
+/// Two surfaces that a map moves onto each other; a surface and itself where symmetries are sought.
+struct Centered_pair {
+  const Centered_surface_3 &source, &target;
+
+  explicit Centered_pair(const Centered_surface_3& surface) : source(surface), target(surface) {}
+  Centered_pair(const Centered_surface_3& from, const Centered_surface_3& to) : source(from), target(to) {}
+};
+
+/// The distances of the first `count` points of both surfaces: of moved ones, and of the others beside the moved surface.
 struct Distances_both_ways {
   std::vector<Mapped_point> moved, fixed;
 
-  Distances_both_ways(const Centered_surface_3& surface, const Affine_map_3& map, std::size_t count) {
+  Distances_both_ways(const Centered_pair& surfaces, const Affine_map_3& map, std::size_t count) {
+    const auto& [source, target] = surfaces;
     const Affine_map_3 inverse = map.inverse();
-    count = std::min(count, surface.samples.points.size());
-    for (std::size_t i = 0; i < count; ++i) {
-      const Eigen::Vector3d& p = surface.samples.points[i];
-      const Eigen::Vector3d image = map(p);
-      moved.push_back({image, (*surface.distances)(image)});
-      const auto [distance, normal] = (*surface.distances)(inverse(p));
+    for (std::size_t i = 0; i < std::min(count, source.samples.points.size()); ++i) {
+      const Eigen::Vector3d image = map(source.samples.points[i]);
+      moved.push_back({image, (*target.distances)(image)});
+    }
+    for (std::size_t i = 0; i < std::min(count, target.samples.points.size()); ++i) {
+      const Eigen::Vector3d& p = target.samples.points[i];
+      const auto [distance, normal] = (*source.distances)(inverse(p));
       const Eigen::Vector3d conormal = inverse.matrix.transpose() * normal;
       const double length = conormal.norm();
       fixed.push_back({p, {distance / length, conormal / length}});
@@ -54,17 +63,8 @@ struct Distances_both_ways {
   }
 };
 
-inline Centered_map judged(const Centered_surface_3& surface, const Affine_map_3& map, std::size_t points) {
-  return {map, Distances_both_ways(surface, map, points).rms()};
-}
-
-/// The mean squared distance of the first `count` points of a surface that a map moves.
-inline double mean_square_of_moved(const Centered_surface_3& surface, const Affine_map_3& map, std::size_t count) {
-  count = std::min(count, surface.samples.points.size());
-  double sum = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    sum += std::pow((*surface.distances)(map(surface.samples.points[i])).distance, 2);
-  return sum / double(count);
+inline Centered_map judged(const Centered_pair& surfaces, const Affine_map_3& map, std::size_t points) {
+  return {map, Distances_both_ways(surfaces, map, points).rms()};
 }
 
 /// How a map about the centroid is refined.
@@ -88,39 +88,27 @@ inline Eigen::MatrixXd infinitesimal_maps(const Centered_refinement& how) {
 /// The change of a map by one step of Gauss and Newton. Points further from the other surface than 4 deviations do not
 /// count, and directions along which the surface slips stay as they are.
 inline Affine_map_3 step_of_refinement(const Distances_both_ways& distances, const Eigen::MatrixXd& maps) {
-  constexpr double deviations_per_median = 1.4826, slipping = 1e-8, longest_step = 0.4;
+  constexpr double slipping = 1e-8, longest_step = 0.4;
   const double infinity = std::numeric_limits<double>::infinity();
   const double limit = 4 * deviations_per_median * median_distance(distances.moved, distances.fixed, infinity) + 1e-3;
-  Eigen::MatrixXd rows(Eigen::Index(distances.moved.size() + distances.fixed.size()), 12);
-  Eigen::VectorXd values(rows.rows());
-  Eigen::Index count = 0;
-  for (const auto* points : {&distances.moved, &distances.fixed})
-    for (const auto& [p, to_other] : *points) {
-      if (!(std::abs(to_other.distance) <= limit)) continue;
-      const double sign = points == &distances.moved ? 1 : -1;
-      for (int i = 0; i < 3; ++i) rows.row(count).segment<3>(3 * i) = sign * to_other.normal[i] * p.transpose();
-      rows.row(count).tail<3>() = sign * to_other.normal.transpose();
-      values[count++] = -to_other.distance;
-    }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(slipping);
-  decomposition.compute(rows.topRows(count) * maps);
-  Eigen::Matrix<double, 12, 1> x = maps * decomposition.solve(values.head(count));
+  Refinement_equations equations(maps, Eigen::Vector3d::Zero(), 1);
+  equations.add(distances.moved, limit, 1);
+  equations.add(distances.fixed, limit, -1);
+  Eigen::Matrix<double, 12, 1> x = equations.solution(slipping);
   if (!x.allFinite()) return {};
   if (x.norm() > longest_step) x *= longest_step / x.norm();
-  Affine_map_3 change;
-  for (int i = 0; i < 3; ++i) change.matrix.row(i) += x.segment<3>(3 * i).transpose();
-  change.translation = x.tail<3>();
-  return change;
+  return equations.map_of(x);
 }
 
-inline Affine_map_3 refined(const Centered_surface_3& surface, Affine_map_3 map, const Centered_refinement& how) {
+/// Refines a map by least squares. Maps of a kind that keeps volumes keep the determinant that they have.
+inline Affine_map_3 refined(const Centered_pair& surfaces, Affine_map_3 map, const Centered_refinement& how) {
   const Eigen::MatrixXd maps = infinitesimal_maps(how);
+  const double scale = keeps_volume(how.kind) ? std::cbrt(std::abs(map.matrix.determinant())) : 1;
   for (int step = 0; step < how.most_steps; ++step) {
-    const Distances_both_ways distances(surface, map, how.points);
+    const Distances_both_ways distances(surfaces, map, how.points);
     const Affine_map_3 change = step_of_refinement(distances, maps);
     Affine_map_3 next = change * map;
-    next.matrix = nearest_of_kind(next.matrix, how.kind);
+    next.matrix = scale * nearest_of_kind(next.matrix, how.kind);
     if (!next.matrix.allFinite() || !(condition(next.matrix) < 10)) return map;
     const double length = (change.matrix - Eigen::Matrix3d::Identity()).norm() + change.translation.norm();
     map = next;

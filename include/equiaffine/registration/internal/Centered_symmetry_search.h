@@ -7,6 +7,7 @@
 #include <equiaffine/registration/internal/Centered_symmetries.h>
 #include <equiaffine/registration/internal/Finite_group.h>
 #include <equiaffine/registration/internal/candidate_rotations.h>
+#include <equiaffine/registration/internal/refined_candidates.h>
 #include <equiaffine/registration/internal/slipping_rotations.h>
 
 #include <algorithm>
@@ -39,6 +40,15 @@ struct Symmetry_thresholds {
     none = std::max({0.03 * thickness, 1.2 * approximate, 1.2 * tolerance});
   }
 };
+
+/// The mean squared distance of the first `count` points of a surface that a map moves.
+inline double mean_square_of_moved(const Centered_surface_3& surface, const Affine_map_3& map, std::size_t count) {
+  count = std::min(count, surface.samples.points.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    sum += std::pow((*surface.distances)(map(surface.samples.points[i])).distance, 2);
+  return sum / double(count);
+}
 
 /// The search for the symmetries of a whole surface. They keep the centroid of its area, so that all rotations about it
 /// are searched; maps that are found are refined, and complete groups of them are the result.
@@ -73,71 +83,25 @@ public:
   const std::vector<Centered_map>& found() const { return found_; }
 
 private:
-  static constexpr std::size_t largest_group = 240, points_of_rms = 1500;
+  static constexpr std::size_t largest_group = 240;
   static constexpr std::size_t points_verified = 6000, points_verified_exactly = 2000; ///< of a mesh, and of a function
-  static constexpr double same = 0.03, tolerance_of_products = 0.1;
+  static constexpr double tolerance_of_products = 0.1;
 
-  /// Adds the generators whose finite rotations have a small rms. Rotations about two axes generate those about a third
-  /// one, so that two that are small alone are less than what they would have to be.
   bool add_continuous(const std::vector<Slipping_rotation>& rotations, Centered_symmetries& result) const {
-    auto count = std::count_if(rotations.begin(), rotations.end(),
-                               [&](const Slipping_rotation& r) { return r.rms < thresholds_.turn; });
-    if (count == 2) count = 1;
-    double greatest = 0;
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-      const auto& [generator, rms] = rotations[std::size_t(i)];
-      const Affine_map_3& to = surface_.map;
-      const Eigen::Matrix3d from = to.matrix.inverse();
-      result.continuous.generators.push_back(
-          {from * generator.matrix * to.matrix, from * (generator.matrix * to.translation + generator.translation)});
-      greatest = std::max(greatest, rms);
-    }
-    if (count > 0)
-      result.verdict = greatest < thresholds_.exact_turn ? Symmetry_verdict::EXACT : Symmetry_verdict::APPROXIMATE;
-    return count > 0;
+    result.continuous = continuous_symmetries(surface_, rotations, thresholds_.turn);
+    const std::size_t dimension = result.continuous.dimension();
+    if (dimension == 0) return false;
+    const bool is_exact = rotations[dimension - 1].rms < thresholds_.exact_turn;
+    result.verdict = is_exact ? Symmetry_verdict::EXACT : Symmetry_verdict::APPROXIMATE;
+    return true;
   }
 
   void find_maps() {
     const Rotation_candidates candidates =
         candidate_rotations<ConcurrencyTag>(surface_, surface_, 1.25 * thresholds_.none, allows_reflections_);
     complete_to_ = candidates.complete_to;
-    std::vector<Centered_map> maps;
-    for (const Rotation_candidate& candidate : candidates.rotations) maps.push_back({{candidate.matrix}});
-    maps = different(refined_first(std::move(maps), 3, 40), 2 * gate(), same);
-    maps = different(refined_first(std::move(maps), 6, 100), gate(), same);
-    refine(maps);
-    found_ = different(std::move(maps), gate(), same);
-  }
-
-  /// Maps after a few steps with a few points, which decide whether they are worth more.
-  std::vector<Centered_map> refined_first(std::vector<Centered_map> maps, int steps, std::size_t points) const {
-    parallel_for<ConcurrencyTag>(0, maps.size(), [&](std::size_t i) {
-      maps[i] = judged(surface_, refined(surface_, maps[i].map, {Map_kind::RIGID, steps, points}), points);
-    });
-    return maps;
-  }
-
-  void refine(std::vector<Centered_map>& maps) const {
-    parallel_for<ConcurrencyTag>(0, maps.size(), [&](std::size_t i) { maps[i] = refined_and_judged(maps[i].map); });
-  }
-
-  Centered_map refined_and_judged(const Affine_map_3& map) const {
-    return judged(surface_, refined(surface_, map, {kind_}), points_of_rms);
-  }
-
-  /// Returns the maps below an rms by their rms, without those near better ones or the identity.
-  static std::vector<Centered_map> different(std::vector<Centered_map> maps, double greatest_rms,
-                                             double least_difference) {
-    std::stable_sort(maps.begin(), maps.end(),
-                     [](const Centered_map& a, const Centered_map& b) { return a.rms < b.rms; });
-    std::vector<Centered_map> result(1);
-    for (const Centered_map& map : maps)
-      if (map.rms < greatest_rms && std::none_of(result.begin(), result.end(), [&](const Centered_map& other) {
-            return difference(map, other) < least_difference;
-          }))
-        result.push_back(map);
-    result.erase(result.begin());
-    return result;
+    found_ = refined_candidates<ConcurrencyTag>(Centered_pair(surface_), candidates.rotations, 1, kind_, gate());
+    std::erase_if(found_, [](const Centered_map& map) { return difference(map, Centered_map{}) < same_map; });
   }
 
   /// Maps that are worse after their refinement are given up.
@@ -176,7 +140,7 @@ private:
     for (const Centered_map& map : level.maps) level.rms = std::max(level.rms, map.rms);
     for (const Centered_map& map : found_)
       if (std::none_of(level.maps.begin(), level.maps.end(),
-                       [&](const Centered_map& other) { return difference(map, other) < 2 * same; }))
+                       [&](const Centered_map& other) { return difference(map, other) < 2 * same_map; }))
         level.next_rms = std::min(level.next_rms, map.rms);
     if (!(level.rms < thresholds_.none) || !(level.next_rms > 2 * level.rms)) return std::nullopt;
     return level;
@@ -203,9 +167,9 @@ private:
       for (std::size_t j = 1; j <= i; ++j)
         for (const bool is_reversed : {false, true}) {
           const Affine_map_3 product = is_reversed ? maps[j] * maps[i] : maps[i] * maps[j];
-          if (nearest_map(maps, product.matrix).difference < same) continue;
-          const Centered_map map = refined_and_judged(product);
-          if (nearest_map(maps, map.map.matrix).difference < same) continue;
+          if (nearest_map(maps, product.matrix).difference < same_map) continue;
+          const Centered_map map = refined_and_judged(Centered_pair(surface_), product, kind_);
+          if (nearest_map(maps, map.map.matrix).difference < same_map) continue;
           if (!(map.rms < thresholds_.none) || maps.size() >= largest_group) return false;
           maps.push_back(map.map);
         }

@@ -174,6 +174,12 @@ Framed_surface_3 framed_surface(const Surface_oracle_3& function, const Surface_
   return result;
 }
 
+/// Whether derivatives are those of the surface, and not of a fit, which has errors.
+inline bool has_exact_frames(const Framed_surface_3& surface) {
+  return std::all_of(surface.points.begin(), surface.points.end(),
+                     [](const Framed_point_3& p) { return p.certainty == 1; });
+}
+
 } // namespace equiaffine::internal
 
 #endif

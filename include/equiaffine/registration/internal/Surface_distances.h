@@ -24,11 +24,14 @@ public:
   virtual Signed_distance_3 operator()(const Eigen::Vector3d& p) const = 0;
 
   /// About the distance, fast, from far away, too.
-  virtual double about(const Eigen::Vector3d& p) const = 0;
+  double about(const Eigen::Vector3d& p) const {
+    return std::sqrt(nearest_triangle(tree_, to_CGAL(p)).squared_distance);
+  }
 
 protected:
-  static Distance_kernel::Point_3 to_CGAL(const Eigen::Vector3d& p) { return {p[0], p[1], p[2]}; }
-  static Eigen::Vector3d to_Eigen(const Distance_kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
+  explicit Surface_distances(std::vector<Triangle_tree::Triangle_3> triangles) : tree_(tree_of(std::move(triangles))) {}
+
+  const Triangle_tree& tree() const { return tree_; }
 
   /// The distance between a point p and the nearest one of a surface, whose normal is the direction if p is on it.
   static Signed_distance_3 distance_between(const Eigen::Vector3d& p, const Eigen::Vector3d& nearest,
@@ -38,38 +41,20 @@ protected:
     if (distance > 1e-9) return {distance, way / distance};
     return {way.dot(normal), normal};
   }
+
+private:
+  Triangle_tree tree_; ///< of the triangles of a mesh, or of points as triangles
 };
 
 /// The distances from the triangles of a mesh.
 class Mesh_distances final : public Surface_distances {
 public:
-  explicit Mesh_distances(const Triangles_3& mesh) : tree_(triangles_of(mesh), 0) {}
+  explicit Mesh_distances(const Triangles_3& mesh) : Surface_distances(triangles_with_area(mesh)) {}
 
   Signed_distance_3 operator()(const Eigen::Vector3d& p) const override {
-    const auto found = nearest_triangle(tree_, to_CGAL(p));
-    const auto& t = tree_.triangle(found.part);
-    const Eigen::Vector3d a = to_Eigen(t[0]);
-    const Eigen::Vector3d normal = (to_Eigen(t[1]) - a).cross(to_Eigen(t[2]) - a).normalized();
-    return distance_between(p, to_Eigen(found.point), normal);
+    const auto found = nearest_triangle(tree(), to_CGAL(p));
+    return distance_between(p, to_Eigen(found.point), unit_normal(tree().triangle(found.part)));
   }
-
-  double about(const Eigen::Vector3d& p) const override {
-    return std::sqrt(nearest_triangle(tree_, to_CGAL(p)).squared_distance);
-  }
-
-private:
-  /// The triangles that have an area, since others have no normal.
-  static std::vector<Triangle_tree::Triangle_3> triangles_of(const Triangles_3& mesh) {
-    std::vector<Triangle_tree::Triangle_3> result;
-    result.reserve(mesh.triangles.size());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      if (mesh.double_area(t).norm() > 1e-14)
-        result.emplace_back(to_CGAL(mesh.corner(t, 0)), to_CGAL(mesh.corner(t, 1)), to_CGAL(mesh.corner(t, 2)));
-    if (result.size() == 1) result.push_back(result.front()); // a tree has two triangles at least
-    return result;
-  }
-
-  Triangle_tree tree_;
 };
 
 /// The distances from the zero set of a function: those from its samples, which Newton's steps along the gradient make
@@ -78,20 +63,16 @@ template <class Traits>
 class Function_distances final : public Surface_distances {
 public:
   Function_distances(const Mapped_function_3<Traits>& function, const Area_samples_3& samples)
-      : function_(function), tree_(points_of(samples), 0), spacing_(samples.spacing()) {}
+      : Surface_distances(points_of(samples)), function_(function), spacing_(samples.spacing()) {}
 
   Signed_distance_3 operator()(const Eigen::Vector3d& p) const override {
-    const auto found = nearest_triangle(tree_, to_CGAL(p));
+    const auto found = nearest_triangle(tree(), to_CGAL(p));
     const Eigen::Vector3d sample = to_Eigen(found.point);
     const double bound = std::sqrt(found.squared_distance);
     if (bound > 4 * spacing_) return {bound, (p - sample) / bound};
     const auto [nearest, normal, is_zero] = nearest_zero(p, bound);
     if (is_zero && (p - nearest).norm() <= bound + 1e-12) return distance_between(p, nearest, normal);
     return distance_between(p, sample, normal);
-  }
-
-  double about(const Eigen::Vector3d& p) const override {
-    return std::sqrt(nearest_triangle(tree_, to_CGAL(p)).squared_distance);
   }
 
 private:
@@ -124,7 +105,6 @@ private:
   }
 
   Mapped_function_3<Traits> function_;
-  Triangle_tree tree_;
   double spacing_;
 };
 

@@ -90,18 +90,15 @@ inline void judge_one_way(const Sorted_distances& sorted, double chance, const J
   }
 }
 
-/// Judges a map by its distances both ways; one of them is enough, since either surface may be a part of the other, or
-/// stand among other things.
-template <class ConcurrencyTag>
-Map_evidence evidence_of_map(const Framed_surface_3& source, const Framed_surface_3& target, const Affine_map_3& map,
-                             const Judgement& how) {
-  const double unit = unit_of_distances(source, target, map);
-  const std::array sorted = {
-      Sorted_distances(moved_source<ConcurrencyTag>(source, target, map, how.probes), unit),
-      Sorted_distances(target_beside_moved_source<ConcurrencyTag>(source, target, map, how.probes), unit)};
+/// Judges a map by the distances of moved points and of points beside the moved surface, in a unit; one of them is
+/// enough, since either surface may be a part of the other, or stand among other things. The chances are those that a
+/// point is near to the target, and to the source, see chance_of_nearness.
+inline Map_evidence evidence_of_distances(const std::vector<Mapped_point>& moved,
+                                          const std::vector<Mapped_point>& fixed, double unit,
+                                          const std::array<double, 2>& chances, const Judgement& how) {
+  const std::array sorted = {Sorted_distances(moved, unit), Sorted_distances(fixed, unit)};
   Map_evidence evidence;
-  judge_one_way(sorted[0], target.chance, how, evidence);
-  judge_one_way(sorted[1], source.chance, how, evidence);
+  for (std::size_t way = 0; way < 2; ++way) judge_one_way(sorted[way], chances[way], how, evidence);
   const double more = std::log10(2 * most_tolerances * how.tests);
   evidence.log10_false_alarms = std::min(0.0, evidence.log10_false_alarms + more);
   evidence.log10_by_volume = std::min(0.0, evidence.log10_by_volume + more);
@@ -114,6 +111,14 @@ Map_evidence evidence_of_map(const Framed_surface_3& source, const Framed_surfac
   }
   if (count > 0) evidence.rms = unit * std::sqrt(sum / count);
   return evidence;
+}
+
+template <class ConcurrencyTag>
+Map_evidence evidence_of_map(const Framed_surface_3& source, const Framed_surface_3& target, const Affine_map_3& map,
+                             const Judgement& how) {
+  return evidence_of_distances(moved_source<ConcurrencyTag>(source, target, map, how.probes),
+                               target_beside_moved_source<ConcurrencyTag>(source, target, map, how.probes),
+                               unit_of_distances(source, target, map), {target.chance, source.chance}, how);
 }
 
 } // namespace equiaffine::internal

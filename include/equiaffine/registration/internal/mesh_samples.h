@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -28,11 +29,14 @@ struct Triangles_3 {
   }
 };
 
+inline Triangles_3 turned_inside_out(Triangles_3 mesh) {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
 inline Triangles_3 transformed(Triangles_3 mesh, const Affine_map_3& map) {
   for (Eigen::Vector3d& p : mesh.points) p = map(p);
-  if (map.matrix.determinant() < 0)
-    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
-  return mesh;
+  return map.matrix.determinant() < 0 ? turned_inside_out(std::move(mesh)) : mesh;
 }
 
 inline Moments_3 area_moments(const Triangles_3& mesh) {

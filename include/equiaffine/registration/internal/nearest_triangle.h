@@ -2,14 +2,43 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_NEAREST_TRIANGLE_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_NEAREST_TRIANGLE_H
 
+#include <equiaffine/registration/internal/mesh_samples.h>
 #include <equiaffine/volume/Triangle_tree.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 #include <cstddef>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace equiaffine::internal {
+
+inline Distance_kernel::Point_3 to_CGAL(const Eigen::Vector3d& p) { return {p[0], p[1], p[2]}; }
+inline Eigen::Vector3d to_Eigen(const Distance_kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
+
+/// A tree of triangles, which is to have two of them at least.
+inline Triangle_tree tree_of(std::vector<Triangle_tree::Triangle_3> triangles) {
+  if (triangles.size() == 1) triangles.push_back(triangles.front());
+  return Triangle_tree(std::move(triangles), 0);
+}
+
+/// The triangles that have an area, since others have no normal.
+inline std::vector<Triangle_tree::Triangle_3> triangles_with_area(const Triangles_3& mesh) {
+  std::vector<Triangle_tree::Triangle_3> result;
+  result.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (mesh.double_area(t).norm() > 1e-14)
+      result.emplace_back(to_CGAL(mesh.corner(t, 0)), to_CGAL(mesh.corner(t, 1)), to_CGAL(mesh.corner(t, 2)));
+  return result;
+}
+
+inline Eigen::Vector3d unit_normal(const Triangle_tree::Triangle_3& t) {
+  const Eigen::Vector3d a = to_Eigen(t[0]);
+  return (to_Eigen(t[1]) - a).cross(to_Eigen(t[2]) - a).normalized();
+}
 
 /// The point of a tree's triangles that is nearest to another point.
 struct Nearest_triangle {

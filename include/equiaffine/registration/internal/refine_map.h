@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -39,12 +40,12 @@ inline Eigen::MatrixXd infinitesimal_maps(Map_kind kind) {
   return maps;
 }
 
-/// The equations that a small change of a map moves points onto the other surface.
+/// The equations that a small change of a map, a combination of infinitesimal ones, moves points onto the other surface.
 class Refinement_equations {
 public:
   /// Points are taken relative to `center`, in the unit `size`.
-  Refinement_equations(Map_kind kind, const Eigen::Vector3d& center, double size)
-      : basis_(infinitesimal_maps(kind)), center_(center), size_(size) {}
+  Refinement_equations(Eigen::MatrixXd basis, const Eigen::Vector3d& center, double size)
+      : basis_(std::move(basis)), center_(center), size_(size) {}
 
   /// Adds the points that are nearer than `tolerance`. `sign` is 1 for points that move with the map, and -1 for points
   /// that stay while the other surface moves.
@@ -63,15 +64,20 @@ public:
 
   std::size_t size() const { return rows_.size(); }
 
-  /// Returns the map that follows from the least squares solution, to be applied after the one that is refined.
-  Affine_map_3 solve() const {
+  /// Returns the coefficients of the map that the least squares solution of least norm gives, to be applied after the one
+  /// that is refined. Combinations along which points move less than the `threshold` do not change.
+  Eigen::Matrix<double, 12, 1> solution(double threshold) const {
     Eigen::MatrixXd matrix(Eigen::Index(size()), basis_.cols());
     for (std::size_t i = 0; i < size(); ++i) matrix.row(Eigen::Index(i)) = rows_[i].transpose() * basis_;
     const Eigen::Map<const Eigen::VectorXd> values(values_.data(), Eigen::Index(size()));
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-    decomposition.setThreshold(1e-12);
+    decomposition.setThreshold(threshold);
     decomposition.compute(matrix);
-    const Eigen::Matrix<double, 12, 1> x = basis_ * decomposition.solve(values);
+    return basis_ * decomposition.solve(values);
+  }
+
+  /// Returns the map with these coefficients.
+  Affine_map_3 map_of(const Eigen::Matrix<double, 12, 1>& x) const {
     Affine_map_3 map;
     for (int i = 0; i < 3; ++i) map.matrix.row(i) += x.segment<3>(3 * i).transpose();
     map.translation = center_ - map.matrix * center_ + size_ * x.tail<3>();
@@ -85,6 +91,8 @@ private:
   std::vector<Eigen::Matrix<double, 12, 1>> rows_;
   std::vector<double> values_;
 };
+
+constexpr double deviations_per_median = 1.4826; ///< of a normal distribution
 
 /// The median of the distances below a tolerance.
 inline double median_distance(const std::vector<Mapped_point>& a, const std::vector<Mapped_point>& b,
@@ -111,7 +119,7 @@ struct Refinement {
 template <class ConcurrencyTag>
 std::optional<Affine_map_3> refine_map(const Framed_surface_3& source, const Framed_surface_3& target,
                                        const Affine_map_3& start, const Refinement& how) {
-  constexpr double deviations_per_median = 1.4826; // of a normal distribution
+  constexpr double rounding = 1e-12;
   Affine_map_3 map = start;
   const double determinant = start.matrix.determinant();
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
@@ -123,11 +131,11 @@ std::optional<Affine_map_3> refine_map(const Framed_surface_3& source, const Fra
     const auto fixed = target_beside_moved_source<ConcurrencyTag>(source, target, map, how.probes);
     const double spread = 6 * deviations_per_median * median_distance(moved, fixed, tolerance * unit) / unit;
     tolerance = std::clamp(spread, 1e-10, tolerance);
-    Refinement_equations equations(how.kind, map(center), unit);
+    Refinement_equations equations(infinitesimal_maps(how.kind), map(center), unit);
     equations.add(moved, tolerance * unit, 1);
     equations.add(fixed, tolerance * unit, -1);
     if (equations.size() < 16) return std::nullopt;
-    const Affine_map_3 change = equations.solve();
+    const Affine_map_3 change = equations.map_of(equations.solution(rounding));
     Affine_map_3 next = change * map;
     const Eigen::Vector3d image = next(center);
     next.matrix = nearest_of_kind(next.matrix, how.kind);

@@ -4,11 +4,13 @@
 
 #include <equiaffine/base/check_argument.h>
 #include <equiaffine/registration/Surface_registration_3.h>
+#include <equiaffine/registration/internal/Centered_surface_3.h>
 #include <equiaffine/registration/internal/Framed_surface_3.h>
 #include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/Registration_search.h>
 #include <equiaffine/registration/internal/map_of_quadrics.h>
 #include <equiaffine/registration/internal/part_on_surface.h>
+#include <equiaffine/registration/internal/registration_of_wholes.h>
 #include <equiaffine/registration/internal/slippage.h>
 #include <equiaffine/registration/internal/vectors_of.h>
 
@@ -18,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -93,6 +96,35 @@ Registration_of_framed_3<Kernel> registration_of_framed(const Framed_surface_3& 
   return registration;
 }
 
+/// So many points, at least, tell of a whole surface that it is meant.
+constexpr std::size_t fewest_points_of_whole = 16;
+
+/// Whole surfaces of exact functions whose frames give no map are tried without frames.
+template <class ConcurrencyTag, class Source, class Target, class Refined_source, class Refined_target>
+auto registration_of_functions(const Source& source, const std::vector<Eigen::Vector3d>& points, const Target& target,
+                               const std::vector<Eigen::Vector3d>& points_of_target,
+                               const Refined_source& refined_source, const Refined_target& refined_target,
+                               const Registration_request& request) {
+  using Kernel = Kernel_of<Target>;
+  const Oracle_of_traits_3 function(source), target_function(target);
+  const Oracle_of_traits_3 refinement(refined_source), target_refinement(refined_target);
+  const auto framed = framed_surface<ConcurrencyTag>(function, refinement, points, request.kind);
+  const auto framed_target =
+      framed_surface<ConcurrencyTag>(target_function, target_refinement, points_of_target, request.kind);
+  auto registration = registration_of_framed<ConcurrencyTag, Kernel>(framed, framed_target, request);
+  const bool has_points = std::min(framed.probes.size(), framed_target.probes.size()) >= fewest_points_of_whole;
+  const bool is_exact = has_exact_frames(framed) && has_exact_frames(framed_target);
+  if (registration.result.found() || !has_points || !is_exact) return registration;
+  auto wholes = registration_of_wholes<ConcurrencyTag, Kernel>(
+      centered_surface<ConcurrencyTag>(refined_source, request.kind),
+      centered_surface<ConcurrencyTag>(refined_target, request.kind), request);
+  registration.is_equivalence = wholes.found();
+  const std::size_t hypotheses = registration.result.hypotheses + wholes.hypotheses;
+  if (wholes.found()) registration.result = std::move(wholes);
+  registration.result.hypotheses = hypotheses;
+  return registration;
+}
+
 template <class ConcurrencyTag, class Source, class Points, class Target, class Target_points, class Parameters>
 auto registration_of(const Source& source, const Points& source_points, const Target& target,
                      const Target_points& target_points, const Parameters& parameters) {
@@ -100,17 +132,12 @@ auto registration_of(const Source& source, const Points& source_points, const Ta
   const auto points = vectors_of(source_points), points_of_target = vectors_of(target_points);
   check_argument(!points.empty(), "a surface to be registered has no points: give points of the source");
   check_argument(!points_of_target.empty(), "a surface to register with has no points: give points of the target");
-  const Oracle_of_traits_3 function(source), target_function(target);
-  const auto result = [&](const Surface_oracle_3& refinement, const Surface_oracle_3& target_refinement) {
-    return registration_of_framed<ConcurrencyTag, Kernel_of<Target>>(
-        framed_surface<ConcurrencyTag>(function, refinement, points, request.kind),
-        framed_surface<ConcurrencyTag>(target_function, target_refinement, points_of_target, request.kind), request);
-  };
   if constexpr (has_parameter<Refined_functions_tag, Parameters>) {
     const auto& [refined_source, refined_target] = given_parameter<Refined_functions_tag>(parameters);
-    return result(Oracle_of_traits_3(refined_source), Oracle_of_traits_3(refined_target));
+    return registration_of_functions<ConcurrencyTag>(source, points, target, points_of_target, refined_source,
+                                                     refined_target, request);
   } else {
-    return result(function, target_function);
+    return registration_of_functions<ConcurrencyTag>(source, points, target, points_of_target, source, target, request);
   }
 }
 

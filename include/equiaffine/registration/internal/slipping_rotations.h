@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -43,9 +44,10 @@ std::vector<Slipping_rotation> slipping_rotations(const Centered_surface_3& surf
   parallel_for<ConcurrencyTag>(0, maps.size(), [&](std::size_t i) {
     const Eigen::Vector3d axis = axes.col(Eigen::Index(i / angles.size()));
     const Affine_map_3 rotation = {Eigen::AngleAxisd(angles[i % angles.size()], axis).toRotationMatrix()};
-    const Affine_map_3 map = refined(surface, rotation, {kind, 8, 400, axis});
+    const Affine_map_3 map = refined(Centered_pair(surface), rotation, {kind, 8, 400, axis});
     // A map that was drawn to a symmetry nearby says nothing of the rotation.
-    maps[i] = judged(surface, difference(map.matrix, rotation.matrix) < greatest_change ? map : rotation, points);
+    maps[i] = judged(Centered_pair(surface), difference(map.matrix, rotation.matrix) < greatest_change ? map : rotation,
+                     points);
   });
   std::vector<Slipping_rotation> result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -60,6 +62,24 @@ std::vector<Slipping_rotation> slipping_rotations(const Centered_surface_3& surf
     result.push_back(slipping);
   }
   std::stable_sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.rms < b.rms; });
+  return result;
+}
+
+/// The generators, in the coordinates of the surface, of the rotations whose rms is below a limit. Rotations about two
+/// axes generate those about a third one, so that two that are small alone are less than what they would have to be.
+inline Affine_slippage_3 continuous_symmetries(const Centered_surface_3& surface,
+                                               const std::vector<Slipping_rotation>& rotations, double greatest_rms) {
+  auto count = std::count_if(rotations.begin(), rotations.end(),
+                             [&](const Slipping_rotation& r) { return r.rms < greatest_rms; });
+  if (count == 2) count = 1;
+  const Affine_map_3& to = surface.map;
+  const Eigen::Matrix3d from = to.matrix.inverse();
+  Affine_slippage_3 result;
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const Infinitesimal_map_3& generator = rotations[std::size_t(i)].generator;
+    result.generators.push_back(
+        {from * generator.matrix * to.matrix, from * (generator.matrix * to.translation + generator.translation)});
+  }
   return result;
 }
 

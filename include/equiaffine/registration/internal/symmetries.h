@@ -7,6 +7,7 @@
 #include <equiaffine/registration/Affine_symmetries_3.h>
 #include <equiaffine/registration/internal/Centered_symmetry_search.h>
 #include <equiaffine/registration/internal/Framed_surface_3.h>
+#include <equiaffine/registration/internal/Map_request.h>
 #include <equiaffine/registration/internal/Symmetry_search.h>
 #include <equiaffine/registration/internal/slippage.h>
 #include <equiaffine/registration/internal/vectors_of.h>
@@ -24,25 +25,6 @@ namespace equiaffine::internal {
 
 /// Distances from the zero set of a function below this part of its size are zero by default.
 constexpr double default_tolerance = 1e-8;
-
-/// The named parameters of affine_symmetries.
-struct Symmetry_request {
-  Map_kind kind = Map_kind::AFFINE;
-  bool allows_reflections = true;
-  std::optional<double> tolerance = {};
-};
-
-template <class Parameters>
-Symmetry_request symmetry_request(const Parameters& parameters) {
-  Symmetry_request request;
-  request.kind = get_parameter<Map_kind_tag>(parameters, request.kind);
-  request.allows_reflections = get_parameter<Reflections_tag>(parameters, request.allows_reflections);
-  if constexpr (has_parameter<Tolerance_tag, Parameters>)
-    request.tolerance = given_parameter<Tolerance_tag>(parameters);
-  check_argument(!request.tolerance || (*request.tolerance > 0 && *request.tolerance < 0.1),
-                 "the tolerance of symmetries is a part of a size, from 0 to 0.1");
-  return request;
-}
 
 template <class Kernel>
 Affine_symmetry_3<Kernel> symmetry(const Affine_map_3& map, double rms) {
@@ -79,19 +61,14 @@ Affine_symmetries_3<Kernel> to_CGAL(const Centered_symmetries& found, const Cent
     for (const Centered_map& map : level.maps) copy.maps.push_back(symmetry<Kernel>(map.map, unit * map.rms));
   }
   result.continuous = found.continuous;
+  if (found.complete_to > 0) result.complete_to = found.complete_to;
   return result;
-}
-
-/// Whether derivatives are those of the surface, and not of a fit, which has errors.
-inline bool has_exact_frames(const Framed_surface_3& surface) {
-  return std::all_of(surface.points.begin(), surface.points.end(),
-                     [](const Framed_point_3& p) { return p.certainty == 1; });
 }
 
 /// The group that affine frames of points give, which are all symmetries to within the tolerance of at least 98 % of
 /// the points. The identity alone is a result only where frames are exact and some good ones were matched.
 template <class ConcurrencyTag, class Kernel>
-Affine_symmetries_3<Kernel> symmetries_by_frames(const Framed_surface_3& surface, const Symmetry_request& request,
+Affine_symmetries_3<Kernel> symmetries_by_frames(const Framed_surface_3& surface, const Map_request& request,
                                                  bool is_exact) {
   Symmetry_search<ConcurrencyTag> search(surface, request.kind, *request.tolerance);
   Affine_symmetries_3<Kernel> result;
@@ -121,11 +98,37 @@ Affine_symmetries_3<Kernel> symmetries_by_frames(const Framed_surface_3& surface
 /// all rotations, and say nothing of what holds approximately.
 constexpr double greatest_tolerance_of_frames = 1e-6;
 
+/// Says of a group that frames gave how far a search of all rotations went, and whether it found the same group.
+template <class Kernel>
+void check_by_rotations(const Affine_symmetries_3<Kernel>& all, Affine_symmetries_3<Kernel>& by_frames) {
+  std::size_t order = 1;
+  for (const auto& level : all.levels)
+    if (level.rms <= greatest_tolerance_of_frames) order = level.order();
+  by_frames.complete_to = all.complete_to;
+  if (!all.complete_to || order == by_frames.maps.size()) return;
+  by_frames.is_decided = false;
+  by_frames.verdict = Symmetry_verdict::UNDECIDED;
+  by_frames.reason = "frames of curvature give " + std::to_string(by_frames.maps.size()) +
+                     " maps, and all rotations give " + std::to_string(order);
+}
+
+/// The symmetries among all rotations about the centroid.
+template <class ConcurrencyTag, class Traits>
+Affine_symmetries_3<Kernel_of<Traits>> symmetries_by_rotations(const Traits& traits, const Map_request& request) {
+  const auto centered = centered_surface<ConcurrencyTag>(traits, request.kind);
+  Centered_symmetry_search<ConcurrencyTag> search(centered, request.kind, request.allows_reflections,
+                                                  *request.tolerance);
+  const Centered_symmetries found = search.run();
+  auto result = to_CGAL<Kernel_of<Traits>>(found, centered);
+  choose_maps(result, request.tolerance, found);
+  return result;
+}
+
 template <class ConcurrencyTag, class Traits, class Points, class Parameters>
 Affine_symmetries_3<Kernel_of<Traits>> symmetries_of(const Traits& traits, const Points& points,
                                                      const Parameters& parameters) {
   using Kernel = Kernel_of<Traits>;
-  Symmetry_request request = symmetry_request(parameters);
+  Map_request request = map_request(parameters);
   request.tolerance = request.tolerance.value_or(default_tolerance);
   const auto vectors = vectors_of(points);
   check_argument(!vectors.empty(), "a surface whose symmetries are sought has no points: give points on it");
@@ -141,17 +144,15 @@ Affine_symmetries_3<Kernel_of<Traits>> symmetries_of(const Traits& traits, const
     result.reason.clear();
     return result;
   }
-  const bool is_strict = *request.tolerance <= greatest_tolerance_of_frames, is_exact = has_exact_frames(surface);
+  const bool is_exact = has_exact_frames(surface);
+  const bool is_strict = *request.tolerance <= greatest_tolerance_of_frames;
   if (is_strict || !is_exact) {
     auto by_frames = symmetries_by_frames<ConcurrencyTag, Kernel>(surface, request, is_exact);
+    if (by_frames.is_decided && is_exact && get_parameter<Complete_tag>(parameters, false))
+      check_by_rotations(symmetries_by_rotations<ConcurrencyTag>(traits, request), by_frames);
     if (by_frames.is_decided || !is_exact) return by_frames;
   }
-  const auto centered = centered_surface<ConcurrencyTag>(traits, request.kind);
-  Centered_symmetry_search<ConcurrencyTag> search(centered, request.kind, request.allows_reflections,
-                                                  *request.tolerance);
-  const Centered_symmetries found = search.run();
-  result = to_CGAL<Kernel>(found, centered);
-  choose_maps(result, request.tolerance, found);
+  result = symmetries_by_rotations<ConcurrencyTag>(traits, request);
   if (result.is_decided || is_strict) return result;
   auto by_frames = symmetries_by_frames<ConcurrencyTag, Kernel>(surface, request, is_exact);
   return by_frames.is_decided ? by_frames : result;
@@ -159,7 +160,7 @@ Affine_symmetries_3<Kernel_of<Traits>> symmetries_of(const Traits& traits, const
 
 template <class ConcurrencyTag, class Kernel, class Parameters>
 Affine_symmetries_3<Kernel> symmetries_of_triangles(const Triangles_3& mesh, const Parameters& parameters) {
-  const Symmetry_request request = symmetry_request(parameters);
+  const Map_request request = map_request(parameters);
   check_argument(!mesh.triangles.empty(), "a mesh whose symmetries are sought has no faces: give faces");
   const Centered_surface_3 surface = centered_surface(mesh, request.kind);
   Centered_symmetry_search<ConcurrencyTag> search(surface, request.kind, request.allows_reflections,

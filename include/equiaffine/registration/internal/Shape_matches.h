@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_SHAPE_MATCHES_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_SHAPE_MATCHES_H
+
+#include <equiaffine/registration/Affine_slippage_3.h>
+#include <equiaffine/registration/internal/Affine_map_3.h>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// A map of one mesh onto another one, or of parts of them, with its evidence.
+struct Shape_match {
+  Affine_map_3 map;
+  double rms; ///< of the distances of points that lie on the other surface, in the unit of the target
+  std::array<double, 2> inliers; ///< the parts of the area of the source, and of the target, that lie on the other one
+  double log10_false_alarms;     ///< of the number of maps as good as this one that chance would make
+};
+
+/// What a search for maps between meshes found.
+struct Shape_matches {
+  std::vector<Shape_match> maps = {}; ///< the best first
+  std::size_t hypotheses = 0;         ///< the number of maps that were tried
+  Affine_slippage_3 slippage = {};    ///< of the source; if it slips, each map is one of a continuous family
+  std::string reason = {};            ///< why none of the hypotheses is accepted
+};
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_REGISTER_WHOLES_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_REGISTER_WHOLES_H
+
+#include <equiaffine/registration/internal/Centered_map.h>
+#include <equiaffine/registration/internal/Centered_surface_3.h>
+#include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/Shape_matches.h>
+#include <equiaffine/registration/internal/candidate_rotations.h>
+#include <equiaffine/registration/internal/map_evidence.h>
+#include <equiaffine/registration/internal/refined_candidates.h>
+#include <equiaffine/registration/internal/slipping_rotations.h>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// The rms distance, beside the size, up to which two surfaces are equal: without a given tolerance it is what
+/// triangles are off a smooth surface, at least 0.3 % and at most 1 %, and less for thin surfaces.
+inline double tolerance_of_wholes(const Centered_pair& surfaces, const Registration_request& request) {
+  if (request.tolerance) return *request.tolerance;
+  constexpr double least = 3e-3, greatest = 0.01;
+  const double facet_error = surfaces.source.samples.facet_error + surfaces.target.samples.facet_error;
+  const double thickness = std::min(surfaces.source.thickness(), surfaces.target.thickness());
+  return std::clamp(1.2 * facet_error, least, greatest) * std::min(1.0, 3 * thickness);
+}
+
+/// A random point of the ball around a surface is nearer to it than t with the probability of this times t.
+inline double chance_of_nearness(const Centered_surface_3& surface) {
+  return 2 * surface.samples.area.measure / (4 * std::numbers::pi / 3 * std::pow(surface.radius(), 3));
+}
+
+/// A map between centered surfaces with its evidence, in the coordinates of the surfaces.
+inline Shape_match match_of(const Centered_pair& surfaces, const Affine_map_3& map, const Judgement& how) {
+  const auto& [source, target] = surfaces;
+  const Distances_both_ways distances(surfaces, map, how.probes);
+  const std::array chances = {chance_of_nearness(target), chance_of_nearness(source)};
+  const Map_evidence evidence = evidence_of_distances(distances.moved, distances.fixed, 1, chances, how);
+  const double unit = 1 / std::cbrt(std::abs(target.map.matrix.determinant()));
+  return {target.map.inverse() * map * source.map, unit * distances.rms(), evidence.inliers,
+          evidence.log10_false_alarms};
+}
+
+/// Rotations near all that may move one surface to within a distance of the other. Where the source slips about an axis
+/// there are too many, and the nearest of them do; a surface that slips every way is a sphere.
+template <class ConcurrencyTag>
+std::vector<Rotation_candidate> rotations_to_refine(const Centered_pair& surfaces, double distance,
+                                                    bool allows_reflections, std::size_t dimension_of_slippage) {
+  constexpr std::size_t most_of_family = 200;
+  if (dimension_of_slippage == 3) return {{Eigen::Matrix3d::Identity(), 0}};
+  auto rotations =
+      candidate_rotations<ConcurrencyTag>(surfaces.source, surfaces.target, distance, allows_reflections).rotations;
+  if (dimension_of_slippage > 0 && rotations.size() > most_of_family) rotations.resize(most_of_family);
+  return rotations;
+}
+
+/// The maps that move a whole surface onto another one: they keep the centroid of the area, and affine ones the moments
+/// of the solid inside, so that all rotations and reflections about the centroid are tried, and no curvature is needed.
+/// Surfaces whose extents differ by a tenth of the size are not equal, and no rotation is tried.
+template <class ConcurrencyTag>
+Shape_matches register_wholes(const Centered_surface_3& source, const Centered_surface_3& target,
+                              const Registration_request& request) {
+  constexpr double gate = 0.06, least_difference = 0.1;
+  constexpr std::size_t probes = 6000;
+  Shape_matches result;
+  if (!source.reason_against.empty() || !target.reason_against.empty()) return result;
+  if ((source.extents() - target.extents()).cwiseAbs().maxCoeff() > least_difference) return result;
+  const Centered_pair surfaces(source, target);
+  const double tolerance = tolerance_of_wholes(surfaces, request);
+  double scale = 1;
+  if (keeps_volume(request.kind)) {
+    scale = std::cbrt(std::abs(target.map.matrix.determinant() / source.map.matrix.determinant()));
+    if (std::abs(std::log(scale)) > least_difference) return result;
+  }
+  const auto slipping = slipping_rotations<ConcurrencyTag>(source, request.kind);
+  result.slippage = continuous_symmetries(source, slipping, tolerance_of_wholes(Centered_pair(source), request));
+  const auto rotations = rotations_to_refine<ConcurrencyTag>(surfaces, 2 * tolerance, request.allows_reflections,
+                                                             result.slippage.dimension());
+  result.hypotheses = rotations.size();
+  const Judgement how = {10 * tolerance, request.least_overlap, degrees_of_freedom(request.kind),
+                         double(std::max<std::size_t>(result.hypotheses, 1)), probes};
+  for (const Centered_map& map : refined_candidates<ConcurrencyTag>(surfaces, rotations, scale, request.kind, gate))
+    if (map.rms < tolerance) result.maps.push_back(match_of(surfaces, map.map, how));
+  return result;
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Registration of meshes of planes, as wholes and piece by piece, which needs no curvature.
+#include "support/points_on_surface.h"
+#include "support/registration_cases.h"
+#include "support/solids.h"
+#include <equiaffine/is_affinely_equivalent.h>
+#include <equiaffine/register_surfaces.h>
+
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/generators.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using namespace registration_cases;
+using namespace solids;
+
+template <class Parameters>
+Surface_registration_3<Kernel> registered(const Solid& source, const Solid& target, const Parameters& parameters) {
+  return register_surfaces<CGAL::Parallel_if_available_tag>(source.points, source.polygons, target.points,
+                                                            target.polygons, parameters);
+}
+
+double greatest_distance(const Map& a, const Map& b, const std::vector<Point_3>& points) {
+  double greatest = 0;
+  for (const Point_3& p : points) greatest = std::max(greatest, std::sqrt(CGAL::squared_distance(a(p), b(p))));
+  return greatest;
+}
+
+TEST(Register_meshes, a_whole_without_curvature_is_found_by_every_kind_of_map) {
+  Random random(5);
+  const Solid source = cube_without_corner(.7);
+  struct Case {
+    Map_kind kind;
+    Map map;
+  };
+  const Eigen::Vector3d shift(3, -1, 2);
+  const Eigen::Matrix3d mirror = Eigen::Vector3d(1, 1, -1).asDiagonal();
+  const std::vector<Case> cases = {{Map_kind::RIGID, map_of(mirror * random_rotation(random), shift)},
+                                   {Map_kind::SIMILARITY, map_of(2.5 * random_rotation(random), shift)},
+                                   {Map_kind::EQUIAFFINE, random_map(random, 4, 1)},
+                                   {Map_kind::AFFINE, random_map(random, 6, 3)}};
+  for (const auto& [kind, map] : cases) {
+    const Solid target = moved(source, map);
+    const auto found = registered(source, target, parameters::map_kind(kind).number_of_maps(6));
+    ASSERT_EQ(found.maps.size(), 6u) << int(kind) << ": the solid has six symmetries";
+    double least = 1;
+    for (const auto& each : found.maps) {
+      least = std::min(least, greatest_distance(each.map, map, source.points));
+      EXPECT_LT(each.rms, 1e-9) << int(kind);
+      EXPECT_LT(each.log10_false_alarms, -100) << int(kind);
+      EXPECT_EQ(each.inliers[0], 1) << int(kind);
+      EXPECT_FALSE(each.pair);
+    }
+    EXPECT_LT(least, 1e-9) << int(kind);
+    EXPECT_EQ(found.slippage.dimension(), 0u);
+  }
+}
+
+TEST(Register_meshes, another_triangulation_is_the_same_surface) {
+  Solid source = L(), target = L();
+  for (auto& polygon : target.polygons)
+    if (polygon.size() == 4) std::rotate(polygon.begin(), polygon.begin() + 1, polygon.end());
+  const Point_3 center(.2, .2, 0); // a point of the lower face, which becomes a fan around it
+  const auto face = target.polygons.back();
+  target.polygons.pop_back();
+  for (std::size_t k = 0; k < face.size(); ++k)
+    target.polygons.push_back({face[k], face[(k + 1) % face.size()], target.points.size()});
+  target.points.push_back(center);
+  Random random(9);
+  const Map map = map_of(random_rotation(random), Eigen::Vector3d(1, 2, 3));
+  const auto found = registered(source, moved(target, map), parameters::map_kind(Map_kind::RIGID));
+  ASSERT_TRUE(found.found()) << found.reason;
+  EXPECT_LT(found.best().rms, 1e-6);
+}
+
+TEST(Register_meshes, reflections_and_sizes_are_as_asked_for) {
+  const Solid source = {{{0, 0, 0}, {2, 0, 0}, {.3, 1.1, 0}, {.2, .4, 1.6}}, tetrahedron().polygons};
+  const Solid mirrored = moved(source, map_of(Eigen::Vector3d(1, 1, -1).asDiagonal(), Eigen::Vector3d(1, 0, 0)));
+  const Solid larger = moved(source, map_of(1.5 * Eigen::Matrix3d::Identity(), Eigen::Vector3d(1, 0, 0)));
+  const auto rigid = parameters::map_kind(Map_kind::RIGID);
+  EXPECT_TRUE(registered(source, mirrored, rigid).found());
+  EXPECT_FALSE(registered(source, mirrored, rigid.reflections(false)).found());
+  EXPECT_FALSE(registered(source, larger, rigid).found());
+  EXPECT_TRUE(registered(source, larger, parameters::map_kind(Map_kind::SIMILARITY)).found());
+}
+
+TEST(Register_meshes, solids_that_differ_have_no_map) {
+  for (const auto& [source, target] : {std::pair(box(1, .7, .4), box(1, .75, .4)),
+                                       {L(), cube_without_corner(.5)},
+                                       {tetrahedron(), prism(regular(6), 1.3)}})
+    EXPECT_FALSE(registered(source, target, parameters::map_kind(Map_kind::SIMILARITY)).found());
+}
+
+TEST(Register_meshes, planes_have_no_evidence) {
+  const Solid square = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}};
+  for (const Map_kind kind : {Map_kind::RIGID, Map_kind::AFFINE})
+    EXPECT_FALSE(registered(square, square, parameters::map_kind(kind)).found());
+}
+
+TEST(Register_meshes, a_map_of_a_surface_that_turns_is_one_of_a_family) {
+  CGAL::Surface_mesh<Point_3> cylinder;
+  CGAL::make_regular_prism(40, cylinder, Point_3(0, 0, 0), 2., 1., true);
+  const auto of_cylinder = register_surfaces<CGAL::Parallel_if_available_tag>(
+      cylinder, cylinder, parameters::map_kind(Map_kind::RIGID).number_of_maps(3));
+  ASSERT_TRUE(of_cylinder.found());
+  EXPECT_EQ(of_cylinder.slippage.dimension(), 1u);
+  EXPECT_EQ(of_cylinder.maps.size(), 1u);
+}
+
+TEST(Register_meshes, what_makes_no_sense_is_refused) {
+  const Solid solid = tetrahedron();
+  Solid empty = solid, wrong = solid;
+  empty.polygons.clear();
+  wrong.polygons[0][0] = 7;
+  EXPECT_THROW(registered(empty, solid, parameters::default_values()), std::invalid_argument);
+  EXPECT_THROW(registered(solid, empty, parameters::default_values()), std::invalid_argument);
+  EXPECT_THROW(registered(solid, wrong, parameters::default_values()), std::invalid_argument);
+  EXPECT_THROW(registered(solid, solid, parameters::tolerance(.5)), std::invalid_argument);
+}
+
+TEST(Register_meshes, formulas_with_planes_only_are_matched_as_wholes) {
+  const Formula box = Surface{"", "max(max(abs(x)-1, abs(y)-.7), abs(z)-.4)", cube(1.5)}.traits();
+  Random random(4);
+  const Map map = map_of(random_rotation(random), Eigen::Vector3d(1, -2, .5));
+  const Image image(box, map);
+  const auto rigid = parameters::map_kind(Map_kind::RIGID);
+  const auto points = points_on_surface(box, 20), points_of_image = points_on_surface(image, 20);
+  const auto found =
+      register_surfaces<CGAL::Parallel_if_available_tag>(box, points, image, points_of_image, rigid.number_of_maps(8));
+  EXPECT_EQ(found.maps.size(), 8u);
+  EXPECT_LT(found.best().rms, 1e-9);
+  EXPECT_TRUE(
+      is_affinely_equivalent<CGAL::Parallel_if_available_tag>(box, points, image, points_of_image, rigid).is_certain());
+}
+
+} // namespace
