@@ -11,6 +11,9 @@
 
 namespace equiaffine {
 
+/// The ways to make a mesh.
+enum class Mesh_method { MARCHING_CUBES, DELAUNAY, REMESH };
+
 /// The values of the options of all commands; each command takes its part. The defaults that the structs of requests do
 /// not have are here.
 struct Draft {
@@ -18,8 +21,9 @@ struct Draft {
   Source_options source;
   double isovalue = 0;
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
-  bool is_delaunay = false;
+  std::optional<Mesh_method> method;
   Marching_cubes_options marching_cubes;
+  Remesh_options remesh;
   Delaunay_options delaunay;
   Attribute_selection attributes = select_attributes("basic");
   std::vector<std::string> estimates; ///< the columns of errors and of noise that are asked for

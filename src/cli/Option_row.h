@@ -22,7 +22,7 @@ inline constexpr Commands registering = REGISTER | SYMMETRIES;
 
 /// Says below which heading of the help an option stands. The words of the heading depend on the command: title_of() in
 /// command_line.cpp has them.
-enum class Option_group { INPUT, SOURCE, BOX, FIT, SURFACE, SAMPLING, MARCHING_CUBES, DELAUNAY, MAPS, OUTPUT };
+enum class Option_group { INPUT, SOURCE, BOX, FIT, SURFACE, SAMPLING, MARCHING_CUBES, DELAUNAY, REMESH, MAPS, OUTPUT };
 
 /// Whether the options of the group belong to the source or to its surface. Others of `register`, which has two sources,
 /// may stand on either side of the word `to`.

@@ -65,6 +65,7 @@ std::string title_of(Option_group group, Command command) {
   case Option_group::SAMPLING: return command == EVALUATE || command == ANNOTATE ? "Surface" : "Sampling";
   case Option_group::MARCHING_CUBES: return "Sampling with --method marching-cubes";
   case Option_group::DELAUNAY: return "Sampling with --method delaunay";
+  case Option_group::REMESH: return "Sampling with --method remesh";
   case Option_group::MAPS: return "Maps";
   default: return "Output";
   }

@@ -29,13 +29,34 @@ void read_delaunay_options(Option_reader& reader) {
   reader.read({"--sizing", "--clip"});
 }
 
+void read_remesh_options(Option_reader& reader) {
+  const Draft& draft = reader.draft();
+  if (draft.source.kind != Source_kind::FIT)
+    fail_option("--method", "remesh is for a fit to a mesh", "add --fit FILE, or use marching-cubes or delaunay");
+  const std::string reason = "--method remesh has no grid", advice = "leave it out, or use --method marching-cubes";
+  reader.refuse({"--resolution", "--vertices"}, reason, advice);
+  reader.refuse({"--isovalue", "--box", "--parabolic-curves"},
+                "--method remesh moves the vertices of the whole mesh to the fit", advice);
+  reader.read({"--edge-length", "--feature-angle"});
+  const double angle = draft.remesh.feature_angle;
+  if (!(angle >= 0 && angle <= 180))
+    fail_option("--feature-angle", "'" + reader.word("--feature-angle") + "' is not between 0 and 180 degrees",
+                "give an angle such as 60");
+}
+
 /// Reads `--method` and the options that belong to it.
 void read_method(Option_reader& reader) {
   reader.read({"--method"});
-  if (reader.draft().is_delaunay) return read_delaunay_options(reader);
-  reader.refuse({"--angle", "--radius", "--distance", "--sizing", "--clip"}, "it is for --method delaunay",
-                "add --method delaunay or leave it out");
-  reader.read({"--vertices"});
+  const auto method = reader.draft().method.value_or(Mesh_method::MARCHING_CUBES);
+  if (method != Mesh_method::DELAUNAY)
+    reader.refuse({"--angle", "--radius", "--distance", "--sizing", "--clip"}, "it is for --method delaunay",
+                  "add --method delaunay or leave it out");
+  if (method != Mesh_method::REMESH)
+    reader.refuse({"--edge-length", "--feature-angle"}, "it is for --method remesh",
+                  "add --method remesh or leave it out");
+  if (method == Mesh_method::DELAUNAY) read_delaunay_options(reader);
+  else if (method == Mesh_method::REMESH) read_remesh_options(reader);
+  else reader.read({"--vertices"});
 }
 
 bool has_vector(const Attribute_selection& attributes, const std::string& name) {
@@ -76,7 +97,8 @@ void check_page(const Option_reader& reader) {
 /// Throws if the paper's scheme is used in a way that needs a function, since its expansions are not those of one.
 void check_scheme(const Draft& draft) {
   if (draft.source.spline.scheme != Spline_scheme::PAPER) return;
-  if (draft.is_delaunay || draft.marching_cubes.vertices != Vertex_position::LINEAR || draft.curves)
+  const bool is_marching_cubes = draft.method.value_or(Mesh_method::MARCHING_CUBES) == Mesh_method::MARCHING_CUBES;
+  if (!is_marching_cubes || draft.marching_cubes.vertices != Vertex_position::LINEAR || draft.curves)
     fail_option("--spline-scheme", "paper is for Marching Cubes with linear vertices and without parabolic curves",
                 "add --vertices linear, or use convolution");
 }
@@ -102,8 +124,10 @@ Mesh_options read_mesh_options(Option_reader& reader) {
   options.source.height_of_fit = 2 * draft.delaunay.radius;
   options.isovalue = draft.isovalue;
   options.orientation = draft.orientation;
-  if (draft.is_delaunay) options.method = draft.delaunay;
+  if (draft.method == Mesh_method::DELAUNAY) options.method = draft.delaunay;
+  else if (draft.method == Mesh_method::REMESH) options.method = draft.remesh;
   else options.method = draft.marching_cubes;
+  options.source.is_remeshed = draft.method == Mesh_method::REMESH;
   options.source.estimates_errors =
       !draft.estimates.empty() || (draft.display.shows_something() && has_column_with_error(draft));
   options.estimates = std::move(draft.estimates);

@@ -42,7 +42,9 @@ void read_orientation(const Option_words& option, Draft& draft) {
 }
 
 void read_method(const Option_words& option, Draft& draft) {
-  draft.is_delaunay = parse_choice<bool>(option, {{"marching-cubes", false}, {"delaunay", true}});
+  draft.method = parse_choice<Mesh_method>(option, {{"marching-cubes", Mesh_method::MARCHING_CUBES},
+                                                    {"delaunay", Mesh_method::DELAUNAY},
+                                                    {"remesh", Mesh_method::REMESH}});
 }
 
 void read_threads(const Option_words& option, Draft& draft) {
@@ -101,9 +103,11 @@ const std::vector<Option_row> rows = {
      "normals towards larger f (gradient, the default) or smaller f (against)", read_orientation},
     {"--orientation", ANNOTATE, SURFACE, 1, "gradient|against",
      "normals as those of the data (gradient, the default), or the opposite ones (against)", read_orientation},
-    {"--method", MESH, SAMPLING, 1, "marching-cubes|delaunay",
-     "a mesh on the edges of a grid (marching-cubes, the default), or one of triangles with\n"
-     "good angles that is proved to be complete where the function has bounds (delaunay)",
+    {"--method", MESH, SAMPLING, 1, "marching-cubes|delaunay|remesh",
+     "a mesh on the edges of a grid (marching-cubes, the default), one of triangles with good\n"
+     "angles that is proved to be complete where the function has bounds (delaunay), or the\n"
+     "faces of a mesh, remeshed, with their vertices moved to the fit, closed if they are\n"
+     "(remesh, for a fit only)",
      read_method},
     {"--resolution",
      MESH | EVALUATE | SAMPLE | registering,
@@ -134,6 +138,10 @@ const std::vector<Option_row> rows = {
      read_sizing},
     {"--clip", MESH, DELAUNAY, 1, "box|ball",
      "cut the surface off at the box (the default) or at the largest ball in it", read_clip},
+    {"--edge-length", MESH, REMESH, 1, "L", "of the triangles, by default the mean of the data",
+     [](const Option_words& option, Draft& draft) { draft.remesh.edge_length = parse_length(option); }},
+    {"--feature-angle", MESH, REMESH, 1, "DEG", "edges that bend by more than this angle stay edges, by default 60",
+     [](const Option_words& option, Draft& draft) { draft.remesh.feature_angle = parse_number(option); }},
 };
 
 } // namespace

@@ -53,6 +53,8 @@ Surface_to_register make_surface_to_register(const Surface_options& options, boo
       std::move(source.data),
       {},
       source.fit ? source.fit->scale() : std::nullopt};
+  if (options.source.transformation)
+    for (Kernel::Point_3& p : surface.mesh.points) p = (*options.source.transformation)(p);
   if (source.unsmoothed) surface.unsmoothed.emplace(std::move(*source.unsmoothed), options.isovalue);
   const bool has_data = !surface.mesh.points.empty() && options.isovalue == 0; // the data lie on f = 0
   if (has_data) check_box(surface, options);

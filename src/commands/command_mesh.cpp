@@ -3,6 +3,7 @@
 #include "commands/commands.h"
 #include "commands/extract_surface.h"
 #include "commands/fail_without_surface.h"
+#include "commands/remesh_fit.h"
 #include "commands/remove_crumbs.h"
 #include "engine/Engine.h"
 #include "output/fit_display.h"
@@ -24,6 +25,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace equiaffine {
 
@@ -39,10 +41,13 @@ struct Annotated_surface {
   std::optional<Completeness> completeness;
   double max_distance = 0, annotation_seconds = 0;
   std::optional<Parabolic_curves_3<Kernel>> curves; ///< if they were asked for
+  std::vector<double> outcomes;                     ///< of vertices of a remesh
+  std::optional<Remesh_statistics> remesh;
 };
 
 template <class Traits>
-Annotated_surface sample(const Traits& function, const Mesh_options& options, const Marching_cubes_options& method) {
+Annotated_surface sample(const Traits& function, const Source&, const Mesh_options& options,
+                         const Marching_cubes_options& method) {
   Annotated_surface surface;
   surface.mesh = extract_surface(function, options.source, method.vertices);
   if (surface.mesh.triangles.empty())
@@ -82,7 +87,8 @@ void check_radius_of_delaunay_surface(const CGAL::Bbox_3& box, double radius) {
 }
 
 template <class Traits>
-Annotated_surface sample(const Traits& function, const Mesh_options& options, const Delaunay_options& method) {
+Annotated_surface sample(const Traits& function, const Source&, const Mesh_options& options,
+                         const Delaunay_options& method) {
   const CGAL::Bbox_3 box = function.bbox();
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
   check_box_of_delaunay_surface(box, diagonal);
@@ -106,6 +112,17 @@ Annotated_surface sample(const Traits& function, const Mesh_options& options, co
   return surface;
 }
 
+template <class Traits>
+Annotated_surface sample(const Traits&, const Source& source, const Mesh_options& options,
+                         const Remesh_options& method) {
+  Remeshed_fit remeshed = remesh_fit(source, options.source, method);
+  Annotated_surface surface;
+  surface.mesh = std::move(remeshed.mesh);
+  surface.outcomes = std::move(remeshed.outcomes);
+  surface.remesh = remeshed.statistics;
+  return surface;
+}
+
 /// Samples the surface and computes its attributes. `function` is the one in `source`, with its own type.
 template <class Traits>
 Annotated_surface make_surface(const Traits& function, const Source& source, const Mesh_options& options,
@@ -115,8 +132,8 @@ Annotated_surface make_surface(const Traits& function, const Source& source, con
   const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
   progress.begin("extracting the surface");
   Annotated_surface surface =
-      std::visit([&](const auto& method) { return sample(extracted, options, method); }, options.method);
-  if (source.fit) {
+      std::visit([&](const auto& method) { return sample(extracted, source, options, method); }, options.method);
+  if (source.fit && !surface.remesh) {
     remove_crumbs(surface.mesh, *source.fit, options.source);
     if (surface.mesh.triangles.empty())
       fail_without_surface(function, options.source, options.isovalue, {"box", "a finer --resolution", false});
@@ -138,6 +155,8 @@ Annotated_surface make_surface(const Traits& function, const Source& source, con
   surface.status = count(*surface.attributes.status);
   surface.estimates = estimates_at(source, options.source, surface.mesh.points, progress);
   add_estimates(surface.estimates, options.estimates, surface.attributes);
+  if (surface.remesh && !options.attributes.columns.empty())
+    surface.attributes.columns.push_back({"fit_outcome", std::move(surface.outcomes)});
   if (!options.attributes.has_status) surface.attributes.status.reset();
   surface.annotation_seconds = stopwatch.seconds();
   if (options.curves && !surface.curves) {
@@ -163,6 +182,7 @@ Statistics make_statistics(const Mesh_options& options, const Annotated_surface&
   statistics.spline = source.spline;
   statistics.fit = surface.estimates.fit;
   statistics.close_sheets = surface.close_sheets;
+  statistics.remesh = surface.remesh;
   statistics.function_evaluations = source.function_evaluations + surface.mesh.function_evaluations;
   return statistics;
 }

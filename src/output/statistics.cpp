@@ -3,10 +3,12 @@
 
 #include "output/json_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <ostream>
 #include <sstream>
+#include <utility>
 
 namespace equiaffine {
 
@@ -17,6 +19,8 @@ std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_st
 }
 
 namespace {
+
+long percent(double part) { return std::lround(100 * part); }
 
 const char* name_of(Spline_scheme scheme) {
   switch (scheme) {
@@ -73,7 +77,6 @@ void add_status(const Mesh_facts& facts, std::ostream& text) {
 }
 
 void add_fit(const Fit_statistics& fit, std::ostream& text) {
-  const auto percent = [](double part) { return std::lround(100 * part); };
   text.precision(3);
   if (fit.scale) {
     const auto [label, parts] = first_known(fit);
@@ -89,6 +92,24 @@ void add_fit(const Fit_statistics& fit, std::ostream& text) {
          << " %, to 50 %: " << percent(to_50) << " % of the vertices\n";
   }
   text << "known to 20 / 50 % at so many %: " << table_of_known(fit) << '\n';
+}
+
+/// "98 % of the vertices on the fit, up to 0.0003 from the data; the others up to 0.001: 20 no_value, 3 turned"
+void add_remesh(const Remesh_statistics& remesh, std::ostream& text) {
+  const std::size_t all = remesh.number_of_vertices(), on_fit = remesh.number_on_fit();
+  const auto& [of_fit, of_others] = remesh.distances_from_data;
+  const double part = 100 * double(on_fit) / double(std::max<std::size_t>(all, 1));
+  text << "edges of " << remesh.edge_length << "; " << std::setprecision(3) << part << std::setprecision(2)
+       << " % of the vertices on the fit, up to " << of_fit << " from the data";
+  if (on_fit < all) text << "; the others up to " << of_others;
+  const char* separator = ": ";
+  for (std::size_t i = 1; i < number_of_fit_outcomes; ++i) {
+    if (remesh.number_of[i] == 0) continue;
+    text << std::exchange(separator, ", ") << remesh.number_of[i] << ' ' << fit_outcome_names[i];
+  }
+  text << '\n';
+  if (remesh.crossings > 0)
+    text << remesh.crossings << " pairs of triangles cross each other, as those of the data do\n";
 }
 
 } // namespace
@@ -112,6 +133,13 @@ std::string to_JSON(const Statistics& s) {
   if (s.fit) add(*s.fit, json);
   if (s.close_sheets)
     json["fit"]["close_sheets"] = {{"points", s.close_sheets->points}, {"distance", s.close_sheets->distance}};
+  if (s.remesh) {
+    json["remesh"] = {{"edge_length", s.remesh->edge_length}, {"crossings", s.remesh->crossings}};
+    for (std::size_t i = 0; i < number_of_fit_outcomes; ++i)
+      json["remesh"]["vertices"][std::string(fit_outcome_names[i])] = s.remesh->number_of[i];
+    const auto& [of_fit, of_others] = s.remesh->distances_from_data;
+    json["remesh"]["distance_from_data"] = {{"on_fit", of_fit}, {"others", of_others}};
+  }
   if (s.completeness) {
     json["certified"] = s.completeness->is_certified;
     json["undecided_boxes"] = Json::array();
@@ -143,6 +171,7 @@ std::string summary(const Statistics& s) {
   if (s.spline && s.spline->smoothing > 0)
     text << "noise in the samples: " << s.spline->noise.deviation << ", smoothed by " << s.spline->smoothing
          << " voxels\n";
+  if (s.remesh) add_remesh(*s.remesh, text);
   if (s.fit) add_fit(*s.fit, text);
   if (s.completeness) {
     const std::size_t n = s.completeness->undecided_boxes.size();

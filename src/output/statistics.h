@@ -5,6 +5,7 @@
 #include "source/Close_sheets.h"
 #include "source/Fit_statistics.h"
 #include "source/Spline_statistics.h"
+#include <equiaffine/fit/Fit_outcome.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/mesh_topology.h>
 
@@ -23,6 +24,11 @@ namespace equiaffine {
 struct Completeness {
   bool is_certified = false;
   std::vector<CGAL::Bbox_3> undecided_boxes;
+};
+
+/// What became of the data of a fit that were remeshed and moved onto it.
+struct Remesh_statistics : Fit_remesh_report {
+  std::array<double, 2> distances_from_data{}; ///< the greatest ones of vertices on the fit, and of the others
 };
 
 /// The facts about a mesh, however it was made.
@@ -44,6 +50,7 @@ struct Statistics : Mesh_facts {
   std::optional<Spline_statistics> spline;  ///< is set if derivatives are those of a spline
   std::optional<Fit_statistics> fit;        ///< is set if derivatives are those of a fit
   std::optional<Close_sheets> close_sheets; ///< is set if Marching Cubes sampled a fit
+  std::optional<Remesh_statistics> remesh;  ///< is set if the data of a fit were remeshed
 };
 
 /// The facts that the program reports about a fit to the vertices of a mesh, or to points.

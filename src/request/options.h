@@ -58,6 +58,7 @@ struct Source_options {
   double height_of_fit = 0;          ///< a fit has values at least this far from its surface
   bool estimates_errors = false;     ///< whether the errors of affine curvatures are estimated
   bool is_registered = false;        ///< whether registration needs the data of a fit and an unsmoothed spline, too
+  bool is_remeshed = false;          ///< whether the data of a fit are needed
   std::optional<Raw_layout> raw;     ///< is set for a volume without a header
   std::optional<double> narrow_band; ///< distances are not needed beyond so many voxels
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
@@ -88,11 +89,17 @@ struct Delaunay_options {
   bool clips_to_ball = false; ///< whether the surface is cut off at the largest ball in the box, not at the box
 };
 
+/// The faces of the data of a fit, remeshed, whose vertices are moved onto the fit.
+struct Remesh_options {
+  std::optional<double> edge_length; ///< of the remesh; the mean one of the data if there is none
+  double feature_angle = 60;         ///< in degrees: edges that bend by more stay edges
+};
+
 struct Mesh_options {
   Source_options source;
   double isovalue = 0;
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
-  std::variant<Marching_cubes_options, Delaunay_options> method;
+  std::variant<Marching_cubes_options, Delaunay_options, Remesh_options> method;
   Attribute_selection attributes;
   std::vector<std::string> estimates; ///< the columns of errors and of noise that the mesh gets
   Estimator estimator = Estimator::COMPACT;

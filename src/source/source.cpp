@@ -208,10 +208,7 @@ Source make_source(const Source_options& options, Progress& progress) {
     Point_table_3<Kernel> table = read_data(options, progress);
     const Fit_traits fit = make_fit(options, table, progress);
     Source source{.function = transformed(fit), .fit = fit};
-    if (!options.is_registered) return source;
-    source.data = std::move(table.mesh);
-    if (options.transformation)
-      for (Kernel::Point_3& p : source.data.points) p = (*options.transformation)(p);
+    if (options.is_registered || options.is_remeshed) source.data = std::move(table.mesh);
     return source;
   }
   if (options.derivatives == Derivatives::JETS) return {.function = transformed(make_formula(options))};

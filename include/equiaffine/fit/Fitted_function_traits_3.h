@@ -145,6 +145,14 @@ public:
     return FT(state_->blend.band().spacing(normal(p)) / state_->fit.normalization().scale());
   }
 
+  /// The point of the tangent plane of the zero set at the nearest foot of a datum that is under or above p there, in the
+  /// coordinates in which data have no preferred direction. The function has derivatives there more often than at p.
+  /// \pre The fit has polynomials: `bbox()` is not CGAL::Bbox_3().
+  Point_3 on_tangent_plane(const Point_3& p) const {
+    const Eigen::Vector3d q = state_->fit.normalization().inverse(state_->blend.band().on_tangent_plane(normal(p)));
+    return Point_3(FT(q[0]), FT(q[1]), FT(q[2]));
+  }
+
   /// The distances of points from other sheets of the surface, for those that have one nearer than `distance`: points
   /// beside them that are not connected with them nearby, or have opposed normals. Marching Cubes tells sheets apart that
   /// are farther from each other than the steps of its grid.

@@ -51,8 +51,7 @@ namespace equiaffine {
 /// Takes about 1 ms per vertex, also at a scale; memory is linear in the number
 /// of vertices. The numbers are the same for CGAL::Sequential_tag and CGAL::Parallel_tag. Named parameters:
 /// `vertex_point_map`, `noise`, `scale`, `degree`, `orientation`.
-template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph,
-          class Parameters = internal::No_parameters>
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, class Parameters = internal::No_parameters>
 std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, const Parameters& parameters = {}) {
   internal::check_fit_parameters<Parameters, internal::Vertex_point_tag, internal::Orientation_tag>();
   const internal::Surface_fit_3 fit(internal::fit_input_of_graph(mesh, parameters), internal::fit_request(parameters),
@@ -68,8 +67,8 @@ std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, con
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
           class Parameters = internal::No_parameters>
 std::vector<Fitted_structure_3<double>>
-fitted_structures(const Points& points, const Parameters& parameters = {}) requires(!Face_graph<Points> &&
-                                                                                    !std::ranges::range<Parameters>) {
+fitted_structures(const Points& points,
+                  const Parameters& parameters = {}) requires(!Face_graph<Points> && !std::ranges::range<Parameters>) {
   internal::check_point_fit_parameters<Parameters, internal::Orientation_tag>();
   auto input = internal::fit_input_of_points<ConcurrencyTag>(points, parameters);
   const internal::Surface_fit_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());

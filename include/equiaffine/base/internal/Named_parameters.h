@@ -35,6 +35,11 @@ struct Least_overlap_tag {};
 struct Refined_functions_tag {};
 struct Tolerance_tag {};
 struct Complete_tag {};
+struct Target_edge_length_tag {};
+struct Number_of_iterations_tag {};
+struct Edge_is_constrained_tag {};
+struct Feature_angle_tag {};
+struct Vertex_outcome_tag {};
 
 /// The empty chain of parameters.
 struct No_parameters {};

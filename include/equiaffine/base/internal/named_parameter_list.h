@@ -134,6 +134,34 @@
   /** Whether all rotations are searched even where affine frames of a few points decide; default false. */            \
   inline auto complete(bool is_wanted) CONST {                                                                         \
     return internal::add_parameter<internal::Complete_tag>(is_wanted, GIVEN);                                          \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The length of the edges of a remesh, by default the mean one of those given. */                                  \
+  inline auto target_edge_length(std::optional<double> length) CONST {                                                 \
+    return internal::add_parameter<internal::Target_edge_length_tag>(length, GIVEN);                                   \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** How often edges are split, collapsed and flipped and vertices relaxed; default 3. */                             \
+  inline auto number_of_iterations(unsigned n) CONST {                                                                 \
+    return internal::add_parameter<internal::Number_of_iterations_tag>(n, GIVEN);                                      \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A writable property map from the edges of a mesh to bool: the edges that a remesh keeps; default: none. */       \
+  template <class Map>                                                                                                 \
+  auto edge_is_constrained_map(const Map& map) CONST {                                                                 \
+    return internal::add_parameter<internal::Edge_is_constrained_tag>(map, GIVEN);                                     \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The angle between the normals of two triangles, in degrees, from which on their edge is kept by a remesh; */     \
+  /** default, or without a value: no edge is kept for its angle. */                                                   \
+  inline auto feature_angle(std::optional<double> degrees) CONST {                                                     \
+    return internal::add_parameter<internal::Feature_angle_tag>(degrees, GIVEN);                                       \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A writable property map from the vertices of a mesh to Fit_outcome; default: none. */                            \
+  template <class Map>                                                                                                 \
+  auto vertex_outcome_map(const Map& map) CONST {                                                                      \
+    return internal::add_parameter<internal::Vertex_outcome_tag>(map, GIVEN);                                          \
   }
 
 #endif

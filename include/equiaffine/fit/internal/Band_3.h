@@ -71,6 +71,13 @@ public:
     return {size <= core && excess <= 0, height};
   }
 
+  /// Returns a point moved along the normal of the nearest point of the surface into the tangent plane there. \pre The
+  /// band has points.
+  Vector on_tangent_plane(const Vector& p) const {
+    const Band_point_3& nearest = points_[tree_.nearest(p, 1).front()];
+    return p - (p - nearest.point).dot(nearest.normal) * nearest.normal;
+  }
+
   /// The distance of the data around the nearest point of the surface. \pre The band has points.
   double spacing(const Vector& p) const { return points_[tree_.nearest(p, 1).front()].spacing; }
 

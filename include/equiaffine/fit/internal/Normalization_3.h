@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include <cmath>
 #include <limits>
@@ -23,6 +24,8 @@ struct Normalization_3 {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
 
   Eigen::Vector3d operator()(const Eigen::Vector3d& p) const { return matrix * (p - origin); }
+
+  Eigen::Vector3d inverse(const Eigen::Vector3d& p) const { return origin + matrix.inverse() * p; }
 
   /// The factor of lengths that has the effect on volumes that the map has.
   double scale() const { return std::cbrt(matrix.determinant()); }
