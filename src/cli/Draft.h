@@ -21,7 +21,7 @@ struct Draft {
   Source_options source;
   double isovalue = 0;
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
-  std::optional<Mesh_method> method;
+  Mesh_method method = Mesh_method::MARCHING_CUBES;
   Marching_cubes_options marching_cubes;
   Remesh_options remesh;
   Delaunay_options delaunay;

@@ -47,7 +47,7 @@ void read_remesh_options(Option_reader& reader) {
 /// Reads `--method` and the options that belong to it.
 void read_method(Option_reader& reader) {
   reader.read({"--method"});
-  const auto method = reader.draft().method.value_or(Mesh_method::MARCHING_CUBES);
+  const Mesh_method method = reader.draft().method;
   if (method != Mesh_method::DELAUNAY)
     reader.refuse({"--angle", "--radius", "--distance", "--sizing", "--clip"}, "it is for --method delaunay",
                   "add --method delaunay or leave it out");
@@ -97,8 +97,8 @@ void check_page(const Option_reader& reader) {
 /// Throws if the paper's scheme is used in a way that needs a function, since its expansions are not those of one.
 void check_scheme(const Draft& draft) {
   if (draft.source.spline.scheme != Spline_scheme::PAPER) return;
-  const bool is_marching_cubes = draft.method.value_or(Mesh_method::MARCHING_CUBES) == Mesh_method::MARCHING_CUBES;
-  if (!is_marching_cubes || draft.marching_cubes.vertices != Vertex_position::LINEAR || draft.curves)
+  if (draft.method != Mesh_method::MARCHING_CUBES || draft.marching_cubes.vertices != Vertex_position::LINEAR ||
+      draft.curves)
     fail_option("--spline-scheme", "paper is for Marching Cubes with linear vertices and without parabolic curves",
                 "add --vertices linear, or use convolution");
 }
@@ -127,7 +127,6 @@ Mesh_options read_mesh_options(Option_reader& reader) {
   if (draft.method == Mesh_method::DELAUNAY) options.method = draft.delaunay;
   else if (draft.method == Mesh_method::REMESH) options.method = draft.remesh;
   else options.method = draft.marching_cubes;
-  options.source.is_remeshed = draft.method == Mesh_method::REMESH;
   options.source.estimates_errors =
       !draft.estimates.empty() || (draft.display.shows_something() && has_column_with_error(draft));
   options.estimates = std::move(draft.estimates);

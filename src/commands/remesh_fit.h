@@ -19,8 +19,7 @@ struct Remeshed_fit {
   Remesh_statistics statistics;
 };
 
-/// Remeshes the data of a source whose options have `is_remeshed`. Throws `Input_error` if they have no faces, or if they
-/// are no mesh.
+/// Remeshes the data of a fit. Throws `Input_error` if they have no faces, or if they are no mesh.
 Remeshed_fit remesh_fit(const Source& source, const Source_options& options, const Remesh_options& how);
 
 } // namespace equiaffine

@@ -26,7 +26,7 @@ struct Completeness {
   std::vector<CGAL::Bbox_3> undecided_boxes;
 };
 
-/// What became of the data of a fit that were remeshed and moved onto it.
+/// The facts about the data of a fit that were remeshed and moved onto it.
 struct Remesh_statistics : Fit_remesh_report {
   std::array<double, 2> distances_from_data{}; ///< the greatest ones of vertices on the fit, and of the others
 };

@@ -55,11 +55,10 @@ struct Source_options {
   Derivatives derivatives = Derivatives::JETS;
   Spline_options spline;
   Fit_options fit;
-  double height_of_fit = 0;          ///< a fit has values at least this far from its surface
-  bool estimates_errors = false;     ///< whether the errors of affine curvatures are estimated
-  bool is_registered = false;        ///< whether registration needs the data of a fit and an unsmoothed spline, too
-  bool is_remeshed = false;          ///< whether the data of a fit are needed
-  std::optional<Raw_layout> raw;     ///< is set for a volume without a header
+  double height_of_fit = 0;      ///< a fit has values at least this far from its surface
+  bool estimates_errors = false; ///< whether the errors of affine curvatures are estimated
+  bool is_registered = false;    ///< whether few data are no error, and registration needs an unsmoothed spline, too
+  std::optional<Raw_layout> raw; ///< is set for a volume without a header
   std::optional<double> narrow_band; ///< distances are not needed beyond so many voxels
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
 };

@@ -207,9 +207,7 @@ Source make_source(const Source_options& options, Progress& progress) {
   if (options.kind == Source_kind::FIT) {
     Point_table_3<Kernel> table = read_data(options, progress);
     const Fit_traits fit = make_fit(options, table, progress);
-    Source source{.function = transformed(fit), .fit = fit};
-    if (options.is_registered || options.is_remeshed) source.data = std::move(table.mesh);
-    return source;
+    return {.function = transformed(fit), .fit = fit, .data = std::move(table.mesh)};
   }
   if (options.derivatives == Derivatives::JETS) return {.function = transformed(make_formula(options))};
   Fitted_spline fit = fit_spline(options, progress);

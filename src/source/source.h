@@ -24,7 +24,7 @@ struct Source {
   std::optional<Curvature_error_3<Kernel>> errors = {}; ///< of that spline, if estimates were asked for
   std::optional<Fit_traits> fit = {};             ///< if derivatives are those of a fit, before any transformation
   std::optional<Source_function> unsmoothed = {}; ///< of a smoothed spline that is registered
-  Indexed_triangle_mesh_3<Kernel> data = {};      ///< of a fit that is registered or remeshed, not transformed
+  Indexed_triangle_mesh_3<Kernel> data = {};      ///< of a fit, not transformed
 };
 
 /// Makes the function. This may include reading a volume, measuring distances, and fitting a spline. Throws

@@ -50,17 +50,6 @@ protected:
     for (std::size_t i = 0; i < found.size(); ++i) right += std::abs(found[i] - expected[i]) <= error[i];
     EXPECT_GE(double(right), 0.93 * double(found.size()));
   }
-
-  void expect_error(const Arguments& arguments, const Arguments& words) {
-    const auto before = names();
-    const Result result = run(arguments);
-    EXPECT_EQ(result.status, 2) << result.error;
-    EXPECT_EQ(result.out, "");
-    EXPECT_EQ(result.error.find('\n'), result.error.size() - 1) << result.error;
-    for (const std::string& word : words)
-      EXPECT_NE(result.error.find(word), std::string::npos) << word << " in " << result.error;
-    EXPECT_EQ(names(), before);
-  }
 };
 
 } // namespace

@@ -40,13 +40,6 @@ protected:
     EXPECT_GE(double(right), 0.93 * double(found.size()));
     EXPECT_GE(double(known), 0.5 * double(found.size()));
   }
-
-  void expect_error(const Arguments& arguments, const Arguments& words) {
-    const Result result = run(arguments);
-    EXPECT_EQ(result.status, 2) << result.error;
-    for (const std::string& word : words)
-      EXPECT_NE(result.error.find(word), std::string::npos) << word << " in " << result.error;
-  }
 };
 
 const Arguments errors = {"--attributes", "basic,affine_gaussian_curvature_error"};

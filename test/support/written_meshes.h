@@ -24,6 +24,18 @@ inline Arguments operator+(Arguments first, const Arguments& second) {
 
 class Written_meshes_test : public Program_test {
 protected:
+  /// Expects an error of one line with these words, and that no file is written.
+  void expect_error(const Arguments& arguments, const Arguments& words) const {
+    const auto before = names();
+    const Result result = run(arguments);
+    EXPECT_EQ(result.status, 2) << result.error;
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.error.find('\n'), result.error.size() - 1) << result.error;
+    for (const std::string& word : words)
+      EXPECT_NE(result.error.find(word), std::string::npos) << word << " in " << result.error;
+    EXPECT_EQ(names(), before);
+  }
+
   Mesh mesh(const std::string& name) const {
     std::istringstream stream(file(name));
     return equiaffine::read_PLY<CGAL::Simple_cartesian<double>>(stream, name);

@@ -26,7 +26,7 @@ inline constexpr std::size_t number_of_fit_outcomes = 8;
 inline constexpr std::array<std::string_view, number_of_fit_outcomes> fit_outcome_names = {
     "on_fit", "no_value", "no_zero", "other_side", "torn_away", "turned", "crossing", "on_feature"};
 
-/// What became of the vertices of a mesh that were moved onto a fit.
+/// The report of move_to_fit(): it counts the outcomes of the vertices of a mesh.
 struct Fit_move_report {
   std::array<std::size_t, number_of_fit_outcomes> number_of = {}; ///< the number of vertices of each Fit_outcome
   double largest_move = 0;                                        ///< the distance between old and new positions
@@ -40,7 +40,7 @@ struct Fit_move_report {
   std::size_t number_on_fit() const { return number_of[std::size_t(Fit_outcome::ON_FIT)]; }
 };
 
-/// What remesh_on_fit() did.
+/// The report of remesh_on_fit().
 struct Fit_remesh_report : Fit_move_report {
   double edge_length = 0; ///< the length of edges that was aimed at; 0 if the edges stayed what they were
 };

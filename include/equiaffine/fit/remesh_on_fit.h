@@ -8,7 +8,6 @@
 #include <equiaffine/fit/internal/Whole_remesh_3.h>
 #include <equiaffine/fit/internal/motion_to_fit.h>
 #include <equiaffine/fit/internal/remesh_of_mesh.h>
-#include <equiaffine/fit/internal/triangle_array_of.h>
 #include <equiaffine/surface/Face_graph.h>
 
 #include <CGAL/tags.h>
@@ -34,7 +33,6 @@ Fit_remesh_report remesh_on_fit(Mesh& mesh, const Fitted_function_traits_3<Kerne
                              internal::Target_edge_length_tag, internal::Number_of_iterations_tag,
                              internal::Edge_is_constrained_tag, internal::Feature_angle_tag>();
   const internal::Remesh_request request = internal::remesh_request(np);
-  internal::triangle_array_of(mesh, np); // throws if a face is not a triangle
   internal::Whole_remesh_3<Kernel> remesh(internal::copy_to_remesh<Kernel>(mesh, np), request);
   const auto motion =
       internal::motion_to_fit<ConcurrencyTag>(remesh.array(), fit, remesh.crossings(), remesh.features());

@@ -28,8 +28,8 @@ namespace equiaffine {
 /// with `complete`, or with a `tolerance` above 1e-6, all rotations and reflections about the centroid of the area,
 /// which every symmetry of a whole surface keeps, are searched by branch and bound, for affine maps in coordinates in
 /// which the solid inside is round, with points by random lines (Crofton). Maps are refined by least squares, and every
-/// element is verified by thousands of points. A surface that leaves the box of the function has no centroid to go by: points that leave the
-/// box do not count, so that an unbounded surface in a box has the symmetries of the whole one.
+/// element is verified by thousands of points. A surface that leaves the box of the function has no centroid to go by:
+/// points that leave the box do not count, so that an unbounded surface in a box has the symmetries of the whole one.
 ///
 /// The order counts the maps to within `tolerance`, a part of the size, 1e-8 by default. A greater tolerance never
 /// finds fewer. Where the surface has continuous symmetries of the kind, the result has their generators, and no others

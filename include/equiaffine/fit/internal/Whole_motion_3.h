@@ -19,9 +19,10 @@
 namespace equiaffine::internal {
 
 /// Moves the vertices of a mesh to their zeros of a fit, as far as no triangle turns over or crosses another one that it
-/// did not cross before. Vertices without a zero follow their neighbors, and those on features stay. Where a triangle turns over or crosses another
-/// one, the vertices that follow stay where they were, and if that is not enough, those with a zero do, too. This ends,
-/// since nothing is wrong where no vertex moves; from some number of rounds on, whole neighborhoods stay, which grow.
+/// did not cross before. Vertices without a zero follow their neighbors, and those on features stay. Where a triangle
+/// turns over or crosses another one, the vertices that follow stay where they were, and if that is not enough, those
+/// with a zero do, too. This ends, since nothing is wrong where no vertex moves; from some number of rounds on, whole
+/// neighborhoods stay, which grow.
 class Whole_motion_3 {
 public:
   using Vector = Eigen::Vector3d;
@@ -57,7 +58,7 @@ private:
     return std::abs(chord.dot(zeros_[u].normal + zeros_[v].normal)) <= 2 * chord_slope * chord.norm();
   }
 
-  /// Where the moves of two neighbors disagree, the larger one is not made.
+  /// Gives up the larger one of the moves of two neighbors that disagree.
   void keep_to_one_sheet() {
     std::vector<std::size_t> torn;
     for (std::size_t v = 0; v < zeros_.size(); ++v)

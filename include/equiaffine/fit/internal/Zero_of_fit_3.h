@@ -14,7 +14,7 @@
 
 namespace equiaffine::internal {
 
-/// Where a vertex of a mesh goes on the zero set of a fit, if it does.
+/// The move of a vertex of a mesh onto the zero set of a fit, if there is one.
 struct Zero_of_fit_3 {
   Fit_outcome outcome;
   Eigen::Vector3d move = Eigen::Vector3d::Zero();

@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -25,6 +26,13 @@ struct Area_samples_3 {
   bool is_cut = false;    ///< whether the surface ends at its box, so that symmetries of the whole keep no centroid
 
   double spacing() const { return std::sqrt(area.measure / double(points.size())); }
+
+  /// The largest distance of a point from the origin.
+  double radius() const {
+    double result = 0;
+    for (const Eigen::Vector3d& p : points) result = std::max(result, p.norm());
+    return result;
+  }
 };
 
 /// The point n of a sequence of low discrepancy in a cube (M. Roberts, The unreasonable effectiveness of quasirandom

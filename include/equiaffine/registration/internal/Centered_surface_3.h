@@ -29,13 +29,6 @@ struct Centered_surface_3 {
   bool is_exact = false;           ///< whether points are on a surface up to rounding, as those of a formula
   std::string reason_against = {}; ///< why its symmetries cannot be found, if they cannot
 
-  /// The largest distance of a point from the centroid.
-  double radius() const {
-    double result = 0;
-    for (const Eigen::Vector3d& p : samples.points) result = std::max(result, p.norm());
-    return result;
-  }
-
   /// The square roots of the eigenvalues of the covariance of the area.
   Eigen::Vector3d extents() const {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(samples.area.covariance, Eigen::EigenvaluesOnly);

@@ -20,7 +20,7 @@
 
 namespace equiaffine::internal {
 
-/// What the contacts of two pieces say of a map.
+/// The evidence that the contacts of two pieces are for a map, and against it.
 struct Contact_evidence {
   std::array<double, 2> inliers{};        ///< the parts of the samples of source and target in contact
   std::array<double, 2> contradictions{}; ///< those of the samples that say something

@@ -27,10 +27,12 @@ struct Point_of_piece {
 /// A mesh as a part of the boundary of a solid, which goes on beyond the border of the mesh.
 class Piece_of_surface_3 {
 public:
-  /// Points are on the border to within `border_width`.
+  /// Takes a mesh with its sorted edges. Points are on the border to within `border_width`.
   /// \pre the mesh has an area.
-  Piece_of_surface_3(const Triangles_3& mesh, std::size_t count, double border_width)
-      : Piece_of_surface_3(mesh, sorted_edges(mesh), count, border_width) {}
+  Piece_of_surface_3(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges, std::size_t count,
+                     double border_width)
+      : samples_(mesh_samples(mesh, edges, count)), tree_(tree_of(triangles_with_area(mesh))),
+        border_(border_of(mesh, edges)), border_width_(border_width), is_oriented_(has_orientation(edges)) {}
 
   const Area_samples_3& samples() const { return samples_; }
   bool is_closed() const { return !border_; }
@@ -44,19 +46,7 @@ public:
     return {to_Eigen(found.point), unit_normal(tree_.triangle(found.part)), is_on_border};
   }
 
-  /// The largest distance of a sample from the origin.
-  double radius() const {
-    double result = 0;
-    for (const Eigen::Vector3d& p : samples_.points) result = std::max(result, p.norm());
-    return result;
-  }
-
 private:
-  Piece_of_surface_3(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges, std::size_t count,
-                     double border_width)
-      : samples_(mesh_samples(mesh, edges, count)), tree_(tree_of(triangles_with_area(mesh))),
-        border_(border_of(mesh, edges)), border_width_(border_width), is_oriented_(has_orientation(edges)) {}
-
   /// The edges of one triangle only, as triangles with two equal corners.
   static std::optional<Triangle_tree> border_of(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges) {
     std::vector<Triangle_tree::Triangle_3> border;

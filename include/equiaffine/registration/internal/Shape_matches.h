@@ -20,7 +20,7 @@ struct Shape_match {
   double log10_false_alarms;     ///< of the number of maps as good as this one that chance would make
 };
 
-/// What a search for maps between meshes found.
+/// The maps between meshes that a search found.
 struct Shape_matches {
   std::vector<Shape_match> maps = {}; ///< the best first
   std::size_t hypotheses = 0;         ///< the number of maps that were tried

@@ -6,6 +6,7 @@
 #include <equiaffine/registration/internal/Area_samples_3.h>
 #include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/contacts.h>
+#include <equiaffine/registration/internal/without_near.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -179,20 +180,15 @@ private:
     return sum / double(n);
   }
 
-  /// The best maps, without those near to a better one.
+  /// Returns the best maps, without those near to a better one.
   std::vector<Scored_map> different(std::vector<Scored_map> maps) const {
+    constexpr double least_difference = 0.15;
     sort(maps);
-    std::vector<Scored_map> result;
     const double size = source_.samples().area.size();
-    for (const Scored_map& m : maps) {
-      if (result.size() == most_maps) break;
-      const auto is_near = [&](const Scored_map& other) {
-        return size * (m.map.matrix - other.map.matrix).norm() + (m.map.translation - other.map.translation).norm() <
-               0.15;
-      };
-      if (std::none_of(result.begin(), result.end(), is_near)) result.push_back(m);
-    }
-    return result;
+    return without_near(maps, most_maps, [&](const Scored_map& a, const Scored_map& b) {
+      const double turn = (a.map.matrix - b.map.matrix).norm(), shift = (a.map.translation - b.map.translation).norm();
+      return size * turn + shift < least_difference;
+    });
   }
 
   const Piece_of_surface_3 &source_, &target_;

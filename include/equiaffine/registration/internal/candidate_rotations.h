@@ -18,7 +18,7 @@ template <class ConcurrencyTag>
 Rotation_candidates candidate_rotations(const Centered_surface_3& source, const Centered_surface_3& target,
                                         double tolerance, bool allows_reflections) {
   constexpr int most_points = 80;
-  const double radius = 1.02 * std::max(source.radius(), target.radius());
+  const double radius = 1.02 * std::max(source.samples.radius(), target.samples.radius());
   const auto grid = Distance_grid::of<ConcurrencyTag>(*target.distances, radius);
   const auto& points = source.samples.points;
   const Eigen::Vector3d extents = source.extents();

@@ -17,7 +17,7 @@
 
 namespace equiaffine::internal {
 
-/// What a point of one piece says of a map.
+/// Whether a point of one piece speaks for a map, or against it.
 enum class Contact {
   NONE,         ///< nothing, since the other piece may end there
   TOUCHING,     ///< the point is on the other surface
@@ -97,7 +97,7 @@ class Nearest_of_cells {
 public:
   template <class ConcurrencyTag>
   static Nearest_of_cells of(const Piece_of_surface_3& piece) {
-    Nearest_of_cells result(1.1 * piece.radius());
+    Nearest_of_cells result(1.1 * piece.samples().radius());
     parallel_for<ConcurrencyTag>(0, cells * cells, [&](std::size_t row) {
       for (std::size_t i = 0; i < cells; ++i) {
         const Eigen::Vector3d center(double(i) + 0.5, double(row % cells) + 0.5, double(row / cells) + 0.5);

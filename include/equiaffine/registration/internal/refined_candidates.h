@@ -5,6 +5,7 @@
 #include <equiaffine/base/parallel_for.h>
 #include <equiaffine/registration/internal/Centered_map.h>
 #include <equiaffine/registration/internal/Rotation_search.h>
+#include <equiaffine/registration/internal/without_near.h>
 
 #include <Eigen/Core>
 
@@ -24,13 +25,9 @@ constexpr std::size_t points_of_rms = 1500;
 inline std::vector<Centered_map> different(std::vector<Centered_map> maps, double greatest_rms) {
   std::stable_sort(maps.begin(), maps.end(),
                    [](const Centered_map& a, const Centered_map& b) { return a.rms < b.rms; });
-  std::vector<Centered_map> result;
-  for (const Centered_map& map : maps)
-    if (map.rms < greatest_rms && std::none_of(result.begin(), result.end(), [&](const Centered_map& other) {
-          return difference(map, other) < same_map;
-        }))
-      result.push_back(map);
-  return result;
+  std::erase_if(maps, [&](const Centered_map& map) { return !(map.rms < greatest_rms); });
+  return without_near(maps, maps.size(),
+                      [](const Centered_map& a, const Centered_map& b) { return difference(a, b) < same_map; });
 }
 
 /// A map refined by least squares, judged by many points.

@@ -10,6 +10,7 @@
 #include <equiaffine/registration/internal/Two_point_frames.h>
 #include <equiaffine/registration/internal/contacts.h>
 #include <equiaffine/registration/internal/refine_map.h>
+#include <equiaffine/registration/internal/without_near.h>
 
 #include <Eigen/Core>
 
@@ -128,7 +129,7 @@ private:
   Contact_evidence evidence(const Affine_map_3& map, std::size_t count, double tolerance) const {
     const double scale = Similarity_3(map).scale;
     const double areas[] = {source_.samples().area.measure * scale * scale, target_.samples().area.measure};
-    const double radii[] = {source_.radius() * scale, target_.radius()};
+    const double radii[] = {source_.samples().radius() * scale, target_.samples().radius()};
     std::array<double, 2> chances;
     for (std::size_t k = 0; k < 2; ++k) chances[k] = 2 * areas[k] / (4.2 * std::pow(radii[k], 3));
     const Judgement how{tolerance * unit(map), 0, degrees_of_freedom(request_.kind), double(hypotheses_)};
@@ -141,17 +142,14 @@ private:
   }
 
   void keep_best(std::vector<Candidate>& candidates, std::size_t count) const {
+    constexpr double least_difference = 0.02;
     sort(candidates);
-    std::vector<Candidate> result;
-    for (const Candidate& c : candidates) {
-      if (result.size() == count) break;
-      const auto is_near = [&](const Candidate& other) { return difference(c.map, other.map) < 0.02; };
-      if (std::none_of(result.begin(), result.end(), is_near)) result.push_back(c);
-    }
-    candidates = std::move(result);
+    candidates = without_near(candidates, count, [&](const Candidate& a, const Candidate& b) {
+      return difference(a.map, b.map) < least_difference;
+    });
   }
 
-  /// Beside the size of the target.
+  /// Returns how far a map moves points from where another one moves them, about, beside the size of the target.
   double difference(const Affine_map_3& a, const Affine_map_3& b) const {
     return (a.matrix - b.matrix).norm() * source_.samples().area.size() + (a.translation - b.translation).norm();
   }
@@ -186,12 +184,9 @@ private:
   std::size_t hypotheses_ = 0;
 };
 
-/// The tolerance beside the size of the target: that of the request, or what facets allow.
-inline double tolerance_of_pieces(const Triangles_3& source, const Triangles_3& target,
-                                  const Registration_request& request) {
-  if (request.tolerance) return *request.tolerance;
-  const double error = std::max(facet_error(source, sorted_edges(source)), facet_error(target, sorted_edges(target)));
-  return std::clamp(4 * error, 1e-3, 1e-2);
+/// Returns the tolerance beside the size of the target: that of the request, or what the error of facets allows.
+inline double tolerance_of_pieces(double facet_error, const Registration_request& request) {
+  return request.tolerance.value_or(std::clamp(4 * facet_error, 1e-3, 1e-2));
 }
 
 /// Finds rigid maps or similarities that move a mesh, or a part of it, onto another one, without curvature: pieces of
@@ -215,15 +210,17 @@ Shape_matches register_pieces(const Triangles_3& source, const Triangles_3& targ
   Affine_map_3 to_source = centering_map(areas[0]);
   if (request.kind == Map_kind::RIGID) to_source = {to_target.matrix, -(to_target.matrix * areas[0].centroid)};
   const Triangles_3 a = transformed(source, to_source), b = transformed(target, to_target);
-  const double tolerance = tolerance_of_pieces(a, b, request);
-  const Piece_of_surface_3 p(a, samples, 2 * tolerance), q(b, samples, 2 * tolerance);
+  const auto edges_a = sorted_edges(a), edges_b = sorted_edges(b);
+  const double tolerance = tolerance_of_pieces(std::max(facet_error(a, edges_a), facet_error(b, edges_b)), request);
+  const Piece_of_surface_3 p(a, edges_a, samples, 2 * tolerance), q(b, edges_b, samples, 2 * tolerance);
   if (!p.is_oriented() || !q.is_oriented()) {
     none.reason = "the triangles of a mesh are not on one side";
     return none;
   }
   Shape_matches result = Registration_of_pieces<ConcurrencyTag>(p, q, request, tolerance).run();
   if (result.maps.empty()) {
-    const Piece_of_surface_3 inside_out(turned_inside_out(a), samples, 2 * tolerance);
+    const Triangles_3 turned = turned_inside_out(a);
+    const Piece_of_surface_3 inside_out(turned, sorted_edges(turned), samples, 2 * tolerance);
     Shape_matches other = Registration_of_pieces<ConcurrencyTag>(inside_out, q, request, tolerance).run();
     other.hypotheses += result.hypotheses;
     if (other.maps.empty()) other.reason = std::move(result.reason);

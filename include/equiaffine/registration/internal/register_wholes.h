@@ -35,7 +35,7 @@ inline double tolerance_of_wholes(const Centered_pair& surfaces, const Registrat
 
 /// A random point of the ball around a surface is nearer to it than t with the probability of this times t.
 inline double chance_of_nearness(const Centered_surface_3& surface) {
-  return 2 * surface.samples.area.measure / (4 * std::numbers::pi / 3 * std::pow(surface.radius(), 3));
+  return 2 * surface.samples.area.measure / (4 * std::numbers::pi / 3 * std::pow(surface.samples.radius(), 3));
 }
 
 /// A map between centered surfaces with its evidence, in the coordinates of the surfaces.

@@ -2,7 +2,8 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_VECTORS_OF_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_VECTORS_OF_H
 
-#include <CGAL/number_utils.h>
+#include <equiaffine/surface/indexed_polygons.h>
+
 #include <Eigen/Core>
 
 #include <vector>
@@ -13,8 +14,7 @@ namespace equiaffine::internal {
 template <class Points>
 std::vector<Eigen::Vector3d> vectors_of(const Points& points) {
   std::vector<Eigen::Vector3d> result;
-  for (const auto& p : points)
-    result.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+  for (const auto& p : points) result.push_back(coordinates_of(p));
   return result;
 }
 
