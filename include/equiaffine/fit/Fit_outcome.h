@@ -14,7 +14,7 @@ enum class Fit_outcome : unsigned char {
   NO_VALUE,   ///< the fit has no derivatives beside the vertex
   NO_ZERO,    ///< there is no zero near enough
   OTHER_SIDE, ///< the fit is there, but faces another way than the mesh: it is that of another sheet, or of none
-  TORN_AWAY,  ///< the zero belongs to another sheet than those of neighbors
+  TORN_AWAY,  ///< the zero is on another sheet than those of neighbors, or off the feature that a neighbor is on
   TURNED,     ///< a triangle would turn over
   CROSSING,   ///< a triangle would cross another one
   ON_FEATURE  ///< the vertex is on a sharp edge that is kept, which the fit makes round
@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, number_of_fit_outcomes> fit_outcom
 struct Fit_move_report {
   std::array<std::size_t, number_of_fit_outcomes> number_of = {}; ///< the number of vertices of each Fit_outcome
   double largest_move = 0;                                        ///< the distance between old and new positions
-  std::size_t crossings = 0; ///< pairs of triangles that cross each other, all of which did so before
+  std::size_t crossings = 0; ///< pairs of triangles that cross each other, all of which did so before the move
 
   std::size_t number_of_vertices() const {
     std::size_t sum = 0;

@@ -145,9 +145,9 @@ public:
     return FT(state_->blend.band().spacing(normal(p)) / state_->fit.normalization().scale());
   }
 
-  /// The point of the tangent plane of the zero set at the nearest foot of a datum that is under or above p there, in the
-  /// coordinates in which data have no preferred direction. The function has derivatives there more often than at p.
-  /// \pre The fit has polynomials: `bbox()` is not CGAL::Bbox_3().
+  /// The point of the tangent plane of the zero set at the nearest foot of a datum that is under or above p there, in
+  /// the coordinates in which data have no preferred direction, or p itself if the fit has no polynomials. The function
+  /// has derivatives there more often than at p.
   Point_3 on_tangent_plane(const Point_3& p) const {
     const Eigen::Vector3d q = state_->fit.normalization().inverse(state_->blend.band().on_tangent_plane(normal(p)));
     return Point_3(FT(q[0]), FT(q[1]), FT(q[2]));

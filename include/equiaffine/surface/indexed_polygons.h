@@ -43,7 +43,7 @@ inline void check_points(const std::vector<Eigen::Vector3d>& points) {
 }
 
 template <class Graph, class Parameters>
-auto vertex_points(const Graph& graph, const Parameters& parameters) {
+auto vertex_points(Graph& graph, const Parameters& parameters) {
   if constexpr (internal::has_parameter<internal::Vertex_point_tag, Parameters>)
     return internal::given_parameter<internal::Vertex_point_tag>(parameters);
   else return get(CGAL::vertex_point, graph);

@@ -73,7 +73,6 @@ Default get_parameter(const Named_parameters<Value, OtherTag, Base>& parameters,
   else return get_parameter<Tag>(parameters.base, otherwise);
 }
 
-/// Whether a parameter was given.
 /// The value of a parameter whose type the caller chooses. Precondition: it is given.
 template <class Tag, class Value, class OtherTag, class Base>
 const auto& given_parameter(const Named_parameters<Value, OtherTag, Base>& parameters) {
@@ -81,6 +80,7 @@ const auto& given_parameter(const Named_parameters<Value, OtherTag, Base>& param
   else return given_parameter<Tag>(parameters.base);
 }
 
+/// Whether a parameter was given.
 template <class Tag, class Parameters>
 inline constexpr bool has_parameter = false;
 template <class Tag, class Value, class OtherTag, class Base>

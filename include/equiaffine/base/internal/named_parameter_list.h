@@ -153,7 +153,7 @@
   }                                                                                                                    \
                                                                                                                        \
   /** The angle between the normals of two triangles, in degrees, from which on their edge is kept by a remesh; */     \
-  /** default, or without a value: no edge is kept for its angle. */                                                   \
+  /** default 60. Without a value, no edge is kept for its angle. */                                                   \
   inline auto feature_angle(std::optional<double> degrees) CONST {                                                     \
     return internal::add_parameter<internal::Feature_angle_tag>(degrees, GIVEN);                                       \
   }                                                                                                                    \

@@ -71,11 +71,13 @@ public:
     return {size <= core && excess <= 0, height};
   }
 
-  /// Returns a point moved along the normal of the nearest point of the surface into the tangent plane there. \pre The
-  /// band has points.
+  /// Returns a point moved along the normal of the nearest point of the surface into the tangent plane there; the same
+  /// point if the band has none.
   Vector on_tangent_plane(const Vector& p) const {
-    const Band_point_3& nearest = points_[tree_.nearest(p, 1).front()];
-    return p - (p - nearest.point).dot(nearest.normal) * nearest.normal;
+    const auto nearest = tree_.nearest(p, 1);
+    if (nearest.empty()) return p;
+    const Band_point_3& foot = points_[nearest.front()];
+    return p - (p - foot.point).dot(foot.normal) * foot.normal;
   }
 
   /// The distance of the data around the nearest point of the surface. \pre The band has points.

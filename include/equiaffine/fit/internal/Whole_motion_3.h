@@ -18,11 +18,11 @@
 
 namespace equiaffine::internal {
 
-/// Moves the vertices of a mesh to their zeros of a fit, as far as no triangle turns over or crosses another one that it
-/// did not cross before. Vertices without a zero follow their neighbors, and those on features stay. Where a triangle
-/// turns over or crosses another one, the vertices that follow stay where they were, and if that is not enough, those
-/// with a zero do, too. This ends, since nothing is wrong where no vertex moves; from some number of rounds on, whole
-/// neighborhoods stay, which grow.
+/// Moves the vertices of a mesh to their zeros of a fit, as far as no triangle turns over or crosses another one that
+/// it did not cross before. Vertices without a zero follow their neighbors, and those on features stay. Where a
+/// triangle turns over or crosses another one, the vertices that follow stay where they were, and if that is not
+/// enough, those with a zero do, too. This ends, since nothing is wrong where no vertex moves; from some number of
+/// rounds on, whole neighborhoods stay, which grow.
 class Whole_motion_3 {
 public:
   using Vector = Eigen::Vector3d;
@@ -31,7 +31,7 @@ public:
   Whole_motion_3(const Triangle_array_3& mesh, std::vector<Zero_of_fit_3> zeros, std::vector<Triangle_pair> crossings)
       : mesh_(mesh), zeros_(std::move(zeros)), stays_(mesh.points().size()), moved_(mesh.points()),
         tested_(mesh.points()), old_crossings_(std::move(crossings)), crossings_(old_crossings_) {
-    for (std::size_t v = 0; v < zeros_.size(); ++v) stays_[v] = zeros_[v].outcome == Fit_outcome::ON_FEATURE;
+    for (std::size_t v = 0; v < zeros_.size(); ++v) stays_[v] = is_on_feature(v);
     keep_to_one_sheet();
     while (true) {
       follow();
@@ -47,6 +47,7 @@ public:
 
 private:
   bool is_on_fit(std::size_t v) const { return zeros_[v].outcome == Fit_outcome::ON_FIT; }
+  bool is_on_feature(std::size_t v) const { return zeros_[v].outcome == Fit_outcome::ON_FEATURE; }
 
   /// Whether the moves of two neighbors go to the same sheet of the fit: they differ by little, or the new edge is as
   /// oblique to the normals at both ends as a chord of a smooth surface, whose mean angle to them is a right one.
@@ -58,13 +59,22 @@ private:
     return std::abs(chord.dot(zeros_[u].normal + zeros_[v].normal)) <= 2 * chord_slope * chord.norm();
   }
 
-  /// Gives up the larger one of the moves of two neighbors that disagree.
+  /// Whether a vertex leaves a neighbor on a feature, which does not move: the fit makes the feature round.
+  bool leaves(std::size_t v, std::size_t feature) const {
+    constexpr double slope = 0.2;
+    return zeros_[v].move.norm() > slope * (mesh_.points()[v] - mesh_.points()[feature]).norm();
+  }
+
+  /// Gives up the larger one of the moves of two neighbors that disagree, and the moves that leave a feature.
   void keep_to_one_sheet() {
     std::vector<std::size_t> torn;
-    for (std::size_t v = 0; v < zeros_.size(); ++v)
+    for (std::size_t v = 0; v < zeros_.size(); ++v) {
+      if (!is_on_fit(v)) continue;
       for (const auto u : mesh_.neighbors(v))
-        if (u < v && is_on_fit(u) && is_on_fit(v) && !agree(u, v))
+        if (is_on_feature(u) && leaves(v, u)) torn.push_back(v);
+        else if (u < v && is_on_fit(u) && !agree(u, v))
           torn.push_back(zeros_[u].move.squaredNorm() > zeros_[v].move.squaredNorm() ? u : v);
+    }
     for (const auto v : torn) zeros_[v].outcome = Fit_outcome::TORN_AWAY;
   }
 

@@ -4,20 +4,22 @@
 
 #include <equiaffine/base/check_argument.h>
 #include <equiaffine/base/named_parameters.h>
+#include <equiaffine/fit/internal/Crossing_places_3.h>
 #include <equiaffine/fit/internal/crossing_triangles.h>
 #include <equiaffine/fit/internal/triangle_array_of.h>
 #include <equiaffine/surface/mesh_topology.h>
 
-#include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/Surface_mesh.h>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
-#include <compare>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,8 +31,8 @@ struct Remesh_request {
   unsigned iterations;
 };
 
-/// Remeshes a copy of a mesh so that its topology stays, with edges of a length, or shorter ones where these would make
-/// triangles cross each other in a mesh that did not cross itself. Where no length does, the mesh stays as it is.
+/// Remeshes a copy of a mesh so that its topology stays and triangles cross each other only where some did before: with
+/// edges of a length, or shorter ones if that is too long. If none of them will do, the mesh stays as it is.
 template <class Kernel>
 class Whole_remesh_3 {
 public:
@@ -45,20 +47,25 @@ public:
     const Topology topology = topology_of(given, array_);
     const std::vector<Triangle_pair> given_crossings = crossing_triangles(array_.points(), array_.triangles());
     if (given.number_of_faces() == 0) return;
-    const double shortest = mean_edge(given) / 4;
-    edge_length_ = request.edge_length.value_or(mean_edge(given));
-    check_number_of_triangles();
-    do {
-      mesh_ = given;
-      remesh(request);
-      array_ = triangle_array_of(mesh_, No_parameters());
-      crossings_ = crossing_triangles(array_.points(), array_.triangles());
-      if (topology_of(mesh_, array_) == topology && (crossings_.empty() || !given_crossings.empty())) return;
-      edge_length_ *= 0.6;
-    } while (edge_length_ > shortest);
+    const Triangle_array_3 given_array = array_;
+    if (!has_degenerate_face(given)) {
+      const double mean = mean_edge(given), least = least_length(given), shortest = std::max(mean / 4, least);
+      edge_length_ = std::min(request.edge_length.value_or(mean), diagonal_of(given_array));
+      check_argument(edge_length_ >= least, "edges of that length would make more than 10^8 triangles, or more than "
+                                            "10^4 parts of an edge: give longer ones");
+      do {
+        mesh_ = given;
+        remesh(request);
+        array_ = triangle_array_of(mesh_, No_parameters());
+        crossings_ = crossing_triangles(array_.points(), array_.triangles());
+        const Crossing_places_3 places(given_array, given_crossings, edge_length_);
+        if (topology_of(mesh_, array_) == topology && places.contain(array_, crossings_)) return;
+        edge_length_ *= 0.6;
+      } while (edge_length_ > shortest);
+    }
     mesh_ = given;
     keep_sharp_edges(request);
-    array_ = triangle_array_of(mesh_, No_parameters());
+    array_ = given_array;
     crossings_ = given_crossings;
     edge_length_ = 0;
   }
@@ -77,6 +84,11 @@ public:
     return result;
   }
 
+  /// The map that marks the edges that are kept.
+  Edge_map kept_edges() {
+    return mesh_.template add_property_map<typename Mesh::Edge_index, bool>(name_of_edges, false).first;
+  }
+
   /// The length of edges that was aimed at; 0 if the mesh stayed as it was.
   double edge_length() const { return edge_length_; }
 
@@ -87,31 +99,55 @@ private:
     bool operator==(const Topology&) const = default;
   };
 
-  static Topology topology_of(const Mesh& mesh, const Triangle_array_3& array) {
-    std::vector<typename Mesh::Halfedge_index> loops;
-    CGAL::Polygon_mesh_processing::extract_boundary_cycles(mesh, std::back_inserter(loops));
-    const Mesh_topology topology = mesh_topology(array.triangles(), array.points().size());
-    return {loops.size(), topology.components, topology.euler_characteristic};
+  static std::size_t number_of_border_loops(const Mesh& mesh) {
+    std::size_t loops = 0;
+    std::vector<char> is_seen(mesh.num_halfedges());
+    for (const auto first : mesh.halfedges()) {
+      if (!mesh.is_border(first) || is_seen[first]) continue;
+      ++loops;
+      for (auto h = first; !is_seen[h]; h = mesh.next(h)) is_seen[h] = 1;
+    }
+    return loops;
   }
 
-  /// A mesh has about as many triangles as equilateral ones cover its area.
-  void check_number_of_triangles() const {
-    constexpr double most = 1e8;
-    const double number = CGAL::to_double(CGAL::Polygon_mesh_processing::area(mesh_)) * 4 / std::sqrt(3.0) /
-                          (edge_length_ * edge_length_);
-    check_argument(number < most, "edges of that length would make more than 10^8 triangles: give longer ones");
+  static Topology topology_of(const Mesh& mesh, const Triangle_array_3& array) {
+    const Mesh_topology topology = mesh_topology(array.triangles(), array.points().size());
+    return {number_of_border_loops(mesh), topology.components, topology.euler_characteristic};
+  }
+
+  /// CGAL's remeshing has undefined behavior for some meshes with triangles that are lines or points.
+  static bool has_degenerate_face(const Mesh& mesh) {
+    return std::any_of(mesh.faces().begin(), mesh.faces().end(),
+                       [&](auto f) { return CGAL::Polygon_mesh_processing::is_degenerate_triangle_face(f, mesh); });
+  }
+
+  /// The diagonal of the bounding box: no edge of a remesh is longer.
+  static double diagonal_of(const Triangle_array_3& array) {
+    Eigen::AlignedBox3d box;
+    for (const auto& p : array.points()) box.extend(p);
+    return box.diagonal().norm();
+  }
+
+  /// The least length of edges that makes no more than 10^8 triangles and 10^4 parts of an edge. A mesh has about as
+  /// many triangles as equilateral ones cover its area. Thin triangles become more where their edges are cut, which
+  /// takes quadratic time in the parts of each.
+  static double least_length(const Mesh& mesh) {
+    constexpr double most_triangles = 1e8, most_parts = 1e4;
+    const double area = CGAL::to_double(CGAL::Polygon_mesh_processing::area(mesh));
+    double longest = 0;
+    for (const auto e : mesh.edges()) longest = std::max(longest, length(mesh, e));
+    return std::max(std::sqrt(area * 4 / std::sqrt(3.0) / most_triangles), longest / most_parts);
+  }
+
+  static double length(const Mesh& mesh, typename Mesh::Edge_index e) {
+    return std::sqrt(
+        CGAL::to_double(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)))));
   }
 
   static double mean_edge(const Mesh& mesh) {
     double sum = 0;
-    for (const auto e : mesh.edges())
-      sum += std::sqrt(
-          CGAL::to_double(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)))));
+    for (const auto e : mesh.edges()) sum += length(mesh, e);
     return sum / double(mesh.number_of_edges());
-  }
-
-  Edge_map kept_edges() {
-    return mesh_.template add_property_map<typename Mesh::Edge_index, bool>(name_of_edges, false).first;
   }
 
   void keep_sharp_edges(const Remesh_request& request) {

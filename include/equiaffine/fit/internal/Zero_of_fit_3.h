@@ -27,8 +27,8 @@ Eigen::Vector3d gradient_of(const Jet& jet) {
   return {CGAL::to_double(c[1]), CGAL::to_double(c[2]), CGAL::to_double(c[3])};
 }
 
-/// Finds the zero of a fit for a vertex with a normal, which need not have length 1, and edges of a mean length. It starts
-/// below or above the vertex where the fit has no derivatives at the vertex itself.
+/// Finds the zero of a fit for a vertex with a normal, which need not have length 1, and edges of a mean length. The
+/// search starts below or above the vertex where the fit has no derivatives at the vertex itself.
 template <class Fit>
 Zero_of_fit_3 zero_of_fit(const Fit& fit, const Eigen::Vector3d& vertex, const Eigen::Vector3d& normal, double edge) {
   using FT = typename Fit::FT;
@@ -36,7 +36,6 @@ Zero_of_fit_3 zero_of_fit(const Fit& fit, const Eigen::Vector3d& vertex, const E
   constexpr double reach = 0.75;       // of a zero, a part of the edges or of the distance of the data
   const auto is_known = [](const auto& jet) { return std::isfinite(CGAL::to_double(jet.value())); };
   typename Fit::Point_3 start(vertex[0], vertex[1], vertex[2]);
-  const double farthest = reach * std::max(edge, CGAL::to_double(fit.spacing(start)));
   auto jet = fit.first_order(start);
   if (!is_known(jet)) {
     start = fit.on_tangent_plane(start);
@@ -47,6 +46,7 @@ Zero_of_fit_3 zero_of_fit(const Fit& fit, const Eigen::Vector3d& vertex, const E
     return g.dot(normal) >= least_cosine * g.norm() * normal.norm();
   };
   if (!agrees(gradient_of(jet))) return {Fit_outcome::OTHER_SIDE};
+  const double farthest = reach * std::max(edge, CGAL::to_double(fit.spacing(start)));
   const auto zero = project_to_surface(fit, start, FT(farthest), jet);
   const Eigen::Vector3d move = coordinates_of(zero.point) - vertex;
   if (!zero.has_converged || !(move.norm() <= farthest)) return {Fit_outcome::NO_ZERO};

@@ -23,7 +23,7 @@ template <class Parameters>
 Remesh_request remesh_request(const Parameters& parameters) {
   const Remesh_request request = {
       get_parameter<Target_edge_length_tag>(parameters, std::optional<double>()),
-      get_parameter<Feature_angle_tag>(parameters, std::optional<double>()),
+      get_parameter<Feature_angle_tag>(parameters, std::optional<double>(60.)),
       get_parameter<Number_of_iterations_tag>(parameters, 3u),
   };
   check_argument(!request.edge_length || (*request.edge_length > 0 && std::isfinite(*request.edge_length)),
@@ -53,9 +53,10 @@ typename Whole_remesh_3<Kernel>::Mesh copy_to_remesh(const Mesh& mesh, const Par
 
 /// Replaces a mesh by its remesh, and gives the vertices their outcomes.
 template <class Kernel, class Mesh, class Outcomes, class Parameters>
-void replace_by_remesh(Mesh& mesh, const typename Whole_remesh_3<Kernel>::Mesh& remesh, const Outcomes& outcomes,
+void replace_by_remesh(Mesh& mesh, Whole_remesh_3<Kernel>& whole_remesh, const Outcomes& outcomes,
                        const Parameters& parameters) {
   using Remesh = typename Whole_remesh_3<Kernel>::Mesh;
+  const Remesh& remesh = whole_remesh.mesh();
   using Graph = boost::graph_traits<Mesh>;
   if constexpr (requires { mesh.clear_without_removing_property_maps(); }) mesh.clear_without_removing_property_maps();
   else CGAL::clear(mesh);
@@ -69,8 +70,7 @@ void replace_by_remesh(Mesh& mesh, const typename Whole_remesh_3<Kernel>::Mesh& 
     for (const auto& [from, to] : new_vertices)
       put(given_parameter<Vertex_outcome_tag>(parameters), to, get(outcomes, from));
   if constexpr (has_parameter<Edge_is_constrained_tag, Parameters>) {
-    const auto is_kept =
-        remesh.template property_map<typename Remesh::Edge_index, bool>(Whole_remesh_3<Kernel>::name_of_edges).first;
+    const auto is_kept = whole_remesh.kept_edges();
     for (const auto& [from, to] : new_halfedges)
       put(given_parameter<Edge_is_constrained_tag>(parameters), edge(to, mesh), is_kept[remesh.edge(from)]);
   }
