@@ -44,9 +44,10 @@ const std::vector<Option_row> rows = {
      }},
     {"--min-overlap", REGISTER, MAPS, 1, "PART",
      "the part of one of the surfaces, at least, that is to lie on the other, by default 0.05", read_least_overlap},
-    {"--tolerance", SYMMETRIES, MAPS, 1, "PART",
-     "the largest rms distance to which a symmetry may move points from the surface, a part of\n"
-     "its size: by default 1e-8 for a formula; a mesh has the first group within 0.01",
+    {"--tolerance", registering, MAPS, 1, "PART",
+     "the largest rms distance to which a map may move points from the other surface, a part of\n"
+     "the size; by default what noise and facets explain. A symmetry of a formula moves them by\n"
+     "1e-8, and a mesh has the first group of symmetries within 0.01",
      read_tolerance},
     {"--complete", SYMMETRIES, MAPS, 0, "",
      "search all rotations and reflections, as for a mesh, where a formula's frames of\n"

@@ -81,6 +81,7 @@ Register_options make_register_options(Option_reader& reader, Option_reader& tar
   options.maps = draft.maps;
   options.number_of_maps = draft.number_of_maps;
   options.least_overlap = draft.least_overlap;
+  options.tolerance = draft.tolerance;
   options.output = *draft.output;
   options.moved = draft.moved;
   options.display = draft.display;

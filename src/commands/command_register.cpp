@@ -55,7 +55,7 @@ void run_register(const Register_options& options, std::ostream& out, Progress& 
                                 found.maps_left_out,
                                 found.tried,
                                 {}};
-  if (!report.registration.found()) report.advice = what_to_try(options, report.registration.hypotheses > 0);
+  if (!report.registration.found()) report.advice = what_to_try(options, found);
 
   progress.begin("writing");
   if (options.moved && !report.registration.found()) outputs.files.pop_back();

@@ -5,7 +5,9 @@
 #include "output/maps.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/register_surfaces.h>
+#include <equiaffine/registration/contradictions_of_meshes.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/compute_average_spacing.h>
 #include <CGAL/tags.h>
 
@@ -13,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -29,18 +32,23 @@ constexpr double accepted_log10 = -6;
 /// The scales of the two fits.
 using Scales = std::array<double, 2>;
 
-auto parameters_of(const Register_options& options) {
-  return parameters::map_kind(options.maps.kind)
-      .reflections(options.maps.allows_reflections)
-      .number_of_maps(options.number_of_maps.value_or(1))
-      .least_overlap(options.least_overlap);
+/// Calls a search with the named parameters of a request.
+template <class Search>
+Surface_registration_3<Kernel> with_parameters(const Register_options& options, const Search& search) {
+  const auto parameters = parameters::map_kind(options.maps.kind)
+                              .reflections(options.maps.allows_reflections)
+                              .number_of_maps(options.number_of_maps.value_or(1))
+                              .least_overlap(options.least_overlap);
+  return options.tolerance ? search(parameters.tolerance(*options.tolerance)) : search(parameters);
 }
 
 Surface_registration_3<Kernel> register_with(const Register_options& options, const Surface_to_register& source,
                                              const Surface_to_register& target) {
-  const auto parameters = parameters_of(options).refined_functions(
-      std::pair<const Level_set_of_source&, const Level_set_of_source&>(source.refined(), target.refined()));
-  return register_surfaces<Tag>(source.function, source.mesh.points, target.function, target.mesh.points, parameters);
+  const std::pair<const Level_set_of_source&, const Level_set_of_source&> refined(source.refined(), target.refined());
+  return with_parameters(options, [&](const auto& parameters) {
+    return register_surfaces<Tag>(source.function, source.mesh.points, target.function, target.mesh.points,
+                                  parameters.refined_functions(refined));
+  });
 }
 
 /// Whether the data choose the scale, and a file can be read again to try another one.
@@ -56,8 +64,20 @@ double spacing_of(const Source_options& source, const Surface_to_register& surfa
   return CGAL::compute_average_spacing<Tag>(points, 6);
 }
 
-/// The scale that one side has; else those from ten spacings on: the same length on both sides, since maps of scans
-/// mostly keep sizes, and each side's own multiple where points are not as dense.
+/// Half of the diagonal of the smaller box around the points of two surfaces.
+double greatest_scale(const Found_map& found) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto* surface : {&found.source, &found.target}) {
+    CGAL::Bbox_3 box;
+    for (const auto& p : surface->mesh.points) box += p.bbox();
+    least = std::min(least, std::hypot(box.x_span(), box.y_span(), box.z_span()) / 2);
+  }
+  return least;
+}
+
+/// The scale that one side has; else those from ten spacings on, while they are smaller than the surfaces: the same
+/// length on both sides, since maps of scans mostly keep sizes, and each side's own multiple where points are not as
+/// dense.
 std::vector<Scales> scales_to_try(const Register_options& options, const Found_map& first) {
   for (const Surface_options* side : {&options.source, &options.target})
     if (const auto& given = side->source.fit.scale; given && *given > 0) return {{*given, *given}};
@@ -66,11 +86,13 @@ std::vector<Scales> scales_to_try(const Register_options& options, const Found_m
   if (options.source.source.kind != Source_kind::FIT) spacings[0] = spacings[1];
   if (options.target.source.kind != Source_kind::FIT) spacings[1] = spacings[0];
   const double ratio = spacings[0] / spacings[1], greater = std::max(spacings[0], spacings[1]);
+  const double greatest = greatest_scale(first);
   std::vector<Scales> scales;
   for (const double multiple : {10., 14., 7., 20.}) {
     scales.push_back({multiple * greater, multiple * greater});
     if (std::max(ratio, 1 / ratio) > same) scales.push_back({multiple * spacings[0], multiple * spacings[1]});
   }
+  std::erase_if(scales, [=](const Scales& pair) { return std::max(pair[0], pair[1]) > greatest; });
   return scales;
 }
 
@@ -138,10 +160,32 @@ std::size_t number_of_matched_parts(const Found_map& found, const Registered_map
   return parts;
 }
 
+/// Whether the triangles of files are both surfaces.
+bool are_meshes(const Register_options& options, const Found_map& found) {
+  return is_mesh_itself(options.source) && is_mesh_itself(options.target) && !found.source.mesh.triangles.empty() &&
+         !found.target.mesh.triangles.empty();
+}
+
+/// Leaves out maps between closed meshes by which a large part of one is off the other: frames along one edge make many
+/// points agree.
+void judge_by_triangles(Found_map& found) {
+  constexpr double most_contradictions = 0.1, deviations = 3;
+  const auto &source = found.source.mesh, &target = found.target.mesh;
+  std::erase_if(found.registration.maps, [&](auto& map) {
+    const auto there = moved(source, map.map);
+    const auto [parts, are_closed] =
+        contradictions_of_meshes(there.points, there.triangles, target.points, target.triangles, deviations * map.rms);
+    map.contradictions = parts;
+    const bool is_left_out = are_closed && *std::max_element(parts.begin(), parts.end()) > most_contradictions;
+    found.maps_left_out += is_left_out;
+    return is_left_out;
+  });
+}
+
 /// Leaves out maps between fits at scales by which too few parts agree, and those that do not carry one scale to the
 /// other if they were tried, since curvatures at different scales are not the same quantity. Makes the odds those of
 /// all attempts together, and leaves out what is no better than chance then.
-void judge(std::size_t attempts, bool are_scales_tried, Found_map& found) {
+void judge_by_scales(std::size_t attempts, bool are_scales_tried, Found_map& found) {
   constexpr std::size_t fewest_parts = 6;
   constexpr double greatest_factor = 2; // of the volume
   const bool are_at_scale = found.source.scale && found.target.scale;
@@ -168,7 +212,8 @@ Found_map find_by_frames(const Register_options& options, Progress& progress) {
   const auto look = [&](Found_map& found, bool are_scales_tried) {
     progress.begin("looking for the map");
     found.registration = register_with(options, found.source, found.target);
-    judge(++attempts, are_scales_tried, found);
+    judge_by_scales(++attempts, are_scales_tried, found);
+    if (are_meshes(options, found)) judge_by_triangles(found);
     found.registration.hypotheses += std::exchange(hypotheses, found.registration.hypotheses + hypotheses);
     return found.registration.found();
   };
@@ -193,11 +238,10 @@ Found_map find_by_frames(const Register_options& options, Progress& progress) {
 /// Compares the triangles of two meshes as wholes and, for maps that keep angles, piece by piece.
 void compare_triangles(const Register_options& options, Found_map& found, Progress& progress) {
   const auto &source = found.source.mesh, &target = found.target.mesh;
-  if (!is_mesh_itself(options.source) || !is_mesh_itself(options.target)) return;
-  if (source.triangles.empty() || target.triangles.empty()) return;
   progress.begin("comparing the triangles");
-  auto by_triangles =
-      register_surfaces<Tag>(source.points, source.triangles, target.points, target.triangles, parameters_of(options));
+  auto by_triangles = with_parameters(options, [&](const auto& parameters) {
+    return register_surfaces<Tag>(source.points, source.triangles, target.points, target.triangles, parameters);
+  });
   by_triangles.hypotheses += found.registration.hypotheses;
   found.is_by_triangles = by_triangles.found();
   if (by_triangles.found()) {
@@ -212,7 +256,7 @@ void compare_triangles(const Register_options& options, Found_map& found, Progre
 
 Found_map find_map(const Register_options& options, Progress& progress) {
   Found_map found = find_by_frames(options, progress);
-  if (!found.registration.found()) compare_triangles(options, found, progress);
+  if (!found.registration.found() && are_meshes(options, found)) compare_triangles(options, found, progress);
   return found;
 }
 

@@ -21,6 +21,15 @@ void add_for_derivatives(std::initializer_list<const Surface_options*> surfaces,
   if (has_samples) advice.emplace_back("--smoothing auto for the volume");
 }
 
+/// Whether both are meshes with too few points for any scale.
+bool lacks_curvature(const Register_options& options, const Found_map& found) {
+  const auto lacks = [](const Surface_options& options_of_side, const Surface_to_register& side) {
+    const bool has_scale = options_of_side.source.fit.scale || side.scale;
+    return is_fit(options_of_side) && !has_scale && !side.mesh.triangles.empty();
+  };
+  return lacks(options.source, found.source) && lacks(options.target, found.target) && found.tried.empty();
+}
+
 void add_for_scales(const Surface_options& source, const Surface_options& target, std::vector<std::string>& advice) {
   const auto &scale = source.source.fit.scale, &other = target.source.fit.scale;
   if (is_fit(source) && is_fit(target))
@@ -30,21 +39,36 @@ void add_for_scales(const Surface_options& source, const Surface_options& target
     advice.emplace_back((is_fit(source) ? scale : other) ? "a larger --scale" : "--scale R for the fit");
 }
 
+void add_for_reflections(const Map_options& maps, std::vector<std::string>& advice) {
+  if (!maps.allows_reflections) advice.emplace_back("the command without --no-reflection");
+}
+
 void add_for_kind(const Map_options& maps, std::vector<std::string>& advice) {
   if (maps.kind != Map_kind::AFFINE) advice.emplace_back("--kind affine, which allows all maps");
-  if (!maps.allows_reflections) advice.emplace_back("the command without --no-reflection");
+  add_for_reflections(maps, advice);
+}
+
+/// Pieces of meshes without curvature are matched by maps that keep angles only.
+void add_for_kind_without_curvature(const Map_options& maps, std::vector<std::string>& advice) {
+  if (maps.kind == Map_kind::RIGID) advice.emplace_back("--kind similarity, which allows other sizes");
+  if (!keeps_angles(maps.kind)) advice.emplace_back("--kind similarity, which needs no curvature");
+  add_for_reflections(maps, advice);
 }
 
 } // namespace
 
-std::vector<std::string> what_to_try(const Register_options& options, bool has_hypotheses) {
+std::vector<std::string> what_to_try(const Register_options& options, const Found_map& found) {
   std::vector<std::string> advice;
-  add_for_scales(options.source, options.target, advice);
-  add_for_derivatives({&options.source, &options.target}, advice);
-  add_for_kind(options.maps, advice);
-  if (!has_hypotheses && !keeps_angles(options.maps.kind))
-    advice.emplace_back("--kind similarity, whose frames need fewer derivatives and exist on quadrics, too");
-  if (has_hypotheses && options.least_overlap > Register_options().least_overlap)
+  if (lacks_curvature(options, found)) {
+    add_for_kind_without_curvature(options.maps, advice);
+  } else {
+    add_for_scales(options.source, options.target, advice);
+    add_for_derivatives({&options.source, &options.target}, advice);
+    add_for_kind(options.maps, advice);
+    if (found.registration.hypotheses == 0 && !keeps_angles(options.maps.kind))
+      advice.emplace_back("--kind similarity, whose frames need fewer derivatives and exist on quadrics, too");
+  }
+  if (found.registration.hypotheses > 0 && options.least_overlap > Register_options().least_overlap)
     advice.emplace_back("a smaller --min-overlap");
   advice.emplace_back("surfaces that have more in common");
   return advice;

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_SRC_COMMANDS_WHAT_TO_TRY_H
 #define EQUIAFFINE_SRC_COMMANDS_WHAT_TO_TRY_H
 
+#include "commands/find_map.h"
 #include "output/maps.h"
 #include "request/options.h"
 
@@ -10,9 +11,8 @@
 
 namespace equiaffine {
 
-/// What may find a map where none was found, the most promising first. `has_hypotheses` says whether frames of points
-/// agreed at all.
-std::vector<std::string> what_to_try(const Register_options& options, bool has_hypotheses);
+/// Returns what may find a map where none was found, the most promising first.
+std::vector<std::string> what_to_try(const Register_options& options, const Found_map& found);
 
 /// Returns what may find symmetries where only the identity was found, or nothing was decided.
 std::vector<std::string> what_to_try(const Symmetries_options& options, const Symmetries& found);

@@ -28,6 +28,8 @@ void add(const Registered_map_3<Kernel>& map, Json& json) {
   json["log10_false_alarms"] = map.log10_false_alarms;
   json["inliers"] = map.inliers;
   json["rms"] = map.rms;
+  json["contradictions"] = nullptr;
+  if (map.contradictions) json["contradictions"] = *map.contradictions;
 }
 
 Json to_JSON(const Affine_slippage_3& slippage) {
@@ -43,11 +45,10 @@ Json to_JSON(const Affine_slippage_3& slippage) {
   return json;
 }
 
-/// A power of ten such as "10^-151".
+/// A power of ten such as "10^-151", but none that only says how many points there are.
 std::string power_of_ten(double logarithm) {
-  std::ostringstream text;
-  text << "10^" << std::lround(logarithm);
-  return text.str();
+  constexpr double least = -300;
+  return logarithm < least ? "less than 10^-300" : "10^" + std::to_string(std::lround(logarithm));
 }
 
 /// "; try this, or that"
@@ -119,6 +120,26 @@ std::string overlap_text(const Registered_map_3<Kernel>& map) {
          std::to_string(std::lround(100 * map.inliers[1])) + " % of the target";
 }
 
+std::string contradictions_text(const Registered_map_3<Kernel>& map) {
+  constexpr double least = 1e-3; // more than a few of thousands of points
+  if (!map.contradictions || std::max(map.contradictions->at(0), map.contradictions->at(1)) < least) return "";
+  std::ostringstream text;
+  text.precision(2);
+  text << ", off it although it does not end there: " << 100 * map.contradictions->at(0) << " % of the source, "
+       << 100 * map.contradictions->at(1) << " % of the target";
+  return text.str();
+}
+
+std::string rms_text(const Surface_registration_3<Kernel>& registration) {
+  const double rms = registration.best().rms;
+  std::ostringstream text;
+  text.precision(3);
+  text << rms;
+  text.precision(2);
+  if (registration.size > 0) text << ", " << 100 * rms / registration.size << " % of the size";
+  return text.str();
+}
+
 std::string odds_text(const Registered_map_3<Kernel>& map) {
   return "as good a one is expected " + power_of_ten(map.log10_false_alarms) + " times by chance";
 }
@@ -126,11 +147,11 @@ std::string odds_text(const Registered_map_3<Kernel>& map) {
 std::string reason_for_none(const Registration_report& report) {
   const std::size_t n = report.registration.hypotheses;
   const std::string& reason = report.registration.reason;
-  const std::string of_triangles = reason.empty() ? "" : "; without curvature, " + reason;
+  const std::string of_triangles = reason.empty() ? "" : "; by the triangles without curvature, " + reason;
   if (n == 0) return "no map found: no points of the two have frames that agree" + of_triangles;
   std::string scales;
-  for (const std::string& scale : report.scales)
-    scales += (scales.empty() ? " at the scales chosen by the data, " : ", ") + scale;
+  for (const std::string& scale : report.scales) scales += (scales.empty() ? " (at the scales " : "; ") + scale;
+  if (!scales.empty()) scales += ')';
   return "no map found: " + (n == 1 ? "the only hypothesis is no" : "none of " + std::to_string(n) + " hypotheses is") +
          " better than chance" + (report.maps_left_out > 0 ? " for more than a small part" : "") + scales +
          of_triangles;
@@ -170,6 +191,7 @@ std::string to_JSON(const Registration_report& report) {
   json["matched_by"] = report.is_by_triangles ? "triangles" : "frames";
   add(registration.best(), json);
   json["hypotheses"] = registration.hypotheses;
+  json["size"] = registration.size;
   json["next_best_rms"] = nullptr;
   if (registration.next_best_rms) json["next_best_rms"] = *registration.next_best_rms;
   json["slippage"] = to_JSON(registration.slippage);
@@ -210,7 +232,8 @@ std::string summary(const Registration_report& report) {
     const auto& best = registration.best();
     text.precision(3);
     text << "map found, determinant " << determinant_of(best.map) << ": " << odds_text(best) << '\n';
-    text << "on the other surface: " << overlap_text(best) << ", rms distance " << best.rms << '\n';
+    text << "on the other surface: " << overlap_text(best) << contradictions_text(best) << '\n';
+    text << "rms distance " << rms_text(registration) << '\n';
     text << registration.hypotheses << (registration.hypotheses == 1 ? " hypothesis" : " hypotheses");
     if (report.is_by_triangles) text << ", the last ones by the triangles without curvature";
     else if (!report.scales.empty()) text << ", the last ones at scale " << report.scales.back();

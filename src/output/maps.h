@@ -17,7 +17,8 @@ struct Registration_report {
   Surface_registration_3<Kernel> registration;
   bool has_all_maps = false;       ///< whether all maps were asked for
   bool is_by_triangles = false;    ///< whether triangles without their curvature gave the map
-  std::size_t maps_left_out = 0;   ///< by which too small a part agrees, or with another ratio of sizes than of scales
+  std::size_t maps_left_out = 0;   ///< by which too small a part agrees, with another ratio of sizes than of scales, or
+                                   ///< with large contradictions between closed meshes
   std::vector<std::string> scales; ///< of the fits that were tried one after the other, the last one with success
   std::vector<std::string> advice; ///< what to try if no map was found
 };
@@ -36,6 +37,13 @@ double determinant_of(const CGAL::Aff_transformation_3<Kernel>& map);
 
 /// "97 % of the source, 37 % of the target"
 std::string overlap_text(const Registered_map_3<Kernel>& map);
+
+/// ", off it although it does not end there: 17 % of the source, 50 % of the target"; nothing if there is hardly
+/// such a part, or if it is not known.
+std::string contradictions_text(const Registered_map_3<Kernel>& map);
+
+/// "0.000119, 0.03 % of the size"
+std::string rms_text(const Surface_registration_3<Kernel>& registration);
 
 /// "as good a one is expected 10^-196 times by chance"
 std::string odds_text(const Registered_map_3<Kernel>& map);

@@ -75,8 +75,8 @@ Description description_of(const Registration_report& report, const Display_opti
     const auto& best = report.registration.best();
     description.emplace_back("Map", "found");
     description.emplace_back("Determinant", number_text(determinant_of(best.map), 3));
-    description.emplace_back("On the other surface", overlap_text(best));
-    description.emplace_back("Rms distance", number_text(best.rms, 3));
+    description.emplace_back("On the other surface", overlap_text(best) + contradictions_text(best));
+    description.emplace_back("Rms distance", rms_text(report.registration));
     if (const auto& next = report.registration.next_best_rms)
       description.emplace_back("Rms distance of the next best", number_text(*next, 3));
     description.emplace_back("Odds", odds_text(best));
@@ -95,7 +95,8 @@ std::vector<Surface_note> notes_of(const Registration_report& report, const Disp
   } else {
     const auto& best = report.registration.best();
     add_text("determinant " + number_text(determinant_of(best.map), 3) + ": " + odds_text(best), notes);
-    add_text("on the other surface: " + overlap_text(best) + ", rms distance " + number_text(best.rms, 3), notes);
+    add_text("on the other surface: " + overlap_text(best) + contradictions_text(best), notes);
+    add_text("rms distance " + rms_text(report.registration), notes);
   }
   if (!shows_surfaces(options)) {
     add_text("colors are " + text_of_distances, notes);

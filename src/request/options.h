@@ -155,6 +155,7 @@ struct Register_options {
   Map_options maps;
   std::optional<std::size_t> number_of_maps; ///< if all maps were asked for, up to this number
   double least_overlap = 0.05;               ///< a part of a surface
+  std::optional<double> tolerance;           ///< a part of the size of the target; if there is none, the data decide
   std::string output;
   std::optional<std::string> moved;
   Display_options display;

@@ -2,6 +2,7 @@
 #include "source/read_vertices.h"
 
 #include "source/Polygon_soup.h"
+#include <equiaffine/surface/triangles_of_polygon.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -36,8 +37,7 @@ Point_table_3<Kernel> read_foreign_vertices(const std::string& path) {
     if (std::any_of(face.begin(), face.end(), [&](std::size_t v) { return v >= soup.points.size(); }))
       fail(path, "face " + std::to_string(f) + " has a vertex that the file does not have",
            "get the complete file again");
-    for (std::size_t i = 2; i < face.size(); ++i)
-      table.mesh.triangles.push_back({std::uint32_t(face[0]), std::uint32_t(face[i - 1]), std::uint32_t(face[i])});
+    add_triangles_of_polygon(soup.points, {face.begin(), face.end()}, table.mesh.triangles);
   }
   table.mesh.points = std::move(soup.points);
   return table;

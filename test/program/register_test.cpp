@@ -203,7 +203,25 @@ TEST_F(Program_register, boxes_have_no_curvature_and_are_found_by_their_triangle
   EXPECT_EQ(found["inliers"], (Json{1., 1.}));
   for (const double distance : column(mesh("moved.ply"), "distance")) EXPECT_LT(distance, 1e-12);
   EXPECT_EQ(registered({"box.off"}, {"other.off"}, {"--kind", "rigid"})["found"], false);
-  EXPECT_EQ(registered(surface, image)["matched_by"], "frames");
+  const Json frames = registered(surface, image);
+  EXPECT_EQ(frames["matched_by"], "frames");
+  EXPECT_TRUE(frames["contradictions"].is_null());
+  EXPECT_EQ(found["contradictions"], (Json{0, 0}));
+  EXPECT_LT(double(found["rms"]), 1e-9 * double(found["size"]));
+}
+
+TEST_F(Program_register, how_equal_surfaces_are_to_be_is_up_to_the_user) {
+  const std::string faces = "4 0 3 2 1\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n4 4 5 6 7\n";
+  write_file(folder_ / "box.off", "OFF\n8 6 0\n0 0 0\n3 0 0\n3 2 0\n0 2 0\n0 0 1\n3 0 1\n3 2 1\n0 2 1\n" + faces);
+  write_file(folder_ / "higher.off",
+             "OFF\n8 6 0\n0 0 0\n3 0 0\n3 2 0\n0 2 0\n0 0 1.01\n3 0 1.01\n3 2 1.01\n0 2 1.01\n" + faces);
+  EXPECT_EQ(registered({"box.off"}, {"higher.off"}, {"--kind", "rigid"})["found"], false);
+  const std::string text =
+      run_well({"register", "box.off", "to", "higher.off", "-o", "map.json", "--kind", "rigid", "--tolerance", "0.01"});
+  EXPECT_NE(text.find(" % of the size\n"), std::string::npos) << text;
+  const Json found = Json::parse(file("map.json"));
+  EXPECT_GT(double(found["rms"]), 1e-4 * double(found["size"]));
+  EXPECT_LT(double(found["rms"]), 1e-2 * double(found["size"]));
 }
 
 TEST_F(Program_register, a_search_of_all_rotations_says_how_far_it_went) {

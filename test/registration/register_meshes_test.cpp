@@ -5,6 +5,7 @@
 #include "support/solids.h"
 #include <equiaffine/is_affinely_equivalent.h>
 #include <equiaffine/register_surfaces.h>
+#include <equiaffine/registration/contradictions_of_meshes.h>
 
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/generators.h>
@@ -13,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -84,6 +86,75 @@ TEST(Register_meshes, another_triangulation_is_the_same_surface) {
   const auto found = registered(source, moved(target, map), parameters::map_kind(Map_kind::RIGID));
   ASSERT_TRUE(found.found()) << found.reason;
   EXPECT_LT(found.best().rms, 1e-6);
+}
+
+TEST(Register_meshes, polygons_may_begin_at_any_corner) {
+  const Solid source = L(.8);
+  Random random(2);
+  const Map map = map_of(random_rotation(random), Eigen::Vector3d(1, 2, 3));
+  for (std::ptrdiff_t first = 0; first < 6; ++first) {
+    Solid target = moved(source, map);
+    for (auto& polygon : target.polygons)
+      std::rotate(polygon.begin(), polygon.begin() + first % std::ptrdiff_t(polygon.size()), polygon.end());
+    const auto found = registered(source, target, parameters::map_kind(Map_kind::RIGID));
+    ASSERT_TRUE(found.found()) << first << ": " << found.reason;
+    EXPECT_LT(found.best().rms, 1e-9) << first;
+    EXPECT_EQ(*found.best().contradictions, (std::array{0., 0.})) << first;
+  }
+}
+
+TEST(Register_meshes, small_units_are_as_good_as_large_ones) {
+  const Map smaller = map_of(1e-9 * Eigen::Matrix3d::Identity(), Eigen::Vector3d(1, 2, 3) * 1e-9);
+  const Solid tiny = moved(L(.8), smaller);
+  const auto rigid = parameters::map_kind(Map_kind::RIGID);
+  const auto found = registered(tiny, tiny, rigid);
+  ASSERT_TRUE(found.found()) << found.reason;
+  EXPECT_LT(found.best().rms / found.size, 1e-9);
+  for (const auto& [source, target] : {std::pair(tiny, box(1, 2, 3)), {box(1, 2, 3), tiny}}) {
+    const auto none = registered(source, target, rigid);
+    EXPECT_FALSE(none.found());
+    EXPECT_NE(none.reason.find("50 times as large"), std::string::npos) << none.reason;
+  }
+}
+
+TEST(Register_meshes, small_differences_of_planes_are_seen_unless_they_are_tolerated) {
+  const auto rigid = parameters::map_kind(Map_kind::RIGID);
+  for (const double difference : {.001, .005})
+    EXPECT_FALSE(registered(box(1, .7, .4), box(1, .7, .4 + difference), rigid).found()) << difference;
+  const auto found = registered(box(1, .7, .4), box(1, .7, .405), rigid.tolerance(.01));
+  ASSERT_TRUE(found.found());
+  EXPECT_GT(found.best().rms / found.size, 1e-4);
+  EXPECT_LT(found.best().rms / found.size, .01);
+}
+
+TEST(Register_meshes, the_least_overlap_does_not_change_what_lies_on_the_other_surface) {
+  const auto rigid = parameters::map_kind(Map_kind::RIGID);
+  const auto few = registered(box(1, .7, .4), box(1, .7, .4), rigid.least_overlap(0)),
+             all = registered(box(1, .7, .4), box(1, .7, .4), rigid.least_overlap(1));
+  ASSERT_TRUE(few.found() && all.found());
+  EXPECT_EQ(few.best().inliers, all.best().inliers);
+  EXPECT_EQ(few.best().inliers[0], 1);
+}
+
+TEST(Register_meshes, points_of_vertices_may_be_anywhere) {
+  using Mesh = CGAL::Surface_mesh<Point_3>;
+  Mesh source, target;
+  CGAL::make_hexahedron(Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(1, 2, 0), Point_3(0, 2, 0), Point_3(0, 2, 3),
+                        Point_3(0, 0, 3), Point_3(1, 0, 3), Point_3(1, 2, 3), source);
+  target = source;
+  const auto place = target.add_property_map<Mesh::Vertex_index, Point_3>("v:place").first;
+  for (const auto v : target.vertices()) {
+    place[v] = target.point(v) + Vector_3(5, 6, 7);
+    target.point(v) = CGAL::ORIGIN;
+  }
+  const auto rigid = parameters::map_kind(Map_kind::RIGID);
+  const auto there = register_surfaces(source, target, rigid, parameters::vertex_point_map(place));
+  ASSERT_TRUE(there.found()) << there.reason;
+  const Point_3 center(.5, 1, 1.5);
+  EXPECT_LT(CGAL::squared_distance(there.best().map(center), center + Vector_3(5, 6, 7)), 1e-18);
+  const auto back = register_surfaces(target, source, rigid.vertex_point_map(place));
+  ASSERT_TRUE(back.found()) << back.reason;
+  EXPECT_LT(CGAL::squared_distance(back.best().map(center + Vector_3(5, 6, 7)), center), 1e-18);
 }
 
 TEST(Register_meshes, reflections_and_sizes_are_as_asked_for) {
@@ -162,7 +233,8 @@ TEST(Register_pieces, a_piece_is_found_in_the_whole) {
        {std::pair(Map_kind::RIGID, turn), {Map_kind::RIGID, reflection}, {Map_kind::SIMILARITY, similarity}}) {
     const auto found = registered(piece, moved(wedge(), map), parameters::map_kind(kind));
     ASSERT_TRUE(found.found()) << found.reason;
-    EXPECT_LT(greatest_distance(found.best().map, map, wedge()), 1e-6);
+    EXPECT_LT(greatest_distance(found.best().map, map, wedge()), 1e-9);
+    EXPECT_LT(found.best().rms, 1e-9);
     EXPECT_GT(found.best().inliers[0], .99);
     EXPECT_LT(found.best().inliers[1], .8);
     EXPECT_LT(found.best().log10_false_alarms, -30);
@@ -178,7 +250,7 @@ TEST(Register_pieces, two_pieces_are_joined) {
   const Solid source = clipped(wedge(), oblique, .7), target = clipped(wedge(), -oblique, -.15);
   const auto found = registered(source, moved(target, map), parameters::map_kind(Map_kind::RIGID));
   ASSERT_TRUE(found.found()) << found.reason;
-  EXPECT_LT(greatest_distance(found.best().map, map, wedge()), 1e-6);
+  EXPECT_LT(greatest_distance(found.best().map, map, wedge()), 1e-9);
   EXPECT_LT(found.best().inliers[0], .95);
   EXPECT_LT(found.best().inliers[1], .95);
 }
@@ -192,6 +264,54 @@ TEST(Register_pieces, those_of_other_solids_contradict_every_map) {
     EXPECT_FALSE(found.found());
     EXPECT_FALSE(found.reason.empty());
   }
+}
+
+/// Two solids in one, side by side or one on the other.
+Solid joined(Solid a, const Solid& b) {
+  for (auto polygon : b.polygons) {
+    for (std::size_t& corner : polygon) corner += a.points.size();
+    a.polygons.push_back(polygon);
+  }
+  a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+  return a;
+}
+
+TEST(Register_pieces, where_solids_differ_is_told) {
+  const Map above = map_of(Eigen::Matrix3d::Identity(), Eigen::Vector3d(.3, -.2, .4));
+  const Solid plate = L(.8), plate_with_boss = joined(plate, moved(box(.05, .06, .04), above));
+  const auto found = registered(plate, plate_with_boss, parameters::map_kind(Map_kind::RIGID));
+  ASSERT_TRUE(found.found()) << found.reason;
+  EXPECT_EQ(found.best().contradictions->at(0), 0);
+  EXPECT_GT(found.best().contradictions->at(1), .001);
+  EXPECT_LT(found.best().contradictions->at(1), .02);
+}
+
+TEST(Register_pieces, the_next_best_map_is_known_whether_one_or_all_are_asked_for) {
+  const Solid whole = box(1, .7, .4), piece = clipped(whole, oblique, .9);
+  const auto rigid = parameters::map_kind(Map_kind::RIGID);
+  const auto one = registered(piece, whole, rigid), all = registered(piece, whole, rigid.number_of_maps(20));
+  ASSERT_EQ(one.maps.size(), 1u) << one.reason;
+  EXPECT_EQ(all.maps.size(), 8u) << "a box has eight symmetries";
+  ASSERT_TRUE(one.next_best_rms);
+  EXPECT_LT(*one.next_best_rms, 1e-9);
+}
+
+TEST(Contradictions_of_meshes, they_are_the_parts_off_a_surface_that_goes_on) {
+  const Solid low = prism(regular(60), 1), high = prism(regular(60), 2);
+  const auto distance = 1e-3;
+  const auto closed = contradictions_of_meshes(low.points, low.polygons, high.points, high.polygons, distance);
+  EXPECT_TRUE(closed.are_closed);
+  EXPECT_NEAR(closed.parts[0], .25, .01); // one of two caps with the area pi, beside a side of 2 pi
+  EXPECT_NEAR(closed.parts[1], .5, .01);  // half of the side, and the cap
+  Solid open = low;
+  open.polygons.pop_back(), open.polygons.pop_back();
+  const auto tube = contradictions_of_meshes(open.points, open.polygons, high.points, high.polygons, distance);
+  EXPECT_FALSE(tube.are_closed);
+  EXPECT_EQ(tube.parts[0], 0);
+  EXPECT_LT(tube.parts[1], .01);
+  for (auto& polygon : open.polygons) std::reverse(polygon.begin(), polygon.end());
+  const auto inside_out = contradictions_of_meshes(open.points, open.polygons, high.points, high.polygons, distance);
+  EXPECT_EQ(inside_out.parts, tube.parts);
 }
 
 TEST(Register_pieces, what_slides_is_not_decided) {

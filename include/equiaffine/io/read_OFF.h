@@ -3,9 +3,9 @@
 #define EQUIAFFINE_IO_READ_OFF_H
 
 #include <equiaffine/io/internal/Off_scanner.h>
-#include <equiaffine/io/internal/add_face.h>
 #include <equiaffine/io/internal/text_input.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/surface/triangles_of_polygon.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace equiaffine {
 
-/// Reads OFF as text, a line for each vertex and face: points and faces, the latter as fans of triangles. Normals and
+/// Reads OFF as text, a line for each vertex and face: points and faces, the latter cut into triangles. Normals and
 /// colors are left out. `name` stands for the file in messages. Throws `Input_error` for what is not a complete file.
 template <class Kernel>
 Indexed_triangle_mesh_3<Kernel> read_OFF(std::istream& stream, const std::string& name) {
@@ -32,7 +32,7 @@ Indexed_triangle_mesh_3<Kernel> read_OFF(std::istream& stream, const std::string
   std::vector<std::uint32_t> face;
   for (std::size_t f = 0; f < faces; ++f) {
     scanner.read_face(vertices, face);
-    internal::add_face(mesh, face);
+    add_triangles_of_polygon(mesh.points, face, mesh.triangles);
   }
   return mesh;
 }

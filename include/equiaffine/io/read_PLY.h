@@ -15,7 +15,7 @@
 namespace equiaffine {
 
 /// Reads PLY (text or binary): the points, every other scalar property of the vertices as a column, `uchar status` as
-/// the status, the comments, and the faces, if any, as fans of triangles. Lists at vertices and other elements are left
+/// the status, the comments, and the faces, if any, cut into triangles. Lists at vertices and other elements are left
 /// out. `name` stands for the file in messages. Throws `Input_error` for what is not a complete PLY file.
 template <class Kernel>
 Annotated_mesh_3<Kernel> read_PLY(std::istream& stream, const std::string& name) {

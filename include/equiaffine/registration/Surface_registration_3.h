@@ -32,6 +32,9 @@ struct Registered_map_3 {
   double rms; ///< the root of the mean squared distance of these points, in the unit of the target
   /// None if the map is one of a continuous family, or of whole surfaces or pieces that were matched without curvature.
   std::optional<Pair_of_frames_3<Kernel>> pair;
+  /// The parts of the points of the source, and of the target, that lie off the other surface although that does not end
+  /// there, for maps between meshes: they speak against the map, or tell where the surfaces differ.
+  std::optional<std::array<double, 2>> contradictions = {};
 };
 
 /// The result of `register_surfaces`.
@@ -39,6 +42,7 @@ template <class Kernel>
 struct Surface_registration_3 {
   std::vector<Registered_map_3<Kernel>> maps; ///< the best first; empty if there is no evidence for any
   std::size_t hypotheses = 0;                 ///< the number of maps that were tried
+  double size = 0;                            ///< of the target: the rms distance of its points from their centroid
   std::optional<double> next_best_rms;        ///< of the best map that is not the first one of `maps`, if there was one
   /// How the source slips over itself by maps of the kind. If the dimension is not 0, each of `maps` represents a
   /// continuous family.

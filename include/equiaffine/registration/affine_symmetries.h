@@ -47,7 +47,7 @@ Affine_symmetries_3<Kernel_of<Traits>> affine_symmetries(const Traits& traits, c
   return internal::symmetries_of<ConcurrencyTag>(traits, points, parameters);
 }
 
-/// The same for the triangles of a mesh, by all rotations; other faces count as fans of triangles. Without a
+/// The same for the triangles of a mesh, by all rotations; other faces are cut into triangles. Without a
 /// `tolerance` the order is that of the first level within 1 % of the size, less for thin surfaces; the verdict is
 /// EXACT to within the distance between the triangles and the smooth surface that they stand for. Affine maps of a mesh
 /// that bounds no solid are undecided. Named parameters: `map_kind`, `reflections`, `tolerance`, `vertex_point_map`.

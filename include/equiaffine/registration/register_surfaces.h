@@ -61,22 +61,27 @@ Surface_registration_3<Kernel_of<Target>> register_surfaces(const Source& source
 /// If the whole surfaces are equal, the map keeps the centroid of the area, and an affine one the moments of the solid
 /// inside, so that all rotations and reflections about the centroid are searched by branch and bound. Else pieces are
 /// matched by similarities: two points with their normals give a frame, pairs of points with about the same distance and
-/// angles are tried, and a map is accepted if the points in contact leave it no freedom, hardly any point of one surface
-/// lies over an empty part of the other, and fewer than 1e-6 as good maps are expected by chance. The `tolerance` is the
-/// rms distance of surfaces that are equal, a part of the size, by default 0.3 % or what facets explain.
+/// angles are tried, and a map is accepted if the points in contact leave it no freedom, at most 2 % of the points of
+/// one surface lie off the other although that does not end there (`contradictions`), and fewer than 1e-6 as good maps
+/// are expected by chance. The `tolerance` is the rms distance of surfaces that are equal, a part of the size; by default
+/// it is what facets explain, 0.3 % to 1 %, and 2e-5 for solids of planes, which have no other facets.
 ///
-/// Takes 1 to 20 s on one core. Named parameters: `map_kind`, `reflections`, `number_of_maps`, `least_overlap`,
-/// `tolerance`.
+/// Takes some 5 to 40 s on one core if the wholes are not equal. Named parameters: `map_kind`, `reflections`,
+/// `number_of_maps`, `least_overlap`, `tolerance`, and `vertex_point_map` for the source; `target_parameters` has
+/// `vertex_point_map` for the target.
 /// \throw std::invalid_argument if a coordinate is not finite, a mesh has no faces, or a parameter makes no sense.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Source, Face_graph Target,
-          class Parameters = internal::No_parameters>
-auto register_surfaces(const Source& source, const Target& target, const Parameters& parameters = {}) {
+          class Parameters = internal::No_parameters, class Target_parameters = internal::No_parameters>
+auto register_surfaces(const Source& source, const Target& target, const Parameters& parameters = {},
+                       const Target_parameters& target_parameters = {}) {
   internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag,
-                             internal::Number_of_maps_tag, internal::Least_overlap_tag, internal::Tolerance_tag>();
-  using Point_map = decltype(vertex_points(target, parameters));
+                             internal::Number_of_maps_tag, internal::Least_overlap_tag, internal::Tolerance_tag,
+                             internal::Vertex_point_tag>();
+  internal::check_parameters<Target_parameters, internal::Vertex_point_tag>();
+  using Point_map = decltype(vertex_points(target, target_parameters));
   using Kernel_of_points = typename CGAL::Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
   return internal::registration_of_triangles<ConcurrencyTag, Kernel_of_points>(
-      internal::triangles_of_graph(source, parameters), internal::triangles_of_graph(target, parameters),
+      internal::triangles_of_graph(source, parameters), internal::triangles_of_graph(target, target_parameters),
       internal::registration_request(parameters));
 }
 

@@ -5,8 +5,8 @@
 #include <equiaffine/io/Annotated_mesh_3.h>
 #include <equiaffine/io/internal/Ply_header.h>
 #include <equiaffine/io/internal/Ply_numbers.h>
-#include <equiaffine/io/internal/add_face.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/surface/triangles_of_polygon.h>
 
 #include <algorithm>
 #include <array>
@@ -85,7 +85,7 @@ void read_vertices(Ply_numbers& numbers, const Ply_element& element, Annotated_m
   if (layout.has_status) extract_status(result.attributes);
 }
 
-/// Appends the faces as fans of triangles. Precondition: the points have been read.
+/// Appends the faces, cut into triangles. Precondition: the points have been read.
 template <class Kernel>
 void read_faces(Ply_numbers& numbers, const Ply_element& element, Indexed_triangle_mesh_3<Kernel>& mesh) {
   std::vector<double> list;
@@ -104,7 +104,7 @@ void read_faces(Ply_numbers& numbers, const Ply_element& element, Indexed_triang
           numbers.fail("face " + std::to_string(f) + " has a vertex that does not exist", "correct the file");
         face.push_back(static_cast<std::uint32_t>(index));
       }
-      add_face(mesh, face);
+      add_triangles_of_polygon(mesh.points, face, mesh.triangles);
     }
 }
 

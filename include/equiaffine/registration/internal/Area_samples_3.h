@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -34,6 +35,11 @@ struct Area_samples_3 {
     return result;
   }
 };
+
+/// A random point of the ball with a radius around a surface is nearer to it than t with the probability of this times t.
+inline double chance_of_nearness(double area, double radius) {
+  return 2 * area / (4 * std::numbers::pi / 3 * std::pow(radius, 3));
+}
 
 /// The point n of a sequence of low discrepancy in a cube (M. Roberts, The unreasonable effectiveness of quasirandom
 /// sequences, 2018).

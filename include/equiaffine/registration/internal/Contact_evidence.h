@@ -31,6 +31,17 @@ struct Contact_evidence {
   double affine_rigidity = 0; ///< the same for affine maps, one of which may be free
 };
 
+/// The parts of the samples of source and target that contradict the map, of those that say something.
+inline std::array<double, 2> contradictions_of(const Mapped_samples& samples) {
+  std::array<double, 2> result;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto hits = double(count_of(samples[side], Contact::TOUCHING));
+    const auto misses = double(count_of(samples[side], Contact::CONTRADICTING));
+    result[side] = misses / std::max(1.0, hits + misses);
+  }
+  return result;
+}
+
 /// The distances of samples that touch or contradict; others count as outside of the domain.
 inline std::vector<Mapped_point> informative_points(const std::vector<Mapped_sample>& samples) {
   std::vector<Mapped_point> result;
@@ -74,12 +85,11 @@ inline Contact_evidence contact_evidence(const Mapped_samples& samples, Map_kind
   Contact_evidence result;
   Map_evidence evidence;
   double sum = 0, count = 0;
+  result.contradictions = contradictions_of(samples);
   for (std::size_t side = 0; side < 2; ++side) {
     const auto hits = double(count_of(samples[side], Contact::TOUCHING));
-    const auto misses = double(count_of(samples[side], Contact::CONTRADICTING));
     const auto all = double(samples[side].size());
     result.inliers[side] = hits / all;
-    result.contradictions[side] = misses / std::max(1.0, hits + misses);
     result.area += areas[side] * hits / all / 2;
     judge_one_way(Sorted_distances(informative_points(samples[side]), 1), chances[1 - side], how, evidence);
     for (const Mapped_sample& s : samples[side])

@@ -31,11 +31,13 @@ public:
   /// \pre the mesh has an area.
   Piece_of_surface_3(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges, std::size_t count,
                      double border_width)
-      : samples_(mesh_samples(mesh, edges, count)), tree_(tree_of(triangles_with_area(mesh))),
-        border_(border_of(mesh, edges)), border_width_(border_width), is_oriented_(has_orientation(edges)) {}
+      : samples_(mesh_samples(mesh, edges, count)), volume_(volume_moments(mesh, samples_.area.centroid).measure),
+        tree_(tree_of(triangles_with_area(mesh))), border_(border_of(mesh, edges)), border_width_(border_width),
+        is_oriented_(has_orientation(edges)) {}
 
   const Area_samples_3& samples() const { return samples_; }
   bool is_closed() const { return !border_; }
+  double volume() const { return volume_; }         ///< that a closed mesh bounds, below 0 if it is inside out
   bool is_oriented() const { return is_oriented_; } ///< whether neighbors have the same side
 
   /// Whether a point is on the border is left out for those nearer than `touching`.
@@ -69,6 +71,7 @@ private:
   }
 
   Area_samples_3 samples_;
+  double volume_;
   Triangle_tree tree_;
   std::optional<Triangle_tree> border_;
   double border_width_;

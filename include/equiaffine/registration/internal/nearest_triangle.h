@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -25,12 +26,16 @@ inline Triangle_tree tree_of(std::vector<Triangle_tree::Triangle_3> triangles) {
   return Triangle_tree(std::move(triangles), 0);
 }
 
-/// The triangles that have an area, since others have no normal.
+/// The triangles that have an area beside the largest one, since others have no normal.
+/// \pre the mesh has an area.
 inline std::vector<Triangle_tree::Triangle_3> triangles_with_area(const Triangles_3& mesh) {
+  constexpr double rounding = 1e-14;
+  double greatest = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) greatest = std::max(greatest, mesh.double_area(t).norm());
   std::vector<Triangle_tree::Triangle_3> result;
   result.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (mesh.double_area(t).norm() > 1e-14)
+    if (mesh.double_area(t).norm() > rounding * greatest)
       result.emplace_back(to_CGAL(mesh.corner(t, 0)), to_CGAL(mesh.corner(t, 1)), to_CGAL(mesh.corner(t, 2)));
   return result;
 }

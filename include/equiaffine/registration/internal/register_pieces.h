@@ -10,6 +10,7 @@
 #include <equiaffine/registration/internal/Two_point_frames.h>
 #include <equiaffine/registration/internal/contacts.h>
 #include <equiaffine/registration/internal/refine_map.h>
+#include <equiaffine/registration/internal/tolerances_of_meshes.h>
 #include <equiaffine/registration/internal/without_near.h>
 
 #include <Eigen/Core>
@@ -18,7 +19,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,29 +29,34 @@ namespace equiaffine::internal {
 template <class ConcurrencyTag>
 class Registration_of_pieces {
 public:
+  /// Points nearer than `tolerance` are in contact.
   Registration_of_pieces(const Piece_of_surface_3& source, const Piece_of_surface_3& target,
                          const Registration_request& request, double tolerance)
-      : source_(source), target_(target), request_(request), tolerance_(tolerance) {}
+      : source_(source), target_(target), request_(request), tolerance_(tolerance),
+        tolerance_of_search_(std::max(tolerance, usual_contact)) {}
 
   Shape_matches run() {
     Two_point_frames<ConcurrencyTag> frames(source_, target_, request_);
     std::vector<Candidate> candidates = candidates_of(frames.run());
     Shape_matches result;
     result.hypotheses = hypotheses_ = frames.hypotheses();
-    refine(candidates, {few_samples, 8, 0.15});
+    refine(candidates, {few_samples, 8, 0.15, 0.8, tolerance_of_search_});
     keep_best(candidates, most_judged);
-    refine(candidates, {more_samples, 8, 0.03});
+    refine(candidates, {more_samples, 8, 0.03, 0.8, tolerance_of_search_});
+    refine(candidates, {more_samples, 12, 3 * tolerance_of_search_, 0.5, tolerance_});
     judge(candidates);
-    for (const Candidate& c : candidates)
-      if (reason_against(c).empty() && result.maps.size() < request_.number_of_maps)
-        result.maps.push_back({c.map, c.evidence.rms, c.evidence.inliers, c.evidence.log10_false_alarms});
+    for (const auto& [map, is_sound, evidence] : candidates)
+      if (reason_against(evidence).empty())
+        result.maps.push_back(
+            {map, evidence.rms, evidence.inliers, evidence.log10_false_alarms, evidence.contradictions});
     if (result.maps.empty()) result.reason = reason_for_none(candidates);
     return result;
   }
 
 private:
   static constexpr std::size_t few_samples = 120, more_samples = 400, all_samples = 4000, most_judged = 40;
-  static constexpr double accepted_log10 = -6, most_contradictions = 0.02;
+  static constexpr double accepted_log10 = -6, most_contradictions = 0.02, least_part = 0.05;
+  static constexpr double least_rigidity = 20; ///< beside the tolerance
 
   struct Candidate {
     Affine_map_3 map;
@@ -65,10 +70,11 @@ private:
     }
   };
 
+  /// Points nearer than a limit are in contact.
   struct Steps {
     std::size_t samples;
     int most;
-    double first_limit; ///< beyond which points are not in contact
+    double first_limit, contraction, last_limit; ///< the limit falls by a factor at most
   };
 
   static std::vector<Candidate> candidates_of(const std::vector<Scored_map>& maps) {
@@ -89,7 +95,7 @@ private:
   void refine(std::vector<Candidate>& candidates, const Steps& how) const {
     parallel_for<ConcurrencyTag>(0, candidates.size(), [&](std::size_t i) {
       candidates[i].is_sound = refine(candidates[i].map, how);
-      if (candidates[i].is_sound) candidates[i].evidence = evidence(candidates[i].map, how.samples, tolerance_);
+      if (candidates[i].is_sound) candidates[i].evidence = evidence(candidates[i].map, how.samples, how.last_limit);
     });
     std::erase_if(candidates, [](const Candidate& c) { return !c.is_sound; });
   }
@@ -104,7 +110,8 @@ private:
       const auto moved = touching_points(samples[0]), fixed = touching_points(samples[1]);
       if (moved.size() + fixed.size() < 16) return false;
       const double median = median_distance(moved, fixed, 1) / unit(map);
-      limit = std::clamp(6 * deviations_per_median * median, tolerance_, std::max(tolerance_, 0.8 * limit));
+      limit = std::clamp(6 * deviations_per_median * median, how.last_limit,
+                         std::max(how.last_limit, how.contraction * limit));
       Refinement_equations equations(infinitesimal_maps(request_.kind), map(Eigen::Vector3d::Zero()), unit(map));
       equations.add(moved, 1, 1);
       equations.add(fixed, 1, -1);
@@ -130,8 +137,7 @@ private:
     const double scale = Similarity_3(map).scale;
     const double areas[] = {source_.samples().area.measure * scale * scale, target_.samples().area.measure};
     const double radii[] = {source_.samples().radius() * scale, target_.samples().radius()};
-    std::array<double, 2> chances;
-    for (std::size_t k = 0; k < 2; ++k) chances[k] = 2 * areas[k] / (4.2 * std::pow(radii[k], 3));
+    const std::array chances = {chance_of_nearness(areas[0], radii[0]), chance_of_nearness(areas[1], radii[1])};
     const Judgement how{tolerance * unit(map), 0, degrees_of_freedom(request_.kind), double(hypotheses_)};
     return contact_evidence(samples_of(map, count, tolerance), request_.kind, {areas[0], areas[1]}, chances, how);
   }
@@ -159,34 +165,56 @@ private:
       candidates[i].evidence = evidence(candidates[i].map, all_samples, tolerance_);
     });
     keep_best(candidates, candidates.size());
+    sort_best_by_rms(candidates);
   }
 
-  std::string reason_against(const Candidate& c) const {
-    const Contact_evidence& e = c.evidence;
-    if (std::max(e.inliers[0], e.inliers[1]) < std::max(0.05, request_.least_overlap))
+  /// Maps with about as much in contact as the best one are as good as near they move the surfaces to each other.
+  static void sort_best_by_rms(std::vector<Candidate>& candidates) {
+    constexpr double as_good = 0.98;
+    const auto end = std::find_if(candidates.begin(), candidates.end(),
+                                  [&](const Candidate& c) { return c.score() < as_good * candidates.front().score(); });
+    std::stable_sort(candidates.begin(), end,
+                     [](const Candidate& a, const Candidate& b) { return a.evidence.rms < b.evidence.rms; });
+  }
+
+  std::string reason_against(const Contact_evidence& e) const {
+    if (std::max(e.inliers[0], e.inliers[1]) < std::max(least_part, request_.least_overlap))
       return "the parts in contact are too small";
     const double contradictions = std::max(e.contradictions[0], e.contradictions[1]);
     if (contradictions > most_contradictions)
-      return "the best map contradicts " + std::to_string(std::lround(100 * contradictions)) + " % of the points";
-    if (e.rigidity < 20 * tolerance_) return "the points in contact slide over each other";
-    if (e.affine_rigidity < 20 * tolerance_) return "the points in contact are like a corner of three planes";
-    if (e.log10_false_alarms > accepted_log10) return "chance may have made the best map";
+      return "by the best map " + std::to_string(std::lround(100 * contradictions)) +
+             " % of the points of a mesh lie off the other one, which does not end there";
+    if (e.rigidity < least_rigidity * tolerance_) return "the parts in contact slide over each other";
+    if (e.affine_rigidity < least_rigidity * tolerance_)
+      return "the parts in contact are like a corner of three planes, which many shapes have";
+    if (e.log10_false_alarms > accepted_log10) return "the parts in contact may be so by chance";
     return {};
   }
 
   std::string reason_for_none(const std::vector<Candidate>& candidates) const {
-    return candidates.empty() ? "no pairs of points are alike" : reason_against(candidates.front());
+    return candidates.empty() ? "no pairs of points of the two are alike" : reason_against(candidates.front().evidence);
   }
 
   const Piece_of_surface_3 &source_, &target_;
   Registration_request request_;
-  double tolerance_;
+  double tolerance_, tolerance_of_search_;
   std::size_t hypotheses_ = 0;
 };
 
-/// Returns the tolerance beside the size of the target: that of the request, or what the error of facets allows.
-inline double tolerance_of_pieces(double facet_error, const Registration_request& request) {
-  return request.tolerance.value_or(std::clamp(4 * facet_error, 1e-3, 1e-2));
+/// Why no map moves a part of one mesh onto the other, as far as areas and sizes tell.
+inline std::string reason_against_pieces(const Moments_3& source, const Moments_3& target, Map_kind kind) {
+  constexpr double greatest_ratio = 50; // whose samples still meet the smaller mesh
+  if (!keeps_angles(kind)) return "pieces are matched by rigid maps and similarities only";
+  if (!(source.measure > 0) || !(target.measure > 0)) return "a mesh has no area";
+  const double ratio = source.size() / target.size();
+  if (kind == Map_kind::RIGID && !(std::max(ratio, 1 / ratio) < greatest_ratio))
+    return "one mesh is more than 50 times as large as the other, and rigid maps keep sizes";
+  return {};
+}
+
+/// Whether two meshes that bound solids have them on different sides.
+inline bool are_turned(const Piece_of_surface_3& a, const Piece_of_surface_3& b) {
+  return a.is_closed() && b.is_closed() && a.volume() * b.volume() < 0;
 }
 
 /// Finds rigid maps or similarities that move a mesh, or a part of it, onto another one, without curvature: pieces of
@@ -196,40 +224,41 @@ template <class ConcurrencyTag>
 Shape_matches register_pieces(const Triangles_3& source, const Triangles_3& target,
                               const Registration_request& request) {
   constexpr std::size_t samples = 4000;
-  Shape_matches none;
-  if (!keeps_angles(request.kind)) {
-    none.reason = "pairs of points give rigid maps and similarities only";
-    return none;
-  }
   const Moments_3 areas[] = {area_moments(source), area_moments(target)};
-  if (!(areas[0].measure > 0) || !(areas[1].measure > 0)) {
-    none.reason = "a mesh has no area";
-    return none;
-  }
+  Shape_matches result;
+  result.reason = reason_against_pieces(areas[0], areas[1], request.kind);
+  if (!result.reason.empty()) return result;
   const Affine_map_3 to_target = centering_map(areas[1]);
   Affine_map_3 to_source = centering_map(areas[0]);
   if (request.kind == Map_kind::RIGID) to_source = {to_target.matrix, -(to_target.matrix * areas[0].centroid)};
   const Triangles_3 a = transformed(source, to_source), b = transformed(target, to_target);
   const auto edges_a = sorted_edges(a), edges_b = sorted_edges(b);
-  const double tolerance = tolerance_of_pieces(std::max(facet_error(a, edges_a), facet_error(b, edges_b)), request);
-  const Piece_of_surface_3 p(a, edges_a, samples, 2 * tolerance), q(b, edges_b, samples, 2 * tolerance);
+  const double tolerance = tolerance_of_contact(std::max(facet_error(a, edges_a), facet_error(b, edges_b)), request);
+  const auto piece = [=](const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges) {
+    return Piece_of_surface_3(mesh, edges, samples, 2 * tolerance);
+  };
+  const Piece_of_surface_3 p = piece(a, edges_a), q = piece(b, edges_b);
   if (!p.is_oriented() || !q.is_oriented()) {
-    none.reason = "the triangles of a mesh are not on one side";
-    return none;
+    result.reason = "the triangles of a mesh are not on one side";
+    return result;
   }
-  Shape_matches result = Registration_of_pieces<ConcurrencyTag>(p, q, request, tolerance).run();
-  if (result.maps.empty()) {
+  const auto search = [&](const Piece_of_surface_3& from) {
+    return Registration_of_pieces<ConcurrencyTag>(from, q, request, tolerance).run();
+  };
+  const bool is_side_known = p.is_closed() && q.is_closed();
+  if (!are_turned(p, q)) result = search(p);
+  if (result.maps.empty() && (are_turned(p, q) || !is_side_known)) {
     const Triangles_3 turned = turned_inside_out(a);
-    const Piece_of_surface_3 inside_out(turned, sorted_edges(turned), samples, 2 * tolerance);
-    Shape_matches other = Registration_of_pieces<ConcurrencyTag>(inside_out, q, request, tolerance).run();
+    Shape_matches other = search(piece(turned, sorted_edges(turned)));
     other.hypotheses += result.hypotheses;
-    if (other.maps.empty()) other.reason = std::move(result.reason);
+    if (other.maps.empty() && !result.reason.empty()) other.reason = std::move(result.reason);
     result = std::move(other);
   }
   for (Shape_match& m : result.maps) {
     m.map = to_target.inverse() * m.map * to_source;
     m.rms *= areas[1].size();
   }
+  result.size = areas[1].size();
   return result;
 }
 

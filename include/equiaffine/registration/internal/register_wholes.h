@@ -8,8 +8,10 @@
 #include <equiaffine/registration/internal/Shape_matches.h>
 #include <equiaffine/registration/internal/candidate_rotations.h>
 #include <equiaffine/registration/internal/map_evidence.h>
+#include <equiaffine/registration/internal/part_on_surface.h>
 #include <equiaffine/registration/internal/refined_candidates.h>
 #include <equiaffine/registration/internal/slipping_rotations.h>
+#include <equiaffine/registration/internal/tolerances_of_meshes.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -18,35 +20,25 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <vector>
 
 namespace equiaffine::internal {
 
-/// The rms distance, beside the size, up to which two surfaces are equal: without a given tolerance it is what
-/// triangles are off a smooth surface, at least 0.3 % and at most 1 %, and less for thin surfaces.
-inline double tolerance_of_wholes(const Centered_pair& surfaces, const Registration_request& request) {
-  if (request.tolerance) return *request.tolerance;
-  constexpr double least = 3e-3, greatest = 0.01;
-  const double facet_error = surfaces.source.samples.facet_error + surfaces.target.samples.facet_error;
-  const double thickness = std::min(surfaces.source.thickness(), surfaces.target.thickness());
-  return std::clamp(1.2 * facet_error, least, greatest) * std::min(1.0, 3 * thickness);
-}
-
-/// A random point of the ball around a surface is nearer to it than t with the probability of this times t.
-inline double chance_of_nearness(const Centered_surface_3& surface) {
-  return 2 * surface.samples.area.measure / (4 * std::numbers::pi / 3 * std::pow(surface.samples.radius(), 3));
-}
-
-/// A map between centered surfaces with its evidence, in the coordinates of the surfaces.
-inline Shape_match match_of(const Centered_pair& surfaces, const Affine_map_3& map, const Judgement& how) {
+/// A map between centered surfaces with its evidence, in the coordinates of the surfaces. Points further from the other
+/// surface than `touching` contradict it.
+inline Shape_match match_of(const Centered_pair& surfaces, const Affine_map_3& map, double touching,
+                            const Judgement& how) {
   const auto& [source, target] = surfaces;
   const Distances_both_ways distances(surfaces, map, how.probes);
-  const std::array chances = {chance_of_nearness(target), chance_of_nearness(source)};
+  const std::array chances = {chance_of_nearness(target.samples.area.measure, target.samples.radius()),
+                              chance_of_nearness(source.samples.area.measure, source.samples.radius())};
   const Map_evidence evidence = evidence_of_distances(distances.moved, distances.fixed, 1, chances, how);
   const double unit = 1 / std::cbrt(std::abs(target.map.matrix.determinant()));
-  return {target.map.inverse() * map * source.map, unit * distances.rms(), evidence.inliers,
-          evidence.log10_false_alarms};
+  return {target.map.inverse() * map * source.map,
+          unit * distances.rms(),
+          evidence.inliers,
+          evidence.log10_false_alarms,
+          {1 - part_on_surface(distances.moved, touching), 1 - part_on_surface(distances.fixed, touching)}};
 }
 
 /// Rotations near all that may move one surface to within a distance of the other. Where the source slips about an axis
@@ -74,21 +66,24 @@ Shape_matches register_wholes(const Centered_surface_3& source, const Centered_s
   if (!source.reason_against.empty() || !target.reason_against.empty()) return result;
   if ((source.extents() - target.extents()).cwiseAbs().maxCoeff() > least_difference) return result;
   const Centered_pair surfaces(source, target);
-  const double tolerance = tolerance_of_wholes(surfaces, request);
+  result.size = 1 / std::cbrt(std::abs(target.map.matrix.determinant()));
+  const Tolerances_of_wholes tolerances = tolerances_of_wholes(surfaces, request);
   double scale = 1;
   if (keeps_volume(request.kind)) {
     scale = std::cbrt(std::abs(target.map.matrix.determinant() / source.map.matrix.determinant()));
     if (std::abs(std::log(scale)) > least_difference) return result;
   }
   const auto slipping = slipping_rotations<ConcurrencyTag>(source, request.kind);
-  result.slippage = continuous_symmetries(source, slipping, tolerance_of_wholes(Centered_pair(source), request));
-  const auto rotations = rotations_to_refine<ConcurrencyTag>(surfaces, 2 * tolerance, request.allows_reflections,
+  result.slippage = continuous_symmetries(source, slipping, tolerances_of_wholes(Centered_pair(source), request).tried);
+  const auto rotations = rotations_to_refine<ConcurrencyTag>(surfaces, 2 * tolerances.tried, request.allows_reflections,
                                                              result.slippage.dimension());
   result.hypotheses = rotations.size();
-  const Judgement how = {10 * tolerance, request.least_overlap, degrees_of_freedom(request.kind),
+  const Judgement how = {10 * tolerances.tried, 0, degrees_of_freedom(request.kind),
                          double(std::max<std::size_t>(result.hypotheses, 1)), probes};
+  const double touching =
+      tolerance_of_contact(std::max(source.samples.facet_error, target.samples.facet_error), request);
   for (const Centered_map& map : refined_candidates<ConcurrencyTag>(surfaces, rotations, scale, request.kind, gate))
-    if (map.rms < tolerance) result.maps.push_back(match_of(surfaces, map.map, how));
+    if (map.rms < tolerances.equal) result.maps.push_back(match_of(surfaces, map.map, touching, how));
   return result;
 }
 

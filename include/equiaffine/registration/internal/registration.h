@@ -79,6 +79,7 @@ Registration_of_framed_3<Kernel> registration_of_framed(const Framed_surface_3& 
                                                         const Registration_request& request) {
   Registration_of_framed_3<Kernel> registration;
   Surface_registration_3<Kernel>& result = registration.result;
+  result.size = target.size;
   result.slippage = slippage_of(source, request.kind, slippage_tolerance);
   Registration_search<ConcurrencyTag> search(source, target, request);
   if (is_in_plane(source, search.tolerance()) || is_in_plane(target, search.tolerance())) return registration;

@@ -21,11 +21,16 @@ Surface_registration_3<Kernel> to_CGAL(Shape_matches found, const Registration_r
   const bool slips = found.slippage.dimension() > 0;
   for (std::size_t n = 0; n < std::min(slips ? 1 : request.number_of_maps, found.maps.size()); ++n) {
     const Shape_match& m = found.maps[n];
-    result.maps.push_back(
-        {m.map.to_CGAL<typename Kernel::Aff_transformation_3>(), m.log10_false_alarms, m.inliers, m.rms, {}});
+    result.maps.push_back({m.map.to_CGAL<typename Kernel::Aff_transformation_3>(),
+                           m.log10_false_alarms,
+                           m.inliers,
+                           m.rms,
+                           {},
+                           m.contradictions});
   }
   if (!slips && found.maps.size() > 1) result.next_best_rms = found.maps[1].rms;
   result.hypotheses = found.hypotheses;
+  result.size = found.size;
   result.reason = std::move(found.reason);
   result.slippage = std::move(found.slippage);
   return result;

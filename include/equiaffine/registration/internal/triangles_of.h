@@ -4,20 +4,17 @@
 
 #include <equiaffine/registration/internal/mesh_samples.h>
 #include <equiaffine/surface/indexed_polygons.h>
+#include <equiaffine/surface/triangles_of_polygon.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
 
-/// The triangles of polygons, fans around their first corners.
 inline Triangles_3 triangles_of(Indexed_polygons mesh) {
   Triangles_3 result;
-  for (const auto& polygon : mesh.polygons)
-    for (std::size_t k = 2; k < polygon.size(); ++k)
-      result.triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});
+  for (const auto& polygon : mesh.polygons) add_triangles_of_polygon(mesh.points, polygon, result.triangles);
   result.points = std::move(mesh.points);
   return result;
 }
