@@ -10,6 +10,7 @@
 #include <equiaffine/Input_error.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace equiaffine {
@@ -37,23 +38,27 @@ void read_remesh_options(Option_reader& reader) {
   reader.refuse({"--resolution", "--vertices"}, reason, advice);
   reader.refuse({"--isovalue", "--box", "--parabolic-curves"},
                 "--method remesh moves the vertices of the whole mesh to the fit", advice);
-  reader.read({"--edge-length", "--feature-angle"});
-  const double angle = draft.remesh.feature_angle;
-  if (!(angle >= 0 && angle <= 180))
-    fail_option("--feature-angle", "'" + reader.word("--feature-angle") + "' is not between 0 and 180 degrees",
-                "give an angle such as 60");
+  reader.read({"--edge-length"});
+}
+
+/// Whether the faces of a fit, if there are any, are to be remeshed: without a method, or an option that is for others.
+bool prefers_remesh(const Option_reader& reader) {
+  constexpr std::array others = {"--method", "--isovalue", "--resolution", "--vertices", "--box", "--parabolic-curves"};
+  return reader.draft().source.kind == Source_kind::FIT &&
+         std::none_of(others.begin(), others.end(), [&](const char* option) { return reader.has(option); });
 }
 
 /// Reads `--method` and the options that belong to it.
 void read_method(Option_reader& reader) {
   reader.read({"--method"});
-  const Mesh_method method = reader.draft().method;
+  Draft& draft = reader.draft();
+  if (prefers_remesh(reader) && reader.has("--edge-length")) draft.method = Mesh_method::REMESH;
+  const Mesh_method method = draft.method;
   if (method != Mesh_method::DELAUNAY)
     reader.refuse({"--angle", "--radius", "--distance", "--sizing", "--clip"}, "it is for --method delaunay",
                   "add --method delaunay or leave it out");
   if (method != Mesh_method::REMESH)
-    reader.refuse({"--edge-length", "--feature-angle"}, "it is for --method remesh",
-                  "add --method remesh or leave it out");
+    reader.refuse({"--edge-length"}, "it is for --method remesh", "add --method remesh or leave it out");
   if (method == Mesh_method::DELAUNAY) read_delaunay_options(reader);
   else if (method == Mesh_method::REMESH) read_remesh_options(reader);
   else reader.read({"--vertices"});
@@ -127,6 +132,7 @@ Mesh_options read_mesh_options(Option_reader& reader) {
   if (draft.method == Mesh_method::DELAUNAY) options.method = draft.delaunay;
   else if (draft.method == Mesh_method::REMESH) options.method = draft.remesh;
   else options.method = draft.marching_cubes;
+  options.remeshes_faces = prefers_remesh(reader) && draft.method == Mesh_method::MARCHING_CUBES;
   options.source.estimates_errors =
       !draft.estimates.empty() || (draft.display.shows_something() && has_column_with_error(draft));
   options.estimates = std::move(draft.estimates);
@@ -184,7 +190,7 @@ Annotate_options read_annotate_options(Option_reader& reader) {
   if (!reader.has("MESH")) throw Input_error("no mesh is given; write 'equiaffine annotate MESH -o OUT.ply'");
   check_is_annotatable(reader.word("MESH"));
   reader.draft().estimates = error_attributes();
-  reader.read({"--scale", "--noise", "--degree", "--attributes"});
+  reader.read({"--scale", "--noise", "--degree", "--feature-angle", "--attributes"});
   need_output(reader);
   reader.read({"--up"});
   refuse_picture_options(reader);

@@ -21,7 +21,8 @@ namespace {
 /// Throws for an option of fits with a source that is none.
 void refuse_fit_options(const Option_reader& reader) {
   const auto refuse = [&](const std::string& reason, const std::string& advice) {
-    reader.refuse({"--scale", "--noise", "--degree"}, "it is for the polynomials of --fit, and " + reason, advice);
+    reader.refuse({"--scale", "--noise", "--degree", "--feature-angle"},
+                  "it is for the polynomials of --fit, and " + reason, advice);
   };
   const Source_options& source = reader.draft().source;
   switch (source.kind) {
@@ -104,7 +105,7 @@ void read_source(Option_reader& reader) {
   if (reader.draft().source.kind != Source_kind::DISTANCE)
     reader.refuse({"--narrow-band"}, "it is for --distance-to", "leave it out");
   refuse_fit_options(reader);
-  reader.read({"--narrow-band", "--scale", "--noise", "--degree"});
+  reader.read({"--narrow-band", "--scale", "--noise", "--degree", "--feature-angle"});
 }
 
 } // namespace equiaffine

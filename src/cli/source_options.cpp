@@ -61,6 +61,13 @@ void read_degree(const Option_words& option, Draft& draft) {
       option, {{"4", 4}, {"5", 5}, {"6", 6}, {"8", 8}, {"10", 10}, {"auto", std::nullopt}});
 }
 
+void read_feature_angle(const Option_words& option, Draft& draft) {
+  double& angle = draft.source.fit.feature_angle;
+  angle = parse_number(option);
+  if (!(angle >= 0 && angle <= 180))
+    fail_option(option.name, "'" + option.word() + "' is not between 0 and 180 degrees", "give an angle such as 60");
+}
+
 constexpr Commands sampled = MESH | EVALUATE | SAMPLE | registering, fitting = sampled | ANNOTATE;
 
 /// Reads a file whose kind its extension tells.
@@ -137,6 +144,10 @@ const std::vector<Option_row> rows = {
      read_noise},
     {"--degree", fitting, FIT, 1, "4|5|6|8|10|auto",
      "the degree of the polynomials that are fitted, by default chosen by the data (auto)", read_degree},
+    {"--feature-angle", fitting, FIT, 1, "DEG",
+     "edges of a mesh that bend by more than this angle, by default 60, are creases if they follow\n"
+     "each other: polynomials do not reach over them, and a remesh keeps them; 180 for none",
+     read_feature_angle},
 };
 
 } // namespace

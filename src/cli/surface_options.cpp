@@ -140,8 +140,6 @@ const std::vector<Option_row> rows = {
      "cut the surface off at the box (the default) or at the largest ball in it", read_clip},
     {"--edge-length", MESH, REMESH, 1, "L", "of the triangles, by default the mean of the data",
      [](const Option_words& option, Draft& draft) { draft.remesh.edge_length = parse_length(option); }},
-    {"--feature-angle", MESH, REMESH, 1, "DEG", "edges that bend by more than this angle stay edges, by default 60",
-     [](const Option_words& option, Draft& draft) { draft.remesh.feature_angle = parse_number(option); }},
 };
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "attributes/estimates.h"
+#include "commands/check_delaunay_surface.h"
 #include "commands/commands.h"
 #include "commands/extract_surface.h"
 #include "commands/fail_without_surface.h"
@@ -21,7 +22,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -43,6 +43,7 @@ struct Annotated_surface {
   std::optional<Parabolic_curves_3<Kernel>> curves; ///< if they were asked for
   std::vector<double> outcomes;                     ///< of vertices of a remesh
   std::optional<Remesh_statistics> remesh;
+  std::string reason_against_remesh; ///< of faces that could not be remeshed although nothing else was asked for
 };
 
 template <class Traits>
@@ -54,36 +55,6 @@ Annotated_surface sample(const Traits& function, const Source&, const Mesh_optio
     fail_without_surface(function.base(), options.source, options.isovalue,
                          {"box", "a finer --resolution", surface.mesh.repairs.vertices_at_poles > 0});
   return surface;
-}
-
-double greatest_coordinate(const CGAL::Bbox_3& box) {
-  double greatest = 0;
-  for (int a = 0; a < 3; ++a) greatest = std::max({greatest, std::abs(box.min(a)), std::abs(box.max(a))});
-  return greatest;
-}
-
-/// Throws if the box is too large or too small: the mesher computes polynomials of degree 6 in lengths, which must
-/// neither overflow nor underflow.
-void check_box_of_delaunay_surface(const CGAL::Bbox_3& box, double diagonal) {
-  constexpr double least = 1e-40, greatest = 1e40;
-  const double farthest = std::max(diagonal, greatest_coordinate(box));
-  if (diagonal >= least && farthest <= greatest) return;
-  std::ostringstream text;
-  text << "the box of the function has the diagonal " << diagonal << ", and coordinates to " << farthest
-       << "; --method delaunay works with numbers from " << least << " to " << greatest << ": choose another unit";
-  throw Input_error(text.str());
-}
-
-/// Throws if facets would be smaller than about a thousand units in the last place of the coordinates, since rounding
-/// would spoil their shape.
-void check_radius_of_delaunay_surface(const CGAL::Bbox_3& box, double radius) {
-  const double farthest = greatest_coordinate(box);
-  const double least = 1024 * std::numeric_limits<double>::epsilon() * farthest;
-  if (radius >= least) return;
-  std::ostringstream text;
-  text << "a radius of " << radius << " is too small beside coordinates to " << farthest << ", which takes " << least
-       << ": choose a larger --radius, or an origin nearer to the box";
-  throw Input_error(text.str());
 }
 
 template <class Traits>
@@ -123,6 +94,24 @@ Annotated_surface sample(const Traits&, const Source& source, const Mesh_options
   return surface;
 }
 
+/// Samples a surface by the method that was asked for. The faces of a fit are remeshed if none was, and if they form a
+/// surface.
+template <class Traits>
+Annotated_surface sample(const Traits& function, const Source& source, const Mesh_options& options) {
+  std::string reason;
+  if (options.remeshes_faces && !source.data.triangles.empty()) {
+    try {
+      return sample(function, source, options, Remesh_options());
+    } catch (const Input_error& error) {
+      reason = error.what();
+    }
+  }
+  Annotated_surface surface =
+      std::visit([&](const auto& method) { return sample(function, source, options, method); }, options.method);
+  surface.reason_against_remesh = std::move(reason);
+  return surface;
+}
+
 /// Samples the surface and computes its attributes. `function` is the one in `source`, with its own type.
 template <class Traits>
 Annotated_surface make_surface(const Traits& function, const Source& source, const Mesh_options& options,
@@ -131,8 +120,7 @@ Annotated_surface make_surface(const Traits& function, const Source& source, con
   const Level_set_traits_3<Traits> extracted(function, options.isovalue);
   const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
   progress.begin("extracting the surface");
-  Annotated_surface surface =
-      std::visit([&](const auto& method) { return sample(extracted, source, options, method); }, options.method);
+  Annotated_surface surface = sample(extracted, source, options);
   if (source.fit && !surface.remesh) {
     remove_crumbs(surface.mesh, *source.fit, options.source);
     if (surface.mesh.triangles.empty())
@@ -274,6 +262,8 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   if (!options.attributes.columns.empty())
     warn_of_outside(options.source, source, surface.status[std::size_t(Point_status::OUTSIDE)],
                     surface.mesh.points.size(), "vertices", progress);
+  if (!surface.reason_against_remesh.empty())
+    progress.warn("the faces are not remeshed, and Marching Cubes makes others: " + surface.reason_against_remesh);
   if (statistics.close_sheets) warn_of_close_sheets(*statistics.close_sheets, progress);
   if (statistics.fit)
     warn_of_doubt(*statistics.fit, options.source.fit, has_affine_curvatures(options.attributes, options.estimates),

@@ -41,12 +41,10 @@ double greatest_distance(const std::vector<double>& distances, const std::vector
 }
 
 template <class Parameters>
-Fit_remesh_report remesh(Mesh& mesh, const Fit_traits& fit, const Parameters& parameters,
-                         const Remesh_options& how) try {
-  return remesh_on_fit<CGAL::Parallel_if_available_tag>(
-      mesh, fit, parameters.target_edge_length(how.edge_length).feature_angle(how.feature_angle));
+Fit_remesh_report remesh(Mesh& mesh, const Fit_traits& fit, const Parameters& parameters) try {
+  return remesh_on_fit<CGAL::Parallel_if_available_tag>(mesh, fit, parameters);
 } catch (const std::invalid_argument& error) {
-  throw Input_error(std::string("--method remesh: ") + error.what());
+  throw Input_error(std::string("a remesh of the data: ") + error.what());
 }
 
 } // namespace
@@ -55,8 +53,10 @@ Remeshed_fit remesh_fit(const Source& source, const Source_options& options, con
   Mesh mesh = mesh_of_data(source.data, options);
   const auto outcome = mesh.add_property_map<Mesh::Vertex_index, Fit_outcome>("v:outcome").first;
   Remeshed_fit result;
-  static_cast<Fit_remesh_report&>(result.statistics) =
-      remesh(mesh, *source.fit, parameters::vertex_outcome_map(outcome), how);
+  static_cast<Fit_remesh_report&>(result.statistics) = remesh(mesh, *source.fit,
+                                                              parameters::vertex_outcome_map(outcome)
+                                                                  .target_edge_length(how.edge_length)
+                                                                  .feature_angle(options.fit.feature_angle));
   std::unordered_map<Mesh::Vertex_index, std::uint32_t> index;
   for (const auto v : mesh.vertices()) {
     index.emplace(v, std::uint32_t(result.mesh.points.size()));

@@ -43,6 +43,7 @@ struct Spline_options {
 struct Fit_options {
   std::optional<double> scale, noise; ///< lengths
   std::optional<int> degree;
+  double feature_angle = 60; ///< in degrees: fits do not reach over edges that bend by more
 };
 
 /// SOURCE of the command line, with what changes the function itself.
@@ -91,7 +92,6 @@ struct Delaunay_options {
 /// The faces of the data of a fit, remeshed, whose vertices are moved onto the fit.
 struct Remesh_options {
   std::optional<double> edge_length; ///< of the remesh; the mean one of the data if there is none
-  double feature_angle = 60;         ///< in degrees: edges that bend by more stay edges
 };
 
 struct Mesh_options {
@@ -99,6 +99,7 @@ struct Mesh_options {
   double isovalue = 0;
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
   std::variant<Marching_cubes_options, Delaunay_options, Remesh_options> method;
+  bool remeshes_faces = false; ///< whether the faces of a fit, if they form a surface, are remeshed without the `method`
   Attribute_selection attributes;
   std::vector<std::string> estimates; ///< the columns of errors and of noise that the mesh gets
   Estimator estimator = Estimator::COMPACT;

@@ -40,7 +40,8 @@ std::vector<Point_with_normal> points_with_normals(const Annotated_mesh_3<Kernel
 template <class Fit>
 auto fit_with_parameters(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options, const Fit& fit) try {
   const auto parameters = parameters::scale(options.scale).noise(options.noise).degree(options.degree);
-  if (!mesh.mesh.triangles.empty()) return fit(parameters, mesh.mesh.points, mesh.mesh.triangles);
+  if (!mesh.mesh.triangles.empty())
+    return fit(parameters.feature_angle(options.feature_angle), mesh.mesh.points, mesh.mesh.triangles);
   const auto with_normals = points_with_normals(mesh);
   if (with_normals.empty()) return fit(parameters, mesh.mesh.points);
   return fit(parameters.point_map(CGAL::First_of_pair_property_map<Point_with_normal>())

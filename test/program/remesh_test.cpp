@@ -72,12 +72,12 @@ TEST_F(Program_remesh, what_has_no_faces_or_no_fit_is_refused) {
                {"--resolution", "no grid"});
   expect_error({"mesh", "-o", "out.ply", "--fit", "torus.off", "--method", "remesh", "--isovalue", ".1"},
                {"--isovalue", "remesh"});
-  expect_error({"mesh", "-o", "out.ply", "--fit", "torus.off", "--edge-length", ".1"},
+  expect_error({"mesh", "-o", "out.ply", "--fit", "torus.off", "--resolution", "20", "--edge-length", ".1"},
                {"--edge-length", "add --method remesh"});
   expect_error({"mesh", "-o", "out.ply", "--fit", "torus.off", "--method", "remesh", "--edge-length", "-1"},
                {"--edge-length", "-1"});
   expect_error({"mesh", "-o", "out.ply", "--fit", "torus.off", "--method", "remesh", "--edge-length", "1e-9"},
-               {"--method remesh", "10^8 triangles"});
+               {"a remesh of the data", "10^8 triangles"});
   expect_error({"mesh", "-o", "out.ply", "--fit", "torus.off", "--method", "remesh", "--feature-angle", "200"},
                {"--feature-angle", "'200'"});
   run_well({"mesh", "-o", "points.csv", "--fit", "torus.off", "--resolution", "30", "--attributes", "none"});

@@ -43,9 +43,13 @@ namespace equiaffine {
 /// It is defined in a band along its zero set: up to 2 spacings of the points from the foot of the nearest one along the
 /// normal, and 1.25 across, so that holes larger than that stay holes, and no more than a quarter of a spacing beyond an
 /// open border, which therefore stays where it is. Elsewhere the value is not a number; `in_band` makes the band wider.
+/// The value is continuous in the band, up to points as far from two sheets: where polynomials know nothing, high above
+/// the surface, or are wrong, as beside creases, it is the mean of the heights over the tangent planes at the nearest
+/// feet, which has first derivatives, and no curvature. Fits do not reach over creases, see fitted_structures(): each side
+/// has its own function there, and the value is the greatest one at convex creases, the least at concave ones.
 ///
 /// Construction takes 1 ms per vertex for exact data and 3 ms for noisy ones, memory is linear; copies share it. A
-/// value takes some 5 microseconds, an expansion 10.
+/// value takes some 6 microseconds, an expansion 11.
 template <class Kernel>
 class Fitted_function_traits_3 {
 public:
@@ -53,12 +57,13 @@ public:
   using Point_3 = typename Kernel::Point_3;
   using Vector_3 = typename Kernel::Vector_3;
 
-  /// From a mesh, a model of CGAL's FaceGraph. Named parameters: `vertex_point_map`, `noise`, `scale`, `degree`.
+  /// From a mesh, a model of CGAL's FaceGraph. Named parameters: `vertex_point_map`, `noise`, `scale`, `degree`,
+  /// `feature_angle`.
   /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
   template <Face_graph Graph, class Parameters = internal::No_parameters,
             class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Fitted_function_traits_3(const Graph& mesh, const Parameters& parameters = {}, ConcurrencyTag tag = {}) {
-    internal::check_fit_parameters<Parameters, internal::Vertex_point_tag>();
+    internal::check_fit_parameters<Parameters, internal::Vertex_point_tag, internal::Feature_angle_tag>();
     make(internal::fit_input_of_graph(mesh, parameters), parameters, tag);
   }
 
@@ -74,14 +79,15 @@ public:
   }
 
   /// From points with polygons between them, ranges of positions of points, which need not be a mesh. Named parameters:
-  /// `noise`, `scale`, `degree`.
+  /// `noise`, `scale`, `degree`, `feature_angle`.
   /// \throw std::invalid_argument also if a polygon has the position of no point.
   template <std::ranges::input_range Points, std::ranges::input_range Polygons,
             class Parameters = internal::No_parameters, class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   Fitted_function_traits_3(const Points& points, const Polygons& polygons, const Parameters& parameters = {},
                            ConcurrencyTag tag = {}) {
-    internal::check_fit_parameters<Parameters>();
-    make(internal::fit_input_of_soup(points, polygons).data, parameters, tag);
+    internal::check_fit_parameters<Parameters, internal::Feature_angle_tag>();
+    make(internal::fit_input_of_soup(points, polygons, internal::feature_angle_of_fit(parameters)).data, parameters,
+         tag);
   }
 
   /// The same function, to be sampled in another box.
@@ -91,8 +97,8 @@ public:
     return copy;
   }
 
-  /// The same function with values up to that height over the surface. Beyond 2 spacings of the points the value is the
-  /// height, and there are no derivatives. Marching Cubes on a grid that is coarser than the points need this: the
+  /// The same function with values up to that height over the surface. Beyond 2 spacings of the points there are no
+  /// derivatives. Marching Cubes on a grid that is coarser than the points need this: the
   /// height is the diagonal of a cell.
   Fitted_function_traits_3 in_band(const FT& height) const {
     Fitted_function_traits_3 copy = *this;
@@ -106,6 +112,8 @@ public:
     return FT(state_->blend.value(normal(p), margin_) / state_->fit.normalization().scale());
   }
   Jet_3<FT, 1> first_order(const Point_3& p) const { return expansion<1>(p); }
+
+  /// The expansion where the value is that of polynomials; not a number elsewhere.
   Jet_3<FT> taylor(const Point_3& p) const { return expansion<4>(p); }
 
   /// The whole line for a box that meets the band, as far as boxes around the data tell, and 1 for one where the

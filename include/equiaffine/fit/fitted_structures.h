@@ -42,21 +42,28 @@ namespace equiaffine {
 /// lengths there, divided by the factor of volumes to the power 1/3.
 ///
 /// Statuses: OUTSIDE for a vertex that no fit belongs to, since it has no faces, or fewer than some 20 vertices are
-/// connected with it. PARABOLIC for one whose K_e is zero within its estimated error, as on a plane or a cylinder. At a
-/// crease a fit exists, and its error says that it means nothing.
+/// connected with it. PARABOLIC for one whose K_e is zero within its estimated error, as on a plane or a cylinder.
+///
+/// Fits do not reach over creases: edges that bend by more than `feature_angle`, by default 60 degrees, and that follow
+/// each other for ten mean edges, and ten more for each loose end, since noise makes edges sharp, too. Each side has
+/// its own curvature, and a vertex on a crease has that of the side with the most area around it. At creases that are
+/// less sharp a fit exists, and its error says that it means nothing.
 ///
 /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense, as a scale beyond a third
 /// of the diagonal of the data, or one within which most vertices have too few others.
 ///
 /// Takes about 1 ms per vertex, also at a scale; memory is linear in the number
 /// of vertices. The numbers are the same for CGAL::Sequential_tag and CGAL::Parallel_tag. Named parameters:
-/// `vertex_point_map`, `noise`, `scale`, `degree`, `orientation`.
+/// `vertex_point_map`, `noise`, `scale`, `degree`, `feature_angle`, `orientation`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, class Parameters = internal::No_parameters>
 std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, const Parameters& parameters = {}) {
-  internal::check_fit_parameters<Parameters, internal::Vertex_point_tag, internal::Orientation_tag>();
+  internal::check_fit_parameters<Parameters, internal::Vertex_point_tag, internal::Orientation_tag,
+                                 internal::Feature_angle_tag>();
   const internal::Surface_fit_3 fit(internal::fit_input_of_graph(mesh, parameters), internal::fit_request(parameters),
                                     ConcurrencyTag());
-  return internal::structures_of_fit<ConcurrencyTag>(fit, parameters);
+  auto structures = internal::structures_of_fit<ConcurrencyTag>(fit, parameters);
+  structures.resize(num_vertices(mesh));
+  return structures;
 }
 
 /// Returns the local structure at points without faces, in their order. Neighbors are the 16 nearest points, so that
@@ -78,14 +85,14 @@ fitted_structures(const Points& points,
 /// Returns the local structure at points with polygons between them, in the order of the points. A polygon is a range
 /// of positions of points. It need not be a mesh: equal points count once, polygons whose orientations contradict are
 /// turned to agree with the first one of what is connected with them, and the surface comes apart where it is not a
-/// manifold. Named parameters: `noise`, `scale`, `degree`, `orientation`. \throw std::invalid_argument also if a
+/// manifold. Named parameters: `noise`, `scale`, `degree`, `feature_angle`, `orientation`. \throw std::invalid_argument also if a
 /// polygon has the position of no point.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
           std::ranges::input_range Polygons, class Parameters = internal::No_parameters>
 std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, const Polygons& polygons,
                                                           const Parameters& parameters = {}) {
-  internal::check_fit_parameters<Parameters, internal::Orientation_tag>();
-  auto input = internal::fit_input_of_soup(points, polygons);
+  internal::check_fit_parameters<Parameters, internal::Orientation_tag, internal::Feature_angle_tag>();
+  auto input = internal::fit_input_of_soup(points, polygons, internal::feature_angle_of_fit(parameters));
   const internal::Surface_fit_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
   return internal::elements_at(internal::structures_of_fit<ConcurrencyTag>(fit, parameters), input.positions);
 }

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_FIT_INTERNAL_BAND_3_H
 
 #include <equiaffine/fit/internal/Border_gap_3.h>
+#include <equiaffine/fit/internal/Charts_3.h>
 #include <equiaffine/fit/internal/Normalization_3.h>
 #include <equiaffine/fit/internal/Point_tree_3.h>
 
@@ -26,6 +27,7 @@ struct Band_point_3 {
   Eigen::Vector3d point, normal;
   double spacing, core;
   std::optional<Border_gap_3> gap;
+  Charts_3::Index chart; ///< the smooth part of the surface
 };
 
 /// The part of space near points of a surface: within 2 spacings of the nearest one along its normal, or within a margin
@@ -35,9 +37,13 @@ class Band_3 {
 public:
   using Vector = Eigen::Vector3d;
 
-  struct Place {
-    bool is_in_core;
-    double height; ///< over the nearest point of the surface, along its normal; NaN beyond the margin
+  /// The height over a smooth part of the surface, as of planes that are blended, and what is known there.
+  struct Height {
+    Charts_3::Index chart;
+    double value = 0;
+    Vector gradient = Vector::Zero(); ///< the mean normal
+    double spacing = 0, core = 0;     ///< means
+    double remoteness = 0;            ///< from 0 for the part of the nearest point to 1 where none of its points counts
   };
 
   /// The margin holds points up to a height, and lets them be farther across the higher they are, as above a crease.
@@ -57,18 +63,49 @@ public:
     balls_ = Ball_tree_3(places, reaches);
   }
 
-  Place place(const Vector& p, const Margin& margin) const {
-    const Place beyond = {false, std::numeric_limits<double>::quiet_NaN()};
+  /// Whether a point is in the band with its margin.
+  bool contains(const Vector& p, const Margin& margin) const {
     const auto nearest = tree_.nearest(p, 1);
-    if (nearest.empty()) return beyond;
-    const auto& [point, normal, spacing, core, gap] = points_[nearest.front()];
+    if (nearest.empty()) return false;
+    const auto& [point, normal, spacing, core, gap, chart] = points_[nearest.front()];
     const Vector difference = p - point;
     const double height = difference.dot(normal), size = std::abs(height);
     const Vector tangential = difference - height * normal;
     const double excess = std::max(tangential.norm() - border * spacing,
                                    gap ? gap->depth(tangential) - overhang * spacing : -border * spacing);
-    if (size > std::max(margin.height, band_height * spacing) || excess > margin.slope * size) return beyond;
-    return {size <= core && excess <= 0, height};
+    return size <= std::max(margin.height, band_height * spacing) && excess <= margin.slope * size;
+  }
+
+  /// Returns the heights over the smooth parts that the nearest points belong to, that of the very nearest first: means
+  /// of the heights over the tangent planes at these points, with the weights ((R - d) / (R d))^2, where R is the distance
+  /// of the next nearest one, so that the mean is continuous (Renka, Multivariate interpolation of large sets of scattered
+  /// data, 1988, with planes in place of quadratic functions).
+  /// \pre the band has points.
+  std::vector<Height> heights(const Vector& p) const {
+    constexpr std::size_t count = 9;
+    const std::vector<Foot> feet = nearest_feet(p, count);
+    const double reach = feet.size() < count ? std::numeric_limits<double>::infinity() : feet.back().distance;
+    const double nearest = feet.front().distance;
+    std::vector<Height> result;
+    for (const Charts_3::Index chart : charts_of(feet)) {
+      Height& height = result.emplace_back(Height{chart});
+      double sum = 0;
+      for (const auto& [index, distance] : feet) {
+        const auto& [point, normal, spacing, core, gap, own_chart] = points_[index];
+        if (own_chart != chart) continue;
+        if (sum == 0 && !std::isinf(reach) && reach > nearest)
+          height.remoteness = std::min((distance - nearest) / (reach - nearest), 1 - 1e-9);
+        const double least = 1e-6 * spacing, d = std::max(distance, least); // a point has its own plane
+        const double root = (std::isinf(reach) ? 1 : std::max(1e-9, (reach - d) / reach)) / d, weight = root * root;
+        height.value += weight * (p - point).dot(normal);
+        height.gradient += weight * normal;
+        height.spacing += weight * spacing;
+        height.core += weight * core;
+        sum += weight;
+      }
+      height.value /= sum, height.gradient /= sum, height.spacing /= sum, height.core /= sum;
+    }
+    return result;
   }
 
   /// Returns a point moved along the normal of the nearest point of the surface into the tangent plane there; the same
@@ -106,6 +143,29 @@ public:
   static constexpr double band_height = 2, border = 1.25, overhang = 0.25; ///< in spacings
 
 private:
+  struct Foot {
+    Point_tree_3::Index index;
+    double distance;
+  };
+
+  /// The nearest points, the nearest first.
+  std::vector<Foot> nearest_feet(const Vector& p, std::size_t count) const {
+    std::vector<Foot> feet;
+    for (const auto i : tree_.nearest(p, count)) feet.push_back({i, (p - points_[i].point).norm()});
+    std::sort(feet.begin(), feet.end(), [](const Foot& a, const Foot& b) {
+      return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
+    });
+    return feet;
+  }
+
+  std::vector<Charts_3::Index> charts_of(const std::vector<Foot>& feet) const {
+    std::vector<Charts_3::Index> charts;
+    for (const Foot& foot : feet)
+      if (std::find(charts.begin(), charts.end(), points_[foot.index].chart) == charts.end())
+        charts.push_back(points_[foot.index].chart);
+    return charts;
+  }
+
   std::vector<Band_point_3> points_;
   Point_tree_3 tree_;
   Ball_tree_3 balls_;

@@ -4,8 +4,7 @@
 
 #include <equiaffine/base/parallel_for.h>
 #include <equiaffine/fit/internal/Band_3.h>
-#include <equiaffine/fit/internal/Patch_cover_3.h>
-#include <equiaffine/fit/internal/Point_tree_3.h>
+#include <equiaffine/fit/internal/Patches_3.h>
 #include <equiaffine/number/Jet_3.h>
 
 #include <Eigen/Core>
@@ -16,151 +15,109 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
 
-/// One function from many patches: the mean of the patches around a point with weights (1 - |p - c|^2 / R^2)^6 / R^8,
-/// where c is the center of a patch and R a part of its radius. The factor gives small patches, which know more, the say
-/// where those of sparser data overlap with them. Derivatives are means with the same weights, as if these were
-/// constant: the diffuse derivatives of Nayroles, Touzot and Villon (1992). Those of the weights would only add what
-/// patches disagree on, divided by powers of R. The function is defined near its zero set beside the data only: in the
-/// core of a band, and in a margin as large as it is asked for, where the value is the height over the surface.
-///
-/// Another sheet of the surface may lie within R. Since a patch of that sheet is not to have a say on this one, its
-/// weight is multiplied by (1 - (g / b)^2)^6, where g is its value and b is a part of the distance from its center to
-/// the nearest point that is not connected with it.
+/// One function from many patches, defined near its zero set beside the data only, in a band with a margin as large as it
+/// is asked for. Above the core of the band polynomials know nothing, and where they are far from the height over the
+/// surface they are wrong: the value becomes that height there, continuously, and first derivatives become those of the
+/// height. Each smooth part between creases has a function of its own; where parts meet, their values are combined as a
+/// solid is from half-spaces, see Charts_3.
 class Blend_3 {
 public:
   using Vector = Eigen::Vector3d;
 
   template <class ConcurrencyTag>
-  Blend_3(const Data_points_3& data, const Fit_choice_3& choices, ConcurrencyTag tag) {
-    auto cover = patch_cover(data, choices, Fit_use::BLEND, reach * distance_of_centers, tag);
-    std::vector<Data_points_3::Index> centers;
-    for (std::size_t k = 0; k < cover.centers.size(); ++k) {
-      if (!cover.fits[k]) continue;
-      centers.push_back(cover.centers[k]);
-      radii_.push_back(reach * cover.fits[k]->patch.radius);
-      fits_.push_back(std::move(*cover.fits[k]));
-    }
-    const Point_tree_3 tree(data.points);
-    for (const double radius : radii_) factors_.push_back(std::pow(radius, -power_of_radius));
-    gates_.resize(fits_.size());
-    parallel_for<ConcurrencyTag>(0, fits_.size(),
-                                 [&](std::size_t k) { gates_[k] = gate(data, tree, centers[k], radii_[k]); });
-    std::vector<Vector> places;
-    for (const auto& fit : fits_) places.push_back(fit.patch.center);
-    balls_ = Ball_tree_3(places, radii_);
-    band_ = Band_3(feet(data, tag));
-  }
+  Blend_3(const Data_points_3& data, const Fit_choice_3& choices, ConcurrencyTag tag)
+      : charts_(data.charts), patches_(data, choices, tag), band_(feet(data, tag)) {}
 
   const Band_3& band() const { return band_; }
 
   double value(const Vector& p, const Band_3::Margin& margin) const {
-    const auto [is_in_core, height] = band_.place(p, margin);
-    return is_in_core ? blended_value(p) : height;
+    if (!band_.contains(p, margin)) return std::numeric_limits<double>::quiet_NaN();
+    const auto heights = band_.heights(p);
+    if (heights.size() == 1) return value_of_part(p, heights.front());
+    const auto values = values_of_parts(p, heights);
+    return values[charts_.position_of_value(values)].second;
   }
 
-  /// The expansion at a point of the core.
+  /// The expansion at a point: to first order in the band, to a higher one where the value is that of polynomials alone.
   template <int Order>
   Jet_3<double, Order> taylor(const Vector& p) const {
-    return band_.place(p, {}).is_in_core ? blend<Order>(p)
-                                         : Jet_3<double, Order>(std::numeric_limits<double>::quiet_NaN());
+    using Jet = Jet_3<double, Order>;
+    if (!band_.contains(p, {})) return Jet(std::numeric_limits<double>::quiet_NaN());
+    const Band_3::Height height = height_of_part(p);
+    const auto [jet, depth] =
+        is_above_core(height) ? Patches_3::Mean<Jet>{Jet(height.value), 0} : patches_.taylor<Order>(p, height.chart);
+    const double part = part_of_height({jet.value(), depth}, height);
+    if (part == 0) return jet;
+    if constexpr (Order > 1) return Jet(std::numeric_limits<double>::quiet_NaN());
+    Jet plane(height.value);
+    for (std::size_t axis = 0; axis < 3; ++axis) plane.coefficients()[1 + axis] = height.gradient[Eigen::Index(axis)];
+    return part < 1 ? jet * (1 - part) + plane * part : plane;
   }
 
-  /// The accuracy of an expansion at a point: geometric means of the errors of the fits that are blended there, since
-  /// these differ by orders of magnitude where K_e is about 0 for some of the fits. Where the curvatures of the expansion
-  /// are larger than those of the fits, they are as uncertain relative to their own size.
   Fit_accuracy accuracy(const Vector& p, const Jet_3<double>& jet) const {
-    constexpr Eigen::Index n = number_of_fitted_numbers;
-    using Numbers = Eigen::Array<double, 4 * n + 1, 1>;
-    Numbers sum = Numbers::Zero();
-    double weights = 0, least = std::numeric_limits<double>::infinity();
-    for_each_weight(p, [&](std::size_t k, double weight, double) {
-      const auto& [error, noise, detail, radius, deviation] = fits_[k].accuracy;
-      least = std::min(least, radius);
-      Numbers numbers;
-      numbers << error, noise, detail, Fitted_numbers(fits_[k].patch.taylor(p)).sizes(), deviation;
-      sum += weight * numbers.log();
-      weights += weight;
-    });
-    Numbers mean = (sum / weights).exp();
-    for (double& number : mean)
-      if (number < std::numeric_limits<double>::min()) number = 0; // the exponential of minus infinity is not quite 0
-    const Number_errors factor = (mean.segment<n>(3 * n) / Fitted_numbers(jet).sizes()).max(1);
-    return {mean.segment<n>(0) * factor, mean.segment<n>(n) * factor, mean.segment<n>(2 * n) * factor, least,
-            mean[4 * n]};
+    return patches_.accuracy(p, jet, height_of_part(p).chart);
   }
 
 private:
-  static constexpr double reach = 0.5, distance_of_centers = 0.4, safety = 0.7;
-
-  /// Weights fall with this power of the radius, so that small fits win: on a bowl whose density jumps by ten, that took
-  /// the error of K beside the jump from 1e-2 to 3e-6.
-  static constexpr double power_of_radius = 8;
-
   /// Feet may be farther apart than the data are. A spacing of this part of their distance makes a band that reaches
   /// 0.75 of it across: the middle of three feet, at 0.58 of it if they are equally far apart, is in the band.
   static constexpr double part_of_gap = 0.6;
 
-  /// Calls f(k, weight, value) for the patches k that have a weight at a point.
-  template <class F>
-  void for_each_weight(const Vector& p, const F& f) const {
-    balls_.for_each_around(p, [&](std::size_t k) {
-      const Patch_3& patch = fits_[k].patch;
-      const double rest = 1 - (p - patch.center).squaredNorm() / (radii_[k] * radii_[k]);
-      if (!(rest > 0)) return;
-      const double g = patch.value(p), opening = 1 - g * g / (gates_[k] * gates_[k]);
-      if (!(opening > 0)) return;
-      const double root = rest * opening, cube = root * root * root;
-      f(k, cube * cube * factors_[k], g);
-    });
+  /// From this part of the height of the core on, the value is the height alone; above the core, it is so in part.
+  static constexpr double top = 1.5;
+
+  /// Parts that are less remote than this have their own value, see Band_3::Height.
+  static constexpr double near = 0.7;
+
+  static bool is_above_core(const Band_3::Height& height) { return !(std::abs(height.value) < top * height.core); }
+
+  /// A polynomial of x that goes from 0 at a to 1 at b with slope 0.
+  static double smooth_step(double a, double b, double x) {
+    const double t = std::clamp((x - a) / (b - a), 0., 1.);
+    return t * t * (3 - 2 * t);
   }
 
-  /// The least radius of the fits that are blended at a point; infinity where there is none.
-  double least_radius(const Vector& p) const {
-    double least = std::numeric_limits<double>::infinity();
-    for_each_weight(p, [&](std::size_t k, double, double) { least = std::min(least, fits_[k].patch.radius); });
-    return least;
+  /// The weight of the height beside the value of the polynomials: 0 in the core if the two about agree, 1 above it, where
+  /// they differ by 0.8 of the distance of the data, and where patches end.
+  static double part_of_height(const Patches_3::Mean<double>& mean, const Band_3::Height& height) {
+    const auto& [value, depth] = mean;
+    if (!std::isfinite(value) || is_above_core(height)) return 1;
+    const double agreement = smooth_step(0.8, 0.4, std::abs(value - height.value) / height.spacing);
+    return 1 - smooth_step(0, 0.1, depth) * agreement * smooth_step(top, 1, std::abs(height.value) / height.core);
   }
 
-  /// The value, as far as patches reach; not a number without patches.
-  double blended_value(const Vector& p) const {
-    double sum = 0, weights = 0;
-    for_each_weight(p, [&](std::size_t, double weight, double g) {
-      sum += weight * g;
-      weights += weight;
-    });
-    return sum / weights;
+  /// The value of the function of a smooth part.
+  double value_of_part(const Vector& p, const Band_3::Height& height) const {
+    if (is_above_core(height)) return height.value;
+    const auto mean = patches_.value(p, height.chart);
+    const double part = part_of_height(mean, height);
+    return part < 1 ? (1 - part) * mean.value + part * height.value : height.value;
   }
 
-  /// The expansion, as far as patches reach.
-  template <int Order>
-  Jet_3<double, Order> blend(const Vector& p) const {
-    using Jet = Jet_3<double, Order>;
-    Jet sum(0.);
-    double weights = 0;
-    for_each_weight(p, [&](std::size_t k, double weight, double) {
-      sum += fits_[k].patch.template taylor<Order>(p) * weight;
-      weights += weight;
-    });
-    return sum * (1 / weights);
+  /// The values of the functions of parts, which are the less decisive the more remote a part is.
+  std::vector<std::pair<Charts_3::Index, double>> values_of_parts(const Vector& p,
+                                                                  const std::vector<Band_3::Height>& heights) const {
+    std::vector<std::pair<Charts_3::Index, double>> values;
+    for (const Band_3::Height& height : heights) {
+      const double fading = height.spacing * std::max(0., height.remoteness - near) / (1 - height.remoteness);
+      const int sign = charts_.sign(height.chart, heights.front().chart);
+      values.emplace_back(height.chart, value_of_part(p, height) - (sign == 0 ? 0 : sign * fading));
+    }
+    return values;
   }
 
-  double gate(const Data_points_3& data, const Point_tree_3& tree, Data_points_3::Index center, double radius) const {
-    const auto ball = connected_ball(data, center, 1.3 * radius);
-    const std::unordered_set<Data_points_3::Index> connected(ball.begin(), ball.end());
-    double least = std::numeric_limits<double>::infinity();
-    tree.for_each_in_cube(data.points[center], radius, [&](Data_points_3::Index i) {
-      if (!connected.contains(i)) least = std::min(least, (data.points[i] - data.points[center]).norm());
-    });
-    return safety * least;
+  /// The height over the part whose value is that of the function.
+  Band_3::Height height_of_part(const Vector& p) const {
+    const auto heights = band_.heights(p);
+    return heights.size() == 1 ? heights.front() : heights[charts_.position_of_value(values_of_parts(p, heights))];
   }
 
-  /// The points of the zero set beside the data. A datum whose foot is not found makes no part of the surface.
+  /// The points of the zero set beside the data.
   template <class ConcurrencyTag>
   std::vector<Band_point_3> feet(const Data_points_3& data, ConcurrencyTag) const {
     std::vector<std::optional<Band_point_3>> found(data.size());
@@ -168,19 +125,22 @@ private:
         0, data.size(),
         [&](std::size_t i) {
           Vector p = data.points[i];
+          const Charts_3::Index chart = charts_.of(i);
           for (int step = 0; step < 8; ++step) {
-            const auto jet = blend<1>(p);
+            const auto jet = patches_.taylor<1>(p, chart).value;
             const Vector gradient(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]);
             const Vector newton = jet.value() * gradient / gradient.squaredNorm();
-            if (!(newton.norm() < least_radius(p))) return;
+            if (!(newton.norm() < patches_.least_radius(p, chart))) return;
             p -= newton;
             if (newton.norm() > 1e-3 * data.spacing[i]) continue;
             const Vector unit = gradient.normalized();
-            found[i] = {p, unit, data.spacing[i], sound_height(p, unit, Band_3::band_height * data.spacing[i]), {}};
+            const double core = sound_height(p, unit, chart, Band_3::band_height * data.spacing[i]);
+            found[i] = {p, unit, data.spacing[i], core, {}, chart};
             return;
           }
         },
         64);
+    fill_holes(data, found);
     std::vector<std::optional<Border_gap_3>> gaps(data.size());
     parallel_for<ConcurrencyTag>(
         0, data.size(), [&](std::size_t i) { gaps[i] = gap(data, found, Data_points_3::Index(i)); }, 256);
@@ -197,11 +157,37 @@ private:
     return result;
   }
 
+  /// A datum whose foot is not found is one itself, with the least core around, if at least half of its neighbors have
+  /// feet, or without a core if it is of a part between creases that has too few points for any. Others, such as points
+  /// away from the surface, make no part of it.
+  static void fill_holes(const Data_points_3& data, std::vector<std::optional<Band_point_3>>& feet) {
+    std::vector<char> has_feet(data.size()); // of parts
+    for (std::size_t i = 0; i < data.size(); ++i)
+      if (feet[i]) has_feet[data.charts.of(i)] = 1;
+    std::vector<Data_points_3::Index> filled;
+    for (Data_points_3::Index i = 0; i < data.size(); ++i) {
+      if (feet[i]) continue;
+      const auto around = data.neighbors_of(i);
+      const auto known = std::count_if(around.begin(), around.end(), [&](auto j) { return feet[j].has_value(); });
+      const bool is_of_few = !data.charts.empty() && !has_feet[data.charts.of(i)] && !around.empty();
+      if (is_of_few || (known > 0 && 2 * std::size_t(known) >= around.size())) filled.push_back(i);
+    }
+    std::vector<double> cores(data.size());
+    for (const auto i : filled) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const auto j : data.neighbors_of(i))
+        if (feet[j]) least = std::min(least, feet[j]->core);
+      cores[i] = std::isinf(least) ? 0 : least;
+    }
+    for (const auto i : filled)
+      feet[i] = {data.points[i], data.normals[i], data.spacing[i], cores[i], {}, data.charts.of(i)};
+  }
+
   /// Returns the gap beside the foot of a point where the surface does not go on, if there is one: neither a neighbor nor
-  /// another point nearby is there.
+  /// another point nearby is there. At a crease the surface goes on as another part.
   static std::optional<Border_gap_3> gap(const Data_points_3& data,
                                          const std::vector<std::optional<Band_point_3>>& feet, Data_points_3::Index i) {
-    if (!feet[i]) return {};
+    if (!feet[i] || data.charts.has_crease_at(i)) return {};
     std::vector<Vector> to_others;
     const auto add = [&](Data_points_3::Index j) {
       if (j != i && feet[j]) to_others.push_back(feet[j]->point - feet[i]->point);
@@ -213,17 +199,16 @@ private:
 
   /// The greatest part of a height, halved up to three times, up to which values are about the height on both sides. Fits
   /// to flat parts do not know much of what is above them.
-  double sound_height(const Vector& foot, const Vector& normal, double height) const {
-    const auto is_sound = [&](double h) { return blended_value(foot + h * normal) / h > 0.5; };
+  double sound_height(const Vector& foot, const Vector& normal, Charts_3::Index chart, double height) const {
+    const auto is_sound = [&](double h) { return patches_.value(foot + h * normal, chart).value / h > 0.5; };
     const double least = height / 8;
     double sound = least;
     for (double h = least; h <= height && is_sound(h) && is_sound(-h); h *= 2) sound = h;
     return sound;
   }
 
-  std::vector<Curvature_fit_3> fits_;
-  std::vector<double> radii_, gates_, factors_;
-  Ball_tree_3 balls_;
+  Charts_3 charts_;
+  Patches_3 patches_;
   Band_3 band_;
 };
 

@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_DATA_POINTS_3_H
 #define EQUIAFFINE_FIT_INTERNAL_DATA_POINTS_3_H
 
+#include <equiaffine/fit/internal/Charts_3.h>
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -23,6 +25,7 @@ struct Data_points_3 {
   std::vector<std::size_t> first_neighbor; ///< one for every point, and one more
   std::vector<Index> neighbors;
   std::vector<double> spacing; ///< the typical distance of neighbors around a point
+  Charts_3 charts;             ///< the parts between creases
 
   std::size_t size() const { return points.size(); }
   std::span<const Index> neighbors_of(Index i) const {

@@ -4,12 +4,12 @@
 
 #include <equiaffine/base/check_argument.h>
 #include <equiaffine/base/named_parameters.h>
+#include <equiaffine/fit/internal/Creased_polygons_3.h>
 #include <equiaffine/fit/internal/Crossing_places_3.h>
 #include <equiaffine/fit/internal/crossing_triangles.h>
 #include <equiaffine/fit/internal/triangle_array_of.h>
 #include <equiaffine/surface/mesh_topology.h>
 
-#include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Polygon_mesh_processing/shape_predicates.h>
@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -48,6 +49,7 @@ public:
     const std::vector<Triangle_pair> given_crossings = crossing_triangles(array_.points(), array_.triangles());
     if (given.number_of_faces() == 0) return;
     const Triangle_array_3 given_array = array_;
+    if (request.feature_angle) creases_ = creases_of(given_array, *request.feature_angle);
     if (!has_degenerate_face(given)) {
       const double mean = mean_edge(given), least = least_length(given), shortest = std::max(mean / 4, least);
       edge_length_ = std::min(request.edge_length.value_or(mean), diagonal_of(given_array));
@@ -64,7 +66,7 @@ public:
       } while (edge_length_ > shortest);
     }
     mesh_ = given;
-    keep_sharp_edges(request);
+    keep_creases();
     array_ = given_array;
     crossings_ = given_crossings;
     edge_length_ = 0;
@@ -150,21 +152,30 @@ private:
     return sum / double(mesh.number_of_edges());
   }
 
-  void keep_sharp_edges(const Remesh_request& request) {
-    if (request.feature_angle)
-      CGAL::Polygon_mesh_processing::detect_sharp_edges(mesh_, *request.feature_angle, kept_edges());
+  /// Marks the creases of the given mesh, which this one still is.
+  void keep_creases() {
+    const Edge_map is_kept = kept_edges();
+    using Vertex = typename Mesh::Vertex_index;
+    for (const auto& [a, b] : creases_) put(is_kept, mesh_.edge(mesh_.halfedge(Vertex(a), Vertex(b))), true);
   }
 
   void remesh(const Remesh_request& request) {
-    keep_sharp_edges(request);
+    keep_creases();
     CGAL::Polygon_mesh_processing::isotropic_remeshing(
         faces(mesh_), edge_length_, mesh_,
         CGAL::parameters::number_of_iterations(request.iterations).edge_is_constrained_map(kept_edges()));
     mesh_.collect_garbage();
   }
 
+  static std::vector<Creased_polygons_3::Edge> creases_of(const Triangle_array_3& mesh, double angle) {
+    std::vector<std::vector<std::uint32_t>> faces;
+    for (const auto& t : mesh.triangles()) faces.emplace_back(t.begin(), t.end());
+    return Creased_polygons_3(mesh.points(), std::move(faces)).creases(angle);
+  }
+
   Triangle_array_3 array_;
   Mesh mesh_;
+  std::vector<Creased_polygons_3::Edge> creases_;
   std::vector<Triangle_pair> crossings_;
   double edge_length_ = 0;
 };

@@ -37,6 +37,7 @@ std::vector<double> distances_of_sheets(const Surface_fit_3& fit, double greates
     const std::unordered_set<Index> connected(ball.begin(), ball.end());
     const Eigen::Vector3d normal = (fit.normalization().matrix.transpose() * data.normals[i]).normalized();
     tree.for_each_in_cube(data.points[i], reach, [&](Index j) {
+      if (data.charts.sign(data.charts.of(i), data.charts.of(j)) != 0) return; // on the other side of a crease
       const Eigen::Vector3d difference = data.points[j] - data.points[i];
       const double across = (difference - difference.dot(data.normals[i]) * data.normals[i]).norm();
       const bool is_other = data.normals[i].dot(data.normals[j]) < 0 || !connected.contains(j);

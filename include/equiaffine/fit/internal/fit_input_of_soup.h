@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <ranges>
 #include <vector>
 
@@ -38,7 +39,8 @@ inline std::vector<std::uint32_t> positions_after_repair(const std::vector<Soup_
 /// The data points are the points without those that come again, in any order; a point where sheets meet is data of
 /// each of them, and gets what the first says.
 template <std::ranges::input_range Points, std::ranges::input_range Polygons>
-Fit_input_of_points fit_input_of_soup(const Points& range, const Polygons& polygon_range) {
+Fit_input_of_points fit_input_of_soup(const Points& range, const Polygons& polygon_range,
+                                      std::optional<double> feature_angle) {
   const Indexed_polygons soup = indexed_polygons_of_soup(range, polygon_range);
   std::vector<Soup_point> points;
   for (const auto& p : soup.points) points.emplace_back(p[0], p[1], p[2]);
@@ -54,7 +56,7 @@ Fit_input_of_points fit_input_of_soup(const Points& range, const Polygons& polyg
   for (const auto& p : repaired) vertices.push_back(coordinates_of(p));
   std::vector<std::vector<std::uint32_t>> faces;
   for (const auto& polygon : polygons) faces.emplace_back(polygon.begin(), polygon.end());
-  result.data = data_of_mesh(vertices, faces);
+  result.data = data_of_mesh(vertices, faces, feature_angle);
   return result;
 }
 

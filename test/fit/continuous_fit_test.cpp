@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The function of a fit is continuous, has the right sign and first derivatives beside the data, at creases, too.
+#include "support/fit_meshes.h"
+#include <equiaffine/fitted_structures.h>
+
+#include <CGAL/Polygon_mesh_processing/compute_normal.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace fit_meshes;
+using Vector_3 = Kernel::Vector_3;
+
+/// A ring whose section is a square with four creases. `shift` moves points along the section; with 0 some are on
+/// creases, and else triangles cut the corners off.
+Mesh square_ring(std::size_t n, double shift = .013) {
+  return grid(2 * n, n, true, true, [=](double s, double t) {
+    const double u = 2 * std::numbers::pi * s, v = 2 * std::numbers::pi * (t + shift);
+    const double side = .4 / std::max(std::abs(std::cos(v)), std::abs(std::sin(v))), r = 1 + side * std::cos(v);
+    return Point_3(r * std::cos(u), r * std::sin(u), side * std::sin(v));
+  });
+}
+
+struct Face {
+  Point_3 center;
+  Vector_3 normal;
+};
+
+std::vector<Face> faces_of(const Mesh& mesh) {
+  std::vector<Face> result;
+  for (const auto f : mesh.faces()) {
+    const auto h = mesh.halfedge(f);
+    const Point_3 center =
+        CGAL::centroid(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)), mesh.point(mesh.target(mesh.next(h))));
+    result.push_back({center, CGAL::Polygon_mesh_processing::compute_face_normal(f, mesh)});
+  }
+  return result;
+}
+
+/// Halves a segment where the value changes most, and returns how steep it is there at last: very much at a jump. Returns
+/// 0 if the value is not known at an end.
+double steepest(const Fit& fit, Point_3 p, Point_3 q) {
+  double a = fit.value(p), b = fit.value(q);
+  for (int n = 0; n < 18 && std::isfinite(a) && std::isfinite(b); ++n) {
+    const Point_3 middle = CGAL::midpoint(p, q);
+    const double c = fit.value(middle);
+    if (std::abs(c - a) > std::abs(b - c)) q = middle, b = c;
+    else p = middle, a = c;
+  }
+  return std::isfinite(a) && std::isfinite(b) ? std::abs(b - a) / std::sqrt(CGAL::squared_distance(p, q)) : 0;
+}
+
+TEST(Continuous_fit, the_value_does_not_jump) {
+  std::minstd_rand random(3);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (const Mesh& mesh : {torus(24), square_ring(24), square_ring(24, 0)}) {
+    const Fit fit(mesh);
+    std::size_t known = 0;
+    for (const auto& [center, normal] : faces_of(mesh)) {
+      const double spacing = fit.spacing(center);
+      const auto point = [&] {
+        return center + 1.5 * spacing * Vector_3(number(random), number(random), number(random));
+      };
+      for (int n = 0; n < 3; ++n) {
+        const double slope = steepest(fit, point(), point());
+        known += slope > 0;
+        EXPECT_LT(slope, 100) << center;
+      }
+    }
+    EXPECT_GT(known, 1000u);
+  }
+}
+
+TEST(Continuous_fit, the_sign_tells_the_sides_and_there_are_derivatives_at_every_face) {
+  for (const Mesh& mesh : {torus(24), square_ring(24), square_ring(24, 0)}) {
+    const Fit fit(mesh);
+    for (const auto& [center, normal] : faces_of(mesh)) {
+      const double height = fit.spacing(center) / 2;
+      EXPECT_GT(fit.value(center + height * normal), 0) << center;
+      EXPECT_LT(fit.value(center - height * normal), 0) << center;
+      EXPECT_TRUE(std::isfinite(fit.first_order(center).value())) << center;
+    }
+  }
+}
+
+TEST(Continuous_fit, expansions_of_smooth_surfaces_have_all_orders_and_the_value) {
+  const Mesh mesh = torus(24);
+  const Fit fit(mesh);
+  for (const auto& [center, normal] : faces_of(mesh)) {
+    EXPECT_NEAR(fit.taylor(center).value(), fit.value(center), 1e-14);
+    EXPECT_NEAR(fit.first_order(center).value(), fit.value(center), 1e-14);
+  }
+}
+
+/// A ring whose section is a square with points at its corners: two cylinders and two planes between four creases.
+Mesh creased_ring() { return square_ring(48, 0); }
+
+/// The error of a mean curvature on the ring beside that of the nearer cylinder, with the radius .6 or 1.4. On a crease
+/// either side may be meant.
+double error_on_ring(const Point_3& p, double mean_curvature) {
+  const double radius = std::hypot(p.x(), p.y()), of_cylinder = radius < 1 ? 1 / 1.2 : 1 / 2.8;
+  const bool is_in_plane = std::abs(p.z()) > .4 - 1e-9, is_on_cylinder = std::abs(std::abs(radius - 1) - .4) < 5e-3;
+  const double in_plane = std::abs(mean_curvature), on_cylinder = std::abs(in_plane - of_cylinder);
+  return (!is_in_plane ? on_cylinder : is_on_cylinder ? std::min(in_plane, on_cylinder) : in_plane) / of_cylinder;
+}
+
+TEST(Creases, each_side_has_its_own_curvature_and_planes_and_cylinders_are_parabolic) {
+  const Mesh mesh = creased_ring();
+  const auto structures = equiaffine::fitted_structures(mesh);
+  ASSERT_EQ(structures.size(), mesh.number_of_vertices());
+  std::size_t parabolic = 0;
+  for (const auto v : mesh.vertices()) {
+    const auto& [structure, error, noise, detail, scale, is_at_scale, deviation] = structures[v];
+    parabolic += structure.status == equiaffine::Point_status::PARABOLIC;
+    EXPECT_LT(error_on_ring(mesh.point(v), structure.euclidean.mean_curvature), .02 + error.euclidean_mean_curvature)
+        << mesh.point(v);
+  }
+  EXPECT_GT(double(parabolic), .99 * double(structures.size()));
+}
+
+/// The part of the vertices that lie on the zero set of a fit.
+double part_on_zero_set(const Mesh& mesh, const Fit& fit) {
+  double count = 0;
+  for (const auto v : mesh.vertices()) count += std::abs(fit.value(mesh.point(v))) < 1e-4;
+  return count / double(mesh.number_of_vertices());
+}
+
+TEST(Creases, the_fit_ends_at_them_as_the_data_do) {
+  const Mesh mesh = creased_ring();
+  const Fit fit(mesh);
+  EXPECT_GT(part_on_zero_set(mesh, fit), .99);
+  EXPECT_LT(part_on_zero_set(mesh, Fit(mesh, equiaffine::parameters::feature_angle(std::nullopt))), .9);
+  double covered = 0;
+  for (const auto& [center, normal] : faces_of(mesh)) {
+    const auto [structure, error, noise, detail, scale, is_at_scale, deviation] = fit.structure(center);
+    covered += error_on_ring(center, structure.euclidean.mean_curvature) < .02 + error.euclidean_mean_curvature;
+  }
+  EXPECT_GT(covered, .99 * double(mesh.number_of_faces()));
+}
+
+TEST(Creases, sharp_edges_without_followers_are_none) {
+  Mesh mesh = torus(24);
+  const auto v = *mesh.vertices().begin();
+  mesh.point(v) = mesh.point(v) + .2 * (mesh.point(v) - CGAL::ORIGIN);
+  const Fit fit(mesh), round(mesh, equiaffine::parameters::feature_angle(std::nullopt));
+  for (const auto& [center, normal] : faces_of(mesh)) EXPECT_EQ(fit.value(center), round.value(center));
+}
+
+} // namespace
