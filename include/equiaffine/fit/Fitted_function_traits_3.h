@@ -131,6 +131,7 @@ public:
   FT rounding(const Point_3& p) const {
     const Eigen::Vector3d place = normal(p);
     const auto jet = state_->blend.template taylor<4>(place);
+    if (!std::isfinite(jet.value())) return FT(jet.value());
     return FT(internal::rounding_of(jet, state_->fit, state_->blend.accuracy(place, jet)));
   }
 

@@ -11,6 +11,8 @@
 
 #include <CGAL/tags.h>
 
+#include <cstddef>
+#include <iterator>
 #include <ranges>
 #include <vector>
 
@@ -62,7 +64,7 @@ std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, con
   const internal::Surface_fit_3 fit(internal::fit_input_of_graph(mesh, parameters), internal::fit_request(parameters),
                                     ConcurrencyTag());
   auto structures = internal::structures_of_fit<ConcurrencyTag>(fit, parameters);
-  structures.resize(num_vertices(mesh));
+  structures.resize(std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()))); // no points of creases
   return structures;
 }
 
