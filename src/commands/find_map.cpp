@@ -7,7 +7,6 @@
 #include <equiaffine/register_surfaces.h>
 #include <equiaffine/registration/contradictions_of_meshes.h>
 
-#include <CGAL/Bbox_3.h>
 #include <CGAL/compute_average_spacing.h>
 #include <CGAL/tags.h>
 
@@ -15,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -64,17 +62,6 @@ double spacing_of(const Source_options& source, const Surface_to_register& surfa
   return CGAL::compute_average_spacing<Tag>(points, 6);
 }
 
-/// Half of the diagonal of the smaller box around the points of two surfaces.
-double greatest_scale(const Found_map& found) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto* surface : {&found.source, &found.target}) {
-    CGAL::Bbox_3 box;
-    for (const auto& p : surface->mesh.points) box += p.bbox();
-    least = std::min(least, std::hypot(box.x_span(), box.y_span(), box.z_span()) / 2);
-  }
-  return least;
-}
-
 /// The scale that one side has; else those from ten spacings on, while they are smaller than the surfaces: the same
 /// length on both sides, since maps of scans mostly keep sizes, and each side's own multiple where points are not as
 /// dense.
@@ -86,7 +73,7 @@ std::vector<Scales> scales_to_try(const Register_options& options, const Found_m
   if (options.source.source.kind != Source_kind::FIT) spacings[0] = spacings[1];
   if (options.target.source.kind != Source_kind::FIT) spacings[1] = spacings[0];
   const double ratio = spacings[0] / spacings[1], greater = std::max(spacings[0], spacings[1]);
-  const double greatest = greatest_scale(first);
+  const double greatest = std::min(diagonal_of(first.source.mesh.points), diagonal_of(first.target.mesh.points)) / 2;
   std::vector<Scales> scales;
   for (const double multiple : {10., 14., 7., 20.}) {
     scales.push_back({multiple * greater, multiple * greater});

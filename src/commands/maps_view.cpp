@@ -58,12 +58,6 @@ std::vector<double> distances(const std::vector<Point>& points, const Level_set_
   return result;
 }
 
-double diagonal_of(const std::vector<Point>& points) {
-  CGAL::Bbox_3 box;
-  for (const Point& p : points) box += p.bbox();
-  return std::hypot(box.x_span(), box.y_span(), box.z_span());
-}
-
 /// Several meshes as one, with columns for all.
 class Joined_meshes {
 public:
@@ -101,6 +95,12 @@ void add_frames(const Registered_map_3<Kernel>& registered, double diagonal, Joi
 }
 
 } // namespace
+
+double diagonal_of(const std::vector<Kernel::Point_3>& points) {
+  CGAL::Bbox_3 box;
+  for (const Point& p : points) box += p.bbox();
+  return std::hypot(box.x_span(), box.y_span(), box.z_span());
+}
 
 Mesh moved(Mesh mesh, const Map& map) {
   for (Point& p : mesh.points) p = map(p);

@@ -14,6 +14,9 @@
 
 namespace equiaffine {
 
+/// The diagonal of the box around points.
+double diagonal_of(const std::vector<Kernel::Point_3>& points);
+
 /// The distances of points from a surface; NaN where they are not known.
 using Distances_of_points = std::function<std::vector<double>(const std::vector<Kernel::Point_3>&)>;
 

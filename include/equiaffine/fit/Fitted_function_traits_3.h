@@ -7,6 +7,7 @@
 #include <equiaffine/fit/internal/Fit_request.h>
 #include <equiaffine/fit/internal/Surface_fit_3.h>
 #include <equiaffine/fit/internal/distances_of_sheets.h>
+#include <equiaffine/fit/internal/feature_angle.h>
 #include <equiaffine/fit/internal/fit_input.h>
 #include <equiaffine/fit/internal/fit_input_of_soup.h>
 #include <equiaffine/fit/internal/structures_of_fit.h>
@@ -86,8 +87,7 @@ public:
   Fitted_function_traits_3(const Points& points, const Polygons& polygons, const Parameters& parameters = {},
                            ConcurrencyTag tag = {}) {
     internal::check_fit_parameters<Parameters, internal::Feature_angle_tag>();
-    make(internal::fit_input_of_soup(points, polygons, internal::feature_angle_of_fit(parameters)).data, parameters,
-         tag);
+    make(internal::fit_input_of_soup(points, polygons, internal::feature_angle(parameters)).data, parameters, tag);
   }
 
   /// The same function, to be sampled in another box.

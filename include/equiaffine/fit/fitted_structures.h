@@ -4,6 +4,7 @@
 
 #include <equiaffine/fit/Fitted_structure_3.h>
 #include <equiaffine/fit/internal/Fit_request.h>
+#include <equiaffine/fit/internal/feature_angle.h>
 #include <equiaffine/fit/internal/fit_input.h>
 #include <equiaffine/fit/internal/fit_input_of_soup.h>
 #include <equiaffine/fit/internal/structures_of_fit.h>
@@ -41,7 +42,7 @@ namespace equiaffine {
 ///
 /// A mesh that is mapped by an affine map of determinant 1 gets the same affine curvatures to within rounding, since
 /// neighborhoods are balls in coordinates in which the edges have no preferred direction. `scale` and `noise` are
-/// lengths there, divided by the factor of volumes to the power 1/3.
+/// lengths there, divided by the factor of volumes to the power 1/3. Creases are those of the given coordinates.
 ///
 /// Statuses: OUTSIDE for a vertex that no fit belongs to, since it has no faces, or fewer than some 20 vertices are
 /// connected with it. PARABOLIC for one whose K_e is zero within its estimated error, as on a plane or a cylinder.
@@ -94,7 +95,7 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range 
 std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, const Polygons& polygons,
                                                           const Parameters& parameters = {}) {
   internal::check_fit_parameters<Parameters, internal::Orientation_tag, internal::Feature_angle_tag>();
-  auto input = internal::fit_input_of_soup(points, polygons, internal::feature_angle_of_fit(parameters));
+  auto input = internal::fit_input_of_soup(points, polygons, internal::feature_angle(parameters));
   const internal::Surface_fit_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
   return internal::elements_at(internal::structures_of_fit<ConcurrencyTag>(fit, parameters), input.positions);
 }

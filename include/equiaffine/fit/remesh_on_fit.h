@@ -21,9 +21,9 @@ namespace equiaffine {
 /// triangles. A length beyond the diagonal of the mesh counts as that diagonal. Vertices in no triangle are removed. A
 /// mesh with a triangle that is a line or a point keeps all its triangles.
 ///
-/// Edges that are constrained, or sharper than the feature angle, stay where they are, since the fit makes them round;
-/// vertices beside them go to the fit only if that is within a fifth of an edge. Sharp edges count where they follow each
-/// other as creases do, see fitted_structures().
+/// Edges that are constrained, or sharper than the feature angle, stay where they are: a fit that does not end there
+/// makes them round. Vertices beside them go to the fit only if that is within a fifth of an edge. Sharp edges count
+/// where they follow each other as creases do, see fitted_structures().
 ///
 /// Named parameters: `target_edge_length`, by default the mean length of the edges given, `number_of_iterations`, by
 /// default 3, `feature_angle`, by default 60 degrees, `edge_is_constrained_map`, which says of the edges of the result,

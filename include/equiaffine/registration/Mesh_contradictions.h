@@ -6,9 +6,10 @@
 
 namespace equiaffine {
 
-/// What two meshes that a map has brought together say against it.
+/// The evidence of two meshes against the map that has brought them together.
 struct Mesh_contradictions {
-  /// Of the points of each mesh that lie on the other one, or off it although it does not end there, the part off it.
+  /// The points of each mesh that lie off the other one although it does not end there, as a part of these and of those
+  /// that lie on it.
   std::array<double, 2> parts = {0, 0};
   bool are_closed = false; ///< whether neither mesh has a border, so that both end nowhere
 };

@@ -10,6 +10,7 @@
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <boost/graph/graph_traits.hpp>
 
 #include <algorithm>
@@ -35,6 +36,15 @@ struct Indexed_polygons {
   std::vector<Eigen::Vector3d> points = {};
   std::vector<std::vector<std::uint32_t>> polygons = {};
 };
+
+/// Twice the vector of the area of a polygon, the sum of those of a fan of triangles.
+template <class Polygon>
+Eigen::Vector3d double_area_of_polygon(const std::vector<Eigen::Vector3d>& points, const Polygon& polygon) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
+    sum += (points[polygon[k]] - points[polygon[0]]).cross(points[polygon[k + 1]] - points[polygon[0]]);
+  return sum;
+}
 
 inline void check_points(const std::vector<Eigen::Vector3d>& points) {
   check_argument(points.size() < std::numeric_limits<std::uint32_t>::max(), "a surface has fewer than 2^32 points");

@@ -51,7 +51,6 @@ public:
     double height = 0, slope = 0;
   };
 
-  Band_3() = default;
   explicit Band_3(std::vector<Band_point_3> points) : points_(std::move(points)) {
     std::vector<Vector> places;
     std::vector<double> reaches;

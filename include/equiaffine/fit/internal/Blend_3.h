@@ -10,7 +10,6 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -53,10 +52,13 @@ public:
         is_above_core(height) ? Patches_3::Mean<Jet>{Jet(height.value), 0} : patches_.taylor<Order>(p, height.chart);
     const double part = part_of_height({jet.value(), depth}, height);
     if (part == 0) return jet;
-    if constexpr (Order > 1) return Jet(std::numeric_limits<double>::quiet_NaN());
-    Jet plane(height.value);
-    for (std::size_t axis = 0; axis < 3; ++axis) plane.coefficients()[1 + axis] = height.gradient[Eigen::Index(axis)];
-    return part < 1 ? jet * (1 - part) + plane * part : plane;
+    if constexpr (Order > 1) {
+      return Jet(std::numeric_limits<double>::quiet_NaN());
+    } else {
+      Jet plane(height.value);
+      for (std::size_t axis = 0; axis < 3; ++axis) plane.coefficients()[1 + axis] = height.gradient[Eigen::Index(axis)];
+      return part < 1 ? jet * (1 - part) + plane * part : plane;
+    }
   }
 
   Fit_accuracy accuracy(const Vector& p, const Jet_3<double>& jet) const {
@@ -164,23 +166,20 @@ private:
     std::vector<char> has_feet(data.size()); // of parts
     for (std::size_t i = 0; i < data.size(); ++i)
       if (feet[i]) has_feet[data.charts.of(i)] = 1;
-    std::vector<Data_points_3::Index> filled;
+    std::vector<std::pair<Data_points_3::Index, double>> filled; // with their cores
     for (Data_points_3::Index i = 0; i < data.size(); ++i) {
       if (feet[i]) continue;
       const auto around = data.neighbors_of(i);
       const auto known = std::count_if(around.begin(), around.end(), [&](auto j) { return feet[j].has_value(); });
       const bool is_of_few = !data.charts.empty() && !has_feet[data.charts.of(i)] && !around.empty();
-      if (is_of_few || (known > 0 && 2 * std::size_t(known) >= around.size())) filled.push_back(i);
-    }
-    std::vector<double> cores(data.size());
-    for (const auto i : filled) {
+      if (!is_of_few && (known == 0 || 2 * std::size_t(known) < around.size())) continue;
       double least = std::numeric_limits<double>::infinity();
-      for (const auto j : data.neighbors_of(i))
+      for (const auto j : around)
         if (feet[j]) least = std::min(least, feet[j]->core);
-      cores[i] = std::isinf(least) ? 0 : least;
+      filled.emplace_back(i, std::isinf(least) ? 0 : least);
     }
-    for (const auto i : filled)
-      feet[i] = {data.points[i], data.normals[i], data.spacing[i], cores[i], {}, data.charts.of(i)};
+    for (const auto& [i, core] : filled)
+      feet[i] = {data.points[i], data.normals[i], data.spacing[i], core, {}, data.charts.of(i)};
   }
 
   /// Returns the gap beside the foot of a point where the surface does not go on, if there is one: neither a neighbor nor

@@ -3,7 +3,6 @@
 #define EQUIAFFINE_FIT_INTERNAL_CHARTS_3_H
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>

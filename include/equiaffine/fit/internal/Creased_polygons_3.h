@@ -4,6 +4,7 @@
 
 #include <equiaffine/base/disjoint_sets.h>
 #include <equiaffine/fit/internal/Charts_3.h>
+#include <equiaffine/surface/indexed_polygons.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -32,7 +33,7 @@ public:
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       first_corner_.push_back(corners_);
       corners_ += faces_[f].size();
-      normals_.push_back(area(faces_[f]));
+      normals_.push_back(double_area_of_polygon(points_, faces_[f]));
       for (std::size_t k = 0; k < faces_[f].size(); ++k) {
         const Index a = faces_[f][k], b = faces_[f][(k + 1) % faces_[f].size()];
         sides_.push_back({{std::min(a, b), std::max(a, b)}, f, k});
@@ -67,12 +68,12 @@ public:
     double sum = 0, count = 0;
     for_each_edge([&](std::size_t first, std::size_t last) {
       const Edge& ends = sides_[first].ends;
-      const double length = (points_[ends[0]] - points_[ends[1]]).norm();
-      sum += length, ++count;
+      const double edge_length = length(ends);
+      sum += edge_length, ++count;
       if (last - first != 2) return;
       const double size = std::abs(bend(first));
       Chain& of_edge = chain[chains.find(ends[0])];
-      if (size > least) of_edge.length += length, ++of_edge.edges;
+      if (size > least) of_edge.length += edge_length, ++of_edge.edges;
       else if (3 * size > least)
         for (const Index v : ends) chain[chains.find(v)].others += degree[v] > 0;
     });
@@ -97,10 +98,9 @@ public:
     for (Index v = 0; v < points_.size(); ++v) charts.of_point.push_back(parts.find(v));
     for_each_edge([&](std::size_t first, std::size_t last) {
       if (last - first != 2) return;
-      const auto& [ends, face, position] = sides_[first];
-      const Index a = charts.of_point[faces_[face].front()],
+      const Index a = charts.of_point[faces_[sides_[first].face].front()],
                   b = charts.of_point[faces_[sides_[first + 1].face].front()];
-      if (a != b) charts.bend[std::minmax(a, b)] += bend(first) * length(face, position);
+      if (a != b) charts.bend[std::minmax(a, b)] += bend(first) * length(sides_[first].ends);
     });
     return charts;
   }
@@ -111,13 +111,6 @@ private:
     Edge ends;
     std::size_t face, position;
   };
-
-  Vector area(const std::vector<Index>& face) const {
-    Vector sum = Vector::Zero();
-    for (std::size_t k = 1; k + 1 < face.size(); ++k)
-      sum += (points_[face[k]] - points_[face[0]]).cross(points_[face[k + 1]] - points_[face[0]]);
-    return sum;
-  }
 
   /// Calls f(first, last) for the sides of each edge.
   template <class F>
@@ -138,9 +131,7 @@ private:
     return m.cross(n).dot(along) >= 0 ? angle : -angle;
   }
 
-  double length(std::size_t face, std::size_t position) const {
-    return (points_[faces_[face][(position + 1) % faces_[face].size()]] - points_[faces_[face][position]]).norm();
-  }
+  double length(const Edge& ends) const { return (points_[ends[0]] - points_[ends[1]]).norm(); }
 
   /// The corners of faces in sets, one for each smooth part around a point. A point without a crease has one part.
   Disjoint_sets<std::size_t> sectors_of(const std::vector<Edge>& creases) const {

@@ -33,8 +33,6 @@ class Patches_3 {
 public:
   using Vector = Eigen::Vector3d;
 
-  Patches_3() = default;
-
   template <class ConcurrencyTag>
   Patches_3(const Data_points_3& data, const Fit_choice_3& choices, ConcurrencyTag tag) {
     auto cover = patch_cover(data, choices, Fit_use::BLEND, reach * distance_of_centers, tag);

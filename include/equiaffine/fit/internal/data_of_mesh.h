@@ -5,8 +5,9 @@
 #include <equiaffine/fit/internal/Creased_polygons_3.h>
 #include <equiaffine/fit/internal/Data_points_3.h>
 #include <equiaffine/fit/internal/Normalization_3.h>
+#include <equiaffine/surface/indexed_polygons.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cstddef>
@@ -29,25 +30,25 @@ inline std::vector<Data_points_3::Edge> edges_of(const std::vector<std::vector<D
 
 /// Vertices of a mesh with the polygons between them. Neighbors are the ends of edges, and normals are the sums of
 /// those of the faces around, weighted by area. The surface comes apart at creases, edges that bend by more than an angle
-/// in degrees: the points on them are data of each side, those of all sides but the first one behind the vertices.
+/// in degrees: the points on them are data of each side, those of all sides but the largest one behind the vertices.
 inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices,
                                     const std::vector<std::vector<Data_points_3::Index>>& faces,
                                     std::optional<double> feature_angle) {
+  std::vector<Data_points_3::Edge> edges = edges_of(faces);
   Normalized_data result;
-  result.normalization = normalization_of(vertices, edges_of(faces));
+  result.normalization = normalization_of(vertices, edges);
   Data_points_3& data = result.data;
   Creased_polygons_3 mesh(vertices, faces);
   if (feature_angle) data.charts = mesh.split(mesh.creases(*feature_angle));
   for (const auto& p : mesh.points()) data.points.push_back(result.normalization(p));
   data.normals.assign(data.size(), Eigen::Vector3d::Zero());
   for (const auto& face : mesh.faces()) {
-    Eigen::Vector3d area = Eigen::Vector3d::Zero();
-    for (std::size_t k = 1; k + 1 < face.size(); ++k)
-      area += (data.points[face[k]] - data.points[face[0]]).cross(data.points[face[k + 1]] - data.points[face[0]]);
+    const Eigen::Vector3d area = double_area_of_polygon(data.points, face);
     for (const auto i : face) data.normals[i] += area;
   }
   for (auto& normal : data.normals) normal.normalize();
-  set_neighbors(data, edges_of(mesh.faces()));
+  if (!data.charts.empty()) edges = edges_of(mesh.faces());
+  set_neighbors(data, std::move(edges));
   set_spacing(data, 1);
   return result;
 }

@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_FIT_INPUT_H
 #define EQUIAFFINE_FIT_INTERNAL_FIT_INPUT_H
 
-#include <equiaffine/base/check_argument.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/Normal_orientation.h>
 #include <equiaffine/fit/internal/data_of_mesh.h>
 #include <equiaffine/fit/internal/data_of_points.h>
+#include <equiaffine/fit/internal/feature_angle.h>
 #include <equiaffine/surface/Face_graph.h>
 #include <equiaffine/surface/indexed_polygons.h>
 
@@ -15,7 +15,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <ranges>
 #include <utility>
 #include <vector>
@@ -23,19 +22,11 @@
 // Meshes and points of CGAL become arrays of data points.
 namespace equiaffine::internal {
 
-/// The angle of creases, over which fits do not reach.
-template <class Parameters>
-std::optional<double> feature_angle_of_fit(const Parameters& parameters) {
-  const auto angle = get_parameter<Feature_angle_tag>(parameters, std::optional<double>(60.));
-  check_argument(!angle || (*angle >= 0 && *angle <= 180), "the angle of creases is from 0 to 180 degrees");
-  return angle;
-}
-
 /// The data points are the vertices in their order, and behind them others at creases.
 template <Face_graph Graph, class Parameters>
 Normalized_data fit_input_of_graph(const Graph& graph, const Parameters& parameters) {
   const Indexed_polygons mesh = indexed_polygons_of_graph(graph, parameters);
-  return data_of_mesh(mesh.points, mesh.polygons, feature_angle_of_fit(parameters));
+  return data_of_mesh(mesh.points, mesh.polygons, feature_angle(parameters));
 }
 
 /// The data points of a range without those that come again, and which of them each element of the range is.

@@ -37,7 +37,7 @@ inline std::vector<std::uint32_t> positions_after_repair(const std::vector<Soup_
 }
 
 /// The data points are the points without those that come again, in any order; a point where sheets meet is data of
-/// each of them, and gets what the first says.
+/// each of them, and gets what the first says, or at a crease the largest one.
 template <std::ranges::input_range Points, std::ranges::input_range Polygons>
 Fit_input_of_points fit_input_of_soup(const Points& range, const Polygons& polygon_range,
                                       std::optional<double> feature_angle) {

@@ -5,6 +5,7 @@
 #include <equiaffine/base/check_argument.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/internal/Whole_remesh_3.h>
+#include <equiaffine/fit/internal/feature_angle.h>
 #include <equiaffine/surface/indexed_polygons.h>
 
 #include <CGAL/boost/graph/copy_face_graph.h>
@@ -23,13 +24,11 @@ template <class Parameters>
 Remesh_request remesh_request(const Parameters& parameters) {
   const Remesh_request request = {
       get_parameter<Target_edge_length_tag>(parameters, std::optional<double>()),
-      get_parameter<Feature_angle_tag>(parameters, std::optional<double>(60.)),
+      feature_angle(parameters),
       get_parameter<Number_of_iterations_tag>(parameters, 3u),
   };
   check_argument(!request.edge_length || (*request.edge_length > 0 && std::isfinite(*request.edge_length)),
                  "the length of the edges of a remesh is a positive number");
-  check_argument(!request.feature_angle || (*request.feature_angle >= 0 && *request.feature_angle <= 180),
-                 "the angle of edges that are kept is from 0 to 180 degrees");
   return request;
 }
 

@@ -24,6 +24,9 @@ struct Point_of_piece {
   bool is_on_border; ///< the surface may go on there
 };
 
+/// The samples by which a map between pieces is judged.
+constexpr std::size_t samples_of_piece = 4000;
+
 /// A mesh as a part of the boundary of a solid, which goes on beyond the border of the mesh.
 class Piece_of_surface_3 {
 public:

@@ -29,6 +29,9 @@ struct Contact_distances {
   double touching, passing_by;
 };
 
+/// A surface that passes by at less than this, beside the size of the smaller piece, is the same one.
+constexpr double greatest_displacement = 0.1;
+
 /// A point of one piece, with its normal, in the coordinates of the other one. A solid has another sheet between two
 /// with the same side, and two that are near each other have opposite sides.
 inline Contact contact_of(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, const Point_of_piece& nearest,

@@ -18,8 +18,6 @@ namespace equiaffine::internal {
 /// Returns the contradictions with the side of the source by which more points are in contact. Meshes without an area
 /// have none.
 inline Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 target, double distance) {
-  constexpr std::size_t samples = 4000;
-  constexpr double passing_by = 0.1;
   Mesh_contradictions result;
   if (source.triangles.empty() || target.triangles.empty()) return result;
   const Moments_3 area = area_moments(target);
@@ -30,11 +28,12 @@ inline Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Trian
   const auto edges = sorted_edges(target);
   const double error = std::max(facet_error(source, sorted_edges(source)), facet_error(target, edges));
   const double touching = std::max(distance / area.size(), tolerance_of_contact(error, {}));
-  const Piece_of_surface_3 piece(target, edges, samples, 2 * touching);
+  const Piece_of_surface_3 piece(target, edges, samples_of_piece, 2 * touching);
   std::size_t most = 0;
   for (const Triangles_3& side : {source, turned_inside_out(source)}) {
-    const Piece_of_surface_3 moved(side, sorted_edges(side), samples, 2 * touching);
-    const Mapped_samples contacts = mapped_samples(moved, piece, {}, samples, {touching, passing_by});
+    const Piece_of_surface_3 moved(side, sorted_edges(side), samples_of_piece, 2 * touching);
+    const Mapped_samples contacts =
+        mapped_samples(moved, piece, {}, samples_of_piece, {touching, greatest_displacement});
     const std::size_t in_contact = count_of(contacts[0], Contact::TOUCHING) + count_of(contacts[1], Contact::TOUCHING);
     if (in_contact < most) continue;
     most = in_contact;

@@ -54,7 +54,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t few_samples = 120, more_samples = 400, all_samples = 4000, most_judged = 40;
+  static constexpr std::size_t few_samples = 120, more_samples = 400, most_judged = 40;
   static constexpr double accepted_log10 = -6, most_contradictions = 0.02, least_part = 0.05;
   static constexpr double least_rigidity = 20; ///< beside the tolerance
 
@@ -89,7 +89,7 @@ private:
   }
 
   Mapped_samples samples_of(const Affine_map_3& map, std::size_t count, double touching) const {
-    return mapped_samples(source_, target_, map, count, {touching * unit(map), 0.1 * unit(map)});
+    return mapped_samples(source_, target_, map, count, {touching * unit(map), greatest_displacement * unit(map)});
   }
 
   void refine(std::vector<Candidate>& candidates, const Steps& how) const {
@@ -162,7 +162,7 @@ private:
 
   void judge(std::vector<Candidate>& candidates) const {
     parallel_for<ConcurrencyTag>(0, candidates.size(), [&](std::size_t i) {
-      candidates[i].evidence = evidence(candidates[i].map, all_samples, tolerance_);
+      candidates[i].evidence = evidence(candidates[i].map, samples_of_piece, tolerance_);
     });
     keep_best(candidates, candidates.size());
     sort_best_by_rms(candidates);
@@ -212,18 +212,12 @@ inline std::string reason_against_pieces(const Moments_3& source, const Moments_
   return {};
 }
 
-/// Whether two meshes that bound solids have them on different sides.
-inline bool are_turned(const Piece_of_surface_3& a, const Piece_of_surface_3& b) {
-  return a.is_closed() && b.is_closed() && a.volume() * b.volume() < 0;
-}
-
 /// Finds rigid maps or similarities that move a mesh, or a part of it, onto another one, without curvature: pieces of
 /// planes and cylinders will do. Accepts those that the area in contact proves, and that no other points contradict. The
 /// source may be inside out, as meshes are that somebody mirrored.
 template <class ConcurrencyTag>
 Shape_matches register_pieces(const Triangles_3& source, const Triangles_3& target,
                               const Registration_request& request) {
-  constexpr std::size_t samples = 4000;
   const Moments_3 areas[] = {area_moments(source), area_moments(target)};
   Shape_matches result;
   result.reason = reason_against_pieces(areas[0], areas[1], request.kind);
@@ -235,7 +229,7 @@ Shape_matches register_pieces(const Triangles_3& source, const Triangles_3& targ
   const auto edges_a = sorted_edges(a), edges_b = sorted_edges(b);
   const double tolerance = tolerance_of_contact(std::max(facet_error(a, edges_a), facet_error(b, edges_b)), request);
   const auto piece = [=](const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges) {
-    return Piece_of_surface_3(mesh, edges, samples, 2 * tolerance);
+    return Piece_of_surface_3(mesh, edges, samples_of_piece, 2 * tolerance);
   };
   const Piece_of_surface_3 p = piece(a, edges_a), q = piece(b, edges_b);
   if (!p.is_oriented() || !q.is_oriented()) {
@@ -245,9 +239,9 @@ Shape_matches register_pieces(const Triangles_3& source, const Triangles_3& targ
   const auto search = [&](const Piece_of_surface_3& from) {
     return Registration_of_pieces<ConcurrencyTag>(from, q, request, tolerance).run();
   };
-  const bool is_side_known = p.is_closed() && q.is_closed();
-  if (!are_turned(p, q)) result = search(p);
-  if (result.maps.empty() && (are_turned(p, q) || !is_side_known)) {
+  const bool is_side_known = p.is_closed() && q.is_closed(), is_turned = is_side_known && p.volume() * q.volume() < 0;
+  if (!is_turned) result = search(p);
+  if (result.maps.empty() && (is_turned || !is_side_known)) {
     const Triangles_3 turned = turned_inside_out(a);
     Shape_matches other = search(piece(turned, sorted_edges(turned)));
     other.hypotheses += result.hypotheses;
