@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Registration of meshes of planes, as wholes and piece by piece, which needs no curvature.
+#include "support/fit_data.h"
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
 #include "support/solids.h"
@@ -155,6 +156,39 @@ TEST(Register_meshes, points_of_vertices_may_be_anywhere) {
   const auto back = register_surfaces(target, source, rigid.vertex_point_map(place));
   ASSERT_TRUE(back.found()) << back.reason;
   EXPECT_LT(CGAL::squared_distance(back.best().map(center + Vector_3(5, 6, 7)), center), 1e-18);
+}
+
+TEST(Register_meshes, a_coarse_scan_of_the_same_object_is_alike_by_the_one_map_that_stands_out) {
+  const auto similar = parameters::map_kind(Map_kind::SIMILARITY);
+  Random random(3);
+  const Map map = map_of(9.8 * random_rotation(random), Eigen::Vector3d(1, 2, 3));
+  const auto animal = make_analytic_traits<Kernel>(
+      [](const auto& x, const auto& y, const auto& z) {
+        using std::exp;
+        return .5 - exp(-3. * (x * x + 2. * y * y + z * z)) - exp(-6. * (pow(x - .7, 2) + pow(y - .2, 2) + z * z)) -
+               exp(-9. * (pow(x + .6, 2) + y * y + pow(z - .5, 2)));
+      },
+      CGAL::Bbox_3(-1.5, -1.5, -1.5, 1.5, 1.5, 1.5));
+  const auto mesh_with = [](const auto& traits, std::size_t nodes) {
+    return to_surface_mesh(marching_cubes(traits, parameters::number_of_nodes(nodes)));
+  };
+  const test::Fit_mesh fine = mesh_with(animal, 50);
+  test::Fit_mesh coarse = mesh_with(animal, 20);
+  test::add_noise(coarse, .012);
+  for (const auto v : coarse.vertices()) coarse.point(v) = map(coarse.point(v));
+  const auto found = register_surfaces(fine, coarse, similar);
+  ASSERT_TRUE(found.found()) << found.reason;
+  EXPECT_GT(found.best().rms / found.size, .01) << "it is not equal";
+  for (const auto v : fine.vertices())
+    EXPECT_LT(std::sqrt(CGAL::squared_distance(found.best().map(fine.point(v)), map(fine.point(v)))), .05 * 9.8);
+
+  const auto ellipsoid = make_analytic_traits<Kernel>(
+      [](const auto& x, const auto& y, const auto& z) { return x * x + y * y / .64 + z * z / .36 - 1.0; },
+      CGAL::Bbox_3(-1.1, -1.1, -1.1, 1.1, 1.1, 1.1));
+  const test::Fit_mesh smooth = mesh_with(ellipsoid, 12);
+  test::Fit_mesh rough = smooth;
+  test::add_noise(rough, .015);
+  EXPECT_FALSE(register_surfaces(smooth, rough, similar).found()) << "eight maps are as good";
 }
 
 TEST(Register_meshes, reflections_and_sizes_are_as_asked_for) {

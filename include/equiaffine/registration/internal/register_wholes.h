@@ -54,13 +54,18 @@ std::vector<Rotation_candidate> rotations_to_refine(const Centered_pair& surface
   return rotations;
 }
 
+/// Whether the best map is below an rms and all others are at least twice as far.
+inline bool is_one_alone(const std::vector<Centered_map>& maps, double rms) {
+  return !maps.empty() && maps[0].rms < rms && (maps.size() == 1 || maps[1].rms > 2 * maps[0].rms);
+}
+
 /// The maps that move a whole surface onto another one: they keep the centroid of the area, and affine ones the moments
 /// of the solid inside, so that all rotations and reflections about the centroid are tried, and no curvature is needed.
 /// Surfaces whose extents differ by a tenth of the size are not equal, and no rotation is tried.
 template <class ConcurrencyTag>
 Shape_matches register_wholes(const Centered_surface_3& source, const Centered_surface_3& target,
                               const Registration_request& request) {
-  constexpr double gate = 0.06, least_difference = 0.1;
+  constexpr double gate = 0.06, least_difference = 0.1, most_contradictions = 0.1;
   constexpr std::size_t probes = 6000;
   Shape_matches result;
   if (!source.reason_against.empty() || !target.reason_against.empty()) return result;
@@ -75,15 +80,21 @@ Shape_matches register_wholes(const Centered_surface_3& source, const Centered_s
   }
   const auto slipping = slipping_rotations<ConcurrencyTag>(source, request.kind);
   result.slippage = continuous_symmetries(source, slipping, tolerances_of_wholes(Centered_pair(source), request).tried);
-  const auto rotations = rotations_to_refine<ConcurrencyTag>(surfaces, 2 * tolerances.tried, request.allows_reflections,
-                                                             result.slippage.dimension());
+  const auto rotations =
+      rotations_to_refine<ConcurrencyTag>(surfaces, 2 * std::max(tolerances.tried, tolerances.alone),
+                                          request.allows_reflections, result.slippage.dimension());
   result.hypotheses = rotations.size();
   const Judgement how = {10 * tolerances.tried, 0, degrees_of_freedom(request.kind),
                          double(std::max<std::size_t>(result.hypotheses, 1)), probes};
   const double touching =
       tolerance_of_contact(std::max(source.samples.facet_error, target.samples.facet_error), request);
-  for (const Centered_map& map : refined_candidates<ConcurrencyTag>(surfaces, rotations, scale, request.kind, gate))
+  const auto maps = refined_candidates<ConcurrencyTag>(surfaces, rotations, scale, request.kind, gate);
+  for (const Centered_map& map : maps)
     if (map.rms < tolerances.equal) result.maps.push_back(match_of(surfaces, map.map, touching, how));
+  if (result.maps.empty() && is_one_alone(maps, tolerances.alone)) {
+    const Shape_match match = match_of(surfaces, maps[0].map, std::max(touching, 3 * maps[0].rms), how);
+    if (match.contradictions[0] + match.contradictions[1] < most_contradictions) result.maps.push_back(match);
+  }
   return result;
 }
 
