@@ -54,9 +54,9 @@ void kinds(const std::vector<Source>& all, int repeats) {
       const Map turn = map_of(sign * random_rotation(random), Eigen::Vector3d(1, 2, 3));
       const Map shear = random_map(random, 10, 1);
       const Image turned(s.function, turn), sheared(s.function, shear);
-      rigid.run(s.function, s.points, turned, points_on_surface(turned, 35), turn, {.kind = Map_kind::RIGID});
+      rigid.run(s.function, s.points, turned, points_on_surface(turned, 35), turn, {{.kind = Map_kind::RIGID}});
       equiaffine.run(s.function, s.points, sheared, points_on_surface(sheared, 35), shear,
-                     {.kind = Map_kind::EQUIAFFINE});
+                     {{.kind = Map_kind::EQUIAFFINE}});
     }
   rigid.report({.right = ">=0.99"});
   equiaffine.report({.right = ">=0.99"});
@@ -82,7 +82,7 @@ void overlaps(const std::vector<Source>& all, int repeats) {
         const Image image(s.function, map);
         const Piece<Image> upper{image, -m, -offset - quantile(heights, 1 - part)};
         row.run(lower, lower.points_of(s.points), upper, upper.points_of(points_on_surface(image, 45)), map,
-                {.least_overlap = std::min(0.05, overlap / 4)});
+                {{}, 1, std::min(0.05, overlap / 4)});
       }
     row.report({.right = overlap < 0.1 ? ">=0.95" : ">=1"});
   }

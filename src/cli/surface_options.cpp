@@ -116,6 +116,12 @@ const std::vector<Option_row> rows = {
      "N [NY NZ]",
      "nodes of the grid per axis, 2 or more: 64, for a distance or fit 129; a volume has its own",
      [](const Option_words& option, Draft& draft) { draft.source.resolution = parse_resolution(option); }},
+    {"--yes", MESH | EVALUATE | SAMPLE | registering, SAMPLING, 0, "",
+     "agree to use more than half of the memory of this computer",
+     [](const Option_words& option, Draft& draft) {
+       draft.source.memory_use =
+           parse_choice<Memory_use>(option, {{"true", Memory_use::ALL}, {"false", Memory_use::HALF}});
+     }},
     {"--threads", MESH | EVALUATE | SAMPLE | ANNOTATE, SAMPLING, 1, "N", threads_help, read_threads},
     {"--threads", registering, MAPS, 1, "N", threads_help, read_threads},
     {"--vertices", MESH, MARCHING_CUBES, 1, "projected|linear",

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "attributes/estimates.h"
-#include "commands/check_delaunay_surface.h"
 #include "commands/commands.h"
-#include "commands/extract_surface.h"
-#include "commands/fail_without_surface.h"
-#include "commands/remesh_fit.h"
-#include "commands/remove_crumbs.h"
-#include "engine/Engine.h"
+#include "commands/make_surface.h"
 #include "output/fit_display.h"
 #include "output/statistics.h"
 #include "output/surface_output.h"
@@ -15,12 +9,9 @@
 #include "system/atomic_file.h"
 #include "system/resources.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/delaunay_surface.h>
 #include <equiaffine/parabolic_curves.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -30,129 +21,6 @@
 namespace equiaffine {
 
 namespace {
-
-/// A surface with its attributes. sample() returns one without attributes, and make_surface() adds them.
-struct Annotated_surface {
-  Isosurface_3<Kernel> mesh;
-  Vertex_attributes attributes;
-  Estimates estimates;
-  std::optional<Close_sheets> close_sheets;
-  std::array<std::size_t, number_of_point_statuses> status{};
-  std::optional<Completeness> completeness;
-  double max_distance = 0, annotation_seconds = 0;
-  std::optional<Parabolic_curves_3<Kernel>> curves; ///< if they were asked for
-  std::vector<double> outcomes;                     ///< of vertices of a remesh
-  std::optional<Remesh_statistics> remesh;
-  std::string reason_against_remesh; ///< of faces that could not be remeshed although nothing else was asked for
-};
-
-template <class Traits>
-Annotated_surface sample(const Traits& function, const Source&, const Mesh_options& options,
-                         const Marching_cubes_options& method) {
-  Annotated_surface surface;
-  surface.mesh = extract_surface(function, options.source, method.vertices);
-  if (surface.mesh.triangles.empty())
-    fail_without_surface(function.base(), options.source, options.isovalue,
-                         {"box", "a finer --resolution", surface.mesh.repairs.vertices_at_poles > 0});
-  return surface;
-}
-
-template <class Traits>
-Annotated_surface sample(const Traits& function, const Source&, const Mesh_options& options,
-                         const Delaunay_options& method) {
-  const CGAL::Bbox_3 box = function.bbox();
-  const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
-  check_box_of_delaunay_surface(box, diagonal);
-  Delaunay_criteria criteria = {method.angle, method.radius, method.distance};
-  criteria.radius = std::min(criteria.radius, diagonal); // a larger bound would mean the same
-  criteria = criteria.completed(Clip_domain_3(box));
-  check_memory_of_delaunay_surface(diagonal, criteria.radius, criteria.distance);
-  check_radius_of_delaunay_surface(box, criteria.radius);
-  const Clip_domain_3 domain = method.clips_to_ball ? Clip_domain_3::ball_in(box) : Clip_domain_3(box);
-  const auto parameters = parameters::clip(domain).facet_sizing(method.sizing);
-  auto mesh = options.curves ? delaunay_surface(function, criteria, parameters.parabolic_features())
-                             : delaunay_surface(function, criteria, parameters);
-  if (mesh.triangles.empty())
-    fail_without_surface(function.base(), options.source, options.isovalue,
-                         {method.clips_to_ball ? "ball" : "box", mesh.is_certified ? "" : "a smaller --radius",
-                          changes_sign_at_poles_only(function)});
-  Annotated_surface surface;
-  surface.completeness = {mesh.is_certified, std::move(mesh.undecided_boxes)};
-  if (options.curves) surface.curves = std::move(mesh.parabolic_curves);
-  surface.mesh = std::move(mesh);
-  return surface;
-}
-
-template <class Traits>
-Annotated_surface sample(const Traits&, const Source& source, const Mesh_options& options,
-                         const Remesh_options& method) {
-  Remeshed_fit remeshed = remesh_fit(source, options.source, method);
-  Annotated_surface surface;
-  surface.mesh = std::move(remeshed.mesh);
-  surface.outcomes = std::move(remeshed.outcomes);
-  surface.remesh = remeshed.statistics;
-  return surface;
-}
-
-/// Samples a surface by the method that was asked for. The faces of a fit are remeshed if none was, and if they form a
-/// surface.
-template <class Traits>
-Annotated_surface sample(const Traits& function, const Source& source, const Mesh_options& options) {
-  std::string reason;
-  if (options.remeshes_faces && !source.data.triangles.empty()) {
-    try {
-      return sample(function, source, options, Remesh_options());
-    } catch (const Input_error& error) {
-      reason = error.what();
-    }
-  }
-  Annotated_surface surface =
-      std::visit([&](const auto& method) { return sample(function, source, options, method); }, options.method);
-  surface.reason_against_remesh = std::move(reason);
-  return surface;
-}
-
-/// Samples the surface and computes its attributes. `function` is the one in `source`, with its own type.
-template <class Traits>
-Annotated_surface make_surface(const Traits& function, const Source& source, const Mesh_options& options,
-                               Progress& progress) {
-  // The mesh is made from f whatever the orientation is, which then only decides to which side triangles are turned.
-  const Level_set_traits_3<Traits> extracted(function, options.isovalue);
-  const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
-  progress.begin("extracting the surface");
-  Annotated_surface surface = sample(extracted, source, options);
-  if (source.fit && !surface.remesh) {
-    remove_crumbs(surface.mesh, *source.fit, options.source);
-    if (surface.mesh.triangles.empty())
-      fail_without_surface(function, options.source, options.isovalue, {"box", "a finer --resolution", false});
-    if (std::holds_alternative<Marching_cubes_options>(options.method))
-      surface.close_sheets = close_sheets(*source.fit, options.source);
-  }
-  if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
-    for (auto& triangle : surface.mesh.triangles) std::swap(triangle[1], triangle[2]);
-  const Stopwatch stopwatch;
-  progress.begin("computing attributes");
-  surface.max_distance =
-      engine<Traits>().max_distance_to_surface(level_set, surface.mesh.points, surface.mesh.vertex_status);
-  surface.mesh.function_evaluations += 2 * surface.mesh.points.size();
-  Attribute_selection selection = options.attributes;
-  selection.has_status = true; // even if it is not written: the statistics count it
-  surface.attributes = engine<Traits>().compute_attributes(
-      {function, options.orientation, surface.mesh.points, selection, options.estimator, surface.mesh.vertex_status});
-  surface.mesh.function_evaluations += surface.mesh.points.size();
-  surface.status = count(*surface.attributes.status);
-  surface.estimates = estimates_at(source, options.source, surface.mesh.points, progress);
-  add_estimates(surface.estimates, options.estimates, surface.attributes);
-  if (surface.remesh && !options.attributes.columns.empty())
-    surface.attributes.columns.push_back({"fit_outcome", std::move(surface.outcomes)});
-  if (!options.attributes.has_status) surface.attributes.status.reset();
-  surface.annotation_seconds = stopwatch.seconds();
-  if (options.curves && !surface.curves) {
-    progress.begin("finding parabolic curves");
-    surface.curves = parabolic_curves<CGAL::Parallel_if_available_tag>(surface.mesh, level_set);
-  }
-  return surface;
-}
 
 Statistics make_statistics(const Mesh_options& options, const Annotated_surface& surface, const Source& source) {
   Statistics statistics;
@@ -233,12 +101,9 @@ struct Outputs {
 void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress) {
   Outputs outputs(options);
   if (options.source.derivatives == Derivatives::JETS && std::holds_alternative<Marching_cubes_options>(options.method))
-    check_memory_of_surface(options.source.resolution.value_or(default_resolution(options.source.kind)));
-  const Stopwatch source_stopwatch;
-  const Source source = make_source(options.source, progress);
-  const double source_seconds = source_stopwatch.seconds();
-  Annotated_surface surface = std::visit(
-      [&](const auto& function) { return make_surface(function, source, options, progress); }, source.function);
+    check_memory_of_surface(options.source.resolution.value_or(default_resolution(options.source.kind)),
+                            options.source.memory_use);
+  auto [source, surface, source_seconds] = make_surface(options, progress);
 
   const Stopwatch write_stopwatch;
   progress.begin("writing");

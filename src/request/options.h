@@ -4,6 +4,7 @@
 
 #include "request/Raw_layout.h"
 #include "system/kernel.h"
+#include "system/resources.h"
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/delaunay/Facet_sizing.h>
 #include <equiaffine/function/Level_set_traits_3.h>
@@ -60,6 +61,7 @@ struct Source_options {
   bool estimates_errors = false; ///< whether the errors of affine curvatures are estimated
   bool is_registered = false;    ///< whether few data are no error, and registration needs an unsmoothed spline, too
   std::optional<Raw_layout> raw; ///< is set for a volume without a header
+  Memory_use memory_use = Memory_use::HALF;
   std::optional<double> narrow_band; ///< distances are not needed beyond so many voxels
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
 };

@@ -11,16 +11,16 @@ constexpr const char* wipe_line = "\r\x1b[K"; // goes to the beginning of the li
 
 double seconds(Progress_report::Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-/// Two units at most, such as "3 min 20 s".
-std::string time_text(double seconds) {
-  const auto all = static_cast<long long>(seconds);
+} // namespace
+
+std::string Progress_report::time_text(double seconds) {
+  constexpr double most = 3.6e12; // a billion hours
+  const auto all = static_cast<long long>(std::min(seconds, most));
   const auto text = [](long long number, const char* unit) { return std::to_string(number) + unit; };
   if (all < 60) return text(all, " s");
   if (all < 3600) return text(all / 60, " min ") + text(all % 60, " s");
   return text(all / 3600, " h ") + text(all / 60 % 60, " min");
 }
-
-} // namespace
 
 void Progress_report::begin(const std::string& stage, std::size_t steps, Time now) {
   stage_ = stage;

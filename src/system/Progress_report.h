@@ -31,6 +31,9 @@ public:
   /// Wipes the line of a terminal away.
   void wipe();
 
+  /// Two units at most, such as "3 min 20 s".
+  static std::string time_text(double seconds);
+
 private:
   std::string bar(double fraction, Time now) const;
   std::string percentage(double fraction) const;

@@ -16,6 +16,12 @@ void Progress::begin(const std::string& stage, std::size_t steps) {
   done_ = 0;
 }
 
+void Progress::announce(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  report_.wipe();
+  stream_ << "equiaffine: progress: " << text << std::endl;
+}
+
 void Progress::end() {
   {
     const std::lock_guard lock(mutex_);

@@ -32,6 +32,9 @@ public:
   /// Counts steps of the stage. Any thread may call it.
   void advance(std::size_t steps = 1) { done_.fetch_add(steps, std::memory_order_relaxed); }
 
+  /// Writes a line about what comes next, whether there is a terminal or not.
+  void announce(const std::string& text);
+
   /// Wipes the line away; nothing is shown any more.
   void end();
 

@@ -11,9 +11,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <random>
+#include <set>
 #include <vector>
 
 namespace {
@@ -29,6 +31,73 @@ Mesh square_ring(std::size_t n, double shift = .013) {
     const double side = .4 / std::max(std::abs(std::cos(v)), std::abs(std::sin(v))), r = 1 + side * std::cos(v);
     return Point_3(r * std::cos(u), r * std::sin(u), side * std::sin(v));
   });
+}
+
+/// The surface of cubes of a lattice, each face cut into triangles by n^2 squares.
+Mesh cubes(const std::set<std::array<int, 3>>& cells, int n) {
+  std::map<std::array<int, 3>, Mesh::Vertex_index> vertices;
+  Mesh mesh;
+  const auto vertex = [&](std::array<int, 3> at) {
+    const auto [found, is_new] = vertices.emplace(at, Mesh::Vertex_index());
+    if (is_new) found->second = mesh.add_vertex(Point_3(double(at[0]) / n, double(at[1]) / n, double(at[2]) / n));
+    return found->second;
+  };
+  for (const auto& cell : cells)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const int side : {0, 1}) {
+        auto beside = cell;
+        beside[axis] += side == 1 ? 1 : -1;
+        if (cells.contains(beside)) continue;
+        const std::size_t u = (axis + (side == 1 ? 1 : 2)) % 3, v = (axis + (side == 1 ? 2 : 1)) % 3;
+        for (int i = 0; i < n; ++i)
+          for (int j = 0; j < n; ++j) {
+            const auto corner = [&](int a, int b) {
+              std::array<int, 3> at;
+              at[axis] = n * (cell[axis] + side), at[u] = n * cell[u] + i + a, at[v] = n * cell[v] + j + b;
+              return vertex(at);
+            };
+            mesh.add_face(corner(0, 0), corner(1, 0), corner(1, 1));
+            mesh.add_face(corner(0, 0), corner(1, 1), corner(0, 1));
+          }
+      }
+  return mesh;
+}
+
+/// Solids with corners where convex and concave creases meet: an L, a cube without an eighth, and steps.
+std::vector<Mesh> cornered_solids(int n) {
+  std::set<std::array<int, 3>> notched;
+  for (int i = 0; i < 7; ++i) notched.insert({i & 1, i >> 1 & 1, i >> 2});
+  return {cubes({{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, n), cubes(notched, n),
+          cubes({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {2, 0, 0}}, n)};
+}
+
+/// The sides of a pyramid over a regular polygon, without its base.
+Mesh pyramid(int sides, int rows) {
+  Mesh mesh;
+  const auto top = mesh.add_vertex(Point_3(0, 0, 1));
+  std::vector<std::vector<Mesh::Vertex_index>> rings;
+  for (int r = 1; r <= rows; ++r) {
+    auto& ring = rings.emplace_back();
+    const double size = double(r) / rows;
+    for (int s = 0; s < sides; ++s) {
+      const auto corner = [&](int k) {
+        const double angle = 2 * std::numbers::pi * k / sides;
+        return Point_3(size * std::cos(angle), size * std::sin(angle), 1 - size);
+      };
+      for (int k = 0; k < r; ++k)
+        ring.push_back(mesh.add_vertex(CGAL::barycenter(corner(s), r - k, corner(s + 1), k)));
+    }
+  }
+  for (int r = 0; r < rows; ++r)
+    for (int s = 0; s < sides; ++s)
+      for (int k = 0; k <= r; ++k) {
+        const auto at = [&](int row, int place) {
+          return row == 0 ? top : rings[std::size_t(row - 1)][std::size_t((s * row + place) % (sides * row))];
+        };
+        mesh.add_face(at(r, k), at(r + 1, k), at(r + 1, k + 1));
+        if (k < r) mesh.add_face(at(r, k), at(r + 1, k + 1), at(r, k + 1));
+      }
+  return mesh;
 }
 
 struct Face {
@@ -60,24 +129,40 @@ double steepest(const Fit& fit, Point_3 p, Point_3 q) {
   return std::isfinite(a) && std::isfinite(b) ? std::abs(b - a) / std::sqrt(CGAL::squared_distance(p, q)) : 0;
 }
 
-TEST(Continuous_fit, the_value_does_not_jump) {
+/// Checks that the value of a fit does not jump near its data, and that expansions have it.
+void expect_continuous(const Mesh& mesh, const Fit& fit) {
   std::minstd_rand random(3);
   std::uniform_real_distribution<double> number(-1, 1);
-  for (const Mesh& mesh : {torus(24), square_ring(24), square_ring(24, 0)}) {
-    const Fit fit(mesh);
-    std::size_t known = 0;
-    for (const auto& [center, normal] : faces_of(mesh)) {
-      const double spacing = fit.spacing(center);
-      const auto point = [&] {
-        return center + 1.5 * spacing * Vector_3(number(random), number(random), number(random));
-      };
-      for (int n = 0; n < 3; ++n) {
-        const double slope = steepest(fit, point(), point());
-        known += slope > 0;
-        EXPECT_LT(slope, 100) << center;
-      }
+  std::size_t known = 0;
+  for (const auto& [center, normal] : faces_of(mesh)) {
+    const double spacing = fit.spacing(center);
+    const auto point = [&] {
+      return center + 1.5 * spacing * Vector_3(number(random), number(random), number(random));
+    };
+    for (int n = 0; n < 3; ++n) {
+      const Point_3 p = point();
+      const double slope = steepest(fit, p, point()), value = fit.value(p);
+      known += slope > 0;
+      EXPECT_LT(slope, 100) << center;
+      EXPECT_TRUE(!std::isfinite(value) || std::abs(fit.first_order(p).value() - value) < 1e-14) << p;
     }
-    EXPECT_GT(known, 1000u);
+  }
+  EXPECT_GT(known, 1000u);
+}
+
+TEST(Continuous_fit, the_value_does_not_jump) {
+  for (const Mesh& mesh : {torus(24), square_ring(24), square_ring(24, 0)}) expect_continuous(mesh, Fit(mesh));
+  for (const Mesh& mesh : cornered_solids(8)) expect_continuous(mesh, Fit(mesh));
+  const Mesh many_sides = pyramid(12, 10);
+  expect_continuous(many_sides, Fit(many_sides, equiaffine::parameters::feature_angle(15)));
+}
+
+TEST(Creases, a_solid_with_corners_has_its_own_distance_as_the_value) {
+  for (const Mesh& mesh : cornered_solids(8)) {
+    const Fit fit(mesh);
+    for (const auto v : mesh.vertices()) EXPECT_NEAR(fit.value(mesh.point(v)), 0, 1e-9) << mesh.point(v);
+    for (const auto& [center, normal] : faces_of(mesh))
+      for (const double height : {-.05, .05}) EXPECT_NEAR(fit.value(center + height * normal), height, .02) << center;
   }
 }
 

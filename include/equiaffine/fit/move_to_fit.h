@@ -18,7 +18,7 @@ namespace equiaffine {
 /// the mesh whole: no triangle turns by more than 60 degrees, and none crosses another one that it did not cross before.
 /// Triangles stay what they are, so that closed meshes stay closed and borders stay borders.
 ///
-/// A vertex moves along the gradient of the fit, by three quarters of the mean length of its edges at most, or of the
+/// A vertex moves along the gradient of the fit, by 1.25 times the mean length of its edges at most, or the
 /// distance of the data if that is more. It does not where the fit has no derivatives or no zero near enough, faces
 /// another way, or is that of another sheet. Such vertices follow their neighbors, less with every edge from the fit.
 ///

@@ -51,7 +51,9 @@ public:
     double height = 0, slope = 0;
   };
 
-  explicit Band_3(std::vector<Band_point_3> points) : points_(std::move(points)) {
+  /// At most so many smooth parts meet at a point.
+  explicit Band_3(std::vector<Band_point_3> points, std::size_t most_at_point = 1)
+      : points_(std::move(points)), count_(std::clamp<std::size_t>(2 * most_at_point, 9, 64)) {
     std::vector<Vector> places;
     std::vector<double> reaches;
     for (const auto& p : points_) {
@@ -81,9 +83,8 @@ public:
   /// data, 1988, with planes in place of quadratic functions).
   /// \pre the band has points.
   std::vector<Height> heights(const Vector& p) const {
-    constexpr std::size_t count = 9;
-    const std::vector<Foot> feet = nearest_feet(p, count);
-    const double reach = feet.size() < count ? std::numeric_limits<double>::infinity() : feet.back().distance;
+    const std::vector<Foot> feet = nearest_feet(p);
+    const double reach = feet.size() < count_ ? std::numeric_limits<double>::infinity() : feet.back().distance;
     const double nearest = feet.front().distance;
     std::vector<Height> result;
     for (const Charts_3::Index chart : charts_of(feet)) {
@@ -148,9 +149,9 @@ private:
   };
 
   /// The nearest points, the nearest first.
-  std::vector<Foot> nearest_feet(const Vector& p, std::size_t count) const {
+  std::vector<Foot> nearest_feet(const Vector& p) const {
     std::vector<Foot> feet;
-    for (const auto i : tree_.nearest(p, count)) feet.push_back({i, (p - points_[i].point).norm()});
+    for (const auto i : tree_.nearest(p, count_)) feet.push_back({i, (p - points_[i].point).norm()});
     std::sort(feet.begin(), feet.end(), [](const Foot& a, const Foot& b) {
       return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
     });
@@ -166,6 +167,7 @@ private:
   }
 
   std::vector<Band_point_3> points_;
+  std::size_t count_; ///< of the nearest points that have a say: 9, or more for corners of many parts
   Point_tree_3 tree_;
   Ball_tree_3 balls_;
 };

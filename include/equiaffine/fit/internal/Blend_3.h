@@ -30,7 +30,7 @@ public:
 
   template <class ConcurrencyTag>
   Blend_3(const Data_points_3& data, const Fit_choice_3& choices, ConcurrencyTag tag)
-      : charts_(data.charts), patches_(data, choices, tag), band_(feet(data, tag)) {}
+      : charts_(data.charts), patches_(data, choices, tag), band_(feet(data, tag), data.charts.most_at_point) {}
 
   const Band_3& band() const { return band_; }
 
@@ -38,31 +38,27 @@ public:
     if (!band_.contains(p, margin)) return std::numeric_limits<double>::quiet_NaN();
     const auto heights = band_.heights(p);
     if (heights.size() == 1) return value_of_part(p, heights.front());
-    const auto values = values_of_parts(p, heights);
-    return values[charts_.position_of_value(values)].second;
+    const Charts_3::Choice chosen = choice(p, heights);
+    return value_of_part(p, heights[chosen.position]) + chosen.fading;
   }
 
   /// The expansion at a point: to first order in the band, to a higher one where the value is that of polynomials alone.
+  /// A value that fades has the derivatives that it has without.
   template <int Order>
   Jet_3<double, Order> taylor(const Vector& p) const {
     using Jet = Jet_3<double, Order>;
     if (!band_.contains(p, {})) return Jet(std::numeric_limits<double>::quiet_NaN());
-    const Band_3::Height height = height_of_part(p);
-    const auto [jet, depth] =
-        is_above_core(height) ? Patches_3::Mean<Jet>{Jet(height.value), 0} : patches_.taylor<Order>(p, height.chart);
-    const double part = part_of_height({jet.value(), depth}, height);
-    if (part == 0) return jet;
-    if constexpr (Order > 1) {
-      return Jet(std::numeric_limits<double>::quiet_NaN());
-    } else {
-      Jet plane(height.value);
-      for (std::size_t axis = 0; axis < 3; ++axis) plane.coefficients()[1 + axis] = height.gradient[Eigen::Index(axis)];
-      return part < 1 ? jet * (1 - part) + plane * part : plane;
-    }
+    const auto heights = band_.heights(p);
+    if (heights.size() == 1) return taylor_of_part<Order>(p, heights.front());
+    const Charts_3::Choice chosen = choice(p, heights);
+    if (Order > 1 && chosen.fading != 0) return Jet(std::numeric_limits<double>::quiet_NaN());
+    return taylor_of_part<Order>(p, heights[chosen.position]) + Jet(chosen.fading);
   }
 
   Fit_accuracy accuracy(const Vector& p, const Jet_3<double>& jet) const {
-    return patches_.accuracy(p, jet, height_of_part(p).chart);
+    const auto heights = band_.heights(p);
+    const std::size_t position = heights.size() == 1 ? 0 : choice(p, heights).position;
+    return patches_.accuracy(p, jet, heights[position].chart);
   }
 
 private:
@@ -101,22 +97,31 @@ private:
     return part < 1 ? (1 - part) * mean.value + part * height.value : height.value;
   }
 
-  /// The values of the functions of parts, which are the less decisive the more remote a part is.
-  std::vector<std::pair<Charts_3::Index, double>> values_of_parts(const Vector& p,
-                                                                  const std::vector<Band_3::Height>& heights) const {
-    std::vector<std::pair<Charts_3::Index, double>> values;
-    for (const Band_3::Height& height : heights) {
-      const double fading = height.spacing * std::max(0., height.remoteness - near) / (1 - height.remoteness);
-      const int sign = charts_.sign(height.chart, heights.front().chart);
-      values.emplace_back(height.chart, value_of_part(p, height) - (sign == 0 ? 0 : sign * fading));
+  /// The expansion of the function of a smooth part.
+  template <int Order>
+  Jet_3<double, Order> taylor_of_part(const Vector& p, const Band_3::Height& height) const {
+    using Jet = Jet_3<double, Order>;
+    const auto [jet, depth] =
+        is_above_core(height) ? Patches_3::Mean<Jet>{Jet(height.value), 0} : patches_.taylor<Order>(p, height.chart);
+    const double part = part_of_height({jet.value(), depth}, height);
+    if (part == 0) return jet;
+    if constexpr (Order > 1) {
+      return Jet(std::numeric_limits<double>::quiet_NaN());
+    } else {
+      Jet plane(height.value);
+      for (std::size_t axis = 0; axis < 3; ++axis) plane.coefficients()[1 + axis] = height.gradient[Eigen::Index(axis)];
+      return part < 1 ? jet * (1 - part) + plane * part : plane;
     }
-    return values;
   }
 
-  /// The height over the part whose value is that of the function.
-  Band_3::Height height_of_part(const Vector& p) const {
-    const auto heights = band_.heights(p);
-    return heights.size() == 1 ? heights.front() : heights[charts_.position_of_value(values_of_parts(p, heights))];
+  /// The part whose value is that of the function, and what fading adds to it.
+  Charts_3::Choice choice(const Vector& p, const std::vector<Band_3::Height>& heights) const {
+    std::vector<Charts_3::Part_value> values;
+    for (const Band_3::Height& height : heights) {
+      const double fading = height.spacing * std::max(0., height.remoteness - near) / (1 - height.remoteness);
+      values.push_back({height.chart, value_of_part(p, height), fading});
+    }
+    return charts_.combined(values);
   }
 
   /// The points of the zero set beside the data.
@@ -161,17 +166,17 @@ private:
 
   /// A datum whose foot is not found is one itself, with the least core around, if at least half of its neighbors have
   /// feet, or without a core if it is of a part between creases that has too few points for any. Others, such as points
-  /// away from the surface, make no part of it.
+  /// away from the surface or without a normal, make no part of it.
   static void fill_holes(const Data_points_3& data, std::vector<std::optional<Band_point_3>>& feet) {
     std::vector<char> has_feet(data.size()); // of parts
     for (std::size_t i = 0; i < data.size(); ++i)
       if (feet[i]) has_feet[data.charts.of(i)] = 1;
     std::vector<std::pair<Data_points_3::Index, double>> filled; // with their cores
     for (Data_points_3::Index i = 0; i < data.size(); ++i) {
-      if (feet[i]) continue;
+      if (feet[i] || data.normals[i].isZero() || data.spacing[i] == 0) continue;
       const auto around = data.neighbors_of(i);
       const auto known = std::count_if(around.begin(), around.end(), [&](auto j) { return feet[j].has_value(); });
-      const bool is_of_few = !data.charts.empty() && !has_feet[data.charts.of(i)] && !around.empty();
+      const bool is_of_few = data.charts.has_creases(data.charts.of(i)) && !has_feet[data.charts.of(i)];
       if (!is_of_few && (known == 0 || 2 * std::size_t(known) < around.size())) continue;
       double least = std::numeric_limits<double>::infinity();
       for (const auto j : around)

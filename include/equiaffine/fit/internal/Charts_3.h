@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -15,45 +16,110 @@ namespace equiaffine::internal {
 struct Charts_3 {
   using Index = std::uint32_t;
 
+  /// How two parts are combined: as the intersection or the union of half-spaces, or by the nearer one alone.
+  enum class Relation { NONE, CONVEX, CONCAVE, MIXED };
+
   std::vector<Index> of_point;                    ///< a number for each point; empty if there is no crease
   std::vector<char> is_on_crease;                 ///< for each point; empty if there is no crease
-  std::map<std::pair<Index, Index>, double> bend; ///< of the creases between two parts: above 0 if they are convex
+  std::map<std::pair<Index, Index>, double> bend; ///< of the creases of two parts, in both orders: above 0 if convex
+  std::map<std::pair<Index, Index>, Relation> at_corners; ///< of parts that have only a corner in common
+  std::size_t most_at_point = 1;                          ///< the greatest number of parts that meet at a point
 
   bool empty() const { return of_point.empty(); }
   Index of(std::size_t i) const { return empty() ? 0 : of_point[i]; }
   bool has_crease_at(std::size_t i) const { return !empty() && is_on_crease[i]; }
+  bool has_creases(Index a) const { return first_crease(a) != last_crease(a); }
 
-  /// 1 if two parts meet at a convex crease, -1 at a concave one, and 0 if they do not meet.
-  int sign(Index a, Index b) const {
-    const auto found = bend.find(std::minmax(a, b));
-    return found == bend.end() || found->second == 0 ? 0 : found->second > 0 ? 1 : -1;
+  /// Returns the relation of parts that meet, one for all of their creases, or of parts that meet the same third part at
+  /// creases of the same kind, as opposite sides of a plate or of a slot do. It is MIXED if they meet third parts in other
+  /// ways only. Parts that have a corner in common have the relation of most creases there.
+  Relation relation(Index a, Index b) const {
+    if (const auto found = bend.find({a, b}); found != bend.end()) return kind_of(found->second);
+    if (has_more_creases(a, b)) std::swap(a, b);
+    Relation result = Relation::NONE;
+    for (auto crease = first_crease(a); crease != last_crease(a); ++crease) {
+      const auto other = bend.find({crease->first.second, b});
+      if (other == bend.end()) continue;
+      const Relation first = kind_of(crease->second), second = kind_of(other->second);
+      if (first == second && first == Relation::CONVEX) return first;
+      result = first == second || result == Relation::CONCAVE ? Relation::CONCAVE : Relation::MIXED;
+    }
+    if (result != Relation::NONE) return result;
+    const auto found = at_corners.find(std::minmax(a, b));
+    return found == at_corners.end() ? result : found->second;
   }
 
-  /// Returns the position of the value that a solid has which is bounded by several parts, from the signed distance of
-  /// each, that of the nearest part first: the solid is the intersection of those that meet at convex creases, whose
-  /// value is the greatest, and the union of those at concave ones (as in constructive solid geometry; Ohtake et al.,
-  /// Multi-level partition of unity implicits, 2003). Where both kinds meet, the rarer one comes first.
-  std::size_t position_of_value(const std::vector<std::pair<Index, double>>& parts) const {
-    int convex = 0, concave = 0;
+  /// Adds the relations of parts that have a corner in common.
+  void add_corner(std::vector<Index> parts) {
+    constexpr std::size_t most_parts = 64;
+    std::sort(parts.begin(), parts.end());
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    most_at_point = std::max(most_at_point, parts.size());
+    if (parts.size() > most_parts) return;
+    std::vector<std::pair<Index, Index>> apart;
+    int convex = 0;
     for (std::size_t i = 0; i < parts.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
-        const int s = sign(parts[i].first, parts[j].first);
-        convex += s > 0;
-        concave += s < 0;
+        const Relation kind = relation(parts[j], parts[i]);
+        convex += kind == Relation::CONVEX ? 1 : kind == Relation::CONCAVE ? -1 : 0;
+        if (kind == Relation::NONE) apart.emplace_back(parts[j], parts[i]);
       }
-    const int inner = convex >= concave ? -1 : 1; // the sign of the creases that come first
-    const auto better = [&](int kind, std::size_t i, std::size_t j) {
-      return kind * (parts[i].second - parts[j].second) > 0 ? i : j;
+    for (const auto& pair : apart) at_corners.emplace(pair, kind_of(convex));
+  }
+
+  /// The value of the function of a part. The greater its fading, the less decisive it is beside others; the value of a
+  /// part that comes near or goes away has an infinite one.
+  struct Part_value {
+    Index chart;
+    double value, fading;
+  };
+
+  /// The part whose value is that of the solid, and what fading adds to it.
+  struct Choice {
+    std::size_t position;
+    double fading;
+  };
+
+  /// Returns whose value is that of a solid which is bounded by several parts, that of the nearest part first: the solid is the
+  /// intersection of parts that meet at convex creases, whose value is the greatest, and the union of those at concave
+  /// ones, whose value is the least (as in constructive solid geometry; Ohtake et al., Multi-level partition of unity
+  /// implicits, 2003). Unions come first, then the intersection of all of them, which is right at corners of three parts
+  /// and at those with one kind of creases. Parts without a relation to the nearest one are other sheets.
+  Choice combined(const std::vector<Part_value>& parts) const {
+    const auto is_related = [&](std::size_t i) {
+      return i == 0 || relation(parts[0].chart, parts[i].chart) != Relation::NONE;
     };
-    std::size_t best = parts.size();
+    const auto value = [&](const Choice& choice) { return parts[choice.position].value + choice.fading; };
+    Choice greatest = {0, -std::numeric_limits<double>::infinity()};
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      if (i > 0 && sign(parts[i].first, parts[0].first) == 0) continue; // another sheet
-      std::size_t of_group = i;
+      if (!is_related(i)) continue;
+      Choice least = {i, 0};
       for (std::size_t j = 0; j < parts.size(); ++j)
-        if (sign(parts[i].first, parts[j].first) == inner) of_group = better(inner, j, of_group);
-      best = best == parts.size() ? of_group : better(-inner, of_group, best);
+        if (j != i && is_related(j) && relation(parts[i].chart, parts[j].chart) == Relation::CONCAVE)
+          least = std::min(least, {j, parts[j].fading}, [&](auto& a, auto& b) { return value(a) < value(b); });
+      least.fading -= parts[i].fading;
+      if (value(least) > value(greatest)) greatest = least;
     }
-    return best;
+    return greatest;
+  }
+
+private:
+  bool has_more_creases(Index a, Index b) const {
+    auto of_a = first_crease(a), of_b = first_crease(b);
+    for (; of_a != last_crease(a); ++of_a, ++of_b)
+      if (of_b == last_crease(b)) return true;
+    return false;
+  }
+
+  static Relation kind_of(double bend) {
+    return bend > 0 ? Relation::CONVEX : bend < 0 ? Relation::CONCAVE : Relation::MIXED;
+  }
+
+  std::map<std::pair<Index, Index>, double>::const_iterator first_crease(Index a) const {
+    return bend.lower_bound({a, 0});
+  }
+  std::map<std::pair<Index, Index>, double>::const_iterator last_crease(Index a) const {
+    return bend.lower_bound({a + 1, 0});
   }
 };
 

@@ -33,12 +33,16 @@ public:
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       first_corner_.push_back(corners_);
       corners_ += faces_[f].size();
-      normals_.push_back(double_area_of_polygon(points_, faces_[f]));
+      Vector area = double_area_of_polygon(points_, faces_[f]);
+      areas_.push_back(area.stableNorm());
+      area.stableNormalize();
+      normals_.push_back(area);
       for (std::size_t k = 0; k < faces_[f].size(); ++k) {
         const Index a = faces_[f][k], b = faces_[f][(k + 1) % faces_[f].size()];
         sides_.push_back({{std::min(a, b), std::max(a, b)}, f, k});
       }
     }
+    for (Index v = 0; v < points_.size(); ++v) given_.push_back(v);
     std::stable_sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) { return a.ends < b.ends; });
   }
 
@@ -100,8 +104,14 @@ public:
       if (last - first != 2) return;
       const Index a = charts.of_point[faces_[sides_[first].face].front()],
                   b = charts.of_point[faces_[sides_[first + 1].face].front()];
-      if (a != b) charts.bend[std::minmax(a, b)] += bend(first) * length(sides_[first].ends);
+      if (a == b) return;
+      charts.bend[{a, b}] += bend(first) * length(sides_[first].ends);
+      charts.bend[{b, a}] = charts.bend[{a, b}];
     });
+    std::map<Index, std::vector<Index>> parts_at;
+    for (Index v = 0; v < points_.size(); ++v)
+      if (charts.is_on_crease[v]) parts_at[given_[v]].push_back(charts.of_point[v]);
+    for (const auto& [v, parts_there] : parts_at) charts.add_corner(parts_there);
     return charts;
   }
 
@@ -162,7 +172,7 @@ private:
     std::map<std::pair<Index, std::size_t>, double> areas; // of the sectors of points
     for (std::size_t f = 0; f < faces_.size(); ++f)
       for (std::size_t k = 0; k < faces_[f].size(); ++k)
-        areas[{faces_[f][k], sectors.find(first_corner_[f] + k)}] += normals_[f].norm();
+        areas[{faces_[f][k], sectors.find(first_corner_[f] + k)}] += areas_[f];
     std::map<std::size_t, Index> point_of; // of sectors that are not alone
     for (auto it = areas.begin(); it != areas.end();) {
       const Index v = it->first.first;
@@ -174,6 +184,7 @@ private:
         point_of[it->first.second] = Index(points_.size());
         const Vector p = points_[v];
         points_.push_back(p);
+        given_.push_back(v);
         charts.is_on_crease[v] = 1;
         charts.is_on_crease.push_back(1);
       }
@@ -184,8 +195,11 @@ private:
           faces_[f][k] = found->second;
   }
 
-  std::vector<Vector> points_, normals_; ///< normals of faces have their areas as lengths
+  std::vector<Vector> points_;
+  std::vector<Index> given_; ///< the given point that each point is
   std::vector<std::vector<Index>> faces_;
+  std::vector<Vector> normals_; ///< of faces; 0 for those without an area
+  std::vector<double> areas_;   ///< of faces, doubled
   std::vector<std::size_t> first_corner_;
   std::size_t corners_ = 0;
   std::vector<Side> sides_; ///< by their ends

@@ -155,8 +155,10 @@ private:
   /// Marks the creases of the given mesh, which this one still is.
   void keep_creases() {
     const Edge_map is_kept = kept_edges();
-    using Vertex = typename Mesh::Vertex_index;
-    for (const auto& [a, b] : creases_) put(is_kept, mesh_.edge(mesh_.halfedge(Vertex(a), Vertex(b))), true);
+    for (const auto e : mesh_.edges()) {
+      const auto [a, b] = std::minmax<Creased_polygons_3::Index>({mesh_.vertex(e, 0).idx(), mesh_.vertex(e, 1).idx()});
+      if (std::binary_search(creases_.begin(), creases_.end(), Creased_polygons_3::Edge{a, b})) put(is_kept, e, true);
+    }
   }
 
   void remesh(const Remesh_request& request) {

@@ -18,6 +18,15 @@
 
 namespace equiaffine::internal {
 
+/// Whether two points are of parts that meet at a crease, or both beside creases of parts that meet the same third one.
+inline bool are_beside_crease(const Data_points_3& data, Data_points_3::Index i, Data_points_3::Index j) {
+  const Charts_3& charts = data.charts;
+  if (charts.of(i) == charts.of(j)) return false;
+  if (charts.bend.contains({charts.of(i), charts.of(j)})) return true;
+  return charts.has_crease_at(i) && charts.has_crease_at(j) &&
+         charts.relation(charts.of(i), charts.of(j)) != Charts_3::Relation::NONE;
+}
+
 /// The distances along the normals, in the coordinates of the data, between points and the next ones that are within a
 /// spacing of them across and on another sheet, where these are less than `greatest` and about ten spacings. Points that
 /// are not connected nearby are on different sheets, and points whose normals are opposed, as on both sides of a thin
@@ -37,7 +46,7 @@ std::vector<double> distances_of_sheets(const Surface_fit_3& fit, double greates
     const std::unordered_set<Index> connected(ball.begin(), ball.end());
     const Eigen::Vector3d normal = (fit.normalization().matrix.transpose() * data.normals[i]).normalized();
     tree.for_each_in_cube(data.points[i], reach, [&](Index j) {
-      if (data.charts.sign(data.charts.of(i), data.charts.of(j)) != 0) return; // on the other side of a crease
+      if (are_beside_crease(data, Index(i), j)) return;
       const Eigen::Vector3d difference = data.points[j] - data.points[i];
       const double across = (difference - difference.dot(data.normals[i]) * data.normals[i]).norm();
       const bool is_other = data.normals[i].dot(data.normals[j]) < 0 || !connected.contains(j);

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/make_surface.h"
+
+#include "commands/check_delaunay_surface.h"
+#include "commands/extract_surface.h"
+#include "commands/fail_without_surface.h"
+#include "commands/remesh_fit.h"
+#include "commands/remove_crumbs.h"
+#include "engine/Engine.h"
+#include "source/forewarn_of_grid.h"
+#include "system/forewarn.h"
+#include "system/resources.h"
+#include <equiaffine/Input_error.h>
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/delaunay_surface.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <variant>
+
+namespace equiaffine {
+
+namespace {
+
+constexpr const char* extracting = "extracting the surface";
+
+/// Samples the surface; annotated_surface() adds attributes.
+template <class Traits>
+Annotated_surface sample(const Traits& function, const Source&, const Mesh_options& options,
+                         const Marching_cubes_options& method, Progress& progress) {
+  if (options.source.derivatives == Derivatives::JETS) // splines have the grid of their samples
+    forewarn_of_grid(extracting, options.source, progress, [&](const Source_options& coarse) {
+      extract_surface(function, coarse, method.vertices);
+    });
+  progress.begin(extracting);
+  Annotated_surface surface;
+  surface.mesh = extract_surface(function, options.source, method.vertices);
+  if (surface.mesh.triangles.empty())
+    fail_without_surface(function.base(), options.source, options.isovalue,
+                         {"box", "a finer --resolution", surface.mesh.repairs.vertices_at_poles > 0});
+  return surface;
+}
+
+template <class Traits>
+Annotated_surface sample(const Traits& function, const Source&, const Mesh_options& options,
+                         const Delaunay_options& method, Progress& progress) {
+  const CGAL::Bbox_3 box = function.bbox();
+  const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
+  check_box_of_delaunay_surface(box, diagonal);
+  Delaunay_criteria criteria = {method.angle, method.radius, method.distance};
+  criteria.radius = std::min(criteria.radius, diagonal); // a larger bound would mean the same
+  criteria = criteria.completed(Clip_domain_3(box));
+  check_memory_of_delaunay_surface(diagonal, criteria.radius, criteria.distance, options.source.memory_use);
+  check_radius_of_delaunay_surface(box, criteria.radius);
+  const Clip_domain_3 domain = method.clips_to_ball ? Clip_domain_3::ball_in(box) : Clip_domain_3(box);
+  const auto parameters = parameters::clip(domain).facet_sizing(method.sizing);
+  const double fineness = diagonal / std::min(criteria.radius, std::sqrt(criteria.distance * diagonal));
+  forewarn(extracting, "a larger --radius or --distance", fineness, progress, [&](double coarse) {
+    const double factor = fineness / coarse;
+    delaunay_surface(function, {criteria.angle, factor * criteria.radius, factor * factor * criteria.distance},
+                     parameters);
+  });
+  progress.begin(extracting);
+  auto mesh = options.curves ? delaunay_surface(function, criteria, parameters.parabolic_features())
+                             : delaunay_surface(function, criteria, parameters);
+  if (mesh.triangles.empty())
+    fail_without_surface(function.base(), options.source, options.isovalue,
+                         {method.clips_to_ball ? "ball" : "box", mesh.is_certified ? "" : "a smaller --radius",
+                          changes_sign_at_poles_only(function)});
+  Annotated_surface surface;
+  surface.completeness = {mesh.is_certified, std::move(mesh.undecided_boxes)};
+  if (options.curves) surface.curves = std::move(mesh.parabolic_curves);
+  surface.mesh = std::move(mesh);
+  return surface;
+}
+
+template <class Traits>
+Annotated_surface sample(const Traits&, const Source& source, const Mesh_options& options, const Remesh_options& method,
+                         Progress& progress) {
+  progress.begin("remeshing");
+  Remeshed_fit remeshed = remesh_fit(source, options.source, method);
+  Annotated_surface surface;
+  surface.mesh = std::move(remeshed.mesh);
+  surface.outcomes = std::move(remeshed.outcomes);
+  surface.remesh = remeshed.statistics;
+  return surface;
+}
+
+/// Samples a surface by the method that was asked for. The faces of a fit are remeshed if none was, and if they form a
+/// surface.
+template <class Traits>
+Annotated_surface sample(const Traits& function, const Source& source, const Mesh_options& options,
+                         Progress& progress) {
+  std::string reason;
+  if (options.remeshes_faces && !source.data.triangles.empty()) {
+    try {
+      return sample(function, source, options, Remesh_options(), progress);
+    } catch (const Input_error& error) {
+      reason = error.what();
+    }
+  }
+  Annotated_surface surface = std::visit(
+      [&](const auto& method) { return sample(function, source, options, method, progress); }, options.method);
+  surface.reason_against_remesh = std::move(reason);
+  return surface;
+}
+
+/// The status with which attributes of vertices are computed. Vertices of a remesh on creases get those of one side,
+/// although creases of fits and of the data are the same only to within the deviation of the fit.
+std::vector<Point_status> status_for_attributes(const Annotated_surface& surface) {
+  std::vector<Point_status> status = surface.mesh.vertex_status;
+  for (std::size_t i = 0; i < surface.outcomes.size(); ++i)
+    if (surface.outcomes[i] == double(Fit_outcome::ON_FEATURE)) status[i] = Point_status::REGULAR;
+  return status;
+}
+
+/// Samples the surface and computes its attributes. `function` is the one in `source`, with its own type.
+template <class Traits>
+Annotated_surface annotated_surface(const Traits& function, const Source& source, const Mesh_options& options,
+                               Progress& progress) {
+  // The mesh is made from f whatever the orientation is, which then only decides to which side triangles are turned.
+  const Level_set_traits_3<Traits> extracted(function, options.isovalue);
+  const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
+  Annotated_surface surface = sample(extracted, source, options, progress);
+  if (source.fit && !surface.remesh) {
+    remove_crumbs(surface.mesh, *source.fit, options.source);
+    if (surface.mesh.triangles.empty())
+      fail_without_surface(function, options.source, options.isovalue, {"box", "a finer --resolution", false});
+    if (std::holds_alternative<Marching_cubes_options>(options.method))
+      surface.close_sheets = close_sheets(*source.fit, options.source);
+  }
+  if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
+    for (auto& triangle : surface.mesh.triangles) std::swap(triangle[1], triangle[2]);
+  const Stopwatch stopwatch;
+  progress.begin("computing attributes");
+  surface.max_distance =
+      engine<Traits>().max_distance_to_surface(level_set, surface.mesh.points, surface.mesh.vertex_status);
+  surface.mesh.function_evaluations += 2 * surface.mesh.points.size();
+  Attribute_selection selection = options.attributes;
+  selection.has_status = true; // even if it is not written: the statistics count it
+  surface.attributes =
+      engine<Traits>().compute_attributes({function, options.orientation, surface.mesh.points, selection,
+                                           options.estimator, status_for_attributes(surface)});
+  surface.mesh.function_evaluations += surface.mesh.points.size();
+  surface.status = count(*surface.attributes.status);
+  surface.estimates = estimates_at(source, options.source, surface.mesh.points, progress);
+  add_estimates(surface.estimates, options.estimates, surface.attributes);
+  if (surface.remesh && !options.attributes.columns.empty())
+    surface.attributes.columns.push_back({"fit_outcome", std::move(surface.outcomes)});
+  if (!options.attributes.has_status) surface.attributes.status.reset();
+  surface.annotation_seconds = stopwatch.seconds();
+  if (options.curves && !surface.curves) {
+    progress.begin("finding parabolic curves");
+    surface.curves = parabolic_curves<CGAL::Parallel_if_available_tag>(surface.mesh, level_set);
+  }
+  return surface;
+}
+
+Made_surface surface_of_source(const Mesh_options& options, Progress& progress) {
+  const Stopwatch stopwatch;
+  Source source = make_source(options.source, progress);
+  const double seconds = stopwatch.seconds();
+  Annotated_surface surface = std::visit(
+      [&](const auto& function) { return annotated_surface(function, source, options, progress); }, source.function);
+  return {std::move(source), std::move(surface), seconds};
+}
+
+} // namespace
+
+Made_surface make_surface(Mesh_options options, Progress& progress) {
+  constexpr double enough = 0.95;
+  constexpr int most_tries = 4;
+  const bool is_free = options.source.kind == Source_kind::FIT && !options.source.fit.scale && options.source.text != "-";
+  Made_surface made = surface_of_source(options, progress);
+  for (int n = 0; n < most_tries && is_free && made.surface.remesh && made.source.fit->scale(); ++n) {
+    if (made.part_on_fit() >= enough) break;
+    options.source.fit.scale = *made.source.fit->scale() / std::numbers::sqrt2;
+    Made_surface smaller = surface_of_source(options, progress);
+    if (smaller.part_on_fit() <= made.part_on_fit()) break;
+    made = std::move(smaller);
+  }
+  return made;
+}
+
+} // namespace equiaffine

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_COMMANDS_MAKE_SURFACE_H
+#define EQUIAFFINE_SRC_COMMANDS_MAKE_SURFACE_H
+
+#include "attributes/estimates.h"
+#include "output/statistics.h"
+#include "request/options.h"
+#include "source/source.h"
+#include "system/kernel.h"
+#include "system/progress.h"
+#include <equiaffine/parabolic_curves.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace equiaffine {
+
+/// A surface with its attributes.
+struct Annotated_surface {
+  Isosurface_3<Kernel> mesh;
+  Vertex_attributes attributes;
+  Estimates estimates;
+  std::optional<Close_sheets> close_sheets;
+  std::array<std::size_t, number_of_point_statuses> status{};
+  std::optional<Completeness> completeness;
+  double max_distance = 0, annotation_seconds = 0;
+  std::optional<Parabolic_curves_3<Kernel>> curves; ///< if they were asked for
+  std::vector<double> outcomes;                     ///< of vertices of a remesh
+  std::optional<Remesh_statistics> remesh;
+  std::string reason_against_remesh; ///< of faces that could not be remeshed although nothing else was asked for
+};
+
+/// A surface with the source that it was made from.
+struct Made_surface {
+  Source source;
+  Annotated_surface surface;
+  double source_seconds;
+
+  /// The part of the vertices of a remesh that lie on the fit or its creases.
+  double part_on_fit() const {
+    const auto& number_of = surface.remesh->number_of;
+    const std::size_t on_fit = surface.remesh->number_on_fit() + number_of[std::size_t(Fit_outcome::ON_FEATURE)];
+    return double(on_fit) / double(surface.remesh->number_of_vertices());
+  }
+};
+
+/// Makes the surface. Where the data choose the scale of a fit, and more than one vertex in twenty of its remesh are
+/// beside the fit, that scale is too large for the shape, and smaller ones are tried.
+Made_surface make_surface(Mesh_options options, Progress& progress);
+
+} // namespace equiaffine
+
+#endif

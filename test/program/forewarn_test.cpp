@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What will take long or much memory is announced or asked for beforehand.
+#include "system/forewarn.h"
+#include "system/resources.h"
+#include <equiaffine/Input_error.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+
+TEST(Forewarn, the_time_of_cells_follows_from_coarser_ones) {
+  constexpr double n = 4096, coarsest = 16;
+  for (const auto& [once, square, cubic] : std::vector<std::array<double, 3>>{
+           {0, 0, 1e-6}, {0, 1e-4, 0}, {3, 2e-4, 1e-6}, {2, 0, 0}, {1, 1e-9, 1e-9}, {0, 1, 2}}) {
+    const auto more_than_once = [=](double k) { return square * k * k + cubic * k * k * k; };
+    std::vector<double> asked;
+    const auto seconds = [&](double k) {
+      asked.push_back(k);
+      return once + (k > coarsest ? more_than_once(k) : 0);
+    };
+    const double expected = once + more_than_once(n);
+    EXPECT_NEAR(expected_seconds(n, seconds), expected, 1e-6 * expected) << once << ' ' << square << ' ' << cubic;
+    for (const double k : asked) EXPECT_LE(k, n / 4) << "what is tried is coarse";
+  }
+}
+
+TEST(Forewarn, it_is_announced_in_a_line_of_its_own_with_what_takes_less) {
+  std::ostringstream stream;
+  {
+    Progress progress(stream, false, std::chrono::hours(1));
+    forewarn("counting", "a smaller --resolution", 100, progress, [](double) { FAIL() << "that is never long"; });
+    progress.announce("counting will take about 2 min 5 s");
+  }
+  EXPECT_EQ(stream.str(), "equiaffine: progress: counting will take about 2 min 5 s\n");
+  EXPECT_EQ(Progress_report::time_text(125), "2 min 5 s");
+  EXPECT_EQ(Progress_report::time_text(1e300), "1000000000 h 0 min");
+}
+
+TEST(Forewarn, more_than_half_of_the_memory_needs_consent) {
+  const double bytes_per_node = 16;
+  const auto nodes = std::size_t(std::cbrt(.75 * physical_memory() / bytes_per_node));
+  const std::array<std::size_t, 3> size = {nodes, nodes, nodes};
+  EXPECT_NO_THROW(check_memory_of_volume(size, Memory_use::ALL));
+  try {
+    check_memory_of_volume(size, Memory_use::HALF);
+    FAIL();
+  } catch (const Input_error& error) {
+    EXPECT_NE(std::string(error.what()).find("over half of the"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("--yes"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(check_memory_of_volume({2 * nodes, nodes, nodes}, Memory_use::ALL), Input_error);
+  EXPECT_NO_THROW(check_memory_of_volume({nodes / 2, nodes, nodes}, Memory_use::HALF));
+}
+
+} // namespace
