@@ -174,12 +174,19 @@ Made_surface make_surface(Mesh_options options, Progress& progress) {
   constexpr int most_tries = 4;
   const bool is_free = options.source.kind == Source_kind::FIT && !options.source.fit.scale && options.source.text != "-";
   Made_surface made = surface_of_source(options, progress);
-  for (int n = 0; n < most_tries && is_free && made.surface.remesh && made.source.fit->scale(); ++n) {
-    if (made.part_on_fit() >= enough) break;
+  const auto is_too_large = [&] {
+    const auto& remesh = made.surface.remesh;
+    return remesh && remesh->edge_length > 0 && made.source.fit->scale() && made.part_on_fit() < enough;
+  };
+  for (int n = 0; n < most_tries && is_free && is_too_large(); ++n) {
     options.source.fit.scale = *made.source.fit->scale() / std::numbers::sqrt2;
-    Made_surface smaller = surface_of_source(options, progress);
-    if (smaller.part_on_fit() <= made.part_on_fit()) break;
-    made = std::move(smaller);
+    try {
+      Made_surface smaller = surface_of_source(options, progress);
+      if (smaller.part_on_fit() <= made.part_on_fit()) break;
+      made = std::move(smaller);
+    } catch (const Input_error&) {
+      break; // too few points are within that scale
+    }
   }
   return made;
 }

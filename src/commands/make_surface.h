@@ -8,7 +8,9 @@
 #include "source/source.h"
 #include "system/kernel.h"
 #include "system/progress.h"
+#include <equiaffine/fit/Fit_outcome.h>
 #include <equiaffine/parabolic_curves.h>
+#include <equiaffine/surface/Isosurface_3.h>
 
 #include <array>
 #include <cstddef>

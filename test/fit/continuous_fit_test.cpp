@@ -2,6 +2,8 @@
 // The function of a fit is continuous, has the right sign and first derivatives beside the data, at creases, too.
 #include "support/fit_meshes.h"
 #include <equiaffine/fitted_structures.h>
+#include <equiaffine/marching_cubes.h>
+#include <equiaffine/mesh_topology.h>
 
 #include <CGAL/Polygon_mesh_processing/compute_normal.h>
 
@@ -187,6 +189,20 @@ TEST(Continuous_fit, expansions_of_smooth_surfaces_have_all_orders_and_the_value
   }
 }
 
+TEST(Continuous_fit, the_surface_is_whole_where_the_density_of_the_data_jumps) {
+  const Mesh mesh = grid(80, 40, true, true, [](double s, double t) {
+    const double part = s < .5 ? .1 * s : .05 + .95 * (2 * s - 1); // half of the points are in a twentieth of the torus
+    const double u = 2 * std::numbers::pi * part, v = 2 * std::numbers::pi * t, r = 1 + .4 * std::cos(v);
+    return Point_3(r * std::cos(u), r * std::sin(u), .4 * std::sin(v));
+  });
+  const Fit fit(mesh);
+  const auto surface = equiaffine::marching_cubes(fit.in_box(CGAL::Bbox_3(-1.7, -1.7, -.7, 1.7, 1.7, .7)),
+                                                  equiaffine::parameters::number_of_nodes(129));
+  const auto topology = equiaffine::mesh_topology(surface.triangles, surface.points.size());
+  EXPECT_EQ(topology.boundary_edges, 0u);
+  EXPECT_EQ(topology.euler_characteristic, 0);
+}
+
 /// A ring whose section is a square with points at its corners: two cylinders and two planes between four creases.
 Mesh creased_ring() { return square_ring(48, 0); }
 
@@ -197,6 +213,15 @@ double error_on_ring(const Point_3& p, double mean_curvature) {
   const bool is_in_plane = std::abs(p.z()) > .4 - 1e-9, is_on_cylinder = std::abs(std::abs(radius - 1) - .4) < 5e-3;
   const double in_plane = std::abs(mean_curvature), on_cylinder = std::abs(in_plane - of_cylinder);
   return (!is_in_plane ? on_cylinder : is_on_cylinder ? std::min(in_plane, on_cylinder) : in_plane) / of_cylinder;
+}
+
+TEST(Creases, they_are_there_in_every_unit) {
+  for (const double unit : {1e-60, 1e60}) {
+    Mesh mesh = cornered_solids(8).front();
+    for (const auto v : mesh.vertices()) mesh.point(v) = CGAL::ORIGIN + unit * (mesh.point(v) - CGAL::ORIGIN);
+    const Fit fit(mesh);
+    for (const auto v : mesh.vertices()) EXPECT_NEAR(fit.value(mesh.point(v)) / unit, 0, 1e-9) << mesh.point(v);
+  }
 }
 
 TEST(Creases, each_side_has_its_own_curvature_and_planes_and_cylinders_are_parabolic) {

@@ -30,9 +30,9 @@ struct Band_point_3 {
   Charts_3::Index chart; ///< the smooth part of the surface
 };
 
-/// The part of space near points of a surface: within 2 spacings of the nearest one along its normal, or within a margin
-/// that may be larger, within 1.25 spacings across, and no more than a quarter of a spacing beyond the border, since
-/// polynomials that go on there know nothing. The core is a lower part of it.
+/// The part of space near points of a surface: within 2 spacings of one of the nearest along its normal, or within a margin
+/// that may be larger, within 1.25 spacings across of the very nearest one or 1 of another, and no more than a quarter of
+/// a spacing beyond the border, since polynomials that go on there know nothing. The core is a lower part of it.
 class Band_3 {
 public:
   using Vector = Eigen::Vector3d;
@@ -68,13 +68,10 @@ public:
   bool contains(const Vector& p, const Margin& margin) const {
     const auto nearest = tree_.nearest(p, 1);
     if (nearest.empty()) return false;
-    const auto& [point, normal, spacing, core, gap, chart] = points_[nearest.front()];
-    const Vector difference = p - point;
-    const double height = difference.dot(normal), size = std::abs(height);
-    const Vector tangential = difference - height * normal;
-    const double excess = std::max(tangential.norm() - border * spacing,
-                                   gap ? gap->depth(tangential) - overhang * spacing : -border * spacing);
-    return size <= std::max(margin.height, band_height * spacing) && excess <= margin.slope * size;
+    if (contains(p, points_[nearest.front()], border, margin)) return true;
+    const auto feet = tree_.nearest(p, count_);
+    return std::any_of(feet.begin(), feet.end(),
+                       [&](auto i) { return contains(p, points_[i], border - overhang, margin); });
   }
 
   /// Returns the heights over the smooth parts that the nearest points belong to, that of the very nearest first: means
@@ -143,6 +140,16 @@ public:
   static constexpr double band_height = 2, border = 1.25, overhang = 0.25; ///< in spacings
 
 private:
+  /// Whether a point is near a foot: up to a distance across, in spacings, and not beyond the border.
+  static bool contains(const Vector& p, const Band_point_3& foot, double across, const Margin& margin) {
+    const Vector difference = p - foot.point;
+    const double height = difference.dot(foot.normal), size = std::abs(height), spacing = foot.spacing;
+    const Vector tangential = difference - height * foot.normal;
+    const double excess = std::max(tangential.norm() - across * spacing,
+                                   foot.gap ? foot.gap->depth(tangential) - overhang * spacing : -border * spacing);
+    return size <= std::max(margin.height, band_height * spacing) && excess <= margin.slope * size;
+  }
+
   struct Foot {
     Point_tree_3::Index index;
     double distance;

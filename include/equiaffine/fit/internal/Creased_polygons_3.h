@@ -49,6 +49,16 @@ public:
   const std::vector<Vector>& points() const { return points_; }
   const std::vector<std::vector<Index>>& faces() const { return faces_; }
 
+  /// Marks the points of edges of one face.
+  std::vector<char> borders() const {
+    std::vector<char> result(points_.size());
+    for_each_edge([&](std::size_t first, std::size_t last) {
+      if (last - first == 1) result[sides_[first].ends[0]] = result[sides_[first].ends[1]] = 1;
+    });
+    for (std::size_t v = 0; v < points_.size(); ++v) result[v] = result[given_[v]];
+    return result;
+  }
+
   /// Returns, in order, the edges of two faces that bend by more than an angle in degrees, where they follow each other
   /// as creases do: sharp edges that are connected are ten mean edges long, and ten more for each loose end, and fewer
   /// than half as many edges at them bend by a third of the angle. Noise and thin triangles make edges sharp, too, one

@@ -40,6 +40,7 @@ inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices
   Data_points_3& data = result.data;
   Creased_polygons_3 mesh(vertices, faces);
   if (feature_angle) data.charts = mesh.split(mesh.creases(*feature_angle));
+  data.is_on_border = mesh.borders();
   for (const auto& p : mesh.points()) data.points.push_back(result.normalization(p));
   data.normals.assign(data.size(), Eigen::Vector3d::Zero());
   for (const auto& face : mesh.faces()) {
