@@ -4,10 +4,10 @@
 #include "commands/check_delaunay_surface.h"
 #include "commands/extract_surface.h"
 #include "commands/fail_without_surface.h"
+#include "commands/forewarn_of_grid.h"
 #include "commands/remesh_fit.h"
 #include "commands/remove_crumbs.h"
 #include "engine/Engine.h"
-#include "source/forewarn_of_grid.h"
 #include "system/forewarn.h"
 #include "system/resources.h"
 #include <equiaffine/Input_error.h>
@@ -17,6 +17,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -28,12 +30,11 @@ constexpr const char* extracting = "extracting the surface";
 
 /// Samples the surface; annotated_surface() adds attributes.
 template <class Traits>
-Annotated_surface sample(const Traits& function, const Source&, const Mesh_options& options,
-                         const Marching_cubes_options& method, Progress& progress) {
+Annotated_surface sample(const Traits& function, const Mesh_options& options, const Marching_cubes_options& method,
+                         Progress& progress) {
   if (options.source.derivatives == Derivatives::JETS) // splines have the grid of their samples
-    forewarn_of_grid(extracting, options.source, progress, [&](const Source_options& coarse) {
-      extract_surface(function, coarse, method.vertices);
-    });
+    forewarn_of_grid(extracting, options.source, progress,
+                     [&](const Source_options& coarse) { extract_surface(function, coarse, method.vertices); });
   progress.begin(extracting);
   Annotated_surface surface;
   surface.mesh = extract_surface(function, options.source, method.vertices);
@@ -44,8 +45,8 @@ Annotated_surface sample(const Traits& function, const Source&, const Mesh_optio
 }
 
 template <class Traits>
-Annotated_surface sample(const Traits& function, const Source&, const Mesh_options& options,
-                         const Delaunay_options& method, Progress& progress) {
+Annotated_surface sample(const Traits& function, const Mesh_options& options, const Delaunay_options& method,
+                         Progress& progress) {
   const CGAL::Bbox_3 box = function.bbox();
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
   check_box_of_delaunay_surface(box, diagonal);
@@ -57,10 +58,10 @@ Annotated_surface sample(const Traits& function, const Source&, const Mesh_optio
   const Clip_domain_3 domain = method.clips_to_ball ? Clip_domain_3::ball_in(box) : Clip_domain_3(box);
   const auto parameters = parameters::clip(domain).facet_sizing(method.sizing);
   const double fineness = diagonal / std::min(criteria.radius, std::sqrt(criteria.distance * diagonal));
-  forewarn(extracting, "a larger --radius or --distance", fineness, progress, [&](double coarse) {
-    const double factor = fineness / coarse;
-    delaunay_surface(function, {criteria.angle, factor * criteria.radius, factor * factor * criteria.distance},
-                     parameters);
+  forewarn(extracting, "a larger --radius or --distance", fineness, false, progress, [&](double coarse) {
+    const double factor = fineness / coarse, radius = std::min(factor * criteria.radius, diagonal),
+                 distance = std::min(factor * factor * criteria.distance, diagonal);
+    delaunay_surface(function, {criteria.angle, radius, distance}, parameters);
   });
   progress.begin(extracting);
   auto mesh = options.curves ? delaunay_surface(function, criteria, parameters.parabolic_features())
@@ -76,54 +77,81 @@ Annotated_surface sample(const Traits& function, const Source&, const Mesh_optio
   return surface;
 }
 
-template <class Traits>
-Annotated_surface sample(const Traits&, const Source& source, const Mesh_options& options, const Remesh_options& method,
-                         Progress& progress) {
-  progress.begin("remeshing");
-  Remeshed_fit remeshed = remesh_fit(source, options.source, method);
-  Annotated_surface surface;
-  surface.mesh = std::move(remeshed.mesh);
-  surface.outcomes = std::move(remeshed.outcomes);
-  surface.remesh = remeshed.statistics;
-  return surface;
+/// The faces of the data of a fit, remeshed, or the reason why they are not although nothing else was asked for.
+struct Remesh {
+  std::optional<Remeshed_fit> fit;
+  std::string reason_against;
+};
+
+/// The part of the vertices of a remesh that are neither on the fit nor on creases.
+double part_beside_fit(const Remesh_statistics& remesh) {
+  const std::size_t kept = remesh.number_on_fit() + remesh.number_of[std::size_t(Fit_outcome::ON_FEATURE)];
+  return 1 - double(kept) / double(remesh.number_of_vertices());
 }
 
-/// Samples a surface by the method that was asked for. The faces of a fit are remeshed if none was, and if they form a
-/// surface.
-template <class Traits>
-Annotated_surface sample(const Traits& function, const Source& source, const Mesh_options& options,
-                         Progress& progress) {
-  std::string reason;
-  if (options.remeshes_faces && !source.data.triangles.empty()) {
+/// Remeshes the faces of a fit. Where the data choose its scale, and many vertices are beside the fit, that scale is too
+/// large for the shape: the fit becomes one at a smaller scale while a third fewer of them are beside it.
+Remeshed_fit remesh_at_some_scale(Source& source, Source_options options, const Remesh_options& how,
+                                  Progress& progress) {
+  constexpr double enough = 0.05, least_gain = 1. / 3;
+  constexpr int most_tries = 4;
+  const bool is_free = !options.fit.scale;
+  progress.begin("remeshing");
+  Remeshed_fit best = remesh_fit(source, options, how);
+  for (int n = 0; n < most_tries && is_free && source.fit->scale() && best.statistics.edge_length > 0; ++n) {
+    const double part = part_beside_fit(best.statistics);
+    if (part < enough) break;
+    options.fit.scale = *source.fit->scale() / std::numbers::sqrt2;
     try {
-      return sample(function, source, options, Remesh_options(), progress);
-    } catch (const Input_error& error) {
-      reason = error.what();
+      Source smaller = refitted(source, options, progress);
+      progress.begin("remeshing");
+      Remeshed_fit other = remesh_fit(smaller, options, how);
+      if (part_beside_fit(other.statistics) > (1 - least_gain) * part) break;
+      source = std::move(smaller);
+      best = std::move(other);
+    } catch (const Input_error&) {
+      break; // too few points are within that scale
     }
   }
-  Annotated_surface surface = std::visit(
-      [&](const auto& method) { return sample(function, source, options, method, progress); }, options.method);
-  surface.reason_against_remesh = std::move(reason);
-  return surface;
+  return best;
 }
 
-/// The status with which attributes of vertices are computed. Vertices of a remesh on creases get those of one side,
-/// although creases of fits and of the data are the same only to within the deviation of the fit.
-std::vector<Point_status> status_for_attributes(const Annotated_surface& surface) {
-  std::vector<Point_status> status = surface.mesh.vertex_status;
-  for (std::size_t i = 0; i < surface.outcomes.size(); ++i)
-    if (surface.outcomes[i] == double(Fit_outcome::ON_FEATURE)) status[i] = Point_status::REGULAR;
-  return status;
+Remesh remesh_of_source(Source& source, const Mesh_options& options, Progress& progress) {
+  const auto* const method = std::get_if<Remesh_options>(&options.method);
+  if (!method && (!options.remeshes_faces || source.data.triangles.empty())) return {};
+  try {
+    return {remesh_at_some_scale(source, options.source, method ? *method : Remesh_options(), progress), ""};
+  } catch (const Input_error& error) {
+    if (method) throw;
+    return {std::nullopt, error.what()};
+  }
+}
+
+/// Samples the surface by the method that was asked for, if it is no remesh.
+template <class Traits>
+Annotated_surface sample(const Traits& function, const Mesh_options& options, Remesh remesh, Progress& progress) {
+  if (remesh.fit) {
+    Annotated_surface surface;
+    surface.mesh = std::move(remesh.fit->mesh);
+    surface.outcomes = std::move(remesh.fit->outcomes);
+    surface.remesh = remesh.fit->statistics;
+    return surface;
+  }
+  const auto* const grid = std::get_if<Marching_cubes_options>(&options.method);
+  Annotated_surface surface = grid ? sample(function, options, *grid, progress)
+                                   : sample(function, options, std::get<Delaunay_options>(options.method), progress);
+  surface.reason_against_remesh = std::move(remesh.reason_against);
+  return surface;
 }
 
 /// Samples the surface and computes its attributes. `function` is the one in `source`, with its own type.
 template <class Traits>
 Annotated_surface annotated_surface(const Traits& function, const Source& source, const Mesh_options& options,
-                               Progress& progress) {
+                                    Remesh remesh, Progress& progress) {
   // The mesh is made from f whatever the orientation is, which then only decides to which side triangles are turned.
   const Level_set_traits_3<Traits> extracted(function, options.isovalue);
   const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
-  Annotated_surface surface = sample(extracted, source, options, progress);
+  Annotated_surface surface = sample(extracted, options, std::move(remesh), progress);
   if (source.fit && !surface.remesh) {
     remove_crumbs(surface.mesh, *source.fit, options.source);
     if (surface.mesh.triangles.empty())
@@ -140,9 +168,8 @@ Annotated_surface annotated_surface(const Traits& function, const Source& source
   surface.mesh.function_evaluations += 2 * surface.mesh.points.size();
   Attribute_selection selection = options.attributes;
   selection.has_status = true; // even if it is not written: the statistics count it
-  surface.attributes =
-      engine<Traits>().compute_attributes({function, options.orientation, surface.mesh.points, selection,
-                                           options.estimator, status_for_attributes(surface)});
+  surface.attributes = engine<Traits>().compute_attributes(
+      {function, options.orientation, surface.mesh.points, selection, options.estimator, surface.mesh.vertex_status});
   surface.mesh.function_evaluations += surface.mesh.points.size();
   surface.status = count(*surface.attributes.status);
   surface.estimates = estimates_at(source, options.source, surface.mesh.points, progress);
@@ -158,37 +185,17 @@ Annotated_surface annotated_surface(const Traits& function, const Source& source
   return surface;
 }
 
-Made_surface surface_of_source(const Mesh_options& options, Progress& progress) {
+} // namespace
+
+Made_surface make_surface(const Mesh_options& options, Progress& progress) {
   const Stopwatch stopwatch;
   Source source = make_source(options.source, progress);
   const double seconds = stopwatch.seconds();
+  Remesh remesh = remesh_of_source(source, options, progress);
   Annotated_surface surface = std::visit(
-      [&](const auto& function) { return annotated_surface(function, source, options, progress); }, source.function);
+      [&](const auto& function) { return annotated_surface(function, source, options, std::move(remesh), progress); },
+      source.function);
   return {std::move(source), std::move(surface), seconds};
-}
-
-} // namespace
-
-Made_surface make_surface(Mesh_options options, Progress& progress) {
-  constexpr double enough = 0.95;
-  constexpr int most_tries = 4;
-  const bool is_free = options.source.kind == Source_kind::FIT && !options.source.fit.scale && options.source.text != "-";
-  Made_surface made = surface_of_source(options, progress);
-  const auto is_too_large = [&] {
-    const auto& remesh = made.surface.remesh;
-    return remesh && remesh->edge_length > 0 && made.source.fit->scale() && made.part_on_fit() < enough;
-  };
-  for (int n = 0; n < most_tries && is_free && is_too_large(); ++n) {
-    options.source.fit.scale = *made.source.fit->scale() / std::numbers::sqrt2;
-    try {
-      Made_surface smaller = surface_of_source(options, progress);
-      if (smaller.part_on_fit() <= made.part_on_fit()) break;
-      made = std::move(smaller);
-    } catch (const Input_error&) {
-      break; // too few points are within that scale
-    }
-  }
-  return made;
 }
 
 } // namespace equiaffine

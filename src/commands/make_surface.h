@@ -8,7 +8,6 @@
 #include "source/source.h"
 #include "system/kernel.h"
 #include "system/progress.h"
-#include <equiaffine/fit/Fit_outcome.h>
 #include <equiaffine/parabolic_curves.h>
 #include <equiaffine/surface/Isosurface_3.h>
 
@@ -40,18 +39,11 @@ struct Made_surface {
   Source source;
   Annotated_surface surface;
   double source_seconds;
-
-  /// The part of the vertices of a remesh that lie on the fit or its creases.
-  double part_on_fit() const {
-    const auto& number_of = surface.remesh->number_of;
-    const std::size_t on_fit = surface.remesh->number_on_fit() + number_of[std::size_t(Fit_outcome::ON_FEATURE)];
-    return double(on_fit) / double(surface.remesh->number_of_vertices());
-  }
 };
 
-/// Makes the surface. Where the data choose the scale of a fit, and more than one vertex in twenty of its remesh are
-/// beside the fit, that scale is too large for the shape, and smaller ones are tried.
-Made_surface make_surface(Mesh_options options, Progress& progress);
+/// Makes the surface. Where the data choose the scale of a fit, the source may be one at a smaller scale: see
+/// doc/program.md on `--method remesh`.
+Made_surface make_surface(const Mesh_options& options, Progress& progress);
 
 } // namespace equiaffine
 

@@ -2,7 +2,6 @@
 #include "source/source.h"
 
 #include "source/fit_vertices.h"
-#include "source/forewarn_of_grid.h"
 #include "source/read_triangle_mesh.h"
 #include "source/read_vertices.h"
 #include "source/warnings.h"
@@ -107,25 +106,17 @@ Point_table_3<Kernel> read_data(const Source_options& options, Progress& progres
   return read_vertices(options.text);
 }
 
-std::size_t number_of_nodes(const Size& size) { return size[0] * size[1] * size[2]; }
-
 Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size, Progress& progress) {
   progress.begin("reading the mesh");
   const CGAL::Surface_mesh<Kernel::Point_3> mesh = read_triangle_mesh(options.text);
-  const CGAL::Bbox_3 box = options.box ? *options.box : widened_box(mesh.points());
-  const auto measure = [&](const Size& nodes) {
-    const Lattice_3<Kernel> lattice(nodes, box);
+  const Lattice_3<Kernel> lattice(size, options.box ? *options.box : widened_box(mesh.points()));
+  progress.begin("measuring distances", lattice.number_of_nodes());
+  try {
     double longest_step = 0;
     for (const auto& step : lattice.steps()) longest_step = std::max(longest_step, std::sqrt(step.squared_length()));
     const double voxels = options.narrow_band.value_or(std::numeric_limits<double>::infinity());
     return signed_distance_volume<CGAL::Parallel_if_available_tag>(
-        mesh, lattice, [&](std::size_t n) { progress.advance(n); }, voxels * longest_step);
-  };
-  try {
-    const std::string stage = "measuring distances";
-    forewarn_of_grid(stage, options, progress, [&](const Source_options& coarse) { measure(*coarse.resolution); });
-    progress.begin(stage, number_of_nodes(size));
-    return measure(size);
+        mesh, lattice, [&](std::size_t nodes) { progress.advance(nodes); }, voxels * longest_step);
   } catch (const Input_error& error) {
     throw Input_error("cannot measure " + describe_as(options, options.text) + ": " + error.what());
   }
@@ -187,6 +178,17 @@ Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
   return fit;
 }
 
+template <class Traits>
+Source_function transformed_function(Traits traits, const Source_options& options) {
+  if (!options.transformation) return traits;
+  return Transformed_function_traits_3(std::move(traits), *options.transformation);
+}
+
+Source fitted(Point_table_3<Kernel> table, const Source_options& options, Progress& progress) {
+  const Fit_traits fit = make_fit(options, table, progress);
+  return {.function = transformed_function(fit, options), .fit = fit, .data = std::move(table.mesh)};
+}
+
 } // namespace
 
 std::array<std::size_t, 3> default_resolution(Source_kind kind) {
@@ -199,29 +201,24 @@ Volume_3<Kernel> sample_source(const Source_options& options, Progress& progress
   check_memory_of_volume(size, options.memory_use);
   if (options.kind == Source_kind::DISTANCE) return sample_distance(options, size, progress);
   const auto sample = [&](const auto& function, const std::string& name) {
-    const auto sample_nodes = [&](const Size& nodes) {
-      return sample_on_lattice<CGAL::Parallel_if_available_tag>(function, Lattice_3<Kernel>(nodes, function.bbox()),
-                                                                [&](std::size_t n) { progress.advance(n); });
-    };
-    const std::string stage = "sampling the " + name;
-    forewarn_of_grid(stage, options, progress, [&](const Source_options& coarse) { sample_nodes(*coarse.resolution); });
-    progress.begin(stage, number_of_nodes(size));
-    return sample_nodes(size);
+    const Lattice_3<Kernel> lattice(size, function.bbox());
+    progress.begin("sampling the " + name, lattice.number_of_nodes());
+    return sample_on_lattice<CGAL::Parallel_if_available_tag>(function, lattice,
+                                                              [&](std::size_t nodes) { progress.advance(nodes); });
   };
   return options.kind == Source_kind::FIT ? sample(make_fit(options, read_data(options, progress), progress), "fit")
                                           : sample(make_formula(options), "formula");
 }
 
+Source refitted(const Source& source, const Source_options& options, Progress& progress) {
+  Point_table_3<Kernel> table;
+  table.mesh = source.data;
+  return fitted(std::move(table), options, progress);
+}
+
 Source make_source(const Source_options& options, Progress& progress) {
-  const auto transformed = [&](auto traits) -> Source_function {
-    if (!options.transformation) return traits;
-    return Transformed_function_traits_3(std::move(traits), *options.transformation);
-  };
-  if (options.kind == Source_kind::FIT) {
-    Point_table_3<Kernel> table = read_data(options, progress);
-    const Fit_traits fit = make_fit(options, table, progress);
-    return {.function = transformed(fit), .fit = fit, .data = std::move(table.mesh)};
-  }
+  if (options.kind == Source_kind::FIT) return fitted(read_data(options, progress), options, progress);
+  const auto transformed = [&](auto traits) { return transformed_function(std::move(traits), options); };
   if (options.derivatives == Derivatives::JETS) return {.function = transformed(make_formula(options))};
   Fitted_spline fit = fit_spline(options, progress);
   const std::size_t samples = fit.function.lattice().number_of_nodes();

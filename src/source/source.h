@@ -31,6 +31,9 @@ struct Source {
 /// `Input_error`.
 Source make_source(const Source_options& options, Progress& progress);
 
+/// The source of a fit to a mesh, fitted again with other options. Throws `Input_error`.
+Source refitted(const Source& source, const Source_options& options, Progress& progress);
+
 /// The nodes per axis of a source that is sampled, if none are given.
 std::array<std::size_t, 3> default_resolution(Source_kind kind);
 

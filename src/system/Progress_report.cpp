@@ -26,6 +26,7 @@ void Progress_report::begin(const std::string& stage, std::size_t steps, Time no
   stage_ = stage;
   steps_ = steps;
   begin_of_stage_ = now;
+  is_forewarned_ = false;
 }
 
 void Progress_report::show(std::size_t done, Time now) {
@@ -36,12 +37,19 @@ void Progress_report::show(std::size_t done, Time now) {
     stream_ << wipe_line << '[' << bar(fraction, now) << "] " << percent << "  " << stage_ << times(fraction, now)
             << std::flush;
     is_shown_ = true;
-  } else if (now >= time_of_line_) {
+  } else if (now >= time_of_line_ || (!is_forewarned_ && is_known_to_be_long(fraction, now))) {
+    is_forewarned_ = true;
     const std::string percent = percentage(fraction);
     stream_ << "equiaffine: progress: " << stage_ << (percent.empty() ? "" : ", ") << percent << times(fraction, now)
             << std::endl;
     time_of_line_ = now + time_between_lines;
   }
+}
+
+/// Whether a second and a hundredth of the stage tell that it will take a minute or more.
+bool Progress_report::is_known_to_be_long(double fraction, Time now) const {
+  const double passed = seconds(now - begin_of_stage_);
+  return passed >= 1 && fraction >= 0.01 && passed >= 60 * fraction;
 }
 
 void Progress_report::wipe() {

@@ -10,7 +10,7 @@
 namespace equiaffine {
 
 /// What is said of a long computation, and when: on a terminal a line that is written again and again and wiped away at
-/// the end, elsewhere a line every ten seconds. Whoever calls it says what time it is.
+/// the end, elsewhere a line every ten seconds, and one as soon as it is known that a stage will take minutes. Whoever calls it says what time it is.
 class Progress_report {
 public:
   using Clock = std::chrono::steady_clock;
@@ -38,6 +38,7 @@ private:
   std::string bar(double fraction, Time now) const;
   std::string percentage(double fraction) const;
   std::string times(double fraction, Time now) const;
+  bool is_known_to_be_long(double fraction, Time now) const;
 
   std::ostream& stream_;
   const bool is_terminal_;
@@ -45,7 +46,7 @@ private:
   std::string stage_;
   std::size_t steps_ = 0;
   Time begin_of_stage_, time_of_line_; ///< the latter is that of the next line where there is no terminal
-  bool is_shown_ = false;
+  bool is_shown_ = false, is_forewarned_ = false;
 };
 
 } // namespace equiaffine

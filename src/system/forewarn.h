@@ -5,7 +5,9 @@
 #include "system/progress.h"
 
 #include <algorithm>
+#include <exception>
 #include <string>
+#include <utility>
 
 namespace equiaffine {
 
@@ -14,34 +16,46 @@ inline constexpr double least_fineness_to_forewarn = 200;
 
 /// The seconds that a computation will take at a fineness n, such as the nodes of a grid along an axis. They are about
 /// c + a n^2 + b n^3, since some of it is done per cell, some per cell beside the surface, and some once. This follows from
-/// `seconds_of(k)` at three smaller k, of which the greatest takes some tenths of a second, or is about a quarter of n.
+/// the last three of `seconds_of(k)` at k = 16, 32, 64, ..., until that takes some tenths of a second more than at first, or
+/// k is half of n. Returns 0 where 16 or 32 take so long that more of them would keep the user waiting.
 template <class Seconds>
-double expected_seconds(double n, const Seconds& seconds_of) {
-  constexpr double enough = 0.2, coarsest = 16;
-  const double once = seconds_of(coarsest);
-  double before = 0;
-  for (double k = 2 * coarsest;; k *= 2) {
-    const double now = std::max(seconds_of(k) - once, 0.);
-    if (now >= enough || 8 * k > n) {
-      const double cubic = std::clamp(2 * (now - 4 * before), 0., now), square = now - cubic, factor = n / k;
-      return once + (square + cubic * factor) * factor * factor;
-    }
-    before = now;
+double expected_seconds(double n, bool is_cubic, const Seconds& seconds_of) {
+  constexpr double enough = 0.2, too_long = 1, coarsest = 16;
+  const auto calm_seconds_of = [&](double k) { // something else may have interrupted one of two runs
+    const double seconds = seconds_of(k);
+    return seconds < enough || seconds > too_long ? seconds : std::min(seconds, seconds_of(k));
+  };
+  const double first = calm_seconds_of(coarsest);
+  if (first > too_long) return 0;
+  double k = 2 * coarsest, now = calm_seconds_of(k), before = first, twice_before = first;
+  if (now > too_long) return 0;
+  while (4 * k <= n && (k == 2 * coarsest || now - first < enough)) {
+    k *= 2;
+    twice_before = std::exchange(before, std::exchange(now, calm_seconds_of(k)));
   }
+  const double step = std::max(now - before, 0.), step_before = std::max(before - twice_before, 0.);
+  const double cubic = is_cubic ? std::clamp((step - 4 * step_before) * 16 / 7, 0., step * 8 / 7) : 0,
+               square = (step - cubic * 7 / 8) * 4 / 3, once = std::max(now - square - cubic, 0.), factor = n / k;
+  return once + (square + cubic * factor) * factor * factor;
 }
 
 /// Says how long a stage will take that calls `run(fineness)`, if that is minutes, and what would take less.
 template <class Run>
-void forewarn(const std::string& stage, const std::string& advice, double fineness, Progress& progress,
+void forewarn(const std::string& stage, const std::string& advice, double fineness, bool is_cubic, Progress& progress,
               const Run& run) {
   constexpr double minute = 60;
   if (fineness < least_fineness_to_forewarn) return;
-  progress.begin("measuring how long " + stage + " will take");
-  const double seconds = expected_seconds(fineness, [&](double coarse) {
-    const Stopwatch stopwatch;
-    run(coarse);
-    return stopwatch.seconds();
-  });
+  progress.begin(stage + " on coarser grids, to know how long it will take");
+  double seconds = 0;
+  try {
+    seconds = expected_seconds(fineness, is_cubic, [&](double coarse) {
+      const Stopwatch stopwatch;
+      run(coarse);
+      return stopwatch.seconds();
+    });
+  } catch (const std::exception&) {
+    return; // the run itself will say what is wrong, if it is wrong there, too
+  }
   if (seconds >= minute)
     progress.announce(stage + " will take about " + Progress_report::time_text(seconds) + "; " + advice +
                       " takes less");

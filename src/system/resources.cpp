@@ -60,8 +60,8 @@ void check_memory_of_surface(const std::array<std::size_t, 3>& resolution, Memor
   constexpr double vertices_per_node = 3.14159265 / 2, bytes_per_vertex = 217, bytes_per_node = 42;
   const auto [nx, ny, nz] = resolution;
   const double sides = double(nx) * double(ny) + double(ny) * double(nz) + double(nz) * double(nx);
-  check_memory(vertices_per_node * bytes_per_vertex * sides + bytes_per_node * double(nx) * double(ny), use,
-               resolution, "the surface");
+  check_memory(vertices_per_node * bytes_per_vertex * sides + bytes_per_node * double(nx) * double(ny), use, resolution,
+               "the surface");
 }
 
 void check_memory_of_delaunay_surface(double diagonal, double radius, double distance, Memory_use use) {

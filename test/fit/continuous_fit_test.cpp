@@ -86,8 +86,7 @@ Mesh pyramid(int sides, int rows) {
         const double angle = 2 * std::numbers::pi * k / sides;
         return Point_3(size * std::cos(angle), size * std::sin(angle), 1 - size);
       };
-      for (int k = 0; k < r; ++k)
-        ring.push_back(mesh.add_vertex(CGAL::barycenter(corner(s), r - k, corner(s + 1), k)));
+      for (int k = 0; k < r; ++k) ring.push_back(mesh.add_vertex(CGAL::barycenter(corner(s), r - k, corner(s + 1), k)));
     }
   }
   for (int r = 0; r < rows; ++r)

@@ -26,14 +26,15 @@ TEST(Program_progress_report, a_terminal_has_the_percentage_and_the_time_left_of
   EXPECT_TRUE(terminal.str().ends_with("left\r\x1b[K"));
 }
 
-TEST(Program_progress_report, elsewhere_there_is_a_line_every_ten_seconds) {
+TEST(Program_progress_report, elsewhere_there_is_a_line_every_ten_seconds_and_one_at_once_if_minutes_are_left) {
   std::ostringstream file;
   Progress_report report(file, false, start);
   report.begin("counting", 100, start);
   for (int second = 0; second < 30; ++second) report.show(std::size_t(second), start + seconds(second));
   report.wipe();
-  EXPECT_EQ(file.str(), "equiaffine: progress: counting, 10 %, 10 s, about 1 min 30 s left\n"
-                        "equiaffine: progress: counting, 20 %, 20 s, about 1 min 20 s left\n");
+  EXPECT_EQ(file.str(), "equiaffine: progress: counting, 1 %, 1 s, about 1 min 39 s left\n"
+                        "equiaffine: progress: counting, 11 %, 11 s, about 1 min 29 s left\n"
+                        "equiaffine: progress: counting, 21 %, 21 s, about 1 min 19 s left\n");
   EXPECT_EQ(test::without_progress("equiaffine: warning: old\n" + file.str()), "equiaffine: warning: old\n");
 }
 

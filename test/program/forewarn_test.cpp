@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -19,26 +20,46 @@ namespace {
 using namespace equiaffine;
 
 TEST(Forewarn, the_time_of_cells_follows_from_coarser_ones) {
-  constexpr double n = 4096, coarsest = 16;
+  constexpr double n = 4096;
   for (const auto& [once, square, cubic] : std::vector<std::array<double, 3>>{
-           {0, 0, 1e-6}, {0, 1e-4, 0}, {3, 2e-4, 1e-6}, {2, 0, 0}, {1, 1e-9, 1e-9}, {0, 1, 2}}) {
-    const auto more_than_once = [=](double k) { return square * k * k + cubic * k * k * k; };
+           {0, 0, 1e-6}, {0, 1e-4, 0}, {.8, 2e-5, 1e-6}, {.5, 0, 0}, {.1, 1e-9, 1e-9}, {0, 5e-4, 0}}) {
+    const auto time = [=](double k) { return once + square * k * k + cubic * k * k * k; };
     std::vector<double> asked;
     const auto seconds = [&](double k) {
       asked.push_back(k);
-      return once + (k > coarsest ? more_than_once(k) : 0);
+      return time(k);
     };
-    const double expected = once + more_than_once(n);
-    EXPECT_NEAR(expected_seconds(n, seconds), expected, 1e-6 * expected) << once << ' ' << square << ' ' << cubic;
-    for (const double k : asked) EXPECT_LE(k, n / 4) << "what is tried is coarse";
+    EXPECT_NEAR(expected_seconds(n, true, seconds), time(n), 1e-6 * time(n)) << once << ' ' << square << ' ' << cubic;
+    if (cubic == 0) {
+      EXPECT_NEAR(expected_seconds(n, false, seconds), time(n), 1e-6 * time(n)) << once << ' ' << square;
+    }
+    for (const double k : asked) EXPECT_LE(k, n / 2) << "what is tried is coarse";
   }
+}
+
+TEST(Forewarn, an_interruption_is_not_taken_for_work) {
+  bool is_first = true;
+  const auto seconds = [&](double k) { return 1e-6 * k * k + (k == 64 && std::exchange(is_first, false) ? .5 : 0); };
+  EXPECT_NEAR(expected_seconds(1000, true, seconds), 1, .1);
+}
+
+TEST(Forewarn, what_takes_long_on_a_coarse_grid_is_not_tried_on_a_finer_one) {
+  std::vector<double> asked;
+  const auto seconds = [&](double k) {
+    asked.push_back(k);
+    return 1e-4 * k * k * k;
+  };
+  EXPECT_EQ(expected_seconds(1000, true, seconds), 0);
+  EXPECT_LE(asked.back(), 32);
 }
 
 TEST(Forewarn, it_is_announced_in_a_line_of_its_own_with_what_takes_less) {
   std::ostringstream stream;
   {
     Progress progress(stream, false, std::chrono::hours(1));
-    forewarn("counting", "a smaller --resolution", 100, progress, [](double) { FAIL() << "that is never long"; });
+    forewarn("counting", "a smaller --resolution", 100, true, progress, [](double) { FAIL() << "that is never long"; });
+    forewarn("counting", "a smaller --resolution", 300, true, progress,
+             [](double) { throw Input_error("too coarse"); });
     progress.announce("counting will take about 2 min 5 s");
   }
   EXPECT_EQ(stream.str(), "equiaffine: progress: counting will take about 2 min 5 s\n");

@@ -66,7 +66,8 @@ Surface_registration_3<Kernel_of<Target>> register_surfaces(const Source& source
 /// are expected by chance. The `tolerance` is the rms distance of surfaces that are equal, a part of the size; by default
 /// it is what facets explain, 0.3 % to 1 %, and 2e-5 for solids of planes, which have no other facets. Without one, two
 /// scans of an object that are not equal, such as a fine and a coarse one, are matched if one map stands out: its rms is
-/// below 1.5 % of the size, less for thin surfaces, and less than half of that of every other map.
+/// below 1.5 % of the size, less for thin surfaces, and less than half of that of every other map, and less than 10 % of
+/// the points are off the other surface.
 ///
 /// Takes some 5 to 40 s on one core if the wholes are not equal. Named parameters: `map_kind`, `reflections`,
 /// `number_of_maps`, `least_overlap`, `tolerance`, and `vertex_point_map` for the source; `target_parameters` has

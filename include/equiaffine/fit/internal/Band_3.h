@@ -28,6 +28,14 @@ struct Band_point_3 {
   double spacing, core;
   std::optional<Border_gap_3> gap;
   Charts_3::Index chart; ///< the smooth part of the surface
+
+  static constexpr double overhang = 0.25; ///< beyond the border, in spacings
+
+  /// Whether a point is over the gap, farther beyond the border than the overhang.
+  bool is_beyond_border(const Eigen::Vector3d& p) const {
+    const Eigen::Vector3d difference = p - point;
+    return gap && gap->depth(difference - difference.dot(normal) * normal) > overhang * spacing;
+  }
 };
 
 /// The part of space near points of a surface: within 2 spacings of one of the nearest along its normal, or within a margin
@@ -68,10 +76,12 @@ public:
   bool contains(const Vector& p, const Margin& margin) const {
     const auto nearest = tree_.nearest(p, 1);
     if (nearest.empty()) return false;
-    if (contains(p, points_[nearest.front()], border, margin)) return true;
+    const Band_point_3& foot = points_[nearest.front()];
+    if (contains(p, foot, border, margin)) return true;
+    if (foot.is_beyond_border(p)) return false;
     const auto feet = tree_.nearest(p, count_);
     return std::any_of(feet.begin(), feet.end(),
-                       [&](auto i) { return contains(p, points_[i], border - overhang, margin); });
+                       [&](auto i) { return contains(p, points_[i], border - foot.overhang, margin); });
   }
 
   /// Returns the heights over the smooth parts that the nearest points belong to, that of the very nearest first: means
@@ -137,7 +147,7 @@ public:
     return box;
   }
 
-  static constexpr double band_height = 2, border = 1.25, overhang = 0.25; ///< in spacings
+  static constexpr double band_height = 2, border = 1.25; ///< in spacings
 
 private:
   /// Whether a point is near a foot: up to a distance across, in spacings, and not beyond the border.
@@ -145,8 +155,9 @@ private:
     const Vector difference = p - foot.point;
     const double height = difference.dot(foot.normal), size = std::abs(height), spacing = foot.spacing;
     const Vector tangential = difference - height * foot.normal;
-    const double excess = std::max(tangential.norm() - across * spacing,
-                                   foot.gap ? foot.gap->depth(tangential) - overhang * spacing : -border * spacing);
+    const double excess =
+        std::max(tangential.norm() - across * spacing,
+                 foot.gap ? foot.gap->depth(tangential) - foot.overhang * spacing : -border * spacing);
     return size <= std::max(margin.height, band_height * spacing) && excess <= margin.slope * size;
   }
 

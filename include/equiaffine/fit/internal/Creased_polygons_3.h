@@ -114,9 +114,7 @@ public:
       if (last - first != 2) return;
       const Index a = charts.of_point[faces_[sides_[first].face].front()],
                   b = charts.of_point[faces_[sides_[first + 1].face].front()];
-      if (a == b) return;
-      charts.bend[{a, b}] += bend(first) * length(sides_[first].ends);
-      charts.bend[{b, a}] = charts.bend[{a, b}];
+      if (a != b) charts.add_crease(a, b, bend(first) * length(sides_[first].ends));
     });
     std::map<Index, std::vector<Index>> parts_at;
     for (Index v = 0; v < points_.size(); ++v)

@@ -24,8 +24,8 @@ struct Data_points_3 {
   std::vector<Vector> points, normals;
   std::vector<std::size_t> first_neighbor; ///< one for every point, and one more
   std::vector<Index> neighbors;
-  std::vector<double> spacing; ///< the typical distance of neighbors around a point
-  Charts_3 charts;             ///< the parts between creases
+  std::vector<double> spacing;    ///< the typical distance of neighbors around a point
+  Charts_3 charts;                ///< the parts between creases
   std::vector<char> is_on_border; ///< for each point; empty if that is not known, as without faces
 
   std::size_t size() const { return points.size(); }

@@ -80,9 +80,8 @@ Shape_matches register_wholes(const Centered_surface_3& source, const Centered_s
   }
   const auto slipping = slipping_rotations<ConcurrencyTag>(source, request.kind);
   result.slippage = continuous_symmetries(source, slipping, tolerances_of_wholes(Centered_pair(source), request).tried);
-  const auto rotations =
-      rotations_to_refine<ConcurrencyTag>(surfaces, 2 * std::max(tolerances.tried, tolerances.alone),
-                                          request.allows_reflections, result.slippage.dimension());
+  const auto rotations = rotations_to_refine<ConcurrencyTag>(surfaces, 2 * std::max(tolerances.tried, tolerances.alone),
+                                                             request.allows_reflections, result.slippage.dimension());
   result.hypotheses = rotations.size();
   const Judgement how = {10 * tolerances.tried, 0, degrees_of_freedom(request.kind),
                          double(std::max<std::size_t>(result.hypotheses, 1)), probes};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_SOURCE_FOREWARN_OF_GRID_H
-#define EQUIAFFINE_SRC_SOURCE_FOREWARN_OF_GRID_H
+#ifndef EQUIAFFINE_SRC_COMMANDS_FOREWARN_OF_GRID_H
+#define EQUIAFFINE_SRC_COMMANDS_FOREWARN_OF_GRID_H
 
 #include "request/options.h"
 #include "source/source.h"
@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 
@@ -20,10 +21,11 @@ void forewarn_of_grid(const std::string& stage, const Source_options& options, P
   if (options.kind == Source_kind::VOLUME) return; // the volume has the grid
   const std::array<std::size_t, 3> size = options.resolution.value_or(default_resolution(options.kind));
   const double fineness = double(*std::max_element(size.begin(), size.end()));
-  forewarn(stage, "a smaller --resolution", fineness, progress, [&](double coarse) {
+  forewarn(stage, "a smaller --resolution", fineness, true, progress, [&](double coarse) {
     Source_options with_grid = options;
     with_grid.resolution = size;
-    for (std::size_t& n : *with_grid.resolution) n = std::max<std::size_t>(2, std::size_t(double(n) * coarse / fineness));
+    for (std::size_t& n : *with_grid.resolution)
+      n = std::size_t(std::max(2., std::round(double(n) * coarse / fineness)));
     run(with_grid);
   });
 }
