@@ -28,19 +28,12 @@ struct Band_point_3 {
   double spacing, core;
   std::optional<Border_gap_3> gap;
   Charts_3::Index chart; ///< the smooth part of the surface
-
-  static constexpr double overhang = 0.25; ///< beyond the border, in spacings
-
-  /// Whether a point is over the gap, farther beyond the border than the overhang.
-  bool is_beyond_border(const Eigen::Vector3d& p) const {
-    const Eigen::Vector3d difference = p - point;
-    return gap && gap->depth(difference - difference.dot(normal) * normal) > overhang * spacing;
-  }
 };
 
-/// The part of space near points of a surface: within 2 spacings of one of the nearest along its normal, or within a margin
-/// that may be larger, within 1.25 spacings across of the very nearest one or 1 of another, and no more than a quarter of
-/// a spacing beyond the border, since polynomials that go on there know nothing. The core is a lower part of it.
+/// The part of space near points of a surface: within 2 spacings of the nearest one along its normal, or within a margin
+/// that may be larger, within 1.25 spacings across, and no more than a quarter of a spacing beyond the border, since
+/// polynomials that go on there know nothing. Away from borders it is also what is within 1 spacing across of another one
+/// of the nearest points, where the density jumps. The core is a lower part of it.
 class Band_3 {
 public:
   using Vector = Eigen::Vector3d;
@@ -76,12 +69,10 @@ public:
   bool contains(const Vector& p, const Margin& margin) const {
     const auto nearest = tree_.nearest(p, 1);
     if (nearest.empty()) return false;
-    const Band_point_3& foot = points_[nearest.front()];
-    if (contains(p, foot, border, margin)) return true;
-    if (foot.is_beyond_border(p)) return false;
+    if (contains(p, points_[nearest.front()], border, margin)) return true;
     const auto feet = tree_.nearest(p, count_);
-    return std::any_of(feet.begin(), feet.end(),
-                       [&](auto i) { return contains(p, points_[i], border - foot.overhang, margin); });
+    return std::none_of(feet.begin(), feet.end(), [&](auto i) { return points_[i].gap.has_value(); }) &&
+           std::any_of(feet.begin(), feet.end(), [&](auto i) { return contains(p, points_[i], 1, margin); });
   }
 
   /// Returns the heights over the smooth parts that the nearest points belong to, that of the very nearest first: means
@@ -147,7 +138,7 @@ public:
     return box;
   }
 
-  static constexpr double band_height = 2, border = 1.25; ///< in spacings
+  static constexpr double band_height = 2, border = 1.25, overhang = 0.25; ///< in spacings
 
 private:
   /// Whether a point is near a foot: up to a distance across, in spacings, and not beyond the border.
@@ -155,9 +146,8 @@ private:
     const Vector difference = p - foot.point;
     const double height = difference.dot(foot.normal), size = std::abs(height), spacing = foot.spacing;
     const Vector tangential = difference - height * foot.normal;
-    const double excess =
-        std::max(tangential.norm() - across * spacing,
-                 foot.gap ? foot.gap->depth(tangential) - foot.overhang * spacing : -border * spacing);
+    const double excess = std::max(tangential.norm() - across * spacing,
+                                   foot.gap ? foot.gap->depth(tangential) - overhang * spacing : -border * spacing);
     return size <= std::max(margin.height, band_height * spacing) && excess <= margin.slope * size;
   }
 

@@ -192,7 +192,7 @@ private:
   static std::optional<Border_gap_3> gap(const Data_points_3& data,
                                          const std::vector<std::optional<Band_point_3>>& feet, Data_points_3::Index i) {
     if (!feet[i] || data.charts.has_crease_at(i)) return {};
-    if (!data.is_on_border.empty() && !data.is_on_border[i]) return {};
+    if (!data.is_at_border.empty() && !data.is_at_border[i]) return {};
     std::vector<Vector> to_others;
     const auto add = [&](Data_points_3::Index j) {
       if (j != i && feet[j]) to_others.push_back(feet[j]->point - feet[i]->point);

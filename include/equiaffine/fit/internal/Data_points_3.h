@@ -26,7 +26,7 @@ struct Data_points_3 {
   std::vector<Index> neighbors;
   std::vector<double> spacing;    ///< the typical distance of neighbors around a point
   Charts_3 charts;                ///< the parts between creases
-  std::vector<char> is_on_border; ///< for each point; empty if that is not known, as without faces
+  std::vector<char> is_at_border; ///< within a spacing of it, for each point; empty if not known, as without faces
 
   std::size_t size() const { return points.size(); }
   std::span<const Index> neighbors_of(Index i) const {

@@ -40,7 +40,6 @@ inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices
   Data_points_3& data = result.data;
   Creased_polygons_3 mesh(vertices, faces);
   if (feature_angle) data.charts = mesh.split(mesh.creases(*feature_angle));
-  data.is_on_border = mesh.borders();
   for (const auto& p : mesh.points()) data.points.push_back(result.normalization(p));
   data.normals.assign(data.size(), Eigen::Vector3d::Zero());
   for (const auto& face : mesh.faces()) {
@@ -51,6 +50,11 @@ inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices
   if (!data.charts.empty()) edges = edges_of(mesh.faces());
   set_neighbors(data, std::move(edges));
   set_spacing(data, 1);
+  const std::vector<char> is_on_border = mesh.borders();
+  data.is_at_border = is_on_border;
+  for (Data_points_3::Index i = 0; i < data.size(); ++i)
+    if (is_on_border[i])
+      for (const auto j : connected_ball(data, i, data.spacing[i])) data.is_at_border[j] = 1;
   return result;
 }
 
