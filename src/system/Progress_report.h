@@ -10,7 +10,8 @@
 namespace equiaffine {
 
 /// What is said of a long computation, and when: on a terminal a line that is written again and again and wiped away at
-/// the end, elsewhere a line every ten seconds, and one as soon as it is known that a stage will take minutes. Whoever calls it says what time it is.
+/// the end, elsewhere a line every ten seconds, and one as soon as it is known that a stage will take minutes. Whoever
+/// calls it says what time it is.
 class Progress_report {
 public:
   using Clock = std::chrono::steady_clock;
@@ -31,7 +32,7 @@ public:
   /// Wipes the line of a terminal away.
   void wipe();
 
-  /// Two units at most, such as "3 min 20 s".
+  /// Returns the time in two units at most, such as "3 min 20 s".
   static std::string time_text(double seconds);
 
 private:

@@ -10,7 +10,7 @@ namespace equiaffine {
 /// The bytes of memory that this computer has, or infinity if it does not tell.
 double physical_memory();
 
-/// What may be used of the memory of this computer: half of it, or all if that was agreed to.
+/// Says how much of the memory of this computer may be used: half of it, or all if the user agreed to that.
 enum class Memory_use { HALF, ALL };
 
 /// Throws `Input_error` if a volume of that many nodes and its spline need more memory than may be used.

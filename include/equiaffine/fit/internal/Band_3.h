@@ -52,7 +52,7 @@ public:
     double height = 0, slope = 0;
   };
 
-  /// At most so many smooth parts meet at a point.
+  /// Makes the band of a surface of which at most `most_at_point` smooth parts meet at a point.
   explicit Band_3(std::vector<Band_point_3> points, std::size_t most_at_point = 1)
       : points_(std::move(points)), count_(std::clamp<std::size_t>(2 * most_at_point, 9, 64)) {
     std::vector<Vector> places;

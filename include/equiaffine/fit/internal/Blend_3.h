@@ -37,9 +37,7 @@ public:
   double value(const Vector& p, const Band_3::Margin& margin) const {
     if (!band_.contains(p, margin)) return std::numeric_limits<double>::quiet_NaN();
     const auto heights = band_.heights(p);
-    if (heights.size() == 1) return value_of_part(p, heights.front());
-    const Charts_3::Choice chosen = choice(p, heights);
-    return value_of_part(p, heights[chosen.position]) + chosen.fading;
+    return heights.size() == 1 ? value_of_part(p, heights.front()) : choice(p, heights).value;
   }
 
   /// The expansion at a point: to first order in the band, to a higher one where the value is that of polynomials alone.

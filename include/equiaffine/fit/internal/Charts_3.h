@@ -87,10 +87,10 @@ struct Charts_3 {
     double value, fading;
   };
 
-  /// The part whose value is that of the solid, and what fading adds to it.
+  /// The part whose value is that of the solid, what fading adds to it, and their sum.
   struct Choice {
     std::size_t position;
-    double fading;
+    double fading, value;
   };
 
   /// Returns whose value is that of a solid which is bounded by several parts, that of the nearest part first: the solid is
@@ -100,16 +100,17 @@ struct Charts_3 {
   /// and at those with one kind of creases. Parts that no relations lead to from the nearest one are other sheets.
   Choice combined(const std::vector<Part_value>& parts) const {
     const std::vector<char> is_related = connected_with_first(parts);
-    const auto value = [&](const Choice& choice) { return parts[choice.position].value + choice.fading; };
-    Choice greatest = {0, -std::numeric_limits<double>::infinity()};
+    Choice greatest = {0, 0, -std::numeric_limits<double>::infinity()};
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (!is_related[i]) continue;
-      Choice least = {i, 0};
+      Choice least = {i, 0, parts[i].value};
       for (std::size_t j = 0; j < parts.size(); ++j)
         if (j != i && is_related[j] && relation(parts[i].chart, parts[j].chart) == Relation::CONCAVE)
-          least = std::min(least, {j, parts[j].fading}, [&](auto& a, auto& b) { return value(a) < value(b); });
+          if (const double value = parts[j].value + parts[j].fading; value < least.value)
+            least = {j, parts[j].fading, value};
       least.fading -= parts[i].fading;
-      if (value(least) > value(greatest)) greatest = least;
+      least.value = parts[least.position].value + least.fading;
+      if (least.value > greatest.value) greatest = least;
     }
     return greatest;
   }
