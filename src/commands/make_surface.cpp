@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -83,44 +82,11 @@ struct Remesh {
   std::string reason_against;
 };
 
-/// The part of the vertices of a remesh that are neither on the fit nor on creases.
-double part_beside_fit(const Remesh_statistics& remesh) {
-  const std::size_t kept = remesh.number_on_fit() + remesh.number_of[std::size_t(Fit_outcome::ON_FEATURE)];
-  return 1 - double(kept) / double(remesh.number_of_vertices());
-}
-
-/// Remeshes the faces of a fit. Where the data choose its scale, and many vertices are beside the fit, that scale is too
-/// large for the shape: the fit becomes one at a smaller scale while a third fewer of them are beside it.
-Remeshed_fit remesh_at_some_scale(Source& source, Source_options options, const Remesh_options& how,
-                                  Progress& progress) {
-  constexpr double enough = 0.05, least_gain = 1. / 3;
-  constexpr int most_tries = 4;
-  const bool is_free = !options.fit.scale;
-  progress.begin("remeshing");
-  Remeshed_fit best = remesh_fit(source, options, how);
-  for (int n = 0; n < most_tries && is_free && source.fit->scale() && best.statistics.edge_length > 0; ++n) {
-    const double part = part_beside_fit(best.statistics);
-    if (part < enough) break;
-    options.fit.scale = *source.fit->scale() / std::numbers::sqrt2;
-    try {
-      Source smaller = refitted(source, options, progress);
-      progress.begin("remeshing");
-      Remeshed_fit other = remesh_fit(smaller, options, how);
-      if (part_beside_fit(other.statistics) > (1 - least_gain) * part) break;
-      source = std::move(smaller);
-      best = std::move(other);
-    } catch (const Input_error&) {
-      break; // too few points are within that scale
-    }
-  }
-  return best;
-}
-
 Remesh remesh_of_source(Source& source, const Mesh_options& options, Progress& progress) {
   const auto* const method = std::get_if<Remesh_options>(&options.method);
   if (!method && (!options.remeshes_faces || source.data.triangles.empty())) return {};
   try {
-    return {remesh_at_some_scale(source, options.source, method ? *method : Remesh_options(), progress), ""};
+    return {remesh_fit(source, options.source, method ? *method : Remesh_options(), progress), ""};
   } catch (const Input_error& error) {
     if (method) throw;
     return {std::nullopt, error.what()};

@@ -4,18 +4,23 @@
 #include "commands/maps_view.h"
 #include "source/read_triangle_mesh.h"
 #include <equiaffine/Input_error.h>
+#include <equiaffine/attributes/error_table.h>
+#include <equiaffine/base/random_subset.h>
 #include <equiaffine/remesh_on_fit.h>
 
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/tags.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace equiaffine {
 
@@ -47,9 +52,8 @@ Fit_remesh_report remesh(Mesh& mesh, const Fit_traits& fit, const Parameters& pa
   throw Input_error(std::string("a remesh of the data: ") + error.what());
 }
 
-} // namespace
-
-Remeshed_fit remesh_fit(const Source& source, const Source_options& options, const Remesh_options& how) {
+/// The data of a fit, remeshed and moved onto it.
+Remeshed_fit remeshed(const Source& source, const Source_options& options, const Remesh_options& how) {
   Mesh mesh = mesh_of_data(source.data, options);
   const auto outcome = mesh.add_property_map<Mesh::Vertex_index, Fit_outcome>("v:outcome").first;
   Remeshed_fit result;
@@ -76,6 +80,61 @@ Remeshed_fit remesh_fit(const Source& source, const Source_options& options, con
   if (options.transformation)
     static_cast<Indexed_triangle_mesh_3<Kernel>&>(result.mesh) = moved(result.mesh, *options.transformation);
   return result;
+}
+
+/// The part of the vertices of a remesh that are neither on the fit nor on creases.
+double part_beside_fit(const Remesh_statistics& remesh) {
+  const std::size_t kept = remesh.number_on_fit() + remesh.number_of[std::size_t(Fit_outcome::ON_FEATURE)];
+  return 1 - double(kept) / double(remesh.number_of_vertices());
+}
+
+/// The parts of some vertices of the data at which a fit knows the affine area density, of order 2, and the affine
+/// Gaussian curvature, of order 4, to a half of their sizes.
+std::array<double, 2> parts_known(const Source& source) {
+  const std::vector<std::size_t> vertices = random_subset(source.data.points.size(), 1000, 1);
+  std::array<double, 2> parts = {};
+  for (const std::size_t v : vertices) {
+    const auto fitted = source.fit->structure(source.data.points[v]);
+    for (const auto& row : error_table<double>) {
+      if (!row.is_known(fitted.structure, fitted.error, 0.5)) continue;
+      parts[0] += double(row.attribute == "affine_area_density") / double(vertices.size());
+      parts[1] += double(row.attribute == "affine_gaussian_curvature") / double(vertices.size());
+    }
+  }
+  return parts;
+}
+
+} // namespace
+
+Remeshed_fit remesh_fit(Source& source, Source_options options, const Remesh_options& how, Progress& progress) {
+  constexpr double enough = 0.05, least_gain = 1. / 3, greatest_loss = 0.1;
+  constexpr int most_tries = 4;
+  const bool is_free = !options.fit.scale;
+  progress.begin("remeshing");
+  Remeshed_fit best = remeshed(source, options, how);
+  double last_part = part_beside_fit(best.statistics);
+  if (!is_free || !source.fit->scale() || !(best.statistics.edge_length > 0) || last_part < enough) return best;
+  double scale = *source.fit->scale();
+  const auto known = parts_known(source);
+  for (int n = 0; n < most_tries && part_beside_fit(best.statistics) >= enough; ++n) {
+    options.fit.scale = scale /= std::numbers::sqrt2;
+    try {
+      Source smaller = refitted(source, options, progress);
+      const auto still_known = parts_known(smaller);
+      if (std::max(known[0] - still_known[0], known[1] - still_known[1]) > greatest_loss) break;
+      progress.begin("remeshing");
+      Remeshed_fit other = remeshed(smaller, options, how);
+      const double part = part_beside_fit(other.statistics);
+      if (part >= last_part) break;
+      last_part = part;
+      if (part > (1 - least_gain) * part_beside_fit(best.statistics)) continue;
+      source = std::move(smaller);
+      best = std::move(other);
+    } catch (const Input_error&) {
+      break; // too few points are within that scale
+    }
+  }
+  return best;
 }
 
 } // namespace equiaffine
