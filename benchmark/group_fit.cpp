@@ -63,7 +63,7 @@ void beside_jet_fitting() {
   for (const double noise : {0., 0.01}) {
     const auto points = disturbed(samples, noise);
     std::vector<Eigen::Vector3d> coordinates;
-    for (const auto& p : points) coordinates.push_back(internal::coordinates_of(p));
+    for (const auto& p : points) coordinates.push_back(coordinates_of(p));
     const internal::Point_tree_3 tree(coordinates);
     std::vector<double> errors;
     for (std::size_t i = 0; i < points.size(); ++i) {
