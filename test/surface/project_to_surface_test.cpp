@@ -3,8 +3,8 @@
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/analytic_functions.h>
+#include <equiaffine/function/intersect_segments.h>
 #include <equiaffine/project_to_surface.h>
-#include <equiaffine/surface/intersect_segments.h>
 
 #include <CGAL/Simple_cartesian.h>
 

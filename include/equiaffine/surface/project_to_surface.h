@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_SURFACE_PROJECT_TO_SURFACE_H
 #define EQUIAFFINE_SURFACE_PROJECT_TO_SURFACE_H
 
+#include <equiaffine/function/Surface_point_3.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/surface/Surface_point_3.h>
+#include <equiaffine/function/intersect_segment.h>
 #include <equiaffine/surface/distance_estimate.h>
 #include <equiaffine/surface/internal/line_search.h>
-#include <equiaffine/surface/intersect_segment.h>
 
 namespace equiaffine {
 

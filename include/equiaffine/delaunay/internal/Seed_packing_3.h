@@ -3,10 +3,10 @@
 #define EQUIAFFINE_DELAUNAY_INTERNAL_SEED_PACKING_3_H
 
 #include <equiaffine/delaunay/Seed_grid_3.h>
+#include <equiaffine/function/sign_change.h>
 #include <equiaffine/surface/Clip_domain_3.h>
 #include <equiaffine/surface/curve_step.h>
 #include <equiaffine/surface/project_to_surface.h>
-#include <equiaffine/surface/sign_change.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions_3.h>

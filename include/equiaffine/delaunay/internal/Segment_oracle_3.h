@@ -3,9 +3,9 @@
 #define EQUIAFFINE_DELAUNAY_INTERNAL_SEGMENT_ORACLE_3_H
 
 #include <equiaffine/function/first_order_bounds.h>
+#include <equiaffine/function/sign_change.h>
 #include <equiaffine/surface/Clip_domain_3.h>
 #include <equiaffine/surface/project_to_surface.h>
-#include <equiaffine/surface/sign_change.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>

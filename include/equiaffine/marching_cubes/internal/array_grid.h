@@ -3,9 +3,9 @@
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ARRAY_GRID_H
 
 #include <equiaffine/base/parallel_for.h>
+#include <equiaffine/function/sign_change.h>
 #include <equiaffine/marching_cubes/internal/grid_elements.h>
 #include <equiaffine/marching_cubes/internal/node_signs.h>
-#include <equiaffine/surface/sign_change.h>
 
 #include <algorithm>
 #include <array>

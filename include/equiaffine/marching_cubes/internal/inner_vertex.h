@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_INNER_VERTEX_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_INNER_VERTEX_H
 
+#include <equiaffine/function/sign_change.h>
 #include <equiaffine/marching_cubes/internal/cell_polygons.h>
-#include <equiaffine/surface/sign_change.h>
 
 #include <array>
 #include <cmath>

@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_INTERSECT_EDGES_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_INTERSECT_EDGES_H
 
+#include <equiaffine/function/intersect_segments.h>
+#include <equiaffine/function/sign_change.h>
 #include <equiaffine/marching_cubes/internal/lattice_function.h>
-#include <equiaffine/surface/intersect_segments.h>
 #include <equiaffine/surface/project_to_surface.h>
-#include <equiaffine/surface/sign_change.h>
 
 #include <cmath>
 #include <span>

@@ -3,8 +3,8 @@
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LATTICE_FUNCTION_H
 
 #include <equiaffine/function/Batch_function_traits_3.h>
+#include <equiaffine/function/sign_change.h>
 #include <equiaffine/marching_cubes/internal/grid_elements.h>
-#include <equiaffine/surface/sign_change.h>
 #include <equiaffine/volume/Lattice_3.h>
 
 #include <array>

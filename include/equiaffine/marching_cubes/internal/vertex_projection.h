@@ -2,13 +2,13 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_VERTEX_PROJECTION_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_VERTEX_PROJECTION_H
 
+#include <equiaffine/function/intersect_segment.h>
+#include <equiaffine/function/sign_change.h>
 #include <equiaffine/marching_cubes/internal/intersect_edges.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
 #include <equiaffine/marching_cubes/internal/lattice_function.h>
 #include <equiaffine/marching_cubes/internal/zero_area_repair.h>
 #include <equiaffine/surface/Isosurface_3.h>
-#include <equiaffine/surface/intersect_segment.h>
-#include <equiaffine/surface/sign_change.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 

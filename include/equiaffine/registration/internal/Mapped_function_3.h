@@ -3,9 +3,9 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_MAPPED_FUNCTION_3_H
 
 #include <equiaffine/function/concepts.h>
+#include <equiaffine/function/intersect_segment.h>
+#include <equiaffine/function/sign_change.h>
 #include <equiaffine/registration/internal/Affine_map_3.h>
-#include <equiaffine/surface/intersect_segment.h>
-#include <equiaffine/surface/sign_change.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>

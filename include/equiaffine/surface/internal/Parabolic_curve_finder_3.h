@@ -4,6 +4,7 @@
 
 #include <equiaffine/base/parallel_for.h>
 #include <equiaffine/function/concepts.h>
+#include <equiaffine/function/sign_change.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 #include <equiaffine/surface/Parabolic_curves_3.h>
 #include <equiaffine/surface/curve_step.h>
@@ -11,7 +12,6 @@
 #include <equiaffine/surface/internal/parabolic_crossings.h>
 #include <equiaffine/surface/parabolic_function.h>
 #include <equiaffine/surface/project_to_surface.h>
-#include <equiaffine/surface/sign_change.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/number_utils.h>

@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_SURFACE_INTERNAL_LINE_SEARCH_H
 #define EQUIAFFINE_SURFACE_INTERNAL_LINE_SEARCH_H
 
+#include <equiaffine/function/Surface_point_3.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/surface/Surface_point_3.h>
+#include <equiaffine/function/intersect_segment.h>
+#include <equiaffine/function/sign_change.h>
 #include <equiaffine/surface/distance_estimate.h>
-#include <equiaffine/surface/intersect_segment.h>
-#include <equiaffine/surface/sign_change.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,10 @@
 
 #include <equiaffine/base/parallel_for.h>
 #include <equiaffine/function/Batch_function_traits_3.h>
+#include <equiaffine/function/sign_change.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/surface/curve_step.h>
 #include <equiaffine/surface/distance_estimate.h>
-#include <equiaffine/surface/sign_change.h>
 
 #include <algorithm>
 #include <cmath>

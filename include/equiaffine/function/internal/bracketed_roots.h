@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SURFACE_INTERNAL_BRACKETED_ROOTS_H
-#define EQUIAFFINE_SURFACE_INTERNAL_BRACKETED_ROOTS_H
+#ifndef EQUIAFFINE_FUNCTION_INTERNAL_BRACKETED_ROOTS_H
+#define EQUIAFFINE_FUNCTION_INTERNAL_BRACKETED_ROOTS_H
 
 #include <equiaffine/function/Batch_function_traits_3.h>
-#include <equiaffine/surface/Surface_point_3.h>
-#include <equiaffine/surface/sign_change.h>
+#include <equiaffine/function/Surface_point_3.h>
+#include <equiaffine/function/sign_change.h>
 
 #include <CGAL/Bbox_3.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SURFACE_INTERSECT_SEGMENT_H
-#define EQUIAFFINE_SURFACE_INTERSECT_SEGMENT_H
+#ifndef EQUIAFFINE_FUNCTION_INTERSECT_SEGMENT_H
+#define EQUIAFFINE_FUNCTION_INTERSECT_SEGMENT_H
 
+#include <equiaffine/function/Surface_point_3.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/surface/Surface_point_3.h>
-#include <equiaffine/surface/internal/bracketed_roots.h>
+#include <equiaffine/function/internal/bracketed_roots.h>
 
 namespace equiaffine {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SURFACE_SIGN_CHANGE_H
-#define EQUIAFFINE_SURFACE_SIGN_CHANGE_H
+#ifndef EQUIAFFINE_FUNCTION_SIGN_CHANGE_H
+#define EQUIAFFINE_FUNCTION_SIGN_CHANGE_H
 
 namespace equiaffine {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SURFACE_INTERSECT_SEGMENTS_H
-#define EQUIAFFINE_SURFACE_INTERSECT_SEGMENTS_H
+#ifndef EQUIAFFINE_FUNCTION_INTERSECT_SEGMENTS_H
+#define EQUIAFFINE_FUNCTION_INTERSECT_SEGMENTS_H
 
 #include <equiaffine/function/Batch_function_traits_3.h>
-#include <equiaffine/surface/Surface_point_3.h>
-#include <equiaffine/surface/internal/bracketed_roots.h>
-#include <equiaffine/surface/intersect_segment.h>
+#include <equiaffine/function/Surface_point_3.h>
+#include <equiaffine/function/internal/bracketed_roots.h>
+#include <equiaffine/function/intersect_segment.h>
 
 #include <span>
 #include <vector>
