@@ -3,6 +3,7 @@
 // processor time. Argument: number of repeats (5).
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/analytic_functions.h>
+#include <equiaffine/capabilities.h>
 #include <equiaffine/delaunay_surface.h>
 #include <equiaffine/mesh_topology.h>
 

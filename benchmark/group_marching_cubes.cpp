@@ -7,6 +7,7 @@
 #include "measure.h"
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
+#include <equiaffine/capabilities.h>
 #include <equiaffine/marching_cubes.h>
 #include <equiaffine/marching_cubes_of_array.h>
 

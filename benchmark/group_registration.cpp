@@ -110,10 +110,10 @@ void wrong_structure(const std::vector<Source>& all, int repeats) {
         const Map map = random_map(random, 10, random_determinant(random));
         const Image image(s.function, map);
         const Points target_points = points_on_surface(image, 35);
-        const internal::Oracle_of_traits_3 source(s.function);
-        const internal::Oracle_of_traits_3 target(image);
-        structure.run(Disturbed_structure(source, part, 1), source, s.points, Disturbed_structure(target, part, 2),
-                      target, target_points, map);
+        const auto source = Any_function_3::make(s.function), target = Any_function_3::make(image);
+        using internal::Framed_function_3;
+        structure.run(Disturbed_structure(source, part, 1), Framed_function_3(source), s.points,
+                      Disturbed_structure(target, part, 2), Framed_function_3(target), target_points, map);
         const Disturbed<Formula> from{s.function, part, 0.05, 1};
         const Disturbed<Image> to{image, part, 0.05, 2};
         derivatives.run(from, s.points, to, target_points, map);

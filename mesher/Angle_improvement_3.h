@@ -5,6 +5,7 @@
 #include "Facet_sizing_field.h"
 #include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/surface/Clip_domain_3.h>
 #include <equiaffine/surface/curve_step.h>
 #include <equiaffine/surface/project_to_surface.h>

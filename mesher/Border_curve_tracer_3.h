@@ -3,6 +3,7 @@
 #define EQUIAFFINE_MESHER_BORDER_CURVE_TRACER_3_H
 
 #include "Domain_border_3.h"
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/surface/Polyline_3.h>
 #include <equiaffine/surface/curve_step.h>

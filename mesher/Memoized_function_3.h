@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_MESHER_MEMOIZED_FUNCTION_3_H
 #define EQUIAFFINE_MESHER_MEMOIZED_FUNCTION_3_H
 
-#include <equiaffine/delaunay/Any_function_3.h>
+#include <equiaffine/surface/Any_function_3.h>
 
 #include <bit>
 #include <cstddef>
@@ -72,8 +72,8 @@ public:
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const {
     return memory_->function_.first_order_bounds(box);
   }
-  Jet_3<Interval, 1> mean_value_bounds(const CGAL::Bbox_3& box) const {
-    return memory_->function_.mean_value_bounds(box);
+  Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const {
+    return memory_->function_.tight_first_order_bounds(box);
   }
   Known_bounds known_bounds() const { return memory_->function_.known_bounds(); }
   CGAL::Bbox_3 bbox() const { return memory_->function_.bbox(); }

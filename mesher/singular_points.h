@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_MESHER_SINGULAR_POINTS_H
 #define EQUIAFFINE_MESHER_SINGULAR_POINTS_H
 
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/surface/eigen_derivatives.h>
 

@@ -5,7 +5,7 @@
 
 #include "support/registration_cases.h"
 #include <equiaffine/number/Jet_3.h>
-#include <equiaffine/registration/internal/Surface_oracle_3.h>
+#include <equiaffine/registration/internal/Framed_function_3.h>
 
 #include <Eigen/Core>
 
@@ -14,22 +14,23 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace registration_runs {
 
 using equiaffine::internal::Framed_point_3;
 using registration_cases::Random;
 
-/// Changes what another oracle says of the structure at a point by normal deviates that depend on the point: curvatures
+/// Changes the structure of a function at a point by normal deviates that depend on the point: curvatures
 /// by a part of their size, their derivatives along the surface by three times that part, and the frame by that part of
 /// itself, in every direction.
-class Disturbed_structure final : public equiaffine::internal::Surface_oracle_3 {
+class Disturbed_structure final : public equiaffine::internal::Framed_function_3 {
 public:
-  Disturbed_structure(const Surface_oracle_3& base, double part, unsigned seed)
-      : base_(base), part_(part), seed_(seed) {}
+  Disturbed_structure(equiaffine::Any_function_3 function, double part, unsigned seed)
+      : Framed_function_3(std::move(function)), part_(part), seed_(seed) {}
 
   Framed_point_3 framed_point(const Eigen::Vector3d& p, equiaffine::Map_kind kind) const override {
-    Framed_point_3 result = base_.framed_point(p, kind);
+    Framed_point_3 result = Framed_function_3::framed_point(p, kind);
     if (!result.has_frame()) return result;
     Random random(number_of(p));
     const double before = result.invariants[4];
@@ -40,9 +41,6 @@ public:
     result.basis *= Eigen::Matrix3d::Identity() + part_ * deviates;
     return result;
   }
-
-  equiaffine::Jet_3<double, 1> first_order(const Eigen::Vector3d& p) const override { return base_.first_order(p); }
-  double certainty(const Eigen::Vector3d& p) const override { return base_.certainty(p); }
 
 private:
   using Curvature = equiaffine::Jet_3<double, 1>; ///< with its derivatives along the two tangent vectors of the frame
@@ -86,7 +84,6 @@ private:
     }
   }
 
-  const Surface_oracle_3& base_;
   double part_;
   unsigned seed_;
 };

@@ -47,8 +47,8 @@ void compare_at_part(double part, int repeats) {
       const Image image(function, map);
       const Points image_points = points_on_surface(image, 35);
       using Tag = CGAL::Sequential_tag;
-      const internal::Oracle_of_traits_3 from(piece);
-      const internal::Oracle_of_traits_3 to(image);
+      const internal::Framed_function_3 from(Any_function_3::make(piece));
+      const internal::Framed_function_3 to(Any_function_3::make(image));
       const Vectors vectors = internal::vectors_of(points), target = internal::vectors_of(image_points);
       const auto framed = internal::framed_surface<Tag>(from, from, vectors, Map_kind::AFFINE);
       const auto framed_target = internal::framed_surface<Tag>(to, to, target, Map_kind::AFFINE);

@@ -37,7 +37,7 @@ struct Targets {
 /// What came of the runs of a row. A run is right if the error of the matrix is at most `greatest_error`.
 class Row {
 public:
-  using Oracle = internal::Surface_oracle_3;
+  using Framed_function_3 = internal::Framed_function_3;
 
   explicit Row(const std::string& name, double greatest_error = 1e-6)
       : name_("registration_" + name), greatest_error_(greatest_error) {}
@@ -54,14 +54,14 @@ public:
   void run(const Source& source, const Refined_source& refined_source, const Points& points, const Target& target,
            const Refined_target& refined_target, const Points& target_points, const Map& right,
            const internal::Registration_request& request = {}) {
-    run(internal::Oracle_of_traits_3(source), internal::Oracle_of_traits_3(refined_source), points,
-        internal::Oracle_of_traits_3(target), internal::Oracle_of_traits_3(refined_target), target_points, right,
+    const auto framed = [](const auto& traits) { return Framed_function_3(Any_function_3::make(traits)); };
+    run(framed(source), framed(refined_source), points, framed(target), framed(refined_target), target_points, right,
         request);
   }
 
-  void run(const Oracle& source, const Oracle& refined_source, const Points& points, const Oracle& target,
-           const Oracle& refined_target, const Points& target_points, const Map& right,
-           const internal::Registration_request& request = {}) {
+  void run(const Framed_function_3& source, const Framed_function_3& refined_source, const Points& points,
+           const Framed_function_3& target, const Framed_function_3& refined_target, const Points& target_points,
+           const Map& right, const internal::Registration_request& request = {}) {
     using Tag = CGAL::Sequential_tag;
     const auto framed =
         internal::framed_surface<Tag>(source, refined_source, internal::vectors_of(points), request.kind);

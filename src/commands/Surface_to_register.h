@@ -3,8 +3,9 @@
 #define EQUIAFFINE_SRC_COMMANDS_SURFACE_TO_REGISTER_H
 
 #include "request/options.h"
-#include "source/Level_set_of_source.h"
+#include "system/kernel.h"
 #include "system/progress.h"
+#include <equiaffine/surface/Any_function_3.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <optional>
@@ -13,13 +14,13 @@ namespace equiaffine {
 
 /// A level set with points on it.
 struct Surface_to_register {
-  Level_set_of_source function;
-  std::optional<Level_set_of_source> unsmoothed; ///< if the function is a spline through smoothed samples
-  Indexed_triangle_mesh_3<Kernel> mesh;          ///< the data of a fit, else what Marching Cubes makes
-  Indexed_triangle_mesh_3<Kernel> extracted;     ///< what Marching Cubes makes of a fit to points without faces
-  std::optional<double> scale;                   ///< of the curvatures of a fit, unless they are the surface's own
+  Any_function_3 function;                        ///< whose zero set is the level set
+  std::optional<Any_function_3> unsmoothed = {};  ///< if the function is a spline through smoothed samples
+  Indexed_triangle_mesh_3<Kernel> mesh = {};      ///< the data of a fit, else what Marching Cubes makes
+  Indexed_triangle_mesh_3<Kernel> extracted = {}; ///< what Marching Cubes makes of a fit to points without faces
+  std::optional<double> scale = {};               ///< of the curvatures of a fit, unless they are the surface's own
 
-  const Level_set_of_source& refined() const { return unsmoothed ? *unsmoothed : function; }
+  const Any_function_3& refined() const { return unsmoothed ? *unsmoothed : function; }
   const Indexed_triangle_mesh_3<Kernel>& shown() const { return mesh.triangles.empty() ? extracted : mesh; }
 };
 

@@ -5,6 +5,7 @@
 #include "request/options.h"
 #include "source/source.h"
 #include <equiaffine/Input_error.h>
+#include <equiaffine/capabilities.h>
 #include <equiaffine/function/sample_on_lattice.h>
 #include <equiaffine/marching_cubes.h>
 

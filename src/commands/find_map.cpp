@@ -42,7 +42,7 @@ Surface_registration_3<Kernel> with_parameters(const Register_options& options, 
 
 Surface_registration_3<Kernel> register_with(const Register_options& options, const Surface_to_register& source,
                                              const Surface_to_register& target) {
-  const std::pair<const Level_set_of_source&, const Level_set_of_source&> refined(source.refined(), target.refined());
+  const std::pair<const Any_function_3&, const Any_function_3&> refined(source.refined(), target.refined());
   return with_parameters(options, [&](const auto& parameters) {
     return register_surfaces<Tag>(source.function, source.mesh.points, target.function, target.mesh.points,
                                   parameters.refined_functions(refined));
@@ -106,7 +106,7 @@ std::string text_of(const Scales& scales) {
 }
 
 /// The point of a level set near another one, by Newton's steps along the gradient.
-Kernel::Point_3 on_surface(Kernel::Point_3 p, const Level_set_of_source& surface) {
+Kernel::Point_3 on_surface(Kernel::Point_3 p, const Any_function_3& surface) {
   constexpr int steps = 3;
   for (int n = 0; n < steps; ++n) {
     const auto jet = surface.first_order(p);

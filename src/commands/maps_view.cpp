@@ -39,7 +39,7 @@ bool contains(const CGAL::Bbox_3& box, const Point& p) {
 
 /// The distances of points from the image of a surface under the inverse of `back`, to first order; NaN outside of the
 /// image of its domain.
-std::vector<double> distances(const std::vector<Point>& points, const Level_set_of_source& surface, const Map& back) {
+std::vector<double> distances(const std::vector<Point>& points, const Any_function_3& surface, const Map& back) {
   const CGAL::Bbox_3 box = surface.bbox();
   std::vector<double> result(points.size(), std::numeric_limits<double>::quiet_NaN());
   parallel_for<CGAL::Parallel_if_available_tag>(
@@ -129,7 +129,7 @@ Annotated_mesh_3<Kernel> registered_surfaces(const Surface_to_register& source, 
   return std::move(all).result();
 }
 
-Distances_of_points distances_from(const Level_set_of_source& surface, const Map& back) {
+Distances_of_points distances_from(const Any_function_3& surface, const Map& back) {
   return [&surface, back](const std::vector<Point>& points) { return distances(points, surface, back); };
 }
 

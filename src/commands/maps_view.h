@@ -22,7 +22,7 @@ using Distances_of_points = std::function<std::vector<double>(const std::vector<
 
 /// Returns the distances to first order from the image of a level set, which has to outlive the result, under the inverse
 /// of `back`, or those from the triangles of a mesh.
-Distances_of_points distances_from(const Level_set_of_source& surface,
+Distances_of_points distances_from(const Any_function_3& surface,
                                    const CGAL::Aff_transformation_3<Kernel>& back = CGAL::IDENTITY);
 Distances_of_points distances_from(const Indexed_triangle_mesh_3<Kernel>& mesh);
 

@@ -3,6 +3,7 @@
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Implicit_surface_oracle_3.h>
 #include <equiaffine/analytic_functions.h>
+#include <equiaffine/capabilities.h>
 #include <equiaffine/mesh_topology.h>
 
 #include <CGAL/Complex_2_in_triangulation_3.h>

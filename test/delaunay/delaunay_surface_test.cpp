@@ -6,6 +6,7 @@
 #include <equiaffine/Transformed_function_traits_3.h>
 #include <equiaffine/analytic_functions.h>
 #include <equiaffine/annotate.h>
+#include <equiaffine/capabilities.h>
 #include <equiaffine/delaunay_surface.h>
 #include <equiaffine/function/sample_on_lattice.h>
 #include <equiaffine/marching_cubes.h>

@@ -5,6 +5,7 @@
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
 #include <equiaffine/annotate.h>
+#include <equiaffine/capabilities.h>
 #include <equiaffine/delaunay_surface.h>
 #include <equiaffine/marching_cubes.h>
 #include <equiaffine/mesh_topology.h>

@@ -125,6 +125,42 @@ struct Batch_model : Base {
   static Traits make() { return Traits(Base::make()); }
 };
 
+template <class Base>
+struct Any_model : Base {
+  using Traits = Any_function_3;
+  static Traits make() { return Traits::make(Base::make()); }
+};
+
+/// A function that has each capability, with answers that no fallback gives.
+class Capable_function : public Analytic_function_traits_3<Kernel, Auto_function> {
+  using Base = Analytic_function_traits_3<Kernel, Auto_function>;
+
+public:
+  Capable_function() : Base(Auto_function(), unit_box) {}
+
+  double certainty(const Point_3&) const { return 0.25; }
+  double rounding(const Point_3&) const { return 1e-9; }
+  Known_bounds known_bounds() const { return {true, false}; }
+  Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const { return first_order_bounds(box); }
+  Lattice_3<Kernel> lattice(const Lattice_3<Kernel>::Size& size) const {
+    return Lattice_3<Kernel>(size, Point_3(1, 1, 1),
+                             {Vector_3(-2. / double(size[0] - 1), 0, 0), Vector_3(0, -2. / double(size[1] - 1), 0),
+                              Vector_3(0, 0, -2. / double(size[2] - 1))});
+  }
+  Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa, double fb) const {
+    auto found = equiaffine::intersect_segment(static_cast<const Base&>(*this), a, b, fa, fb);
+    found.evaluations += 1000;
+    return found;
+  }
+};
+
+struct Capable_model {
+  using Traits = Capable_function;
+  static Traits make() { return Traits(); }
+  static std::vector<Point_3> points() { return inner_points(); }
+  static constexpr double length = 0.5;
+};
+
 // The archetype has no members but those that the concept requires.
 class Archetype {
 public:
@@ -150,10 +186,11 @@ struct Archetype_model {
 };
 
 using Sparse = Analytic_model<Auto_function>;
-using Models = ::testing::Types<Archetype_model, Sparse, Analytic_model<Fixed_type_function>, Expression_model,
-                                Sampled_model<5>, Sampled_model<7>, Fitted_model, Transformed_model<Sparse>,
-                                Transformed_model<Sampled_model<7>>, Level_set_model<Sparse>,
-                                Level_set_model<Transformed_model<Sampled_model<5>>>, Batch_model<Sparse>>;
+using Models =
+    ::testing::Types<Archetype_model, Sparse, Analytic_model<Fixed_type_function>, Expression_model, Sampled_model<5>,
+                     Sampled_model<7>, Fitted_model, Transformed_model<Sparse>, Transformed_model<Sampled_model<7>>,
+                     Level_set_model<Sparse>, Level_set_model<Transformed_model<Sampled_model<5>>>, Batch_model<Sparse>,
+                     Capable_model, Transformed_model<Capable_model>, Any_model<Sparse>>;
 
 } // namespace
 

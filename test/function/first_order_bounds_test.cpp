@@ -3,7 +3,7 @@
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/function/first_order_bounds.h>
+#include <equiaffine/function/capabilities.h>
 
 #include <CGAL/Simple_cartesian.h>
 
@@ -40,7 +40,7 @@ void expect_quadratic_excess(const Traits& traits, const Point_3& p) {
   const auto box = [&](double r) {
     return CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r);
   };
-  const auto tight = [&](double r) { return excess(internal::tight_first_order_bounds(traits, box(r)), jet, r); };
+  const auto tight = [&](double r) { return excess(tight_first_order_bounds(traits, box(r)), jet, r); };
   const auto usual = [&](double r) { return excess(traits.first_order_bounds(box(r)), jet, r); };
   EXPECT_LT(tight(small), 1.5 / (ratio * ratio) * tight(large)) << p;
   EXPECT_GT(usual(small), 0.5 / ratio * usual(large)) << "the usual ones by a multiple of the box";

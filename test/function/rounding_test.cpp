@@ -3,7 +3,7 @@
 #include <equiaffine/Local_structure_3.h>
 #include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/function/rounding.h>
+#include <equiaffine/function/capabilities.h>
 
 #include <CGAL/Simple_cartesian.h>
 
@@ -122,7 +122,7 @@ TEST(Rounding, a_function_that_says_nothing_has_none) {
     using Traits::Traits;
     void rounding() const = delete;
   };
-  static_assert(Has_rounding<Traits> && Has_rounding<Level_set_traits_3<Traits>>);
-  static_assert(Has_rounding<Transformed_function_traits_3<Traits>>);
-  static_assert(!Has_rounding<Silent>);
+  static_assert(HasRounding<Traits> && HasRounding<Level_set_traits_3<Traits>>);
+  static_assert(HasRounding<Transformed_function_traits_3<Traits>>);
+  static_assert(!HasRounding<Silent>);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
-#include <equiaffine/registration/internal/Surface_oracle_3.h>
+#include <equiaffine/registration/internal/Framed_function_3.h>
 #include <equiaffine/registration/internal/derivatives_of_curvature.h>
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ TEST(Derivatives_of_curvature, they_agree_with_differences_along_principal_direc
   constexpr double step = 1e-4;
   for (const Surface& surface : generic_surfaces()) {
     const Formula formula = surface.traits();
-    const internal::Oracle_of_traits_3 oracle(formula);
+    const internal::Framed_function_3 oracle(Any_function_3::make(formula));
     const auto at = [&](const Eigen::Vector3d& p) {
       return internal::derivatives_of_curvature(formula.taylor(Point_3(p[0], p[1], p[2])));
     };

@@ -3,6 +3,7 @@
 #include "support/fit_data.h"
 #include "support/registration_cases.h"
 #include <equiaffine/Fitted_function_traits_3.h>
+#include <equiaffine/capabilities.h>
 #include <equiaffine/register_surfaces.h>
 
 #include <gtest/gtest.h>
@@ -47,18 +48,15 @@ TEST(Register_fits, independent_triangulations_have_the_map_of_their_surfaces) {
 
 TEST(Register_fits, certainty_falls_with_the_estimated_error) {
   const Fitted_mesh exact(30, 0, Map(CGAL::IDENTITY)), noisy(30, 0.02, Map(CGAL::IDENTITY));
-  const internal::Oracle_of_traits_3 oracle(exact.fit), noisy_oracle(noisy.fit);
-  const auto exact_surface = metaballs();
-  const internal::Oracle_of_traits_3 formula(exact_surface);
+  const auto formula = metaballs();
   double sum = 0, noisy_sum = 0;
   for (std::size_t i = 0; i < exact.points.size(); i += 20) {
-    const Eigen::Vector3d p = coordinates_of(exact.points[i]), q = coordinates_of(noisy.points[i]);
-    const double certainty = oracle.certainty(p);
-    EXPECT_GE(certainty, 0);
-    EXPECT_LE(certainty, 1);
-    EXPECT_EQ(formula.certainty(p), 1);
-    sum += certainty;
-    noisy_sum += noisy_oracle.certainty(q);
+    const double of_exact = certainty(exact.fit, exact.points[i]);
+    EXPECT_GE(of_exact, 0);
+    EXPECT_LE(of_exact, 1);
+    EXPECT_EQ(certainty(formula, exact.points[i]), 1);
+    sum += of_exact;
+    noisy_sum += certainty(noisy.fit, noisy.points[i]);
   }
   EXPECT_LT(noisy_sum, 0.8 * sum);
 }

@@ -9,8 +9,12 @@
 
 #include "support/contraction.h"
 #include <equiaffine/Batch_function_traits_3.h>
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/Transformed_function_traits_3.h>
+#include <equiaffine/capabilities.h>
 #include <equiaffine/concepts.h>
-#include <equiaffine/function/first_order_bounds.h>
+#include <equiaffine/function/sign_change.h>
+#include <equiaffine/surface/Any_function_3.h>
 
 #include <gtest/gtest.h>
 
@@ -19,6 +23,7 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <random>
 #include <thread>
 #include <vector>
@@ -104,6 +109,69 @@ void expect_bounds_of_first_order(const Bounds& bounds_on) {
     }
     for (const double width : last_width) EXPECT_TRUE(std::isfinite(width));
   }
+}
+
+/// Whether a wrapper is a model of all concepts of which its base is one, and has all its capabilities.
+template <class Wrapper, class Base>
+constexpr bool has_capabilities_of() {
+  using namespace equiaffine;
+  constexpr auto implies = [](bool base, bool wrapper) { return !base || wrapper; };
+  return implies(BoundedImplicitFunctionTraits_3<Base>, BoundedImplicitFunctionTraits_3<Wrapper>) &&
+         implies(FirstOrderBoundedImplicitFunctionTraits_3<Base>, FirstOrderBoundedImplicitFunctionTraits_3<Wrapper>) &&
+         implies(FirstOrderImplicitFunctionTraits_3<Base>, FirstOrderImplicitFunctionTraits_3<Wrapper>) &&
+         implies(BatchImplicitFunctionTraits_3<Base>, BatchImplicitFunctionTraits_3<Wrapper>) &&
+         implies(FirstOrderBatchImplicitFunctionTraits_3<Base>, FirstOrderBatchImplicitFunctionTraits_3<Wrapper>) &&
+         implies(HasSamplingLattice<Base>, HasSamplingLattice<Wrapper>) &&
+         implies(HasTightFirstOrderBounds<Base>, HasTightFirstOrderBounds<Wrapper>) &&
+         implies(HasKnownBounds<Base>, HasKnownBounds<Wrapper>) && implies(HasRounding<Base>, HasRounding<Wrapper>) &&
+         implies(HasCertainty<Base>, HasCertainty<Wrapper>) &&
+         implies(HasIntersectSegment<Base>, HasIntersectSegment<Wrapper>);
+}
+
+/// The same of what erasure of the type leaves out, too.
+template <class Wrapper, class Base>
+constexpr bool has_refinements_of() {
+  using namespace equiaffine;
+  constexpr auto implies = [](bool base, bool wrapper) { return !base || wrapper; };
+  return implies(SecondOrderBoundedImplicitFunctionTraits_3<Base>,
+                 SecondOrderBoundedImplicitFunctionTraits_3<Wrapper>) &&
+         implies(RestrictableImplicitFunctionTraits_3<Base>, RestrictableImplicitFunctionTraits_3<Wrapper>) &&
+         implies(PackImplicitFunctionTraits_3<Base>, PackImplicitFunctionTraits_3<Wrapper>) &&
+         implies(LatticeImplicitFunctionTraits_3<Base>, LatticeImplicitFunctionTraits_3<Wrapper>);
+}
+
+/// Expects a wrapper to answer at the image of a point what the base answers at the point.
+template <class Wrapper, class Base, class Point_3>
+void expect_capabilities_of(const Wrapper& wrapper, const Point_3& image, const Base& base, const Point_3& p) {
+  static_assert(has_capabilities_of<Wrapper, Base>());
+  using namespace equiaffine;
+  EXPECT_NEAR(certainty(wrapper, image), certainty(base, p), 1e-3);
+  EXPECT_EQ(known_bounds(wrapper).have_gradients, known_bounds(base).have_gradients);
+  EXPECT_EQ(known_bounds(wrapper).are_tight_in_small_boxes, known_bounds(base).are_tight_in_small_boxes);
+}
+
+/// Expects bounds to be equal up to roundings of an interval that is moved.
+template <class Bounds>
+void expect_equal_bounds(const Bounds& first, const Bounds& second) {
+  const auto expect_equal = [](double x, double y) {
+    if (x != y) {
+      EXPECT_NEAR(x, y, 1e-14 * (1 + std::abs(x)));
+    }
+  };
+  for (std::size_t c = 0; c < first.size; ++c) {
+    expect_equal(first.coefficients()[c].lower(), second.coefficients()[c].lower());
+    expect_equal(first.coefficients()[c].upper(), second.coefficients()[c].upper());
+  }
+}
+
+/// A pair of points of a model at which f has different signs, if there is one.
+template <class Model>
+std::optional<std::array<typename Model::Traits::Point_3, 2>> segment_with_zero() {
+  const auto traits = Model::make();
+  const auto points = Model::points();
+  for (const auto& q : points)
+    if (equiaffine::is_sign_change(traits.value(points[0]), traits.value(q))) return {{points[0], q}};
+  return std::nullopt;
 }
 
 template <class Model>
@@ -200,7 +268,7 @@ TYPED_TEST_P(Conformance, bounds_of_first_order_enclose_value_and_gradient_and_s
 TYPED_TEST_P(Conformance, tight_bounds_of_first_order_are_such_and_inside_the_usual_ones) {
   if constexpr (equiaffine::FirstOrderBoundedImplicitFunctionTraits_3<typename TypeParam::Traits>) {
     expect_bounds_of_first_order<TypeParam>([](const auto& traits, const CGAL::Bbox_3& box) {
-      const auto tight = equiaffine::internal::tight_first_order_bounds(traits, box);
+      const auto tight = equiaffine::tight_first_order_bounds(traits, box);
       const auto usual = traits.first_order_bounds(box);
       for (std::size_t c = 0; c < 4; ++c) {
         EXPECT_GE(tight.coefficients()[c].lower(), usual.coefficients()[c].lower());
@@ -228,6 +296,83 @@ TYPED_TEST_P(Conformance, bounds_of_second_order_enclose_the_expansion) {
   } else {
     GTEST_SKIP() << "the model has no bounds of its second derivatives";
   }
+}
+
+TYPED_TEST_P(Conformance, capabilities_keep_their_promises) {
+  using namespace equiaffine;
+  const auto traits = TypeParam::make();
+  const CGAL::Bbox_3 box = traits.bbox();
+  const auto lattice = sampling_lattice(traits, {5, 6, 7});
+  EXPECT_EQ(lattice.size(), (std::array<std::size_t, 3>{5, 6, 7}));
+  for (int axis = 0; axis < 3; ++axis) {
+    const double rounding = 1e-13 * (box.max(axis) - box.min(axis));
+    EXPECT_NEAR(lattice.bbox().min(axis), box.min(axis), rounding);
+    EXPECT_NEAR(lattice.bbox().max(axis), box.max(axis), rounding);
+  }
+  for (const auto& p : TypeParam::points()) {
+    EXPECT_GE(rounding(traits, p), 0);
+    EXPECT_GE(certainty(traits, p), 0);
+    EXPECT_LE(certainty(traits, p), 1);
+    const auto bounds = first_order_bounds(traits, cube(p, TypeParam::length / 100));
+    if (known_bounds(traits).have_gradients) {
+      for (const Interval& i : bounds.coefficients()) EXPECT_TRUE(std::isfinite(i.upper() - i.lower()));
+    }
+  }
+}
+
+TYPED_TEST_P(Conformance, zeros_on_segments_are_such) {
+  const auto traits = TypeParam::make();
+  const auto segment = segment_with_zero<TypeParam>();
+  if (!segment) GTEST_SKIP() << "f has one sign at the points of the model";
+  const auto& [a, b] = *segment;
+  const auto zero = equiaffine::intersect_segment(traits, a, b, traits.value(a), traits.value(b));
+  ASSERT_TRUE(zero.has_converged);
+  EXPECT_NEAR(traits.value(zero.point), 0, 1e-14);
+  EXPECT_LE(CGAL::cross_product(zero.point - a, b - a).squared_length(), 1e-28);
+}
+
+TYPED_TEST_P(Conformance, wrappers_have_the_capabilities) {
+  using namespace equiaffine;
+  using Traits = typename TypeParam::Traits;
+  using Kernel = Kernel_of<Traits>;
+  const Traits base = TypeParam::make();
+  const typename Kernel::Aff_transformation_3 map(2, 0, 0, .5, 0, -.25, .5, 0, 0, 0, 4, 1);
+  const Level_set_traits_3 level_set(base, 0.25, Orientation_of_level_set::AGAINST_GRADIENT), same(base, 0);
+  const Transformed_function_traits_3 image(base, map);
+  const Batch_function_traits_3 batch(base);
+  const auto any = Any_function_3::make(base);
+  static_assert(has_refinements_of<Level_set_traits_3<Traits>, Traits>());
+  static_assert(has_refinements_of<Transformed_function_traits_3<Traits>, Traits>());
+  for (const auto& p : TypeParam::points()) {
+    const CGAL::Bbox_3 box = cube(p, TypeParam::length / 50);
+    expect_capabilities_of(level_set, p, base, p);
+    expect_capabilities_of(image, map(p), base, p);
+    expect_capabilities_of(batch, p, base, p);
+    expect_capabilities_of(any, p, base, p);
+    const double of_base = rounding(base, p);
+    EXPECT_EQ(rounding(level_set, p), of_base);
+    EXPECT_EQ(rounding(image, map(p)) > 0, of_base > 0);
+    EXPECT_EQ(rounding(any, p), of_base);
+    const auto tight = tight_first_order_bounds(base, box);
+    expect_equal_bounds(tight_first_order_bounds(same, box), tight);
+    expect_equal_bounds(tight_first_order_bounds(any, box), tight);
+    expect_equal_bounds(first_order_bounds(any, box), first_order_bounds(base, box));
+    EXPECT_TRUE(same_bits(any.taylor(p), base.taylor(p)));
+  }
+  const auto segment = segment_with_zero<TypeParam>();
+  if (!segment) return;
+  const auto& [a, b] = *segment;
+  const auto zero_of = [&](const auto& function, const auto& from, const auto& to) {
+    return intersect_segment(function, from, to, base.value(a), base.value(b));
+  };
+  const auto zero = zero_of(base, a, b);
+  for (const auto& found : {zero_of(same, a, b), zero_of(batch, a, b), zero_of(any, a, b)}) {
+    EXPECT_EQ(found.point, zero.point);
+    EXPECT_EQ(found.evaluations, zero.evaluations);
+  }
+  const auto moved = zero_of(image, map(a), map(b));
+  EXPECT_LE((moved.point - map(zero.point)).squared_length(), 1e-28);
+  EXPECT_NEAR(double(moved.evaluations), double(zero.evaluations), 2);
 }
 
 TYPED_TEST_P(Conformance, batches_are_single_calls_bit_for_bit) {
@@ -282,8 +427,10 @@ REGISTER_TYPED_TEST_SUITE_P(Conformance, value_is_the_constant_coefficient, tayl
                             bounds_enclose_the_values_and_shrink_with_the_box,
                             bounds_of_first_order_enclose_value_and_gradient_and_shrink_with_the_box,
                             tight_bounds_of_first_order_are_such_and_inside_the_usual_ones,
-                            bounds_of_second_order_enclose_the_expansion, batches_are_single_calls_bit_for_bit,
-                            several_threads_get_the_numbers_of_one, copies_own_their_data);
+                            bounds_of_second_order_enclose_the_expansion, capabilities_keep_their_promises,
+                            zeros_on_segments_are_such, wrappers_have_the_capabilities,
+                            batches_are_single_calls_bit_for_bit, several_threads_get_the_numbers_of_one,
+                            copies_own_their_data);
 
 } // namespace conformance
 

@@ -6,8 +6,8 @@
 #include <equiaffine/attributes/internal/compute_columns.h>
 #include <equiaffine/attributes/internal/structure_by.h>
 #include <equiaffine/base/named_parameters.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/function/rounding.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 

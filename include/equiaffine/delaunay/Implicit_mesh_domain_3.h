@@ -7,7 +7,7 @@
 #include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/delaunay/certified_seeding.h>
 #include <equiaffine/delaunay/internal/Segment_oracle_3.h>
-#include <equiaffine/delaunay/internal/convert_point.h>
+#include <equiaffine/surface/convert_point.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/tags.h>
@@ -122,8 +122,8 @@ private:
   static constexpr int surface_index = 1, subdomain_index_inside = 1;
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  static Point_3 to_kernel(const typename Traits::Point_3& p) { return internal::convert_point<Kernel>(p); }
-  static typename Traits::Point_3 to_traits(const Point_3& p) { return internal::convert_point<Kernel_of<Traits>>(p); }
+  static Point_3 to_kernel(const typename Traits::Point_3& p) { return convert_point<Kernel>(p); }
+  static typename Traits::Point_3 to_traits(const Point_3& p) { return convert_point<Kernel_of<Traits>>(p); }
 
   double facet_size_;
   std::shared_ptr<const Oracle> oracle_;

@@ -4,12 +4,12 @@
 
 #include <equiaffine/base/check_argument.h>
 #include <equiaffine/base/named_parameters.h>
-#include <equiaffine/delaunay/Any_function_3.h>
 #include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
 #include <equiaffine/delaunay/Facet_sizing.h>
 #include <equiaffine/delaunay/internal/convert_surface.h>
 #include <equiaffine/delaunay/mesh_surface.h>
+#include <equiaffine/surface/Any_function_3.h>
 #include <equiaffine/surface/Clip_domain_3.h>
 #include <equiaffine/surface/Polyline_3.h>
 

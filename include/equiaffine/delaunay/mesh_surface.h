@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_DELAUNAY_MESH_SURFACE_H
 #define EQUIAFFINE_DELAUNAY_MESH_SURFACE_H
 
-#include <equiaffine/delaunay/Any_function_3.h>
 #include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
 #include <equiaffine/delaunay/Facet_sizing.h>
+#include <equiaffine/surface/Any_function_3.h>
 #include <equiaffine/surface/Clip_domain_3.h>
 #include <equiaffine/surface/Polyline_3.h>
 

@@ -6,6 +6,7 @@
 #include <equiaffine/fit/internal/Blend_3.h>
 #include <equiaffine/fit/internal/Fit_request.h>
 #include <equiaffine/fit/internal/Surface_fit_3.h>
+#include <equiaffine/fit/internal/certainty_of_fit.h>
 #include <equiaffine/fit/internal/distances_of_sheets.h>
 #include <equiaffine/fit/internal/feature_angle.h>
 #include <equiaffine/fit/internal/fit_input.h>
@@ -145,6 +146,9 @@ public:
     return internal::structure_of(jet, state_->fit, state_->blend.accuracy(place, jet),
                                   Orientation_of_level_set::ALONG_GRADIENT);
   }
+
+  /// How far the affine curvatures there can be trusted, by their estimated errors: see `equiaffine::certainty`.
+  double certainty(const Point_3& p) const { return internal::certainty_of_fit(structure(p)); }
 
   /// The scale of the curvatures, in the unit of the points; nothing if they are the surface's own.
   std::optional<double> scale() const { return state_->fit.scale(); }

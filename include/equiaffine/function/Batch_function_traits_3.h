@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_FUNCTION_BATCH_FUNCTION_TRAITS_3_H
 #define EQUIAFFINE_FUNCTION_BATCH_FUNCTION_TRAITS_3_H
 
-#include <equiaffine/function/concepts.h>
+#include <equiaffine/function/capabilities.h>
 
 #include <CGAL/assertions.h>
 

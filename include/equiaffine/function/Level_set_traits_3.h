@@ -2,9 +2,7 @@
 #ifndef EQUIAFFINE_FUNCTION_LEVEL_SET_TRAITS_3_H
 #define EQUIAFFINE_FUNCTION_LEVEL_SET_TRAITS_3_H
 
-#include <equiaffine/function/concepts.h>
-#include <equiaffine/function/first_order_bounds.h>
-#include <equiaffine/function/rounding.h>
+#include <equiaffine/function/capabilities.h>
 
 #include <CGAL/number_utils.h>
 
@@ -22,8 +20,9 @@ enum class Orientation_of_level_set {
 };
 
 /// The function f - v, or v - f for AGAINST_GRADIENT, whose zero set is the level set f = v with the chosen
-/// orientation. It is a model of every refinement of the concept that the base is a model of. Reversing the orientation
-/// changes the sign of nu, xi, H, J, H_e and of the metric, and keeps K and K_e.
+/// orientation. It is a model of every refinement of the concept that the base is a model of, and has its capabilities,
+/// but for `sampling_lattice`, which it always has. Reversing the orientation changes the sign of nu, xi, H, J, H_e and
+/// of the metric, and keeps K and K_e.
 template <ImplicitFunctionTraits_3 Base>
 class Level_set_traits_3 {
 public:
@@ -37,7 +36,9 @@ public:
         is_reversed_(orientation == Orientation_of_level_set::AGAINST_GRADIENT) {}
 
   FT value(const Point_3& p) const { return shifted(base_.value(p)); }
-  Jet_3<FT, 1> first_order(const Point_3& p) const { return shifted(equiaffine::first_order(base_, p)); }
+  Jet_3<FT, 1> first_order(const Point_3& p) const requires FirstOrderImplicitFunctionTraits_3<Base> {
+    return shifted(base_.first_order(p));
+  }
   Jet_3<FT> taylor(const Point_3& p) const { return shifted(base_.taylor(p)); }
   void values(std::span<const Point_3> points,
               std::span<FT> values) const requires BatchImplicitFunctionTraits_3<Base> {
@@ -71,6 +72,10 @@ public:
   second_order_bounds(const CGAL::Bbox_3& box) const requires SecondOrderBoundedImplicitFunctionTraits_3<Base> {
     return shifted_bounds(base_.second_order_bounds(box));
   }
+  Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const requires HasTightFirstOrderBounds<Base> {
+    return shifted_bounds(base_.tight_first_order_bounds(box));
+  }
+  Known_bounds known_bounds() const requires HasKnownBounds<Base> { return base_.known_bounds(); }
   std::optional<Level_set_traits_3>
   restricted(const CGAL::Bbox_3& box) const requires RestrictableImplicitFunctionTraits_3<Base> {
     auto base = base_.restricted(box);
@@ -79,8 +84,16 @@ public:
                               is_reversed_ ? Orientation_of_level_set::AGAINST_GRADIENT
                                            : Orientation_of_level_set::ALONG_GRADIENT);
   }
-  FT rounding(const Point_3& p) const requires Has_rounding<Base> { return base_.rounding(p); }
+  FT rounding(const Point_3& p) const requires HasRounding<Base> { return base_.rounding(p); }
+  double certainty(const Point_3& p) const requires HasCertainty<Base> { return base_.certainty(p); }
   CGAL::Bbox_3 bbox() const { return base_.bbox(); }
+
+  /// The base finds its own zeros only.
+  Surface_point_3<Kernel_of<Base>> intersect_segment(const Point_3& a, const Point_3& b, const FT& fa,
+                                                     const FT& fb) const requires HasIntersectSegment<Base> {
+    if (isovalue_ == FT(0) && !is_reversed_) return base_.intersect_segment(a, b, fa, fb);
+    return internal::zero_on_segment<Kernel_of<Base>>(*this, a, b, fa, fb);
+  }
   Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
     return sampling_lattice(base_, size);
   }

@@ -2,10 +2,8 @@
 #ifndef EQUIAFFINE_FUNCTION_TRANSFORMED_FUNCTION_TRAITS_3_H
 #define EQUIAFFINE_FUNCTION_TRANSFORMED_FUNCTION_TRAITS_3_H
 
-#include <equiaffine/function/concepts.h>
-#include <equiaffine/function/first_order_bounds.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/internal/box_intervals.h>
-#include <equiaffine/function/rounding.h>
 #include <equiaffine/number/Linear_substitution_3.h>
 #include <equiaffine/number/Pack.h>
 
@@ -24,7 +22,8 @@
 namespace equiaffine {
 
 /// The function f o A^-1, whose level sets are the images under A of the level sets of f. A is any invertible affine
-/// map. The function is a model of every refinement of the concept that the base is a model of.
+/// map. The function is a model of every refinement of the concept that the base is a model of, and has its
+/// capabilities.
 ///
 /// With a = |det A| the affine curvatures change by K' = K / a, H' = H / sqrt(a), J' = J / sqrt(a), the co-normal by
 /// nu' = sqrt(a) A^-T nu and the affine normal by xi' = A xi / sqrt(a).
@@ -43,8 +42,8 @@ public:
         substitution_of_bounds_(linear_part(inverse_, [](const FT& m) { return Interval(CGAL::to_double(m)); })) {}
 
   FT value(const Point_3& p) const { return base_.value(inverse_(p)); }
-  Jet_3<FT, 1> first_order(const Point_3& p) const {
-    return substitution_(equiaffine::first_order(base_, inverse_(p)));
+  Jet_3<FT, 1> first_order(const Point_3& p) const requires FirstOrderImplicitFunctionTraits_3<Base> {
+    return substitution_(base_.first_order(inverse_(p)));
   }
   Jet_3<FT> taylor(const Point_3& p) const { return substitution_(base_.taylor(inverse_(p))); }
 
@@ -87,6 +86,10 @@ public:
   second_order_bounds(const CGAL::Bbox_3& box) const requires SecondOrderBoundedImplicitFunctionTraits_3<Base> {
     return substitution_of_bounds_(base_.second_order_bounds(preimage(box)));
   }
+  Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const requires HasTightFirstOrderBounds<Base> {
+    return substitution_of_bounds_(base_.tight_first_order_bounds(preimage(box)));
+  }
+  Known_bounds known_bounds() const requires HasKnownBounds<Base> { return base_.known_bounds(); }
 
   std::optional<Transformed_function_traits_3>
   restricted(const CGAL::Bbox_3& box) const requires RestrictableImplicitFunctionTraits_3<Base> {
@@ -97,7 +100,7 @@ public:
   /// The rounding of the base times the square of the greatest sum of magnitudes in a column of A^-1: by the chain rule
   /// a second derivative is a sum of second derivatives of the base, each times one entry of A^-1 from the column of
   /// either variable.
-  FT rounding(const Point_3& p) const requires Has_rounding<Base> {
+  FT rounding(const Point_3& p) const requires HasRounding<Base> {
     FT greatest_sum(0);
     for (int column = 0; column < 3; ++column) {
       using std::abs;
@@ -106,6 +109,16 @@ public:
       greatest_sum = std::max(greatest_sum, sum);
     }
     return base_.rounding(inverse_(p)) * greatest_sum * greatest_sum;
+  }
+
+  /// Affine maps keep the certainty.
+  double certainty(const Point_3& p) const requires HasCertainty<Base> { return base_.certainty(inverse_(p)); }
+
+  Surface_point_3<Kernel_of<Base>> intersect_segment(const Point_3& a, const Point_3& b, const FT& fa,
+                                                     const FT& fb) const requires HasIntersectSegment<Base> {
+    auto found = base_.intersect_segment(inverse_(a), inverse_(b), fa, fb);
+    found.point = map_(found.point);
+    return found;
   }
 
   /// The axis-parallel box around the image of the base's box.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The contract between functions and everything that is done with their level sets. doc/concepts has a page for each
-// concept with its semantics; test/support/conformance.h checks them for every model.
+// concept with its semantics; test/support/conformance.h checks them for every model. What a model may do better than
+// others without a concept that algorithms require is in capabilities.h.
 #ifndef EQUIAFFINE_FUNCTION_CONCEPTS_H
 #define EQUIAFFINE_FUNCTION_CONCEPTS_H
 
@@ -123,28 +124,6 @@ concept LatticeImplicitFunctionTraits_3 =
 /// The kernel of the points of a model.
 template <ImplicitFunctionTraits_3 Traits>
 using Kernel_of = typename CGAL::Kernel_traits<typename Traits::Point_3>::Kernel;
-
-/// The expansion of order 1, computed in the cheapest way that the model has.
-template <ImplicitFunctionTraits_3 Traits>
-Jet_3<typename Traits::FT, 1> first_order(const Traits& traits, const typename Traits::Point_3& p) {
-  if constexpr (FirstOrderImplicitFunctionTraits_3<Traits>) {
-    return traits.first_order(p);
-  } else {
-    const auto jet = traits.taylor(p);
-    Jet_3<typename Traits::FT, 1> result;
-    for (std::size_t n = 0; n < 4; ++n) result.coefficients()[n] = jet.coefficients()[n];
-    return result;
-  }
-}
-
-/// Returns the lattice of the given size on which to sample a function: the one that the model chooses by a member
-/// `lattice(size)`, if it has one, else the axis-parallel one of its box.
-template <ImplicitFunctionTraits_3 Traits>
-Lattice_3<Kernel_of<Traits>> sampling_lattice(const Traits& traits,
-                                              const typename Lattice_3<Kernel_of<Traits>>::Size& size) {
-  if constexpr (requires { traits.lattice(size); }) return traits.lattice(size);
-  else return Lattice_3<Kernel_of<Traits>>(size, traits.bbox());
-}
 
 } // namespace equiaffine
 

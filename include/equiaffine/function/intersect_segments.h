@@ -3,9 +3,8 @@
 #define EQUIAFFINE_FUNCTION_INTERSECT_SEGMENTS_H
 
 #include <equiaffine/function/Batch_function_traits_3.h>
-#include <equiaffine/function/Surface_point_3.h>
-#include <equiaffine/function/internal/bracketed_roots.h>
-#include <equiaffine/function/intersect_segment.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/function/internal/searches_together.h>
 
 #include <span>
 #include <vector>
@@ -20,10 +19,7 @@ std::vector<Surface_point_3<Kernel_of<Traits>>> intersect_segments(const Batch_f
   using Search = internal::Newton_search_3<Kernel_of<Traits>>;
   std::vector<Surface_point_3<Kernel_of<Traits>>> results;
   results.reserve(segments.size());
-  constexpr bool has_own_method = requires(const typename Traits::Point_3& p, const typename Traits::FT& f) {
-    traits.intersect_segment(p, p, f, f);
-  };
-  if constexpr (FirstOrderImplicitFunctionTraits_3<Traits> && !has_own_method) {
+  if constexpr (FirstOrderImplicitFunctionTraits_3<Traits> && !HasIntersectSegment<Traits>) {
     std::vector<Search> searches;
     searches.reserve(segments.size());
     for (const auto& [ends, values] : segments)

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_MARCHING_CUBES_MARCHING_CUBES_H
 
 #include <equiaffine/base/named_parameters.h>
-#include <equiaffine/function/concepts.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
 #include <equiaffine/marching_cubes/internal/lattice_function.h>
 #include <equiaffine/marching_cubes/internal/lattice_isosurface.h>

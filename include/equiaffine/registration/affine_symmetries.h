@@ -44,7 +44,8 @@ Affine_symmetries_3<Kernel_of<Traits>> affine_symmetries(const Traits& traits, c
                                                          const Parameters& parameters = {}) {
   internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag, internal::Tolerance_tag,
                              internal::Complete_tag>();
-  return internal::symmetries_of<ConcurrencyTag>(traits, points, parameters);
+  return internal::symmetries_of<ConcurrencyTag, Kernel_of<Traits>>(
+      Any_function_3::make(traits), internal::vectors_of(points), internal::symmetry_request(parameters));
 }
 
 /// The same for the triangles of a mesh, by all rotations; other faces are cut into triangles. Without a

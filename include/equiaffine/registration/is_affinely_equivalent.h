@@ -33,7 +33,8 @@ CGAL::Uncertain<bool> is_affinely_equivalent(const Source& source, const Points&
       internal::registration_of<ConcurrencyTag>(source, source_points, target, target_points, parameters);
   if (registration.is_equivalence || registration.result.found()) return registration.is_equivalence;
   const auto request = internal::registration_request(parameters);
-  if (internal::differ_as_wholes<ConcurrencyTag>(source, target, request.kind, request.allows_reflections))
+  if (internal::differ_as_wholes<ConcurrencyTag>(Any_function_3::make(source), Any_function_3::make(target),
+                                                 request.kind, request.allows_reflections))
     return false;
   return CGAL::Uncertain<bool>::indeterminate();
 }

@@ -3,8 +3,8 @@
 #define EQUIAFFINE_SURFACE_PROJECT_TO_SURFACE_H
 
 #include <equiaffine/function/Surface_point_3.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/function/intersect_segment.h>
 #include <equiaffine/surface/distance_estimate.h>
 #include <equiaffine/surface/internal/line_search.h>
 

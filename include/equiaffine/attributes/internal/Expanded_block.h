@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_EXPANDED_BLOCK_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_EXPANDED_BLOCK_H
 
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/function/rounding.h>
 #include <equiaffine/number/Pack.h>
 
 #include <algorithm>
@@ -89,7 +89,7 @@ Expanded_block expand_block(const Traits& traits, std::span<const typename Trait
   using Lanes = Pack<double>;
   Expanded_block block;
   block.number_of_points = points.size();
-  block.has_roundings = Has_rounding<Traits>;
+  block.has_roundings = HasRounding<Traits>;
   for (std::size_t n = 0; n < block.number_of_packs(); ++n) {
     const auto pack_of = [&](auto f) {
       return Lanes::generate(
@@ -98,8 +98,7 @@ Expanded_block expand_block(const Traits& traits, std::span<const typename Trait
     block.x[n] = pack_of([](const auto& p) { return p.x(); });
     block.y[n] = pack_of([](const auto& p) { return p.y(); });
     block.z[n] = pack_of([](const auto& p) { return p.z(); });
-    if constexpr (Has_rounding<Traits>)
-      block.roundings[n] = pack_of([&](const auto& p) { return rounding(traits, p); });
+    if constexpr (HasRounding<Traits>) block.roundings[n] = pack_of([&](const auto& p) { return rounding(traits, p); });
   }
   if (!expand_in_packs(traits, block)) expand_one_by_one(traits, points, block);
   return block;

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_DELAUNAY_INTERNAL_SEED_PACKING_3_H
 
 #include <equiaffine/delaunay/Seed_grid_3.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/sign_change.h>
 #include <equiaffine/surface/Clip_domain_3.h>
 #include <equiaffine/surface/curve_step.h>

@@ -4,7 +4,7 @@
 
 #include <equiaffine/delaunay/internal/Octree_3.h>
 #include <equiaffine/delaunay/internal/acute_gradients.h>
-#include <equiaffine/function/first_order_bounds.h>
+#include <equiaffine/function/capabilities.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>
@@ -35,8 +35,7 @@ class Cell_prover_3 {
 public:
   /// `outer` is the box of the octree. Tight bounds are tried in cells with sides of at most `largest_tight_side`.
   Cell_prover_3(const Traits& traits, const CGAL::Bbox_3& outer, double largest_tight_side)
-      : traits_(traits), outer_(outer), largest_tight_side_(largest_tight_side),
-        known_(internal::known_bounds(traits)) {}
+      : traits_(traits), outer_(outer), largest_tight_side_(largest_tight_side), known_(known_bounds(traits)) {}
 
   bool knows_gradients() const { return known_.have_gradients; }
 

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_DELAUNAY_INTERNAL_SEGMENT_ORACLE_3_H
 #define EQUIAFFINE_DELAUNAY_INTERNAL_SEGMENT_ORACLE_3_H
 
-#include <equiaffine/function/first_order_bounds.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/sign_change.h>
 #include <equiaffine/surface/Clip_domain_3.h>
 #include <equiaffine/surface/project_to_surface.h>
@@ -34,8 +34,8 @@ public:
   /// root, pieces are a sixteenth as long.
   Segment_oracle_3(Traits traits, const Clip_domain_3& domain, double certified_length = infinity)
       : traits_(std::move(traits)), domain_(domain), certified_length_(certified_length),
-        may_have_poles_(internal::known_bounds(traits_).have_gradients &&
-                        !is_bounded(internal::first_order_bounds(traits_, domain.bbox()).value())) {}
+        may_have_poles_(known_bounds(traits_).have_gradients &&
+                        !is_bounded(first_order_bounds(traits_, domain.bbox()).value())) {}
 
   /// A point of the surface on p + t d, first <= t <= last (which may be infinite), inside the domain.
   std::optional<Point_3> operator()(const Point_3& p, const Vector_3& d, double first, double last) const {

@@ -3,8 +3,8 @@
 #define EQUIAFFINE_DELAUNAY_INTERNAL_CONVERT_SURFACE_H
 
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
-#include <equiaffine/delaunay/internal/convert_point.h>
 #include <equiaffine/surface/Polyline_3.h>
+#include <equiaffine/surface/convert_point.h>
 
 #include <type_traits>
 #include <utility>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_VERTEX_PROJECTION_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_VERTEX_PROJECTION_H
 
-#include <equiaffine/function/intersect_segment.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/sign_change.h>
 #include <equiaffine/marching_cubes/internal/intersect_edges.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>

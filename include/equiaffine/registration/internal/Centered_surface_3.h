@@ -66,20 +66,18 @@ inline Centered_surface_3 centered_surface(const Triangles_3& mesh, Map_kind kin
   return result;
 }
 
-/// The distances refer to `traits`.
-template <class ConcurrencyTag, ImplicitFunctionTraits_3 Traits>
-Centered_surface_3 centered_surface(const Traits& traits, Map_kind kind) {
+template <class ConcurrencyTag>
+Centered_surface_3 centered_surface(const Any_function_3& function, Map_kind kind) {
   Centered_surface_3 result;
   result.is_exact = true;
   if (!keeps_angles(kind)) {
-    const Area_samples_3 first =
-        function_samples<ConcurrencyTag>(Mapped_function_3<Traits>(traits, {}), samples_of_function);
+    const Area_samples_3 first = function_samples<ConcurrencyTag>(Mapped_function_3(function, {}), samples_of_function);
     if (first.is_cut) return surface_without_symmetries("the surface is cut by the box of the function");
     if (!first.volume || first.volume->covariance.llt().info() != Eigen::Success)
       return surface_without_symmetries("the surface bounds no solid, by whose moments affine maps are found");
     result.map = whitening_map(*first.volume);
   }
-  result.samples = function_samples<ConcurrencyTag>(Mapped_function_3<Traits>(traits, result.map), samples_of_function);
+  result.samples = function_samples<ConcurrencyTag>(Mapped_function_3(function, result.map), samples_of_function);
   Area_samples_3& samples = result.samples;
   if (samples.is_cut) return surface_without_symmetries("the surface is cut by the box of the function");
   if (samples.points.size() < samples_of_function)
@@ -90,8 +88,7 @@ Centered_surface_3 centered_surface(const Traits& traits, Map_kind kind) {
   samples.area = {samples.area.measure / (size * size), Eigen::Vector3d::Zero(),
                   samples.area.covariance / (size * size)};
   result.map = centering * result.map;
-  result.distances =
-      std::make_unique<Function_distances<Traits>>(Mapped_function_3<Traits>(traits, result.map), samples);
+  result.distances = std::make_unique<Function_distances>(Mapped_function_3(function, result.map), samples);
   return result;
 }
 

@@ -3,9 +3,9 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_FRAMED_SURFACE_3_H
 
 #include <equiaffine/base/parallel_for.h>
+#include <equiaffine/registration/internal/Framed_function_3.h>
 #include <equiaffine/registration/internal/Framed_point_3.h>
 #include <equiaffine/registration/internal/Nearest_points.h>
-#include <equiaffine/registration/internal/Surface_oracle_3.h>
 #include <equiaffine/registration/internal/random_elements.h>
 
 #include <Eigen/Core>
@@ -33,8 +33,8 @@ inline double size_of_points(const std::vector<Eigen::Vector3d>& points) {
 
 /// A surface that is ready to be matched: points with their frames, and a tree of invariants for each kind of point.
 struct Framed_surface_3 {
-  const Surface_oracle_3& function;   ///< frames and matches belong to it
-  const Surface_oracle_3& refinement; ///< maps are refined and judged on it
+  const Framed_function_3& function;   ///< frames and matches belong to it
+  const Framed_function_3& refinement; ///< maps are refined and judged on it
   std::vector<Framed_point_3> points = {};
   std::vector<Eigen::Vector3d> probes = {}; ///< on the zero set of `refinement`, at random: maps are judged by them
   double size = 0;                          ///< size_of_points
@@ -70,7 +70,7 @@ inline Gradient_of_invariants kept_gradient(const Framed_point_3& p, Map_kind ki
 
 /// The points that are in the domain, on the surface.
 template <class ConcurrencyTag>
-std::vector<Eigen::Vector3d> moved_to_surface(const Surface_oracle_3& surface, std::vector<Eigen::Vector3d> points) {
+std::vector<Eigen::Vector3d> moved_to_surface(const Framed_function_3& surface, std::vector<Eigen::Vector3d> points) {
   parallel_for<ConcurrencyTag>(
       0, points.size(), [&](std::size_t i) { points[i] = surface.moved_to_surface(points[i], 3); }, 32);
   std::erase_if(points, [](const Eigen::Vector3d& p) { return !p.allFinite(); });
@@ -85,7 +85,7 @@ inline double median(std::vector<double> values) {
 
 /// The median distance of points from a surface, or 0 if it is not defined at any.
 template <class ConcurrencyTag>
-double median_distance(const Surface_oracle_3& surface, const std::vector<Eigen::Vector3d>& points) {
+double median_distance(const Framed_function_3& surface, const std::vector<Eigen::Vector3d>& points) {
   std::vector<double> distances(points.size());
   parallel_for<ConcurrencyTag>(
       0, points.size(), [&](std::size_t i) { distances[i] = std::abs(surface.distance(points[i]).distance); }, 32);
@@ -152,7 +152,7 @@ inline void build_trees(Framed_surface_3& surface, Map_kind kind) {
 
 /// Computes the frames of the points, of a random subset if there are very many.
 template <class ConcurrencyTag>
-Framed_surface_3 framed_surface(const Surface_oracle_3& function, const Surface_oracle_3& refinement,
+Framed_surface_3 framed_surface(const Framed_function_3& function, const Framed_function_3& refinement,
                                 const std::vector<Eigen::Vector3d>& given, Map_kind kind) {
   Framed_surface_3 result{.function = function, .refinement = refinement};
   const auto points = moved_to_surface<ConcurrencyTag>(function, random_elements(given, most_framed_points, 1));

@@ -2,13 +2,12 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_MAPPED_FUNCTION_3_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_MAPPED_FUNCTION_3_H
 
-#include <equiaffine/function/concepts.h>
-#include <equiaffine/function/intersect_segment.h>
 #include <equiaffine/function/sign_change.h>
 #include <equiaffine/registration/internal/Affine_map_3.h>
+#include <equiaffine/surface/Any_function_3.h>
+#include <equiaffine/surface/eigen_derivatives.h>
 
 #include <CGAL/Bbox_3.h>
-#include <CGAL/number_utils.h>
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -21,16 +20,12 @@
 
 namespace equiaffine::internal {
 
-/// A function in other coordinates, in doubles, on its box, which is a parallelepiped there.
-template <class Traits>
+/// A function in other coordinates, on its box, which is a parallelepiped there.
 class Mapped_function_3 {
 public:
-  using FT = typename Traits::FT;
-  using Point_3 = typename Traits::Point_3;
-
   /// `map` goes from the coordinates of the function to the other ones.
-  Mapped_function_3(const Traits& traits, const Affine_map_3& map)
-      : traits_(traits), map_(map), inverse_(map.inverse()), box_(traits.bbox()) {
+  Mapped_function_3(Any_function_3 function, const Affine_map_3& map)
+      : function_(std::move(function)), map_(map), inverse_(map.inverse()), box_(function_.bbox()) {
     for (int a = 0; a < 3; ++a) {
       lower_[a] = box_.min(a);
       sides_[a] = box_.max(a) - box_.min(a);
@@ -53,7 +48,7 @@ public:
 
   /// The value at parts, from 0 to 1, of the sides of the box.
   double value_in_box(const Eigen::Vector3d& parts) const {
-    return CGAL::to_double(traits_.value(to_CGAL(lower_ + sides_.cwiseProduct(parts))));
+    return function_.value(to_CGAL(lower_ + sides_.cwiseProduct(parts)));
   }
 
   std::vector<double> values(const std::vector<Eigen::Vector3d>& points) const {
@@ -61,14 +56,7 @@ public:
     at.reserve(points.size());
     for (const Eigen::Vector3d& p : points) at.push_back(to_CGAL(inverse_(p)));
     std::vector<double> result(points.size());
-    if constexpr (BatchImplicitFunctionTraits_3<Traits>) {
-      std::vector<FT> values(points.size());
-      traits_.values(at, values);
-      std::transform(values.begin(), values.end(), result.begin(), [](const FT& f) { return CGAL::to_double(f); });
-    } else {
-      std::transform(at.begin(), at.end(), result.begin(),
-                     [&](const Point_3& p) { return CGAL::to_double(traits_.value(p)); });
-    }
+    function_.values(at, result);
     return result;
   }
 
@@ -92,11 +80,10 @@ public:
       constexpr double nan = std::numeric_limits<double>::quiet_NaN();
       return {nan, Eigen::Vector3d::Constant(nan)};
     }
-    const auto jet = equiaffine::first_order(traits_, to_CGAL(q));
-    const auto& c = jet.coefficients();
-    Eigen::Vector3d gradient(CGAL::to_double(c[1]), CGAL::to_double(c[2]), CGAL::to_double(c[3]));
+    const auto jet = function_.first_order(to_CGAL(q));
+    Eigen::Vector3d gradient = eigen_gradient(jet);
     if (!gradient.allFinite()) gradient = differences(q);
-    return {CGAL::to_double(c[0]), inverse_.matrix.transpose() * gradient};
+    return {jet.value(), inverse_.matrix.transpose() * gradient};
   }
 
   Eigen::Vector3d gradient(const Eigen::Vector3d& p) const { return first_order(p).second; }
@@ -104,18 +91,19 @@ public:
   /// A zero on a segment at whose ends the signs differ, or nothing where there is a pole or a jump.
   std::optional<Eigen::Vector3d> zero_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
     const Point_3 p = to_CGAL(inverse_(a)), q = to_CGAL(inverse_(b));
-    const FT f = traits_.value(p), g = traits_.value(q);
+    const double f = function_.value(p), g = function_.value(q);
     if (!is_sign_change(f, g)) return std::nullopt;
-    const auto found = intersect_segment(traits_, p, q, f, g);
+    const auto found = function_.intersect_segment(p, q, f, g);
     if (!found.has_converged) return std::nullopt;
-    return map_(Eigen::Vector3d(CGAL::to_double(found.point.x()), CGAL::to_double(found.point.y()),
-                                CGAL::to_double(found.point.z())));
+    return map_(Eigen::Vector3d(found.point.x(), found.point.y(), found.point.z()));
   }
 
 private:
+  using Point_3 = Any_function_3::Point_3;
+
   Eigen::Vector3d differences(const Eigen::Vector3d& q) const {
     const double step = 1e-6 * sides_.maxCoeff();
-    const auto value = [&](const Eigen::Vector3d& p) { return CGAL::to_double(traits_.value(to_CGAL(p))); };
+    const auto value = [&](const Eigen::Vector3d& p) { return function_.value(to_CGAL(p)); };
     Eigen::Vector3d result;
     for (int a = 0; a < 3; ++a) {
       const Eigen::Vector3d shift = step * Eigen::Vector3d::Unit(a);
@@ -124,13 +112,13 @@ private:
     return result;
   }
 
-  static Point_3 to_CGAL(const Eigen::Vector3d& p) { return Point_3(FT(p[0]), FT(p[1]), FT(p[2])); }
+  static Point_3 to_CGAL(const Eigen::Vector3d& p) { return Point_3(p[0], p[1], p[2]); }
 
   bool contains(const Eigen::Vector3d& p) const {
     return (p.array() >= lower_.array()).all() && ((p - lower_).array() <= sides_.array()).all();
   }
 
-  const Traits& traits_;
+  Any_function_3 function_;
   Affine_map_3 map_, inverse_;
   CGAL::Bbox_3 box_;
   Eigen::Vector3d lower_, sides_;

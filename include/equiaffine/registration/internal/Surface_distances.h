@@ -3,8 +3,8 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_SURFACE_DISTANCES_H
 
 #include <equiaffine/registration/internal/Area_samples_3.h>
+#include <equiaffine/registration/internal/Framed_function_3.h>
 #include <equiaffine/registration/internal/Mapped_function_3.h>
-#include <equiaffine/registration/internal/Surface_oracle_3.h>
 #include <equiaffine/registration/internal/mesh_samples.h>
 #include <equiaffine/registration/internal/nearest_triangle.h>
 
@@ -59,10 +59,9 @@ public:
 
 /// The distances from the zero set of a function: those from its samples, which Newton's steps along the gradient make
 /// exact near the surface.
-template <class Traits>
 class Function_distances final : public Surface_distances {
 public:
-  Function_distances(const Mapped_function_3<Traits>& function, const Area_samples_3& samples)
+  Function_distances(const Mapped_function_3& function, const Area_samples_3& samples)
       : Surface_distances(points_of(samples)), function_(function), spacing_(samples.spacing()) {}
 
   Signed_distance_3 operator()(const Eigen::Vector3d& p) const override {
@@ -104,7 +103,7 @@ private:
     return result;
   }
 
-  Mapped_function_3<Traits> function_;
+  Mapped_function_3 function_;
   double spacing_;
 };
 

@@ -15,8 +15,9 @@ namespace equiaffine::internal {
 /// centroid of the area, and affine ones the moments of the solid inside, so that all rotations and reflections about
 /// the centroid are tried in the coordinates of the search for symmetries: each moves points of the first away from the
 /// second.
-template <class ConcurrencyTag, class Source, class Target>
-bool differ_as_wholes(const Source& source, const Target& target, Map_kind kind, bool allows_reflections) {
+template <class ConcurrencyTag>
+bool differ_as_wholes(const Any_function_3& source, const Any_function_3& target, Map_kind kind,
+                      bool allows_reflections) {
   constexpr double difference = 0.03; // of what is equal, a part of the size
   const auto a = centered_surface<ConcurrencyTag>(source, kind), b = centered_surface<ConcurrencyTag>(target, kind);
   if (!a.reason_against.empty() || !b.reason_against.empty()) return false;

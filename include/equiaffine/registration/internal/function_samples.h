@@ -3,7 +3,6 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_FUNCTION_SAMPLES_H
 
 #include <equiaffine/base/parallel_for.h>
-#include <equiaffine/function/concepts.h>
 #include <equiaffine/registration/internal/Area_samples_3.h>
 #include <equiaffine/registration/internal/Mapped_function_3.h>
 
@@ -30,8 +29,7 @@ struct Signs_on_box {
   bool has_positive = false, has_negative = false;
 };
 
-template <class Traits>
-Signs_on_box signs_on_box(const Mapped_function_3<Traits>& function) {
+inline Signs_on_box signs_on_box(const Mapped_function_3& function) {
   constexpr int steps = 48;
   Signs_on_box signs;
   for (int axis = 0; axis < 3; ++axis)
@@ -55,10 +53,9 @@ struct Line_of_samples {
 
 /// Random lines meet a surface uniformly in its area (M. Crofton; see L. Santalo, Integral Geometry and Geometric
 /// Probability, 1976, 14.5). The lines are those through a ball.
-template <class Traits>
 class Sampling_lines {
 public:
-  Sampling_lines(const Mapped_function_3<Traits>& function, bool is_inside_positive, const Ball_3& ball)
+  Sampling_lines(const Mapped_function_3& function, bool is_inside_positive, const Ball_3& ball)
       : function_(function), inside_(is_inside_positive ? 1 : -1), ball_(ball) {}
 
   /// The area of a surface that lines meet `hits` times.
@@ -105,18 +102,18 @@ private:
     return result;
   }
 
-  const Mapped_function_3<Traits>& function_;
+  const Mapped_function_3& function_;
   double inside_;
   Ball_3 ball_;
 };
 
 /// Samples the zero set of a function by lines through a ball, until there are `count` points, or few after very many
 /// lines.
-template <class ConcurrencyTag, class Traits>
-Area_samples_3 function_samples(const Mapped_function_3<Traits>& function, const Ball_3& ball, std::size_t count) {
+template <class ConcurrencyTag>
+Area_samples_3 function_samples(const Mapped_function_3& function, const Ball_3& ball, std::size_t count) {
   constexpr std::size_t lines_at_once = 4000, most_lines = 1000000;
   const Signs_on_box signs = signs_on_box(function);
-  const Sampling_lines<Traits> lines(function, signs.has_negative, ball);
+  const Sampling_lines lines(function, signs.has_negative, ball);
   Area_samples_3 result;
   result.is_cut = signs.has_positive && signs.has_negative;
   Moment_sums_3 area(ball.center), volume(ball.center);
@@ -144,8 +141,8 @@ Area_samples_3 function_samples(const Mapped_function_3<Traits>& function, const
 
 /// Samples the zero set of a function twice: a ball around the box of the function may be much larger than the surface,
 /// and one around the first samples is not.
-template <class ConcurrencyTag, class Traits>
-Area_samples_3 function_samples(const Mapped_function_3<Traits>& function, std::size_t count) {
+template <class ConcurrencyTag>
+Area_samples_3 function_samples(const Mapped_function_3& function, std::size_t count) {
   constexpr double margin = 1.25;
   const Ball_3 all = {function.center(), function.radius()};
   const auto first = function_samples<ConcurrencyTag>(function, all, count / 4);

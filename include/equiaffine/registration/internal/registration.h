@@ -100,25 +100,32 @@ Registration_of_framed_3<Kernel> registration_of_framed(const Framed_surface_3& 
 /// So many points, at least, tell of a whole surface that it is meant.
 constexpr std::size_t fewest_points_of_whole = 16;
 
+/// A surface as register_surfaces() is given it: a function, points near its zero set, and a function with the same zero
+/// set on which maps are refined.
+struct Sampled_function_3 {
+  Any_function_3 function, refined;
+  std::vector<Eigen::Vector3d> points;
+};
+
 /// Whole surfaces of exact functions whose frames give no map are tried without frames.
-template <class ConcurrencyTag, class Source, class Target, class Refined_source, class Refined_target>
-auto registration_of_functions(const Source& source, const std::vector<Eigen::Vector3d>& points, const Target& target,
-                               const std::vector<Eigen::Vector3d>& points_of_target,
-                               const Refined_source& refined_source, const Refined_target& refined_target,
-                               const Registration_request& request) {
-  using Kernel = Kernel_of<Target>;
-  const Oracle_of_traits_3 function(source), target_function(target);
-  const Oracle_of_traits_3 refinement(refined_source), target_refinement(refined_target);
-  const auto framed = framed_surface<ConcurrencyTag>(function, refinement, points, request.kind);
+template <class ConcurrencyTag, class Kernel>
+Registration_of_framed_3<Kernel> registration_of_functions(const Sampled_function_3& source,
+                                                           const Sampled_function_3& target,
+                                                           const Registration_request& request) {
+  check_argument(!source.points.empty(), "a surface to be registered has no points: give points of the source");
+  check_argument(!target.points.empty(), "a surface to register with has no points: give points of the target");
+  const Framed_function_3 function(source.function), target_function(target.function);
+  const Framed_function_3 refinement(source.refined), target_refinement(target.refined);
+  const auto framed = framed_surface<ConcurrencyTag>(function, refinement, source.points, request.kind);
   const auto framed_target =
-      framed_surface<ConcurrencyTag>(target_function, target_refinement, points_of_target, request.kind);
+      framed_surface<ConcurrencyTag>(target_function, target_refinement, target.points, request.kind);
   auto registration = registration_of_framed<ConcurrencyTag, Kernel>(framed, framed_target, request);
   const bool has_points = std::min(framed.probes.size(), framed_target.probes.size()) >= fewest_points_of_whole;
   const bool is_exact = has_exact_frames(framed) && has_exact_frames(framed_target);
   if (registration.result.found() || !has_points || !is_exact) return registration;
   auto wholes = registration_of_wholes<ConcurrencyTag, Kernel>(
-      centered_surface<ConcurrencyTag>(refined_source, request.kind),
-      centered_surface<ConcurrencyTag>(refined_target, request.kind), request);
+      centered_surface<ConcurrencyTag>(source.refined, request.kind),
+      centered_surface<ConcurrencyTag>(target.refined, request.kind), request);
   registration.is_equivalence = wholes.found();
   const std::size_t hypotheses = registration.result.hypotheses + wholes.hypotheses;
   if (wholes.found()) registration.result = std::move(wholes);
@@ -129,17 +136,14 @@ auto registration_of_functions(const Source& source, const std::vector<Eigen::Ve
 template <class ConcurrencyTag, class Source, class Points, class Target, class Target_points, class Parameters>
 auto registration_of(const Source& source, const Points& source_points, const Target& target,
                      const Target_points& target_points, const Parameters& parameters) {
-  const Registration_request request = registration_request(parameters);
-  const auto points = vectors_of(source_points), points_of_target = vectors_of(target_points);
-  check_argument(!points.empty(), "a surface to be registered has no points: give points of the source");
-  check_argument(!points_of_target.empty(), "a surface to register with has no points: give points of the target");
+  Sampled_function_3 from = {Any_function_3::make(source), Any_function_3::make(source), vectors_of(source_points)};
+  Sampled_function_3 to = {Any_function_3::make(target), Any_function_3::make(target), vectors_of(target_points)};
   if constexpr (has_parameter<Refined_functions_tag, Parameters>) {
     const auto& [refined_source, refined_target] = given_parameter<Refined_functions_tag>(parameters);
-    return registration_of_functions<ConcurrencyTag>(source, points, target, points_of_target, refined_source,
-                                                     refined_target, request);
-  } else {
-    return registration_of_functions<ConcurrencyTag>(source, points, target, points_of_target, source, target, request);
+    from.refined = Any_function_3::make(refined_source);
+    to.refined = Any_function_3::make(refined_target);
   }
+  return registration_of_functions<ConcurrencyTag, Kernel_of<Target>>(from, to, registration_request(parameters));
 }
 
 } // namespace equiaffine::internal

@@ -112,28 +112,36 @@ void check_by_rotations(const Affine_symmetries_3<Kernel>& all, Affine_symmetrie
                      " maps, and all rotations give " + std::to_string(order);
 }
 
+/// The named parameters of affine_symmetries() of a function.
+struct Symmetry_request : Map_request {
+  bool is_complete = false; ///< whether all rotations are searched where frames have decided, too
+};
+
+template <class Parameters>
+Symmetry_request symmetry_request(const Parameters& parameters) {
+  Symmetry_request request{map_request(parameters), get_parameter<Complete_tag>(parameters, false)};
+  request.tolerance = request.tolerance.value_or(default_tolerance);
+  return request;
+}
+
 /// The symmetries among all rotations about the centroid.
-template <class ConcurrencyTag, class Traits>
-Affine_symmetries_3<Kernel_of<Traits>> symmetries_by_rotations(const Traits& traits, const Map_request& request) {
-  const auto centered = centered_surface<ConcurrencyTag>(traits, request.kind);
+template <class ConcurrencyTag, class Kernel>
+Affine_symmetries_3<Kernel> symmetries_by_rotations(const Any_function_3& function, const Map_request& request) {
+  const auto centered = centered_surface<ConcurrencyTag>(function, request.kind);
   Centered_symmetry_search<ConcurrencyTag> search(centered, request.kind, request.allows_reflections,
                                                   *request.tolerance);
   const Centered_symmetries found = search.run();
-  auto result = to_CGAL<Kernel_of<Traits>>(found, centered);
+  auto result = to_CGAL<Kernel>(found, centered);
   choose_maps(result, request.tolerance, found);
   return result;
 }
 
-template <class ConcurrencyTag, class Traits, class Points, class Parameters>
-Affine_symmetries_3<Kernel_of<Traits>> symmetries_of(const Traits& traits, const Points& points,
-                                                     const Parameters& parameters) {
-  using Kernel = Kernel_of<Traits>;
-  Map_request request = map_request(parameters);
-  request.tolerance = request.tolerance.value_or(default_tolerance);
-  const auto vectors = vectors_of(points);
-  check_argument(!vectors.empty(), "a surface whose symmetries are sought has no points: give points on it");
-  const Oracle_of_traits_3 function(traits);
-  const Framed_surface_3 surface = framed_surface<ConcurrencyTag>(function, function, vectors, request.kind);
+template <class ConcurrencyTag, class Kernel>
+Affine_symmetries_3<Kernel> symmetries_of(const Any_function_3& function, const std::vector<Eigen::Vector3d>& points,
+                                          const Symmetry_request& request) {
+  check_argument(!points.empty(), "a surface whose symmetries are sought has no points: give points on it");
+  const Framed_function_3 framed(function);
+  const Framed_surface_3 surface = framed_surface<ConcurrencyTag>(framed, framed, points, request.kind);
   Affine_symmetries_3<Kernel> result;
   result.maps = {symmetry<Kernel>({}, surface.probes.empty() ? std::numeric_limits<double>::infinity() : 0)};
   result.reason = "the surface is beside all of the points";
@@ -148,11 +156,11 @@ Affine_symmetries_3<Kernel_of<Traits>> symmetries_of(const Traits& traits, const
   const bool is_strict = *request.tolerance <= greatest_tolerance_of_frames;
   if (is_strict || !is_exact) {
     auto by_frames = symmetries_by_frames<ConcurrencyTag, Kernel>(surface, request, is_exact);
-    if (by_frames.is_decided && is_exact && get_parameter<Complete_tag>(parameters, false))
-      check_by_rotations(symmetries_by_rotations<ConcurrencyTag>(traits, request), by_frames);
+    if (by_frames.is_decided && is_exact && request.is_complete)
+      check_by_rotations(symmetries_by_rotations<ConcurrencyTag, Kernel>(function, request), by_frames);
     if (by_frames.is_decided || !is_exact) return by_frames;
   }
-  result = symmetries_by_rotations<ConcurrencyTag>(traits, request);
+  result = symmetries_by_rotations<ConcurrencyTag, Kernel>(function, request);
   if (result.is_decided || is_strict) return result;
   auto by_frames = symmetries_by_frames<ConcurrencyTag, Kernel>(surface, request, is_exact);
   return by_frames.is_decided ? by_frames : result;

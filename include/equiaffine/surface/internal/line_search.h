@@ -3,8 +3,8 @@
 #define EQUIAFFINE_SURFACE_INTERNAL_LINE_SEARCH_H
 
 #include <equiaffine/function/Surface_point_3.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/function/intersect_segment.h>
 #include <equiaffine/function/sign_change.h>
 #include <equiaffine/surface/distance_estimate.h>
 
