@@ -4,7 +4,7 @@
 
 #include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/surface/eigen_derivatives.h>
+#include <equiaffine/surface/jet_derivatives.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions_3.h>

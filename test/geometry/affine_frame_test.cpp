@@ -5,7 +5,7 @@
 #include <equiaffine/Transformed_function_traits_3.h>
 #include <equiaffine/analytic_functions.h>
 #include <equiaffine/geometry/affine_frame.h>
-#include <equiaffine/geometry/affine_gradients.h>
+#include <equiaffine/surface/affine_gradients.h>
 #include <equiaffine/number/Pack.h>
 
 #include <CGAL/Simple_cartesian.h>

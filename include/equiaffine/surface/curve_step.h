@@ -2,16 +2,12 @@
 #ifndef EQUIAFFINE_SURFACE_CURVE_STEP_H
 #define EQUIAFFINE_SURFACE_CURVE_STEP_H
 
+#include <equiaffine/surface/jet_derivatives.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace equiaffine {
-
-/// The gradient of a function as a vector, from its jet of any order.
-template <class Vector_3, class Jet>
-Vector_3 gradient_of(const Jet& jet) {
-  return Vector_3(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]);
-}
 
 /// The shortest step of Newton's method to the curve f = g = 0, from the jets of f and g at a point; not finite where
 /// the gradients are parallel.

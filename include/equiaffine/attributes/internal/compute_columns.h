@@ -8,7 +8,7 @@
 #include <equiaffine/attributes/internal/Expanded_block.h>
 #include <equiaffine/attributes/internal/structure_by.h>
 #include <equiaffine/base/parallel_for.h>
-#include <equiaffine/geometry/affine_gradients.h>
+#include <equiaffine/surface/affine_gradients.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>

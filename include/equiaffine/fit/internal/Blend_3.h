@@ -6,6 +6,7 @@
 #include <equiaffine/fit/internal/Band_3.h>
 #include <equiaffine/fit/internal/Patches_3.h>
 #include <equiaffine/number/Jet_3.h>
+#include <equiaffine/surface/foot_on_surface.h>
 
 #include <Eigen/Core>
 
@@ -129,20 +130,14 @@ private:
     parallel_for<ConcurrencyTag>(
         0, data.size(),
         [&](std::size_t i) {
-          Vector p = data.points[i];
           const Charts_3::Index chart = charts_.of(i);
-          for (int step = 0; step < 8; ++step) {
-            const auto jet = patches_.taylor<1>(p, chart).value;
-            const Vector gradient(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]);
-            const Vector newton = jet.value() * gradient / gradient.squaredNorm();
-            if (!(newton.norm() < patches_.least_radius(p, chart))) return;
-            p -= newton;
-            if (newton.norm() > 1e-3 * data.spacing[i]) continue;
-            const Vector unit = gradient.normalized();
-            const double core = sound_height(p, unit, chart, Band_3::band_height * data.spacing[i]);
-            found[i] = {p, unit, data.spacing[i], core, {}, chart};
-            return;
-          }
+          const auto foot = foot_on_surface(
+              data.points[i], [&](const Vector& p) { return patches_.taylor<1>(p, chart).value; },
+              [&](const Vector& p) { return patches_.least_radius(p, chart); }, 1e-3 * data.spacing[i], 8);
+          if (!foot) return;
+          const Vector unit = foot->gradient.normalized();
+          const double core = sound_height(foot->point, unit, chart, Band_3::band_height * data.spacing[i]);
+          found[i] = {foot->point, unit, data.spacing[i], core, {}, chart};
         },
         64);
     fill_holes(data, found);

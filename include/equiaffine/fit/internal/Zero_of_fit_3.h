@@ -4,6 +4,7 @@
 
 #include <equiaffine/fit/Fit_outcome.h>
 #include <equiaffine/surface/indexed_polygons.h>
+#include <equiaffine/surface/jet_derivatives.h>
 #include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/number_utils.h>
@@ -20,12 +21,6 @@ struct Zero_of_fit_3 {
   Eigen::Vector3d move = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< the unit normal of the fit at the zero
 };
-
-template <class Jet>
-Eigen::Vector3d gradient_of(const Jet& jet) {
-  const auto& c = jet.coefficients();
-  return {CGAL::to_double(c[1]), CGAL::to_double(c[2]), CGAL::to_double(c[3])};
-}
 
 /// Finds the zero of a fit for a vertex with a normal, which need not have length 1, and edges of a mean length. The
 /// search starts below or above the vertex where the fit has no derivatives at the vertex itself.
@@ -45,12 +40,12 @@ Zero_of_fit_3 zero_of_fit(const Fit& fit, const Eigen::Vector3d& vertex, const E
   const auto agrees = [&](const Eigen::Vector3d& g) {
     return g.dot(normal) >= least_cosine * g.norm() * normal.norm();
   };
-  if (!agrees(gradient_of(jet))) return {Fit_outcome::OTHER_SIDE};
+  if (!agrees(eigen_gradient(jet))) return {Fit_outcome::OTHER_SIDE};
   const double farthest = reach * std::max(edge, CGAL::to_double(fit.spacing(start)));
   const auto zero = project_to_surface(fit, start, FT(farthest), jet);
   const Eigen::Vector3d move = coordinates_of(zero.point) - vertex;
   if (!zero.has_converged || !(move.norm() <= farthest)) return {Fit_outcome::NO_ZERO};
-  const Eigen::Vector3d gradient = gradient_of(fit.first_order(zero.point));
+  const Eigen::Vector3d gradient = eigen_gradient(fit.first_order(zero.point));
   if (!agrees(gradient)) return {Fit_outcome::OTHER_SIDE};
   return {Fit_outcome::ON_FIT, move, gradient.normalized()};
 }

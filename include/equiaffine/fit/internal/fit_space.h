@@ -7,6 +7,7 @@
 #include <equiaffine/fit/internal/Local_fit_3.h>
 #include <equiaffine/fit/internal/monomial_moments.h>
 #include <equiaffine/number/monomials_3.h>
+#include <equiaffine/surface/foot_on_surface.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -84,17 +85,12 @@ inline std::vector<double> space_coefficients(const Eigen::VectorXd& bombieri, i
 }
 
 /// Moves from the center of a patch along gradients to its zero set, within a quarter of the radius. Both are local.
+/// `jet` becomes the one there.
 inline std::optional<Eigen::Vector3d> foot_of_center(const Patch_3& patch, Jet_3<double>& jet) {
-  Eigen::Vector3d p = Eigen::Vector3d::Zero();
-  for (int step = 0; step < 8; ++step) {
-    jet = space_taylor<4>(patch, p);
-    const Eigen::Vector3d gradient(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]);
-    const Eigen::Vector3d newton = jet.value() * gradient / gradient.squaredNorm();
-    if (!(newton.norm() < 0.25)) return {};
-    if (newton.norm() < 1e-8) return p;
-    p -= newton;
-  }
-  return {};
+  const auto foot = foot_on_surface(
+      Eigen::Vector3d::Zero(), [&](const Eigen::Vector3d& p) { return jet = space_taylor<4>(patch, p); },
+      [](const Eigen::Vector3d&) { return 0.25; }, 1e-8, 8);
+  return foot ? std::optional(foot->before) : std::nullopt;
 }
 
 /// Returns how numbers at a point change with the coefficients of the basis, a column for each number.

@@ -9,6 +9,7 @@
 #include <equiaffine/fit/internal/Surface_fit_3.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/local_structure.h>
+#include <equiaffine/surface/foot_on_surface.h>
 
 #include <cmath>
 #include <cstddef>
@@ -20,16 +21,11 @@
 namespace equiaffine::internal {
 
 /// Moves a point along gradients to the zero set of a patch, if that is near.
-inline std::optional<Eigen::Vector3d> foot_on_patch(const Patch_3& patch, Eigen::Vector3d p) {
-  for (int step = 0; step < 20; ++step) {
-    const auto jet = patch.taylor<1>(p);
-    const Eigen::Vector3d gradient(jet.coefficients()[1], jet.coefficients()[2], jet.coefficients()[3]);
-    const Eigen::Vector3d newton = jet.value() * gradient / gradient.squaredNorm();
-    if (!(newton.norm() < 0.25 * patch.radius)) return {};
-    p -= newton;
-    if (newton.norm() < 1e-12 * patch.radius) return p;
-  }
-  return {};
+inline std::optional<Eigen::Vector3d> foot_on_patch(const Patch_3& patch, const Eigen::Vector3d& p) {
+  const auto foot = foot_on_surface(
+      p, [&](const Eigen::Vector3d& q) { return patch.taylor<1>(q); },
+      [&](const Eigen::Vector3d&) { return 0.25 * patch.radius; }, 1e-12 * patch.radius, 20);
+  return foot ? std::optional(foot->point) : std::nullopt;
 }
 
 /// The errors of second derivatives that roundings make; infinity where K_e is zero within its estimated error, and no

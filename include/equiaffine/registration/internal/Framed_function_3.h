@@ -5,6 +5,7 @@
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/registration/internal/framed_point.h>
 #include <equiaffine/surface/Any_function_3.h>
+#include <equiaffine/surface/jet_derivatives.h>
 
 #include <CGAL/Bbox_3.h>
 #include <Eigen/Core>
@@ -41,10 +42,9 @@ public:
 
   Signed_distance_3 distance(const Eigen::Vector3d& p) const {
     const auto jet = first_order(p);
-    const auto& c = jet.coefficients();
-    const Eigen::Vector3d gradient(c[1], c[2], c[3]);
+    const Eigen::Vector3d gradient = eigen_gradient(jet);
     const double length = gradient.stableNorm();
-    return {c[0] / length, gradient / length};
+    return {jet.value() / length, gradient / length};
   }
 
   /// Moves a point towards the surface by Newton's steps along the gradient.

@@ -5,7 +5,7 @@
 #include <equiaffine/function/sign_change.h>
 #include <equiaffine/registration/internal/Affine_map_3.h>
 #include <equiaffine/surface/Any_function_3.h>
-#include <equiaffine/surface/eigen_derivatives.h>
+#include <equiaffine/surface/jet_derivatives.h>
 
 #include <CGAL/Bbox_3.h>
 #include <Eigen/Core>

@@ -6,22 +6,14 @@
 #include <equiaffine/geometry/euclidean_structure.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/registration/internal/Framed_point_3.h>
+#include <equiaffine/surface/jet_derivatives.h>
 
 #include <Eigen/Core>
 
 #include <array>
 #include <cstddef>
-#include <initializer_list>
 
 namespace equiaffine::internal {
-
-/// The derivative of a function along three axes, or two, from its jet.
-inline double derivative(const Jet_3<double>& jet, std::initializer_list<int> axes) {
-  std::array<int, 3> powers{};
-  double factor = 1;
-  for (const int axis : axes) factor *= ++powers[std::size_t(axis)];
-  return factor * jet.coefficients()[std::size_t(Jet_3<double>::index(powers[0], powers[1], powers[2]))];
-}
 
 /// The principal curvatures of a level set, the greater one first, and how they change along their directions. Not finite
 /// where the gradient is zero; arbitrary at umbilics. Units: 1/length and 1/length^2.
@@ -41,18 +33,12 @@ inline Derivatives_of_curvature derivatives_of_curvature(const Jet_3<double>& je
   result.k << s.k1, s.k2;
   result.directions << vector_of(s.direction1), vector_of(s.direction2);
   result.normal = vector_of(s.normal);
-  const auto& c = jet.coefficients();
-  const double slope = Eigen::Vector3d(c[1], c[2], c[3]).stableNorm();
-  const Eigen::Matrix3d hessian = Eigen::Matrix3d::NullaryExpr([&](Eigen::Index i, Eigen::Index j) {
-    return derivative(jet, {int(i), int(j)});
-  });
-  const Eigen::Vector2d mixed = result.directions.transpose() * hessian * result.normal / slope;
+  const double slope = eigen_gradient(jet).stableNorm();
+  const Eigen::Vector2d mixed = result.directions.transpose() * eigen_hessian(jet) * result.normal / slope;
   std::array<Eigen::Matrix2d, 2> third = {Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero()};
   for (int axis = 0; axis < 3; ++axis) {
-    const Eigen::Matrix3d change = Eigen::Matrix3d::NullaryExpr([&](Eigen::Index i, Eigen::Index j) {
-      return derivative(jet, {int(i), int(j), axis});
-    });
-    const Eigen::Matrix2d along = result.directions.transpose() * change * result.directions / slope;
+    const Eigen::Matrix2d along =
+        result.directions.transpose() * eigen_hessian_along(jet, axis) * result.directions / slope;
     for (int d = 0; d < 2; ++d) third[std::size_t(d)] += result.directions(axis, d) * along;
   }
   for (int i = 0; i < 2; ++i)

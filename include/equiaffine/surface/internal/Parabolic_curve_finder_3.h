@@ -8,8 +8,8 @@
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 #include <equiaffine/surface/Parabolic_curves_3.h>
 #include <equiaffine/surface/curve_step.h>
-#include <equiaffine/surface/eigen_derivatives.h>
 #include <equiaffine/surface/internal/parabolic_crossings.h>
+#include <equiaffine/surface/jet_derivatives.h>
 #include <equiaffine/surface/parabolic_function.h>
 #include <equiaffine/surface/project_to_surface.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_GEOMETRY_INTERNAL_GRADIENTS_OF_INVARIANTS_H
-#define EQUIAFFINE_GEOMETRY_INTERNAL_GRADIENTS_OF_INVARIANTS_H
+#ifndef EQUIAFFINE_SURFACE_INTERNAL_GRADIENTS_OF_INVARIANTS_H
+#define EQUIAFFINE_SURFACE_INTERNAL_GRADIENTS_OF_INVARIANTS_H
 
 #include <equiaffine/geometry/affine_frame.h>
 #include <equiaffine/geometry/local_structure.h>

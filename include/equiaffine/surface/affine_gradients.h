@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_GEOMETRY_AFFINE_GRADIENTS_H
-#define EQUIAFFINE_GEOMETRY_AFFINE_GRADIENTS_H
+#ifndef EQUIAFFINE_SURFACE_AFFINE_GRADIENTS_H
+#define EQUIAFFINE_SURFACE_AFFINE_GRADIENTS_H
 
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/geometry/internal/gradients_of_invariants.h>
+#include <equiaffine/surface/internal/gradients_of_invariants.h>
 
 #include <array>
 

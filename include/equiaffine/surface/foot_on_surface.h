@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SURFACE_FOOT_ON_SURFACE_H
+#define EQUIAFFINE_SURFACE_FOOT_ON_SURFACE_H
+
+#include <equiaffine/surface/jet_derivatives.h>
+
+#include <Eigen/Core>
+
+#include <optional>
+
+namespace equiaffine {
+
+/// Where Newton's steps along the gradient have led.
+struct Foot_3 {
+  Eigen::Vector3d point;    ///< on the zero set
+  Eigen::Vector3d before;   ///< the last step
+  Eigen::Vector3d gradient; ///< there
+};
+
+/// Moves a point along gradients to the zero set of a function, whose jets are `jet_at(p)`, until a step is shorter than
+/// `least_step`. There is no foot if a step is not shorter than `greatest_step(p)`, or the last of `most_steps` is not
+/// short.
+template <class Jet_at, class Greatest_step>
+std::optional<Foot_3> foot_on_surface(Eigen::Vector3d p, const Jet_at& jet_at, const Greatest_step& greatest_step,
+                                      double least_step, int most_steps) {
+  for (int n = 0; n < most_steps; ++n) {
+    const auto jet = jet_at(p);
+    const Eigen::Vector3d gradient = eigen_gradient(jet);
+    const Eigen::Vector3d step = jet.value() * gradient / gradient.squaredNorm();
+    const double length = step.norm();
+    if (!(length < greatest_step(p))) return {};
+    if (length < least_step) return Foot_3{p - step, p, gradient};
+    p -= step;
+  }
+  return {};
+}
+
+} // namespace equiaffine
+
+#endif
