@@ -86,7 +86,7 @@ bool changes_sign_at_poles_only(const Traits& function) {
 template <class Traits>
 [[noreturn]] void fail_without_surface(const Traits& function, const Source_options& source, double isovalue,
                                        const Vain_search& search) {
-  if constexpr (is_fit<Traits>) fail_without_surface_of_fit(fit_of(function), source, isovalue, search);
+  if constexpr (is_fit<Traits>) fail_without_surface_of_fit(function.base(), source, isovalue, search);
   const auto [least, greatest] = range_on_grid(function);
   const bool is_defined = least <= greatest;
   std::ostringstream surface, reason;

@@ -4,8 +4,6 @@
 #include "engine/engine_entries.h"
 #include "engine/engine_with_library.h"
 
-#include <type_traits>
-
 namespace equiaffine {
 
 std::vector<Instruction_set> instruction_sets() {
@@ -29,9 +27,9 @@ const Vectorized_engines& vectorized_engines([[maybe_unused]] Instruction_set se
   return equiaffine_engines_baseline();
 }
 
-const Fit_engines& fit_engines() {
-  static constexpr Fit_engines engines = engines_with_library(std::type_identity<Fit_function>());
-  return engines;
+const Engine<Fit_function>& fit_engine() {
+  static constexpr Engine<Fit_function> engine = engine_with_library<Fit_function>();
+  return engine;
 }
 
 } // namespace equiaffine

@@ -55,12 +55,8 @@ struct Engines_of<std::variant<Traits...>> {
 
 /// The models of Source_function that are evaluated with vector instructions. Fits are not among them: their linear
 /// algebra sums in another order for each instruction set.
-using Vectorized_function = std::variant<Formula_traits, Spline_traits, Transformed_function_traits_3<Formula_traits>,
-                                         Transformed_function_traits_3<Spline_traits>>;
-using Fit_function = std::variant<Fit_traits, Transformed_function_traits_3<Fit_traits>>;
-
+using Vectorized_function = std::variant<Formula_function, Spline_function>;
 using Vectorized_engines = Engines_of<Vectorized_function>::type;
-using Fit_engines = Engines_of<Fit_function>::type;
 
 /// The vector instructions that can be used. All of them give the same results, bit for bit.
 enum class Instruction_set { BASELINE, AVX2, AVX512 };
@@ -69,12 +65,12 @@ enum class Instruction_set { BASELINE, AVX2, AVX512 };
 std::vector<Instruction_set> instruction_sets();
 
 const Vectorized_engines& vectorized_engines(Instruction_set set);
-const Fit_engines& fit_engines();
+const Engine<Fit_function>& fit_engine();
 
 /// The engine for a model of Source_function.
 template <class Traits>
 const Engine<Traits>& engine([[maybe_unused]] Instruction_set set = instruction_sets().back()) {
-  if constexpr (is_fit<Traits>) return std::get<Engine<Traits>>(fit_engines());
+  if constexpr (is_fit<Traits>) return fit_engine();
   else return std::get<Engine<Traits>>(vectorized_engines(set));
 }
 

@@ -33,10 +33,15 @@ Isosurface_3<Kernel> marching_cubes_with_library(const Level_set_traits_3<Traits
   else return marching_cubes<CGAL::Parallel_if_available_tag>(function, parameters);
 }
 
+template <class Traits>
+constexpr Engine<Traits> engine_with_library() {
+  return {attributes_with_library<Traits>, marching_cubes_with_library<Traits>,
+          max_distance_to_surface<CGAL::Parallel_if_available_tag, Level_set_traits_3<Traits>>};
+}
+
 template <class... Traits>
 constexpr std::tuple<Engine<Traits>...> engines_with_library(std::type_identity<std::variant<Traits...>>) {
-  return {Engine<Traits>{attributes_with_library<Traits>, marching_cubes_with_library<Traits>,
-                         max_distance_to_surface<CGAL::Parallel_if_available_tag, Level_set_traits_3<Traits>>}...};
+  return {engine_with_library<Traits>()...};
 }
 
 } // namespace equiaffine

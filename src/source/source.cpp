@@ -180,8 +180,8 @@ Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
 
 template <class Traits>
 Source_function transformed_function(Traits traits, const Source_options& options) {
-  if (!options.transformation) return traits;
-  return Transformed_function_traits_3(std::move(traits), *options.transformation);
+  return Transformed_function_traits_3(
+      std::move(traits), options.transformation.value_or(CGAL::Aff_transformation_3<Kernel>(CGAL::IDENTITY)));
 }
 
 Source fitted(Point_table_3<Kernel> table, const Source_options& options, Progress& progress) {

@@ -19,19 +19,17 @@ using Spline_traits = Sampled_function_traits_3<Kernel>;
 
 using Fit_traits = Fitted_function_traits_3<Kernel>;
 
-/// SOURCE of the command line as a function: six models of ImplicitFunctionTraits_3.
-using Source_function =
-    std::variant<Formula_traits, Spline_traits, Fit_traits, Transformed_function_traits_3<Formula_traits>,
-                 Transformed_function_traits_3<Spline_traits>, Transformed_function_traits_3<Fit_traits>>;
+/// A source under the map of --transform, which is the identity if there is none.
+using Formula_function = Transformed_function_traits_3<Formula_traits>;
+using Spline_function = Transformed_function_traits_3<Spline_traits>;
+using Fit_function = Transformed_function_traits_3<Fit_traits>;
+
+/// SOURCE of the command line as a function.
+using Source_function = std::variant<Formula_function, Spline_function, Fit_function>;
 
 /// Whether a model of Source_function is a fit.
 template <class Traits>
-inline constexpr bool is_fit =
-    std::is_same_v<Traits, Fit_traits> || std::is_same_v<Traits, Transformed_function_traits_3<Fit_traits>>;
-
-/// The fit that such a model is made of.
-inline const Fit_traits& fit_of(const Fit_traits& fit) { return fit; }
-inline const Fit_traits& fit_of(const Transformed_function_traits_3<Fit_traits>& image) { return image.base(); }
+inline constexpr bool is_fit = std::is_same_v<Traits, Fit_function>;
 
 } // namespace equiaffine
 

@@ -85,10 +85,11 @@ void expect_same_surface_on_all_instruction_sets(const Traits& function) {
 }
 
 TEST(Program_engine, a_formula_has_the_same_numbers_on_all_instruction_sets_bit_for_bit) {
-  const Formula_traits traits(Expression_3(formula), box);
+  const Formula_traits traits_of_formula(Expression_3(formula), box);
+  const Formula_function traits(traits_of_formula);
   expect_same_on_all_instruction_sets(traits);
   const CGAL::Aff_transformation_3<Kernel> map(0.9, 0, 0.9, 0.1, 0, 2, 0, 0, 1.1, 0, 0.6, 0);
-  const Transformed_function_traits_3 image(traits, map);
+  const Formula_function image(traits_of_formula, map);
   expect_same_on_all_instruction_sets(image);
   expect_same_surface_on_all_instruction_sets(traits);
   expect_same_surface_on_all_instruction_sets(image);
@@ -99,7 +100,7 @@ TEST(Program_engine, samples_have_the_same_numbers_on_all_instruction_sets_bit_f
   std::uniform_real_distribution<double> unit(-1, 1);
   Volume_3<Kernel> volume{Lattice_3<Kernel>({12, 11, 13}, box), {}};
   for (std::size_t n = 0; n < volume.lattice.number_of_nodes(); ++n) volume.values.push_back(unit(random));
-  const Spline_traits spline(std::move(volume));
+  const Spline_function spline{Spline_traits(std::move(volume))};
   expect_same_on_all_instruction_sets(spline);
   expect_same_surface_on_all_instruction_sets(spline);
 }

@@ -338,7 +338,7 @@ TYPED_TEST_P(Conformance, wrappers_have_the_capabilities) {
   const Traits base = TypeParam::make();
   const typename Kernel::Aff_transformation_3 map(2, 0, 0, .5, 0, -.25, .5, 0, 0, 0, 4, 1);
   const Level_set_traits_3 level_set(base, 0.25, Orientation_of_level_set::AGAINST_GRADIENT), same(base, 0);
-  const Transformed_function_traits_3 image(base, map);
+  const Transformed_function_traits_3 image(base, map), identity(base);
   const Batch_function_traits_3 batch(base);
   const auto any = Any_function_3::make(base);
   static_assert(has_refinements_of<Level_set_traits_3<Traits>, Traits>());
@@ -347,17 +347,20 @@ TYPED_TEST_P(Conformance, wrappers_have_the_capabilities) {
     const CGAL::Bbox_3 box = cube(p, TypeParam::length / 50);
     expect_capabilities_of(level_set, p, base, p);
     expect_capabilities_of(image, map(p), base, p);
+    expect_capabilities_of(identity, p, base, p);
     expect_capabilities_of(batch, p, base, p);
     expect_capabilities_of(any, p, base, p);
     const double of_base = rounding(base, p);
     EXPECT_EQ(rounding(level_set, p), of_base);
     EXPECT_EQ(rounding(image, map(p)) > 0, of_base > 0);
     EXPECT_EQ(rounding(any, p), of_base);
+    EXPECT_EQ(rounding(identity, p), of_base);
     const auto tight = tight_first_order_bounds(base, box);
     expect_equal_bounds(tight_first_order_bounds(same, box), tight);
     expect_equal_bounds(tight_first_order_bounds(any, box), tight);
     expect_equal_bounds(first_order_bounds(any, box), first_order_bounds(base, box));
-    EXPECT_TRUE(same_bits(any.taylor(p), base.taylor(p)));
+    EXPECT_TRUE(same_bits(tight_first_order_bounds(identity, box), tight));
+    for (const auto& jet : {any.taylor(p), identity.taylor(p)}) EXPECT_TRUE(same_bits(jet, base.taylor(p)));
   }
   const auto segment = segment_with_zero<TypeParam>();
   if (!segment) return;
@@ -366,7 +369,7 @@ TYPED_TEST_P(Conformance, wrappers_have_the_capabilities) {
     return intersect_segment(function, from, to, base.value(a), base.value(b));
   };
   const auto zero = zero_of(base, a, b);
-  for (const auto& found : {zero_of(same, a, b), zero_of(batch, a, b), zero_of(any, a, b)}) {
+  for (const auto& found : {zero_of(same, a, b), zero_of(identity, a, b), zero_of(batch, a, b), zero_of(any, a, b)}) {
     EXPECT_EQ(found.point, zero.point);
     EXPECT_EQ(found.evaluations, zero.evaluations);
   }

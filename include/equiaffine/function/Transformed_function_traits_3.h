@@ -23,7 +23,7 @@ namespace equiaffine {
 
 /// The function f o A^-1, whose level sets are the images under A of the level sets of f. A is any invertible affine
 /// map. The function is a model of every refinement of the concept that the base is a model of, and has its
-/// capabilities.
+/// capabilities. Under the identity, the default, it is the base itself, bit for bit and at the same cost.
 ///
 /// With a = |det A| the affine curvatures change by K' = K / a, H' = H / sqrt(a), J' = J / sqrt(a), the co-normal by
 /// nu' = sqrt(a) A^-T nu and the affine normal by xi' = A xi / sqrt(a).
@@ -36,34 +36,39 @@ public:
   using Aff_transformation_3 = CGAL::Aff_transformation_3<Kernel_of<Base>>;
 
   /// \pre the linear part of `map` has a nonzero determinant.
-  Transformed_function_traits_3(Base base, const Aff_transformation_3& map)
-      : base_(std::move(base)), map_(map), inverse_(map.inverse()),
+  explicit Transformed_function_traits_3(Base base,
+                                         const Aff_transformation_3& map = Aff_transformation_3(CGAL::IDENTITY))
+      : base_(std::move(base)), map_(map), inverse_(map.inverse()), is_identity_(is_identity(map)),
         substitution_(linear_part(inverse_, [](const FT& m) { return m; })),
         substitution_of_bounds_(linear_part(inverse_, [](const FT& m) { return Interval(CGAL::to_double(m)); })) {}
 
-  FT value(const Point_3& p) const { return base_.value(inverse_(p)); }
+  FT value(const Point_3& p) const { return base_.value(preimage(p)); }
   Jet_3<FT, 1> first_order(const Point_3& p) const requires FirstOrderImplicitFunctionTraits_3<Base> {
-    return substitution_(base_.first_order(inverse_(p)));
+    return substituted(base_.first_order(preimage(p)));
   }
-  Jet_3<FT> taylor(const Point_3& p) const { return substitution_(base_.taylor(inverse_(p))); }
+  Jet_3<FT> taylor(const Point_3& p) const { return substituted(base_.taylor(preimage(p))); }
 
   void values(std::span<const Point_3> points,
               std::span<FT> values) const requires BatchImplicitFunctionTraits_3<Base> {
+    if (is_identity_) return base_.values(points, values);
     base_.values(preimages(points), values);
   }
   void first_orders(std::span<const Point_3> points,
                     std::span<Jet_3<FT, 1>> jets) const requires FirstOrderBatchImplicitFunctionTraits_3<Base> {
+    if (is_identity_) return base_.first_orders(points, jets);
     base_.first_orders(preimages(points), jets);
     for (auto& jet : jets) jet = substitution_(jet);
   }
   void taylors(std::span<const Point_3> points,
                std::span<Jet_3<FT>> jets) const requires BatchImplicitFunctionTraits_3<Base> {
+    if (is_identity_) return base_.taylors(points, jets);
     base_.taylors(preimages(points), jets);
     for (auto& jet : jets) jet = substitution_(jet);
   }
 
   void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
                     std::span<Jet_3<Pack<FT>>> jets) const requires PackImplicitFunctionTraits_3<Base> {
+    if (is_identity_) return base_.taylor_packs(x, y, z, jets);
     std::array<std::vector<Pack<FT>>, 3> coordinates;
     for (auto& coordinate : coordinates) coordinate.resize(jets.size());
     for (std::size_t n = 0; n < jets.size(); ++n) {
@@ -80,14 +85,14 @@ public:
   }
   Jet_3<Interval, 1>
   first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
-    return substitution_of_bounds_(base_.first_order_bounds(preimage(box)));
+    return substituted(base_.first_order_bounds(preimage(box)));
   }
   Jet_3<Interval, 2>
   second_order_bounds(const CGAL::Bbox_3& box) const requires SecondOrderBoundedImplicitFunctionTraits_3<Base> {
-    return substitution_of_bounds_(base_.second_order_bounds(preimage(box)));
+    return substituted(base_.second_order_bounds(preimage(box)));
   }
   Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const requires HasTightFirstOrderBounds<Base> {
-    return substitution_of_bounds_(base_.tight_first_order_bounds(preimage(box)));
+    return substituted(base_.tight_first_order_bounds(preimage(box)));
   }
   Known_bounds known_bounds() const requires HasKnownBounds<Base> { return base_.known_bounds(); }
 
@@ -108,29 +113,33 @@ public:
       for (int row = 0; row < 3; ++row) sum += abs(inverse_.m(row, column));
       greatest_sum = std::max(greatest_sum, sum);
     }
-    return base_.rounding(inverse_(p)) * greatest_sum * greatest_sum;
+    return base_.rounding(preimage(p)) * greatest_sum * greatest_sum;
   }
 
   /// Affine maps keep the certainty.
-  double certainty(const Point_3& p) const requires HasCertainty<Base> { return base_.certainty(inverse_(p)); }
+  double certainty(const Point_3& p) const requires HasCertainty<Base> { return base_.certainty(preimage(p)); }
 
   Surface_point_3<Kernel_of<Base>> intersect_segment(const Point_3& a, const Point_3& b, const FT& fa,
                                                      const FT& fb) const requires HasIntersectSegment<Base> {
-    auto found = base_.intersect_segment(inverse_(a), inverse_(b), fa, fb);
-    found.point = map_(found.point);
+    auto found = base_.intersect_segment(preimage(a), preimage(b), fa, fb);
+    if (!is_identity_) found.point = map_(found.point);
     return found;
   }
 
   /// The axis-parallel box around the image of the base's box.
-  CGAL::Bbox_3 bbox() const { return Lattice_3<Kernel_of<Base>>({2, 2, 2}, base_.bbox()).transform(map_).bbox(); }
+  CGAL::Bbox_3 bbox() const {
+    return is_identity_ ? base_.bbox() : Lattice({2, 2, 2}, base_.bbox()).transform(map_).bbox();
+  }
 
   /// The image of the lattice on which the base would be sampled. It fills exactly the image of the base's box.
   Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
-    return sampling_lattice(base_, size).transform(map_);
+    return transformed(sampling_lattice(base_, size));
   }
 
   /// The image of the base's lattice.
-  auto lattice() const requires LatticeImplicitFunctionTraits_3<Base> { return base_.lattice().transform(map_); }
+  Lattice_3<Kernel_of<Base>> lattice() const requires LatticeImplicitFunctionTraits_3<Base> {
+    return transformed(base_.lattice());
+  }
   FT sample(std::size_t i, std::size_t j, std::size_t k) const requires LatticeImplicitFunctionTraits_3<Base> {
     return base_.sample(i, j, k);
   }
@@ -139,6 +148,29 @@ public:
   const Aff_transformation_3& transformation() const { return map_; }
 
 private:
+  using Lattice = Lattice_3<Kernel_of<Base>>;
+
+  static bool is_identity(const Aff_transformation_3& map) {
+    bool result = true;
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column) result = result && map.m(row, column) == FT(row == column);
+    return result;
+  }
+
+  Lattice transformed(const Lattice& lattice) const { return is_identity_ ? lattice : lattice.transform(map_); }
+
+  Point_3 preimage(const Point_3& p) const { return is_identity_ ? p : inverse_(p); }
+
+  /// The expansion of the function from that of the base at the preimage.
+  template <int Order>
+  Jet_3<FT, Order> substituted(const Jet_3<FT, Order>& jet) const {
+    return is_identity_ ? jet : substitution_(jet);
+  }
+  template <int Order>
+  Jet_3<Interval, Order> substituted(const Jet_3<Interval, Order>& jet) const {
+    return is_identity_ ? jet : substitution_of_bounds_(jet);
+  }
+
   std::vector<Point_3> preimages(std::span<const Point_3> points) const {
     std::vector<Point_3> result;
     result.reserve(points.size());
@@ -161,6 +193,7 @@ private:
 
   /// The axis-parallel box around the preimage of a box.
   CGAL::Bbox_3 preimage(const CGAL::Bbox_3& box) const {
+    if (is_identity_) return box;
     const std::array<Interval, 3> sides = internal::sides_of(box);
     std::array<Interval, 3> image;
     for (int row = 0; row < 3; ++row) {
@@ -184,6 +217,7 @@ private:
 
   Base base_;
   Aff_transformation_3 map_, inverse_;
+  bool is_identity_;
   Linear_substitution_3<FT> substitution_;
   Linear_substitution_3<Interval> substitution_of_bounds_;
 };
