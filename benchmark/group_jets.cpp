@@ -6,6 +6,7 @@
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/analytic_functions.h>
+#include <equiaffine/function/expand.h>
 #include <equiaffine/number/Pack.h>
 
 #include <boost/math/differentiation/autodiff.hpp>
@@ -52,8 +53,8 @@ double fourth_order_error(const Function& f, const Points& p) {
   using Number = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
   double worst = 0;
   for (std::size_t i = 0; i < number_of_points; ++i) {
-    const Jet jet = internal::expand<4, double>(f, p.c[0][i], p.c[1][i], p.c[2][i]);
-    const auto exact = internal::expand<4, Number>(f, Number(p.c[0][i]), Number(p.c[1][i]), Number(p.c[2][i]));
+    const Jet jet = expand<4, double>(f, p.c[0][i], p.c[1][i], p.c[2][i]);
+    const auto exact = expand<4, Number>(f, Number(p.c[0][i]), Number(p.c[1][i]), Number(p.c[2][i]));
     double error = 0, size = 0;
     for (int a = 0; a <= 4; ++a)
       for (int b = 0; a + b <= 4; ++b) {
@@ -148,7 +149,7 @@ void compare(const Case& c, const Function& f, const Hand& hand, [[maybe_unused]
   const Expression_3 expression(c.expression);
   std::vector<Contender> contenders;
   contenders.push_back(contender("jets", repetitions, 1, [&](std::size_t i) {
-    ::new (&out[i]) Jet(internal::expand<4, double>(f, p.c[0][i], p.c[1][i], p.c[2][i])); // without a copy
+    ::new (&out[i]) Jet(expand<4, double>(f, p.c[0][i], p.c[1][i], p.c[2][i])); // without a copy
     keep(out[i]);
   }));
   contenders.push_back(contender("hand-derived", repetitions, 1, [&](std::size_t i) {
@@ -160,7 +161,7 @@ void compare(const Case& c, const Function& f, const Hand& hand, [[maybe_unused]
   };
   contenders.push_back(contender("jets in packs", repetitions, Lanes::size, [&](std::size_t i) {
     ::new (&pack_out[i])
-        Jet_3<Lanes>(internal::expand<4, Lanes>(f, lanes(p.c[0], i), lanes(p.c[1], i), lanes(p.c[2], i)));
+        Jet_3<Lanes>(expand<4, Lanes>(f, lanes(p.c[0], i), lanes(p.c[1], i), lanes(p.c[2], i)));
     keep(pack_out[i]);
   }));
   std::array<std::vector<Lanes>, 3> packs_of_points;

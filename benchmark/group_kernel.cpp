@@ -8,6 +8,7 @@
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/analytic_functions.h>
 #include <equiaffine/attributes.h>
+#include <equiaffine/function/expand.h>
 #include <equiaffine/geometry/reference_estimators.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -155,7 +156,7 @@ void accuracy() {
   double worst = 0;
   for (const Reference_row& row : read_reference(EQUIAFFINE_TEST_DATA "/affine_structure.csv")) {
     const auto& [x, y, z] = row.point;
-    const auto s = local_structure(internal::expand<4, double>(Expression_3(row.expression), x, y, z));
+    const auto s = local_structure(expand<4, double>(Expression_3(row.expression), x, y, z));
     errors.push_back(error_of(s.affine, row.affine_K, row.affine_H, row.euclidean_K));
     worst = std::max(worst, errors.back() / row.limit);
   }
@@ -167,7 +168,7 @@ void accuracy() {
   const auto traits = f.traits();
   double anisotropic = 0;
   for (const auto& p : f.points(3000)) {
-    const auto t = local_structure(internal::expand<4, Number>(f, Number(p.x()), Number(p.y()), Number(p.z())));
+    const auto t = local_structure(expand<4, Number>(f, Number(p.x()), Number(p.y()), Number(p.z())));
     anisotropic =
         std::max(anisotropic, error_of(local_structure(traits.taylor(p)).affine, double(t.affine.gaussian_curvature),
                                        double(t.affine.mean_curvature), double(t.euclidean.gaussian_curvature)));
@@ -178,7 +179,7 @@ void accuracy() {
   for (const double s : {1., 10., 100., 1e3, 1e4, 1e5, 1e6}) {
     const Stretched_surface surface{s};
     for (const auto& [x, y, z] : surface.points(1500)) {
-      const auto jet = internal::expand<4, double>(surface, x, y, z);
+      const auto jet = expand<4, double>(surface, x, y, z);
       Jet_3<Number> exact;
       std::copy(jet.coefficients().begin(), jet.coefficients().end(), exact.coefficients().begin());
       const auto t = affine_invariants(Monge_chart_3<Number>(exact));

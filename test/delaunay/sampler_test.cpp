@@ -7,6 +7,7 @@
 #include <equiaffine/annotate.h>
 #include <equiaffine/capabilities.h>
 #include <equiaffine/delaunay_surface.h>
+#include <equiaffine/function/expand.h>
 #include <equiaffine/marching_cubes.h>
 #include <equiaffine/mesh_topology.h>
 
@@ -116,7 +117,7 @@ TYPED_TEST(Every_sampler, has_the_curvatures_of_50_digits_at_its_vertices) {
     for (const Point_3& p : surface.points) {
       const auto structure = local_structure_at(traits, p);
       const auto exact =
-          local_structure(internal::expand<4, Number>(traits.function(), Number(p.x()), Number(p.y()), Number(p.z())));
+          local_structure(expand<4, Number>(traits.function(), Number(p.x()), Number(p.y()), Number(p.z())));
       const double K = double(exact.affine.gaussian_curvature), H = double(exact.affine.mean_curvature);
       const double K_e = double(exact.euclidean.gaussian_curvature);
       if (!(std::abs(K_e) * diagonal(traits) * diagonal(traits) > 1e-2)) continue;

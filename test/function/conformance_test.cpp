@@ -9,6 +9,7 @@
 #include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
 #include <equiaffine/delaunay_surface.h>
+#include <equiaffine/function/expand.h>
 #include <equiaffine/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -171,7 +172,7 @@ public:
   Archetype& operator=(const Archetype&) = delete;
   static Archetype make() { return Archetype(); }
   FT value(const Point_3& p) const { return Auto_function()(p.x(), p.y(), p.z()); }
-  Jet_3<FT> taylor(const Point_3& p) const { return internal::expand<4, FT>(Auto_function(), p.x(), p.y(), p.z()); }
+  Jet_3<FT> taylor(const Point_3& p) const { return expand<4, FT>(Auto_function(), p.x(), p.y(), p.z()); }
   CGAL::Bbox_3 bbox() const { return unit_box; }
 
 private:

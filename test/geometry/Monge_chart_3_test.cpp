@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Local_structure_3.h>
+#include <equiaffine/function/expand.h>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@ using Jet = Jet_3<double>;
 
 template <class Function>
 Jet expand(const Function& f, double x, double y, double z) {
-  return internal::expand<4, double>(f, x, y, z);
+  return expand<4, double>(f, x, y, z);
 }
 
 template <class Function>

@@ -2,6 +2,7 @@
 #include "support/contraction.h"
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Local_structure_3.h>
+#include <equiaffine/function/expand.h>
 #include <equiaffine/number/Pack.h>
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ using namespace equiaffine;
 
 template <class Function>
 Euclidean_structure_3<double> euclidean(const Function& f, double x, double y, double z) {
-  return local_structure(internal::expand<4, double>(f, x, y, z), {x, y, z}).euclidean;
+  return local_structure(expand<4, double>(f, x, y, z), {x, y, z}).euclidean;
 }
 
 const auto sphere = [](const auto& x, const auto& y, const auto& z) { return x * x + y * y + z * z; };

@@ -3,6 +3,7 @@
 #include "support/reference.h"
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
+#include <equiaffine/function/expand.h>
 #include <equiaffine/geometry/reference_estimators.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -52,7 +53,7 @@ TEST(Reference_estimators, in_double_they_agree_with_the_reference_but_for_a_few
     std::vector<double> errors;
     for (const Reference_row& row : rows) {
       const auto& [x, y, z] = row.point;
-      const auto s = affine_estimate(internal::expand<4, double>(Expression_3(row.expression), x, y, z), estimator);
+      const auto s = affine_estimate(expand<4, double>(Expression_3(row.expression), x, y, z), estimator);
       const double S = std::abs(row.affine_K) + row.affine_H * row.affine_H + std::pow(std::abs(row.euclidean_K), 1.5);
       errors.push_back(std::max(std::abs(s.gaussian_curvature - row.affine_K) / S,
                                 std::abs(s.mean_curvature - row.affine_H) / std::sqrt(S)));
@@ -70,11 +71,11 @@ TEST(Reference_estimators, in_double_they_agree_with_the_reference_but_for_a_few
 TEST(Reference_estimators, the_z_axis_alone_loses_the_digits_that_the_best_axis_keeps) {
   const auto sphere = [](const auto& x, const auto& y, const auto& z) { return x * x + y * y + z * z - 1.0; };
   const double z = 1e-4, x = std::sqrt(1 - z * z);
-  const auto jet = internal::expand<4, double>(sphere, x, 0.0, z);
+  const auto jet = expand<4, double>(sphere, x, 0.0, z);
   EXPECT_NEAR(affine_estimate(jet, Estimator::DIRECT).gaussian_curvature, 1, 1e-12);
   EXPECT_GT(std::abs(affine_estimate(jet, Estimator::DIRECT_Z).gaussian_curvature - 1), 1e-12);
   const auto equator =
-      local_structure(internal::expand<4, double>(sphere, 1.0, 0.0, 0.0), {1, 0, 0}, 0.0, Estimator::DIRECT_Z);
+      local_structure(expand<4, double>(sphere, 1.0, 0.0, 0.0), {1, 0, 0}, 0.0, Estimator::DIRECT_Z);
   EXPECT_EQ(equator.status, Point_status::OUTSIDE) << "the surface is not parabolic there";
   EXPECT_TRUE(std::isnan(equator.affine.gaussian_curvature) && std::isnan(equator.euclidean.gaussian_curvature));
 }

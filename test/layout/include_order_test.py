@@ -11,17 +11,23 @@ class IncludeOrder(unittest.TestCase):
     def faults(self, **changed):
         """Of a checkout with two rooms each, where the files that are named have other text; `__` stands for `/`."""
         files = {
-            "cmake/rooms.txt": "# a comment\ninclude/equiaffine low high\nsrc below above\n",
+            "cmake/rooms.txt": "# a comment\n[include/equiaffine]\nlow: | what is low\nhigh: low | what is high\n"
+                               "other: | what is beside\n\n[src]\nbelow: |\nabove: below |\n"
+                               "[looks inside]\nreproduce/a.cpp: low\n",
             "include/equiaffine/door.h": "#include <equiaffine/high/door.h>\n",
             "include/equiaffine/low/a.h": "#include <equiaffine/low/internal/b.h>\n",
-            "include/equiaffine/low/internal/b.h": "#include <vector>\n",
+            "include/equiaffine/low/internal/b.h": "namespace equiaffine::internal {\nclass Hidden {};\n}\n",
+            "include/equiaffine/other/c.h": "\n",
             "include/equiaffine/high/door.h": "#include <equiaffine/low/a.h>\n",
             "src/main.cpp": '#include "above/task.h"\n',
             "src/below/file.h": "#include <equiaffine/door.h>\n",
             "src/above/task.h": '#include "below/file.h"\n#include <equiaffine/low/a.h>\n',
             "mesher/mesh.cpp": '#include "mesh.h"\n#include <equiaffine/high/door.h>\n',
+            "reproduce/a.cpp": "internal::Hidden hidden;\n",
+            "test/low/b_test.cpp": "#include <equiaffine/low/internal/b.h>\ninternal::Hidden hidden;\n",
+            "benchmark/group_low.cpp": "internal::Hidden hidden;\n",
         }
-        files |= {name.replace("__", "/").replace("_h", ".h").replace("_cpp", ".cpp"): text
+        files |= {name.replace("__", "/").replace("_h", ".h").replace("_cpp", ".cpp").replace("_txt", ".txt"): text
                   for name, text in changed.items()}
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
@@ -39,7 +45,7 @@ class IncludeOrder(unittest.TestCase):
         self.assertEqual(self.faults(), [])
 
     def test_a_header_of_a_higher_room(self):
-        self.assert_fault("low/a.h includes high/door.h: the room high is above low",
+        self.assert_fault("low/a.h includes high/door.h: low does not use the room high",
                           include__equiaffine__low__a_h="#include <equiaffine/high/door.h>\n")
 
     def test_the_own_header_of_another_room(self):
@@ -75,7 +81,34 @@ class IncludeOrder(unittest.TestCase):
                           src__above__task_h='#include "equiaffine/low/internal/b.h"\n')
 
     def test_the_program_including_upwards(self):
-        self.assert_fault("the room above is above below", src__below__file_h='#include "above/task.h"\n')
+        self.assert_fault("below does not use the room above", src__below__file_h='#include "above/task.h"\n')
+
+    def test_a_room_that_is_not_listed_among_those_used(self):
+        self.assert_fault("high does not use the room other",
+                          include__equiaffine__high__door_h="#include <equiaffine/other/c.h>\n")
+
+    def test_a_use_that_nothing_makes(self):
+        self.assert_fault("no file of include/equiaffine/high uses low", include__equiaffine__high__door_h="\n")
+
+    def test_rooms_that_use_each_other(self):
+        self.assert_fault("low may use high, which is not above it",
+                          cmake__rooms_txt="[include/equiaffine]\nlow: high |\nhigh: low |\nother: |\n[src]\n")
+
+    def test_the_name_of_another_room_in_a_test(self):
+        self.assert_fault("test/high/a_test.cpp uses internal::Hidden: that name is its room's own",
+                          test__high__a_test_cpp="auto x = equiaffine::internal::Hidden();\n")
+
+    def test_the_own_header_of_another_room_in_a_benchmark(self):
+        self.assert_fault("benchmark/high/a.cpp uses low/internal/b.h: that header is its room's own",
+                          benchmark__high__a_cpp="#include <equiaffine/low/internal/b.h>\n")
+
+    def test_the_name_of_a_room_in_the_program(self):
+        self.assert_fault("src/main.cpp uses internal::Hidden", src__main_cpp="internal::Hidden hidden;\n")
+
+    def test_what_a_door_exports(self):
+        self.assertEqual(self.faults(
+            src__main_cpp="internal::Hidden hidden;\n",
+            include__equiaffine__low__a_h="#include <equiaffine/low/internal/b.h> // IWYU pragma: export\n"), [])
 
     def test_the_mesher_reaching_into_a_room(self):
         self.assert_fault("mesher/mesh.cpp includes", mesher__mesh_cpp="#include <equiaffine/low/internal/b.h>\n")

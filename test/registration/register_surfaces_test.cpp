@@ -39,9 +39,9 @@ struct Pair {
       : source(surface.traits()), map(m), target(source, m), points(points_on_surface(source, 24)),
         target_points(points_on_surface(target, 27)) {}
 
-  template <class Parameters = internal::No_parameters>
-  Result result(const Parameters& parameters = {}) const {
-    return register_surfaces(source, points, target, target_points, parameters);
+  template <class... Parameters>
+  Result result(const Parameters&... parameters) const {
+    return register_surfaces(source, points, target, target_points, parameters...);
   }
 };
 

@@ -2,6 +2,7 @@
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/Local_structure_3.h>
+#include <equiaffine/function/expand.h>
 #include <equiaffine/io/write_curves.h>
 #include <equiaffine/marching_cubes.h>
 #include <equiaffine/parabolic_curves.h>
@@ -75,10 +76,10 @@ TEST(Parabolic_curves, the_function_is_the_gaussian_curvature_times_a_power_of_t
     return x * x * y + sin(z * x) + 2.0 * z - y * y * y;
   };
   const auto at = [&](double x, double y, double z) {
-    return parabolic_function(internal::expand<4, double>(f, x, y, z));
+    return parabolic_function(expand<4, double>(f, x, y, z));
   };
   const double x = 0.4, y = -0.7, z = 0.3, h = 1e-5;
-  const auto jet = internal::expand<4, double>(f, x, y, z);
+  const auto jet = expand<4, double>(f, x, y, z);
   const double g2 = std::pow(jet.coefficient(1, 0, 0), 2) + std::pow(jet.coefficient(0, 1, 0), 2) +
                     std::pow(jet.coefficient(0, 0, 1), 2);
   EXPECT_NEAR(at(x, y, z).value(), local_structure(jet).euclidean.gaussian_curvature * g2 * g2, 1e-12);
