@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Says which files and functions are too long to be read at a sitting: python3 sizes.py ROOT.
 
-Files of include, src and mesher have at most 300 lines, functions there at most 60, in C++ as in the scripts of pages.
+Files of include, src, mesher and viewer have at most 300 lines, functions there at most 60, in C++ as in JavaScript.
 The code is formatted by clang-format, so that a function ends at the first closing brace as far left as its head."""
 import pathlib
 import re
@@ -48,9 +48,9 @@ def functions(text):
 
 
 def find_faults(root):
-    for folder in ("include", "src", "mesher"):
+    for folder in ("include", "src", "mesher", "viewer"):
         for path in sorted((root / folder).rglob("*")):
-            if path.suffix not in (".h", ".cpp"):
+            if path.suffix not in (".h", ".cpp", ".js", ".glsl", ".css", ".html"):
                 continue
             name, text = path.relative_to(root).as_posix(), path.read_text()
             if (length := text.count("\n")) > MOST_LINES_OF_FILE:

@@ -7,17 +7,7 @@
 #include <equiaffine/io/internal/html_text.h>
 #include <equiaffine/io/internal/page_arrays.h>
 #include <equiaffine/io/internal/page_facts.h>
-#include <equiaffine/io/internal/viewer_address.h>
-#include <equiaffine/io/internal/viewer_control.h>
-#include <equiaffine/io/internal/viewer_data.h>
-#include <equiaffine/io/internal/viewer_graphics.h>
-#include <equiaffine/io/internal/viewer_page.h>
-#include <equiaffine/io/internal/viewer_panel.h>
-#include <equiaffine/io/internal/viewer_picked.h>
-#include <equiaffine/io/internal/viewer_picture.h>
-#include <equiaffine/io/internal/viewer_scale.h>
-#include <equiaffine/io/internal/viewer_scene.h>
-#include <equiaffine/io/internal/viewer_shaders.h>
+#include <equiaffine/io/internal/viewer_files.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/Bbox_3.h>
@@ -28,7 +18,6 @@
 #include <cstdint>
 #include <ostream>
 #include <string>
-#include <string_view>
 
 namespace equiaffine::internal {
 
@@ -78,11 +67,7 @@ void write_page(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, 
   out << "<script type=\"application/json\" id=\"facts\">" << page_facts(mesh, attributes, options, center, parabolic)
       << "</script>\n";
   write_data(out, mesh, attributes, center, parabolic);
-  out << "<script>\n'use strict';\n(() => {";
-  for (const std::string_view part : {viewer_data, viewer_graphics, viewer_shaders, viewer_scene, viewer_panel,
-                                      viewer_scale, viewer_picked, viewer_picture, viewer_address, viewer_control})
-    out << part;
-  out << "})();\n</script>\n</body>\n</html>\n";
+  out << "<script>\n'use strict';\n(() => {" << viewer_script << "})();\n</script>\n</body>\n</html>\n";
 }
 
 } // namespace equiaffine::internal

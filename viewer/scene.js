@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_VIEWER_SCENE_H
-#define EQUIAFFINE_IO_INTERNAL_VIEWER_SCENE_H
+// The WebGL 2 objects and the drawing of one picture.
 
-#include <string_view>
-
-/// \file
-/// The page's script, fourth part: the WebGL 2 objects and the drawing of one picture.
-
-namespace equiaffine::internal {
-
-inline constexpr std::string_view viewer_scene = R"js(
 const bytesOfColor = text => [1, 3, 5].map(i => parseInt(text.slice(i, i + 2), 16));
 const channels = text => bytesOfColor(text).map(byte => byte / 255);
 
@@ -228,8 +219,3 @@ function createScene(canvas) {
   const gl = canvas.getContext('webgl2', {antialias: true, alpha: true, powerPreference: 'high-performance'});
   return gl && new Scene(gl, canvas);
 }
-)js";
-
-} // namespace equiaffine::internal
-
-#endif

@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_VIEWER_ADDRESS_H
-#define EQUIAFFINE_IO_INTERNAL_VIEWER_ADDRESS_H
+// The address of the page, which says what is shown.
 
-#include <string_view>
-
-/// \file
-/// The page's script, ninth part: the address, which says what is shown.
-
-namespace equiaffine::internal {
-
-inline constexpr std::string_view viewer_address = R"js(
 // The address says what is shown. Words it does not know are ignored.
 function fragment() {
   const list = (values, digits) => values.map(value => Number(value.toPrecision(digits))).join(',');
@@ -64,8 +55,3 @@ function followAddress() {
   const range = numbers('range');
   setQuantity(quantity, isFine(range, 2) && range[0] < range[1] ? range : quantity === first ? facts.range : null);
 }
-)js";
-
-} // namespace equiaffine::internal
-
-#endif

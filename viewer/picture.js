@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_VIEWER_PICTURE_H
-#define EQUIAFFINE_IO_INTERNAL_VIEWER_PICTURE_H
+// Pictures with a legend, and the numbers of the page as files.
 
-#include <string_view>
-
-/// \file
-/// The page's script, eighth part: pictures with a legend, and the numbers of the page as files.
-
-namespace equiaffine::internal {
-
-inline constexpr std::string_view viewer_picture = R"js(
 // A file is named after the surface and, if it shows one, the quantity.
 function fileName(extension, ...parts) {
   const clean = text => text.replace(/[^\p{L}\p{N}_.]+/gu, '-').replace(/^-+|-+$/g, '');
@@ -135,8 +126,3 @@ function savePLY() {
   });
   saveFile(new Blob([header, vertices, faces], {type: 'application/octet-stream'}), fileName('ply'));
 }
-)js";
-
-} // namespace equiaffine::internal
-
-#endif

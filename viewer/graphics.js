@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_VIEWER_GRAPHICS_H
-#define EQUIAFFINE_IO_INTERNAL_VIEWER_GRAPHICS_H
+// The camera, the cut, the ray that finds the vertex under the pointer, edges and needles.
 
-#include <string_view>
-
-/// \file
-/// The page's script, second part: camera, the cut, the ray that finds the vertex under the pointer, edges and needles.
-
-namespace equiaffine::internal {
-
-inline constexpr std::string_view viewer_graphics = R"js(
 const add = (a, b, s = 1) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -172,8 +163,3 @@ function needles(vector, cells = 22) {
   });
   return result;
 }
-)js";
-
-} // namespace equiaffine::internal
-
-#endif

@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_VIEWER_SCALE_H
-#define EQUIAFFINE_IO_INTERNAL_VIEWER_SCALE_H
+// The histogram over the color bar, with ticks and unit.
 
-#include <string_view>
-
-/// \file
-/// The page's script, sixth part: the histogram over the color bar, with ticks and unit.
-
-namespace equiaffine::internal {
-
-inline constexpr std::string_view viewer_scale = R"js(
 const dimensionOf = weight => (weight % 2 ? `${weight}/2` : `${weight / 2}`).replace('-', '−');
 function showUnit(power) {
   const {weight} = choice.quantity, unit = byId('scale-unit');
@@ -137,8 +128,3 @@ function drawScale() {
   showUnit(power);
   scene.setIsolines(choice.isolines ? labels.map(({t}) => t).filter(t => t > 0.002 && t < 0.998) : []);
 }
-)js";
-
-} // namespace equiaffine::internal
-
-#endif

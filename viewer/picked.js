@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_VIEWER_PICKED_H
-#define EQUIAFFINE_IO_INTERNAL_VIEWER_PICKED_H
+// The numbers of the picked vertex, vectors, and showing the panel.
 
-#include <string_view>
-
-/// \file
-/// The page's script, seventh part: the numbers of the picked vertex, vectors, and showing the panel.
-
-namespace equiaffine::internal {
-
-inline constexpr std::string_view viewer_picked = R"js(
 // Everything known about a vertex: [column, number, digits that are true].
 function numbersOf(vertex) {
   const fine = radius * 2 ** -24;
@@ -90,8 +81,3 @@ function showPanel(isShown) {
   byId('hint').hidden = !isShown || isTouched;
   drawScale();
 }
-)js";
-
-} // namespace equiaffine::internal
-
-#endif

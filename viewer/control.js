@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_VIEWER_CONTROL_H
-#define EQUIAFFINE_IO_INTERNAL_VIEWER_CONTROL_H
+// Pointer, keyboard, and the start of the page.
 
-#include <string_view>
-
-/// \file
-/// The page's script, tenth and last part: pointer, keyboard, and the start.
-
-namespace equiaffine::internal {
-
-inline constexpr std::string_view viewer_control = R"js(
 let isTouched = false;  // until then the whole surface is kept in sight
 function touched() {
   isTouched = true;
@@ -270,8 +261,3 @@ function start() {
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { drawScale(); redraw(); });
 }
 start();
-)js";
-
-} // namespace equiaffine::internal
-
-#endif

@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_VIEWER_DATA_H
-#define EQUIAFFINE_IO_INTERNAL_VIEWER_DATA_H
+// The arrays, what can be shown, and the color map. Ranges, scales, ranks and colors are numbers of `facts`, by the
+// rules of io/Column_numbers.h; here they are only looked up.
 
-#include <string_view>
-
-/// \file
-/// The page's script, first part: the arrays, what can be shown, and the color map. Ranges, scales, ranks and
-/// colors are numbers of `facts`, by the rules of `io/Column_numbers.h`; here they are only looked up.
-
-namespace equiaffine::internal {
-
-inline constexpr std::string_view viewer_data = R"js(
 const byId = id => document.getElementById(id);
 const facts = JSON.parse(byId('facts').textContent);
 
@@ -247,8 +238,3 @@ function scientific(text) {
   const signed = mantissa.replace('-', '−');
   return exponent ? signed.replace(/^(−?)1$/, '$1').replace(/\d$/, '$&·') + powerOfTen(exponent) : signed;
 }
-)js";
-
-} // namespace equiaffine::internal
-
-#endif

@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_VIEWER_PANEL_H
-#define EQUIAFFINE_IO_INTERNAL_VIEWER_PANEL_H
+// What is chosen, and the parts of the panel that change with it.
 
-#include <string_view>
-
-/// \file
-/// The page's script, fifth part: what is chosen, and the parts of the panel that change with it.
-
-namespace equiaffine::internal {
-
-inline constexpr std::string_view viewer_panel = R"js(
 const {clipSteps} = facts;
 const canvas = byId('view'), stage = byId('stage');
 // scale: linear, logarithmic, equalized, or auto for the one that suits the quantity.
@@ -183,8 +174,3 @@ function showLegend() {
     addRow(table, [swatch, text], number === undefined ? '' : count(number));
   }
 }
-)js";
-
-} // namespace equiaffine::internal
-
-#endif

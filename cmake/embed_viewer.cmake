@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Writes the header that has the files of viewer/ as texts, for pages that are single files. The lines of a file up to its
+# first blank one are its own.
+
+set(EQUIAFFINE_GENERATED_DIR ${PROJECT_BINARY_DIR}/generated)
+
+function(read_viewer_file variable name)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS viewer/${name})
+  file(READ ${PROJECT_SOURCE_DIR}/viewer/${name} text)
+  string(FIND "${text}" "\n\n" head)
+  math(EXPR begin "${head} + 2")
+  string(SUBSTRING "${text}" ${begin} -1 text)
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
+# The parts of the script, in their order.
+set(script "")
+set(separator "")
+foreach(part IN ITEMS data graphics shaders scene panel scale picked picture address control)
+  read_viewer_file(text ${part}.js)
+  string(APPEND script "${separator}${text}")
+  set(separator "\n")
+endforeach()
+string(REGEX MATCHALL "@[a-z.]+\\.glsl@" programs "${script}")
+foreach(program IN LISTS programs)
+  string(REPLACE "@" "" name ${program})
+  read_viewer_file(text ${name})
+  string(REGEX REPLACE "\n$" "" text "${text}")
+  string(REPLACE "${program}" "${text}" script "${script}")
+endforeach()
+
+read_viewer_file(style page.css)
+read_viewer_file(stage stage.html)
+read_viewer_file(controls controls.html)
+set(header "// Made of the files of viewer/ by cmake/embed_viewer.cmake.
+#ifndef EQUIAFFINE_IO_INTERNAL_VIEWER_FILES_H
+#define EQUIAFFINE_IO_INTERNAL_VIEWER_FILES_H
+
+#include <string_view>
+
+namespace equiaffine::internal {
+")
+foreach(part IN ITEMS style stage controls script)
+  string(APPEND header "\ninline constexpr std::string_view viewer_${part} = R\"viewer(\n${${part}})viewer\";\n")
+endforeach()
+string(APPEND header "
+} // namespace equiaffine::internal
+
+#endif
+")
+set(viewer_files ${EQUIAFFINE_GENERATED_DIR}/equiaffine/io/internal/viewer_files.h)
+file(CONFIGURE OUTPUT ${viewer_files} CONTENT "@header@" @ONLY)
