@@ -64,7 +64,7 @@ void beside_jet_fitting() {
     const auto points = disturbed(samples, noise);
     std::vector<Eigen::Vector3d> coordinates;
     for (const auto& p : points) coordinates.push_back(coordinates_of(p));
-    const internal::Point_tree_3 tree(coordinates);
+    const Point_tree<3> tree(coordinates);
     std::vector<double> errors;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const auto truth = local_structure_at(samples.surface, samples.points[i]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "registration_peers.h"
 
-#include <equiaffine/registration/internal/Nearest_points.h>
+#include <equiaffine/base/Point_tree.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Dense>
@@ -23,7 +23,7 @@ using Affine = Eigen::Affine3d;
 constexpr int steps = 200; ///< of iterated closest points
 
 template <int Dimension>
-using Tree = equiaffine::internal::Nearest_points<Dimension>;
+using Tree = equiaffine::Point_tree<Dimension>;
 
 template <int Dimension, class Points>
 Tree<Dimension> tree_of(const Points& points) {
@@ -71,7 +71,7 @@ public:
   Affine refined(Affine map, int count) const {
     for (int step = 0; step < count; ++step) {
       Vectors nearest;
-      for (const auto& p : source_) nearest.push_back(target_[tree_(map * p, 1).front().index]);
+      for (const auto& p : source_) nearest.push_back(target_[tree_.neighbors(map * p, 1).front().index]);
       map = affine_map(source_, nearest);
     }
     return map;
@@ -152,7 +152,7 @@ Affine four_point_ransac(const Vectors& source, const Signatures& signatures, co
                          const Signatures& target_signatures, int samples) {
   const auto tree = tree_of<5>(target_signatures);
   Vectors images;
-  for (const auto& s : signatures) images.push_back(target[tree(s, 1).front().index]);
+  for (const auto& s : signatures) images.push_back(target[tree.neighbors(s, 1).front().index]);
   const double tolerance = 0.01 * Moments(target).size;
   std::mt19937_64 random(1);
   Affine best = Affine::Identity();

@@ -6,6 +6,7 @@
 #include "../measure.h"
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
+#include <equiaffine/base/quantile.h>
 #include <equiaffine/register_surfaces.h>
 
 #include <CGAL/tags.h>
@@ -24,8 +25,8 @@ using namespace registration_cases;
 using Points = std::vector<Point_3>;
 
 inline double quantile(std::vector<double> values, double part) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0 : values[std::size_t(part * double(values.size() - 1))];
+  const double last = double(values.size()) - 1;
+  return values.empty() ? 0 : nth_smallest(std::move(values), std::size_t(part * last));
 }
 
 /// What a row of runs is to reach.

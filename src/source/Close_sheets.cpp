@@ -2,6 +2,7 @@
 #include "source/Close_sheets.h"
 
 #include "source/source.h"
+#include <equiaffine/base/quantile.h>
 
 #include <CGAL/tags.h>
 
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace equiaffine {
@@ -20,11 +22,11 @@ Close_sheets close_sheets(const Fit_traits& fit, const Source_options& options) 
   for (const auto& s : lattice.steps()) step = std::max(step, std::sqrt(s.squared_length()));
   std::vector<double> distances = fit.distances_of_sheets<CGAL::Parallel_if_available_tag>(step);
   if (distances.empty()) return {0, std::numeric_limits<double>::quiet_NaN(), 0};
-  const auto tenth = distances.begin() + std::ptrdiff_t(distances.size() / 10);
-  std::nth_element(distances.begin(), tenth, distances.end());
+  const std::size_t count = distances.size();
+  const double tenth = nth_smallest(std::move(distances), count / 10);
   const CGAL::Bbox_3 box = fit.bbox();
   const double longest = std::max({box.x_span(), box.y_span(), box.z_span()});
-  return {distances.size(), *tenth, std::size_t(std::min(1e9, steps_between_sheets * longest / *tenth)) + 2};
+  return {count, tenth, std::size_t(std::min(1e9, steps_between_sheets * longest / tenth)) + 2};
 }
 
 } // namespace equiaffine

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_IO_COLUMN_NUMBERS_H
 
 #include <equiaffine/attributes/quantities.h>
+#include <equiaffine/base/quantile.h>
 #include <equiaffine/io/Color_mapping.h>
 #include <equiaffine/io/color_map.h>
 #include <equiaffine/io/trust.h>

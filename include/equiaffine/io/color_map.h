@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_IO_COLOR_MAP_H
 #define EQUIAFFINE_IO_COLOR_MAP_H
 
+#include <equiaffine/base/quantile.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/io/internal/oklab.h>
 
@@ -53,27 +54,6 @@ constexpr std::string_view to_string(Color_scale scale) {
   case Color_scale::LINEAR: break;
   }
   return "linear";
-}
-
-/// The `percent`-quantile of the numbers, linear between order statistics; reorders `values`, which must not be empty.
-inline double quantile(std::vector<double>& values, double percent) {
-  CGAL_precondition(!values.empty() && percent >= 0 && percent <= 100);
-  const double rank = percent / 100 * double(values.size() - 1);
-  const auto below = static_cast<std::size_t>(rank);
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(below);
-  std::nth_element(values.begin(), nth, values.end());
-  if (below + 1 == values.size()) return *nth;
-  const double next = *std::min_element(nth + 1, values.end());
-  return *nth + (rank - double(below)) * (next - *nth);
-}
-
-/// The same of ascending numbers.
-inline double quantile_of_sorted(const std::vector<double>& sorted, double percent) {
-  CGAL_precondition(!sorted.empty() && percent >= 0 && percent <= 100);
-  const double rank = percent / 100 * double(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(rank);
-  if (below + 1 == sorted.size()) return sorted[below];
-  return sorted[below] + (rank - double(below)) * (sorted[below + 1] - sorted[below]);
 }
 
 /// The absolute values of ascending numbers, ascending.

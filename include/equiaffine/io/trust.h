@@ -20,13 +20,6 @@
 
 namespace equiaffine {
 
-/// Returns the column of that name, or null.
-inline const Vertex_attributes::Column* find_column(const Vertex_attributes& attributes, std::string_view name) {
-  for (const auto& column : attributes.columns)
-    if (column.name == name) return &column;
-  return nullptr;
-}
-
 inline const Vertex_attributes::Column* find_errors(const Vertex_attributes& attributes, const std::string& name) {
   return find_column(attributes, name + "_error");
 }

@@ -68,9 +68,8 @@ void write_OFF(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh
 template <class Kernel>
 void write_OBJ(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh,
                const Vertex_attributes& attributes = {}) {
-  const std::array<const Vertex_attributes::Column*, 3> normal = {internal::find_column(attributes, "nx"),
-                                                                  internal::find_column(attributes, "ny"),
-                                                                  internal::find_column(attributes, "nz")};
+  const std::array<const Vertex_attributes::Column*, 3> normal = {
+      find_column(attributes, "nx"), find_column(attributes, "ny"), find_column(attributes, "nz")};
   const bool has_normals = normal[0] && normal[1] && normal[2];
   internal::Buffered_output out(stream);
   for (const auto& p : mesh.points) internal::write_line(out, "v ", internal::coordinates(p));

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace equiaffine {
@@ -39,6 +40,13 @@ struct Vertex_attributes {
            std::all_of(columns.begin(), columns.end(), [&](const Column& c) { return c.values.size() == size; });
   }
 };
+
+/// Returns the column of that name, or null.
+inline const Vertex_attributes::Column* find_column(const Vertex_attributes& attributes, std::string_view name) {
+  for (const auto& column : attributes.columns)
+    if (column.name == name) return &column;
+  return nullptr;
+}
 
 } // namespace equiaffine
 

@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_BAND_3_H
 #define EQUIAFFINE_FIT_INTERNAL_BAND_3_H
 
+#include <equiaffine/fit/internal/Ball_tree_3.h>
 #include <equiaffine/fit/internal/Border_gap_3.h>
 #include <equiaffine/fit/internal/Charts_3.h>
 #include <equiaffine/fit/internal/Normalization_3.h>
-#include <equiaffine/fit/internal/Point_tree_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <Eigen/Core>
@@ -152,7 +152,7 @@ private:
   }
 
   struct Foot {
-    Point_tree_3::Index index;
+    Data_points_3::Index index;
     double distance;
   };
 

@@ -59,13 +59,6 @@ inline std::array<double, 3> unit_normal(const std::array<std::array<double, 3>,
   return normal;
 }
 
-/// The column of that name, or nothing.
-inline const Vertex_attributes::Column* find_column(const Vertex_attributes& attributes, std::string_view name) {
-  for (const auto& column : attributes.columns)
-    if (column.name == name) return &column;
-  return nullptr;
-}
-
 } // namespace equiaffine::internal
 
 #endif

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_IO_INTERNAL_PAGE_COLUMNS_H
 
 #include <equiaffine/attributes/quantities.h>
+#include <equiaffine/base/quantile.h>
 #include <equiaffine/io/Color_mapping.h>
 #include <equiaffine/io/Column_numbers.h>
 #include <equiaffine/io/Html_options.h>

@@ -2,10 +2,11 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_FRAMED_SURFACE_3_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_FRAMED_SURFACE_3_H
 
+#include <equiaffine/base/Point_tree.h>
 #include <equiaffine/base/parallel_for.h>
+#include <equiaffine/base/quantile.h>
 #include <equiaffine/registration/internal/Framed_function_3.h>
 #include <equiaffine/registration/internal/Framed_point_3.h>
-#include <equiaffine/registration/internal/Nearest_points.h>
 #include <equiaffine/registration/internal/random_elements.h>
 
 #include <Eigen/Core>
@@ -42,10 +43,10 @@ struct Framed_surface_3 {
   double noise = 0;  ///< the median distance of the given points from the zero set of `refinement`, beside `size`
   double chance = 0; ///< see chance_of_nearness
   std::array<std::vector<std::size_t>, 2> usable = {}; ///< points with good frames: hyperbolic ones, elliptic ones
-  std::array<Nearest_points<5>, 2> trees = {};         ///< of their invariants
-  Nearest_points<3> tree = {};                         ///< of all points
+  std::array<Point_tree<5>, 2> trees = {};             ///< of their invariants
+  Point_tree<3> tree = {};                             ///< of all points
 
-  const Nearest_points<5>& tree_of(const Framed_point_3& p) const { return trees[p.is_elliptic]; }
+  const Point_tree<5>& tree_of(const Framed_point_3& p) const { return trees[p.is_elliptic]; }
 };
 
 /// Points with a frame of less quality are not matched, unless almost all points are such, as those of an ellipsoid that
@@ -77,12 +78,6 @@ std::vector<Eigen::Vector3d> moved_to_surface(const Framed_function_3& surface, 
   return points;
 }
 
-inline double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// The median distance of points from a surface, or 0 if it is not defined at any.
 template <class ConcurrencyTag>
 double median_distance(const Framed_function_3& surface, const std::vector<Eigen::Vector3d>& points) {
@@ -90,17 +85,17 @@ double median_distance(const Framed_function_3& surface, const std::vector<Eigen
   parallel_for<ConcurrencyTag>(
       0, points.size(), [&](std::size_t i) { distances[i] = std::abs(surface.distance(points[i]).distance); }, 32);
   std::erase_if(distances, [](double d) { return !std::isfinite(d); });
-  return distances.empty() ? 0 : median(std::move(distances));
+  return distances.empty() ? 0 : median_of(std::move(distances));
 }
 
 /// 3/2 of the median distance of points from the nearest other one.
 inline double typical_spacing(const Framed_surface_3& surface) {
   std::vector<double> distances;
   for (const Framed_point_3& p : surface.points) {
-    const auto nearest = surface.tree(p.point, 2);
+    const auto nearest = surface.tree.neighbors(p.point, 2);
     if (nearest.size() == 2) distances.push_back(nearest[1].distance);
   }
-  return distances.empty() ? 0 : 1.5 * median(std::move(distances));
+  return distances.empty() ? 0 : 1.5 * median_of(std::move(distances));
 }
 
 /// A random point of the box around points is nearer to the surface than t `size` with the probability of this times t,
@@ -144,10 +139,10 @@ inline void build_trees(Framed_surface_3& surface, Map_kind kind) {
     all.push_back(i);
     if (p.quality > quality) surface.usable[p.is_elliptic].push_back(i);
   }
-  surface.tree = Nearest_points<3>(all, [&](std::size_t i) { return surface.points[i].point; });
+  surface.tree = Point_tree<3>(all, [&](std::size_t i) { return surface.points[i].point; });
   for (std::size_t k = 0; k < 2; ++k)
     surface.trees[k] =
-        Nearest_points<5>(surface.usable[k], [&](std::size_t i) { return kept_invariants(surface.points[i], kind); });
+        Point_tree<5>(surface.usable[k], [&](std::size_t i) { return kept_invariants(surface.points[i], kind); });
 }
 
 /// Computes the frames of the points, of a random subset if there are very many.

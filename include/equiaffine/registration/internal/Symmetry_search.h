@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_SYMMETRY_SEARCH_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_SYMMETRY_SEARCH_H
 
+#include <equiaffine/base/quantile.h>
 #include <equiaffine/registration/internal/Framed_surface_3.h>
 #include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/Whitening.h>
@@ -71,7 +72,7 @@ private:
     for (const Eigen::Vector3d& p : surface_.probes) distances.push_back(whitening(p).norm());
     const auto points = points_to_try<ConcurrencyTag>(surface_, kind_, 200);
     std::vector<std::size_t> chosen;
-    add_different(points, inner_points, median(distances), whitening, chosen);
+    add_different(points, inner_points, median_of(distances), whitening, chosen);
     add_different(points, 2 * inner_points, std::numeric_limits<double>::infinity(), whitening, chosen);
     return chosen;
   }

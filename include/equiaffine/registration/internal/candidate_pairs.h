@@ -55,7 +55,7 @@ inline std::vector<Candidate_pair> pairs_of_point(const Framed_surface_3& source
                                                   std::size_t i, Map_kind kind, const Candidate_limits& limits) {
   const Framed_point_3& p = source.points[i];
   std::vector<Candidate_pair> pairs;
-  for (const auto& [j, distance] : target.tree_of(p)(kept_invariants(p, kind), limits.neighbors)) {
+  for (const auto& [j, distance] : target.tree_of(p).neighbors(kept_invariants(p, kind), limits.neighbors)) {
     const double cost = cost_of_pair(target, p, target.points[j], kind, limits.greatest_mismatch);
     if (std::isfinite(cost)) pairs.push_back({i, j, cost});
   }

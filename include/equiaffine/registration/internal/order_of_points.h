@@ -5,6 +5,7 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_ORDER_OF_POINTS_H
 
 #include <equiaffine/base/parallel_for.h>
+#include <equiaffine/base/quantile.h>
 #include <equiaffine/base/random_subset.h>
 #include <equiaffine/registration/internal/Framed_surface_3.h>
 
@@ -38,7 +39,7 @@ inline double steepness(const Framed_surface_3& surface, const Framed_point_3& p
 /// The distance to the eighth nearest of all invariants, beside the change over two spacings: less than 1 if other
 /// parts of the surface have these invariants, too, and 0 if the points are as symmetric as the surface.
 inline double rarity(const Framed_surface_3& surface, const Framed_point_3& p, Map_kind kind) {
-  const auto nearest = surface.tree_of(p)(kept_invariants(p, kind), 8);
+  const auto nearest = surface.tree_of(p).neighbors(kept_invariants(p, kind), 8);
   const double change = kept_gradient(p, kind).norm() * 2 * surface.spacing / tangent_length(p);
   return std::min(1.0, nearest.back().distance / (change + 1e-12));
 }
@@ -47,7 +48,7 @@ inline double rarity(const Framed_surface_3& surface, const Framed_point_3& p, M
 inline double disagreement(const Framed_surface_3& surface, const Framed_point_3& p, Map_kind kind) {
   constexpr std::size_t neighbors = 6;
   double sum = 0;
-  for (const auto& [index, distance] : surface.tree(p.point, neighbors + 1)) {
+  for (const auto& [index, distance] : surface.tree.neighbors(p.point, neighbors + 1)) {
     const Framed_point_3& q = surface.points[index];
     const bool is_alike = q.has_frame() && q.is_elliptic == p.is_elliptic;
     sum += is_alike ? mismatch(kept_gradient(p, kind), kept_gradient(q, kind)) : 1;
@@ -72,7 +73,7 @@ std::vector<double> weights_of_points(const Framed_surface_3& surface, Map_kind 
         16);
     std::vector<double> of_kind;
     for (const std::size_t i : usable) of_kind.push_back(slopes[i]);
-    const double typical = median(of_kind);
+    const double typical = median_of(of_kind);
     for (const std::size_t i : usable) weights[i] *= typical > 0 ? std::min(1.0, slopes[i] / typical) : 0;
   }
   return weights;

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_REFINE_MAP_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_REFINE_MAP_H
 
+#include <equiaffine/base/quantile.h>
 #include <equiaffine/registration/internal/map_distances.h>
 #include <equiaffine/registration/internal/order_of_points.h>
 
@@ -101,7 +102,7 @@ inline double median_distance(const std::vector<Mapped_point>& a, const std::vec
   for (const auto* points : {&a, &b})
     for (const Mapped_point& p : *points)
       if (std::abs(p.to_other.distance) < tolerance) distances.push_back(std::abs(p.to_other.distance));
-  return distances.empty() ? 0 : median(distances);
+  return distances.empty() ? 0 : median_of(distances);
 }
 
 /// How a map is refined.

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_NOISE_MEASUREMENT_H
 #define EQUIAFFINE_VOLUME_INTERNAL_NOISE_MEASUREMENT_H
 
+#include <equiaffine/base/quantile.h>
 #include <equiaffine/volume/Volume_3.h>
 
 #include <algorithm>
@@ -19,9 +20,8 @@ namespace equiaffine::internal {
 inline double quantile_of_magnitudes(std::vector<double> values, double fraction) {
   if (values.empty()) return 0;
   for (double& x : values) x = std::abs(x);
-  const auto place = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
+  const auto n = std::size_t(fraction * double(values.size() - 1));
+  return nth_smallest(std::move(values), n);
 }
 
 inline double median_magnitude(std::vector<double> values) { return quantile_of_magnitudes(std::move(values), 0.5); }
