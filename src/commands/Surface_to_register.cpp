@@ -3,8 +3,8 @@
 
 #include "commands/extract_surface.h"
 #include "commands/fail_without_surface.h"
+#include "source/any_level_set.h"
 #include "source/source.h"
-#include <equiaffine/Level_set_traits_3.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -18,23 +18,14 @@ namespace equiaffine {
 
 namespace {
 
-Any_function_3 level_set(const Source_function& function, double isovalue) {
-  return std::visit([&](const auto& f) { return Any_function_3::make(Level_set_traits_3(f, isovalue)); }, function);
-}
-
 Indexed_triangle_mesh_3<Kernel> extract(const Source_function& function, const Surface_options& options,
                                         Progress& progress) {
   progress.begin("extracting the surface");
-  return std::visit(
-      [&](const auto& f) -> Indexed_triangle_mesh_3<Kernel> {
-        auto surface =
-            extract_surface(Level_set_traits_3(f, options.isovalue), options.source, Vertex_position::PROJECTED);
-        if (surface.triangles.empty() && (options.source.kind != Source_kind::FIT || options.isovalue != 0))
-          fail_without_surface(f, options.source, options.isovalue,
-                               {"box", "a finer --resolution", surface.repairs.vertices_at_poles > 0});
-        return surface;
-      },
-      function);
+  auto surface = extract_surface(function, options.isovalue, options.source, Vertex_position::PROJECTED);
+  if (surface.triangles.empty() && (options.source.kind != Source_kind::FIT || options.isovalue != 0))
+    fail_without_surface(function, options.source, options.isovalue,
+                         {"box", "a finer --resolution", surface.repairs.vertices_at_poles > 0});
+  return surface;
 }
 
 /// Throws the error that says so if no point of the data is in the box.
@@ -42,11 +33,7 @@ void check_box(const Source_function& function, const std::vector<Kernel::Point_
                const Surface_options& options) {
   const CGAL::Bbox_3 box = std::visit([](const auto& f) { return f.bbox(); }, function);
   if (std::any_of(points.begin(), points.end(), [&](const auto& p) { return CGAL::do_overlap(box, p.bbox()); })) return;
-  std::visit(
-      [&](const auto& f) {
-        fail_without_surface(f, options.source, options.isovalue, {"box", "", false});
-      },
-      function);
+  fail_without_surface(function, options.source, options.isovalue, {"box", "", false});
 }
 
 } // namespace
@@ -59,12 +46,12 @@ bool is_mesh_itself(const Surface_options& options) {
 
 Surface_to_register make_surface_to_register(const Surface_options& options, bool is_shown, Progress& progress) {
   Source source = make_source(options.source, progress);
-  Surface_to_register surface{.function = level_set(source.function, options.isovalue),
+  Surface_to_register surface{.function = any_level_set(source.function, options.isovalue),
                               .mesh = std::move(source.data),
                               .scale = source.fit ? source.fit->scale() : std::nullopt};
   if (options.source.transformation)
     for (Kernel::Point_3& p : surface.mesh.points) p = (*options.source.transformation)(p);
-  if (source.unsmoothed) surface.unsmoothed = level_set(*source.unsmoothed, options.isovalue);
+  if (source.unsmoothed) surface.unsmoothed = any_level_set(*source.unsmoothed, options.isovalue);
   const bool has_data = !surface.mesh.points.empty() && options.isovalue == 0; // the data lie on f = 0
   if (has_data) check_box(source.function, surface.mesh.points, options);
   else surface.mesh = extract(source.function, options, progress);

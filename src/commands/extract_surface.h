@@ -2,20 +2,16 @@
 #ifndef EQUIAFFINE_SRC_COMMANDS_EXTRACT_SURFACE_H
 #define EQUIAFFINE_SRC_COMMANDS_EXTRACT_SURFACE_H
 
-#include "engine/Engine.h"
 #include "request/options.h"
-#include "source/source.h"
-#include <equiaffine/Level_set_traits_3.h>
+#include "source/source_function.h"
+#include <equiaffine/marching_cubes/Vertex_position.h>
+#include <equiaffine/surface/Isosurface_3.h>
 
 namespace equiaffine {
 
-/// Marching Cubes on the grid of a source, with all threads.
-template <class Traits>
-Isosurface_3<Kernel> extract_surface(const Level_set_traits_3<Traits>& function, const Source_options& options,
-                                     Vertex_position vertices) {
-  return engine<Traits>().marching_cubes(function, options.resolution.value_or(default_resolution(options.kind)),
-                                         vertices);
-}
+/// Marching Cubes on the grid of a source, with all threads and vector instructions.
+Isosurface_3<Kernel> extract_surface(const Source_function& function, double isovalue, const Source_options& options,
+                                     Vertex_position vertices);
 
 } // namespace equiaffine
 

@@ -8,6 +8,7 @@
 #include "commands/remesh_fit.h"
 #include "commands/remove_crumbs.h"
 #include "engine/Engine.h"
+#include "source/any_level_set.h"
 #include "system/forewarn.h"
 #include "system/resources.h"
 #include <equiaffine/Input_error.h>
@@ -27,26 +28,28 @@ namespace {
 
 constexpr const char* extracting = "extracting the surface";
 
-/// Samples the surface; annotated_surface() adds attributes.
-template <class Traits>
-Annotated_surface sample(const Traits& function, const Mesh_options& options, const Marching_cubes_options& method,
-                         Progress& progress) {
+/// Samples the surface; annotated_surface() adds attributes. The mesh is made from f whatever the orientation is, which
+/// then only decides to which side triangles are turned.
+Annotated_surface sample(const Source_function& function, const Mesh_options& options,
+                         const Marching_cubes_options& method, Progress& progress) {
+  const auto extract = [&](const Source_options& source) {
+    return extract_surface(function, options.isovalue, source, method.vertices);
+  };
   if (options.source.derivatives == Derivatives::JETS) // splines have the grid of their samples
-    forewarn_of_grid(extracting, options.source, progress,
-                     [&](const Source_options& coarse) { extract_surface(function, coarse, method.vertices); });
+    forewarn_of_grid(extracting, options.source, progress, extract);
   progress.begin(extracting);
   Annotated_surface surface;
-  surface.mesh = extract_surface(function, options.source, method.vertices);
+  surface.mesh = extract(options.source);
   if (surface.mesh.triangles.empty())
-    fail_without_surface(function.base(), options.source, options.isovalue,
+    fail_without_surface(function, options.source, options.isovalue,
                          {"box", "a finer --resolution", surface.mesh.repairs.vertices_at_poles > 0});
   return surface;
 }
 
-template <class Traits>
-Annotated_surface sample(const Traits& function, const Mesh_options& options, const Delaunay_options& method,
+Annotated_surface sample(const Source_function& function, const Mesh_options& options, const Delaunay_options& method,
                          Progress& progress) {
-  const CGAL::Bbox_3 box = function.bbox();
+  const Any_function_3 level_set = any_level_set(function, options.isovalue);
+  const CGAL::Bbox_3 box = level_set.bbox();
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
   check_box_of_delaunay_surface(box, diagonal);
   Delaunay_criteria criteria = {method.angle, method.radius, method.distance};
@@ -60,15 +63,15 @@ Annotated_surface sample(const Traits& function, const Mesh_options& options, co
   forewarn(extracting, "a larger --radius or --distance", fineness, false, progress, [&](double coarse) {
     const double factor = fineness / coarse, radius = std::min(factor * criteria.radius, diagonal),
                  distance = std::min(factor * factor * criteria.distance, diagonal);
-    delaunay_surface(function, {criteria.angle, radius, distance}, parameters);
+    delaunay_surface(level_set, {criteria.angle, radius, distance}, parameters);
   });
   progress.begin(extracting);
-  auto mesh = options.curves ? delaunay_surface(function, criteria, parameters.parabolic_features())
-                             : delaunay_surface(function, criteria, parameters);
+  auto mesh = options.curves ? delaunay_surface(level_set, criteria, parameters.parabolic_features())
+                             : delaunay_surface(level_set, criteria, parameters);
   if (mesh.triangles.empty())
-    fail_without_surface(function.base(), options.source, options.isovalue,
+    fail_without_surface(function, options.source, options.isovalue,
                          {method.clips_to_ball ? "ball" : "box", mesh.is_certified ? "" : "a smaller --radius",
-                          changes_sign_at_poles_only(function)});
+                          changes_sign_at_poles_only(level_set)});
   Annotated_surface surface;
   surface.completeness = {mesh.is_certified, std::move(mesh.undecided_boxes)};
   if (options.curves) surface.curves = std::move(mesh.parabolic_curves);
@@ -94,8 +97,8 @@ Remesh remesh_of_source(Source& source, const Mesh_options& options, Progress& p
 }
 
 /// Samples the surface by the method that was asked for, if it is no remesh.
-template <class Traits>
-Annotated_surface sample(const Traits& function, const Mesh_options& options, Remesh remesh, Progress& progress) {
+Annotated_surface sample(const Source_function& function, const Mesh_options& options, Remesh remesh,
+                         Progress& progress) {
   if (remesh.fit) {
     Annotated_surface surface;
     surface.mesh = std::move(remesh.fit->mesh);
@@ -110,18 +113,28 @@ Annotated_surface sample(const Traits& function, const Mesh_options& options, Re
   return surface;
 }
 
-/// Samples the surface and computes its attributes. `function` is the one in `source`, with its own type.
+/// Computes distances from the surface, and the attributes that files have; the statistics count the status in any case.
 template <class Traits>
-Annotated_surface annotated_surface(const Traits& function, const Source& source, const Mesh_options& options,
-                                    Remesh remesh, Progress& progress) {
-  // The mesh is made from f whatever the orientation is, which then only decides to which side triangles are turned.
-  const Level_set_traits_3<Traits> extracted(function, options.isovalue);
+void add_attributes(const Traits& function, const Mesh_options& options, Annotated_surface& surface) {
   const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
-  Annotated_surface surface = sample(extracted, options, std::move(remesh), progress);
+  const auto& points = surface.mesh.points;
+  const auto& status = surface.mesh.vertex_status;
+  surface.max_distance = engine<Traits>().max_distance_to_surface(level_set, points, status);
+  Attribute_selection selection = options.attributes;
+  selection.has_status = true;
+  surface.attributes = engine<Traits>().compute_attributes(
+      {function, options.orientation, points, selection, options.estimator, status});
+  surface.mesh.function_evaluations += 3 * points.size();
+}
+
+/// Samples the surface and computes its attributes.
+Annotated_surface annotated_surface(const Source& source, const Mesh_options& options, Remesh remesh,
+                                    Progress& progress) {
+  Annotated_surface surface = sample(source.function, options, std::move(remesh), progress);
   if (source.fit && !surface.remesh) {
     remove_crumbs(surface.mesh, *source.fit, options.source);
     if (surface.mesh.triangles.empty())
-      fail_without_surface(function, options.source, options.isovalue, {"box", "a finer --resolution", false});
+      fail_without_surface(source.function, options.source, options.isovalue, {"box", "a finer --resolution", false});
     if (std::holds_alternative<Marching_cubes_options>(options.method))
       surface.close_sheets = close_sheets(*source.fit, options.source);
   }
@@ -129,14 +142,7 @@ Annotated_surface annotated_surface(const Traits& function, const Source& source
     for (auto& triangle : surface.mesh.triangles) std::swap(triangle[1], triangle[2]);
   const Stopwatch stopwatch;
   progress.begin("computing attributes");
-  surface.max_distance =
-      engine<Traits>().max_distance_to_surface(level_set, surface.mesh.points, surface.mesh.vertex_status);
-  surface.mesh.function_evaluations += 2 * surface.mesh.points.size();
-  Attribute_selection selection = options.attributes;
-  selection.has_status = true; // even if it is not written: the statistics count it
-  surface.attributes = engine<Traits>().compute_attributes(
-      {function, options.orientation, surface.mesh.points, selection, options.estimator, surface.mesh.vertex_status});
-  surface.mesh.function_evaluations += surface.mesh.points.size();
+  std::visit([&](const auto& function) { add_attributes(function, options, surface); }, source.function);
   surface.status = count(*surface.attributes.status);
   surface.estimates = estimates_at(source, options.source, surface.mesh.points, progress);
   add_estimates(surface.estimates, options.estimates, surface.attributes);
@@ -146,7 +152,8 @@ Annotated_surface annotated_surface(const Traits& function, const Source& source
   surface.annotation_seconds = stopwatch.seconds();
   if (options.curves && !surface.curves) {
     progress.begin("finding parabolic curves");
-    surface.curves = parabolic_curves<CGAL::Parallel_if_available_tag>(surface.mesh, level_set);
+    surface.curves = parabolic_curves<CGAL::Parallel_if_available_tag>(
+        surface.mesh, any_level_set(source.function, options.isovalue, options.orientation));
   }
   return surface;
 }
@@ -158,9 +165,7 @@ Made_surface make_surface(const Mesh_options& options, Progress& progress) {
   Source source = make_source(options.source, progress);
   const double seconds = stopwatch.seconds();
   Remesh remesh = remesh_of_source(source, options, progress);
-  Annotated_surface surface = std::visit(
-      [&](const auto& function) { return annotated_surface(function, source, options, std::move(remesh), progress); },
-      source.function);
+  Annotated_surface surface = annotated_surface(source, options, std::move(remesh), progress);
   return {std::move(source), std::move(surface), seconds};
 }
 
