@@ -3,6 +3,7 @@
 
 #include "commands/maps_view.h"
 #include "source/read_triangle_mesh.h"
+#include <equiaffine/Fitted_function_traits_3.h>
 #include <equiaffine/Input_error.h>
 #include <equiaffine/attributes/error_table.h>
 #include <equiaffine/base/random_subset.h>
@@ -46,7 +47,7 @@ double greatest_distance(const std::vector<double>& distances, const std::vector
 }
 
 template <class Parameters>
-Fit_remesh_report remesh(Mesh& mesh, const Fit_traits& fit, const Parameters& parameters) try {
+Fit_remesh_report remesh(Mesh& mesh, const Fit_traits::Fit& fit, const Parameters& parameters) try {
   return remesh_on_fit<CGAL::Parallel_if_available_tag>(mesh, fit, parameters);
 } catch (const std::invalid_argument& error) {
   throw Input_error(std::string("a remesh of the data: ") + error.what());
@@ -57,7 +58,7 @@ Remeshed_fit remeshed(const Source& source, const Source_options& options, const
   Mesh mesh = mesh_of_data(source.data, options);
   const auto outcome = mesh.add_property_map<Mesh::Vertex_index, Fit_outcome>("v:outcome").first;
   Remeshed_fit result;
-  static_cast<Fit_remesh_report&>(result.statistics) = remesh(mesh, *source.fit,
+  static_cast<Fit_remesh_report&>(result.statistics) = remesh(mesh, source.fit->fit(),
                                                               parameters::vertex_outcome_map(outcome)
                                                                   .target_edge_length(how.edge_length)
                                                                   .feature_angle(options.fit.feature_angle));

@@ -4,8 +4,6 @@
 #include "source/source.h"
 #include <equiaffine/base/quantile.h>
 
-#include <CGAL/tags.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -20,7 +18,7 @@ Close_sheets close_sheets(const Fit_traits& fit, const Source_options& options) 
   const Lattice_3<Kernel> lattice(options.resolution.value_or(default_resolution(options.kind)), fit.bbox());
   double step = 0;
   for (const auto& s : lattice.steps()) step = std::max(step, std::sqrt(s.squared_length()));
-  std::vector<double> distances = fit.distances_of_sheets<CGAL::Parallel_if_available_tag>(step);
+  std::vector<double> distances = fit.distances_of_sheets(step);
   if (distances.empty()) return {0, std::numeric_limits<double>::quiet_NaN(), 0};
   const std::size_t count = distances.size();
   const double tenth = nth_smallest(std::move(distances), count / 10);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/fit_vertices.h"
 
+#include <equiaffine/Fitted_function_traits_3.h>
 #include <equiaffine/Input_error.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/fit/part_with_opposed_normals.h>
-#include <equiaffine/io/trust.h>
 
 #include <CGAL/property_map.h>
 #include <CGAL/tags.h>
@@ -66,8 +66,9 @@ double part_with_opposed_normals(const Annotated_mesh_3<Kernel>& mesh) {
 }
 
 Fit_traits blend_vertices(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options) {
-  return fit_with_parameters(
-      mesh, options, [](const auto& parameters, const auto&... data) { return Fit_traits(data..., parameters); });
+  return fit_with_parameters(mesh, options, [](const auto& parameters, const auto&... data) {
+    return Fit_traits(Fit_traits::Fit(data..., parameters));
+  });
 }
 
 } // namespace equiaffine

@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_SRC_SOURCE_SOURCE_FUNCTION_H
 #define EQUIAFFINE_SRC_SOURCE_SOURCE_FUNCTION_H
 
+#include "source/Fit_traits.h"
 #include "system/kernel.h"
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
-#include <equiaffine/Fitted_function_traits_3.h>
 #include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
 
@@ -16,8 +16,6 @@ namespace equiaffine {
 
 using Formula_traits = Analytic_function_traits_3<Kernel, Expression_3>;
 using Spline_traits = Sampled_function_traits_3<Kernel>;
-
-using Fit_traits = Fitted_function_traits_3<Kernel>;
 
 /// A source under the map of --transform, which is the identity if there is none.
 using Formula_function = Transformed_function_traits_3<Formula_traits>;
