@@ -126,7 +126,6 @@ Mesh_options read_mesh_options(Option_reader& reader) {
   Mesh_options options;
   options.source = std::move(draft.source);
   options.source.spline.isovalue = draft.isovalue;
-  options.source.height_of_fit = 2 * draft.delaunay.radius;
   options.isovalue = draft.isovalue;
   options.orientation = draft.orientation;
   if (draft.method == Mesh_method::DELAUNAY) options.method = draft.delaunay;

@@ -46,19 +46,16 @@ Description make_description(const Annotate_options& options, const Annotation_s
   return description;
 }
 
-/// The output files of the command. The constructor throws if one of them cannot be written.
-struct Outputs {
-  explicit Outputs(const Annotate_options& options) {
-    check_vertices_output(options.output);
-    check_display_outputs(options.display);
-    if (options.stats) check_statistics_output(*options.stats);
-    files.emplace_back(options.output);
-    for (const auto& output : {options.display.html, options.display.png, options.stats})
-      if (output) files.emplace_back(*output);
-  }
-
-  std::vector<Output_file> files; // the vertices, then those of page, picture, statistics that were asked for
-};
+Outputs outputs_of(const Annotate_options& options) {
+  check_vertices_output(options.output);
+  check_display_outputs(options.display);
+  if (options.stats) check_statistics_output(*options.stats);
+  Outputs outputs;
+  outputs.add(Output_kind::RESULT, options.output);
+  outputs.add_displays(options.display);
+  outputs.add(Output_kind::STATISTICS, options.stats);
+  return outputs;
+}
 
 void check_has_faces(const Annotate_options& options, const std::string& name,
                      const Indexed_triangle_mesh_3<Kernel>& mesh) {
@@ -70,7 +67,7 @@ void check_has_faces(const Annotate_options& options, const std::string& name,
 } // namespace
 
 void run_annotate(const Annotate_options& options, std::ostream& out, Progress& progress) {
-  Outputs outputs(options);
+  Outputs outputs = outputs_of(options);
   progress.begin("reading the vertices");
   const std::string name = options.mesh == "-" ? "standard input" : name_of_file(options.mesh);
   const Point_table_3<Kernel> table = read_vertices(options.mesh);
@@ -88,22 +85,21 @@ void run_annotate(const Annotate_options& options, std::ostream& out, Progress& 
 
   const Stopwatch write_stopwatch;
   progress.begin("writing");
-  auto file = outputs.files.begin();
-  write_vertices(*file++, table, attributes);
+  write_vertices(outputs[Output_kind::RESULT], table, attributes);
   add_errors(estimates, attributes);
-  file = write_displays(file, table.mesh, attributes, options.display,
-                        {page_title(options.output, name) + label_suffix(fit),
-                         make_description(options, statistics, fit), notes_of(fit), label_suffix(fit)});
-  for (Output_file& output : outputs.files) output.close();
+  write_displays(outputs, table.mesh, attributes, options.display,
+                 {page_title(options.output, name) + label_suffix(fit), make_description(options, statistics, fit),
+                  notes_of(fit), label_suffix(fit)});
+  outputs.close();
   statistics.write_seconds = write_stopwatch.seconds();
-  if (options.stats) file->stream() << to_JSON(statistics);
+  if (Output_file* const file = outputs.find(Output_kind::STATISTICS)) file->stream() << to_JSON(statistics);
   progress.end();
-  commit_all(outputs.files);
+  outputs.commit();
   warn_of_opposed_normals(table, progress);
   warn_of_doubt(statistics.fit, options.fit, has_affine_curvatures(options.attributes, options.estimates), progress);
-  if (use_standard_output(outputs.files)) return;
+  if (outputs.use_standard_output()) return;
   out << summary(statistics);
-  report_written(out, outputs.files);
+  outputs.report(out);
 }
 
 } // namespace equiaffine

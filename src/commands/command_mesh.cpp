@@ -81,25 +81,23 @@ std::string summary(const Parabolic_curves_3<Kernel>& curves) {
   return text + '\n';
 }
 
-/// The output files of the command. The constructor throws if one of them cannot be written.
-struct Outputs {
-  explicit Outputs(const Mesh_options& options) {
-    check_surface_output(options.output);
-    check_display_outputs(options.display);
-    if (options.curves) check_curves_output(*options.curves);
-    if (options.stats) check_statistics_output(*options.stats);
-    files.emplace_back(options.output);
-    for (const auto& output : {options.display.html, options.display.png, options.curves, options.stats})
-      if (output) files.emplace_back(*output);
-  }
-
-  std::vector<Output_file> files; // the mesh, then those of page, picture, curves, statistics that were asked for
-};
+Outputs outputs_of(const Mesh_options& options) {
+  check_surface_output(options.output);
+  check_display_outputs(options.display);
+  if (options.curves) check_curves_output(*options.curves);
+  if (options.stats) check_statistics_output(*options.stats);
+  Outputs outputs;
+  outputs.add(Output_kind::RESULT, options.output);
+  outputs.add_displays(options.display);
+  outputs.add(Output_kind::CURVES, options.curves);
+  outputs.add(Output_kind::STATISTICS, options.stats);
+  return outputs;
+}
 
 } // namespace
 
 void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress) {
-  Outputs outputs(options);
+  Outputs outputs = outputs_of(options);
   if (options.source.derivatives == Derivatives::JETS && std::holds_alternative<Marching_cubes_options>(options.method))
     check_memory_of_surface(options.source.resolution.value_or(default_resolution(options.source.kind)),
                             options.source.memory_use);
@@ -111,19 +109,18 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   statistics.sample_seconds += source_seconds;
   const Description fit = statistics.fit ? description_of(*statistics.fit) : Description();
   if (statistics.fit && !surface.attributes.columns.empty()) surface.attributes.comments = comments_of(*statistics.fit);
-  auto file = outputs.files.begin();
-  write_surface(*file++, surface.mesh, surface.attributes);
+  write_surface(outputs[Output_kind::RESULT], surface.mesh, surface.attributes);
   if (options.source.estimates_errors) add_errors(surface.estimates, surface.attributes);
-  file = write_displays(file, surface.mesh, surface.attributes, options.display,
-                        {page_title(options.output, statistics.source) + label_suffix(fit),
-                         make_description(options, statistics, fit), notes_of(fit), label_suffix(fit)},
-                        surface.curves ? surface.curves->polylines : std::vector<Polyline_3<Kernel>>());
-  if (options.curves) write_curves(*file++, *surface.curves);
-  for (Output_file& output : outputs.files) output.close();
+  write_displays(outputs, surface.mesh, surface.attributes, options.display,
+                 {page_title(options.output, statistics.source) + label_suffix(fit),
+                  make_description(options, statistics, fit), notes_of(fit), label_suffix(fit)},
+                 surface.curves ? surface.curves->polylines : std::vector<Polyline_3<Kernel>>());
+  if (Output_file* const file = outputs.find(Output_kind::CURVES)) write_curves(*file, *surface.curves);
+  outputs.close();
   statistics.write_seconds = write_stopwatch.seconds();
-  if (options.stats) file->stream() << to_JSON(statistics);
+  if (Output_file* const file = outputs.find(Output_kind::STATISTICS)) file->stream() << to_JSON(statistics);
   progress.end();
-  commit_all(outputs.files);
+  outputs.commit();
   if (!options.attributes.columns.empty())
     warn_of_outside(options.source, source, surface.status[std::size_t(Point_status::OUTSIDE)],
                     surface.mesh.points.size(), "vertices", progress);
@@ -133,10 +130,10 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   if (statistics.fit)
     warn_of_doubt(*statistics.fit, options.source.fit, has_affine_curvatures(options.attributes, options.estimates),
                   progress);
-  if (!use_standard_output(outputs.files)) {
+  if (!outputs.use_standard_output()) {
     out << summary(statistics);
     if (options.curves) out << summary(*surface.curves);
-    report_written(out, outputs.files);
+    outputs.report(out);
   }
 }
 

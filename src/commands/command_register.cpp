@@ -17,19 +17,16 @@ namespace equiaffine {
 
 namespace {
 
-/// The output files of the command. The constructor throws if one of them cannot be written.
-struct Outputs {
-  explicit Outputs(const Register_options& options) {
-    check_maps_output(options.output);
-    check_display_outputs(options.display);
-    if (options.moved) check_surface_output(*options.moved);
-    files.emplace_back(options.output);
-    for (const auto& output : {options.display.html, options.display.png, options.moved})
-      if (output) files.emplace_back(*output);
-  }
-
-  std::vector<Output_file> files; // the map, then those of page, picture, moved source that were asked for
-};
+Outputs outputs_of(const Register_options& options) {
+  check_maps_output(options.output);
+  check_display_outputs(options.display);
+  if (options.moved) check_surface_output(*options.moved);
+  Outputs outputs;
+  outputs.add(Output_kind::RESULT, options.output);
+  outputs.add_displays(options.display);
+  outputs.add(Output_kind::MOVED, options.moved);
+  return outputs;
+}
 
 /// The distances of points from the moved source, or the source as it is if there is no map, and from the target.
 std::array<Distances_of_points, 2> distances_from_surfaces(const Found_map& found) {
@@ -43,7 +40,7 @@ std::array<Distances_of_points, 2> distances_from_surfaces(const Found_map& foun
 } // namespace
 
 void run_register(const Register_options& options, std::ostream& out, Progress& progress) {
-  Outputs outputs(options);
+  Outputs outputs = outputs_of(options);
   const bool is_shown = options.display.shows_something();
   const Found_map found = find_map(options, progress);
   const Surface_to_register &source = found.source, &target = found.target;
@@ -58,27 +55,26 @@ void run_register(const Register_options& options, std::ostream& out, Progress& 
   if (!report.registration.found()) report.advice = what_to_try(options, found);
 
   progress.begin("writing");
-  if (options.moved && !report.registration.found()) outputs.files.pop_back();
-  auto file = outputs.files.begin();
-  file++->stream() << to_JSON(report);
+  if (!report.registration.found()) outputs.remove(Output_kind::MOVED);
+  outputs[Output_kind::RESULT].stream() << to_JSON(report);
   if (is_shown) {
     const auto [mesh, attributes] =
         registered_surfaces(source, target, distances_from_surfaces(found), report.registration);
     const Display_options display = display_of(report, options.display);
-    file = write_displays(
-        file, mesh, attributes, display,
+    write_displays(
+        outputs, mesh, attributes, display,
         {page_title(options.output, "Registration"), description_of(report, display), notes_of(report, display)});
   }
-  if (file != outputs.files.end()) {
+  if (Output_file* const file = outputs.find(Output_kind::MOVED)) {
     const auto [mesh, attributes] =
         moved_source(source, distances_from_surfaces(found)[1], report.registration.best().map);
     write_surface(*file, mesh, attributes);
   }
   progress.end();
-  commit_all(outputs.files);
-  if (use_standard_output(outputs.files)) return;
+  outputs.commit();
+  if (outputs.use_standard_output()) return;
   out << summary(report);
-  report_written(out, outputs.files);
+  outputs.report(out);
 }
 
 } // namespace equiaffine

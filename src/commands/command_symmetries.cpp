@@ -98,23 +98,19 @@ Found_symmetries find_symmetries(const Symmetries_options& options, Progress& pr
   return found;
 }
 
-/// The output files of the command. The constructor throws if one of them cannot be written.
-struct Outputs {
-  explicit Outputs(const Symmetries_options& options) {
-    check_maps_output(options.output);
-    check_display_outputs(options.display);
-    files.emplace_back(options.output);
-    for (const auto& output : {options.display.html, options.display.png})
-      if (output) files.emplace_back(*output);
-  }
-
-  std::vector<Output_file> files; // the maps, then those of page and picture that were asked for
-};
+Outputs outputs_of(const Symmetries_options& options) {
+  check_maps_output(options.output);
+  check_display_outputs(options.display);
+  Outputs outputs;
+  outputs.add(Output_kind::RESULT, options.output);
+  outputs.add_displays(options.display);
+  return outputs;
+}
 
 } // namespace
 
 void run_symmetries(const Symmetries_options& options, std::ostream& out, Progress& progress) {
-  Outputs outputs(options);
+  Outputs outputs = outputs_of(options);
   Found_symmetries found = find_symmetries(options, progress);
   Symmetries_report report = {found.name(options.surface.source), found.symmetries, options.is_complete, {}};
   if (!std::isfinite(report.symmetries.maps.front().rms))
@@ -124,8 +120,7 @@ void run_symmetries(const Symmetries_options& options, std::ostream& out, Progre
     report.advice = what_to_try(options, report.symmetries);
 
   progress.begin("writing");
-  auto file = outputs.files.begin();
-  file++->stream() << to_JSON(report);
+  outputs[Output_kind::RESULT].stream() << to_JSON(report);
   if (options.display.shows_something()) {
     const auto [mesh, attributes] = found.shown();
     if (!options.display.arrows.empty() && !vector_columns(attributes, options.display.arrows))
@@ -133,14 +128,14 @@ void run_symmetries(const Symmetries_options& options, std::ostream& out, Progre
                         "'; a continuous symmetry has generator1, and more of them if there are more dimensions");
     const Display_options display = display_of(report, options.display);
     write_displays(
-        file, mesh, attributes, display,
+        outputs, mesh, attributes, display,
         {page_title(options.output, "Symmetries"), description_of(report, display), notes_of(report, display)});
   }
   progress.end();
-  commit_all(outputs.files);
-  if (use_standard_output(outputs.files)) return;
+  outputs.commit();
+  if (outputs.use_standard_output()) return;
   out << summary(report);
-  report_written(out, outputs.files);
+  outputs.report(out);
 }
 
 } // namespace equiaffine

@@ -43,9 +43,8 @@ void check_arrows(const std::string& arrows, const Vertex_attributes& attributes
 
 void run_view(const View_options& options, std::ostream& out) {
   check_display_outputs(options.display);
-  std::vector<Output_file> outputs;
-  for (const auto& path : {options.display.html, options.display.png})
-    if (path) outputs.emplace_back(*path);
+  Outputs outputs;
+  outputs.add_displays(options.display);
   const std::string name = options.mesh == "-" ? "standard input" : name_of_file(options.mesh);
   const Annotated_mesh_3<Kernel> surface = read_mesh(options.mesh);
   if (surface.mesh.triangles.empty())
@@ -59,10 +58,10 @@ void run_view(const View_options& options, std::ostream& out) {
                              {"Triangles", std::to_string(surface.mesh.triangles.size())}};
   description.insert(description.end(), fit.begin(), fit.end());
   write_displays(
-      outputs.begin(), surface.mesh, surface.attributes, options.display,
+      outputs, surface.mesh, surface.attributes, options.display,
       {page_title(options.mesh, "Surface") + label_suffix(fit), description, notes_of(fit), label_suffix(fit)});
-  commit_all(outputs);
-  if (!use_standard_output(outputs)) report_written(out, outputs);
+  outputs.commit();
+  if (!outputs.use_standard_output()) outputs.report(out);
 }
 
 } // namespace equiaffine

@@ -162,7 +162,8 @@ Annotated_surface annotated_surface(const Source& source, const Mesh_options& op
 
 Made_surface make_surface(const Mesh_options& options, Progress& progress) {
   const Stopwatch stopwatch;
-  Source source = make_source(options.source, progress);
+  const auto* const delaunay = std::get_if<Delaunay_options>(&options.method);
+  Source source = make_source(options.source, progress, delaunay ? delaunay->radius : 0);
   const double seconds = stopwatch.seconds();
   Remesh remesh = remesh_of_source(source, options, progress);
   Annotated_surface surface = annotated_surface(source, options, std::move(remesh), progress);

@@ -129,15 +129,13 @@ void check_display_outputs(const Display_options& options) {
     throw Input_error("cannot write '" + *options.png + "': a picture is a PNG file; give it the extension .png");
 }
 
-std::vector<Output_file>::iterator write_displays(std::vector<Output_file>::iterator file,
-                                                  const Indexed_triangle_mesh_3<Kernel>& mesh,
-                                                  const Vertex_attributes& attributes, const Display_options& options,
-                                                  const Surface_texts& texts,
-                                                  [[maybe_unused]] const std::vector<Polyline_3<Kernel>>& curves) {
+void write_displays(Outputs& outputs, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
+                    const Display_options& options, const Surface_texts& texts,
+                    [[maybe_unused]] const std::vector<Polyline_3<Kernel>>& curves) {
   const std::array<double, 3> up = options.up ? *options.up : natural_up(mesh.points);
   std::map<std::string, Color_mapping> mappings;
   if (options.range_of) mappings = shared_mappings(*options.range_of, attributes, options.color);
-  if (options.html) {
+  if (Output_file* const file = outputs.find(Output_kind::PAGE)) {
     Html_options page;
     page.title = texts.title;
     page.range = options.range;
@@ -147,16 +145,15 @@ std::vector<Output_file>::iterator write_displays(std::vector<Output_file>::iter
     page.mappings = mappings;
     page.label_suffix = texts.label_suffix;
     page.description = texts.description;
-    write_HTML(file++->stream(), mesh, attributes, page);
+    write_HTML(file->stream(), mesh, attributes, page);
   }
 #ifdef EQUIAFFINE_WITH_VTK
-  if (options.png) {
+  if (Output_file* const file = outputs.find(Output_kind::PICTURE)) {
     const Surface_view view = {options.color, up,       options.size,       options.range, options.arrows,
                                options.scale, mappings, texts.label_suffix, texts.notes};
-    write_PNG(file++->stream(), draw_surface(mesh, attributes, view, curves));
+    write_PNG(file->stream(), draw_surface(mesh, attributes, view, curves));
   }
 #endif
-  return file;
 }
 
 } // namespace equiaffine

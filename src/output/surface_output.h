@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_SRC_OUTPUT_SURFACE_OUTPUT_H
 #define EQUIAFFINE_SRC_OUTPUT_SURFACE_OUTPUT_H
 
+#include "output/Outputs.h"
 #include "picture/Surface_note.h"
 #include "request/options.h"
 #include "system/atomic_file.h"
@@ -63,13 +64,10 @@ struct Surface_texts {
   std::string label_suffix = {};        ///< what follows the labels of quantities
 };
 
-/// Writes the page and the picture that are asked for to the next files, without committing, and returns the file after
-/// them. The curves are on the picture only.
-std::vector<Output_file>::iterator write_displays(std::vector<Output_file>::iterator file,
-                                                  const Indexed_triangle_mesh_3<Kernel>& mesh,
-                                                  const Vertex_attributes& attributes, const Display_options& options,
-                                                  const Surface_texts& texts,
-                                                  const std::vector<Polyline_3<Kernel>>& curves = {});
+/// Writes the page and the picture that are among the outputs, without committing. The curves are on the picture only.
+void write_displays(Outputs& outputs, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
+                    const Display_options& options, const Surface_texts& texts,
+                    const std::vector<Polyline_3<Kernel>>& curves = {});
 
 } // namespace equiaffine
 

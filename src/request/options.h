@@ -57,7 +57,6 @@ struct Source_options {
   Derivatives derivatives = Derivatives::JETS;
   Spline_options spline;
   Fit_options fit;
-  double height_of_fit = 0;      ///< a fit has values at least this far from its surface
   bool estimates_errors = false; ///< whether the errors of affine curvatures are estimated
   bool is_registered = false;    ///< whether few data are no error, and registration needs an unsmoothed spline, too
   std::optional<Raw_layout> raw; ///< is set for a volume without a header

@@ -77,17 +77,18 @@ CGAL::Bbox_3 widened_box(const Points& points) {
 }
 
 /// The height up to which the function of a fit needs values: Marching Cubes asks for them at the corners of a cell, the
-/// Delaunay mesher at the distance of a radius.
-double height_of_band(const Source_options& options, const CGAL::Bbox_3& box) {
+/// Delaunay mesher at the distance of a radius, which is the default one or `radius`.
+double height_of_band(const Source_options& options, const CGAL::Bbox_3& box, double radius) {
   const Lattice_3<Kernel> lattice(options.resolution.value_or(default_resolution(options.kind)), box);
   const auto [x, y, z] = lattice.steps();
   const double default_radius = std::hypot(box.x_span(), box.y_span(), box.z_span()) / 50;
-  return std::max(options.height_of_fit, 2 * std::max(std::sqrt((x + y + z).squared_length()), default_radius));
+  return 2 * std::max({radius, std::sqrt((x + y + z).squared_length()), default_radius});
 }
 
 /// Fits the vertices of a mesh or points. Nothing is known of too few points, which is an error unless they are
 /// registered: then no map is found.
-Fit_traits make_fit(const Source_options& options, const Point_table_3<Kernel>& table, Progress& progress) {
+Fit_traits make_fit(const Source_options& options, const Point_table_3<Kernel>& table, double radius,
+                    Progress& progress) {
   progress.begin("fitting polynomials");
   const Fit_traits fit = blend_vertices(table, options.fit);
   if (fit.bbox() == CGAL::Bbox_3() && !options.is_registered)
@@ -98,7 +99,7 @@ Fit_traits make_fit(const Source_options& options, const Point_table_3<Kernel>& 
                                             : ""));
   warn_of_opposed_normals(table, progress);
   const CGAL::Bbox_3 box = options.box ? *options.box : widened_box(table.mesh.points);
-  return fit.in_box(box).in_band(height_of_band(options, box));
+  return fit.in_box(box).in_band(height_of_band(options, box, radius));
 }
 
 Point_table_3<Kernel> read_data(const Source_options& options, Progress& progress) {
@@ -184,8 +185,8 @@ Source_function transformed_function(Traits traits, const Source_options& option
       std::move(traits), options.transformation.value_or(CGAL::Aff_transformation_3<Kernel>(CGAL::IDENTITY)));
 }
 
-Source fitted(Point_table_3<Kernel> table, const Source_options& options, Progress& progress) {
-  const Fit_traits fit = make_fit(options, table, progress);
+Source fitted(Point_table_3<Kernel> table, const Source_options& options, double radius, Progress& progress) {
+  const Fit_traits fit = make_fit(options, table, radius, progress);
   return {.function = transformed_function(fit, options), .fit = fit, .data = std::move(table.mesh)};
 }
 
@@ -206,18 +207,18 @@ Volume_3<Kernel> sample_source(const Source_options& options, Progress& progress
     return sample_on_lattice<CGAL::Parallel_if_available_tag>(function, lattice,
                                                               [&](std::size_t nodes) { progress.advance(nodes); });
   };
-  return options.kind == Source_kind::FIT ? sample(make_fit(options, read_data(options, progress), progress), "fit")
+  return options.kind == Source_kind::FIT ? sample(make_fit(options, read_data(options, progress), 0, progress), "fit")
                                           : sample(make_formula(options), "formula");
 }
 
 Source refitted(const Source& source, const Source_options& options, Progress& progress) {
   Point_table_3<Kernel> table;
   table.mesh = source.data;
-  return fitted(std::move(table), options, progress);
+  return fitted(std::move(table), options, 0, progress);
 }
 
-Source make_source(const Source_options& options, Progress& progress) {
-  if (options.kind == Source_kind::FIT) return fitted(read_data(options, progress), options, progress);
+Source make_source(const Source_options& options, Progress& progress, double radius) {
+  if (options.kind == Source_kind::FIT) return fitted(read_data(options, progress), options, radius, progress);
   const auto transformed = [&](auto traits) { return transformed_function(std::move(traits), options); };
   if (options.derivatives == Derivatives::JETS) return {.function = transformed(make_formula(options))};
   Fitted_spline fit = fit_spline(options, progress);

@@ -27,9 +27,9 @@ struct Source {
   Indexed_triangle_mesh_3<Kernel> data = {};      ///< of a fit, not transformed
 };
 
-/// Makes the function. This may include reading a volume, measuring distances, and fitting a spline. Throws
-/// `Input_error`.
-Source make_source(const Source_options& options, Progress& progress);
+/// Makes the function. This may include reading a volume, measuring distances, and fitting a spline. A fit has values for
+/// Delaunay facets of that radius. Throws `Input_error`.
+Source make_source(const Source_options& options, Progress& progress, double radius = 0);
 
 /// The source of a fit to a mesh, fitted again with other options. Throws `Input_error`.
 Source refitted(const Source& source, const Source_options& options, Progress& progress);

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_OUTPUT_OUTPUTS_H
+#define EQUIAFFINE_SRC_OUTPUT_OUTPUTS_H
+
+#include "request/options.h"
+#include "system/atomic_file.h"
+
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace equiaffine {
+
+/// What a file that a command writes is for.
+enum class Output_kind { RESULT, PAGE, PICTURE, CURVES, MOVED, STATISTICS };
+
+/// The output files of a command, of which all appear or none.
+class Outputs {
+public:
+  /// Throws `Input_error` if the file cannot be written, which is to be known before a long computation. Without a path
+  /// there is no such output.
+  void add(Output_kind kind, const std::optional<std::string>& path);
+
+  /// Adds page and picture, as far as they are asked for.
+  void add_displays(const Display_options& options);
+
+  void remove(Output_kind kind);
+
+  /// The file of that kind, or null.
+  Output_file* find(Output_kind kind);
+
+  /// The file of that kind, which was added.
+  Output_file& operator[](Output_kind kind) { return *find(kind); }
+
+  void close();
+  void commit();
+
+  /// Whether one of them is standard output, where nothing else may be written then.
+  bool use_standard_output() const { return equiaffine::use_standard_output(files_); }
+
+  /// Tells people which files were written, in the order in which they were added, a line each.
+  void report(std::ostream& out) const { report_written(out, files_); }
+
+private:
+  std::vector<Output_kind> kinds_;
+  std::vector<Output_file> files_;
+};
+
+} // namespace equiaffine
+
+#endif
