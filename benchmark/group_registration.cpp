@@ -75,12 +75,12 @@ void overlaps(const std::vector<Source>& all, int repeats) {
         std::vector<double> heights;
         for (const Point_3& p : s.points) heights.push_back(n.dot(Eigen::Vector3d(p.x(), p.y(), p.z())));
         const double part = 1 / (2 - overlap);
-        const Piece<Formula> lower{s.function, n, quantile(heights, part)};
+        const Piece<Formula> lower{s.function, n, lower_quantile(heights, part)};
         const Map map = random_map(random, 10, random_determinant(random));
         const Eigen::Vector3d m = matrix_of(map).inverse().transpose() * n;
         const double offset = m.dot(Eigen::Vector3d(map.m(0, 3), map.m(1, 3), map.m(2, 3)));
         const Image image(s.function, map);
-        const Piece<Image> upper{image, -m, -offset - quantile(heights, 1 - part)};
+        const Piece<Image> upper{image, -m, -offset - lower_quantile(heights, 1 - part)};
         row.run(lower, lower.points_of(s.points), upper, upper.points_of(points_on_surface(image, 45)), map,
                 {{}, 1, std::min(0.05, overlap / 4)});
       }

@@ -8,25 +8,26 @@ function(read_viewer_file variable name)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS viewer/${name})
   file(READ ${PROJECT_SOURCE_DIR}/viewer/${name} text)
   string(FIND "${text}" "\n\n" head)
+  if(head EQUAL -1)
+    message(FATAL_ERROR "viewer/${name} has no blank line after its first lines, which say what it is")
+  endif()
   math(EXPR begin "${head} + 2")
   string(SUBSTRING "${text}" ${begin} -1 text)
   set(${variable} "${text}" PARENT_SCOPE)
 endfunction()
 
-# The parts of the script, in their order.
+# The parts of the script, in their order, each a text of its own, since compilers need not read texts above 64 KB.
 set(script "")
-set(separator "")
 foreach(part IN ITEMS data graphics shaders scene panel scale picked picture address control)
   read_viewer_file(text ${part}.js)
-  string(APPEND script "${separator}${text}")
-  set(separator "\n")
-endforeach()
-string(REGEX MATCHALL "@[a-z.]+\\.glsl@" programs "${script}")
-foreach(program IN LISTS programs)
-  string(REPLACE "@" "" name ${program})
-  read_viewer_file(text ${name})
-  string(REGEX REPLACE "\n$" "" text "${text}")
-  string(REPLACE "${program}" "${text}" script "${script}")
+  string(REGEX MATCHALL "@[a-z.]+\\.glsl@" programs "${text}")
+  foreach(program IN LISTS programs)
+    string(REPLACE "@" "" name ${program})
+    read_viewer_file(program_text ${name})
+    string(REGEX REPLACE "\n$" "" program_text "${program_text}")
+    string(REPLACE "${program}" "${program_text}" text "${text}")
+  endforeach()
+  string(APPEND script "\n    R\"viewer(\n${text})viewer\",")
 endforeach()
 
 read_viewer_file(style page.css)
@@ -40,10 +41,13 @@ set(header "// Made of the files of viewer/ by cmake/embed_viewer.cmake.
 
 namespace equiaffine::internal {
 ")
-foreach(part IN ITEMS style stage controls script)
+foreach(part IN ITEMS style stage controls)
   string(APPEND header "\ninline constexpr std::string_view viewer_${part} = R\"viewer(\n${${part}})viewer\";\n")
 endforeach()
 string(APPEND header "
+inline constexpr std::string_view viewer_script[] = {${script}
+};
+
 } // namespace equiaffine::internal
 
 #endif

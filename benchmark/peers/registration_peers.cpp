@@ -66,7 +66,7 @@ class Closest_points {
 public:
   Closest_points(const Vectors& source, const Vectors& target)
       : source_(source.begin(), source.begin() + std::ptrdiff_t(std::min<std::size_t>(500, source.size()))),
-        target_(target), tree_(tree_of<3>(target)) {}
+        target_(target), tree_.neighbors(tree_of<3>(target)) {}
 
   Affine refined(Affine map, int count) const {
     for (int step = 0; step < count; ++step) {
@@ -79,7 +79,7 @@ public:
 
   double median_distance(const Affine& map) const {
     std::vector<double> distances;
-    for (const auto& p : source_) distances.push_back(tree_(map * p, 1).front().distance);
+    for (const auto& p : source_) distances.push_back(tree_.neighbors(map * p, 1).front().distance);
     const auto middle = distances.begin() + std::ptrdiff_t(distances.size() / 2);
     std::nth_element(distances.begin(), middle, distances.end());
     return *middle;

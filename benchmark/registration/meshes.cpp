@@ -68,7 +68,7 @@ Mesh piece_of(const Mesh& mesh, const Eigen::Vector3d& direction, double part) {
   const auto height = [&](const Point_3& p) { return -direction.dot(Eigen::Vector3d(p.x(), p.y(), p.z())); };
   std::vector<double> heights;
   for (const Point_3& p : mesh.points) heights.push_back(height(p));
-  const double greatest = quantile(heights, part);
+  const double greatest = lower_quantile(heights, part);
   Mesh piece;
   std::vector<std::uint32_t> positions(mesh.points.size());
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {

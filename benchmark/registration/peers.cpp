@@ -41,7 +41,7 @@ void compare_at_part(double part, int repeats) {
       const Eigen::Vector3d n = Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
       std::vector<double> heights;
       for (const Point_3& p : all) heights.push_back(n.dot(Eigen::Vector3d(p.x(), p.y(), p.z())));
-      const Piece<Formula> piece{function, n, quantile(heights, part)};
+      const Piece<Formula> piece{function, n, lower_quantile(heights, part)};
       const Points points = piece.points_of(all);
       const Map map = random_map(random, 10, random_determinant(random));
       const Image image(function, map);

@@ -24,7 +24,7 @@ using namespace equiaffine;
 using namespace registration_cases;
 using Points = std::vector<Point_3>;
 
-inline double quantile(std::vector<double> values, double part) {
+inline double lower_quantile(std::vector<double> values, double part) {
   const double last = double(values.size()) - 1;
   return values.empty() ? 0 : nth_smallest(std::move(values), std::size_t(part * last));
 }
@@ -84,9 +84,9 @@ public:
   void report(const Targets& targets) const {
     figure(name_ + "_runs", runs(), "runs", "none");
     figure(name_ + "_right", double(errors_.size()) / runs(), "of runs", targets.right);
-    figure(name_ + "_hypotheses_99_percent", quantile(hypotheses_, 0.99), "hypotheses", targets.hypotheses);
-    figure(name_ + "_median_error", quantile(errors_, 0.5), "of A", targets.median_error);
-    figure(name_ + "_greatest_error", quantile(errors_, 1), "of A", targets.greatest_error);
+    figure(name_ + "_hypotheses_99_percent", lower_quantile(hypotheses_, 0.99), "hypotheses", targets.hypotheses);
+    figure(name_ + "_median_error", lower_quantile(errors_, 0.5), "of A", targets.median_error);
+    figure(name_ + "_greatest_error", lower_quantile(errors_, 1), "of A", targets.greatest_error);
     figure(name_ + "_search", median(seconds_), "s", targets.search);
   }
 

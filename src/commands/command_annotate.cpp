@@ -90,7 +90,7 @@ void run_annotate(const Annotate_options& options, std::ostream& out, Progress& 
   write_displays(outputs, table.mesh, attributes, options.display,
                  {page_title(options.output, name) + label_suffix(fit), make_description(options, statistics, fit),
                   notes_of(fit), label_suffix(fit)});
-  outputs.close();
+  outputs.close_results();
   statistics.write_seconds = write_stopwatch.seconds();
   if (Output_file* const file = outputs.find(Output_kind::STATISTICS)) file->stream() << to_JSON(statistics);
   progress.end();

@@ -8,14 +8,9 @@
 #include "source/warnings.h"
 #include "system/atomic_file.h"
 #include "system/resources.h"
-#include <equiaffine/Input_error.h>
 #include <equiaffine/parabolic_curves.h>
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace equiaffine {
@@ -116,7 +111,7 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
                   make_description(options, statistics, fit), notes_of(fit), label_suffix(fit)},
                  surface.curves ? surface.curves->polylines : std::vector<Polyline_3<Kernel>>());
   if (Output_file* const file = outputs.find(Output_kind::CURVES)) write_curves(*file, *surface.curves);
-  outputs.close();
+  outputs.close_results();
   statistics.write_seconds = write_stopwatch.seconds();
   if (Output_file* const file = outputs.find(Output_kind::STATISTICS)) file->stream() << to_JSON(statistics);
   progress.end();

@@ -10,8 +10,6 @@
 #include "system/atomic_file.h"
 
 #include <array>
-#include <string>
-#include <vector>
 
 namespace equiaffine {
 

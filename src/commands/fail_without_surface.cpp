@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/fail_without_surface.h"
 
+#include "source/any_level_set.h"
 #include "source/source.h"
 #include <equiaffine/Input_error.h>
+#include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/capabilities.h>
 #include <equiaffine/function/sample_on_lattice.h>
 #include <equiaffine/marching_cubes.h>
@@ -67,14 +69,22 @@ std::pair<double, double> range_on_grid(const Traits& function) {
   throw Input_error(text.str());
 }
 
-} // namespace
-
-bool changes_sign_at_poles_only(const Any_function_3& function) {
+template <class Traits>
+bool changes_sign_at_poles_only(const Traits& function) {
   const auto surface =
       marching_cubes<CGAL::Parallel_if_available_tag>(function, parameters::number_of_nodes({32, 32, 32}));
   const auto& status = surface.vertex_status;
   return surface.repairs.vertices_at_poles + status.size() > 0 &&
          std::count(status.begin(), status.end(), Point_status::UNCONVERGED) == std::ptrdiff_t(status.size());
+}
+
+} // namespace
+
+bool changes_sign_at_poles_only(const Source_function& function, double isovalue) {
+  // Splines have the grid of their samples, which a function of any type does not know.
+  if (const auto* const spline = std::get_if<Spline_function>(&function))
+    return changes_sign_at_poles_only(Level_set_traits_3(*spline, isovalue));
+  return changes_sign_at_poles_only(any_level_set(function, isovalue));
 }
 
 void fail_without_surface(const Source_function& function, const Source_options& source, double isovalue,

@@ -4,7 +4,6 @@
 
 #include "request/options.h"
 #include "source/source_function.h"
-#include <equiaffine/surface/Any_function_3.h>
 
 #include <string>
 
@@ -17,8 +16,8 @@ struct Vain_search {
   bool met_poles;         ///< whether f changes its sign at poles or jumps only
 };
 
-/// Whether f changes its sign between the nodes of a grid at poles and jumps, and nowhere else.
-bool changes_sign_at_poles_only(const Any_function_3& function);
+/// Whether f - isovalue changes its sign between the nodes of a grid at poles and jumps, and nowhere else.
+bool changes_sign_at_poles_only(const Source_function& function, double isovalue);
 
 /// Throws the error that says why there is no surface, and what to choose instead.
 [[noreturn]] void fail_without_surface(const Source_function& function, const Source_options& source, double isovalue,

@@ -29,8 +29,9 @@ Output_file* Outputs::find(Output_kind kind) {
   return found == kinds_.end() ? nullptr : &files_[std::size_t(found - kinds_.begin())];
 }
 
-void Outputs::close() {
-  for (Output_file& file : files_) file.close();
+void Outputs::close_results() {
+  for (std::size_t i = 0; i < files_.size(); ++i)
+    if (kinds_[i] != Output_kind::STATISTICS) files_[i].close();
 }
 
 void Outputs::commit() { commit_all(files_); }

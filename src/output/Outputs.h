@@ -5,6 +5,8 @@
 #include "request/options.h"
 #include "system/atomic_file.h"
 
+#include <CGAL/assertions.h>
+
 #include <optional>
 #include <ostream>
 #include <string>
@@ -25,15 +27,23 @@ public:
   /// Adds page and picture, as far as they are asked for.
   void add_displays(const Display_options& options);
 
+  /// Forgets the file of that kind, if there is one, so that nothing is written.
   void remove(Output_kind kind);
 
   /// The file of that kind, or null.
   Output_file* find(Output_kind kind);
 
-  /// The file of that kind, which was added.
-  Output_file& operator[](Output_kind kind) { return *find(kind); }
+  /// The file of that kind. \pre it was added.
+  Output_file& operator[](Output_kind kind) {
+    CGAL_precondition(find(kind) != nullptr);
+    return *find(kind);
+  }
 
-  void close();
+  /// Ends writing to all files but that of the statistics, which tell how long it took.
+  void close_results();
+
+  /// Ends writing and puts all files in place. Throws `Input_error` if one could not be stored, and then leaves what was
+  /// there.
   void commit();
 
   /// Whether one of them is standard output, where nothing else may be written then.

@@ -17,7 +17,6 @@
 #include <filesystem>
 #include <initializer_list>
 #include <map>
-#include <optional>
 #include <sstream>
 #include <string_view>
 

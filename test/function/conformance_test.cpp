@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace {
@@ -59,6 +60,19 @@ struct Expression_model {
   static Traits make() { return Traits(Expression_3("exp(x)*sin(2*y) + x*z^2/(2+x*y) = c", {{"c", 0.3}}), unit_box); }
   static std::vector<Point_3> points() { return inner_points(); }
   static constexpr double length = 0.5;
+};
+
+/// A function that is cheaper on small boxes: the least of many.
+struct Union_model {
+  using Traits = Analytic_function_traits_3<Kernel, Expression_3>;
+  static Traits make() {
+    std::string text = "x^2 + y^2 + z^2 - 0.2";
+    for (int n = 0; n < 20; ++n)
+      text = "min(" + text + ", (x - " + std::to_string(2 + n) + ")^2 + exp(y*z) + z^2 - 0.3)";
+    return Traits(Expression_3(text), unit_box);
+  }
+  static std::vector<Point_3> points() { return {{-0.3, -0.25, 0.2}, {-0.1, 0.2, -0.1}, {-0.6, -0.3, 0.4}}; }
+  static constexpr double length = 0.2;
 };
 
 template <int Degree>
@@ -191,7 +205,8 @@ using Models =
     ::testing::Types<Archetype_model, Sparse, Analytic_model<Fixed_type_function>, Expression_model, Sampled_model<5>,
                      Sampled_model<7>, Fitted_model, Transformed_model<Sparse>, Transformed_model<Sampled_model<7>>,
                      Level_set_model<Sparse>, Level_set_model<Transformed_model<Sampled_model<5>>>, Batch_model<Sparse>,
-                     Capable_model, Transformed_model<Capable_model>, Any_model<Sparse>>;
+                     Capable_model, Transformed_model<Capable_model>, Any_model<Sparse>, Union_model,
+                     Transformed_model<Union_model>, Level_set_model<Transformed_model<Union_model>>>;
 
 } // namespace
 

@@ -16,7 +16,7 @@ using Jet = Jet_3<double>;
 
 template <class Function>
 Jet expand(const Function& f, double x, double y, double z) {
-  return expand<4, double>(f, x, y, z);
+  return equiaffine::expand<4, double>(f, x, y, z);
 }
 
 template <class Function>

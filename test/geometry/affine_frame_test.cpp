@@ -5,8 +5,8 @@
 #include <equiaffine/Transformed_function_traits_3.h>
 #include <equiaffine/analytic_functions.h>
 #include <equiaffine/geometry/affine_frame.h>
-#include <equiaffine/surface/affine_gradients.h>
 #include <equiaffine/number/Pack.h>
+#include <equiaffine/surface/affine_gradients.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <Eigen/Dense>

@@ -28,7 +28,7 @@ using Vector = std::array<double, 3>;
 
 template <class Function>
 Jet expand(const Function& f, const Vector& p) {
-  return expand<4, double>(f, p[0], p[1], p[2]);
+  return equiaffine::expand<4, double>(f, p[0], p[1], p[2]);
 }
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -342,8 +342,8 @@ TEST(Affine_structure, double_agrees_with_50_digits_on_an_anisotropic_surface) {
   for (const auto& p : f.points(3000)) {
     const double x = p.x(), y = p.y(), z = p.z();
     ASSERT_NEAR(f(x, y, z), 0, 1e-14);
-    const auto s = local_structure(expand<4, double>(f, x, y, z));
-    const auto t = local_structure(expand<4, Number>(f, Number(x), Number(y), Number(z)));
+    const auto s = local_structure(equiaffine::expand<4, double>(f, x, y, z));
+    const auto t = local_structure(equiaffine::expand<4, Number>(f, Number(x), Number(y), Number(z)));
     const double K = double(t.affine.gaussian_curvature), H = double(t.affine.mean_curvature);
     const double S = std::abs(K) + H * H + std::pow(std::abs(double(t.euclidean.gaussian_curvature)), 1.5);
     EXPECT_NEAR(s.affine.gaussian_curvature, K, 1e-12 * S);

@@ -74,8 +74,7 @@ TEST(Reference_estimators, the_z_axis_alone_loses_the_digits_that_the_best_axis_
   const auto jet = expand<4, double>(sphere, x, 0.0, z);
   EXPECT_NEAR(affine_estimate(jet, Estimator::DIRECT).gaussian_curvature, 1, 1e-12);
   EXPECT_GT(std::abs(affine_estimate(jet, Estimator::DIRECT_Z).gaussian_curvature - 1), 1e-12);
-  const auto equator =
-      local_structure(expand<4, double>(sphere, 1.0, 0.0, 0.0), {1, 0, 0}, 0.0, Estimator::DIRECT_Z);
+  const auto equator = local_structure(expand<4, double>(sphere, 1.0, 0.0, 0.0), {1, 0, 0}, 0.0, Estimator::DIRECT_Z);
   EXPECT_EQ(equator.status, Point_status::OUTSIDE) << "the surface is not parabolic there";
   EXPECT_TRUE(std::isnan(equator.affine.gaussian_curvature) && std::isnan(equator.euclidean.gaussian_curvature));
 }

@@ -146,5 +146,5 @@ if __name__ == "__main__":
     if not read_files(root / LIBRARY):
         sys.exit(f"no headers below {root / LIBRARY}")
     found = find_faults(root)
-    print("\n".join(found) or "every include leads down the road")
+    print("\n".join(found) or "every file uses what its room may use")
     sys.exit(bool(found))

@@ -164,6 +164,42 @@ void expect_equal_bounds(const Bounds& first, const Bounds& second) {
   }
 }
 
+/// Expects a wrapper to give the numbers of a model, bit for bit, at many points, on boxes, and on parts of space.
+template <class Model, class Wrapper>
+void expect_same_numbers(const Wrapper& wrapper) {
+  using namespace equiaffine;
+  using Traits = typename Model::Traits;
+  const Traits base = Model::make();
+  const Batch_function_traits_3 of_base(base);
+  const Batch_function_traits_3 of_wrapper(wrapper);
+  const auto points = Model::points();
+  std::vector<double> values(points.size()), same_values(points.size());
+  std::vector<Jet_3<double, 1>> lines(points.size()), same_lines(points.size());
+  std::vector<Jet_3<double>> jets(points.size()), same_jets(points.size());
+  of_base.values(points, values), of_wrapper.values(points, same_values);
+  of_base.first_orders(points, lines), of_wrapper.first_orders(points, same_lines);
+  of_base.taylors(points, jets), of_wrapper.taylors(points, same_jets);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_TRUE(same_bits(same_values[i], values[i]));
+    EXPECT_TRUE(same_bits(same_lines[i], lines[i]));
+    EXPECT_TRUE(same_bits(same_jets[i], jets[i]));
+    const CGAL::Bbox_3 box = cube(points[i], Model::length / 10);
+    if constexpr (SecondOrderBoundedImplicitFunctionTraits_3<Wrapper>) {
+      EXPECT_TRUE(same_bits(wrapper.second_order_bounds(box), base.second_order_bounds(box)));
+    }
+    if constexpr (LatticeImplicitFunctionTraits_3<Wrapper>) {
+      EXPECT_TRUE(same_bits(wrapper.sample(i, i, i), base.sample(i, i, i)));
+    }
+    if constexpr (RestrictableImplicitFunctionTraits_3<Wrapper>) {
+      const auto part = wrapper.restricted(box);
+      EXPECT_EQ(part.has_value(), base.restricted(box).has_value());
+      if (part) {
+        EXPECT_TRUE(same_bits(double(part->value(points[i])), double(base.value(points[i]))));
+      }
+    }
+  }
+}
+
 /// A pair of points of a model at which f has different signs, if there is one.
 template <class Model>
 std::optional<std::array<typename Model::Traits::Point_3, 2>> segment_with_zero() {
@@ -356,12 +392,24 @@ TYPED_TEST_P(Conformance, wrappers_have_the_capabilities) {
     EXPECT_EQ(rounding(any, p), of_base);
     EXPECT_EQ(rounding(identity, p), of_base);
     const auto tight = tight_first_order_bounds(base, box);
+    auto reversed = tight_first_order_bounds(level_set, box);
+    reversed.template at<0>() = reversed.value() - Interval(0.25);
+    for (Interval& i : reversed.coefficients()) i = -i;
+    expect_equal_bounds(reversed, tight);
     expect_equal_bounds(tight_first_order_bounds(same, box), tight);
     expect_equal_bounds(tight_first_order_bounds(any, box), tight);
     expect_equal_bounds(first_order_bounds(any, box), first_order_bounds(base, box));
     EXPECT_TRUE(same_bits(tight_first_order_bounds(identity, box), tight));
     for (const auto& jet : {any.taylor(p), identity.taylor(p)}) EXPECT_TRUE(same_bits(jet, base.taylor(p)));
   }
+  const auto lattice = sampling_lattice(base, {5, 6, 7});
+  for (const auto& copy : {sampling_lattice(level_set, {5, 6, 7}), sampling_lattice(identity, {5, 6, 7}),
+                           sampling_lattice(batch, {5, 6, 7}), sampling_lattice(any, {5, 6, 7})}) {
+    EXPECT_EQ(copy.origin(), lattice.origin());
+    EXPECT_EQ(copy.steps(), lattice.steps());
+  }
+  expect_same_numbers<TypeParam>(identity);
+  expect_same_numbers<TypeParam>(any);
   const auto segment = segment_with_zero<TypeParam>();
   if (!segment) return;
   const auto& [a, b] = *segment;
@@ -406,9 +454,14 @@ TYPED_TEST_P(Conformance, several_threads_get_the_numbers_of_one) {
   for (std::size_t t = 0; t < differences.size(); ++t)
     threads.emplace_back([&, t] {
       for (int repeat = 0; repeat < 50; ++repeat)
-        for (std::size_t i = 0; i < points.size(); ++i)
-          differences[t] += !same_bits(traits.taylor(points[i]), expected[i]) ||
-                            !same_bits(double(traits.value(points[i])), double(traits.value(points[i])));
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          const typename TypeParam::Traits copy(traits);
+          differences[t] += !same_bits(copy.taylor(points[i]), expected[i]) ||
+                            !same_bits(double(traits.value(points[i])), double(copy.value(points[i])));
+          if constexpr (equiaffine::RestrictableImplicitFunctionTraits_3<typename TypeParam::Traits>)
+            if (const auto part = traits.restricted(cube(points[i], TypeParam::length / 10)))
+              differences[t] += !same_bits(double(part->value(points[i])), double(traits.value(points[i])));
+        }
     });
   for (auto& thread : threads) thread.join();
   for (int n : differences) EXPECT_EQ(n, 0);

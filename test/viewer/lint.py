@@ -20,18 +20,20 @@ PROGRAM = re.compile(r"const (\w+(Vertex|Fragment)) = (placing \+ )?`(.*?)`;", r
 
 
 def script_of(header):
-    return re.search(r'viewer_script = R"viewer\((.*?)\)viewer"', header.read_text(), re.DOTALL)[1]
+    parts = header.read_text().split("viewer_script[] = {")[1]
+    return "".join(re.findall(r'R"viewer\((.*?)\)viewer"', parts, re.DOTALL))
 
 
 def faults_of_script(script, tsc, folder):
     (folder / "page.js").write_text(script)
-    found = subprocess.run([tsc, *OPTIONS, "page.js"], cwd=folder, capture_output=True, text=True, check=False).stdout
+    result = subprocess.run([tsc, *OPTIONS, "page.js"], cwd=folder, capture_output=True, text=True, check=False)
+    found = re.findall(r"^page\.js\((\d+),\d+\): error (TS\d+): (.*)", result.stdout, re.MULTILINE)
     lines = script.split("\n")
-    for line, code, reason in re.findall(r"^page\.js\((\d+),\d+\): error (TS\d+): (.*)", found, re.MULTILINE):
+    for line, code, reason in found:
         if code not in TYPES:
             yield f"{code}: {reason}\n    {lines[int(line) - 1].strip()}"
-    if "error" in found and "page.js" not in found:
-        yield found
+    if result.returncode and not found:
+        yield f"{tsc} has status {result.returncode}: {result.stdout}{result.stderr}"
 
 
 def faults_of_programs(script, glslang, folder):

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_FIT_PART_WITH_OPPOSED_NORMALS_H
 
 #include <equiaffine/base/parallel_for.h>
-#include <equiaffine/fit/internal/Ball_tree_3.h>
+#include <equiaffine/fit/internal/Point_tree_3.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/tags.h>

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_FUNCTION_ANALYTIC_FUNCTION_TRAITS_3_H
 
 #include <equiaffine/function/concepts.h>
+#include <equiaffine/function/expand.h>
 #include <equiaffine/function/internal/box_intervals.h>
 #include <equiaffine/function/internal/evaluate_points.h>
 #include <equiaffine/function/internal/expand.h>
@@ -42,10 +43,10 @@ public:
   Analytic_function_traits_3(Function function, const CGAL::Bbox_3& box) : function_(std::move(function)), box_(box) {}
 
   FT value(const Point_3& p) const { return function_(p.x(), p.y(), p.z()); }
-  Jet_3<FT, 1> first_order(const Point_3& p) const { return internal::expand<1, FT>(function_, p.x(), p.y(), p.z()); }
+  Jet_3<FT, 1> first_order(const Point_3& p) const { return expand<1, FT>(function_, p.x(), p.y(), p.z()); }
   Jet_3<FT> taylor(const Point_3& p) const {
     if constexpr (internal::HasTaylor<Function, FT>) return function_.taylor(p.x(), p.y(), p.z());
-    else return internal::expand<4, FT>(function_, p.x(), p.y(), p.z());
+    else return expand<4, FT>(function_, p.x(), p.y(), p.z());
   }
 
   /// values[i] becomes value(points[i]), by f(x, y, z, values) on spans if the function has that.
@@ -75,8 +76,7 @@ public:
                     std::span<Jet_3<Pack<FT>>> jets) const requires(std::is_floating_point_v<FT>) {
     if constexpr (internal::HasTaylor<Function, FT>) function_.taylor(x, y, z, jets);
     else
-      for (std::size_t n = 0; n < jets.size(); ++n)
-        jets[n] = internal::expand<4, Pack<FT>>(function_, x[n], y[n], z[n]);
+      for (std::size_t n = 0; n < jets.size(); ++n) jets[n] = expand<4, Pack<FT>>(function_, x[n], y[n], z[n]);
   }
 
   Interval bounds(const CGAL::Bbox_3& box) const {
@@ -86,12 +86,12 @@ public:
 
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const {
     const auto [x, y, z] = internal::sides_of(box);
-    return internal::expand<1, Interval>(function_, x, y, z);
+    return expand<1, Interval>(function_, x, y, z);
   }
 
   Jet_3<Interval, 2> second_order_bounds(const CGAL::Bbox_3& box) const {
     const auto [x, y, z] = internal::sides_of(box);
-    return internal::expand<2, Interval>(function_, x, y, z);
+    return expand<2, Interval>(function_, x, y, z);
   }
 
   /// The model of the function that f.restricted(x, y, z) returns for the sides of a box, if it returns one.

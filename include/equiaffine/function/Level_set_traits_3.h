@@ -20,8 +20,8 @@ enum class Orientation_of_level_set {
 };
 
 /// The function f - v, or v - f for AGAINST_GRADIENT, whose zero set is the level set f = v with the chosen
-/// orientation. It is a model of every refinement of the concept that the base is a model of, and has its capabilities,
-/// but for `sampling_lattice`, which it always has. Reversing the orientation changes the sign of nu, xi, H, J, H_e and
+/// orientation. It is a model of every refinement of the concept that the base is a model of, and has its capabilities.
+/// Reversing the orientation changes the sign of nu, xi, H, J, H_e and
 /// of the metric, and keeps K and K_e.
 template <ImplicitFunctionTraits_3 Base>
 class Level_set_traits_3 {
@@ -88,7 +88,7 @@ public:
   double certainty(const Point_3& p) const requires HasCertainty<Base> { return base_.certainty(p); }
   CGAL::Bbox_3 bbox() const { return base_.bbox(); }
 
-  /// The base finds its own zeros only.
+  /// Calls the base if this is the base itself: otherwise the base would look for zeros of another function.
   Surface_point_3<Kernel_of<Base>> intersect_segment(const Point_3& a, const Point_3& b, const FT& fa,
                                                      const FT& fb) const requires HasIntersectSegment<Base> {
     if (isovalue_ == FT(0) && !is_reversed_) return base_.intersect_segment(a, b, fa, fb);

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -38,9 +39,7 @@ public:
   /// \pre the linear part of `map` has a nonzero determinant.
   explicit Transformed_function_traits_3(Base base,
                                          const Aff_transformation_3& map = Aff_transformation_3(CGAL::IDENTITY))
-      : base_(std::move(base)), map_(map), inverse_(map.inverse()), is_identity_(is_identity(map)),
-        substitution_(linear_part(inverse_, [](const FT& m) { return m; })),
-        substitution_of_bounds_(linear_part(inverse_, [](const FT& m) { return Interval(CGAL::to_double(m)); })) {}
+      : Transformed_function_traits_3(std::move(base), std::make_shared<const Map>(map)) {}
 
   FT value(const Point_3& p) const { return base_.value(preimage(p)); }
   Jet_3<FT, 1> first_order(const Point_3& p) const requires FirstOrderImplicitFunctionTraits_3<Base> {
@@ -50,25 +49,25 @@ public:
 
   void values(std::span<const Point_3> points,
               std::span<FT> values) const requires BatchImplicitFunctionTraits_3<Base> {
-    if (is_identity_) return base_.values(points, values);
+    if (map_->is_identity) return base_.values(points, values);
     base_.values(preimages(points), values);
   }
   void first_orders(std::span<const Point_3> points,
                     std::span<Jet_3<FT, 1>> jets) const requires FirstOrderBatchImplicitFunctionTraits_3<Base> {
-    if (is_identity_) return base_.first_orders(points, jets);
+    if (map_->is_identity) return base_.first_orders(points, jets);
     base_.first_orders(preimages(points), jets);
-    for (auto& jet : jets) jet = substitution_(jet);
+    for (auto& jet : jets) jet = map_->substitution(jet);
   }
   void taylors(std::span<const Point_3> points,
                std::span<Jet_3<FT>> jets) const requires BatchImplicitFunctionTraits_3<Base> {
-    if (is_identity_) return base_.taylors(points, jets);
+    if (map_->is_identity) return base_.taylors(points, jets);
     base_.taylors(preimages(points), jets);
-    for (auto& jet : jets) jet = substitution_(jet);
+    for (auto& jet : jets) jet = map_->substitution(jet);
   }
 
   void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
                     std::span<Jet_3<Pack<FT>>> jets) const requires PackImplicitFunctionTraits_3<Base> {
-    if (is_identity_) return base_.taylor_packs(x, y, z, jets);
+    if (map_->is_identity) return base_.taylor_packs(x, y, z, jets);
     std::array<std::vector<Pack<FT>>, 3> coordinates;
     for (auto& coordinate : coordinates) coordinate.resize(jets.size());
     for (std::size_t n = 0; n < jets.size(); ++n) {
@@ -76,7 +75,7 @@ public:
       for (std::size_t axis = 0; axis < 3; ++axis) coordinates[axis][n] = preimage[axis];
     }
     base_.taylor_packs(coordinates[0], coordinates[1], coordinates[2], jets);
-    for (auto& jet : jets) jet = substitution_(jet);
+    for (auto& jet : jets) jet = map_->substitution(jet);
   }
 
   /// The bounds of the base on the axis-parallel box around the preimage of `box`.
@@ -110,7 +109,7 @@ public:
     for (int column = 0; column < 3; ++column) {
       using std::abs;
       FT sum(0);
-      for (int row = 0; row < 3; ++row) sum += abs(inverse_.m(row, column));
+      for (int row = 0; row < 3; ++row) sum += abs(map_->inverse.m(row, column));
       greatest_sum = std::max(greatest_sum, sum);
     }
     return base_.rounding(preimage(p)) * greatest_sum * greatest_sum;
@@ -122,13 +121,13 @@ public:
   Surface_point_3<Kernel_of<Base>> intersect_segment(const Point_3& a, const Point_3& b, const FT& fa,
                                                      const FT& fb) const requires HasIntersectSegment<Base> {
     auto found = base_.intersect_segment(preimage(a), preimage(b), fa, fb);
-    if (!is_identity_) found.point = map_(found.point);
+    if (!map_->is_identity) found.point = map_->map(found.point);
     return found;
   }
 
   /// The axis-parallel box around the image of the base's box.
   CGAL::Bbox_3 bbox() const {
-    return is_identity_ ? base_.bbox() : Lattice({2, 2, 2}, base_.bbox()).transform(map_).bbox();
+    return map_->is_identity ? base_.bbox() : Lattice({2, 2, 2}, base_.bbox()).transform(map_->map).bbox();
   }
 
   /// The image of the lattice on which the base would be sampled. It fills exactly the image of the base's box.
@@ -145,36 +144,55 @@ public:
   }
 
   const Base& base() const { return base_; }
-  const Aff_transformation_3& transformation() const { return map_; }
+  const Aff_transformation_3& transformation() const { return map_->map; }
 
 private:
   using Lattice = Lattice_3<Kernel_of<Base>>;
 
-  static bool is_identity(const Aff_transformation_3& map) {
+  /// The map with what is computed from it. Copies of the function share it: CGAL counts the references to a map in a way
+  /// that threads must not do at once.
+  struct Map {
+    explicit Map(const Aff_transformation_3& m)
+        : map(m), inverse(m.inverse()), is_identity(equals_identity(m)),
+          substitution(linear_part(inverse, [](const FT& x) { return x; })),
+          substitution_of_bounds(linear_part(inverse, [](const FT& x) { return Interval(CGAL::to_double(x)); })) {}
+
+    Aff_transformation_3 map, inverse;
+    bool is_identity;
+    Linear_substitution_3<FT> substitution;
+    Linear_substitution_3<Interval> substitution_of_bounds;
+  };
+
+  Transformed_function_traits_3(Base base, std::shared_ptr<const Map> map)
+      : base_(std::move(base)), map_(std::move(map)) {}
+
+  static bool equals_identity(const Aff_transformation_3& map) {
     bool result = true;
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 4; ++column) result = result && map.m(row, column) == FT(row == column);
     return result;
   }
 
-  Lattice transformed(const Lattice& lattice) const { return is_identity_ ? lattice : lattice.transform(map_); }
+  Lattice transformed(const Lattice& lattice) const {
+    return map_->is_identity ? lattice : lattice.transform(map_->map);
+  }
 
-  Point_3 preimage(const Point_3& p) const { return is_identity_ ? p : inverse_(p); }
+  Point_3 preimage(const Point_3& p) const { return map_->is_identity ? p : map_->inverse(p); }
 
   /// The expansion of the function from that of the base at the preimage.
   template <int Order>
   Jet_3<FT, Order> substituted(const Jet_3<FT, Order>& jet) const {
-    return is_identity_ ? jet : substitution_(jet);
+    return map_->is_identity ? jet : map_->substitution(jet);
   }
   template <int Order>
   Jet_3<Interval, Order> substituted(const Jet_3<Interval, Order>& jet) const {
-    return is_identity_ ? jet : substitution_of_bounds_(jet);
+    return map_->is_identity ? jet : map_->substitution_of_bounds(jet);
   }
 
   std::vector<Point_3> preimages(std::span<const Point_3> points) const {
     std::vector<Point_3> result;
     result.reserve(points.size());
-    for (const Point_3& p : points) result.push_back(inverse_(p));
+    for (const Point_3& p : points) result.push_back(map_->inverse(p));
     return result;
   }
 
@@ -182,7 +200,7 @@ private:
   std::array<Pack<FT>, 3> preimage_of_lanes(const Pack<FT>& x, const Pack<FT>& y, const Pack<FT>& z) const {
     std::array<std::array<FT, Pack<FT>::size>, 3> lanes;
     for (std::size_t i = 0; i < Pack<FT>::size; ++i) {
-      const Point_3 p = inverse_(Point_3(x[i], y[i], z[i]));
+      const Point_3 p = map_->inverse(Point_3(x[i], y[i], z[i]));
       for (int axis = 0; axis < 3; ++axis) lanes[std::size_t(axis)][i] = p[axis];
     }
     const auto pack_of = [&](std::size_t axis) {
@@ -193,13 +211,13 @@ private:
 
   /// The axis-parallel box around the preimage of a box.
   CGAL::Bbox_3 preimage(const CGAL::Bbox_3& box) const {
-    if (is_identity_) return box;
+    if (map_->is_identity) return box;
     const std::array<Interval, 3> sides = internal::sides_of(box);
     std::array<Interval, 3> image;
     for (int row = 0; row < 3; ++row) {
-      image[std::size_t(row)] = Interval(CGAL::to_double(inverse_.m(row, 3)));
+      image[std::size_t(row)] = Interval(CGAL::to_double(map_->inverse.m(row, 3)));
       for (int column = 0; column < 3; ++column)
-        image[std::size_t(row)] += Interval(CGAL::to_double(inverse_.m(row, column))) * sides[std::size_t(column)];
+        image[std::size_t(row)] += Interval(CGAL::to_double(map_->inverse.m(row, column))) * sides[std::size_t(column)];
     }
     return CGAL::Bbox_3(image[0].lower(), image[1].lower(), image[2].lower(), image[0].upper(), image[1].upper(),
                         image[2].upper());
@@ -216,10 +234,7 @@ private:
   }
 
   Base base_;
-  Aff_transformation_3 map_, inverse_;
-  bool is_identity_;
-  Linear_substitution_3<FT> substitution_;
-  Linear_substitution_3<Interval> substitution_of_bounds_;
+  std::shared_ptr<const Map> map_;
 };
 
 } // namespace equiaffine

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a model of ImplicitFunctionTraits_3 may do better than everybody can do for it. Each capability is an optional
-// member of the model and a free function of the same name, which calls the member or, where there is none, falls back
-// on what every model has. Algorithms call the free functions only. The wrappers Level_set_traits_3,
+// member of the model and a free function, which calls the member or, where there is none, falls back on what every model
+// has. They have the same name, but for the member `lattice(size)` of sampling_lattice(). The wrappers Level_set_traits_3,
 // Transformed_function_traits_3, Batch_function_traits_3 and Any_function_3 have the capabilities of what they wrap.
 //
 // | free function                              | without the member                                                   |

@@ -25,6 +25,7 @@ public:
   using Point_3 = Kernel::Point_3;
   using Vector_3 = Kernel::Vector_3;
 
+  /// Holds a model; one that is an Any_function_3 already is returned as it is.
   template <ImplicitFunctionTraits_3 Traits>
   static Any_function_3 make(Traits traits) {
     return Any_function_3(std::make_shared<internal::Erased_model_3<Traits>>(std::move(traits)));

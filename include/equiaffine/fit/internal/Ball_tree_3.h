@@ -2,7 +2,6 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_BALL_TREE_3_H
 #define EQUIAFFINE_FIT_INTERNAL_BALL_TREE_3_H
 
-#include <equiaffine/base/Point_tree.h>
 #include <equiaffine/fit/internal/Data_points_3.h>
 
 #include <Eigen/Core>
@@ -14,9 +13,6 @@
 #include <vector>
 
 namespace equiaffine::internal {
-
-/// Finds the nearest of data.
-using Point_tree_3 = Point_tree<3, Data_points_3::Index>;
 
 /// Finds the balls that contain a point.
 class Ball_tree_3 {

@@ -6,6 +6,7 @@
 #include <equiaffine/fit/internal/Border_gap_3.h>
 #include <equiaffine/fit/internal/Charts_3.h>
 #include <equiaffine/fit/internal/Normalization_3.h>
+#include <equiaffine/fit/internal/Point_tree_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <Eigen/Core>

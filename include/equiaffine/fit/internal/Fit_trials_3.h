@@ -4,10 +4,10 @@
 
 #include <equiaffine/base/parallel_for.h>
 #include <equiaffine/base/random_subset.h>
-#include <equiaffine/fit/internal/Ball_tree_3.h>
 #include <equiaffine/fit/internal/Data_points_3.h>
 #include <equiaffine/fit/internal/Fit_candidate.h>
 #include <equiaffine/fit/internal/Fit_request.h>
+#include <equiaffine/fit/internal/Point_tree_3.h>
 #include <equiaffine/fit/internal/fit_height.h>
 #include <equiaffine/fit/internal/fit_space.h>
 

@@ -6,6 +6,7 @@
 #include <equiaffine/fit/internal/Ball_tree_3.h>
 #include <equiaffine/fit/internal/Charts_3.h>
 #include <equiaffine/fit/internal/Patch_cover_3.h>
+#include <equiaffine/fit/internal/Point_tree_3.h>
 #include <equiaffine/number/Jet_3.h>
 
 #include <Eigen/Core>

@@ -4,8 +4,8 @@
 
 #include <equiaffine/base/parallel_for.h>
 #include <equiaffine/fit/Normal_orientation.h>
-#include <equiaffine/fit/internal/Ball_tree_3.h>
 #include <equiaffine/fit/internal/Normalization_3.h>
+#include <equiaffine/fit/internal/Point_tree_3.h>
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>

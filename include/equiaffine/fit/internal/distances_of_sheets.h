@@ -3,7 +3,7 @@
 #define EQUIAFFINE_FIT_INTERNAL_DISTANCES_OF_SHEETS_H
 
 #include <equiaffine/base/parallel_for.h>
-#include <equiaffine/fit/internal/Ball_tree_3.h>
+#include <equiaffine/fit/internal/Point_tree_3.h>
 #include <equiaffine/fit/internal/Surface_fit_3.h>
 
 #include <Eigen/Core>

@@ -3,7 +3,7 @@
 #ifndef EQUIAFFINE_FUNCTION_INTERNAL_EVALUATE_POINTS_H
 #define EQUIAFFINE_FUNCTION_INTERNAL_EVALUATE_POINTS_H
 
-#include <equiaffine/function/internal/expand.h>
+#include <equiaffine/function/expand.h>
 #include <equiaffine/number/Pack.h>
 
 #include <algorithm>

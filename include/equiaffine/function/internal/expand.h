@@ -43,24 +43,6 @@ EQUIAFFINE_FLATTEN Result inlined_call(const Function& f, const X& x, const Y& y
 
 #undef EQUIAFFINE_FLATTEN
 
-/// The expansion of f at (x, y, z): on sparse jets when f takes three arguments of different types, else on full ones.
-template <int Order, class FT, class Function>
-Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z) {
-  const auto sx = sparse_variable<FT, Order, 0>(x);
-  const auto sy = sparse_variable<FT, Order, 1>(y);
-  const auto sz = sparse_variable<FT, Order, 2>(z);
-  using Jet = Jet_3<FT, Order>;
-  if constexpr (CallableWith<Function, decltype(sx), decltype(sy), decltype(sz)>) {
-    if constexpr (is_built_in<FT>) return inlined_call<Jet>(f, sx, sy, sz);
-    else return f(sx, sy, sz);
-  } else {
-    static_assert(CallableWith<Function, Jet, Jet, Jet>,
-                  "the function takes no jets: write it as a template of the type of its arguments, and call functions "
-                  "as `using std::sin; sin(x)`");
-    return f(Jet(sx), Jet(sy), Jet(sz));
-  }
-}
-
 /// A function that may be a cheaper one, of the same type, on a box.
 template <class Function>
 concept HasRestriction = requires(const Function& f, const Interval& x) {

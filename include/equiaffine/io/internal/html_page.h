@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <ostream>
 #include <string>
+#include <string_view>
 
 namespace equiaffine::internal {
 
@@ -67,7 +68,9 @@ void write_page(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, 
   out << "<script type=\"application/json\" id=\"facts\">" << page_facts(mesh, attributes, options, center, parabolic)
       << "</script>\n";
   write_data(out, mesh, attributes, center, parabolic);
-  out << "<script>\n'use strict';\n(() => {" << viewer_script << "})();\n</script>\n</body>\n</html>\n";
+  out << "<script>\n'use strict';\n(() => {";
+  for (const std::string_view part : viewer_script) out << part;
+  out << "})();\n</script>\n</body>\n</html>\n";
 }
 
 } // namespace equiaffine::internal

@@ -11,8 +11,6 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <limits>
 #include <optional>
 #include <utility>

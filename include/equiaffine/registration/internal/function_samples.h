@@ -13,8 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <span>
-#include <utility>
 #include <vector>
 
 namespace equiaffine::internal {

@@ -102,15 +102,15 @@ constexpr std::size_t fewest_points_of_whole = 16;
 
 /// A surface as register_surfaces() is given it: a function, points near its zero set, and a function with the same zero
 /// set on which maps are refined.
-struct Sampled_function_3 {
+struct Surface_with_points_3 {
   Any_function_3 function, refined;
   std::vector<Eigen::Vector3d> points;
 };
 
 /// Whole surfaces of exact functions whose frames give no map are tried without frames.
 template <class ConcurrencyTag, class Kernel>
-Registration_of_framed_3<Kernel> registration_of_functions(const Sampled_function_3& source,
-                                                           const Sampled_function_3& target,
+Registration_of_framed_3<Kernel> registration_of_functions(const Surface_with_points_3& source,
+                                                           const Surface_with_points_3& target,
                                                            const Registration_request& request) {
   check_argument(!source.points.empty(), "a surface to be registered has no points: give points of the source");
   check_argument(!target.points.empty(), "a surface to register with has no points: give points of the target");
@@ -136,8 +136,9 @@ Registration_of_framed_3<Kernel> registration_of_functions(const Sampled_functio
 template <class ConcurrencyTag, class Source, class Points, class Target, class Target_points, class Parameters>
 auto registration_of(const Source& source, const Points& source_points, const Target& target,
                      const Target_points& target_points, const Parameters& parameters) {
-  Sampled_function_3 from = {Any_function_3::make(source), Any_function_3::make(source), vectors_of(source_points)};
-  Sampled_function_3 to = {Any_function_3::make(target), Any_function_3::make(target), vectors_of(target_points)};
+  const auto function = Any_function_3::make(source), target_function = Any_function_3::make(target);
+  Surface_with_points_3 from = {function, function, vectors_of(source_points)};
+  Surface_with_points_3 to = {target_function, target_function, vectors_of(target_points)};
   if constexpr (has_parameter<Refined_functions_tag, Parameters>) {
     const auto& [refined_source, refined_target] = given_parameter<Refined_functions_tag>(parameters);
     from.refined = Any_function_3::make(refined_source);
