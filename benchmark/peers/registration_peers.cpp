@@ -66,7 +66,7 @@ class Closest_points {
 public:
   Closest_points(const Vectors& source, const Vectors& target)
       : source_(source.begin(), source.begin() + std::ptrdiff_t(std::min<std::size_t>(500, source.size()))),
-        target_(target), tree_.neighbors(tree_of<3>(target)) {}
+        target_(target), tree_(tree_of<3>(target)) {}
 
   Affine refined(Affine map, int count) const {
     for (int step = 0; step < count; ++step) {
