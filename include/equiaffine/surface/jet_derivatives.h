@@ -3,7 +3,7 @@
 #ifndef EQUIAFFINE_SURFACE_JET_DERIVATIVES_H
 #define EQUIAFFINE_SURFACE_JET_DERIVATIVES_H
 
-#include <CGAL/number_utils.h>
+#include <CGAL/number_type_basic.h>
 #include <Eigen/Dense>
 
 namespace equiaffine {
