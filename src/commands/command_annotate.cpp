@@ -50,9 +50,7 @@ Outputs outputs_of(const Annotate_options& options) {
   check_vertices_output(options.output);
   check_display_outputs(options.display);
   if (options.stats) check_statistics_output(*options.stats);
-  Outputs outputs;
-  outputs.add(Output_kind::RESULT, options.output);
-  outputs.add_displays(options.display);
+  Outputs outputs(options.output, options.display);
   outputs.add(Output_kind::STATISTICS, options.stats);
   return outputs;
 }

@@ -81,9 +81,7 @@ Outputs outputs_of(const Mesh_options& options) {
   check_display_outputs(options.display);
   if (options.curves) check_curves_output(*options.curves);
   if (options.stats) check_statistics_output(*options.stats);
-  Outputs outputs;
-  outputs.add(Output_kind::RESULT, options.output);
-  outputs.add_displays(options.display);
+  Outputs outputs(options.output, options.display);
   outputs.add(Output_kind::CURVES, options.curves);
   outputs.add(Output_kind::STATISTICS, options.stats);
   return outputs;

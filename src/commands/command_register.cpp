@@ -19,9 +19,7 @@ Outputs outputs_of(const Register_options& options) {
   check_maps_output(options.output);
   check_display_outputs(options.display);
   if (options.moved) check_surface_output(*options.moved);
-  Outputs outputs;
-  outputs.add(Output_kind::RESULT, options.output);
-  outputs.add_displays(options.display);
+  Outputs outputs(options.output, options.display);
   outputs.add(Output_kind::MOVED, options.moved);
   return outputs;
 }

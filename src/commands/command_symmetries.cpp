@@ -99,10 +99,7 @@ Found_symmetries find_symmetries(const Symmetries_options& options, Progress& pr
 Outputs outputs_of(const Symmetries_options& options) {
   check_maps_output(options.output);
   check_display_outputs(options.display);
-  Outputs outputs;
-  outputs.add(Output_kind::RESULT, options.output);
-  outputs.add_displays(options.display);
-  return outputs;
+  return Outputs(options.output, options.display);
 }
 
 } // namespace

@@ -6,6 +6,11 @@
 
 namespace equiaffine {
 
+Outputs::Outputs(const std::string& result, const Display_options& display) {
+  add(Output_kind::RESULT, result);
+  add_displays(display);
+}
+
 void Outputs::add(Output_kind kind, const std::optional<std::string>& path) {
   if (!path) return;
   files_.emplace_back(*path);

@@ -14,12 +14,17 @@
 
 namespace equiaffine {
 
-/// What a file that a command writes is for.
+/// The purposes of the files that commands write.
 enum class Output_kind { RESULT, PAGE, PICTURE, CURVES, MOVED, STATISTICS };
 
 /// The output files of a command, of which all appear or none.
 class Outputs {
 public:
+  Outputs() = default;
+
+  /// Adds the result, then page and picture, as far as they are asked for.
+  Outputs(const std::string& result, const Display_options& display);
+
   /// Throws `Input_error` if the file cannot be written, which is to be known before a long computation. Without a path
   /// there is no such output.
   void add(Output_kind kind, const std::optional<std::string>& path);
