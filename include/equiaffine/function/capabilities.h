@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a model of ImplicitFunctionTraits_3 may do better than everybody can do for it. Each capability is an optional
+// A model of ImplicitFunctionTraits_3 may do some things better than others can do for it. Each capability is an optional
 // member of the model and a free function, which calls the member or, where there is none, falls back on what every model
 // has. They have the same name, but for the member `lattice(size)` of sampling_lattice(). The wrappers Level_set_traits_3,
 // Transformed_function_traits_3, Batch_function_traits_3 and Any_function_3 have the capabilities of what they wrap.

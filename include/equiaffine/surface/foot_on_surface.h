@@ -10,7 +10,7 @@
 
 namespace equiaffine {
 
-/// Where Newton's steps along the gradient have led.
+/// The end of Newton's steps along the gradient.
 struct Foot_3 {
   Eigen::Vector3d point;    ///< on the zero set, to within the length of a further step
   Eigen::Vector3d before;   ///< the point from which the last step led there

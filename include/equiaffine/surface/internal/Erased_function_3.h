@@ -17,7 +17,7 @@
 
 namespace equiaffine::internal {
 
-/// What Any_function_3 asks of the model that it holds.
+/// The members of a model that Any_function_3 calls.
 class Erased_function_3 {
 public:
   using Kernel = CGAL::Simple_cartesian<double>;
