@@ -3,10 +3,10 @@
 #define EQUIAFFINE_MESHER_BORDER_CURVE_TRACER_3_H
 
 #include "Domain_border_3.h"
-#include <equiaffine/function/capabilities.h>
-#include <equiaffine/function/concepts.h>
+#include <equiaffine/capabilities.h>
+#include <equiaffine/concepts.h>
 #include <equiaffine/surface/Polyline_3.h>
-#include <equiaffine/surface/curve_step.h>
+#include <equiaffine/surface/internal/shared/curve_step.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/squared_distance_3.h>

@@ -5,8 +5,8 @@
 #include "Surface_complex.h"
 #include "orient_triangles.h"
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
-#include <equiaffine/surface/curve_step.h>
-#include <equiaffine/surface/mesh_topology.h>
+#include <equiaffine/mesh_topology.h>
+#include <equiaffine/surface/internal/shared/curve_step.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 

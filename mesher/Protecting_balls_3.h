@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_MESHER_PROTECTING_BALLS_3_H
 #define EQUIAFFINE_MESHER_PROTECTING_BALLS_3_H
 
-#include <equiaffine/delaunay/Seed_grid_3.h>
+#include <equiaffine/delaunay/internal/shared/Seed_grid_3.h>
 #include <equiaffine/surface/Polyline_3.h>
 
 #include <CGAL/Kernel/global_functions_3.h>

@@ -3,8 +3,8 @@
 #define EQUIAFFINE_MESHER_SURFACE_CRITERIA_3_H
 
 #include "Facet_sizing_field.h"
-#include <equiaffine/delaunay/Cgal_optional.h>
 #include <equiaffine/delaunay/Delaunay_criteria.h>
+#include <equiaffine/delaunay/internal/shared/Cgal_optional.h>
 
 #include <CGAL/Weighted_point_3.h>
 

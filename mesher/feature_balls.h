@@ -8,7 +8,7 @@
 #include "Feature_ends_3.h"
 #include "Memoized_function_3.h"
 #include "Protecting_balls_3.h"
-#include <equiaffine/surface/Clip_domain_3.h>
+#include <equiaffine/Clip_domain_3.h>
 
 #include <optional>
 #include <vector>

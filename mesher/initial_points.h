@@ -4,7 +4,7 @@
 
 #include "feature_balls.h"
 #include "singular_points.h"
-#include <equiaffine/delaunay/certified_seeding.h>
+#include <equiaffine/delaunay/internal/shared/certified_seeding.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/squared_distance_3.h>

@@ -4,7 +4,7 @@
 
 #include "Facet_mesh.h"
 #include "insert_points.h"
-#include <equiaffine/surface/vertex_links.h>
+#include <equiaffine/surface/internal/shared/vertex_links.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 

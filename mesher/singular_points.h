@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_MESHER_SINGULAR_POINTS_H
 #define EQUIAFFINE_MESHER_SINGULAR_POINTS_H
 
-#include <equiaffine/function/capabilities.h>
-#include <equiaffine/function/concepts.h>
-#include <equiaffine/surface/jet_derivatives.h>
+#include <equiaffine/capabilities.h>
+#include <equiaffine/concepts.h>
+#include <equiaffine/surface/internal/shared/jet_derivatives.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions_3.h>

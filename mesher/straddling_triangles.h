@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_MESHER_STRADDLING_TRIANGLES_H
 #define EQUIAFFINE_MESHER_STRADDLING_TRIANGLES_H
 
+#include <equiaffine/Local_structure_3.h>
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
-#include <equiaffine/geometry/local_structure.h>
 #include <equiaffine/surface/Any_function_3.h>
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include <equiaffine/Input_error.h>
 #include <equiaffine/analytic_functions.h>
 #include <equiaffine/geometry/reference_estimators.h>
-#include <equiaffine/volume/bspline.h>
+#include <equiaffine/volume/internal/shared/bspline.h>
 
 #include <array>
 #include <cmath>

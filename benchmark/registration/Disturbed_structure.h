@@ -5,7 +5,7 @@
 
 #include "support/registration_cases.h"
 #include <equiaffine/number/Jet_3.h>
-#include <equiaffine/registration/internal/Framed_function_3.h>
+#include <equiaffine/registration/internal/frames/Framed_function_3.h>
 
 #include <Eigen/Core>
 

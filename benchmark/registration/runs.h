@@ -6,7 +6,7 @@
 #include "../measure.h"
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
-#include <equiaffine/base/quantile.h>
+#include <equiaffine/base/internal/shared/quantile.h>
 #include <equiaffine/register_surfaces.h>
 
 #include <CGAL/tags.h>

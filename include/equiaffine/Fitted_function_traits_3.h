@@ -1,2 +1,217 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/fit/Fitted_function_traits_3.h> // IWYU pragma: export
+#ifndef EQUIAFFINE_FITTED_FUNCTION_TRAITS_3_H
+#define EQUIAFFINE_FITTED_FUNCTION_TRAITS_3_H
+
+#include <equiaffine/concepts.h>
+#include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/fit/internal/Surface_fit_3.h>
+#include <equiaffine/fit/internal/blend/Blend_3.h>
+#include <equiaffine/fit/internal/certainty_of_fit.h>
+#include <equiaffine/fit/internal/data/feature_angle.h>
+#include <equiaffine/fit/internal/data/fit_input.h>
+#include <equiaffine/fit/internal/data/fit_input_of_soup.h>
+#include <equiaffine/fit/internal/distances_of_sheets.h>
+#include <equiaffine/fit/internal/shared/Fit_request.h>
+#include <equiaffine/fit/internal/structures_of_fit.h>
+#include <equiaffine/number/Interval.h>
+#include <equiaffine/surface/internal/shared/Face_graph.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/number_utils.h>
+#include <CGAL/tags.h>
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <ranges>
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+/// A smooth function whose zero set is the surface that the vertices of a mesh, or points without faces, are samples
+/// of: a model of FirstOrderImplicitFunctionTraits_3 and BoundedImplicitFunctionTraits_3. Near the surface its value is
+/// about the signed distance, negative on the side that normals point away from.
+///
+/// It is a blend of polynomials fitted to the points around centers, chosen by the data as for `fitted_structures`, of
+/// which it is the continuous counterpart: sum of w_i g_i / sum of w_i, where g_i is a polynomial that approximates the
+/// distance and w_i a weight that vanishes at half the radius of its points (a partition of unity; Ohtake et al.
+/// 2003). Expansions are the means of those of the g_i with the same weights, diffuse derivatives (Nayroles et al. 1992):
+/// they differ from the derivatives of f by what the polynomials disagree on, and are at least as near to those of the
+/// surface as each of them. Another sheet of the surface that is near in space but not connected
+/// nearby has no influence.
+///
+/// It is defined in a band along its zero set: up to 2 spacings of the points from the foot of the nearest one along the
+/// normal, and 1.25 across, so that holes larger than that stay holes, and no more than a quarter of a spacing beyond an
+/// open border, which therefore stays where it is. Elsewhere the value is not a number; `in_band` makes the band wider.
+/// The value is continuous in the band, up to points as far from two sheets: where polynomials know nothing, high above
+/// the surface, or are wrong, as beside creases, it is the mean of the heights over the tangent planes at the nearest
+/// feet, which has first derivatives, and no curvature. Fits do not reach over creases, see fitted_structures(): each side
+/// has its own function there, and the value is the greatest one at convex creases, the least at concave ones.
+///
+/// Construction takes 1 ms per vertex for exact data and 3 ms for noisy ones, memory is linear; copies share it. A
+/// value takes some 6 microseconds, an expansion 11.
+template <class Kernel>
+class Fitted_function_traits_3 {
+public:
+  using FT = typename Kernel::FT;
+  using Point_3 = typename Kernel::Point_3;
+  using Vector_3 = typename Kernel::Vector_3;
+
+  /// From a mesh, a model of CGAL's FaceGraph. Named parameters: `vertex_point_map`, `noise`, `scale`, `degree`,
+  /// `feature_angle`.
+  /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
+  template <Face_graph Graph, class Parameters = internal::No_parameters,
+            class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+  explicit Fitted_function_traits_3(const Graph& mesh, const Parameters& parameters = {}, ConcurrencyTag tag = {}) {
+    internal::check_fit_parameters<Parameters, internal::Vertex_point_tag, internal::Feature_angle_tag>();
+    make(internal::fit_input_of_graph(mesh, parameters), parameters, tag);
+  }
+
+  /// From points. Named parameters: `point_map`, `normal_map`, `normal_orientation`, `noise`, `scale`, `degree`.
+  /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
+  template <std::ranges::input_range Points, class Parameters = internal::No_parameters,
+            class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+  explicit Fitted_function_traits_3(const Points& points, const Parameters& parameters = {},
+                                    ConcurrencyTag tag = {}) requires(!Face_graph<Points> &&
+                                                                      !std::ranges::range<Parameters>) {
+    internal::check_point_fit_parameters<Parameters>();
+    make(internal::fit_input_of_points<ConcurrencyTag>(points, parameters).data, parameters, tag);
+  }
+
+  /// From points with polygons between them, ranges of positions of points, which need not be a mesh. Named parameters:
+  /// `noise`, `scale`, `degree`, `feature_angle`.
+  /// \throw std::invalid_argument also if a polygon has the position of no point.
+  template <std::ranges::input_range Points, std::ranges::input_range Polygons,
+            class Parameters = internal::No_parameters, class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+  Fitted_function_traits_3(const Points& points, const Polygons& polygons, const Parameters& parameters = {},
+                           ConcurrencyTag tag = {}) {
+    internal::check_fit_parameters<Parameters, internal::Feature_angle_tag>();
+    make(internal::fit_input_of_soup(points, polygons, internal::feature_angle(parameters)).data, parameters, tag);
+  }
+
+  /// The same function, to be sampled in another box.
+  Fitted_function_traits_3 in_box(const CGAL::Bbox_3& box) const {
+    Fitted_function_traits_3 copy = *this;
+    copy.box_ = box;
+    return copy;
+  }
+
+  /// The same function with values up to that height over the surface. Beyond 2 spacings of the points there are no
+  /// derivatives. Marching Cubes on a grid that is coarser than the points need this: the
+  /// height is the diagonal of a cell.
+  Fitted_function_traits_3 in_band(const FT& height) const {
+    Fitted_function_traits_3 copy = *this;
+    const double least = state_->fit.normalization().least_stretch(),
+                 greatest = state_->fit.normalization().greatest_stretch();
+    copy.margin_ = {CGAL::to_double(height) * greatest, 0.5 * least / greatest};
+    return copy;
+  }
+
+  FT value(const Point_3& p) const {
+    return FT(state_->blend.value(normal(p), margin_) / state_->fit.normalization().scale());
+  }
+  Jet_3<FT, 1> first_order(const Point_3& p) const { return expansion<1>(p); }
+
+  /// The expansion where the value is that of polynomials; not a number elsewhere.
+  Jet_3<FT> taylor(const Point_3& p) const { return expansion<4>(p); }
+
+  /// The whole line for a box that meets the band, as far as boxes around the data tell, and 1 for one where the
+  /// function has no value, so that Marching Cubes with `skip_empty_space` visits the band alone.
+  Interval bounds(const CGAL::Bbox_3& box) const {
+    const Eigen::Matrix3d& matrix = state_->fit.normalization().matrix;
+    const Eigen::Vector3d lower(box.xmin(), box.ymin(), box.zmin()), upper(box.xmax(), box.ymax(), box.zmax());
+    const Eigen::Vector3d center = state_->fit.normalization()((lower + upper) / 2);
+    const Eigen::Vector3d half = matrix.cwiseAbs() * ((upper - lower) / 2);
+    return state_->blend.band().may_meet(center - half, center + half, margin_) ? Interval::whole() : Interval(1);
+  }
+
+  /// The errors of second derivatives at a point that roundings of the data make; infinity where K_e is zero within its
+  /// estimated error.
+  FT rounding(const Point_3& p) const {
+    const Eigen::Vector3d place = normal(p);
+    const auto jet = state_->blend.template taylor<4>(place);
+    if (!std::isfinite(jet.value())) return FT(jet.value());
+    return FT(internal::rounding_of(jet, state_->fit, state_->blend.accuracy(place, jet)));
+  }
+
+  /// The structure of the level set through a point, with estimates of the errors as `fitted_structures` has them for
+  /// the data, the geometric means of those of the polynomials that are blended there. OUTSIDE where the function has
+  /// no derivatives.
+  Fitted_structure_3<double> structure(const Point_3& p) const {
+    const Eigen::Vector3d place = normal(p);
+    const auto jet = state_->blend.template taylor<4>(place);
+    if (!std::isfinite(jet.value())) return internal::structure_without_fit();
+    return internal::structure_of(jet, state_->fit, state_->blend.accuracy(place, jet),
+                                  Orientation_of_level_set::ALONG_GRADIENT);
+  }
+
+  /// How far the affine curvatures there can be trusted, by their estimated errors: see `equiaffine::certainty`.
+  double certainty(const Point_3& p) const { return internal::certainty_of_fit(structure(p)); }
+
+  /// The scale of the curvatures, in the unit of the points; nothing if they are the surface's own.
+  std::optional<double> scale() const { return state_->fit.scale(); }
+
+  /// The distance of the points around the one whose foot is nearest to p, in their unit of length.
+  FT spacing(const Point_3& p) const {
+    return FT(state_->blend.band().spacing(normal(p)) / state_->fit.normalization().scale());
+  }
+
+  /// The point of the tangent plane of the zero set at the nearest foot of a datum that is under or above p there, in
+  /// the coordinates in which data have no preferred direction, or p itself if the fit has no polynomials. The function
+  /// has derivatives there more often than at p.
+  Point_3 on_tangent_plane(const Point_3& p) const {
+    const Eigen::Vector3d q = state_->fit.normalization().inverse(state_->blend.band().on_tangent_plane(normal(p)));
+    return Point_3(FT(q[0]), FT(q[1]), FT(q[2]));
+  }
+
+  /// The distances of points from other sheets of the surface, for those that have one nearer than `distance`: points
+  /// beside them that are not connected with them nearby, or have opposed normals. Marching Cubes tells sheets apart that
+  /// are farther from each other than the steps of its grid.
+  template <class ConcurrencyTag = CGAL::Sequential_tag>
+  std::vector<FT> distances_of_sheets(const FT& distance) const {
+    const auto found = internal::distances_of_sheets<ConcurrencyTag>(state_->fit, CGAL::to_double(distance));
+    return {found.begin(), found.end()};
+  }
+
+  /// The box of the band, or the one that `in_box` was given. It is CGAL::Bbox_3() if no polynomial could be fitted.
+  CGAL::Bbox_3 bbox() const { return box_; }
+
+  /// The box of the band, whatever `in_box` was given.
+  CGAL::Bbox_3 band_box() const { return state_->blend.band().box(state_->fit.normalization()); }
+
+private:
+  struct State {
+    template <class ConcurrencyTag>
+    State(internal::Normalized_data data, const internal::Fit_request& request, ConcurrencyTag tag)
+        : fit(std::move(data), request, tag), blend(fit.data(), fit.choices(), tag) {}
+
+    internal::Surface_fit_3 fit;
+    internal::Blend_3 blend;
+  };
+
+  template <class Parameters, class ConcurrencyTag>
+  void make(internal::Normalized_data data, const Parameters& parameters, ConcurrencyTag tag) {
+    state_ = std::make_shared<const State>(std::move(data), internal::fit_request(parameters), tag);
+    box_ = band_box();
+  }
+
+  Eigen::Vector3d normal(const Point_3& p) const { return state_->fit.normalization()(coordinates_of(p)); }
+
+  template <int Order>
+  Jet_3<FT, Order> expansion(const Point_3& p) const {
+    const auto jet = state_->fit.to_space(state_->blend.template taylor<Order>(normal(p)));
+    Jet_3<FT, Order> result;
+    for (std::size_t n = 0; n < jet.size; ++n) result.coefficients()[n] = FT(jet.coefficients()[n]);
+    return result;
+  }
+
+  std::shared_ptr<const State> state_;
+  CGAL::Bbox_3 box_;
+  internal::Band_3::Margin margin_; ///< in normal coordinates
+};
+
+} // namespace equiaffine
+
+#endif

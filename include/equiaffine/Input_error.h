@@ -1,2 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/base/Input_error.h> // IWYU pragma: export
+#ifndef EQUIAFFINE_INPUT_ERROR_H
+#define EQUIAFFINE_INPUT_ERROR_H
+
+#include <equiaffine/base/internal/shared/printable.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace equiaffine {
+
+/// The exception for a text or a file that cannot be used.
+/// `what()` is one line that says what is wrong, where, and what to do about it. What it quotes of the text or file is
+/// `printable`.
+/// `excerpt()` is empty or shows the place: the offending text and, below it, a caret.
+class Input_error : public std::runtime_error {
+public:
+  explicit Input_error(const std::string& what, std::string excerpt = {})
+      : std::runtime_error(printable(what)), excerpt_(std::move(excerpt)) {}
+
+  const std::string& excerpt() const { return excerpt_; }
+
+private:
+  std::string excerpt_;
+};
+
+} // namespace equiaffine
+
+#endif

@@ -1,2 +1,76 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/function/Sampled_function_traits_3.h> // IWYU pragma: export
+#ifndef EQUIAFFINE_SAMPLED_FUNCTION_TRAITS_3_H
+#define EQUIAFFINE_SAMPLED_FUNCTION_TRAITS_3_H
+
+#include <equiaffine/concepts.h>
+#include <equiaffine/volume/Spline_function_3.h>
+#include <equiaffine/volume/internal/shared/Spline_rounding_3.h>
+#include <equiaffine/volume/smooth_volume.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace equiaffine {
+
+/// A volume as a function: values and expansions are those of the tensor product spline through its samples, and the
+/// signs at nodes are those of the samples. The convolution scheme smooths, so that the spline's value at a node
+/// differs from the sample there.
+///
+/// This is a model of ImplicitFunctionTraits_3 with first-order bounds and expansions, and with a lattice. Copies share
+/// the immutable data.
+template <class Kernel>
+class Sampled_function_traits_3 {
+public:
+  using FT = typename Kernel::FT;
+  using Point_3 = typename Kernel::Point_3;
+  using Vector_3 = typename Kernel::Vector_3;
+
+  /// Makes the spline that `parameters` ask for. If they smooth the samples, `sample` returns smoothed ones.
+  template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+  explicit Sampled_function_traits_3(Volume_3<Kernel> volume, const Spline_parameters& parameters = {},
+                                     ConcurrencyTag tag = {}) {
+    const Sample_format<FT> format(volume.values);
+    const FT smoothing(parameters.smoothing);
+    volume_ = std::make_shared<const Volume_3<Kernel>>(smooth_volume<ConcurrencyTag>(std::move(volume), smoothing));
+    spline_ = std::make_shared<const Spline_function_3<Kernel>>(
+        *volume_, Spline_parameters{.degree = parameters.degree, .scheme = parameters.scheme}, tag);
+    rounding_ = std::make_shared<const Spline_rounding_3<Kernel>>(*spline_, smoothing, format);
+  }
+
+  /// Values and coefficients of expansions are NaN outside the support of the spline.
+  FT value(const Point_3& p) const { return spline_->value(p); }
+  Jet_3<FT, 1> first_order(const Point_3& p) const { return spline_->template taylor<1>(p); }
+  Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); }
+  Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); }
+  Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return spline_->first_order_bounds(box); }
+  /// The greatest change of second derivatives at p by rounding. It includes the rounding of the samples to float if
+  /// all samples are floats, and is 0 outside the support of the spline.
+  FT rounding(const Point_3& p) const {
+    const auto cell = spline_->cell_of(p);
+    return cell ? (*rounding_)(*cell) : FT(0);
+  }
+  CGAL::Bbox_3 bbox() const { return volume_->lattice.bbox(); }
+
+  const Lattice_3<Kernel>& lattice() const { return volume_->lattice; }
+
+  /// The sample at node (i, j, k).
+  FT sample(std::size_t i, std::size_t j, std::size_t k) const { return (*volume_)(i, j, k); }
+
+  const Spline_function_3<Kernel>& spline() const { return *spline_; }
+
+private:
+  std::shared_ptr<const Volume_3<Kernel>> volume_;
+  std::shared_ptr<const Spline_function_3<Kernel>> spline_;
+  std::shared_ptr<const Spline_rounding_3<Kernel>> rounding_;
+};
+
+static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+static_assert(FirstOrderImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+static_assert(LatticeImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+
+} // namespace equiaffine
+
+#endif

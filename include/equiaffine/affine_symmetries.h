@@ -1,2 +1,81 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/registration/affine_symmetries.h> // IWYU pragma: export
+#ifndef EQUIAFFINE_AFFINE_SYMMETRIES_H
+#define EQUIAFFINE_AFFINE_SYMMETRIES_H
+
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/concepts.h>
+#include <equiaffine/registration/Affine_symmetries_3.h>
+#include <equiaffine/registration/Map_kind.h>
+#include <equiaffine/registration/internal/samples/triangles_of.h>
+#include <equiaffine/registration/internal/symmetries.h>
+#include <equiaffine/surface/internal/shared/Face_graph.h>
+#include <equiaffine/surface/internal/shared/indexed_polygons.h>
+
+#include <CGAL/Kernel_traits.h>
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/tags.h>
+#include <boost/property_map/property_map.hpp>
+
+#include <ranges>
+
+namespace equiaffine {
+
+/// Finds all maps of a kind that move a surface, given by a function and points on its zero set, onto itself as a set
+/// of points, whichever way its normals point.
+///
+/// On a smooth surface they come from affine frames of a few points and of all their possible images, by exact
+/// derivatives; products complete the group. Where there are too few such frames, as on planes, cylinders and spheres,
+/// with `complete`, or with a `tolerance` above 1e-6, all rotations and reflections about the centroid of the area,
+/// which every symmetry of a whole surface keeps, are searched by branch and bound, for affine maps in coordinates in
+/// which the solid inside is round, with points by random lines (Crofton). Maps are refined by least squares, and every
+/// element is verified by thousands of points. A surface that leaves the box of the function has no centroid to go by:
+/// points that leave the box do not count, so that an unbounded surface in a box has the symmetries of the whole one.
+///
+/// The order counts the maps to within `tolerance`, a part of the size, 1e-8 by default. A greater tolerance never
+/// finds fewer. Where the surface has continuous symmetries of the kind, the result has their generators, and no others
+/// are sought: an ellipsoid has infinitely many affine symmetries, but 8 rigid ones if its axes differ.
+///
+/// Takes some 0.1 s for a smooth formula, else 1 to 10 s on one core. The result is the same for CGAL::Sequential_tag
+/// and CGAL::Parallel_tag. Named parameters: `map_kind`, `reflections`, `tolerance`, `complete`.
+/// \throw std::invalid_argument if there are no points, or a parameter makes no sense.
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, std::ranges::input_range Points,
+          class Parameters = internal::No_parameters>
+Affine_symmetries_3<Kernel_of<Traits>> affine_symmetries(const Traits& traits, const Points& points,
+                                                         const Parameters& parameters = {}) {
+  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag, internal::Tolerance_tag,
+                             internal::Complete_tag>();
+  return internal::symmetries_of<ConcurrencyTag, Kernel_of<Traits>>(
+      Any_function_3::make(traits), internal::vectors_of(points), internal::symmetry_request(parameters));
+}
+
+/// The same for the triangles of a mesh, by all rotations; other faces are cut into triangles. Without a
+/// `tolerance` the order is that of the first level within 1 % of the size, less for thin surfaces; the verdict is
+/// EXACT to within the distance between the triangles and the smooth surface that they stand for. Affine maps of a mesh
+/// that bounds no solid are undecided. Named parameters: `map_kind`, `reflections`, `tolerance`, `vertex_point_map`.
+/// \throw std::invalid_argument if a coordinate is not finite, the mesh has no area, or a parameter makes no sense.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, class Parameters = internal::No_parameters>
+auto affine_symmetries(const Graph& mesh, const Parameters& parameters = {}) {
+  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag, internal::Tolerance_tag,
+                             internal::Vertex_point_tag>();
+  using Point_map = decltype(vertex_points(mesh, parameters));
+  using Kernel_of_points = typename CGAL::Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
+  return internal::symmetries_of_triangles<ConcurrencyTag, Kernel_of_points>(
+      internal::triangles_of_graph(mesh, parameters), parameters);
+}
+
+/// The same for points with polygons between them, each a range of positions of points. Equal points count once.
+/// \throw std::invalid_argument also if a polygon has the position of no point.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
+          std::ranges::input_range Polygons, class Parameters = internal::No_parameters>
+auto affine_symmetries(const Points& points, const Polygons& polygons,
+                       const Parameters& parameters = {}) requires(!ImplicitFunctionTraits_3<Points> &&
+                                                                   !Face_graph<Points>) {
+  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag, internal::Tolerance_tag>();
+  using Kernel_of_points = typename CGAL::Kernel_traits<std::ranges::range_value_t<Points>>::Kernel;
+  return internal::symmetries_of_triangles<ConcurrencyTag, Kernel_of_points>(
+      internal::triangles_of_soup(points, polygons), parameters);
+}
+
+} // namespace equiaffine
+
+#endif

@@ -1,2 +1,105 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/fit/fitted_structures.h> // IWYU pragma: export
+#ifndef EQUIAFFINE_FITTED_STRUCTURES_H
+#define EQUIAFFINE_FITTED_STRUCTURES_H
+
+#include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/fit/internal/data/feature_angle.h>
+#include <equiaffine/fit/internal/data/fit_input.h>
+#include <equiaffine/fit/internal/data/fit_input_of_soup.h>
+#include <equiaffine/fit/internal/shared/Fit_request.h>
+#include <equiaffine/fit/internal/structures_of_fit.h>
+#include <equiaffine/surface/internal/shared/Face_graph.h>
+
+#include <CGAL/tags.h>
+
+#include <cstddef>
+#include <iterator>
+#include <ranges>
+#include <vector>
+
+namespace equiaffine {
+
+/// Returns the local structure at the vertices of a mesh, a model of CGAL's FaceGraph, in their order, from polynomials
+/// that are fitted to the vertices around each. The numbers belong to the surface that the vertices are samples of:
+/// facets only say which vertices are neighbors, and on which side normals are. They are those of the point of the fit
+/// that is nearest along its gradient.
+///
+/// Where the data resolve the surface, its own curvatures come out. The data choose what to fit: heights over a tangent
+/// plane, of degree up to 12, where they lie on a smooth surface, to within little, else polynomials in space (up to 6),
+/// which can go round a corner. Trials at up to 200 places tell degree and radius: those whose results agree best with
+/// the next degree, and whose residuals leave the least deviation. The estimated error is 2.2 times the root of the sum
+/// of two squares: of the greatest difference to other fits there and around, and of the standard deviation of the
+/// number if residuals are white noise. Among the others around is the next degree of the same parity, since a shape with
+/// a center of symmetry that lies in one ball looks the same to the degrees 4 and 5, whatever they miss. For K the
+/// differences around count with the power 0.88, and those at the vertex with the rest. On exact data, whose noise is
+/// below 1e-4 of the spacing, the greater degree answers, and a smaller ball tells its error.
+///
+/// Scans and coarse meshes have sensible curvatures at a scale only. These are by definition, see doc/conventions.md,
+/// those of polynomials in space of degree 4, or of `degree`, fitted within 1.14 of the scale. `scale` is that scale; `scale(std::nullopt)` lets the data choose: none where they resolve the surface, else the smallest at which
+/// K is known to 20 % at half of the vertices, at most an eighth of the diagonal. Without the parameter, or with 0,
+/// curvatures are the surface's own. Fits are made at most 0.02 of the scale apart, and errors are twice the standard
+/// deviation that noise and sampling make of the numbers at that scale.
+///
+/// A mesh that is mapped by an affine map of determinant 1 gets the same affine curvatures to within rounding, since
+/// neighborhoods are balls in coordinates in which the edges have no preferred direction. `scale` and `noise` are
+/// lengths there, divided by the factor of volumes to the power 1/3. Creases are those of the given coordinates.
+///
+/// Statuses: OUTSIDE for a vertex that no fit belongs to, since it has no faces, or fewer than some 20 vertices are
+/// connected with it. PARABOLIC for one whose K_e is zero within its estimated error, as on a plane or a cylinder.
+///
+/// Fits do not reach over creases: edges that bend by more than `feature_angle`, by default 60 degrees, and that follow
+/// each other for ten mean edges, and ten more for each loose end, since noise makes edges sharp, too. Each side has
+/// its own curvature, and a vertex on a crease has that of the side with the most area around it. At creases that are
+/// less sharp a fit exists, and its error says that it means nothing.
+///
+/// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense, as a scale beyond a third
+/// of the diagonal of the data, or one within which most vertices have too few others.
+///
+/// Takes about 1 ms per vertex, also at a scale; memory is linear in the number
+/// of vertices. The numbers are the same for CGAL::Sequential_tag and CGAL::Parallel_tag. Named parameters:
+/// `vertex_point_map`, `noise`, `scale`, `degree`, `feature_angle`, `orientation`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, class Parameters = internal::No_parameters>
+std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, const Parameters& parameters = {}) {
+  internal::check_fit_parameters<Parameters, internal::Vertex_point_tag, internal::Orientation_tag,
+                                 internal::Feature_angle_tag>();
+  const internal::Surface_fit_3 fit(internal::fit_input_of_graph(mesh, parameters), internal::fit_request(parameters),
+                                    ConcurrencyTag());
+  auto structures = internal::structures_of_fit<ConcurrencyTag>(fit, parameters);
+  structures.resize(std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()))); // no points of creases
+  return structures;
+}
+
+/// Returns the local structure at points without faces, in their order. Neighbors are the 16 nearest points, so that
+/// two sheets of a surface that are closer than the points on each of them become one. Normals are estimated from the
+/// neighbors and turned to agree along a spanning tree, unless `normal_map` gives them. Equal points count once.
+/// Further named parameters: `point_map`, `normal_map`, `normal_orientation`, `noise`, `scale`, `degree`,
+/// `orientation`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
+          class Parameters = internal::No_parameters>
+std::vector<Fitted_structure_3<double>>
+fitted_structures(const Points& points,
+                  const Parameters& parameters = {}) requires(!Face_graph<Points> && !std::ranges::range<Parameters>) {
+  internal::check_point_fit_parameters<Parameters, internal::Orientation_tag>();
+  auto input = internal::fit_input_of_points<ConcurrencyTag>(points, parameters);
+  const internal::Surface_fit_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
+  return internal::elements_at(internal::structures_of_fit<ConcurrencyTag>(fit, parameters), input.positions);
+}
+
+/// Returns the local structure at points with polygons between them, in the order of the points. A polygon is a range
+/// of positions of points. It need not be a mesh: equal points count once, polygons whose orientations contradict are
+/// turned to agree with the first one of what is connected with them, and the surface comes apart where it is not a
+/// manifold. Named parameters: `noise`, `scale`, `degree`, `feature_angle`, `orientation`. \throw std::invalid_argument also if a
+/// polygon has the position of no point.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
+          std::ranges::input_range Polygons, class Parameters = internal::No_parameters>
+std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, const Polygons& polygons,
+                                                          const Parameters& parameters = {}) {
+  internal::check_fit_parameters<Parameters, internal::Orientation_tag, internal::Feature_angle_tag>();
+  auto input = internal::fit_input_of_soup(points, polygons, internal::feature_angle(parameters));
+  const internal::Surface_fit_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
+  return internal::elements_at(internal::structures_of_fit<ConcurrencyTag>(fit, parameters), input.positions);
+}
+
+} // namespace equiaffine
+
+#endif

@@ -1,2 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/registration/is_affinely_equivalent.h> // IWYU pragma: export
+#ifndef EQUIAFFINE_IS_AFFINELY_EQUIVALENT_H
+#define EQUIAFFINE_IS_AFFINELY_EQUIVALENT_H
+
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/concepts.h>
+#include <equiaffine/registration/internal/registration.h>
+#include <equiaffine/registration/internal/wholes/differ_as_wholes.h>
+
+#include <CGAL/Uncertain.h>
+#include <CGAL/tags.h>
+
+#include <ranges>
+
+namespace equiaffine {
+
+/// Returns whether there is a map that moves each of two surfaces onto the other: all but 2 % of their points, of those
+/// that stay in the box of the other function.
+///
+/// The answer is true if register_surfaces() finds such a map, and false if the map that it finds moves a part only, or
+/// if all rotations of the whole surfaces were tried, in coordinates in which their solids are round, and none moves
+/// one near the other. Else it is indeterminate, as for surfaces that leave their boxes and have no map with evidence:
+/// the conversion to bool throws CGAL::Uncertain_conversion_exception then. Named parameters: those of
+/// register_surfaces(), except `number_of_maps`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Source, std::ranges::input_range Points,
+          ImplicitFunctionTraits_3 Target, std::ranges::input_range Target_points,
+          class Parameters = internal::No_parameters>
+CGAL::Uncertain<bool> is_affinely_equivalent(const Source& source, const Points& source_points, const Target& target,
+                                             const Target_points& target_points, const Parameters& parameters = {}) {
+  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag, internal::Least_overlap_tag,
+                             internal::Refined_functions_tag, internal::Tolerance_tag>();
+  const auto registration =
+      internal::registration_of<ConcurrencyTag>(source, source_points, target, target_points, parameters);
+  if (registration.is_equivalence || registration.result.found()) return registration.is_equivalence;
+  const auto request = internal::registration_request(parameters);
+  if (internal::differ_as_wholes<ConcurrencyTag>(Any_function_3::make(source), Any_function_3::make(target),
+                                                 request.kind, request.allows_reflections))
+    return false;
+  return CGAL::Uncertain<bool>::indeterminate();
+}
+
+} // namespace equiaffine
+
+#endif

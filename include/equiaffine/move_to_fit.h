@@ -1,2 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/fit/move_to_fit.h> // IWYU pragma: export
+#ifndef EQUIAFFINE_MOVE_TO_FIT_H
+#define EQUIAFFINE_MOVE_TO_FIT_H
+
+#include <equiaffine/Fitted_function_traits_3.h>
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/fit/Fit_outcome.h>
+#include <equiaffine/fit/internal/remesh/crossing_triangles.h>
+#include <equiaffine/fit/internal/remesh/motion_to_fit.h>
+#include <equiaffine/fit/internal/remesh/triangle_array_of.h>
+#include <equiaffine/surface/internal/shared/Face_graph.h>
+
+#include <CGAL/tags.h>
+
+namespace equiaffine {
+
+/// Moves the vertices of a triangle mesh onto the zero set of a fit to it, or to a surface near it, as far as that leaves
+/// the mesh whole: no triangle turns by more than 60 degrees, and none crosses another one that it did not cross before.
+/// Triangles stay what they are, so that closed meshes stay closed and borders stay borders.
+///
+/// A vertex moves along the gradient of the fit, by 1.25 times the mean length of its edges at most, or the
+/// distance of the data if that is more. It does not where the fit has no derivatives or no zero near enough, faces
+/// another way, or is that of another sheet. Such vertices follow their neighbors, less with every edge from the fit.
+///
+/// Named parameters: `vertex_point_map`, whose points are the fit's, and `vertex_outcome_map`, which receives the
+/// Fit_outcome of every vertex. Takes some 30 microseconds per vertex, and n log n time for the search of crossings,
+/// again for each of the rounds in which vertices stay, which are at most some 20 + log n. CGAL::Parallel_tag gives the
+/// same numbers.
+/// \throw std::invalid_argument if a face is not a triangle, or a coordinate is not finite.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, class Kernel,
+          class Parameters = internal::No_parameters>
+Fit_move_report move_to_fit(Mesh& mesh, const Fitted_function_traits_3<Kernel>& fit,
+                            const Parameters& parameters = {}) {
+  internal::check_parameters<Parameters, internal::Vertex_point_tag, internal::Vertex_outcome_tag>();
+  const auto array = internal::triangle_array_of(mesh, parameters);
+  const auto motion = internal::motion_to_fit<ConcurrencyTag>(
+      array, fit, internal::crossing_triangles(array.points(), array.triangles()));
+  return internal::apply_motion<Kernel>(mesh, motion, parameters);
+}
+
+} // namespace equiaffine
+
+#endif

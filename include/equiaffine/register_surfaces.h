@@ -1,2 +1,108 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/registration/register_surfaces.h> // IWYU pragma: export
+#ifndef EQUIAFFINE_REGISTER_SURFACES_H
+#define EQUIAFFINE_REGISTER_SURFACES_H
+
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/concepts.h>
+#include <equiaffine/registration/Map_kind.h>
+#include <equiaffine/registration/Surface_registration_3.h>
+#include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/registration.h>
+#include <equiaffine/registration/internal/registration_of_triangles.h>
+#include <equiaffine/registration/internal/samples/triangles_of.h>
+#include <equiaffine/surface/internal/shared/Face_graph.h>
+#include <equiaffine/surface/internal/shared/indexed_polygons.h>
+
+#include <CGAL/Kernel_traits.h>
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/tags.h>
+#include <boost/property_map/property_map.hpp>
+
+#include <ranges>
+
+namespace equiaffine {
+
+/// Finds the maps that move the surface `source`, or a part of it, onto the surface `target`. Each surface is a function
+/// and a range of points on its zero set, which are moved onto it if they are near; the functions are of any models of
+/// the concept, and defined on their boxes.
+///
+/// The affine frame at one generic point of the source and that at its counterpart give the map, or the frames of the
+/// principal directions for maps that keep angles. Counterparts are found by their signatures: the nearest ones among
+/// the points of the target, by a tree, then exactly, by Newton's steps on the target. A map is judged by the distances
+/// of points both ways, refined by least squares, and accepted if fewer than 1e-6 as good ones are expected by chance:
+/// neither an overlap nor the absence of other things is assumed. Points lie on the other surface if they are within
+/// the noise, which is that of the given points: `tolerance` is 8 times their median distance from the zero sets, at
+/// least 1e-5 of the size of the target, and at most 3e-3 of it, since large parts of unrelated surfaces can be moved
+/// onto each other to within more. Where the frame of a point is not determined, as the affine one on quadrics, it is
+/// not matched: surfaces with continuous symmetries have a slippage, see Surface_registration_3. A fit
+/// (Fitted_function_traits_3) estimates its errors: points where its curvatures are uncertain are tried later. Whole
+/// surfaces of other functions without such frames, as boxes, are matched as meshes are.
+///
+/// Takes 5 expansions for each of up to 6000 points of a surface, and a number of hypotheses that does not depend on the
+/// number of points. The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit.
+///
+/// Named parameters: `map_kind`, `reflections`, `number_of_maps`, `least_overlap`, `tolerance`,
+/// `refined_functions`.
+/// \throw std::invalid_argument if a surface has no points, or a parameter makes no sense.
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Source, std::ranges::input_range Points,
+          ImplicitFunctionTraits_3 Target, std::ranges::input_range Target_points,
+          class Parameters = internal::No_parameters>
+Surface_registration_3<Kernel_of<Target>> register_surfaces(const Source& source, const Points& source_points,
+                                                            const Target& target, const Target_points& target_points,
+                                                            const Parameters& parameters = {}) {
+  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag,
+                             internal::Number_of_maps_tag, internal::Least_overlap_tag, internal::Refined_functions_tag,
+                             internal::Tolerance_tag>();
+  return internal::registration_of<ConcurrencyTag>(source, source_points, target, target_points, parameters).result;
+}
+
+/// The same for the triangles of two meshes, without any curvature: boxes and other CAD parts have none to go by.
+///
+/// If the whole surfaces are equal, the map keeps the centroid of the area, and an affine one the moments of the solid
+/// inside, so that all rotations and reflections about the centroid are searched by branch and bound. Else pieces are
+/// matched by similarities: two points with their normals give a frame, pairs of points with about the same distance and
+/// angles are tried, and a map is accepted if the points in contact leave it no freedom, at most 2 % of the points of
+/// one surface lie off the other although that does not end there (`contradictions`), and fewer than 1e-6 as good maps
+/// are expected by chance. The `tolerance` is the rms distance of surfaces that are equal, a part of the size; by default
+/// it is what facets explain, 0.3 % to 1 %, and 2e-5 for solids of planes, which have no other facets. Without one, two
+/// scans of an object that are not equal, such as a fine and a coarse one, are matched if one map stands out: its rms is
+/// below 1.5 % of the size, less for thin surfaces, and less than half of that of every other map, and less than 10 % of
+/// the points are off the other surface.
+///
+/// Takes some 5 to 40 s on one core if the wholes are not equal. Named parameters: `map_kind`, `reflections`,
+/// `number_of_maps`, `least_overlap`, `tolerance`, and `vertex_point_map` for the source; `target_parameters` has
+/// `vertex_point_map` for the target.
+/// \throw std::invalid_argument if a coordinate is not finite, a mesh has no faces, or a parameter makes no sense.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Source, Face_graph Target,
+          class Parameters = internal::No_parameters, class Target_parameters = internal::No_parameters>
+auto register_surfaces(const Source& source, const Target& target, const Parameters& parameters = {},
+                       const Target_parameters& target_parameters = {}) {
+  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag,
+                             internal::Number_of_maps_tag, internal::Least_overlap_tag, internal::Tolerance_tag,
+                             internal::Vertex_point_tag>();
+  internal::check_parameters<Target_parameters, internal::Vertex_point_tag>();
+  using Point_map = decltype(vertex_points(target, target_parameters));
+  using Kernel_of_points = typename CGAL::Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
+  return internal::registration_of_triangles<ConcurrencyTag, Kernel_of_points>(
+      internal::triangles_of_graph(source, parameters), internal::triangles_of_graph(target, target_parameters),
+      internal::registration_request(parameters));
+}
+
+/// The same for points with polygons between them, each a range of positions of points. Equal points count once.
+/// \throw std::invalid_argument also if a polygon has the position of no point.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
+          std::ranges::input_range Polygons, std::ranges::input_range Target_points,
+          std::ranges::input_range Target_polygons, class Parameters = internal::No_parameters>
+auto register_surfaces(const Points& points, const Polygons& polygons, const Target_points& target_points,
+                       const Target_polygons& target_polygons, const Parameters& parameters = {}) {
+  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag,
+                             internal::Number_of_maps_tag, internal::Least_overlap_tag, internal::Tolerance_tag>();
+  using Kernel_of_points = typename CGAL::Kernel_traits<std::ranges::range_value_t<Target_points>>::Kernel;
+  return internal::registration_of_triangles<ConcurrencyTag, Kernel_of_points>(
+      internal::triangles_of_soup(points, polygons), internal::triangles_of_soup(target_points, target_polygons),
+      internal::registration_request(parameters));
+}
+
+} // namespace equiaffine
+
+#endif

@@ -1,2 +1,55 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/fit/remesh_on_fit.h> // IWYU pragma: export
+#ifndef EQUIAFFINE_REMESH_ON_FIT_H
+#define EQUIAFFINE_REMESH_ON_FIT_H
+
+#include <equiaffine/Fitted_function_traits_3.h>
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/fit/Fit_outcome.h>
+#include <equiaffine/fit/internal/remesh/Whole_remesh_3.h>
+#include <equiaffine/fit/internal/remesh/motion_to_fit.h>
+#include <equiaffine/fit/internal/remesh/remesh_of_mesh.h>
+#include <equiaffine/surface/internal/shared/Face_graph.h>
+
+#include <CGAL/tags.h>
+
+namespace equiaffine {
+
+/// Remeshes a triangle mesh by CGAL's isotropic remeshing, and moves its vertices onto the zero set of a fit to it, see
+/// move_to_fit(). The mesh stays whole: it has the same components, border loops and Euler characteristic, and its
+/// triangles cross each other only within an edge of places where some of those given did. If edges of the length that
+/// was asked for do not allow that, shorter ones are tried, down to a quarter of the given ones, and then the given
+/// triangles. A length beyond the diagonal of the mesh counts as that diagonal. Vertices in no triangle are removed. A
+/// mesh with a triangle that is a line or a point keeps all its triangles.
+///
+/// Edges that are constrained, or sharper than the feature angle, stay where they are: a fit that does not end there
+/// makes them round. Vertices beside them go to the fit only if that is within a fifth of an edge. Sharp edges count
+/// where they follow each other as creases do, see fitted_structures().
+///
+/// Named parameters: `target_edge_length`, by default the mean length of the edges given, `number_of_iterations`, by
+/// default 3, `feature_angle`, by default 60 degrees, `edge_is_constrained_map`, which says of the edges of the result,
+/// too, whether they are kept, `vertex_point_map`, whose points are the fit's, and `vertex_outcome_map`, which receives
+/// the Fit_outcome of every vertex of the result. Takes n log n time, some 0.1 ms per vertex, for each of the lengths
+/// that are tried. CGAL::Parallel_tag gives the same numbers.
+/// \throw std::invalid_argument if a face is not a triangle, a coordinate is not finite, a parameter makes no sense, or
+/// there would be more than 10^8 triangles, or more than 10^4 parts of an edge. The mesh is as it was then.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, class Kernel,
+          class Parameters = internal::No_parameters>
+Fit_remesh_report remesh_on_fit(Mesh& mesh, const Fitted_function_traits_3<Kernel>& fit, const Parameters& np = {}) {
+  internal::check_parameters<Parameters, internal::Vertex_point_tag, internal::Vertex_outcome_tag,
+                             internal::Target_edge_length_tag, internal::Number_of_iterations_tag,
+                             internal::Edge_is_constrained_tag, internal::Feature_angle_tag>();
+  const internal::Remesh_request request = internal::remesh_request(np);
+  internal::Whole_remesh_3<Kernel> remesh(internal::copy_to_remesh<Kernel>(mesh, np), request);
+  const auto motion =
+      internal::motion_to_fit<ConcurrencyTag>(remesh.array(), fit, remesh.crossings(), remesh.features());
+  auto& moved = remesh.mesh();
+  using Vertex = typename internal::Whole_remesh_3<Kernel>::Mesh::Vertex_index;
+  const auto outcomes = moved.template add_property_map<Vertex, Fit_outcome>("v:equiaffine_outcome").first;
+  const auto report = internal::apply_motion<Kernel>(moved, motion, parameters::vertex_outcome_map(outcomes));
+  internal::replace_by_remesh<Kernel>(mesh, remesh, outcomes, np);
+  return {report, remesh.edge_length()};
+}
+
+} // namespace equiaffine
+
+#endif

@@ -2,8 +2,8 @@
 #include "attributes/estimates.h"
 
 #include "source/source.h"
-#include <equiaffine/base/parallel_for.h>
-#include <equiaffine/io/trust.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/io/internal/shared/trust.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "cli/formula_file.h"
 
 #include <equiaffine/Input_error.h>
-#include <equiaffine/io/input_file.h>
+#include <equiaffine/io/internal/shared/input_file.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,7 @@
 
 #include "volume/volume_io.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/io/input_file.h>
+#include <equiaffine/io/internal/shared/input_file.h>
 
 #include <algorithm>
 #include <array>

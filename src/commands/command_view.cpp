@@ -6,7 +6,7 @@
 #include "system/atomic_file.h"
 #include "system/name_of_file.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/io/input_file.h>
+#include <equiaffine/io/internal/shared/input_file.h>
 #include <equiaffine/io/read_PLY.h>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "output/arrow_mesh.h"
 #include "output/maps.h"
 #include "output/symmetry_marks.h"
-#include <equiaffine/base/parallel_for.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>

@@ -6,7 +6,7 @@
 #include "request/options.h"
 #include "system/progress.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/base/printable.h>
+#include <equiaffine/base/internal/shared/printable.h>
 
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/global_control.h>

@@ -5,8 +5,8 @@
 #include "source/read_triangle_mesh.h"
 #include <equiaffine/Fitted_function_traits_3.h>
 #include <equiaffine/Input_error.h>
-#include <equiaffine/attributes/error_table.h>
-#include <equiaffine/base/random_subset.h>
+#include <equiaffine/attributes/internal/shared/error_table.h>
+#include <equiaffine/base/internal/shared/random_subset.h>
 #include <equiaffine/remesh_on_fit.h>
 
 #include <CGAL/Surface_mesh.h>

@@ -3,8 +3,8 @@
 
 #include "system/kernel.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/io/Column_numbers.h>
-#include <equiaffine/io/input_file.h>
+#include <equiaffine/io/internal/shared/Column_numbers.h>
+#include <equiaffine/io/internal/shared/input_file.h>
 #include <equiaffine/io/read_PLY.h>
 
 #include <nlohmann/json.hpp>

@@ -6,8 +6,8 @@
 #include "picture/natural_up.h"
 #include "picture/write_PNG.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/io/input_file.h>
-#include <equiaffine/io/trust.h>
+#include <equiaffine/io/internal/shared/input_file.h>
+#include <equiaffine/io/internal/shared/trust.h>
 #include <equiaffine/io/write_HTML.h>
 #include <equiaffine/io/write_curves.h>
 #include <equiaffine/io/write_mesh.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture/Line_drawing.h"
 
-#include <equiaffine/base/quantile.h>
+#include <equiaffine/base/internal/shared/quantile.h>
 #include <equiaffine/io/color_map.h>
 
 #include <algorithm>

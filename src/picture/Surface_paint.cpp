@@ -2,9 +2,9 @@
 #include "picture/Surface_paint.h"
 
 #include "picture/Line_drawing.h"
-#include <equiaffine/attributes/quantities.h>
-#include <equiaffine/io/Parabolic_parts.h>
-#include <equiaffine/io/trust.h>
+#include <equiaffine/attributes/internal/shared/quantities.h>
+#include <equiaffine/io/internal/shared/Parabolic_parts.h>
+#include <equiaffine/io/internal/shared/trust.h>
 
 #include <algorithm>
 #include <cmath>

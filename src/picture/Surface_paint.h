@@ -7,7 +7,7 @@
 #include "system/kernel.h"
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/io/Color_mapping.h>
-#include <equiaffine/io/Column_numbers.h>
+#include <equiaffine/io/internal/shared/Column_numbers.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <array>

@@ -3,7 +3,7 @@
 
 #include "picture/Camera.h"
 #include "picture/Line_drawing.h"
-#include <equiaffine/io/trust.h>
+#include <equiaffine/io/internal/shared/trust.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,9 @@
 #include "request/Raw_layout.h"
 #include "system/kernel.h"
 #include "system/resources.h"
+#include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/delaunay/Facet_sizing.h>
-#include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/Estimator.h>
 #include <equiaffine/io/color_map.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>

@@ -5,7 +5,7 @@
 #include "system/child_process.h"
 #include "system/resources.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/io/input_file.h>
+#include <equiaffine/io/internal/shared/input_file.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
 

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_SRC_SOURCE_ANY_LEVEL_SET_H
 
 #include "source/source_function.h"
-#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/surface/Any_function_3.h>
 
 namespace equiaffine {

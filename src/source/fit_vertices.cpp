@@ -3,8 +3,8 @@
 
 #include <equiaffine/Fitted_function_traits_3.h>
 #include <equiaffine/Input_error.h>
-#include <equiaffine/fit/fitted_structures.h>
-#include <equiaffine/fit/part_with_opposed_normals.h>
+#include <equiaffine/fit/internal/shared/part_with_opposed_normals.h>
+#include <equiaffine/fitted_structures.h>
 
 #include <CGAL/property_map.h>
 #include <CGAL/tags.h>

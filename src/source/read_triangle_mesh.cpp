@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/read_triangle_mesh.h"
 
-#include <equiaffine/io/input_file.h>
+#include <equiaffine/io/internal/shared/input_file.h>
 #include <equiaffine/io/read_OFF.h>
 #include <equiaffine/io/read_PLY.h>
 

@@ -2,7 +2,7 @@
 #include "source/read_vertices.h"
 
 #include "source/Polygon_soup.h"
-#include <equiaffine/surface/triangles_of_polygon.h>
+#include <equiaffine/surface/internal/shared/triangles_of_polygon.h>
 
 #include <CGAL/Bbox_3.h>
 

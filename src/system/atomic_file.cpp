@@ -2,7 +2,7 @@
 #include "system/atomic_file.h"
 
 #include <equiaffine/Input_error.h>
-#include <equiaffine/base/printable.h>
+#include <equiaffine/base/internal/shared/printable.h>
 
 #include <algorithm>
 #include <cerrno>

@@ -7,7 +7,7 @@
 #include "volume/data_files.h"
 #include "volume/volume_formats.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/io/input_file.h>
+#include <equiaffine/io/internal/shared/input_file.h>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/analytic_functions.h>
-#include <equiaffine/delaunay/certified_seeding.h>
+#include <equiaffine/delaunay/internal/shared/certified_seeding.h>
 
 #include <CGAL/Simple_cartesian.h>
 

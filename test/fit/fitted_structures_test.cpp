@@ -2,8 +2,8 @@
 #include "support/fit_data.h"
 #include <equiaffine/Fitted_function_traits_3.h>
 #include <equiaffine/annotate_by_fit.h>
-#include <equiaffine/attributes/attribute_table.h>
-#include <equiaffine/attributes/error_table.h>
+#include <equiaffine/attributes/internal/shared/attribute_table.h>
+#include <equiaffine/attributes/internal/shared/error_table.h>
 #include <equiaffine/delaunay_surface.h>
 #include <equiaffine/fitted_structures.h>
 

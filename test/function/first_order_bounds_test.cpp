@@ -3,7 +3,7 @@
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/function/capabilities.h>
+#include <equiaffine/capabilities.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -3,7 +3,7 @@
 #include <equiaffine/Local_structure_3.h>
 #include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/function/capabilities.h>
+#include <equiaffine/capabilities.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -6,7 +6,7 @@
 #include <equiaffine/analytic_functions.h>
 #include <equiaffine/geometry/affine_frame.h>
 #include <equiaffine/number/Pack.h>
-#include <equiaffine/surface/affine_gradients.h>
+#include <equiaffine/surface/internal/shared/affine_gradients.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <Eigen/Dense>

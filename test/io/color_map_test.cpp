@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <equiaffine/io/Color_mapping.h>
-#include <equiaffine/io/Column_numbers.h>
 #include <equiaffine/io/color_map.h>
+#include <equiaffine/io/internal/shared/Column_numbers.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/io/trust.h>
+#include <equiaffine/io/internal/shared/trust.h>
 
 #include <gtest/gtest.h>
 

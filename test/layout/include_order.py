@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Says which include lines of a checkout leave the road, and which headers are no doors: include_order.py ROOT.
 
-A room is a folder. Its headers are what other rooms may include, and those in its folder `internal` are its own.
-cmake/rooms.txt says which rooms each may use. The headers directly in include/equiaffine are the porch: forwards for
-users, which no room includes. Tests and benchmarks of a room look inside of it."""
+A room is a folder. Its headers, and those of include/equiaffine that cmake/rooms.txt gives it, are for users; those in
+`internal/shared` are for the rooms that may use it, for the program and for tests; all others in `internal` are its own.
+cmake/rooms.txt says which rooms each may use. Tests and benchmarks of a room look inside of it."""
 import functools
 import pathlib
 import re
 import sys
 
-from rooms import read_lookers, read_rooms
+from rooms import read_lookers, read_porch, read_rooms
 
 LIBRARY = "include/equiaffine"
 INCLUDE = re.compile(r'^ *# *include +(?:[<"]equiaffine/([^>"]+)[>"]|"([^"]+)")', re.MULTILINE)
@@ -17,14 +17,18 @@ EXPORT = re.compile(r"^#include <equiaffine/([^>]+)> *// IWYU pragma: export", r
 NAME = re.compile(r"(?<!testing::)\binternal::(\w+)")
 
 
-def room_of(path):
-    """The first folder of a path below include/equiaffine or src; None on the porch."""
+def room_of(path, porch={}):
+    """The first folder of a path below include/equiaffine or src; on the porch, the room that the header belongs to."""
     folder, slash, _ = path.partition("/")
-    return folder if slash else None
+    return folder if slash else porch.get(path)
 
 
-def is_internal(path):
-    return "/internal/" in path
+def is_for_users(path):
+    return "/internal/" not in path
+
+
+def is_own(path):
+    return "/internal/" in path and "/internal/shared/" not in path
 
 
 def faults_of_rooms(folder, rooms):
@@ -35,39 +39,57 @@ def faults_of_rooms(folder, rooms):
                 yield f"cmake/rooms.txt: {folder}/{name} may use {used}, which is not above it"
 
 
-def faults_of_step(rooms, path, included):
+def faults_of_porch(porch, rooms, paths):
+    on_porch = {path for path in paths if "/" not in path}
+    for path in sorted(on_porch - porch.keys()):
+        yield f"{path}: cmake/rooms.txt does not say which room it belongs to"
+    for path in sorted(porch.keys() - on_porch):
+        yield f"cmake/rooms.txt: there is no {path} on the porch"
+    for room in sorted(set(porch.values()) - rooms.keys()):
+        yield f"cmake/rooms.txt: there is no room {room}"
+
+
+def faults_of_step(rooms, path, included, porch={}):
     """What is wrong with an include line between two files of the library, or two of the program."""
-    here, there = room_of(path), room_of(included)
-    if there is None:
-        yield "the porch is for users only"
-    elif there not in rooms:
+    here, there = room_of(path, porch), room_of(included, porch)
+    if there not in rooms:
         yield "there is no such room in cmake/rooms.txt"
     elif here is not None and here != there and there not in rooms[here].uses:
         yield f"{here} does not use the room {there}"
-    if is_internal(included) and here != there:
+    if is_own(included) and here != there:
         yield "that header is its room's own"
 
 
-def faults_of_uses(folder, rooms, texts, quoted):
+def faults_of_uses(folder, rooms, texts, quoted, porch={}):
     """One line for each use that cmake/rooms.txt allows and nothing makes."""
-    used = {(room_of(path), room_of(steps[quoted])) for path, text in texts.items() for steps in INCLUDE.findall(text)}
+    used = {(room_of(path, porch), room_of(steps[quoted], porch))
+            for path, text in texts.items() for steps in INCLUDE.findall(text)}
     return [f"cmake/rooms.txt: no file of {folder}/{name} uses {other}"
             for name, room in rooms.items() for other in room.uses if (name, other) not in used]
 
 
-def faults_of_library_file(rooms, path, text):
-    if not is_internal(path) and re.search(r"^namespace (equiaffine::)?internal\b", text, re.MULTILINE):
-        yield f"{path} is no door: a namespace internal belongs to a header of the room's own"
+def only_forwards(text):
+    """Whether a header has one include line and nothing else, so that another header has two paths."""
+    lines = [line for line in text.splitlines() if line and not line.startswith("//")]
+    return len(lines) - sum(line.startswith(("#ifndef", "#define", "#endif")) for line in lines) == 1 and \
+        bool(INCLUDE.search(text))
+
+
+def faults_of_library_file(rooms, porch, path, text):
+    if only_forwards(text):
+        yield f"{path} only forwards: a header has one path"
+    if is_for_users(path) and re.search(r"^namespace (equiaffine::)?internal\b", text, re.MULTILINE):
+        yield f"{path} is for users, who see no namespace internal"
     for library, quoted in INCLUDE.findall(text):
         if quoted:
             yield f'{path} includes "{quoted}": write <equiaffine/...>'
-        for fault in faults_of_step(rooms, path, library) if library else ():
+        for fault in faults_of_step(rooms, path, library, porch) if library else ():
             yield f"{path} includes {library}: {fault}"
 
 
 def faults_of_program_file(rooms, path, text):
     for library, quoted in INCLUDE.findall(text):
-        if library and is_internal(library):
+        if library and is_own(library):
             yield f"{path} includes {library}: that header is its room's own"
         for fault in faults_of_step(rooms, path, quoted) if quoted and rooms else ():
             yield f"{path} includes {quoted}: {fault}"
@@ -85,13 +107,21 @@ def faults_of_circles(texts):
     return [f"{path} is in a circle of includes" for path in sorted(includes)]
 
 
+def faults_of_example(path, text):
+    """An example shows what users may include."""
+    for library, _ in INCLUDE.findall(text):
+        if library and not is_for_users(library):
+            yield f"{path} includes {library}: that header is internal"
+
+
 def rooms_that_define(name, library):
-    """The rooms whose own headers define a name of the namespace internal. What a door exports is everybody's."""
-    definition = re.compile(rf"\b(class|struct|concept|using|enum class) {name}\b|^\w[^=;/(]*[ &*>]{name}\(|"
+    """The rooms whose own headers alone define a name of the namespace internal. What a door exports is everybody's."""
+    definition = re.compile(rf"\b(class|struct|concept|using|enum class) {name}\b|^[\w\[][^=;/(]*[ &*>]{name}\(|"
                             rf"^(inline )?constexpr [^=;(]*\b{name}\b", re.MULTILINE)
     exported = {header for text in library.values() for header in EXPORT.findall(text)}
-    return {room_of(path) for path, text in library.items()
-            if is_internal(path) and path not in exported and definition.search(text)}
+    defining = [path for path, text in library.items() if "/internal/" in path and definition.search(text)]
+    is_everybodys = any(not is_own(path) or path in exported for path in defining)
+    return set() if is_everybodys else {room_of(path) for path in defining}
 
 
 def is_home(path, room):
@@ -101,7 +131,7 @@ def is_home(path, room):
 
 def faults_of_looker(path, text, lookers, rooms_of_name):
     """What a file outside of the library looks at inside of a room that is not its own."""
-    seen = {f"{a}: that header is its room's own": {room_of(a)} for a, _ in INCLUDE.findall(text) if is_internal(a)}
+    seen = {f"{a}: that header is its room's own": {room_of(a)} for a, _ in INCLUDE.findall(text) if is_own(a)}
     for name in NAME.findall(text):
         rooms = rooms_of_name(name)
         if rooms:
@@ -117,24 +147,37 @@ def read_files(folder):
     return {path.relative_to(folder).as_posix(): path.read_text() for path in paths}
 
 
+def faults_of_names(rooms_of_name, room, path, text):
+    """One line for each name of the namespace internal that belongs to another room."""
+    for name in sorted(set(NAME.findall(text))):
+        rooms = rooms_of_name(name)
+        if rooms and room not in rooms:
+            yield f"{path} uses internal::{name}: that name is its room's own"
+
+
 def find_faults(root):
-    all_rooms, lookers = read_rooms(root), read_lookers(root)
+    all_rooms, porch, lookers = read_rooms(root), read_porch(root), read_lookers(root)
     library, program = read_files(root / LIBRARY), read_files(root / "src")
     rooms = all_rooms[LIBRARY]
     faults = [f"{path}: there is no such room in cmake/rooms.txt"
-              for path in library if room_of(path) not in (None, *rooms)]
+              for path in library if "/" in path and room_of(path) not in rooms]
+    faults += faults_of_porch(porch, rooms, library)
     if faults:
         return faults
-    for folder, files, quoted in ((LIBRARY, library, 0), ("src", program, 1)):
+    for folder, files, quoted, doors in ((LIBRARY, library, 0, porch), ("src", program, 1, {})):
         faults += [*faults_of_rooms(folder, all_rooms[folder]),
-                   *faults_of_uses(folder, all_rooms[folder], files, quoted)]
+                   *faults_of_uses(folder, all_rooms[folder], files, quoted, doors)]
     for path, text in library.items():
-        faults += faults_of_library_file(rooms, path, text)
+        faults += faults_of_library_file(rooms, porch, path, text)
     faults += faults_of_circles(library)
     for folder in ("src", "mesher"):
         for path, text in read_files(root / folder).items():
             faults += (f"{folder}/{fault}" for fault in faults_of_program_file(all_rooms.get(folder), path, text))
+    for path, text in read_files(root / "examples").items():
+        faults += faults_of_example(f"examples/{path}", text)
     rooms_of_name = functools.cache(lambda name: rooms_that_define(name, library))
+    for path, text in library.items():
+        faults += faults_of_names(rooms_of_name, room_of(path, porch), path, text)
     for folder in ("src", "examples", "reproduce", "test", "benchmark"):
         for path, text in read_files(root / folder).items():
             faults += faults_of_looker(f"{folder}/{path}", text, lookers, rooms_of_name)

@@ -13,14 +13,16 @@ class IncludeOrder(unittest.TestCase):
         files = {
             "cmake/rooms.txt": "# a comment\n[include/equiaffine]\nlow: | what is low\nhigh: low | what is high\n"
                                "other: | what is beside\n\n[src]\nbelow: |\nabove: below |\n"
-                               "[looks inside]\nreproduce/a.cpp: low\n",
-            "include/equiaffine/door.h": "#include <equiaffine/high/door.h>\n",
-            "include/equiaffine/low/a.h": "#include <equiaffine/low/internal/b.h>\n",
+                               "[porch]\nhigh: entry\n[looks inside]\nreproduce/a.cpp: low\n",
+            "include/equiaffine/entry.h": "#include <equiaffine/high/door.h>\nclass Entry {};\n",
+            "include/equiaffine/low/a.h": "#include <equiaffine/low/internal/b.h>\nclass A {};\n",
+            "include/equiaffine/low/internal/shared/s.h": "namespace equiaffine::internal {\nclass Shared {};\n}\n",
             "include/equiaffine/low/internal/b.h": "namespace equiaffine::internal {\nclass Hidden {};\n}\n",
             "include/equiaffine/other/c.h": "\n",
-            "include/equiaffine/high/door.h": "#include <equiaffine/low/a.h>\n",
-            "src/main.cpp": '#include "above/task.h"\n',
-            "src/below/file.h": "#include <equiaffine/door.h>\n",
+            "include/equiaffine/high/door.h": "#include <equiaffine/low/a.h>\n#include <equiaffine/low/internal/shared/s.h>\n",
+            "src/main.cpp": '#include "above/task.h"\ninternal::Shared shared;\n',
+            "src/below/file.h": "#include <equiaffine/entry.h>\n#include <equiaffine/low/internal/shared/s.h>\n",
+            "examples/e.cpp": "#include <equiaffine/entry.h>\n#include <equiaffine/low/a.h>\n",
             "src/above/task.h": '#include "below/file.h"\n#include <equiaffine/low/a.h>\n',
             "mesher/mesh.cpp": '#include "mesh.h"\n#include <equiaffine/high/door.h>\n',
             "reproduce/a.cpp": "internal::Hidden hidden;\n",
@@ -52,13 +54,33 @@ class IncludeOrder(unittest.TestCase):
         self.assert_fault("that header is its room's own",
                           include__equiaffine__high__door_h="#include <equiaffine/low/internal/b.h>\n")
 
-    def test_the_porch_from_inside(self):
-        self.assert_fault("the porch is for users only",
-                          include__equiaffine__high__door_h="#  include <equiaffine/door.h>\n")
+    def test_a_header_of_the_porch_that_belongs_to_a_higher_room(self):
+        self.assert_fault("low/a.h includes entry.h: low does not use the room high",
+                          include__equiaffine__low__a_h="#  include <equiaffine/entry.h>\n")
 
-    def test_the_own_header_of_a_room_from_the_porch(self):
-        self.assert_fault("that header is its room's own",
-                          include__equiaffine__door_h="#include <equiaffine/low/internal/b.h>\n")
+    def test_the_own_header_of_another_room_from_the_porch(self):
+        self.assert_fault("entry.h includes low/internal/b.h: that header is its room's own",
+                          include__equiaffine__entry_h="#include <equiaffine/low/internal/b.h>\n")
+
+    def test_a_header_of_the_porch_without_a_room(self):
+        self.assert_fault("new.h: cmake/rooms.txt does not say which room", include__equiaffine__new_h="\n")
+
+    def test_a_header_of_the_porch_that_is_not_there(self):
+        self.assert_fault("there is no gone.h on the porch",
+                          cmake__rooms_txt="[include/equiaffine]\nlow: |\nhigh: low |\nother: |\n"
+                                           "[porch]\nhigh: entry gone\n[src]\n")
+
+    def test_a_header_that_only_forwards(self):
+        self.assert_fault("other/c.h only forwards: a header has one path", include__equiaffine__other__c_h=
+                          "// Why.\n#ifndef C_H\n#define C_H\n\n#include <equiaffine/low/a.h>\n\n#endif\n")
+
+    def test_an_example_that_includes_what_is_internal(self):
+        self.assert_fault("examples/e.cpp includes low/internal/shared/s.h: that header is internal",
+                          examples__e_cpp="#include <equiaffine/low/internal/shared/s.h>\n")
+
+    def test_the_name_of_another_room_in_the_library(self):
+        self.assert_fault("high/door.h uses internal::Hidden: that name is its room's own",
+                          include__equiaffine__high__door_h="#include <equiaffine/low/a.h>\ninternal::Hidden hidden;\n")
 
     def test_a_folder_that_is_no_room(self):
         self.assert_fault("there is no such room", include__equiaffine__attic__x_h="\n")
@@ -67,7 +89,7 @@ class IncludeOrder(unittest.TestCase):
         self.assert_fault("write <equiaffine/...>", include__equiaffine__low__a_h='#include "internal/b.h"\n')
 
     def test_a_public_header_that_is_no_door(self):
-        self.assert_fault("low/a.h is no door", include__equiaffine__low__a_h="namespace equiaffine::internal {\n}\n")
+        self.assert_fault("low/a.h is for users", include__equiaffine__low__a_h="namespace equiaffine::internal {\n}\n")
 
     def test_headers_that_include_each_other(self):
         self.assert_fault("circle", include__equiaffine__low__internal__b_h="#include <equiaffine/low/a.h>\n")
@@ -92,7 +114,8 @@ class IncludeOrder(unittest.TestCase):
 
     def test_rooms_that_use_each_other(self):
         self.assert_fault("low may use high, which is not above it",
-                          cmake__rooms_txt="[include/equiaffine]\nlow: high |\nhigh: low |\nother: |\n[src]\n")
+                          cmake__rooms_txt="[include/equiaffine]\nlow: high |\nhigh: low |\nother: |\n"
+                                           "[porch]\nhigh: entry\n[src]\n")
 
     def test_the_name_of_another_room_in_a_test(self):
         self.assert_fault("test/high/a_test.cpp uses internal::Hidden: that name is its room's own",
@@ -108,7 +131,7 @@ class IncludeOrder(unittest.TestCase):
     def test_what_a_door_exports(self):
         self.assertEqual(self.faults(
             src__main_cpp="internal::Hidden hidden;\n",
-            include__equiaffine__low__a_h="#include <equiaffine/low/internal/b.h> // IWYU pragma: export\n"), [])
+            include__equiaffine__low__a_h="#include <equiaffine/low/internal/b.h> // IWYU pragma: export\nclass A {};\n"), [])
 
     def test_the_mesher_reaching_into_a_room(self):
         self.assert_fault("mesher/mesh.cpp includes", mesher__mesh_cpp="#include <equiaffine/low/internal/b.h>\n")

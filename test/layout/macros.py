@@ -6,7 +6,7 @@ import sys
 
 root, command = pathlib.Path(sys.argv[1]), sys.argv[2:]
 include = root / "include"
-doors = sorted(path.relative_to(include).as_posix() for path in include.rglob("*.h") if path.parent.name != "internal")
+doors = sorted(path.relative_to(include).as_posix() for path in include.rglob("*.h") if "internal" not in path.parts)
 text = "".join(f"#include <{door}>\n" for door in doors)
 result = subprocess.run([*command, f"-I{include}", "-std=c++20", "-x", "c++", "-dM", "-E", "-"], input=text, check=True,
                         capture_output=True, text=True)

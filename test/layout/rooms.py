@@ -21,10 +21,16 @@ def read_rooms(root):
     """Folder -> {name of a room in it: the rooms that it may use, and what it has}."""
     rooms = {}
     for folder, lines in read_sections(root).items():
-        if folder != "looks inside":
+        if folder not in ("porch", "looks inside"):
             rooms[folder] = {name: Room(text.split("|")[0].split(), text.split("|", 1)[1].strip())
                              for name, text in lines.items()}
     return rooms
+
+
+def read_porch(root):
+    """Header on the porch -> the room that it belongs to."""
+    lines = read_sections(root).get("porch", {})
+    return {f"{name}.h": room for room, names in lines.items() for name in names.split()}
 
 
 def read_lookers(root):

@@ -24,6 +24,16 @@ class Sizes(unittest.TestCase):
         self.assertEqual(self.faults("int x;\n" * 300), [])
         self.assertIn("room/a.h has 301 lines", self.faults("int x;\n" * 301)[0])
 
+    def test_a_folder_of_20_headers_is_not_too_long_and_one_of_21_is(self):
+        with tempfile.TemporaryDirectory() as folder:
+            room = pathlib.Path(folder) / "include/equiaffine/room/internal"
+            room.mkdir(parents=True)
+            for n in range(20):
+                (room / f"a{n}.h").touch()
+            self.assertEqual(list(find_faults(pathlib.Path(folder))), [])
+            (room / "b.h").touch()
+            self.assertIn("room/internal has 21 headers", list(find_faults(pathlib.Path(folder)))[0])
+
     def test_a_function_of_60_lines_is_not_too_long_and_one_of_61_is(self):
         self.assertEqual(self.faults(function(60)), [])
         self.assertIn("a.h:1: a function of 61 lines", self.faults(function(61))[0])

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
-#include <equiaffine/registration/internal/Framed_function_3.h>
-#include <equiaffine/registration/internal/derivatives_of_curvature.h>
+#include <equiaffine/registration/internal/frames/Framed_function_3.h>
+#include <equiaffine/registration/internal/frames/derivatives_of_curvature.h>
 
 #include <gtest/gtest.h>
 

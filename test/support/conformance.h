@@ -13,7 +13,7 @@
 #include <equiaffine/Transformed_function_traits_3.h>
 #include <equiaffine/capabilities.h>
 #include <equiaffine/concepts.h>
-#include <equiaffine/function/sign_change.h>
+#include <equiaffine/function/internal/shared/sign_change.h>
 #include <equiaffine/surface/Any_function_3.h>
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
 #include <equiaffine/analytic_functions.h>
-#include <equiaffine/surface/affine_gradients.h>
+#include <equiaffine/surface/internal/shared/affine_gradients.h>
 
 #include <CGAL/Simple_cartesian.h>
 

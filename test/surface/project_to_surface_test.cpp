@@ -3,7 +3,7 @@
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/analytic_functions.h>
-#include <equiaffine/function/intersect_segments.h>
+#include <equiaffine/function/internal/shared/intersect_segments.h>
 #include <equiaffine/project_to_surface.h>
 
 #include <CGAL/Simple_cartesian.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Polygons that are not convex are cut into triangles within them, whichever corner comes first.
-#include <equiaffine/surface/triangles_of_polygon.h>
+#include <equiaffine/surface/internal/shared/triangles_of_polygon.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A choice among the attributes of points, by name.
 #ifndef EQUIAFFINE_ATTRIBUTES_ATTRIBUTE_SELECTION_H
 #define EQUIAFFINE_ATTRIBUTES_ATTRIBUTE_SELECTION_H
 
-#include <equiaffine/attributes/attribute_table.h>
 #include <equiaffine/attributes/internal/attribute_names.h>
+#include <equiaffine/attributes/internal/shared/attribute_table.h>
 
 #include <cstddef>
 #include <limits>

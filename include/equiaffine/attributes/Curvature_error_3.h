@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_CURVATURE_ERROR_3_H
 #define EQUIAFFINE_ATTRIBUTES_CURVATURE_ERROR_3_H
 
-#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/Local_structure_3.h>
+#include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/geometry/Affine_curvature_error.h>
-#include <equiaffine/geometry/local_structure.h>
-#include <equiaffine/volume/Spline_disturbances_3.h>
 #include <equiaffine/volume/Spline_function_3.h>
+#include <equiaffine/volume/internal/shared/Spline_disturbances_3.h>
 
 #include <CGAL/tags.h>
 

@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_FIT_FITTED_STRUCTURE_3_H
 #define EQUIAFFINE_FIT_FITTED_STRUCTURE_3_H
 
-#include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/geometry/Local_structure_error_3.h>
+#include <equiaffine/geometry/Regular_structure_3.h>
 
 namespace equiaffine {
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Computes the equi-affine structure, or its invariants alone, from a chart.
 #ifndef EQUIAFFINE_GEOMETRY_AFFINE_STRUCTURE_H
 #define EQUIAFFINE_GEOMETRY_AFFINE_STRUCTURE_H
 

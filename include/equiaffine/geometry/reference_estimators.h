@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Computes the affine structure by the methods of Andrade and Lewiner (2012), to compare with the library's own.
 #ifndef EQUIAFFINE_GEOMETRY_REFERENCE_ESTIMATORS_H
 #define EQUIAFFINE_GEOMETRY_REFERENCE_ESTIMATORS_H
 
+#include <equiaffine/Local_structure_3.h>
 #include <equiaffine/geometry/Estimator.h>
 #include <equiaffine/geometry/internal/affine_estimate.h>
 #include <equiaffine/geometry/internal/estimate_by.h>
-#include <equiaffine/geometry/local_structure.h>
 
 #include <array>
 

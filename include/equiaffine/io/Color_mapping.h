@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// From the numbers of an attribute to the places of their colors, by rank or not.
 #ifndef EQUIAFFINE_IO_COLOR_MAPPING_H
 #define EQUIAFFINE_IO_COLOR_MAPPING_H
 

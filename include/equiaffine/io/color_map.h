@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_IO_COLOR_MAP_H
 #define EQUIAFFINE_IO_COLOR_MAP_H
 
-#include <equiaffine/base/quantile.h>
+#include <equiaffine/base/internal/shared/quantile.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/io/internal/oklab.h>
 

@@ -5,7 +5,7 @@
 #include <equiaffine/io/internal/Off_scanner.h>
 #include <equiaffine/io/internal/text_input.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
-#include <equiaffine/surface/triangles_of_polygon.h>
+#include <equiaffine/surface/internal/shared/triangles_of_polygon.h>
 
 #include <cstddef>
 #include <cstdint>

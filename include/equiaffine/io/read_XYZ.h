@@ -3,7 +3,7 @@
 #define EQUIAFFINE_IO_READ_XYZ_H
 
 #include <equiaffine/io/Annotated_mesh_3.h>
-#include <equiaffine/io/internal/fail_to_read.h>
+#include <equiaffine/io/internal/shared/fail_to_read.h>
 #include <equiaffine/io/internal/text_input.h>
 #include <equiaffine/io/internal/xyz_line.h>
 

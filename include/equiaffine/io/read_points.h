@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reads points, with or without faces, from CSV, XYZ, PLY or OFF, as the name of a file says.
 #ifndef EQUIAFFINE_IO_READ_POINTS_H
 #define EQUIAFFINE_IO_READ_POINTS_H
 
 // Reads points from CSV, PLY, OFF and XYZ with all that came with them, and writes them to CSV with more columns.
 
 #include <equiaffine/io/Annotated_mesh_3.h>
-#include <equiaffine/io/input_file.h>
 #include <equiaffine/io/internal/Csv_scanner.h>
 #include <equiaffine/io/internal/buffered_output.h>
 #include <equiaffine/io/internal/csv_columns.h>
 #include <equiaffine/io/internal/csv_rows.h>
-#include <equiaffine/io/internal/fail_to_read.h>
+#include <equiaffine/io/internal/shared/fail_to_read.h>
+#include <equiaffine/io/internal/shared/input_file.h>
 #include <equiaffine/io/internal/text_input.h>
 #include <equiaffine/io/read_OFF.h>
 #include <equiaffine/io/read_PLY.h>

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Writes a mesh with its attributes as PLY, OFF, OBJ, STL or CSV, as the name of a file says.
 #ifndef EQUIAFFINE_IO_WRITE_MESH_H
 #define EQUIAFFINE_IO_WRITE_MESH_H
 
 // Writes an indexed triangle mesh and the numbers at its vertices. Text has 17 significant digits and `nan` for numbers
 // that do not exist. All functions write to a stream, which has to be binary for PLY and STL. Errors are in its state.
 
-#include <equiaffine/io/input_file.h>
 #include <equiaffine/io/internal/buffered_output.h>
 #include <equiaffine/io/internal/mesh_text.h>
+#include <equiaffine/io/internal/shared/input_file.h>
 #include <equiaffine/io/write_CSV.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// As many numbers as a vector register holds, on which templates of functions compute as on one number.
 #ifndef EQUIAFFINE_NUMBER_PACK_H
 #define EQUIAFFINE_NUMBER_PACK_H
 
-#include <equiaffine/number/Pack_fwd.h>
 #include <equiaffine/number/internal/Array_lanes.h>
 #include <equiaffine/number/internal/Simd_lanes.h>
-#include <equiaffine/number/internal/elementary_functions.h>
 #include <equiaffine/number/internal/natural_power.h>
+#include <equiaffine/number/internal/shared/Pack_fwd.h>
+#include <equiaffine/number/internal/shared/elementary_functions.h>
 #include <equiaffine/number/select.h>
 
 #include <cmath>

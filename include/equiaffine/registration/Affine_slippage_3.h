@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The infinitesimal motions along which a surface slips over itself, as a result of searches for maps.
 #ifndef EQUIAFFINE_REGISTRATION_AFFINE_SLIPPAGE_3_H
 #define EQUIAFFINE_REGISTRATION_AFFINE_SLIPPAGE_3_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The result of affine_symmetries(): groups of maps that move a surface onto itself, and its slippage.
 #ifndef EQUIAFFINE_REGISTRATION_AFFINE_SYMMETRIES_3_H
 #define EQUIAFFINE_REGISTRATION_AFFINE_SYMMETRIES_3_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The result of register_surfaces(): maps from one surface to another, with what speaks for each.
 #ifndef EQUIAFFINE_REGISTRATION_SURFACE_REGISTRATION_3_H
 #define EQUIAFFINE_REGISTRATION_SURFACE_REGISTRATION_3_H
 

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_SURFACE_ANY_FUNCTION_3_H
 #define EQUIAFFINE_SURFACE_ANY_FUNCTION_3_H
 
-#include <equiaffine/function/capabilities.h>
+#include <equiaffine/capabilities.h>
 #include <equiaffine/surface/internal/Erased_function_3.h>
 
 #include <CGAL/Bbox_3.h>

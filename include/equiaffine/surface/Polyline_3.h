@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A chain of points, closed or not.
 #ifndef EQUIAFFINE_SURFACE_POLYLINE_3_H
 #define EQUIAFFINE_SURFACE_POLYLINE_3_H
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Estimates the noise of the samples of a volume, and the scale by which to smooth them.
 #ifndef EQUIAFFINE_VOLUME_SAMPLE_NOISE_H
 #define EQUIAFFINE_VOLUME_SAMPLE_NOISE_H
 
+#include <equiaffine/Volume_3.h>
 #include <equiaffine/volume/Spline_scheme.h>
-#include <equiaffine/volume/Volume_3.h>
 #include <equiaffine/volume/internal/Smoothing_trial.h>
 #include <equiaffine/volume/internal/border_degree.h>
 #include <equiaffine/volume/internal/noise_measurement.h>

@@ -2,12 +2,12 @@
 #ifndef EQUIAFFINE_VOLUME_SPLINE_FUNCTION_3_H
 #define EQUIAFFINE_VOLUME_SPLINE_FUNCTION_3_H
 
-#include <equiaffine/base/check_argument.h>
+#include <equiaffine/Volume_3.h>
+#include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
-#include <equiaffine/number/Linear_substitution_3.h>
+#include <equiaffine/number/internal/shared/Linear_substitution_3.h>
 #include <equiaffine/volume/Spline_parameters.h>
-#include <equiaffine/volume/Volume_3.h>
 #include <equiaffine/volume/internal/Spline_coefficients.h>
 #include <equiaffine/volume/internal/Spline_support_3.h>
 #include <equiaffine/volume/internal/border_degree.h>

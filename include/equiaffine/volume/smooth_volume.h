@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_VOLUME_SMOOTH_VOLUME_H
 #define EQUIAFFINE_VOLUME_SMOOTH_VOLUME_H
 
-#include <equiaffine/base/check_argument.h>
-#include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/Volume_3.h>
+#include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/volume/internal/local_polynomial.h>
 #include <equiaffine/volume/internal/separable_filter.h>
 

@@ -7,9 +7,9 @@
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/attributes/internal/Expanded_block.h>
 #include <equiaffine/attributes/internal/structure_by.h>
-#include <equiaffine/base/parallel_for.h>
-#include <equiaffine/surface/affine_gradients.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/surface/internal/shared/affine_gradients.h>
 
 #include <algorithm>
 #include <cstddef>

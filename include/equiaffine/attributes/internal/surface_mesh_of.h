@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_SURFACE_MESH_OF_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_SURFACE_MESH_OF_H
 
+#include <equiaffine/mesh_topology.h>
 #include <equiaffine/surface/Isosurface_3.h>
-#include <equiaffine/surface/mesh_topology.h>
-#include <equiaffine/surface/split_fans.h>
+#include <equiaffine/surface/internal/shared/split_fans.h>
 
 #include <CGAL/Surface_mesh.h>
 

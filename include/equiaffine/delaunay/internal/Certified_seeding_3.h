@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_DELAUNAY_INTERNAL_CERTIFIED_SEEDING_3_H
 #define EQUIAFFINE_DELAUNAY_INTERNAL_CERTIFIED_SEEDING_3_H
 
-#include <equiaffine/delaunay/Seeding_3.h>
+#include <equiaffine/Clip_domain_3.h>
 #include <equiaffine/delaunay/internal/Octree_3.h>
 #include <equiaffine/delaunay/internal/Seed_packing_3.h>
 #include <equiaffine/delaunay/internal/Seeding_cell_3.h>
-#include <equiaffine/surface/Clip_domain_3.h>
+#include <equiaffine/delaunay/internal/shared/Seeding_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>

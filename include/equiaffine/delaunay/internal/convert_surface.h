@@ -4,7 +4,7 @@
 
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
 #include <equiaffine/surface/Polyline_3.h>
-#include <equiaffine/surface/convert_point.h>
+#include <equiaffine/surface/internal/shared/convert_point.h>
 
 #include <type_traits>
 #include <utility>

@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_SURFACE_FIT_3_H
 #define EQUIAFFINE_FIT_INTERNAL_SURFACE_FIT_3_H
 
-#include <equiaffine/fit/internal/Normalization_3.h>
-#include <equiaffine/fit/internal/choose_fit.h>
-#include <equiaffine/number/Linear_substitution_3.h>
+#include <equiaffine/fit/internal/data/Normalization_3.h>
+#include <equiaffine/fit/internal/polynomial/choose_fit.h>
+#include <equiaffine/number/internal/shared/Linear_substitution_3.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_DISTANCES_OF_SHEETS_H
 #define EQUIAFFINE_FIT_INTERNAL_DISTANCES_OF_SHEETS_H
 
-#include <equiaffine/base/parallel_for.h>
-#include <equiaffine/fit/internal/Point_tree_3.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/fit/internal/Surface_fit_3.h>
+#include <equiaffine/fit/internal/data/Point_tree_3.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

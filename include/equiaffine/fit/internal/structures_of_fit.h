@@ -2,14 +2,14 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_STRUCTURES_OF_FIT_H
 #define EQUIAFFINE_FIT_INTERNAL_STRUCTURES_OF_FIT_H
 
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/Local_structure_3.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
-#include <equiaffine/base/parallel_for.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/fit/internal/Patch_cover_3.h>
 #include <equiaffine/fit/internal/Surface_fit_3.h>
-#include <equiaffine/function/Level_set_traits_3.h>
-#include <equiaffine/geometry/local_structure.h>
-#include <equiaffine/surface/foot_on_surface.h>
+#include <equiaffine/fit/internal/blend/Patch_cover_3.h>
+#include <equiaffine/surface/internal/shared/foot_on_surface.h>
 
 #include <cmath>
 #include <cstddef>

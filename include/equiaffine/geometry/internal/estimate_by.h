@@ -3,7 +3,7 @@
 #define EQUIAFFINE_GEOMETRY_INTERNAL_ESTIMATE_BY_H
 
 #include <equiaffine/geometry/Estimator.h>
-#include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/geometry/Regular_structure_3.h>
 #include <equiaffine/geometry/internal/direct_estimate.h>
 #include <equiaffine/geometry/internal/missing_structure.h>
 #include <equiaffine/geometry/internal/transformation_estimate.h>

@@ -3,9 +3,9 @@
 #ifndef EQUIAFFINE_GEOMETRY_INTERNAL_STRUCTURE_OF_JET_H
 #define EQUIAFFINE_GEOMETRY_INTERNAL_STRUCTURE_OF_JET_H
 
-#include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/geometry/Monge_chart_3.h>
 #include <equiaffine/geometry/Point_status.h>
+#include <equiaffine/geometry/Regular_structure_3.h>
 #include <equiaffine/geometry/affine_structure.h>
 #include <equiaffine/geometry/euclidean_structure.h>
 #include <equiaffine/geometry/internal/Natural_units_3.h>

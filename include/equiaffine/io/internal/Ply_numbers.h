@@ -3,7 +3,7 @@
 #define EQUIAFFINE_IO_INTERNAL_PLY_NUMBERS_H
 
 #include <equiaffine/io/internal/Ply_header.h>
-#include <equiaffine/io/internal/fail_to_read.h>
+#include <equiaffine/io/internal/shared/fail_to_read.h>
 #include <equiaffine/io/internal/text_input.h>
 
 #include <algorithm>

@@ -3,10 +3,10 @@
 #define EQUIAFFINE_IO_INTERNAL_HTML_PAGE_H
 
 #include <equiaffine/io/Html_options.h>
-#include <equiaffine/io/Parabolic_parts.h>
 #include <equiaffine/io/internal/html_text.h>
 #include <equiaffine/io/internal/page_arrays.h>
 #include <equiaffine/io/internal/page_facts.h>
+#include <equiaffine/io/internal/shared/Parabolic_parts.h>
 #include <equiaffine/io/internal/viewer_files.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 

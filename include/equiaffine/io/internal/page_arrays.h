@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_PAGE_ARRAYS_H
 #define EQUIAFFINE_IO_INTERNAL_PAGE_ARRAYS_H
 
-#include <equiaffine/io/Parabolic_parts.h>
 #include <equiaffine/io/internal/base64.h>
+#include <equiaffine/io/internal/shared/Parabolic_parts.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/number_utils.h>

@@ -2,14 +2,14 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_PAGE_COLUMNS_H
 #define EQUIAFFINE_IO_INTERNAL_PAGE_COLUMNS_H
 
-#include <equiaffine/attributes/quantities.h>
-#include <equiaffine/base/quantile.h>
+#include <equiaffine/attributes/internal/shared/quantities.h>
+#include <equiaffine/base/internal/shared/quantile.h>
 #include <equiaffine/io/Color_mapping.h>
-#include <equiaffine/io/Column_numbers.h>
 #include <equiaffine/io/Html_options.h>
-#include <equiaffine/io/Parabolic_parts.h>
 #include <equiaffine/io/internal/html_text.h>
-#include <equiaffine/io/trust.h>
+#include <equiaffine/io/internal/shared/Column_numbers.h>
+#include <equiaffine/io/internal/shared/Parabolic_parts.h>
+#include <equiaffine/io/internal/shared/trust.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>

@@ -3,11 +3,11 @@
 #define EQUIAFFINE_IO_INTERNAL_PAGE_FACTS_H
 
 #include <equiaffine/io/Html_options.h>
-#include <equiaffine/io/Parabolic_parts.h>
 #include <equiaffine/io/color_map.h>
 #include <equiaffine/io/internal/html_text.h>
 #include <equiaffine/io/internal/page_columns.h>
-#include <equiaffine/io/trust.h>
+#include <equiaffine/io/internal/shared/Parabolic_parts.h>
+#include <equiaffine/io/internal/shared/trust.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <array>

@@ -6,7 +6,7 @@
 #include <equiaffine/io/internal/Ply_header.h>
 #include <equiaffine/io/internal/Ply_numbers.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
-#include <equiaffine/surface/triangles_of_polygon.h>
+#include <equiaffine/surface/internal/shared/triangles_of_polygon.h>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_TEXT_INPUT_H
 #define EQUIAFFINE_IO_INTERNAL_TEXT_INPUT_H
 
-#include <equiaffine/base/from_chars.h>
+#include <equiaffine/base/internal/shared/from_chars.h>
 
 #include <cstddef>
 #include <istream>

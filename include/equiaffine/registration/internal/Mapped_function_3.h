@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_MAPPED_FUNCTION_3_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_MAPPED_FUNCTION_3_H
 
-#include <equiaffine/function/sign_change.h>
+#include <equiaffine/function/internal/shared/sign_change.h>
 #include <equiaffine/registration/internal/Affine_map_3.h>
 #include <equiaffine/surface/Any_function_3.h>
-#include <equiaffine/surface/jet_derivatives.h>
+#include <equiaffine/surface/internal/shared/jet_derivatives.h>
 
 #include <CGAL/Bbox_3.h>
 #include <Eigen/Core>

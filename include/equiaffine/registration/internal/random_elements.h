@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_RANDOM_ELEMENTS_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_RANDOM_ELEMENTS_H
 
-#include <equiaffine/base/random_subset.h>
+#include <equiaffine/base/internal/shared/random_subset.h>
 
 #include <cstddef>
 #include <vector>

@@ -2,17 +2,17 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_H
 
-#include <equiaffine/base/check_argument.h>
+#include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/registration/Surface_registration_3.h>
-#include <equiaffine/registration/internal/Centered_surface_3.h>
-#include <equiaffine/registration/internal/Framed_surface_3.h>
 #include <equiaffine/registration/internal/Registration_request.h>
-#include <equiaffine/registration/internal/Registration_search.h>
-#include <equiaffine/registration/internal/map_of_quadrics.h>
-#include <equiaffine/registration/internal/part_on_surface.h>
+#include <equiaffine/registration/internal/frames/Framed_surface_3.h>
+#include <equiaffine/registration/internal/frames/Registration_search.h>
+#include <equiaffine/registration/internal/frames/map_of_quadrics.h>
+#include <equiaffine/registration/internal/frames/part_on_surface.h>
+#include <equiaffine/registration/internal/frames/slippage.h>
 #include <equiaffine/registration/internal/registration_of_wholes.h>
-#include <equiaffine/registration/internal/slippage.h>
 #include <equiaffine/registration/internal/vectors_of.h>
+#include <equiaffine/registration/internal/wholes/Centered_surface_3.h>
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>

@@ -2,15 +2,15 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_OF_TRIANGLES_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_OF_TRIANGLES_H
 
-#include <equiaffine/base/check_argument.h>
+#include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/registration/Surface_registration_3.h>
-#include <equiaffine/registration/internal/Centered_surface_3.h>
 #include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/Shape_matches.h>
-#include <equiaffine/registration/internal/mesh_samples.h>
-#include <equiaffine/registration/internal/register_pieces.h>
-#include <equiaffine/registration/internal/register_wholes.h>
+#include <equiaffine/registration/internal/pieces/register_pieces.h>
 #include <equiaffine/registration/internal/registration_of_wholes.h>
+#include <equiaffine/registration/internal/samples/mesh_samples.h>
+#include <equiaffine/registration/internal/wholes/Centered_surface_3.h>
+#include <equiaffine/registration/internal/wholes/register_wholes.h>
 
 #include <utility>
 

@@ -3,10 +3,10 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_OF_WHOLES_H
 
 #include <equiaffine/registration/Surface_registration_3.h>
-#include <equiaffine/registration/internal/Centered_surface_3.h>
 #include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/Shape_matches.h>
-#include <equiaffine/registration/internal/register_wholes.h>
+#include <equiaffine/registration/internal/wholes/Centered_surface_3.h>
+#include <equiaffine/registration/internal/wholes/register_wholes.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -2,15 +2,15 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_SYMMETRIES_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_SYMMETRIES_H
 
-#include <equiaffine/base/check_argument.h>
+#include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/registration/Affine_symmetries_3.h>
-#include <equiaffine/registration/internal/Centered_symmetry_search.h>
-#include <equiaffine/registration/internal/Framed_surface_3.h>
 #include <equiaffine/registration/internal/Map_request.h>
-#include <equiaffine/registration/internal/Symmetry_search.h>
-#include <equiaffine/registration/internal/slippage.h>
+#include <equiaffine/registration/internal/frames/Framed_surface_3.h>
+#include <equiaffine/registration/internal/frames/Symmetry_search.h>
+#include <equiaffine/registration/internal/frames/slippage.h>
 #include <equiaffine/registration/internal/vectors_of.h>
+#include <equiaffine/registration/internal/wholes/Centered_symmetry_search.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_TOLERANCES_OF_MESHES_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_TOLERANCES_OF_MESHES_H
 
-#include <equiaffine/registration/internal/Centered_map.h>
 #include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/wholes/Centered_map.h>
 
 #include <algorithm>
 

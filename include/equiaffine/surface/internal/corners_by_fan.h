@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_SURFACE_INTERNAL_CORNERS_BY_FAN_H
 #define EQUIAFFINE_SURFACE_INTERNAL_CORNERS_BY_FAN_H
 
-#include <equiaffine/base/disjoint_sets.h>
+#include <equiaffine/base/internal/shared/disjoint_sets.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_SURFACE_INTERNAL_GRADIENTS_OF_INVARIANTS_H
 #define EQUIAFFINE_SURFACE_INTERNAL_GRADIENTS_OF_INVARIANTS_H
 
+#include <equiaffine/Local_structure_3.h>
 #include <equiaffine/geometry/affine_frame.h>
-#include <equiaffine/geometry/local_structure.h>
 
 #include <algorithm>
 #include <array>

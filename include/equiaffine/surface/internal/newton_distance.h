@@ -2,12 +2,12 @@
 #ifndef EQUIAFFINE_SURFACE_INTERNAL_NEWTON_DISTANCE_H
 #define EQUIAFFINE_SURFACE_INTERNAL_NEWTON_DISTANCE_H
 
-#include <equiaffine/base/parallel_for.h>
-#include <equiaffine/function/Batch_function_traits_3.h>
-#include <equiaffine/function/sign_change.h>
+#include <equiaffine/Batch_function_traits_3.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/function/internal/shared/sign_change.h>
 #include <equiaffine/geometry/Point_status.h>
-#include <equiaffine/surface/curve_step.h>
 #include <equiaffine/surface/distance_estimate.h>
+#include <equiaffine/surface/internal/shared/curve_step.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SMOOTHING_TRIAL_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SMOOTHING_TRIAL_H
 
-#include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/Volume_3.h>
 #include <equiaffine/volume/internal/Line_functionals.h>
 #include <equiaffine/volume/internal/Spline_probe.h>
 #include <equiaffine/volume/internal/local_polynomial.h>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SPLINE_COEFFICIENTS_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SPLINE_COEFFICIENTS_H
 
-#include <equiaffine/base/parallel_for.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/volume/Spline_scheme.h>
 #include <equiaffine/volume/internal/bspline.h>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SPLINE_PROBE_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SPLINE_PROBE_H
 
-#include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/Volume_3.h>
 #include <equiaffine/volume/internal/Line_functionals.h>
 
 #include <algorithm>

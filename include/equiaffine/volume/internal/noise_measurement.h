@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_NOISE_MEASUREMENT_H
 #define EQUIAFFINE_VOLUME_INTERNAL_NOISE_MEASUREMENT_H
 
-#include <equiaffine/base/quantile.h>
-#include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/Volume_3.h>
+#include <equiaffine/base/internal/shared/quantile.h>
 
 #include <algorithm>
 #include <array>

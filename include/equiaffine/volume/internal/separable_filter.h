@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SEPARABLE_FILTER_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SEPARABLE_FILTER_H
 
-#include <equiaffine/base/parallel_for.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_BASE_INTERNAL_SHARED_POINT_TREE_H
+#define EQUIAFFINE_BASE_INTERNAL_SHARED_POINT_TREE_H
+
+#include <Eigen/Core>
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+/// A tree of vectors, each with an index, that finds the nearest ones (Boost's R-tree).
+template <int Dimension, class Index = std::size_t>
+class Point_tree {
+public:
+  using Vector = Eigen::Matrix<double, Dimension, 1>;
+  struct Neighbor {
+    Index index;
+    double distance;
+  };
+
+  Point_tree() = default;
+
+  /// Takes vectors, whose indices are their places.
+  explicit Point_tree(const std::vector<Vector>& vectors) {
+    std::vector<Value> values;
+    values.reserve(vectors.size());
+    for (std::size_t i = 0; i < vectors.size(); ++i) values.emplace_back(tree_point(vectors[i]), Index(i));
+    tree_ = Tree(values);
+  }
+
+  /// Takes the vectors f(i), which keep their indices i.
+  template <class F>
+  Point_tree(const std::vector<Index>& indices, F f) {
+    std::vector<Value> values;
+    values.reserve(indices.size());
+    for (const Index i : indices) values.emplace_back(tree_point(f(i)), i);
+    tree_ = Tree(values);
+  }
+
+  /// Returns the nearest `count` vectors, the nearest one first.
+  std::vector<Neighbor> neighbors(const Vector& x, std::size_t count) const {
+    const Point p = tree_point(x);
+    std::vector<Neighbor> result;
+    for (auto it = tree_.qbegin(boost::geometry::index::nearest(p, unsigned(count))); it != tree_.qend(); ++it)
+      result.push_back({it->second, boost::geometry::distance(it->first, p)});
+    return result;
+  }
+
+  /// Returns their indices alone.
+  std::vector<Index> nearest(const Vector& x, std::size_t count) const {
+    std::vector<Index> result;
+    for (auto it = tree_.qbegin(boost::geometry::index::nearest(tree_point(x), unsigned(count))); it != tree_.qend();
+         ++it)
+      result.push_back(it->second);
+    return result;
+  }
+
+  /// Calls f(i) for every vector i in the cube about `center`.
+  template <class F>
+  void for_each_in_cube(const Vector& center, double half_width, F f) const {
+    const Vector half = Vector::Constant(half_width);
+    const boost::geometry::model::box<Point> cube(tree_point(center - half), tree_point(center + half));
+    for (auto it = tree_.qbegin(boost::geometry::index::intersects(cube)); it != tree_.qend(); ++it) f(it->second);
+  }
+
+private:
+  using Point = boost::geometry::model::point<double, Dimension, boost::geometry::cs::cartesian>;
+  using Value = std::pair<Point, Index>;
+  using Tree = boost::geometry::index::rtree<Value, boost::geometry::index::linear<8>>;
+
+  static Point tree_point(const Vector& x) {
+    Point p;
+    set_coordinates(p, x, std::make_integer_sequence<std::size_t, std::size_t(Dimension)>());
+    return p;
+  }
+
+  template <std::size_t... I>
+  static void set_coordinates(Point& p, const Vector& x, std::index_sequence<I...>) {
+    (boost::geometry::set<I>(p, x[Eigen::Index(I)]), ...);
+  }
+
+  Tree tree_;
+};
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The closed list of named parameters: a new one is one function here, and its tag in Named_parameters.h.
+#ifndef EQUIAFFINE_BASE_INTERNAL_SHARED_NAMED_PARAMETER_LIST_H
+#define EQUIAFFINE_BASE_INTERNAL_SHARED_NAMED_PARAMETER_LIST_H
+
+/// Defines one function per named parameter. A free function begins a chain of parameters, a member continues one:
+/// `GIVEN` is the chain before, and `CONST` is `const` for members and nothing for free functions.
+#define EQUIAFFINE_NAMED_PARAMETERS(CONST, GIVEN)                                                                      \
+  /** Nodes per axis, at least 2 each; default 64. */                                                                  \
+  inline auto number_of_nodes(const std::array<std::size_t, 3>& n) CONST {                                             \
+    return internal::add_parameter<internal::Number_of_nodes_tag>(n, GIVEN);                                           \
+  }                                                                                                                    \
+  inline auto number_of_nodes(std::size_t n) CONST { return number_of_nodes(std::array<std::size_t, 3>{n, n, n}); }    \
+                                                                                                                       \
+  /** A Vertex_position, default PROJECTED. */                                                                         \
+  template <class Position>                                                                                            \
+  auto vertex_position(Position position) CONST {                                                                      \
+    return internal::add_parameter<internal::Vertex_position_tag>(position, GIVEN);                                    \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The sampler asks the function for bounds and evaluates it near its zero set only; not the default. Requires */   \
+  /** BoundedImplicitFunctionTraits_3; whether a function written as code accepts Interval cannot be asked without */  \
+  /** an error where it does not. */                                                                                   \
+  inline auto skip_empty_space() CONST {                                                                               \
+    return internal::add_parameter<internal::Skip_empty_space_tag>(std::true_type(), GIVEN);                           \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The Estimator of co-normal, affine normal and affine curvatures, default COMPACT. */                             \
+  template <class Way>                                                                                                 \
+  auto estimator(Way way) CONST {                                                                                      \
+    return internal::add_parameter<internal::Estimator_tag>(way, GIVEN);                                               \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The Clip_domain_3 where the surface is looked for; default the box of the function. */                           \
+  template <class Domain>                                                                                              \
+  auto clip(const Domain& domain) CONST {                                                                              \
+    return internal::add_parameter<internal::Clip_tag>(domain, GIVEN);                                                 \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A range of Polyline_3 on the surface that the edges of the mesh follow, default none. Segments are short */      \
+  /** beside the facets; the mesh has vertices of its own on them. */                                                  \
+  template <class Polylines>                                                                                           \
+  auto feature_curves(const Polylines& curves) CONST {                                                                 \
+    return internal::add_parameter<internal::Feature_curves_tag>(curves, GIVEN);                                       \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The edges of the mesh follow the parabolic curves, so that no triangle has points on both sides of one, where */ \
+  /** the affine curvatures are infinite; not the default. */                                                          \
+  inline auto parabolic_features() CONST {                                                                             \
+    return internal::add_parameter<internal::Parabolic_features_tag>(std::true_type(), GIVEN);                         \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A Facet_sizing, default UNIFORM. */                                                                              \
+  template <class Sizing>                                                                                              \
+  auto facet_sizing(Sizing sizing) CONST {                                                                             \
+    return internal::add_parameter<internal::Facet_sizing_tag>(sizing, GIVEN);                                         \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A property map from the vertices of a mesh to their points; default the mesh's own. */                           \
+  template <class Map>                                                                                                 \
+  auto vertex_point_map(const Map& map) CONST {                                                                        \
+    return internal::add_parameter<internal::Vertex_point_tag>(map, GIVEN);                                            \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A property map from the elements of a range to their points; default the elements themselves. */                 \
+  template <class Map>                                                                                                 \
+  auto point_map(const Map& map) CONST {                                                                               \
+    return internal::add_parameter<internal::Point_tag>(map, GIVEN);                                                   \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A property map from the elements of a range to the normals of the surface there; default: estimated. */          \
+  template <class Map>                                                                                                 \
+  auto normal_map(const Map& map) CONST {                                                                              \
+    return internal::add_parameter<internal::Normal_tag>(map, GIVEN);                                                  \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A Normal_orientation: whether the given normals all point to the same side; default ORIENTED. */                 \
+  template <class Orientation>                                                                                         \
+  auto normal_orientation(Orientation orientation) CONST {                                                             \
+    return internal::add_parameter<internal::Normal_orientation_tag>(orientation, GIVEN);                              \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The standard deviation of points from the surface, a length; default, or without a value: estimated. */          \
+  inline auto noise(std::optional<double> deviation) CONST {                                                           \
+    return internal::add_parameter<internal::Noise_tag>(deviation, GIVEN);                                             \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The radius around a point whose data say what the curvature is there, a length; default, or without a value: */  \
+  /** chosen by the data. */                                                                                           \
+  inline auto scale(std::optional<double> radius) CONST {                                                              \
+    return internal::add_parameter<internal::Scale_tag>(radius, GIVEN);                                                \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The degree of polynomials that are fitted: 4, 5, 6, 8 or 10; default, or without a value: chosen by the data. */ \
+  inline auto degree(std::optional<int> n) CONST { return internal::add_parameter<internal::Degree_tag>(n, GIVEN); }   \
+                                                                                                                       \
+  /** An Orientation_of_level_set: whether normals are those of the data or the opposite ones; default: the former. */ \
+  template <class Orientation>                                                                                         \
+  auto orientation(Orientation side) CONST {                                                                           \
+    return internal::add_parameter<internal::Orientation_tag>(side, GIVEN);                                            \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A Map_kind: among which maps one is sought; default AFFINE. */                                                   \
+  template <class Kind>                                                                                                \
+  auto map_kind(Kind kind) CONST {                                                                                     \
+    return internal::add_parameter<internal::Map_kind_tag>(kind, GIVEN);                                               \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** Whether maps with a negative determinant are allowed; default true. */                                           \
+  inline auto reflections(bool are_allowed) CONST {                                                                    \
+    return internal::add_parameter<internal::Reflections_tag>(are_allowed, GIVEN);                                     \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** How many maps are sought, at most; default 1. With more, the search does not end with the first one. */          \
+  inline auto number_of_maps(std::size_t n) CONST {                                                                    \
+    return internal::add_parameter<internal::Number_of_maps_tag>(n, GIVEN);                                            \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The part of the points of one of two surfaces, at least, that has to lie on the other; default 0.05. */          \
+  inline auto least_overlap(double part) CONST {                                                                       \
+    return internal::add_parameter<internal::Least_overlap_tag>(part, GIVEN);                                          \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A pair of functions, of the source and of the target, on which maps are refined and judged, instead of those */  \
+  /** by which points are matched: unsmoothed ones, since smoothing does not commute with affine maps. */              \
+  template <class Functions>                                                                                           \
+  auto refined_functions(const Functions& source_and_target) CONST {                                                   \
+    return internal::add_parameter<internal::Refined_functions_tag>(source_and_target, GIVEN);                         \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** How far a symmetry may move points from a surface, a part of its size; default 1e-8, for exact functions. */     \
+  inline auto tolerance(double part) CONST { return internal::add_parameter<internal::Tolerance_tag>(part, GIVEN); }   \
+                                                                                                                       \
+  /** Whether all rotations are searched even where affine frames of a few points decide; default false. */            \
+  inline auto complete(bool is_wanted) CONST {                                                                         \
+    return internal::add_parameter<internal::Complete_tag>(is_wanted, GIVEN);                                          \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The length of the edges of a remesh, by default the mean one of those given. */                                  \
+  inline auto target_edge_length(std::optional<double> length) CONST {                                                 \
+    return internal::add_parameter<internal::Target_edge_length_tag>(length, GIVEN);                                   \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** How often edges are split, collapsed and flipped and vertices relaxed; default 3. */                             \
+  inline auto number_of_iterations(unsigned n) CONST {                                                                 \
+    return internal::add_parameter<internal::Number_of_iterations_tag>(n, GIVEN);                                      \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A writable property map from the edges of a mesh to bool: the edges that a remesh keeps; default: none. */       \
+  template <class Map>                                                                                                 \
+  auto edge_is_constrained_map(const Map& map) CONST {                                                                 \
+    return internal::add_parameter<internal::Edge_is_constrained_tag>(map, GIVEN);                                     \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** The angle between the normals of two triangles, in degrees, from which on their edge is kept by a remesh; */     \
+  /** default 60. Without a value, no edge is kept for its angle. */                                                   \
+  inline auto feature_angle(std::optional<double> degrees) CONST {                                                     \
+    return internal::add_parameter<internal::Feature_angle_tag>(degrees, GIVEN);                                       \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A writable property map from the vertices of a mesh to Fit_outcome; default: none. */                            \
+  template <class Map>                                                                                                 \
+  auto vertex_outcome_map(const Map& map) CONST {                                                                      \
+    return internal::add_parameter<internal::Vertex_outcome_tag>(map, GIVEN);                                          \
+  }
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FIT_INTERNAL_DATA_DATA_OF_MESH_H
+#define EQUIAFFINE_FIT_INTERNAL_DATA_DATA_OF_MESH_H
+
+#include <equiaffine/fit/internal/data/Creased_polygons_3.h>
+#include <equiaffine/fit/internal/data/Data_points_3.h>
+#include <equiaffine/fit/internal/data/Normalization_3.h>
+#include <equiaffine/surface/internal/shared/indexed_polygons.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// The edges of polygons, once each.
+inline std::vector<Data_points_3::Edge> edges_of(const std::vector<std::vector<Data_points_3::Index>>& faces) {
+  std::vector<Data_points_3::Edge> edges;
+  for (const auto& face : faces)
+    for (std::size_t k = 0; k < face.size(); ++k)
+      edges.push_back(std::minmax<Data_points_3::Index>(face[k], face[(k + 1) % face.size()]));
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+/// Vertices of a mesh with the polygons between them. Neighbors are the ends of edges, and normals are the sums of
+/// those of the faces around, weighted by area. The surface comes apart at creases, edges that bend by more than an angle
+/// in degrees: the points on them are data of each side, those of all sides but the largest one behind the vertices.
+inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices,
+                                    const std::vector<std::vector<Data_points_3::Index>>& faces,
+                                    std::optional<double> feature_angle) {
+  std::vector<Data_points_3::Edge> edges = edges_of(faces);
+  Normalized_data result;
+  result.normalization = normalization_of(vertices, edges);
+  Data_points_3& data = result.data;
+  Creased_polygons_3 mesh(vertices, faces);
+  if (feature_angle) data.charts = mesh.split(mesh.creases(*feature_angle));
+  for (const auto& p : mesh.points()) data.points.push_back(result.normalization(p));
+  data.normals.assign(data.size(), Eigen::Vector3d::Zero());
+  for (const auto& face : mesh.faces()) {
+    const Eigen::Vector3d area = double_area_of_polygon(data.points, face);
+    for (const auto i : face) data.normals[i] += area;
+  }
+  for (auto& normal : data.normals) normal.normalize();
+  if (!data.charts.empty()) edges = edges_of(mesh.faces());
+  set_neighbors(data, std::move(edges));
+  set_spacing(data, 1);
+  const std::vector<char> is_on_border = mesh.borders();
+  data.is_at_border = is_on_border;
+  for (Data_points_3::Index i = 0; i < data.size(); ++i)
+    if (is_on_border[i])
+      for (const auto j : connected_ball(data, i, data.spacing[i])) data.is_at_border[j] = 1;
+  return result;
+}
+
+} // namespace equiaffine::internal
+
+#endif

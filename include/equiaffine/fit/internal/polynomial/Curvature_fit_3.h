@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FIT_INTERNAL_POLYNOMIAL_CURVATURE_FIT_3_H
+#define EQUIAFFINE_FIT_INTERNAL_POLYNOMIAL_CURVATURE_FIT_3_H
+
+#include <equiaffine/fit/internal/polynomial/Fit_choice_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// A fit, or a mean of fits, is known to within these errors, parts of the sizes of its numbers.
+struct Fit_accuracy {
+  Number_errors error;  ///< the whole estimate of the error of what the fit stands for
+  Number_errors noise;  ///< two standard deviations of what noise alone makes
+  Number_errors detail; ///< at a scale: what residuals make that have more than noise; else the error
+  double radius;        ///< of the ball whose points were fitted
+  double deviation;     ///< of one point from any smooth surface
+};
+
+struct Curvature_fit_3 {
+  Patch_3 patch;
+  Fitted_numbers numbers; ///< at the foot of the center
+  Fit_accuracy accuracy;
+};
+
+/// Fits polynomials of degrees of a family. Where the ball has too few points for all, as at a border of the surface, it
+/// grows. Where they do not determine a polynomial, since they fill a small part of the ball only, it shrinks.
+inline std::vector<Local_fit_3> fit_candidate(const Data_points_3& data, Data_points_3::Index center, double radius,
+                                              const Fit_candidate& candidate, std::span<const int> degrees,
+                                              const Number_request& request) {
+  const std::array<double, 1> weights = {candidate.weight_of_normals};
+  const auto fit = [&](double r) {
+    auto fits = candidate.family == Fit_family::HEIGHT ? fit_heights(data, center, r, degrees, &request)
+                                                       : fit_spaces(data, center, r, degrees, weights, &request);
+    if (!fits.empty() && !candidate.made(fits.front(), candidate.degree)) fits.clear();
+    return fits;
+  };
+  std::vector<Local_fit_3> fits = fit(radius);
+  for (int step = 1; step < 6 && fits.size() < degrees.size(); ++step)
+    if (auto larger = fit(radius * std::pow(1.15, step)); larger.size() > fits.size()) fits = std::move(larger);
+  for (int step = 1; step < 6 && fits.empty(); ++step) fits = fit(radius / std::pow(1.3, step));
+  return fits;
+}
+
+/// Fits are answered by the greater of two degrees where the data are exact: noise is below this part of their spacing.
+constexpr double noise_of_exact_data = 1e-4;
+
+/// The error of K is the difference of degrees that is typical around with this power, and the difference at the point
+/// itself with the rest, but at least the latter, which is small by chance at some points.
+constexpr double power_of_level = 0.88;
+
+/// The accuracy of the greater of two degrees on exact data. A ball 1.35 times smaller, whose error is some five times
+/// less, tells the error of this one, unless both happen to agree; residuals are what polynomials leave out and not
+/// noise, which matters in part.
+inline Fit_accuracy exact_accuracy(const Local_fit_3& fit, const Local_fit_3& lower, const Local_fit_3& smaller,
+                                   double noise) {
+  constexpr double part_of_difference = 0.12, part_of_residual = 0.75;
+  const Number_estimates& estimates = *fit.estimates;
+  const Number_errors sizes = estimates.numbers.sizes();
+  const Number_errors to_lower = relative_difference(estimates.numbers, lower.estimates->numbers);
+  Number_errors bias =
+      relative_difference(estimates.numbers, smaller.estimates->numbers).max(part_of_difference * to_lower);
+  bias[GAUSSIAN] = std::max(bias[GAUSSIAN], to_lower[GAUSSIAN]); // within which K_e counts as zero
+  const Number_errors deviations = estimates.of_residual / sizes;
+  Fit_accuracy accuracy;
+  accuracy.error = coverage * errors_or_all((bias.square() + (part_of_residual * deviations).square()).sqrt());
+  accuracy.noise = 2 * std::min(1., noise / fit.residual) * errors_or_all(deviations);
+  accuracy.detail = accuracy.error;
+  accuracy.deviation = noise;
+  return accuracy;
+}
+
+/// The accuracy of the surface's own curvatures, from the difference to another degree and the standard deviation.
+inline Fit_accuracy own_accuracy(const Local_fit_3& fit, const Local_fit_3& other, const Fit_choice& choice,
+                                 bool has_noise) {
+  const Number_estimates& estimates = *fit.estimates;
+  const Number_errors sizes = estimates.numbers.sizes();
+  const Number_errors difference = relative_difference(estimates.numbers, other.estimates->numbers);
+  Number_errors bias = choice.level.max(difference);
+  double& of_gaussian = bias[AFFINE_GAUSSIAN];
+  const double here = difference[AFFINE_GAUSSIAN];
+  const bool has_other = &other != &fit; // a ball at a border may have points for one degree only
+  if (has_other)
+    of_gaussian = std::max(here, std::pow(of_gaussian, power_of_level) * std::pow(here, 1 - power_of_level));
+  // Noise that is given counts as it is, whatever the residuals are.
+  const double factor = has_noise && fit.residual > 0 ? choice.noise / fit.residual : 1;
+  const Number_errors deviations = std::max(guard(fit, choice.noise), factor) * estimates.of_residual / sizes;
+  Fit_accuracy accuracy;
+  accuracy.error = coverage * errors_or_all((bias.square() + deviations.square()).sqrt());
+  accuracy.noise = 2 * errors_or_all(factor * estimates.of_residual / sizes);
+  accuracy.detail = accuracy.error;
+  accuracy.deviation = choice.noise;
+  return accuracy;
+}
+
+/// The accuracy of curvatures at a scale, which noise and sampling alone make wrong.
+inline Fit_accuracy accuracy_at_scale(const Local_fit_3& fit, double noise) {
+  const Number_estimates& estimates = *fit.estimates;
+  const Number_errors sizes = estimates.numbers.sizes();
+  Fit_accuracy accuracy;
+  accuracy.noise = 2 * errors_or_all(estimates.of_noise / sizes);
+  accuracy.error = accuracy.noise;
+  accuracy.detail = 2 * guard(fit, noise) * errors_or_all(estimates.of_residual / sizes);
+  accuracy.deviation = noise;
+  return accuracy;
+}
+
+/// A fit gives numbers near its center, where the greater of two degrees answers exact data, or it is part of a blend,
+/// which reaches half of the radius away and takes the lower degree.
+enum class Fit_use { NUMBERS, BLEND };
+
+/// The fit of the greater degree to exact data, if its K is known better than with the accuracy `lower` of the other. Where
+/// that says that K_e may be zero, it answers: curvatures of a flat part are small for the lower degree.
+inline std::optional<Curvature_fit_3> exact_fit(const Data_points_3& data, Data_points_3::Index center,
+                                                const Fit_candidate& candidate, const Number_request& request,
+                                                const std::vector<Local_fit_3>& fits, const Fit_accuracy& lower) {
+  constexpr double ratio_of_radii = 1.35, known_at_all = 0.5;
+  const std::array<int, 2> degrees = {candidate.degree, candidate.other_degree()};
+  const Local_fit_3& fit = fits.back();
+  const double radius = fit.patch.radius;
+  const Fitted_numbers& lower_numbers = fits.front().estimates->numbers;
+  if (std::abs(lower_numbers.components[GAUSSIAN]) <= lower.error[GAUSSIAN] * lower_numbers.sizes()[GAUSSIAN])
+    return {};
+  const auto smaller = fit_candidate(data, center, radius / ratio_of_radii, candidate, degrees, request);
+  if (smaller.size() < degrees.size() || smaller.back().patch.radius >= 0.99 * radius) return {};
+  Fit_accuracy accuracy = exact_accuracy(fit, fits.front(), smaller.back(), lower.deviation);
+  if (!(accuracy.error[AFFINE_GAUSSIAN] < std::min(known_at_all, lower.error[AFFINE_GAUSSIAN]))) return {};
+  accuracy.radius = radius;
+  return Curvature_fit_3{fit.patch, fit.estimates->numbers, accuracy};
+}
+
+/// Fits the points around a center. At a scale, nothing is known where the ball had to have another radius.
+inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, Data_points_3::Index center,
+                                                    const Fit_choice& choice, const Fit_choice_3& choices,
+                                                    Fit_use use) {
+  const Fit_candidate& candidate = choice.candidate;
+  const std::array<int, 2> degrees = {candidate.degree, candidate.other_degree()};
+  const double radius = choices.radius(candidate, center), noise = choices.noise(choice, center);
+  const Number_request request = choices.number_request();
+  auto fits =
+      fit_candidate(data, center, radius, candidate, std::span(degrees).first(choices.scale() ? 1 : 2), request);
+  if (fits.empty()) return {};
+  Local_fit_3& fit = fits.front();
+  Fit_accuracy accuracy =
+      choices.scale() ? accuracy_at_scale(fit, noise) : own_accuracy(fit, fits.back(), choice, choices.has_noise());
+  if (choices.scale() && fit.patch.radius != radius)
+    accuracy.error.setConstant(std::numeric_limits<double>::infinity());
+  accuracy.radius = fit.patch.radius;
+  const bool is_exact = candidate.family == Fit_family::HEIGHT && fits.size() > 1 && !choices.has_noise() &&
+                        noise <= noise_of_exact_data * data.spacing[center];
+  if (use == Fit_use::NUMBERS && is_exact)
+    if (auto exact = exact_fit(data, center, candidate, request, fits, accuracy)) return exact;
+  return Curvature_fit_3{std::move(fit.patch), fit.estimates->numbers, accuracy};
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_INTERNAL_SHARED_FAIL_TO_READ_H
+#define EQUIAFFINE_IO_INTERNAL_SHARED_FAIL_TO_READ_H
+
+#include <equiaffine/Input_error.h>
+
+#include <string>
+
+namespace equiaffine::internal {
+
+/// Throws the error of a file that cannot be read: what is wrong with it and what the user can do.
+[[noreturn]] inline void fail_to_read(const std::string& name, const std::string& reason, const std::string& advice) {
+  throw Input_error("cannot read '" + name + "': " + reason + "; " + advice);
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_PIECES_CONTRADICTIONS_OF_TRIANGLES_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_PIECES_CONTRADICTIONS_OF_TRIANGLES_H
+
+#include <equiaffine/registration/internal/pieces/Contact_evidence.h>
+#include <equiaffine/registration/internal/pieces/Piece_of_surface_3.h>
+#include <equiaffine/registration/internal/pieces/contacts.h>
+#include <equiaffine/registration/internal/samples/mesh_samples.h>
+#include <equiaffine/registration/internal/shared/Mesh_contradictions.h>
+#include <equiaffine/registration/internal/tolerances_of_meshes.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace equiaffine::internal {
+
+/// Returns the contradictions with the side of the source by which more points are in contact. Meshes without an area
+/// have none.
+inline Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 target, double distance) {
+  Mesh_contradictions result;
+  if (source.triangles.empty() || target.triangles.empty()) return result;
+  const Moments_3 area = area_moments(target);
+  if (!(area.measure > 0) || !(area_moments(source).measure > 0)) return result;
+  const Affine_map_3 map = centering_map(area);
+  source = transformed(std::move(source), map);
+  target = transformed(std::move(target), map);
+  const auto edges = sorted_edges(target);
+  const double error = std::max(facet_error(source, sorted_edges(source)), facet_error(target, edges));
+  const double touching = std::max(distance / area.size(), tolerance_of_contact(error, {}));
+  const Piece_of_surface_3 piece(target, edges, samples_of_piece, 2 * touching);
+  std::size_t most = 0;
+  for (const Triangles_3& side : {source, turned_inside_out(source)}) {
+    const Piece_of_surface_3 moved(side, sorted_edges(side), samples_of_piece, 2 * touching);
+    const Mapped_samples contacts =
+        mapped_samples(moved, piece, {}, samples_of_piece, {touching, greatest_displacement});
+    const std::size_t in_contact = count_of(contacts[0], Contact::TOUCHING) + count_of(contacts[1], Contact::TOUCHING);
+    if (in_contact < most) continue;
+    most = in_contact;
+    result = {contradictions_of(contacts), moved.is_closed() && piece.is_closed()};
+  }
+  return result;
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_SAMPLES_MESH_SAMPLES_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_SAMPLES_MESH_SAMPLES_H
+
+#include <equiaffine/registration/internal/samples/Area_samples_3.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// A triangle mesh in doubles.
+struct Triangles_3 {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  const Eigen::Vector3d& corner(std::size_t t, std::size_t k) const { return points[triangles[t][k % 3]]; }
+  Eigen::Vector3d double_area(std::size_t t) const {
+    return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
+  }
+};
+
+inline Triangles_3 turned_inside_out(Triangles_3 mesh) {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+inline Triangles_3 transformed(Triangles_3 mesh, const Affine_map_3& map) {
+  for (Eigen::Vector3d& p : mesh.points) p = map(p);
+  return map.matrix.determinant() < 0 ? turned_inside_out(std::move(mesh)) : mesh;
+}
+
+inline Moments_3 area_moments(const Triangles_3& mesh) {
+  Moment_sums_3 sums(mesh.points.front());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    sums.add_triangle(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+  return sums.moments();
+}
+
+inline Moments_3 volume_moments(const Triangles_3& mesh, const Eigen::Vector3d& origin) {
+  Moment_sums_3 sums(origin);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    sums.add_cone(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+  return sums.moments();
+}
+
+/// An edge of a mesh with one of its triangles.
+struct Edge_of_triangle {
+  std::array<std::uint32_t, 2> ends; ///< the smaller number first
+  std::uint32_t triangle;
+  bool is_forward; ///< whether the triangle has it in this order
+};
+
+/// Returns the three edges of every triangle, those with the same ends one after the other.
+inline std::vector<Edge_of_triangle> sorted_edges(const Triangles_3& mesh) {
+  std::vector<Edge_of_triangle> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+      edges.push_back({{std::min(a, b), std::max(a, b)}, std::uint32_t(t), a < b});
+    }
+  std::sort(edges.begin(), edges.end(), [](const Edge_of_triangle& e, const Edge_of_triangle& f) {
+    return e.ends != f.ends ? e.ends < f.ends : e.triangle < f.triangle;
+  });
+  return edges;
+}
+
+/// Whether all edges but one in a thousand have two triangles with the same orientation.
+inline bool bounds_solid(const std::vector<Edge_of_triangle>& edges) {
+  std::size_t doubled = 0;
+  for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
+    while (next < edges.size() && edges[next].ends == edges[i].ends) ++next;
+    if (next - i == 2 && edges[i].is_forward != edges[i + 1].is_forward) doubled += 2;
+  }
+  return 1000 * doubled >= 999 * edges.size();
+}
+
+/// The rms, over the area, of the distance between a smooth surface and triangles that touch it at their vertices: the
+/// width of two triangles times the angle between them, over 8. Edges that bend by 50 degrees or more are edges of the
+/// surface itself.
+inline double facet_error(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges) {
+  constexpr double greatest_angle = 50 * std::numbers::pi / 180;
+  double sum = 0, area = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area += mesh.double_area(t).norm();
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    if (edges[i].ends != edges[i + 1].ends) continue;
+    const Eigen::Vector3d m = mesh.double_area(edges[i].triangle), n = mesh.double_area(edges[i + 1].triangle);
+    const double angle = std::atan2(m.cross(n).norm(), m.dot(n));
+    const double length = (mesh.points[edges[i].ends[0]] - mesh.points[edges[i].ends[1]]).norm();
+    if (!(angle < greatest_angle && length > 0)) continue;
+    const double sagitta = (m.norm() + n.norm()) / 2 / length * angle / 8;
+    sum += (m.norm() + n.norm()) * sagitta * sagitta;
+  }
+  return area > 0 ? std::sqrt(sum / (3 * area)) : 0;
+}
+
+/// Samples triangles by a sequence that is uniform in their area. The moments are those of the triangles themselves, and
+/// `edges` are their sorted edges.
+/// \pre the mesh has an area.
+inline Area_samples_3 mesh_samples(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges,
+                                   std::size_t count) {
+  Area_samples_3 result;
+  result.area = area_moments(mesh);
+  result.facet_error = facet_error(mesh, edges);
+  std::vector<double> cumulated;
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) cumulated.push_back(sum += mesh.double_area(t).norm());
+  for (std::size_t n = 0; n < count; ++n) {
+    auto [u, v, w] = quasirandom<3>(n);
+    const auto found = std::upper_bound(cumulated.begin(), cumulated.end(), u * sum);
+    const std::size_t t = std::min(std::size_t(found - cumulated.begin()), cumulated.size() - 1);
+    if (v + w > 1) v = 1 - v, w = 1 - w;
+    const Eigen::Vector3d &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+    result.points.push_back(a + v * (b - a) + w * (c - a));
+    result.normals.push_back(mesh.double_area(t).normalized());
+  }
+  return result;
+}
+
+} // namespace equiaffine::internal
+
+#endif

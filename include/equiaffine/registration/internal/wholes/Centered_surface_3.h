@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_CENTERED_SURFACE_3_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_CENTERED_SURFACE_3_H
+
+#include <equiaffine/registration/internal/samples/Area_samples_3.h>
+#include <equiaffine/registration/internal/samples/Surface_distances.h>
+#include <equiaffine/registration/internal/samples/function_samples.h>
+#include <equiaffine/registration/internal/samples/mesh_samples.h>
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// A surface whose symmetries are sought, in coordinates in which its area has centroid 0 and size 1. For affine maps
+/// the solid has, before that, covariance 1, and the area is the one there.
+struct Centered_surface_3 {
+  Area_samples_3 samples = {};
+  std::unique_ptr<Surface_distances> distances = {};
+  Affine_map_3 map = {};           ///< from the coordinates of the surface to these
+  bool is_exact = false;           ///< whether points are on a surface up to rounding, as those of a formula
+  std::string reason_against = {}; ///< why its symmetries cannot be found, if they cannot
+
+  /// The square roots of the eigenvalues of the covariance of the area.
+  Eigen::Vector3d extents() const {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(samples.area.covariance, Eigen::EigenvaluesOnly);
+    return solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  }
+
+  /// 1 for surfaces as thick as they are wide, less for thin ones, whose distances are to be small beside their
+  /// thickness.
+  double thickness() const { return std::min(1.0, std::sqrt(3.0) * extents()[0]); }
+};
+
+constexpr std::size_t samples_of_mesh = 24000, samples_of_function = 12000;
+
+inline Centered_surface_3 surface_without_symmetries(std::string reason) {
+  Centered_surface_3 result;
+  result.reason_against = std::move(reason);
+  return result;
+}
+
+inline Centered_surface_3 centered_surface(const Triangles_3& mesh, Map_kind kind) {
+  const Moments_3 area = area_moments(mesh);
+  if (!(area.measure > 0)) return surface_without_symmetries("the mesh has no area");
+  const auto edges = sorted_edges(mesh);
+  Centered_surface_3 result;
+  if (!keeps_angles(kind)) {
+    const Moments_3 volume = volume_moments(mesh, area.centroid);
+    if (!bounds_solid(edges) || volume.covariance.llt().info() != Eigen::Success)
+      return surface_without_symmetries("the mesh bounds no solid, by whose moments affine maps are found");
+    result.map = whitening_map(volume);
+  }
+  result.map = centering_map(area_moments(transformed(mesh, result.map))) * result.map;
+  const Triangles_3 centered = transformed(mesh, result.map);
+  result.samples = mesh_samples(centered, edges, samples_of_mesh);
+  result.distances = std::make_unique<Mesh_distances>(centered);
+  return result;
+}
+
+template <class ConcurrencyTag>
+Centered_surface_3 centered_surface(const Any_function_3& function, Map_kind kind) {
+  Centered_surface_3 result;
+  result.is_exact = true;
+  if (!keeps_angles(kind)) {
+    const Area_samples_3 first = function_samples<ConcurrencyTag>(Mapped_function_3(function, {}), samples_of_function);
+    if (first.is_cut) return surface_without_symmetries("the surface is cut by the box of the function");
+    if (!first.volume || first.volume->covariance.llt().info() != Eigen::Success)
+      return surface_without_symmetries("the surface bounds no solid, by whose moments affine maps are found");
+    result.map = whitening_map(*first.volume);
+  }
+  result.samples = function_samples<ConcurrencyTag>(Mapped_function_3(function, result.map), samples_of_function);
+  Area_samples_3& samples = result.samples;
+  if (samples.is_cut) return surface_without_symmetries("the surface is cut by the box of the function");
+  if (samples.points.size() < samples_of_function)
+    return surface_without_symmetries("lines met the surface at too few points");
+  const Affine_map_3 centering = centering_map(samples.area);
+  for (Eigen::Vector3d& p : samples.points) p = centering(p);
+  const double size = samples.area.size();
+  samples.area = {samples.area.measure / (size * size), Eigen::Vector3d::Zero(),
+                  samples.area.covariance / (size * size)};
+  result.map = centering * result.map;
+  result.distances = std::make_unique<Function_distances>(Mapped_function_3(function, result.map), samples);
+  return result;
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_REFINED_CANDIDATES_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_REFINED_CANDIDATES_H
+
+#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/registration/internal/wholes/Centered_map.h>
+#include <equiaffine/registration/internal/wholes/Rotation_search.h>
+#include <equiaffine/registration/internal/without_near.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// Maps that differ by less than this are the same one.
+constexpr double same_map = 0.03;
+
+constexpr std::size_t points_of_rms = 1500;
+
+/// Returns the maps below an rms, by their rms, without those that are the same as better ones.
+inline std::vector<Centered_map> different(std::vector<Centered_map> maps, double greatest_rms) {
+  std::stable_sort(maps.begin(), maps.end(),
+                   [](const Centered_map& a, const Centered_map& b) { return a.rms < b.rms; });
+  std::erase_if(maps, [&](const Centered_map& map) { return !(map.rms < greatest_rms); });
+  return without_near(maps, maps.size(),
+                      [](const Centered_map& a, const Centered_map& b) { return difference(a, b) < same_map; });
+}
+
+/// A map refined by least squares, judged by many points.
+inline Centered_map refined_and_judged(const Centered_pair& surfaces, const Affine_map_3& map, Map_kind kind) {
+  return judged(surfaces, refined(surfaces, map, {kind}), points_of_rms);
+}
+
+/// Returns what rotations, times a `scale`, become by refinement: the different maps below an rms, by their rms. A few
+/// steps with a few points decide which of them are worth more.
+template <class ConcurrencyTag>
+std::vector<Centered_map> refined_candidates(const Centered_pair& surfaces,
+                                             const std::vector<Rotation_candidate>& rotations, double scale,
+                                             Map_kind kind, double greatest_rms) {
+  std::vector<Centered_map> maps;
+  for (const Rotation_candidate& rotation : rotations) maps.push_back({{scale * rotation.matrix}});
+  const auto refine = [&](int steps, std::size_t points, double gate) {
+    parallel_for<ConcurrencyTag>(0, maps.size(), [&](std::size_t i) {
+      maps[i] = judged(surfaces, refined(surfaces, maps[i].map, {Map_kind::RIGID, steps, points}), points);
+    });
+    maps = different(std::move(maps), gate);
+  };
+  refine(3, 40, 2 * greatest_rms);
+  refine(6, 100, greatest_rms);
+  parallel_for<ConcurrencyTag>(0, maps.size(),
+                               [&](std::size_t i) { maps[i] = refined_and_judged(surfaces, maps[i].map, kind); });
+  return different(std::move(maps), greatest_rms);
+}
+
+} // namespace equiaffine::internal
+
+#endif

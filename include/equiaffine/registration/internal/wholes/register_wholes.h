@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_REGISTER_WHOLES_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_REGISTER_WHOLES_H
+
+#include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/Shape_matches.h>
+#include <equiaffine/registration/internal/frames/map_evidence.h>
+#include <equiaffine/registration/internal/frames/part_on_surface.h>
+#include <equiaffine/registration/internal/tolerances_of_meshes.h>
+#include <equiaffine/registration/internal/wholes/Centered_map.h>
+#include <equiaffine/registration/internal/wholes/Centered_surface_3.h>
+#include <equiaffine/registration/internal/wholes/candidate_rotations.h>
+#include <equiaffine/registration/internal/wholes/refined_candidates.h>
+#include <equiaffine/registration/internal/wholes/slipping_rotations.h>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// A map between centered surfaces with its evidence, in the coordinates of the surfaces. Points further from the other
+/// surface than `touching` contradict it.
+inline Shape_match match_of(const Centered_pair& surfaces, const Affine_map_3& map, double touching,
+                            const Judgement& how) {
+  const auto& [source, target] = surfaces;
+  const Distances_both_ways distances(surfaces, map, how.probes);
+  const std::array chances = {chance_of_nearness(target.samples.area.measure, target.samples.radius()),
+                              chance_of_nearness(source.samples.area.measure, source.samples.radius())};
+  const Map_evidence evidence = evidence_of_distances(distances.moved, distances.fixed, 1, chances, how);
+  const double unit = 1 / std::cbrt(std::abs(target.map.matrix.determinant()));
+  return {target.map.inverse() * map * source.map,
+          unit * distances.rms(),
+          evidence.inliers,
+          evidence.log10_false_alarms,
+          {1 - part_on_surface(distances.moved, touching), 1 - part_on_surface(distances.fixed, touching)}};
+}
+
+/// Rotations near all that may move one surface to within a distance of the other. Where the source slips about an axis
+/// there are too many, and the nearest of them do; a surface that slips every way is a sphere.
+template <class ConcurrencyTag>
+std::vector<Rotation_candidate> rotations_to_refine(const Centered_pair& surfaces, double distance,
+                                                    bool allows_reflections, std::size_t dimension_of_slippage) {
+  constexpr std::size_t most_of_family = 200;
+  if (dimension_of_slippage == 3) return {{Eigen::Matrix3d::Identity(), 0}};
+  auto rotations =
+      candidate_rotations<ConcurrencyTag>(surfaces.source, surfaces.target, distance, allows_reflections).rotations;
+  if (dimension_of_slippage > 0 && rotations.size() > most_of_family) rotations.resize(most_of_family);
+  return rotations;
+}
+
+/// Whether the best map is below an rms and all others are at least twice as far.
+inline bool is_one_alone(const std::vector<Centered_map>& maps, double rms) {
+  return !maps.empty() && maps[0].rms < rms && (maps.size() == 1 || maps[1].rms > 2 * maps[0].rms);
+}
+
+/// The maps that move a whole surface onto another one: they keep the centroid of the area, and affine ones the moments
+/// of the solid inside, so that all rotations and reflections about the centroid are tried, and no curvature is needed.
+/// Surfaces whose extents differ by a tenth of the size are not equal, and no rotation is tried.
+template <class ConcurrencyTag>
+Shape_matches register_wholes(const Centered_surface_3& source, const Centered_surface_3& target,
+                              const Registration_request& request) {
+  constexpr double gate = 0.06, least_difference = 0.1, most_contradictions = 0.1;
+  constexpr std::size_t probes = 6000;
+  Shape_matches result;
+  if (!source.reason_against.empty() || !target.reason_against.empty()) return result;
+  if ((source.extents() - target.extents()).cwiseAbs().maxCoeff() > least_difference) return result;
+  const Centered_pair surfaces(source, target);
+  result.size = 1 / std::cbrt(std::abs(target.map.matrix.determinant()));
+  const Tolerances_of_wholes tolerances = tolerances_of_wholes(surfaces, request);
+  double scale = 1;
+  if (keeps_volume(request.kind)) {
+    scale = std::cbrt(std::abs(target.map.matrix.determinant() / source.map.matrix.determinant()));
+    if (std::abs(std::log(scale)) > least_difference) return result;
+  }
+  const auto slipping = slipping_rotations<ConcurrencyTag>(source, request.kind);
+  result.slippage = continuous_symmetries(source, slipping, tolerances_of_wholes(Centered_pair(source), request).tried);
+  const auto rotations = rotations_to_refine<ConcurrencyTag>(surfaces, 2 * std::max(tolerances.tried, tolerances.alone),
+                                                             request.allows_reflections, result.slippage.dimension());
+  result.hypotheses = rotations.size();
+  const Judgement how = {10 * tolerances.tried, 0, degrees_of_freedom(request.kind),
+                         double(std::max<std::size_t>(result.hypotheses, 1)), probes};
+  const double touching =
+      tolerance_of_contact(std::max(source.samples.facet_error, target.samples.facet_error), request);
+  const auto maps = refined_candidates<ConcurrencyTag>(surfaces, rotations, scale, request.kind, gate);
+  for (const Centered_map& map : maps)
+    if (map.rms < tolerances.equal) result.maps.push_back(match_of(surfaces, map.map, touching, how));
+  if (result.maps.empty() && is_one_alone(maps, tolerances.alone)) {
+    const Shape_match match = match_of(surfaces, maps[0].map, std::max(touching, 3 * maps[0].rms), how);
+    if (match.contradictions[0] + match.contradictions[1] < most_contradictions) result.maps.push_back(match);
+  }
+  return result;
+}
+
+} // namespace equiaffine::internal
+
+#endif

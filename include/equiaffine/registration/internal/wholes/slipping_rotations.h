@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_SLIPPING_ROTATIONS_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_SLIPPING_ROTATIONS_H
+
+#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/registration/Affine_slippage_3.h>
+#include <equiaffine/registration/internal/wholes/Centered_map.h>
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// An axis about which a surface turns with little change, judged by rotations of finite angles: small ones would find
+/// that a fine gear turns, too.
+struct Slipping_rotation {
+  Infinitesimal_map_3 generator; ///< in the coordinates of the Centered_surface_3
+  double rms;                    ///< the largest of the rotations
+};
+
+/// Returns the three axes about which small rotations move points away from the surface least, or in proportion, by
+/// their rms.
+template <class ConcurrencyTag>
+std::vector<Slipping_rotation> slipping_rotations(const Centered_surface_3& surface, Map_kind kind) {
+  constexpr std::array<double, 4> angles = {1.0, 0.381966, 1.618034, 2.618034};
+  constexpr std::size_t points = 3000;
+  constexpr double greatest_change = 0.1;
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  const auto& samples = surface.samples;
+  for (std::size_t i = 0; i < std::min(points, samples.points.size()); ++i) {
+    const Eigen::Vector3d moment = samples.points[i].cross(samples.normals[i]);
+    squares += moment * moment.transpose();
+  }
+  const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares).eigenvectors();
+  std::array<Centered_map, 3 * angles.size()> maps;
+  parallel_for<ConcurrencyTag>(0, maps.size(), [&](std::size_t i) {
+    const Eigen::Vector3d axis = axes.col(Eigen::Index(i / angles.size()));
+    const Affine_map_3 rotation = {Eigen::AngleAxisd(angles[i % angles.size()], axis).toRotationMatrix()};
+    const Affine_map_3 map = refined(Centered_pair(surface), rotation, {kind, 8, 400, axis});
+    // A map that was drawn to a symmetry nearby says nothing of the rotation.
+    maps[i] = judged(Centered_pair(surface), difference(map.matrix, rotation.matrix) < greatest_change ? map : rotation,
+                     points);
+  });
+  std::vector<Slipping_rotation> result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Slipping_rotation slipping = {};
+    for (std::size_t k = 0; k < angles.size(); ++k)
+      slipping.rms = std::max(slipping.rms, maps[axis * angles.size() + k].rms);
+    const Affine_map_3 turn = maps[axis * angles.size()].map, back = turn.inverse();
+    const double sine = std::sin(angles[0]);
+    slipping.generator.matrix = (turn.matrix - back.matrix) / (2 * sine);
+    // The points that the rotation fixes are those that its generator does not move.
+    slipping.generator.translation = (turn.translation - back.translation) / (2 * sine);
+    result.push_back(slipping);
+  }
+  std::stable_sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.rms < b.rms; });
+  return result;
+}
+
+/// The generators, in the coordinates of the surface, of the rotations whose rms is below a limit. Rotations about two
+/// axes generate those about a third one, so that two that are small alone are less than what they would have to be.
+inline Affine_slippage_3 continuous_symmetries(const Centered_surface_3& surface,
+                                               const std::vector<Slipping_rotation>& rotations, double greatest_rms) {
+  auto count = std::count_if(rotations.begin(), rotations.end(),
+                             [&](const Slipping_rotation& r) { return r.rms < greatest_rms; });
+  if (count == 2) count = 1;
+  const Affine_map_3& to = surface.map;
+  const Eigen::Matrix3d from = to.matrix.inverse();
+  Affine_slippage_3 result;
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const Infinitesimal_map_3& generator = rotations[std::size_t(i)].generator;
+    result.generators.push_back(
+        {from * generator.matrix * to.matrix, from * (generator.matrix * to.translation + generator.translation)});
+  }
+  return result;
+}
+
+} // namespace equiaffine::internal
+
+#endif

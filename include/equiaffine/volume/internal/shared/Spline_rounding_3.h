@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_VOLUME_INTERNAL_SHARED_SPLINE_ROUNDING_3_H
+#define EQUIAFFINE_VOLUME_INTERNAL_SHARED_SPLINE_ROUNDING_3_H
+
+#include <equiaffine/volume/Spline_function_3.h>
+#include <equiaffine/volume/internal/Line_functionals.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace equiaffine {
+
+/// The size of samples and the type that they may have had: both decide how the samples have been rounded.
+template <class FT>
+struct Sample_format {
+  FT greatest = 0; ///< the greatest magnitude of a sample that is finite
+  bool are_floats = true;
+
+  explicit Sample_format(const std::vector<FT>& samples) {
+    for (const FT& x : samples)
+      if (std::isfinite(x)) {
+        greatest = std::max(greatest, std::abs(x));
+        are_floats = are_floats && x == FT(float(x));
+      }
+  }
+};
+
+/// Estimates from above how far rounding may change the second derivatives of a spline, as if all samples were as large
+/// as the largest one: two roundings of every term, and one of the samples to float if all are floats.
+template <class Kernel>
+class Spline_rounding_3 {
+public:
+  using FT = typename Kernel::FT;
+  using Spline = Spline_function_3<Kernel>;
+  using Cell = std::array<std::size_t, 3>;
+
+  /// `smoothing` is the scale by which the samples of the spline have been smoothed, `samples` is what they were
+  /// before.
+  Spline_rounding_3(const Spline& spline, const FT& smoothing, const Sample_format<FT>& samples)
+      : to_lattice_(spline.to_lattice()), rounding_of_terms_(2 * std::numeric_limits<FT>::epsilon() * samples.greatest),
+        rounding_of_samples_(samples.are_floats ? FT(std::numeric_limits<float>::epsilon()) / 2 * samples.greatest
+                                                : FT(0)) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::size_t nodes = spline.lattice().size()[a];
+      if (nodes <= std::size_t(spline.degree())) return;
+      const internal::Line_functionals<FT> line(nodes,
+                                                {spline.degree(), spline.scheme(), spline.border_degree(), smoothing});
+      gains_[a] = {line.kinds(), [&](std::size_t kind) { return gains(line, kind); }};
+    }
+  }
+
+  /// The largest error of a second derivative in the coordinates of space, in the middle of a cell.
+  FT operator()(const Cell& cell) const {
+    FT greatest = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = i; j < 3; ++j) {
+        FT sum = 0;
+        for (std::size_t a = 0; a < 3; ++a)
+          for (std::size_t b = 0; b < 3; ++b)
+            sum += std::abs(to_lattice_[a][i] * to_lattice_[b][j]) * error_in_lattice(a, b, cell);
+        greatest = std::max(greatest, sum);
+      }
+    return greatest;
+  }
+
+private:
+  /// The greatest change of the value and of the first two derivatives along one axis by errors of magnitude 1, of all
+  /// terms or of all samples.
+  struct Gains {
+    std::array<FT, 3> terms, samples;
+  };
+
+  /// The error of the derivative along the axes a and b of the lattice.
+  FT error_in_lattice(std::size_t a, std::size_t b, const Cell& cell) const {
+    FT terms = rounding_of_terms_, samples = rounding_of_samples_;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Gains& gains = gains_[c][cell[c]];
+      const std::size_t order = std::size_t(a == c) + std::size_t(b == c);
+      terms *= gains.terms[order];
+      samples *= gains.samples[order];
+    }
+    return terms + samples;
+  }
+
+  static Gains gains(const internal::Line_functionals<FT>& line, std::size_t kind) {
+    const auto rows = line.rows(kind);
+    Gains gains{};
+    for (std::size_t d = 0; d < 3; ++d) {
+      const FT factorial = d == 2 ? FT(2) : FT(1);
+      gains.terms[d] = factorial * line.gain(kind, d);
+      for (const FT& x : rows[d]) gains.samples[d] += factorial * std::abs(x);
+    }
+    return gains;
+  }
+
+  typename Spline::Matrix to_lattice_;
+  FT rounding_of_terms_, rounding_of_samples_; // of the largest ones
+  std::array<internal::Per_kind_of_cell<Gains>, 3> gains_;
+};
+
+} // namespace equiaffine
+
+#endif
