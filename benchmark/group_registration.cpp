@@ -2,7 +2,7 @@
 // Registration: how often it is right, with how many hypotheses and how exactly, and how long the search takes once the
 // points have their frames; symmetry groups and slippage; false maps.
 // Usage: benchmark_registration [repeats] [part] [folder of data], where part is all, formulas, symmetries, unrelated,
-// volumes, meshes, bunny or peers.
+// volumes, meshes, bunny, peers or thresholds.
 // 84 repeats are the full size: 3000 runs with formulas.
 #include "registration/Disturbed_structure.h"
 #include "registration/runs.h"
@@ -247,6 +247,7 @@ int main(int argc, char** argv) {
     few_points(all, fewer);
     wrong_structure(all, fewer);
   }
+  if (is_asked_for("thresholds")) vary_thresholds(sources(), (repeats + 41) / 42);
   if (is_asked_for("unrelated")) unrelated(12 * repeats);
   const int fewest = (repeats + 41) / 42;
   if (is_asked_for("volumes")) register_volumes((3 * fewest + 1) / 2);

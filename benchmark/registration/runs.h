@@ -109,6 +109,7 @@ void register_meshes(int repeats);
 void register_bunny(const std::string& folder);
 void register_volumes(int repeats);
 void compare_with_peers(int repeats);
+void vary_thresholds(const std::vector<Source>& sources, int repeats);
 
 } // namespace registration_runs
 

@@ -5,15 +5,18 @@
 #include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/registration/internal/Map_request.h>
+#include <equiaffine/registration/internal/frames/Frame_thresholds.h>
 
 #include <cstddef>
 
 namespace equiaffine::internal {
 
-/// The named parameters of register_surfaces. The tolerance is beside the size of the target.
+/// The named parameters of register_surfaces, and thresholds that benchmarks vary. The tolerance is beside the size of
+/// the target.
 struct Registration_request : Map_request {
   std::size_t number_of_maps = 1;
   double least_overlap = 0.05;
+  Frame_thresholds thresholds = {};
 };
 
 template <class Parameters>

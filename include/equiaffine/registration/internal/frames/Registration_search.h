@@ -3,6 +3,7 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_FRAMES_REGISTRATION_SEARCH_H
 
 #include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/frames/Frame_thresholds.h>
 #include <equiaffine/registration/internal/frames/Framed_surface_3.h>
 #include <equiaffine/registration/internal/frames/candidate_pairs.h>
 #include <equiaffine/registration/internal/frames/counterpart.h>
@@ -40,27 +41,29 @@ class Registration_search {
 public:
   Registration_search(const Framed_surface_3& source, const Framed_surface_3& target,
                       const Registration_request& request)
-      : source_(source), target_(target), request_(request),
-        tolerance_(request.tolerance.value_or(
-            std::clamp(8 * std::max(source.noise, target.noise), exact_tolerance, greatest_tolerance))) {}
+      : source_(source), target_(target), request_(request), thresholds_(request.thresholds),
+        tolerance_(request.tolerance.value_or(std::clamp(
+            8 * std::max(source.noise, target.noise), thresholds_.exact_tolerance, thresholds_.greatest_tolerance))) {}
 
   /// Tries pairs that are alike, then, as long as no map is accepted, others that may be alike where structure is wrong.
   void run() {
-    const auto points = points_to_try<ConcurrencyTag>(source_, request_.kind, most_points_to_try);
-    try_all(points, {});
-    if (first_accepted_ == 0) try_all(points, limits_of_wrong_structure);
+    const auto points =
+        points_to_try<ConcurrencyTag>(source_, request_.kind, thresholds_.most_points_to_try, thresholds_);
+    try_all(points, thresholds_.usual);
+    if (first_accepted_ == 0) try_all(points, thresholds_.wrong_structure);
   }
 
   /// Refines a map and keeps it if it becomes as good as a right one would after so many steps.
   void try_map(const Affine_map_3& map, const std::optional<Pair_of_points>& pair = {}) {
     ++hypotheses_;
-    const Map_evidence first = rough_evidence(map, greatest_first_tolerance);
-    if (first.log10_by_volume > first_log10) return;
+    const Map_evidence first = rough_evidence(map, thresholds_.greatest_first_tolerance);
+    if (first.log10_by_volume > thresholds_.first_log10) return;
     const double tolerance = std::clamp(30 * first.tolerance, 1e-3, 0.05);
-    const auto improved = refined_map(map, {request_.kind, tolerance, 8, probes_at_first});
+    const auto improved = refined_map(map, {request_.kind, tolerance, 8, thresholds_.probes_at_first});
     if (!improved) return;
-    const Map_evidence second = rough_evidence(*improved, std::min(greatest_first_tolerance, 10 * tolerance_));
-    if (second.log10_by_volume > second_log10) return;
+    const Map_evidence second =
+        rough_evidence(*improved, std::min(thresholds_.greatest_first_tolerance, 10 * tolerance_));
+    if (second.log10_by_volume > thresholds_.second_log10) return;
     const auto refined = refined_map(*improved, {request_.kind, std::clamp(30 * second.tolerance, 1e-3, 0.05)});
     if (refined && !is_known(*refined, 1e-4)) keep({*refined, evidence(*refined), pair});
   }
@@ -80,50 +83,37 @@ public:
   const std::vector<Judged_map>& refined() const { return maps_; }
 
 private:
-  static constexpr std::size_t most_points_to_try = 512, points_per_batch = 32, pairs_at_once = 8;
-  static constexpr std::size_t most_hypotheses = 2000;
-  static constexpr Candidate_limits limits_of_wrong_structure = {48, 8, 0.9};
-  static constexpr std::size_t probes_at_first = 150; ///< by which a hypothesis is judged before it is refined
-  /// So many hypotheses more are tried after a map that moves only a part of the source to within the noise: the surface
-  /// may be nearly symmetric, and another map fit better.
-  static constexpr std::size_t more_hypotheses = 60;
-  /// The tolerance of surfaces without noise is that of splines through samples. Smooth surfaces that have nothing in
-  /// common can be moved onto each other to within 1e-2 of their size, and large parts of them to within 1e-3 or less.
-  static constexpr double exact_tolerance = 1e-5, greatest_tolerance = 3e-3, rounding = 1e-8;
-  static constexpr double greatest_first_tolerance = 0.03;
-  static constexpr double first_log10 = -1.5; ///< hypotheses that are no better than this are not refined
-  static constexpr double second_log10 = -4;  ///< those that are no better after a few steps are given up
-  static constexpr double accepted_log10 = -6;
-
-  static bool is_accepted(const Judged_map& m) { return m.evidence.log10_false_alarms < accepted_log10; }
+  bool is_accepted(const Judged_map& m) const { return m.evidence.log10_false_alarms < thresholds_.accepted_log10; }
 
   bool is_done() const {
-    if (hypotheses_ >= most_hypotheses) return true;
+    if (hypotheses_ >= thresholds_.most_hypotheses) return true;
     if (first_accepted_ == 0 || request_.number_of_maps > 1) return false;
     const Map_evidence& best = maps_.front().evidence;
-    const bool has_noise = tolerance_ > exact_tolerance, has_all = std::max(best.inliers[0], best.inliers[1]) > 0.8;
-    const bool is_within_noise = has_noise ? has_all || best.tolerance <= tolerance_ / 3 : best.tolerance <= rounding;
-    return is_within_noise || hypotheses_ >= first_accepted_ + more_hypotheses;
+    const bool has_noise = tolerance_ > thresholds_.exact_tolerance,
+               has_all = std::max(best.inliers[0], best.inliers[1]) > 0.8;
+    const bool is_within_noise =
+        has_noise ? has_all || best.tolerance <= tolerance_ / 3 : best.tolerance <= thresholds_.rounding;
+    return is_within_noise || hypotheses_ >= first_accepted_ + thresholds_.more_hypotheses;
   }
 
   void try_all(const std::vector<std::size_t>& points, const Candidate_limits& limits) {
-    for (std::size_t begin = 0; begin < points.size() && !is_done(); begin += points_per_batch) {
-      const std::size_t count = std::min(points_per_batch, points.size() - begin);
+    for (std::size_t begin = 0; begin < points.size() && !is_done(); begin += thresholds_.points_per_batch) {
+      const std::size_t count = std::min(thresholds_.points_per_batch, points.size() - begin);
       try_points(std::span(points).subspan(begin, count), limits);
     }
   }
 
   void try_points(std::span<const std::size_t> points, const Candidate_limits& limits) {
-    auto pairs = candidate_pairs<ConcurrencyTag>(source_, target_, points, request_.kind, limits);
+    auto pairs = candidate_pairs<ConcurrencyTag>(source_, target_, points, request_.kind, limits, thresholds_);
     std::erase_if(pairs, [&](const Candidate_pair& p) { return !tried_.insert({p.source, p.target}).second; });
-    for (std::size_t begin = 0; begin < pairs.size() && !is_done(); begin += pairs_at_once) {
-      const std::size_t count = std::min(pairs_at_once, pairs.size() - begin);
+    for (std::size_t begin = 0; begin < pairs.size() && !is_done(); begin += thresholds_.pairs_at_once) {
+      const std::size_t count = std::min(thresholds_.pairs_at_once, pairs.size() - begin);
       std::vector<Counterpart> found(count);
       parallel_for<ConcurrencyTag>(0, count, [&](std::size_t n) {
-        found[n] = find_counterpart(source_, target_, pairs[begin + n], request_.kind);
+        found[n] = find_counterpart(source_, target_, pairs[begin + n], request_.kind, thresholds_);
       });
       std::stable_sort(found.begin(), found.end(),
-                       [](const Counterpart& a, const Counterpart& b) { return a.cost() < b.cost(); });
+                       [](const Counterpart& a, const Counterpart& b) { return a.cost < b.cost; });
       for (const Counterpart& c : found)
         if (!is_done()) try_counterpart(c);
     }
@@ -133,7 +123,7 @@ private:
     const Framed_point_3& p = source_.points[pair.source];
     const Affine_map_3 map = map_between(p, pair.target, request_.kind);
     const double determinant = map.matrix.determinant();
-    if (!map.matrix.allFinite() || !(condition(map.matrix) < 1e4)) return;
+    if (!map.matrix.allFinite() || !(condition(map.matrix) < greatest_condition)) return;
     if (determinant < 0 && !request_.allows_reflections) return;
     if (is_known(map, 0.02)) return;
     try_map(map, Pair_of_points{p, pair.target});
@@ -144,7 +134,7 @@ private:
   }
 
   Map_evidence rough_evidence(const Affine_map_3& map, double tolerance) const {
-    const Judgement how{tolerance, request_.least_overlap, 0, 1, probes_at_first};
+    const Judgement how{tolerance, request_.least_overlap, 0, 1, thresholds_.probes_at_first};
     return evidence_of_map<ConcurrencyTag>(source_, target_, map, how);
   }
 
@@ -156,7 +146,7 @@ private:
   /// Keeps the maps in the order of their evidence.
   void keep(const Judged_map& m) {
     if (is_accepted(m) && first_accepted_ == 0) first_accepted_ = hypotheses_;
-    const auto is_better = [](const Judged_map& a, const Judged_map& b) {
+    const auto is_better = [this](const Judged_map& a, const Judged_map& b) {
       if (is_accepted(a) != is_accepted(b)) return is_accepted(a);
       return a.evidence.log10_by_volume < b.evidence.log10_by_volume;
     };
@@ -179,6 +169,7 @@ private:
 
   const Framed_surface_3 &source_, &target_;
   Registration_request request_;
+  Frame_thresholds thresholds_;
   double tolerance_; ///< in the unit of distances: surfaces that are nearer may be equal
   std::size_t hypotheses_ = 0, first_accepted_ = 0;
   std::vector<Judged_map> maps_;

@@ -4,6 +4,7 @@
 
 #include <equiaffine/base/internal/shared/quantile.h>
 #include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/frames/Frame_thresholds.h>
 #include <equiaffine/registration/internal/frames/Framed_surface_3.h>
 #include <equiaffine/registration/internal/frames/Whitening.h>
 #include <equiaffine/registration/internal/frames/candidate_pairs.h>
@@ -98,9 +99,9 @@ private:
         0, pairs.size(), [&](std::size_t n) { found[n] = find_counterpart(surface_, surface_, pairs[n], kind_); });
     std::vector<Affine_map_3> tried;
     for (const Counterpart& c : found) {
-      if (c.cost() > 1) continue;
+      if (c.cost > 1) continue;
       const Affine_map_3 map = map_between(surface_.points[c.source], c.target, kind_);
-      if (!map.matrix.allFinite() || !(condition(map.matrix) < 1e4) || contains(tried, map)) continue;
+      if (!map.matrix.allFinite() || !(condition(map.matrix) < greatest_condition) || contains(tried, map)) continue;
       tried.push_back(map);
       if (contains(group_, map) || !may_be_symmetry(map)) continue;
       const auto refined = refine_map<ConcurrencyTag>(surface_, surface_, map, {kind_, 0.01});

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_FRAMES_CANDIDATE_PAIRS_H
 
 #include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/registration/internal/frames/Frame_thresholds.h>
 #include <equiaffine/registration/internal/frames/Framed_surface_3.h>
 #include <equiaffine/registration/internal/frames/order_of_points.h>
 
@@ -31,32 +32,29 @@ inline Eigen::Vector2d step_to(const Gradient_of_invariants& gradient, const Inv
   return normal.inverse() * (gradient.transpose() * difference);
 }
 
-/// The cost of a pair, or infinity if the counterpart would be further than 3 spacings from the point of the target, or
+/// The cost of a pair, or infinity if the counterpart would be too far from the point of the target, or
 /// gradients differ too much.
 inline double cost_of_pair(const Framed_surface_3& target, const Framed_point_3& p, const Framed_point_3& q,
-                           Map_kind kind, double greatest_mismatch) {
+                           Map_kind kind, double greatest_mismatch, const Frame_thresholds& thresholds) {
   const Gradient_of_invariants gradient = kept_gradient(q, kind);
   const Invariants difference = kept_invariants(p, kind) - kept_invariants(q, kind);
   const Eigen::Vector2d step = step_to(gradient, difference, 1e-6);
   const double length = (q.basis.leftCols<2>() * step).norm() / target.spacing;
   const double mismatched = mismatch(kept_gradient(p, kind), gradient);
-  if (!(length < 3 && mismatched < greatest_mismatch)) return std::numeric_limits<double>::infinity();
+  if (!(length < thresholds.longest_step && mismatched < greatest_mismatch))
+    return std::numeric_limits<double>::infinity();
   const double change = gradient.norm() * target.spacing / q.basis.leftCols<2>().norm();
-  return mismatched + 0.3 * (difference - gradient * step).norm() / (change + 1e-6) + 0.1 * length;
+  return mismatched + thresholds.cost_of_rest * (difference - gradient * step).norm() / (change + 1e-6) +
+         thresholds.cost_of_step * length;
 }
 
-/// How many pairs are made: of the `neighbors` nearest in invariants, the `best` of each point.
-struct Candidate_limits {
-  std::size_t neighbors = 24, best = 3;
-  double greatest_mismatch = 0.6;
-};
-
 inline std::vector<Candidate_pair> pairs_of_point(const Framed_surface_3& source, const Framed_surface_3& target,
-                                                  std::size_t i, Map_kind kind, const Candidate_limits& limits) {
+                                                  std::size_t i, Map_kind kind, const Candidate_limits& limits,
+                                                  const Frame_thresholds& thresholds = {}) {
   const Framed_point_3& p = source.points[i];
   std::vector<Candidate_pair> pairs;
   for (const auto& [j, distance] : target.tree_of(p).neighbors(kept_invariants(p, kind), limits.neighbors)) {
-    const double cost = cost_of_pair(target, p, target.points[j], kind, limits.greatest_mismatch);
+    const double cost = cost_of_pair(target, p, target.points[j], kind, limits.greatest_mismatch, thresholds);
     if (std::isfinite(cost)) pairs.push_back({i, j, cost});
   }
   std::stable_sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
@@ -68,10 +66,11 @@ inline std::vector<Candidate_pair> pairs_of_point(const Framed_surface_3& source
 template <class ConcurrencyTag>
 std::vector<Candidate_pair> candidate_pairs(const Framed_surface_3& source, const Framed_surface_3& target,
                                             std::span<const std::size_t> points, Map_kind kind,
-                                            const Candidate_limits& limits = {}) {
+                                            const Candidate_limits& limits, const Frame_thresholds& thresholds) {
   std::vector<std::vector<Candidate_pair>> of_points(points.size());
-  parallel_for<ConcurrencyTag>(
-      0, points.size(), [&](std::size_t n) { of_points[n] = pairs_of_point(source, target, points[n], kind, limits); });
+  parallel_for<ConcurrencyTag>(0, points.size(), [&](std::size_t n) {
+    of_points[n] = pairs_of_point(source, target, points[n], kind, limits, thresholds);
+  });
   std::vector<Candidate_pair> pairs;
   for (const auto& some : of_points) pairs.insert(pairs.end(), some.begin(), some.end());
   std::stable_sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });

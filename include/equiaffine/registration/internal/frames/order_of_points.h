@@ -7,6 +7,7 @@
 #include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/base/internal/shared/quantile.h>
 #include <equiaffine/base/internal/shared/random_subset.h>
+#include <equiaffine/registration/internal/frames/Frame_thresholds.h>
 #include <equiaffine/registration/internal/frames/Framed_surface_3.h>
 
 #include <Eigen/Core>
@@ -58,7 +59,8 @@ inline double disagreement(const Framed_surface_3& surface, const Framed_point_3
 
 /// The weights of all points, 0 for one that is not to be matched.
 template <class ConcurrencyTag>
-std::vector<double> weights_of_points(const Framed_surface_3& surface, Map_kind kind) {
+std::vector<double> weights_of_points(const Framed_surface_3& surface, Map_kind kind,
+                                      const Frame_thresholds& thresholds) {
   std::vector<double> weights(surface.points.size(), 0), slopes(surface.points.size(), 0);
   for (const auto& usable : surface.usable) {
     if (usable.size() < 8) continue;
@@ -67,8 +69,10 @@ std::vector<double> weights_of_points(const Framed_surface_3& surface, Map_kind 
         [&](std::size_t n) {
           const Framed_point_3& p = surface.points[usable[n]];
           slopes[usable[n]] = steepness(surface, p, kind);
-          weights[usable[n]] = p.certainty * std::min(p.quality, 0.15) * (0.05 + rarity(surface, p, kind)) *
-                               std::exp(-3 * disagreement(surface, p, kind)) / (1 + 0.002 * condition(p.basis));
+          weights[usable[n]] = p.certainty * std::min(p.quality, thresholds.greatest_quality) *
+                               (thresholds.least_rarity + rarity(surface, p, kind)) *
+                               std::exp(-thresholds.loss_by_disagreement * disagreement(surface, p, kind)) /
+                               (1 + thresholds.loss_by_condition * condition(p.basis));
         },
         16);
     std::vector<double> of_kind;
@@ -82,8 +86,9 @@ std::vector<double> weights_of_points(const Framed_surface_3& surface, Map_kind 
 /// Returns the best of each of up to `count` random groups of points, the best first, so that they are spread over the
 /// surface.
 template <class ConcurrencyTag>
-std::vector<std::size_t> points_to_try(const Framed_surface_3& surface, Map_kind kind, std::size_t count) {
-  const std::vector<double> weights = weights_of_points<ConcurrencyTag>(surface, kind);
+std::vector<std::size_t> points_to_try(const Framed_surface_3& surface, Map_kind kind, std::size_t count,
+                                       const Frame_thresholds& thresholds = {}) {
+  const std::vector<double> weights = weights_of_points<ConcurrencyTag>(surface, kind, thresholds);
   std::vector<std::size_t> candidates;
   for (const std::size_t i : random_subset(weights.size(), weights.size(), 4))
     if (weights[i] > 0) candidates.push_back(i);

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_FRAMES_REFINE_MAP_H
 
 #include <equiaffine/base/internal/shared/quantile.h>
+#include <equiaffine/registration/internal/frames/Frame_thresholds.h>
 #include <equiaffine/registration/internal/frames/map_distances.h>
 #include <equiaffine/registration/internal/frames/order_of_points.h>
 
@@ -141,7 +142,8 @@ std::optional<Affine_map_3> refine_map(const Framed_surface_3& source, const Fra
     const Eigen::Vector3d image = next(center);
     next.matrix = nearest_of_kind(next.matrix, how.kind);
     next.translation = image - next.matrix * center;
-    const bool is_sound = next.matrix.allFinite() && next.translation.allFinite() && condition(next.matrix) < 1e4 &&
+    const bool is_sound = next.matrix.allFinite() && next.translation.allFinite() &&
+                          condition(next.matrix) < greatest_condition &&
                           std::abs(std::log(next.matrix.determinant() / determinant)) < 1;
     if (!is_sound) return std::nullopt;
     const double difference = (change.matrix - Eigen::Matrix3d::Identity()).norm();
