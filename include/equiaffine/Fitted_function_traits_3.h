@@ -61,7 +61,8 @@ public:
 
   /// From a mesh, a model of CGAL's FaceGraph. Named parameters: `vertex_point_map`, `noise`, `scale`, `degree`,
   /// `feature_angle`.
-  /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
+  /// \throw std::invalid_argument if a coordinate is not finite, the diagonal of the points is below 1e-40 or beyond
+  /// 1e40, or a parameter makes no sense.
   template <Face_graph Graph, class Parameters = internal::No_parameters,
             class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Fitted_function_traits_3(const Graph& mesh, const Parameters& parameters = {}, ConcurrencyTag tag = {}) {
@@ -70,7 +71,8 @@ public:
   }
 
   /// From points. Named parameters: `point_map`, `normal_map`, `normal_orientation`, `noise`, `scale`, `degree`.
-  /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
+  /// \throw std::invalid_argument if a coordinate is not finite, the diagonal of the points is below 1e-40 or beyond
+  /// 1e40, or a parameter makes no sense.
   template <std::ranges::input_range Points, class Parameters = internal::No_parameters,
             class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Fitted_function_traits_3(const Points& points, const Parameters& parameters = {},

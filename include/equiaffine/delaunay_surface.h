@@ -9,6 +9,7 @@
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
 #include <equiaffine/delaunay/Facet_sizing.h>
 #include <equiaffine/delaunay/internal/convert_surface.h>
+#include <equiaffine/delaunay/internal/shared/Delaunay_range.h>
 #include <equiaffine/delaunay/internal/shared/mesh_surface.h>
 #include <equiaffine/surface/Any_function_3.h>
 #include <equiaffine/surface/Polyline_3.h>
@@ -39,7 +40,8 @@ namespace equiaffine {
 /// Named parameters: `clip` (the box of the function), `facet_sizing` (UNIFORM), `feature_curves` (none),
 /// `parabolic_features` (no).
 /// \throw std::invalid_argument unless the angle lies in [0, 30], the lengths are positive, or 0 for their defaults, and
-/// finite, and the box of the function has an interior and is finite
+/// finite, the box of the function has an interior and is finite, its diagonal is at least 1e-40 and its coordinates at
+/// most 1e40, and the radius is at least 1024 epsilons of the greatest coordinate
 ///
 /// The result is the same on every run. One thread computes it: 20,000 triangles take about 0.2 seconds, and 10 to 40
 /// evaluations per triangle.
@@ -60,6 +62,12 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, con
       completed.radius > 0 && std::isfinite(completed.radius) && completed.distance > 0 &&
           std::isfinite(completed.distance),
       "the radius or the distance of a Delaunay mesh is not a positive length: choose one, or 0 for the default");
+  const Delaunay_range range(domain.bbox());
+  check_argument(range.has_box(), "the box of a Delaunay mesh has a diagonal below 1e-40 or coordinates beyond 1e40: "
+                                  "choose another unit");
+  check_argument(completed.radius >= range.least_radius(),
+                 "the radius of a Delaunay mesh is less than 2.3e-13 of the greatest coordinate of the box: choose a "
+                 "larger one, or an origin nearer to the box");
   return internal::convert_surface<Kernel_of<Traits>>(
       mesh_surface(Any_function_3::make(traits),
                    {domain, completed, sizing, internal::convert_polylines<Any_function_3::Kernel>(curves),

@@ -52,7 +52,8 @@ namespace equiaffine {
 /// its own curvature, and a vertex on a crease has that of the side with the most area around it. At creases that are
 /// less sharp a fit exists, and its error says that it means nothing.
 ///
-/// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense, as a scale beyond a third
+/// \throw std::invalid_argument if a coordinate is not finite, the diagonal of the points is below 1e-40 or beyond 1e40,
+/// or a parameter makes no sense, as a scale beyond a third
 /// of the diagonal of the data, or one within which most vertices have too few others.
 ///
 /// Takes about 1 ms per vertex, also at a scale; memory is linear in the number

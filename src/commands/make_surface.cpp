@@ -51,7 +51,7 @@ Annotated_surface sample(const Source_function& function, const Mesh_options& op
   const Any_function_3 level_set = any_level_set(function, options.isovalue);
   const CGAL::Bbox_3 box = level_set.bbox();
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
-  check_box_of_delaunay_surface(box, diagonal);
+  check_box_of_delaunay_surface(box);
   Delaunay_criteria criteria = {method.angle, method.radius, method.distance};
   criteria.radius = std::min(criteria.radius, diagonal); // a larger bound would mean the same
   criteria = criteria.completed(Clip_domain_3(box));

@@ -2,6 +2,7 @@
 #include "source/read_vertices.h"
 
 #include "source/Polygon_soup.h"
+#include <equiaffine/fit/internal/shared/Extent_of_fit.h>
 #include <equiaffine/surface/internal/shared/triangles_of_polygon.h>
 
 #include <CGAL/Bbox_3.h>
@@ -43,10 +44,8 @@ Point_table_3<Kernel> read_foreign_vertices(const std::string& path) {
   return table;
 }
 
-/// Throws for a coordinate that is not finite, and for points whose unit would make affine curvatures and what they are
-/// computed from leave double precision.
+/// Throws for a coordinate that is not finite, and for points that fits would refuse.
 void check_points(const std::vector<Kernel::Point_3>& points, const std::string& path) {
-  constexpr double least = 1e-40, greatest = 1e40;
   CGAL::Bbox_3 box;
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (!std::isfinite(points[v].x()) || !std::isfinite(points[v].y()) || !std::isfinite(points[v].z()))
@@ -55,10 +54,10 @@ void check_points(const std::vector<Kernel::Point_3>& points, const std::string&
     box += points[v].bbox();
   }
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
-  if (diagonal == 0 || (least <= diagonal && diagonal <= greatest)) return;
+  if (Extent_of_fit::has(diagonal)) return;
   std::ostringstream reason;
-  reason << "its points lie in a box with the diagonal " << diagonal << ", and fits work with " << least << " to "
-         << greatest;
+  reason << "its points lie in a box with the diagonal " << diagonal << ", and fits work with " << Extent_of_fit::least
+         << " to " << Extent_of_fit::greatest;
   fail(path, reason.str(), "choose another unit");
 }
 

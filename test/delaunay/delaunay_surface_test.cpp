@@ -362,6 +362,12 @@ TEST(Delaunay_surface, arguments_without_a_result_are_refused_in_every_build) {
     EXPECT_THROW(delaunay_surface(sphere, criteria), std::invalid_argument);
   const CGAL::Bbox_3 space(-infinity, -infinity, -infinity, infinity, infinity, infinity);
   EXPECT_THROW(delaunay_surface(make_analytic_traits<Kernel>(Expression_3("x"), space)), std::invalid_argument);
+  for (const double size : {1e-41, 1e41}) {
+    const CGAL::Bbox_3 box(-size, -size, -size, size, size, size);
+    EXPECT_THROW(delaunay_surface(make_analytic_traits<Kernel>(Expression_3("x"), box)), std::invalid_argument) << size;
+  }
+  const CGAL::Bbox_3 far(1e14, 0, 0, 1e14 + 100, 100, 100);
+  EXPECT_THROW(delaunay_surface(make_analytic_traits<Kernel>(Expression_3("z-50"), far)), std::invalid_argument);
   const Clip_domain_3 domain(sphere.bbox());
   for (const double size : {-1.0, nan, infinity}) {
     EXPECT_THROW(Implicit_mesh_domain_3(sphere, domain, size), std::invalid_argument);

@@ -68,6 +68,16 @@ TEST(Fit_input, points_with_coordinates_that_are_no_numbers_are_refused) {
   }
 }
 
+TEST(Fit_input, points_in_units_that_leave_double_precision_are_refused) {
+  for (const double unit : {1e-41, 1e41}) {
+    std::vector<Point_3> points;
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) points.emplace_back(unit * i, unit * j, unit * bowl(i, j));
+    EXPECT_THROW(fitted_structures(points), std::invalid_argument) << unit;
+    EXPECT_THROW((Fitted_function_traits_3<Fit_kernel>(points)), std::invalid_argument) << unit;
+  }
+}
+
 TEST(Fit_input, parameters_that_make_no_sense_are_refused) {
   const Fit_mesh mesh = height_field(5, bowl);
   EXPECT_THROW(fitted_structures(mesh, parameters::scale(-1)), std::invalid_argument);

@@ -36,6 +36,7 @@ inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices
                                     std::optional<double> feature_angle) {
   std::vector<Data_points_3::Edge> edges = edges_of(faces);
   Normalized_data result;
+  check_extent(vertices);
   result.normalization = normalization_of(vertices, edges);
   Data_points_3& data = result.data;
   Creased_polygons_3 mesh(vertices, faces);
