@@ -25,37 +25,28 @@ public:
   Point_tree() = default;
 
   /// Takes vectors, whose indices are their places.
-  explicit Point_tree(const std::vector<Vector>& vectors) {
-    std::vector<Value> values;
-    values.reserve(vectors.size());
-    for (std::size_t i = 0; i < vectors.size(); ++i) values.emplace_back(tree_point(vectors[i]), Index(i));
-    tree_ = Tree(values);
-  }
+  explicit Point_tree(const std::vector<Vector>& vectors)
+      : tree_(values(vectors.size(), [&](std::size_t i) { return Value(tree_point(vectors[i]), Index(i)); })) {}
 
   /// Takes the vectors f(i), which keep their indices i.
   template <class F>
-  Point_tree(const std::vector<Index>& indices, F f) {
-    std::vector<Value> values;
-    values.reserve(indices.size());
-    for (const Index i : indices) values.emplace_back(tree_point(f(i)), i);
-    tree_ = Tree(values);
-  }
+  Point_tree(const std::vector<Index>& indices, F f)
+      : tree_(values(indices.size(), [&](std::size_t n) { return Value(tree_point(f(indices[n])), indices[n]); })) {}
 
   /// Returns the nearest `count` vectors, the nearest one first.
   std::vector<Neighbor> neighbors(const Vector& x, std::size_t count) const {
     const Point p = tree_point(x);
     std::vector<Neighbor> result;
-    for (auto it = tree_.qbegin(boost::geometry::index::nearest(p, unsigned(count))); it != tree_.qend(); ++it)
-      result.push_back({it->second, boost::geometry::distance(it->first, p)});
+    for_each_nearest(p, count, [&](const Value& value) {
+      result.push_back({value.second, boost::geometry::distance(value.first, p)});
+    });
     return result;
   }
 
   /// Returns their indices alone.
   std::vector<Index> nearest(const Vector& x, std::size_t count) const {
     std::vector<Index> result;
-    for (auto it = tree_.qbegin(boost::geometry::index::nearest(tree_point(x), unsigned(count))); it != tree_.qend();
-         ++it)
-      result.push_back(it->second);
+    for_each_nearest(tree_point(x), count, [&](const Value& value) { result.push_back(value.second); });
     return result;
   }
 
@@ -71,6 +62,21 @@ private:
   using Point = boost::geometry::model::point<double, Dimension, boost::geometry::cs::cartesian>;
   using Value = std::pair<Point, Index>;
   using Tree = boost::geometry::index::rtree<Value, boost::geometry::index::linear<8>>;
+
+  /// The values make(0), make(1), ... .
+  template <class Make>
+  static std::vector<Value> values(std::size_t count, const Make& make) {
+    std::vector<Value> result;
+    result.reserve(count);
+    for (std::size_t n = 0; n < count; ++n) result.push_back(make(n));
+    return result;
+  }
+
+  template <class Visit>
+  void for_each_nearest(const Point& p, std::size_t count, const Visit& visit) const {
+    for (auto it = tree_.qbegin(boost::geometry::index::nearest(p, unsigned(count))); it != tree_.qend(); ++it)
+      visit(*it);
+  }
 
   static Point tree_point(const Vector& x) {
     Point p;
