@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/slips.h"
 
+#include "system/file_format.h"
 #include "volume/volume_io.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/io/internal/shared/input_file.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <initializer_list>
 #include <string_view>
 
 namespace equiaffine {
@@ -17,16 +16,18 @@ namespace {
 
 enum class Word_kind { MESH_FILE, POINTS, VOLUME_FILE, FORMULA, PAGE, PICTURE, OTHER };
 
-bool has_one_of(const std::string& path, std::initializer_list<std::string_view> extensions) {
-  return std::any_of(extensions.begin(), extensions.end(),
-                     [&](std::string_view extension) { return has_extension(path, extension); });
-}
-
 Word_kind kind_of(const std::string& word) {
-  if (has_one_of(word, {".ply", ".off", ".obj", ".stl"})) return Word_kind::MESH_FILE;
-  if (has_one_of(word, {".csv", ".xyz"})) return Word_kind::POINTS;
-  if (has_one_of(word, {".html", ".htm"})) return Word_kind::PAGE;
-  if (has_one_of(word, {".png"})) return Word_kind::PICTURE;
+  switch (file_format(word)) {
+  case File_format::PLY:
+  case File_format::OFF:
+  case File_format::OBJ:
+  case File_format::STL: return Word_kind::MESH_FILE;
+  case File_format::CSV:
+  case File_format::XYZ: return Word_kind::POINTS;
+  case File_format::HTML: return Word_kind::PAGE;
+  case File_format::PNG: return Word_kind::PICTURE;
+  default: break;
+  }
   if (is_volume(word)) return Word_kind::VOLUME_FILE;
   const bool is_formula =
       word.find_first_of("xyz") != std::string::npos && word.find_first_of("+*^=(") != std::string::npos;
@@ -145,7 +146,7 @@ void check_is_annotatable(const std::string& path) {
   if (kind == Word_kind::FORMULA)
     throw Input_error("'" + path + "' is no file with points; use 'equiaffine mesh --function \"" + path +
                       "\" --box ... -o OUT.ply' for a formula");
-  if (kind == Word_kind::VOLUME_FILE && std::filesystem::path(path).has_extension())
+  if (kind == Word_kind::VOLUME_FILE && file_format(path) != File_format::UNNAMED)
     throw Input_error("cannot annotate '" + path + "': a volume has no vertices; use 'equiaffine mesh --volume " +
                       path + output + " and --isovalue for another level than 0");
 }
@@ -153,13 +154,13 @@ void check_is_annotatable(const std::string& path) {
 void check_is_viewable(const std::string& path) {
   const Word_kind kind = kind_of(path);
   const std::string stem = stem_of(path), outputs = " -o " + stem + ".ply --html " + stem + ".html'";
-  if (kind == Word_kind::MESH_FILE && !has_extension(path, ".ply"))
+  if (kind == Word_kind::MESH_FILE && file_format(path) != File_format::PLY)
     throw Input_error("cannot show '" + path + "': its format has no attributes; use 'equiaffine annotate " + path +
                       outputs);
   if (kind == Word_kind::POINTS)
     throw Input_error("cannot show '" + path + "': points have no faces; use 'equiaffine mesh --fit " + path + outputs +
                       " for the surface through them");
-  if (kind == Word_kind::VOLUME_FILE && std::filesystem::path(path).has_extension())
+  if (kind == Word_kind::VOLUME_FILE && file_format(path) != File_format::UNNAMED)
     throw Input_error("cannot show '" + path + "': a volume has no mesh; use 'equiaffine mesh --volume " + path +
                       outputs + " and --isovalue for another level than 0");
 }

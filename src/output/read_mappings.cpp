@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/read_mappings.h"
 
+#include "system/file_format.h"
 #include "system/kernel.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/io/internal/shared/Column_numbers.h>
@@ -84,8 +85,9 @@ Mappings mappings_of_page(const std::string& path) {
 }
 
 Mappings mappings_of_file(const std::string& path) {
-  if (has_extension(path, ".html") || has_extension(path, ".htm")) return mappings_of_page(path);
-  if (!has_extension(path, ".ply"))
+  const File_format format = file_format(path);
+  if (format == File_format::HTML) return mappings_of_page(path);
+  if (format != File_format::PLY)
     throw Input_error("cannot read '" + path + "': it is neither a page, .html, nor a mesh, .ply");
   std::ifstream file = open_input(path);
   const auto [mesh, attributes] = read_PLY<Kernel>(file, path);

@@ -5,20 +5,17 @@
 #include "output/write_VTP.h"
 #include "picture/natural_up.h"
 #include "picture/write_PNG.h"
+#include "system/file_format.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/io/internal/shared/input_file.h>
 #include <equiaffine/io/internal/shared/trust.h>
 #include <equiaffine/io/write_HTML.h>
 #include <equiaffine/io/write_curves.h>
 #include <equiaffine/io/write_mesh.h>
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
-#include <initializer_list>
 #include <map>
 #include <sstream>
-#include <string_view>
 
 namespace equiaffine {
 
@@ -34,7 +31,7 @@ constexpr const char *surface_extensions = ".ply .off .obj .stl .csv", *curves_e
                      *vertices_extensions = ".ply .csv";
 #endif
 
-bool is_VTP(const std::string& path) { return has_extension(path, ".vtp"); }
+bool is_VTP(const std::string& path) { return file_format(path) == File_format::VTP; }
 
 void check_output(const std::string& path, bool is_known, const std::string& known_extensions) {
   if (path == "-" || is_known || (has_vtk && is_VTP(path))) return;
@@ -43,12 +40,10 @@ void check_output(const std::string& path, bool is_known, const std::string& kno
                     "; use one of " + known_extensions);
 }
 
-/// Throws if the file has an extension and it is none of those: what looks like a mesh is not to become a page.
-void check_extension(const std::string& path, std::initializer_list<std::string_view> extensions,
-                     const std::string& kind, const std::string& advised) {
-  const bool is_right = std::any_of(extensions.begin(), extensions.end(),
-                                    [&](std::string_view extension) { return has_extension(path, extension); });
-  if (is_right || path == "-" || !std::filesystem::path(path).has_extension()) return;
+/// Throws if the file has the extension of another format: what looks like a mesh is not to become a page.
+void check_format(const std::string& path, File_format right, const std::string& kind, const std::string& advised) {
+  const File_format format = file_format(path);
+  if (path == "-" || format == right || format == File_format::UNNAMED) return;
   throw Input_error("cannot write '" + path + "': it is to be " + kind + "; give it the extension " + advised);
 }
 
@@ -70,7 +65,7 @@ void check_surface_output(const std::string& path) {
 }
 
 void check_curves_output(const std::string& path) {
-  check_output(path, has_extension(path, ".obj"), curves_extensions);
+  check_output(path, file_format(path) == File_format::OBJ, curves_extensions);
 }
 
 void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh,
@@ -102,10 +97,10 @@ void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves) {
 }
 
 void check_statistics_output(const std::string& path) {
-  check_extension(path, {".json"}, "a file of statistics", ".json");
+  check_format(path, File_format::JSON, "a file of statistics", ".json");
 }
 
-void check_maps_output(const std::string& path) { check_extension(path, {".json"}, "a file of maps", ".json"); }
+void check_maps_output(const std::string& path) { check_format(path, File_format::JSON, "a file of maps", ".json"); }
 
 std::string number_text(double number, int digits) {
   std::ostringstream text;
@@ -119,12 +114,12 @@ std::string page_title(const std::string& path, const std::string& otherwise) {
 }
 
 void check_display_outputs(const Display_options& options) {
-  if (options.html) check_extension(*options.html, {".html", ".htm"}, "a page", ".html");
+  if (options.html) check_format(*options.html, File_format::HTML, "a page", ".html");
   if (options.range_of) read_mappings(*options.range_of); // an error is to come before the work
   if (!options.png) return;
   if (!has_vtk)
     throw Input_error("cannot write '" + *options.png + "': this equiaffine was built without VTK; use --html");
-  if (options.png != "-" && !has_extension(*options.png, ".png"))
+  if (options.png != "-" && file_format(*options.png) != File_format::PNG)
     throw Input_error("cannot write '" + *options.png + "': a picture is a PNG file; give it the extension .png");
 }
 

@@ -3,9 +3,9 @@
 
 #include "system/Shared_memory.h"
 #include "system/child_process.h"
+#include "system/file_format.h"
 #include "system/resources.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/io/internal/shared/input_file.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
 
@@ -99,7 +99,7 @@ void fail_to_read_mesh(const std::string& path, const std::string& reason, const
 }
 
 Polygon_soup read_foreign_soup(const std::string& path) {
-  if (has_extension(path, ".obj")) check_faces_of_OBJ(path);
+  if (file_format(path) == File_format::OBJ) check_faces_of_OBJ(path);
   Polygon_soup soup;
   if (!CGAL::IO::read_polygon_soup(path, soup.points, soup.polygons))
     fail_to_read_mesh(path, "its content is not understood", "get the complete file again");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/read_triangle_mesh.h"
 
+#include "system/file_format.h"
 #include <equiaffine/io/internal/shared/input_file.h>
 #include <equiaffine/io/read_OFF.h>
 #include <equiaffine/io/read_PLY.h>
@@ -45,11 +46,13 @@ Polygon_soup read_foreign_triangles(const std::string& path) {
 Polygon_soup read_soup(const std::string& path) {
   if (path == "-") return to_soup(read_OFF<Kernel>(std::cin, "standard input"));
   std::ifstream file = open_input(path);
-  if (has_extension(path, ".off")) return to_soup(read_OFF<Kernel>(file, path));
-  if (has_extension(path, ".ply")) return to_soup(read_PLY<Kernel>(file, path).mesh);
-  if (!has_extension(path, ".obj") && !has_extension(path, ".stl"))
-    fail_to_read_mesh(path, "its extension is not known", "use one of .off .ply .obj .stl");
-  return make_in_child(path, [&] { return read_foreign_triangles(path); });
+  switch (file_format(path)) {
+  case File_format::OFF: return to_soup(read_OFF<Kernel>(file, path));
+  case File_format::PLY: return to_soup(read_PLY<Kernel>(file, path).mesh);
+  case File_format::OBJ:
+  case File_format::STL: return make_in_child(path, [&] { return read_foreign_triangles(path); });
+  default: fail_to_read_mesh(path, "its extension is not known", "use one of .off .ply .obj .stl");
+  }
 }
 
 /// Whether the faces could be cut into triangles. CGAL throws at some of those that touch themselves, and leaves a

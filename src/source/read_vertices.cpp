@@ -2,19 +2,18 @@
 #include "source/read_vertices.h"
 
 #include "source/Polygon_soup.h"
+#include "system/file_format.h"
 #include <equiaffine/fit/internal/shared/Extent_of_fit.h>
 #include <equiaffine/surface/internal/shared/triangles_of_polygon.h>
 
 #include <CGAL/Bbox_3.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,8 +24,6 @@ namespace {
 [[noreturn]] void fail(const std::string& path, const std::string& reason, const std::string& advice) {
   internal::fail_to_read(path == "-" ? "standard input" : path, reason, advice);
 }
-
-bool is_foreign(const std::string& path) { return has_extension(path, ".obj") || has_extension(path, ".stl"); }
 
 /// The points and faces of an OBJ or STL file in their order.
 Point_table_3<Kernel> read_foreign_vertices(const std::string& path) {
@@ -61,17 +58,23 @@ void check_points(const std::vector<Kernel::Point_3>& points, const std::string&
   fail(path, reason.str(), "choose another unit");
 }
 
-void check_extension(const std::string& path) {
-  constexpr std::array<std::string_view, 6> known = {".ply", ".off", ".obj", ".stl", ".csv", ".xyz"};
-  if (path != "-" && std::none_of(known.begin(), known.end(), [&](auto e) { return has_extension(path, e); }))
-    fail(path, "its extension is not known", "use one of .ply .off .obj .stl for a mesh, .csv .xyz for points");
+Point_table_3<Kernel> read_any_vertices(const std::string& path) {
+  if (path == "-") return read_points<Kernel>(path);
+  switch (file_format(path)) {
+  case File_format::OBJ:
+  case File_format::STL: return read_foreign_vertices(path);
+  case File_format::PLY:
+  case File_format::OFF:
+  case File_format::CSV:
+  case File_format::XYZ: return read_points<Kernel>(path);
+  default: fail(path, "its extension is not known", "use one of .ply .off .obj .stl for a mesh, .csv .xyz for points");
+  }
 }
 
 } // namespace
 
 Point_table_3<Kernel> read_vertices(const std::string& path) {
-  check_extension(path);
-  Point_table_3<Kernel> table = is_foreign(path) ? read_foreign_vertices(path) : read_points<Kernel>(path);
+  Point_table_3<Kernel> table = read_any_vertices(path);
   if (table.mesh.points.empty()) fail(path, "it has no points", "give a mesh, or points of a surface");
   check_points(table.mesh.points, path);
   return table;

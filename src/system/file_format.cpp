@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "system/file_format.h"
+
+#include <equiaffine/io/internal/shared/input_file.h>
+
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+namespace equiaffine {
+
+File_format file_format(const std::string& path) {
+  using enum File_format;
+  constexpr std::array<std::pair<std::string_view, File_format>, 11> formats = {{{".ply", PLY},
+                                                                                 {".off", OFF},
+                                                                                 {".obj", OBJ},
+                                                                                 {".stl", STL},
+                                                                                 {".vtp", VTP},
+                                                                                 {".csv", CSV},
+                                                                                 {".xyz", XYZ},
+                                                                                 {".html", HTML},
+                                                                                 {".htm", HTML},
+                                                                                 {".png", PNG},
+                                                                                 {".json", JSON}}};
+  for (const auto& [extension, format] : formats)
+    if (has_extension(path, extension)) return format;
+  return std::filesystem::path(path).has_extension() ? OTHER : UNNAMED;
+}
+
+} // namespace equiaffine
