@@ -4,7 +4,7 @@
 
 #include <equiaffine/concepts.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/fit/internal/Surface_fit_3.h>
+#include <equiaffine/fit/internal/Fitted_data_3.h>
 #include <equiaffine/fit/internal/blend/Blend_3.h>
 #include <equiaffine/fit/internal/certainty_of_fit.h>
 #include <equiaffine/fit/internal/data/feature_angle.h>
@@ -189,7 +189,7 @@ private:
     State(internal::Normalized_data data, const internal::Fit_request& request, ConcurrencyTag tag)
         : fit(std::move(data), request, tag), blend(fit.data(), fit.choices(), tag) {}
 
-    internal::Surface_fit_3 fit;
+    internal::Fitted_data_3 fit;
     internal::Blend_3 blend;
   };
 

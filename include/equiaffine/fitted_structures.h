@@ -63,7 +63,7 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, class P
 std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, const Parameters& parameters = {}) {
   internal::check_fit_parameters<Parameters, internal::Vertex_point_tag, internal::Orientation_tag,
                                  internal::Feature_angle_tag>();
-  const internal::Surface_fit_3 fit(internal::fit_input_of_graph(mesh, parameters), internal::fit_request(parameters),
+  const internal::Fitted_data_3 fit(internal::fit_input_of_graph(mesh, parameters), internal::fit_request(parameters),
                                     ConcurrencyTag());
   auto structures = internal::structures_of_fit<ConcurrencyTag>(fit, parameters);
   structures.resize(std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()))); // no points of creases
@@ -82,7 +82,7 @@ fitted_structures(const Points& points,
                   const Parameters& parameters = {}) requires(!Face_graph<Points> && !std::ranges::range<Parameters>) {
   internal::check_point_fit_parameters<Parameters, internal::Orientation_tag>();
   auto input = internal::fit_input_of_points<ConcurrencyTag>(points, parameters);
-  const internal::Surface_fit_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
+  const internal::Fitted_data_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
   return internal::elements_at(internal::structures_of_fit<ConcurrencyTag>(fit, parameters), input.positions);
 }
 
@@ -97,7 +97,7 @@ std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, 
                                                           const Parameters& parameters = {}) {
   internal::check_fit_parameters<Parameters, internal::Orientation_tag, internal::Feature_angle_tag>();
   auto input = internal::fit_input_of_soup(points, polygons, internal::feature_angle(parameters));
-  const internal::Surface_fit_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
+  const internal::Fitted_data_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
   return internal::elements_at(internal::structures_of_fit<ConcurrencyTag>(fit, parameters), input.positions);
 }
 

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_FIT_INTERNAL_DISTANCES_OF_SHEETS_H
 
 #include <equiaffine/base/internal/shared/parallel_for.h>
-#include <equiaffine/fit/internal/Surface_fit_3.h>
+#include <equiaffine/fit/internal/Fitted_data_3.h>
 #include <equiaffine/fit/internal/data/Point_tree_3.h>
 
 #include <Eigen/Core>
@@ -32,7 +32,7 @@ inline bool are_beside_crease(const Data_points_3& data, Data_points_3::Index i,
 /// are not connected nearby are on different sheets, and points whose normals are opposed, as on both sides of a thin
 /// plate or tube.
 template <class ConcurrencyTag>
-std::vector<double> distances_of_sheets(const Surface_fit_3& fit, double greatest) {
+std::vector<double> distances_of_sheets(const Fitted_data_3& fit, double greatest) {
   using Index = Data_points_3::Index;
   const Data_points_3& data = fit.data();
   const Eigen::Matrix3d to_space = fit.normalization().matrix.inverse();

@@ -7,7 +7,7 @@
 #include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/fit/internal/Surface_fit_3.h>
+#include <equiaffine/fit/internal/Fitted_data_3.h>
 #include <equiaffine/fit/internal/blend/Patch_cover_3.h>
 #include <equiaffine/surface/internal/shared/foot_on_surface.h>
 
@@ -30,7 +30,7 @@ inline std::optional<Eigen::Vector3d> foot_on_patch(const Patch_3& patch, const 
 
 /// The errors of second derivatives that roundings make; infinity where K_e is zero within its estimated error, and no
 /// more than that of a sphere whose radius is ten times that of the fit: an error may be large beside any curvature.
-inline double rounding_of(const Jet_3<double>& jet, const Surface_fit_3& fit, const Fit_accuracy& accuracy) {
+inline double rounding_of(const Jet_3<double>& jet, const Fitted_data_3& fit, const Fit_accuracy& accuracy) {
   const Fitted_numbers numbers(jet);
   const double curvature = std::abs(numbers.components[GAUSSIAN]);
   const bool is_flat = curvature <= accuracy.error[GAUSSIAN] * numbers.sizes()[GAUSSIAN] &&
@@ -67,7 +67,7 @@ inline Fitted_structure_3<double> structure_without_fit() {
 }
 
 /// The structure of the level set through a point, from the expansion there of a fit, or of a blend of fits.
-inline Fitted_structure_3<double> structure_of(const Jet_3<double>& jet, const Surface_fit_3& fit,
+inline Fitted_structure_3<double> structure_of(const Jet_3<double>& jet, const Fitted_data_3& fit,
                                                const Fit_accuracy& accuracy, Orientation_of_level_set orientation) {
   Fitted_structure_3<double> result;
   const double sign = orientation == Orientation_of_level_set::AGAINST_GRADIENT ? -1 : 1;
@@ -90,7 +90,7 @@ constexpr double distance_of_direct_fits = 0.1;
 constexpr double distance_of_direct_fits_at_scale = 0.02;
 
 template <class ConcurrencyTag, class Parameters>
-std::vector<Fitted_structure_3<double>> structures_of_fit(const Surface_fit_3& fit, const Parameters& parameters) {
+std::vector<Fitted_structure_3<double>> structures_of_fit(const Fitted_data_3& fit, const Parameters& parameters) {
   const auto orientation = get_parameter<Orientation_tag>(parameters, Orientation_of_level_set::ALONG_GRADIENT);
   const Data_points_3& data = fit.data();
   const double distance = fit.choices().scale() ? distance_of_direct_fits_at_scale : distance_of_direct_fits;

@@ -30,7 +30,7 @@ public:
   using Vector = Eigen::Vector3d;
 
   template <class ConcurrencyTag>
-  Blend_3(const Data_points_3& data, const Fit_choice_3& choices, ConcurrencyTag tag)
+  Blend_3(const Data_points_3& data, const Fit_choices_3& choices, ConcurrencyTag tag)
       : charts_(data.charts), patches_(data, choices, tag), band_(feet(data, tag), data.charts.most_at_point) {}
 
   const Band_3& band() const { return band_; }

@@ -26,7 +26,7 @@ struct Patch_cover_3 {
 
 /// Chooses centers in random order, unless another is nearer than `part` of the radius of its fit, and fits there.
 template <class ConcurrencyTag>
-Patch_cover_3 patch_cover(const Data_points_3& data, const Fit_choice_3& choices, Fit_use use, double part,
+Patch_cover_3 patch_cover(const Data_points_3& data, const Fit_choices_3& choices, Fit_use use, double part,
                           ConcurrencyTag) {
   using Index = Data_points_3::Index;
   Patch_cover_3 cover;
@@ -38,7 +38,7 @@ Patch_cover_3 patch_cover(const Data_points_3& data, const Fit_choice_3& choices
 
   for (const Index i : random_subset<Index>(data.size(), data.size(), 2)) {
     if (!choice[i] || cover.nearest[i] != Patch_cover_3::none) continue;
-    for (const Index j : connected_ball(data, i, part * choices.radius(choice[i]->candidate, i))) {
+    for (const Index j : connected_ball(data, i, part * choices.radius(choice[i]->way, i))) {
       const double square = (data.points[j] - data.points[i]).squaredNorm();
       if (!(square < squares[j])) continue;
       squares[j] = square;

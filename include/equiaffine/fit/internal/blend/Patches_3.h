@@ -35,7 +35,7 @@ public:
   using Vector = Eigen::Vector3d;
 
   template <class ConcurrencyTag>
-  Patches_3(const Data_points_3& data, const Fit_choice_3& choices, ConcurrencyTag tag) {
+  Patches_3(const Data_points_3& data, const Fit_choices_3& choices, ConcurrencyTag tag) {
     auto cover = patch_cover(data, choices, Fit_use::BLEND, reach * distance_of_centers, tag);
     std::vector<Data_points_3::Index> centers;
     for (std::size_t k = 0; k < cover.centers.size(); ++k) {

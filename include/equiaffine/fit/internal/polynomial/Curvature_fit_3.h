@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_POLYNOMIAL_CURVATURE_FIT_3_H
 #define EQUIAFFINE_FIT_INTERNAL_POLYNOMIAL_CURVATURE_FIT_3_H
 
-#include <equiaffine/fit/internal/polynomial/Fit_choice_3.h>
+#include <equiaffine/fit/internal/polynomial/Fit_choices_3.h>
 
 #include <algorithm>
 #include <array>
@@ -32,14 +32,14 @@ struct Curvature_fit_3 {
 
 /// Fits polynomials of degrees of a family. Where the ball has too few points for all, as at a border of the surface, it
 /// grows. Where they do not determine a polynomial, since they fill a small part of the ball only, it shrinks.
-inline std::vector<Local_fit_3> fit_candidate(const Data_points_3& data, Data_points_3::Index center, double radius,
-                                              const Fit_candidate& candidate, std::span<const int> degrees,
-                                              const Number_request& request) {
-  const std::array<double, 1> weights = {candidate.weight_of_normals};
+inline std::vector<Local_fit_3> fit_in_way(const Data_points_3& data, Data_points_3::Index center, double radius,
+                                           const Way_to_fit& way, std::span<const int> degrees,
+                                           const Number_request& request) {
+  const std::array<double, 1> weights = {way.weight_of_normals};
   const auto fit = [&](double r) {
-    auto fits = candidate.family == Fit_family::HEIGHT ? fit_heights(data, center, r, degrees, &request)
-                                                       : fit_spaces(data, center, r, degrees, weights, &request);
-    if (!fits.empty() && !candidate.made(fits.front(), candidate.degree)) fits.clear();
+    auto fits = way.family == Fit_family::HEIGHT ? fit_heights(data, center, r, degrees, &request)
+                                                 : fit_spaces(data, center, r, degrees, weights, &request);
+    if (!fits.empty() && !way.has_made(fits.front(), way.degree)) fits.clear();
     return fits;
   };
   std::vector<Local_fit_3> fits = fit(radius);
@@ -119,16 +119,16 @@ enum class Fit_use { NUMBERS, BLEND };
 /// The fit of the greater degree to exact data, if its K is known better than with the accuracy `lower` of the other. Where
 /// that says that K_e may be zero, it answers: curvatures of a flat part are small for the lower degree.
 inline std::optional<Curvature_fit_3> exact_fit(const Data_points_3& data, Data_points_3::Index center,
-                                                const Fit_candidate& candidate, const Number_request& request,
+                                                const Way_to_fit& way, const Number_request& request,
                                                 const std::vector<Local_fit_3>& fits, const Fit_accuracy& lower) {
   constexpr double ratio_of_radii = 1.35, known_at_all = 0.5;
-  const std::array<int, 2> degrees = {candidate.degree, candidate.other_degree()};
+  const std::array<int, 2> degrees = {way.degree, way.other_degree()};
   const Local_fit_3& fit = fits.back();
   const double radius = fit.patch.radius;
   const Fitted_numbers& lower_numbers = fits.front().estimates->numbers;
   if (std::abs(lower_numbers.components[GAUSSIAN]) <= lower.error[GAUSSIAN] * lower_numbers.sizes()[GAUSSIAN])
     return {};
-  const auto smaller = fit_candidate(data, center, radius / ratio_of_radii, candidate, degrees, request);
+  const auto smaller = fit_in_way(data, center, radius / ratio_of_radii, way, degrees, request);
   if (smaller.size() < degrees.size() || smaller.back().patch.radius >= 0.99 * radius) return {};
   Fit_accuracy accuracy = exact_accuracy(fit, fits.front(), smaller.back(), lower.deviation);
   if (!(accuracy.error[AFFINE_GAUSSIAN] < std::min(known_at_all, lower.error[AFFINE_GAUSSIAN]))) return {};
@@ -138,14 +138,13 @@ inline std::optional<Curvature_fit_3> exact_fit(const Data_points_3& data, Data_
 
 /// Fits the points around a center. At a scale, nothing is known where the ball had to have another radius.
 inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, Data_points_3::Index center,
-                                                    const Fit_choice& choice, const Fit_choice_3& choices,
+                                                    const Fit_choice& choice, const Fit_choices_3& choices,
                                                     Fit_use use) {
-  const Fit_candidate& candidate = choice.candidate;
-  const std::array<int, 2> degrees = {candidate.degree, candidate.other_degree()};
-  const double radius = choices.radius(candidate, center), noise = choices.noise(choice, center);
+  const Way_to_fit& way = choice.way;
+  const std::array<int, 2> degrees = {way.degree, way.other_degree()};
+  const double radius = choices.radius(way, center), noise = choices.noise(choice, center);
   const Number_request request = choices.number_request();
-  auto fits =
-      fit_candidate(data, center, radius, candidate, std::span(degrees).first(choices.scale() ? 1 : 2), request);
+  auto fits = fit_in_way(data, center, radius, way, std::span(degrees).first(choices.scale() ? 1 : 2), request);
   if (fits.empty()) return {};
   Local_fit_3& fit = fits.front();
   Fit_accuracy accuracy =
@@ -153,10 +152,10 @@ inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, D
   if (choices.scale() && fit.patch.radius != radius)
     accuracy.error.setConstant(std::numeric_limits<double>::infinity());
   accuracy.radius = fit.patch.radius;
-  const bool is_exact = candidate.family == Fit_family::HEIGHT && fits.size() > 1 && !choices.has_noise() &&
+  const bool is_exact = way.family == Fit_family::HEIGHT && fits.size() > 1 && !choices.has_noise() &&
                         noise <= noise_of_exact_data * data.spacing[center];
   if (use == Fit_use::NUMBERS && is_exact)
-    if (auto exact = exact_fit(data, center, candidate, request, fits, accuracy)) return exact;
+    if (auto exact = exact_fit(data, center, way, request, fits, accuracy)) return exact;
   return Curvature_fit_3{std::move(fit.patch), fit.estimates->numbers, accuracy};
 }
 

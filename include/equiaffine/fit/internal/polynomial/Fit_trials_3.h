@@ -6,7 +6,7 @@
 #include <equiaffine/base/internal/shared/random_subset.h>
 #include <equiaffine/fit/internal/data/Data_points_3.h>
 #include <equiaffine/fit/internal/data/Point_tree_3.h>
-#include <equiaffine/fit/internal/polynomial/Fit_candidate.h>
+#include <equiaffine/fit/internal/polynomial/Way_to_fit.h>
 #include <equiaffine/fit/internal/polynomial/fit_height.h>
 #include <equiaffine/fit/internal/polynomial/fit_space.h>
 #include <equiaffine/fit/internal/shared/Fit_request.h>
@@ -22,9 +22,9 @@
 
 namespace equiaffine::internal {
 
-/// A way to fit.
+/// The way to fit that was chosen around a point.
 struct Fit_choice {
-  Fit_candidate candidate;
+  Way_to_fit way;
   Number_errors level = Number_errors::Zero(); ///< the relative errors that are typical around
   double noise = 0;                            ///< the standard deviation of points from any smooth surface
 };
@@ -59,8 +59,8 @@ public:
 
 private:
   struct Trial {
-    std::vector<double> scores;        ///< logarithms of relative errors of K, one for each candidate, or NaN
-    std::vector<Number_errors> levels; ///< logarithms of relative errors that count the same parity, too
+    std::vector<double> scores;            ///< logarithms of relative errors of K, one for each candidate, or NaN
+    std::vector<Number_errors> log_levels; ///< logarithms of relative errors that count the same parity, too
     double noise = 0;
   };
 
@@ -132,7 +132,7 @@ private:
   void try_heights(std::size_t c) {
     Trial& trial = trials_[c];
     trial.scores.assign(candidates_.size(), std::numeric_limits<double>::quiet_NaN());
-    trial.levels.resize(candidates_.size());
+    trial.log_levels.resize(candidates_.size());
     trial.noise = noise_at(centers_[c]);
     try_radii(trial, 4000,
               [&](std::size_t r) { return fit_heights(data_, centers_[c], length(r, centers_[c]), height_degrees_); });
@@ -150,13 +150,13 @@ private:
   double enter(Trial& trial, double radius, const std::vector<Local_fit_3>& fits) const {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
-      const Fit_candidate& candidate = candidates_[k];
+      const Way_to_fit& candidate = candidates_[k];
       if (candidate.radius != radius) continue;
       const Local_fit_3 *fit = nullptr, *other = nullptr, *same_parity = nullptr;
       for (const auto& f : fits) {
-        if (candidate.made(f, candidate.degree)) fit = &f;
-        if (candidate.made(f, candidate.other_degree())) other = &f;
-        if (candidate.made(f, candidate.other_degree_of_same_parity())) same_parity = &f;
+        if (candidate.has_made(f, candidate.degree)) fit = &f;
+        if (candidate.has_made(f, candidate.other_degree())) other = &f;
+        if (candidate.has_made(f, candidate.other_degree_of_same_parity())) same_parity = &f;
       }
       if (fit == nullptr || other == nullptr) continue;
       if (candidate.family == Fit_family::SPACE && fit->residual > 2 * trial.noise) continue;
@@ -165,7 +165,7 @@ private:
       trial.scores[k] = logarithms(*fit, difference, trial.noise)[AFFINE_GAUSSIAN];
       if (same_parity != nullptr)
         difference = difference.max(relative_difference(numbers, Fitted_numbers(same_parity->jet)));
-      trial.levels[k] = logarithms(*fit, difference, trial.noise);
+      trial.log_levels[k] = logarithms(*fit, difference, trial.noise);
       least = std::min(least, trial.scores[k]);
     }
     return least;
@@ -193,7 +193,7 @@ private:
         for (const Index d : around) {
           if (std::isnan(trials_[d].scores[k])) continue;
           score += trials_[d].scores[k];
-          level += trials_[d].levels[k];
+          level += trials_[d].log_levels[k];
           ++count;
         }
         if (count < part * double(around.size()) || score / count >= least) continue;
@@ -208,7 +208,7 @@ private:
   const Data_points_3& data_;
   Fit_request request_;
   std::vector<double> radii_;
-  std::vector<Fit_candidate> candidates_;
+  std::vector<Way_to_fit> candidates_;
   std::vector<Index> centers_;
   Point_tree_3 tree_; ///< of the centers
   std::vector<Trial> trials_;

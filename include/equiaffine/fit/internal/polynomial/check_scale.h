@@ -4,7 +4,7 @@
 
 #include <equiaffine/base/internal/shared/random_subset.h>
 #include <equiaffine/fit/internal/data/Normalization_3.h>
-#include <equiaffine/fit/internal/polynomial/Fit_choice_3.h>
+#include <equiaffine/fit/internal/polynomial/Fit_choices_3.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -29,21 +29,20 @@ inline double diagonal_of_data(const Normalized_data& normalized) {
 
 /// Whether at half of the sample centers the ball of the scale has the points that a polynomial needs.
 inline bool has_enough_points(const Data_points_3& data, const std::vector<Data_points_3::Index>& centers,
-                              const Fit_choice_3& choices) {
-  const Fit_candidate& candidate = choices.at(Eigen::Vector3d::Zero())->candidate;
-  const std::array degree = {candidate.degree};
+                              const Fit_choices_3& choices) {
+  const Way_to_fit& way = choices.at(Eigen::Vector3d::Zero())->way;
+  const std::array degree = {way.degree};
   const auto enough = std::count_if(centers.begin(), centers.end(), [&](auto i) {
-    return greatest_degree(candidate.family, degree, connected_ball(data, i, candidate.radius).size()) > 0;
+    return greatest_degree(way.family, degree, connected_ball(data, i, way.radius).size()) > 0;
   });
   return 2 * std::size_t(enough) >= centers.size();
 }
 
 /// Refuses a scale beyond a third of the size of the data, and one below what has enough points at most of them.
-inline void check_scale(const Normalized_data& normalized, Fit_choice_3 choices) {
+inline void check_scale(const Normalized_data& normalized, Fit_choices_3 choices) {
   const Data_points_3& data = normalized.data;
-  const Fit_candidate candidate = choices.at(Eigen::Vector3d::Zero())->candidate;
-  if (greatest_degree(candidate.family, std::array{candidate.degree}, data.size()) == 0)
-    return; // nothing is known then
+  const Way_to_fit way = choices.at(Eigen::Vector3d::Zero())->way;
+  if (greatest_degree(way.family, std::array{way.degree}, data.size()) == 0) return; // nothing is known then
   const double unit = normalized.normalization.scale(), scale = *choices.scale() / unit;
   const double diagonal = diagonal_of_data(normalized);
   const double unit_of_third_digit = std::pow(10, std::floor(std::log10(diagonal)) - 3);

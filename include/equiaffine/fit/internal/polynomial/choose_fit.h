@@ -6,7 +6,7 @@
 #include <equiaffine/base/internal/shared/random_subset.h>
 #include <equiaffine/fit/internal/data/Normalization_3.h>
 #include <equiaffine/fit/internal/polynomial/Curvature_fit_3.h>
-#include <equiaffine/fit/internal/polynomial/Fit_choice_3.h>
+#include <equiaffine/fit/internal/polynomial/Fit_choices_3.h>
 #include <equiaffine/fit/internal/polynomial/check_scale.h>
 #include <equiaffine/fit/internal/polynomial/point_noise.h>
 
@@ -39,7 +39,7 @@ inline bool is_flat(const Curvature_fit_3& fit) {
 
 /// Returns the part of centers at which `is_settled(fit)` holds.
 template <class ConcurrencyTag, class Is_settled>
-double part_settled(const Data_points_3& data, const Fit_choice_3& choices,
+double part_settled(const Data_points_3& data, const Fit_choices_3& choices,
                     const std::vector<Data_points_3::Index>& centers, const Is_settled& is_settled) {
   std::vector<char> settled(centers.size());
   parallel_for<ConcurrencyTag>(0, centers.size(), [&](std::size_t c) {
@@ -69,7 +69,7 @@ inline double principal_diagonal(const std::vector<Eigen::Vector3d>& points) {
 /// Sets the smallest scale at which K is known to 20 % at half of the points, from 1/64 to 1/8 of the diagonal; or the
 /// largest of these, where it never is.
 template <class ConcurrencyTag>
-void set_known_scale(const Normalized_data& normalized, Fit_choice_3& choices) {
+void set_known_scale(const Normalized_data& normalized, Fit_choices_3& choices) {
   const Data_points_3& data = normalized.data;
   constexpr std::size_t most_centers = 200;
   constexpr int quarters_of_octave = 12;
@@ -87,20 +87,20 @@ void set_known_scale(const Normalized_data& normalized, Fit_choice_3& choices) {
 /// Chooses how to fit. A scale of 0 asks for the surface's own curvature. Without a scale that is chosen where K is
 /// known to 50 % at half of the points, or does not exist since the surface is flat.
 template <class ConcurrencyTag>
-Fit_choice_3 choose_fit(const Normalized_data& normalized, const Fit_request& request, ConcurrencyTag tag) {
+Fit_choices_3 choose_fit(const Normalized_data& normalized, const Fit_request& request, ConcurrencyTag tag) {
   const Data_points_3& data = normalized.data;
   const Eigen::Matrix3d& matrix = normalized.normalization.matrix;
   if (!request.scale || *request.scale == 0) {
     Fit_trials_3 trials(data, request, tag);
     const auto centers = trials.centers();
-    Fit_choice_3 own(data, matrix, request, std::move(trials));
+    Fit_choices_3 own(data, matrix, request, std::move(trials));
     const auto is_settled = [](const Curvature_fit_3& fit) {
       return fit.accuracy.error[AFFINE_GAUSSIAN] <= 0.5 || is_flat(fit);
     };
     if (request.scale || part_settled<ConcurrencyTag>(data, own, centers, is_settled) >= 0.5) return own;
   }
   auto noise = request.noise ? std::vector<double>(data.size(), *request.noise) : point_noise<ConcurrencyTag>(data);
-  Fit_choice_3 at_scale(data, matrix, request, std::move(noise));
+  Fit_choices_3 at_scale(data, matrix, request, std::move(noise));
   if (!request.scale) {
     set_known_scale<ConcurrencyTag>(normalized, at_scale);
     return at_scale;

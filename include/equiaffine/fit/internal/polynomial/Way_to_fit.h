@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_FIT_INTERNAL_POLYNOMIAL_FIT_CANDIDATE_H
-#define EQUIAFFINE_FIT_INTERNAL_POLYNOMIAL_FIT_CANDIDATE_H
+#ifndef EQUIAFFINE_FIT_INTERNAL_POLYNOMIAL_WAY_TO_FIT_H
+#define EQUIAFFINE_FIT_INTERNAL_POLYNOMIAL_WAY_TO_FIT_H
 
 #include <equiaffine/fit/internal/polynomial/Local_fit_3.h>
 #include <equiaffine/fit/internal/polynomial/fit_space.h>
@@ -11,7 +11,7 @@
 namespace equiaffine::internal {
 
 /// A way to fit.
-struct Fit_candidate {
+struct Way_to_fit {
   Fit_family family = Fit_family::HEIGHT;
   int degree = 4;
   double radius = 0; ///< as a multiple of the spacing of the points, or a length at a scale
@@ -26,7 +26,7 @@ struct Fit_candidate {
     return family == Fit_family::HEIGHT || degree + 2 <= maximal_space_degree ? degree + 2 : other_degree();
   }
 
-  bool made(const Local_fit_3& fit, int of_degree) const {
+  bool has_made(const Local_fit_3& fit, int of_degree) const {
     return fit.patch.family == family && fit.patch.degree == of_degree && fit.weight_of_normals == weight_of_normals;
   }
 };

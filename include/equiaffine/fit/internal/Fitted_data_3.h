@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_FIT_INTERNAL_SURFACE_FIT_3_H
-#define EQUIAFFINE_FIT_INTERNAL_SURFACE_FIT_3_H
+#ifndef EQUIAFFINE_FIT_INTERNAL_FITTED_DATA_3_H
+#define EQUIAFFINE_FIT_INTERNAL_FITTED_DATA_3_H
 
 #include <equiaffine/fit/internal/data/Normalization_3.h>
 #include <equiaffine/fit/internal/polynomial/choose_fit.h>
@@ -21,18 +21,18 @@
 namespace equiaffine::internal {
 
 /// Data points with the way to fit them. It stays where it is, since the choice refers to the data.
-class Surface_fit_3 {
+class Fitted_data_3 {
 public:
   template <class ConcurrencyTag>
-  Surface_fit_3(Normalized_data data, Fit_request request, ConcurrencyTag tag)
+  Fitted_data_3(Normalized_data data, Fit_request request, ConcurrencyTag tag)
       : data_(std::move(data)), greatest_coordinate_(greatest_coordinate(data_)),
         choices_(choose_fit(data_, in_normal_coordinates(request), tag)), substitution_(matrix()) {}
 
-  Surface_fit_3(const Surface_fit_3&) = delete;
-  Surface_fit_3& operator=(const Surface_fit_3&) = delete;
+  Fitted_data_3(const Fitted_data_3&) = delete;
+  Fitted_data_3& operator=(const Fitted_data_3&) = delete;
 
   const Data_points_3& data() const { return data_.data; }
-  const Fit_choice_3& choices() const { return choices_; }
+  const Fit_choices_3& choices() const { return choices_; }
   /// The scale of the curvatures in the unit of the data; nothing for the surface's own.
   std::optional<double> scale() const {
     if (!choices_.scale()) return {};
@@ -79,7 +79,7 @@ private:
 
   Normalized_data data_;
   double greatest_coordinate_;
-  Fit_choice_3 choices_;
+  Fit_choices_3 choices_;
   Linear_substitution_3<double> substitution_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_FIT_INTERNAL_POLYNOMIAL_FIT_CHOICE_3_H
-#define EQUIAFFINE_FIT_INTERNAL_POLYNOMIAL_FIT_CHOICE_3_H
+#ifndef EQUIAFFINE_FIT_INTERNAL_POLYNOMIAL_FIT_CHOICES_3_H
+#define EQUIAFFINE_FIT_INTERNAL_POLYNOMIAL_FIT_CHOICES_3_H
 
 #include <equiaffine/fit/internal/data/Data_points_3.h>
 #include <equiaffine/fit/internal/polynomial/Fit_trials_3.h>
@@ -16,16 +16,16 @@
 namespace equiaffine::internal {
 
 /// How the data are fitted around every point: as trials say, or at one scale for all.
-class Fit_choice_3 {
+class Fit_choices_3 {
 public:
   /// The surface's own curvature, as trials say. `matrix` goes from the data to their normal coordinates.
-  Fit_choice_3(const Data_points_3& data, const Eigen::Matrix3d& matrix, const Fit_request& request,
-               Fit_trials_3 trials)
+  Fit_choices_3(const Data_points_3& data, const Eigen::Matrix3d& matrix, const Fit_request& request,
+                Fit_trials_3 trials)
       : data_(data), matrix_(matrix), request_(request), trials_(std::move(trials)) {}
 
   /// Curvature at a scale, which `set_scale` sets. `noise` has the deviation of every point from a smooth surface.
-  Fit_choice_3(const Data_points_3& data, const Eigen::Matrix3d& matrix, const Fit_request& request,
-               std::vector<double> noise)
+  Fit_choices_3(const Data_points_3& data, const Eigen::Matrix3d& matrix, const Fit_request& request,
+                std::vector<double> noise)
       : data_(data), matrix_(matrix), request_(request), noise_(std::move(noise)) {}
 
   /// At a scale curvatures are by definition those of a polynomial whose degree, the least one, makes the least of
@@ -45,7 +45,7 @@ public:
   const std::optional<Fit_choice>& at(const Eigen::Vector3d& p) const { return trials_ ? trials_->at(p) : at_scale_; }
 
   /// Returns the radius of a candidate around a point.
-  double radius(const Fit_candidate& candidate, Data_points_3::Index center) const {
+  double radius(const Way_to_fit& candidate, Data_points_3::Index center) const {
     return scale_ ? candidate.radius : candidate.radius * data_.spacing[center];
   }
 
