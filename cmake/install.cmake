@@ -20,7 +20,8 @@ install(
 endforeach()")
 
 set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/equiaffine)
-install(TARGETS equiaffine EXPORT equiaffineTargets FILE_SET porch FILE_SET doors FILE_SET internal FILE_SET generated)
+install(TARGETS equiaffine EXPORT equiaffineTargets
+        FILE_SET porch FILE_SET doors FILE_SET shared FILE_SET internal FILE_SET generated)
 install(EXPORT equiaffineTargets NAMESPACE equiaffine:: DESTINATION ${package_dir})
 
 configure_package_config_file(cmake/equiaffineConfig.cmake.in equiaffineConfig.cmake INSTALL_DESTINATION ${package_dir})

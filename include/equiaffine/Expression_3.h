@@ -42,7 +42,7 @@ namespace equiaffine {
 ///
 /// Numbers, constants and what is computed from them alone are rounded to double for every number type, so that all
 /// types evaluate the same function. For double, operators and functions are those of the language and of <cmath>,
-/// except that exp, sin and cos are computed by number/elementary_functions.h, that an integer exponent (up to 2^30 in
+/// except that exp, sin and cos are the library's own, that an integer exponent (up to 2^30 in
 /// magnitude) means repeated multiplication and `^0.5` means sqrt, and that min and max are NaN when an argument is.
 /// Domain errors (log(-1), 0/0) give what T gives: NaN for double.
 ///

@@ -59,26 +59,25 @@ public:
   using Point_3 = typename Kernel::Point_3;
   using Vector_3 = typename Kernel::Vector_3;
 
-  /// From a mesh, a model of CGAL's FaceGraph. Named parameters: `vertex_point_map`, `noise`, `scale`, `degree`,
+  /// From a mesh, a model of CGAL's FaceGraph. Named parameters: `vertex_point_map`, `vertex_normal_map`, `noise`, `scale`, `degree`,
   /// `feature_angle`.
-  /// \throw std::invalid_argument if a coordinate is not finite, the diagonal of the points is below 1e-40 or beyond
-  /// 1e40, or a parameter makes no sense.
-  template <Face_graph Graph, class Parameters = internal::No_parameters,
+  /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
+  template <Face_graph Graph, internal::Parameter_chain Parameters = internal::No_parameters,
             class ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  explicit Fitted_function_traits_3(const Graph& mesh, const Parameters& parameters = {}, ConcurrencyTag tag = {}) {
-    internal::check_fit_parameters<Parameters, internal::Vertex_point_tag, internal::Feature_angle_tag>();
+  explicit Fitted_function_traits_3(const Graph& mesh, const Parameters& given = {}, ConcurrencyTag tag = {}) {
+    internal::check_mesh_fit_parameters<internal::Joined_parameters<Parameters>>();
+    const auto parameters = internal::joined_parameters(given);
     make(internal::fit_input_of_graph(mesh, parameters), parameters, tag);
   }
 
   /// From points. Named parameters: `point_map`, `normal_map`, `normal_orientation`, `noise`, `scale`, `degree`.
-  /// \throw std::invalid_argument if a coordinate is not finite, the diagonal of the points is below 1e-40 or beyond
-  /// 1e40, or a parameter makes no sense.
-  template <std::ranges::input_range Points, class Parameters = internal::No_parameters,
+  /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
+  template <std::ranges::input_range Points, internal::Parameter_chain Parameters = internal::No_parameters,
             class ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  explicit Fitted_function_traits_3(const Points& points, const Parameters& parameters = {},
-                                    ConcurrencyTag tag = {}) requires(!Face_graph<Points> &&
-                                                                      !std::ranges::range<Parameters>) {
-    internal::check_point_fit_parameters<Parameters>();
+  explicit Fitted_function_traits_3(const Points& points, const Parameters& given = {},
+                                    ConcurrencyTag tag = {}) requires(!Face_graph<Points>) {
+    internal::check_point_fit_parameters<internal::Joined_parameters<Parameters>>();
+    const auto parameters = internal::joined_parameters(given);
     make(internal::fit_input_of_points<ConcurrencyTag>(points, parameters).data, parameters, tag);
   }
 
@@ -86,10 +85,12 @@ public:
   /// `noise`, `scale`, `degree`, `feature_angle`.
   /// \throw std::invalid_argument also if a polygon has the position of no point.
   template <std::ranges::input_range Points, std::ranges::input_range Polygons,
-            class Parameters = internal::No_parameters, class ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  Fitted_function_traits_3(const Points& points, const Polygons& polygons, const Parameters& parameters = {},
+            internal::Parameter_chain Parameters = internal::No_parameters,
+            class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+  Fitted_function_traits_3(const Points& points, const Polygons& polygons, const Parameters& given = {},
                            ConcurrencyTag tag = {}) {
-    internal::check_fit_parameters<Parameters, internal::Feature_angle_tag>();
+    internal::check_fit_parameters<internal::Joined_parameters<Parameters>, internal::Feature_angle_tag>();
+    const auto parameters = internal::joined_parameters(given);
     make(internal::fit_input_of_soup(points, polygons, internal::feature_angle(parameters)).data, parameters, tag);
   }
 

@@ -39,11 +39,11 @@ namespace equiaffine {
 /// and CGAL::Parallel_tag. Named parameters: `map_kind`, `reflections`, `tolerance`, `complete`.
 /// \throw std::invalid_argument if there are no points, or a parameter makes no sense.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, std::ranges::input_range Points,
-          class Parameters = internal::No_parameters>
+          internal::Parameter_chain... Parameters>
 Affine_symmetries_3<Kernel_of<Traits>> affine_symmetries(const Traits& traits, const Points& points,
-                                                         const Parameters& parameters = {}) {
-  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag, internal::Tolerance_tag,
-                             internal::Complete_tag>();
+                                                         const Parameters&... given) {
+  internal::check_map_parameters<internal::Joined_parameters<Parameters...>, internal::Complete_tag>();
+  const auto parameters = internal::joined_parameters(given...);
   return internal::symmetries_of<ConcurrencyTag, Kernel_of<Traits>>(
       Any_function_3::make(traits), internal::vectors_of(points), internal::symmetry_request(parameters));
 }
@@ -53,10 +53,10 @@ Affine_symmetries_3<Kernel_of<Traits>> affine_symmetries(const Traits& traits, c
 /// EXACT to within the distance between the triangles and the smooth surface that they stand for. Affine maps of a mesh
 /// that bounds no solid are undecided. Named parameters: `map_kind`, `reflections`, `tolerance`, `vertex_point_map`.
 /// \throw std::invalid_argument if a coordinate is not finite, the mesh has no area, or a parameter makes no sense.
-template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, class Parameters = internal::No_parameters>
-auto affine_symmetries(const Graph& mesh, const Parameters& parameters = {}) {
-  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag, internal::Tolerance_tag,
-                             internal::Vertex_point_tag>();
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Parameter_chain... Parameters>
+auto affine_symmetries(const Graph& mesh, const Parameters&... given) {
+  internal::check_map_parameters<internal::Joined_parameters<Parameters...>, internal::Vertex_point_tag>();
+  const auto parameters = internal::joined_parameters(given...);
   using Point_map = decltype(vertex_points(mesh, parameters));
   using Kernel_of_points = typename CGAL::Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
   return internal::symmetries_of_triangles<ConcurrencyTag, Kernel_of_points>(
@@ -66,11 +66,11 @@ auto affine_symmetries(const Graph& mesh, const Parameters& parameters = {}) {
 /// The same for points with polygons between them, each a range of positions of points. Equal points count once.
 /// \throw std::invalid_argument also if a polygon has the position of no point.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
-          std::ranges::input_range Polygons, class Parameters = internal::No_parameters>
+          std::ranges::input_range Polygons, internal::Parameter_chain... Parameters>
 auto affine_symmetries(const Points& points, const Polygons& polygons,
-                       const Parameters& parameters = {}) requires(!ImplicitFunctionTraits_3<Points> &&
-                                                                   !Face_graph<Points>) {
-  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag, internal::Tolerance_tag>();
+                       const Parameters&... given) requires(!ImplicitFunctionTraits_3<Points> && !Face_graph<Points>) {
+  internal::check_map_parameters<internal::Joined_parameters<Parameters...>>();
+  const auto parameters = internal::joined_parameters(given...);
   using Kernel_of_points = typename CGAL::Kernel_traits<std::ranges::range_value_t<Points>>::Kernel;
   return internal::symmetries_of_triangles<ConcurrencyTag, Kernel_of_points>(
       internal::triangles_of_soup(points, polygons), parameters);

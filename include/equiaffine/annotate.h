@@ -1,53 +1,91 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Puts the local structure of level sets into property maps of a CGAL::Surface_mesh, which it also makes of the mesh of
-// a sampler.
+// Puts the local structure of level sets into property maps of meshes and ranges.
 #ifndef EQUIAFFINE_ANNOTATE_H
 #define EQUIAFFINE_ANNOTATE_H
 
-#include <equiaffine/attributes.h>
-#include <equiaffine/attributes/internal/Property_maps.h>
-#include <equiaffine/attributes/internal/surface_mesh_of.h>
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/attributes/internal/annotate_elements.h>
+#include <equiaffine/attributes/internal/vertex_maps.h>
 #include <equiaffine/base/named_parameters.h>
-#include <equiaffine/surface/Isosurface_3.h>
+#include <equiaffine/concepts.h>
+#include <equiaffine/function/internal/shared/explain_misuse.h>
+#include <equiaffine/surface/internal/shared/Face_graph.h>
+#include <equiaffine/surface/internal/shared/indexed_polygons.h>
+#include <equiaffine/surface/internal/shared/points_of_range.h>
+#include <equiaffine/to_face_graph.h>
 
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/graph_traits_Surface_mesh.h>
 #include <CGAL/tags.h>
 
-#include <cstddef>
+#include <ranges>
 
 namespace equiaffine {
 
-/// Makes a CGAL::Surface_mesh, with the property map `v:status` (Point_status), from the mesh of a sampler. It has all
-/// triangles, in the same order. Vertex i is point i; where the mesh is not a manifold, as a Delaunay mesh of x y z = 0
-/// is along the axes, copies of vertices follow, which have the same point and status, so that the parts of the surface
-/// that meet there come apart. `surface.points` and `surface.triangles` are the mesh in which they are joined, and can be
-/// given to CGAL's functions for polygon soups.
-template <class Kernel>
-CGAL::Surface_mesh<typename Kernel::Point_3> to_surface_mesh(const Isosurface_3<Kernel>& surface) {
-  return internal::surface_mesh_of(surface);
+/// Puts the local structure of the level sets of f through the vertices of a mesh into property maps. The mesh is a
+/// model of CGAL's VertexListGraph with any faces, or none; its kernel need not be that of the function, but has
+/// coordinates that are doubles.
+///
+/// The maps are named parameters, each of which is filled if it is given: `vertex_affine_mean_curvature_map`,
+/// `vertex_affine_Gaussian_curvature_map`, `vertex_affine_normal_map`, `vertex_conormal_map`,
+/// `vertex_pick_invariant_map`, `vertex_affine_metric_map`, `vertex_affine_area_density_map`, `vertex_unit_normal_map`,
+/// `vertex_status_map`, `vertex_structure_map`; and CGAL's `vertex_mean_curvature_map`, `vertex_Gaussian_curvature_map`
+/// and `vertex_principal_curvatures_and_directions_map`, where curvatures of spheres are positive as in CGAL, the opposite
+/// of `Euclidean_structure_3`. A vector is put as what the map holds, if that can be made of three numbers.
+///
+/// A CGAL::Surface_mesh without such a map gets `v:status` (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`,
+/// `v:direction1`, `v:direction2` (Vector_3), and one of FT for every other attribute of attribute_table.h but the norms
+/// of gradients: `v:k1`, `v:metric_xx`, `v:quadric_defect` and so on.
+///
+/// A vertex whose status is UNCONVERGED before the call keeps that status, unless it is OUTSIDE. CGAL::Sequential_tag and
+/// CGAL::Parallel_tag give the same numbers. Further named parameters: `vertex_point_map`, `estimator`, and those of CGAL
+/// that change nothing here, `geom_traits` and `verbose`. They come in one chain or several, equiaffine's and CGAL's:
+/// \code
+/// annotate(graph, traits, CGAL::parameters::vertex_point_map(points),
+///          equiaffine::parameters::vertex_pick_invariant_map(map));
+/// \endcode
+/// Takes one expansion of order 4 per vertex.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Vertex_graph Graph, ImplicitFunctionTraits_3 Traits,
+          internal::Parameter_chain... Parameters>
+void annotate(Graph& graph, const Traits& traits, const Parameters&... given) {
+  using Joined = internal::Joined_parameters<Parameters...>;
+  internal::check_annotate_parameters<Joined, internal::Vertex_point_tag>();
+  const Joined parameters = internal::joined_parameters(given...);
+  internal::check_vertex_points<Graph, Joined>();
+  const auto point_of = [map = vertex_points(graph, parameters)](const auto& v) { return get(map, v); };
+  if constexpr (internal::is_surface_mesh<Graph> && !internal::has_maps<Joined>(internal::Structure_tags()))
+    internal::annotate_surface_mesh<ConcurrencyTag>(graph, point_of, traits, parameters);
+  else internal::annotate_elements<ConcurrencyTag>(vertices(graph), point_of, traits, parameters);
 }
 
-/// Fills property maps of the vertices of `mesh` with the local structure of the level sets of f through them:
-/// `v:status` (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`, `v:direction1`, `v:direction2` (Vector_3),
-/// and one of FT for every other attribute of attribute_table.h but the norms of gradients: `v:k1`, `v:metric_xx`,
-/// `v:quadric_defect` and so on. A vertex whose `v:status` is UNCONVERGED before the call keeps that status, unless it
-/// is OUTSIDE. CGAL::Sequential_tag and CGAL::Parallel_tag give the same numbers. Named parameter: `estimator`.
-template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
-          class Parameters = internal::No_parameters>
-void annotate(CGAL::Surface_mesh<typename Traits::Point_3>& mesh, const Traits& traits,
-              const Parameters& parameters = {}) {
-  internal::check_parameters<Parameters, internal::Estimator_tag>();
-  using Mesh = CGAL::Surface_mesh<typename Traits::Point_3>;
-  using Vertex_index = typename Mesh::Vertex_index;
-  internal::Property_maps<Mesh> maps(mesh);
-  parallel_for<ConcurrencyTag>(
-      0, mesh.num_vertices() + mesh.number_of_removed_vertices(),
-      [&](std::size_t i) {
-        const Vertex_index v{static_cast<typename Vertex_index::size_type>(i)};
-        if (!mesh.is_removed(v)) maps.set(v, local_structure_at(traits, mesh.point(v), maps.status(v), parameters));
-      },
-      256);
+/// The same for one vertex, whose structure is returned, too.
+template <class Vertex, Vertex_graph Graph, ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
+Local_structure_3<typename Traits::FT> annotate(const Vertex& v, const Graph& graph, const Traits& traits,
+                                                const Parameters&... given) {
+  internal::check_annotate_parameters<internal::Joined_parameters<Parameters...>, internal::Vertex_point_tag>();
+  const auto parameters = internal::joined_parameters(given...);
+  const auto structure = internal::structure_at(traits, get(vertex_points(graph, parameters), v),
+                                                internal::status_before(parameters, v), parameters);
+  internal::put_structure(parameters, v, structure, internal::Structure_tags());
+  return structure;
+}
+
+/// The same for a range, such as CGAL::Point_set_3: maps are from its elements. They are points, or `point_map` or a
+/// member of the range gives their points.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points, ImplicitFunctionTraits_3 Traits,
+          internal::Parameter_chain... Parameters>
+void annotate(const Points& points, const Traits& traits, const Parameters&... given) requires(!Vertex_graph<Points>) {
+  internal::check_annotate_parameters<internal::Joined_parameters<Parameters...>, internal::Point_tag>();
+  const auto parameters = internal::joined_parameters(given...);
+  internal::annotate_elements<ConcurrencyTag>(points, point_of_element(points, parameters), traits, parameters);
+}
+
+// Calls that are mistaken, see explain_misuse.h.
+template <class ConcurrencyTag = CGAL::Sequential_tag, class Elements, class Traits, class... Others>
+void annotate(const Elements&, const Traits&, const Others&...) requires(
+    (Vertex_graph<Elements> || std::ranges::input_range<Elements>)&&!(ImplicitFunctionTraits_3<Traits> &&
+                                                                      (internal::Parameter_chain<Others> && ...))) {
+  internal::explain_traits<Traits>();
+  internal::explain_parameters<Others...>();
 }
 
 } // namespace equiaffine

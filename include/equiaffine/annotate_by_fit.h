@@ -2,75 +2,89 @@
 #ifndef EQUIAFFINE_ANNOTATE_BY_FIT_H
 #define EQUIAFFINE_ANNOTATE_BY_FIT_H
 
-#include <equiaffine/attributes/internal/Property_maps.h>
-#include <equiaffine/attributes/internal/shared/error_table.h>
+#include <equiaffine/attributes/internal/annotate_elements.h>
+#include <equiaffine/attributes/internal/annotate_fits.h>
 #include <equiaffine/base/named_parameters.h>
-#include <equiaffine/fitted_structures.h>
+#include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/fit/internal/shared/fitted_structures_of.h>
+#include <equiaffine/fitted_structures.h> // IWYU pragma: keep
+#include <equiaffine/function/internal/shared/explain_misuse.h>
 #include <equiaffine/surface/internal/shared/Face_graph.h>
 
-#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/graph_traits_Surface_mesh.h>
 #include <CGAL/property_map.h>
 #include <CGAL/tags.h>
 
-#include <cstddef>
 #include <ranges>
-#include <string>
-#include <vector>
 
 namespace equiaffine {
 
-/// Fills property maps of the vertices of `mesh` with the local structure of the surface that the vertices are samples
-/// of, as `fitted_structures` finds it: the maps that `annotate` with a function fills, the estimates `v:NAME_error` of
-/// the errors of all NAMEs in error_table.h, and `v:affine_gaussian_curvature_noise` and
-/// `v:affine_mean_curvature_noise`. Named parameters: `noise`, `scale`, `degree`, `orientation`.
-template <class ConcurrencyTag = CGAL::Sequential_tag, class Point, class Parameters = internal::No_parameters>
-void annotate_by_fit(CGAL::Surface_mesh<Point>& mesh, const Parameters& parameters = {}) {
-  internal::check_fit_parameters<Parameters, internal::Orientation_tag>();
-  using Mesh = CGAL::Surface_mesh<Point>;
-  using Maps = internal::Property_maps<Mesh>;
-  const std::vector<Fitted_structure_3<double>> structures = fitted_structures<ConcurrencyTag>(mesh, parameters);
-  Maps maps(mesh);
-  std::vector<typename Mesh::template Property_map<typename Mesh::Vertex_index, double>> errors;
-  for (const auto& row : error_table<double>)
-    errors.push_back(Maps::template add<double>(mesh, std::string(row.attribute) + "_error"));
-  auto gaussian_noise = Maps::template add<double>(mesh, "affine_gaussian_curvature_noise");
-  auto mean_noise = Maps::template add<double>(mesh, "affine_mean_curvature_noise");
-  std::size_t i = 0;
-  for (const auto v : mesh.vertices()) {
-    const auto& s = structures[i++];
-    maps.set(v, s.structure);
-    for (std::size_t n = 0; n < errors.size(); ++n) errors[n][v] = error_table<double>[n].get(s.error);
-    gaussian_noise[v] = s.noise.gaussian_curvature;
-    mean_noise[v] = s.noise.mean_curvature;
-  }
+/// Puts the local structure of the surface that the vertices of a mesh are samples of, as `fitted_structures` finds it,
+/// into the property maps that are named parameters, as annotate() with a function does, and estimates of their errors
+/// into `vertex_affine_Gaussian_curvature_error_map`, `vertex_affine_mean_curvature_error_map`,
+/// `vertex_affine_normal_error_map`, `vertex_conormal_error_map`, `vertex_pick_invariant_error_map`,
+/// `vertex_affine_area_density_error_map`, `vertex_mean_curvature_error_map`, `vertex_Gaussian_curvature_error_map` and
+/// `vertex_unit_normal_error_map`. `vertex_structure_map` has a Fitted_structure_3<double>.
+///
+/// A CGAL::Surface_mesh without such a map gets the maps that annotate() gives it, the estimates `v:NAME_error` of the
+/// errors of all NAMEs in error_table.h, and `v:affine_gaussian_curvature_noise` and `v:affine_mean_curvature_noise`.
+///
+/// Further named parameters: those of `fitted_structures`. They come in one chain or several, equiaffine's and CGAL's.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Parameter_chain... Parameters>
+void annotate_by_fit(Graph& mesh, const Parameters&... given) {
+  using Joined = internal::Joined_parameters<Parameters...>;
+  internal::check_annotate_by_fit_parameters<Joined, internal::Vertex_point_tag, internal::Vertex_normal_tag,
+                                             internal::Feature_angle_tag>();
+  const Joined parameters = internal::joined_parameters(given...);
+  const auto structures = internal::fitted_structures_of_graph<ConcurrencyTag>(mesh, parameters);
+  if constexpr (internal::is_surface_mesh<Graph> && !internal::has_maps_of_fit<Joined>)
+    internal::fill_maps_of_fit(mesh, structures);
+  else internal::put_structures_of_fit(parameters, vertices(mesh), structures);
 }
 
-/// Puts the `Fitted_structure_3<double>` of every vertex of any model of CGAL's FaceGraph into a property map.
-template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, class Structure_map,
-          class Parameters = internal::No_parameters>
-void annotate_by_fit(const Graph& mesh, Structure_map map, const Parameters& parameters = {}) requires requires {
-  typename boost::property_traits<Structure_map>::key_type;
-}
-{
-  internal::check_fit_parameters<Parameters, internal::Vertex_point_tag, internal::Orientation_tag>();
-  const auto structures = fitted_structures<ConcurrencyTag>(mesh, parameters);
-  std::size_t i = 0;
-  for (const auto v : vertices(mesh)) put(map, v, structures[i++]);
+/// The same for one vertex, whose structure is returned, too; see fitted_structure().
+template <class Vertex, Face_graph Graph, internal::Parameter_chain... Parameters>
+Fitted_structure_3<double> annotate_by_fit(const Vertex& v, const Graph& mesh, const Parameters&... given) {
+  using Joined = internal::Joined_parameters<Parameters...>;
+  internal::check_annotate_by_fit_parameters<Joined, internal::Vertex_point_tag, internal::Vertex_normal_tag,
+                                             internal::Feature_angle_tag>();
+  const Joined parameters = internal::joined_parameters(given...);
+  const auto structure = internal::fitted_structure_of_vertex(v, mesh, parameters);
+  internal::put_structure_of_fit(parameters, v, structure);
+  return structure;
 }
 
-/// Puts the `Fitted_structure_3<double>` of every element of a range of points into a property map.
-template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points, class Structure_map,
-          class Parameters = internal::No_parameters>
-    void annotate_by_fit(const Points& points, Structure_map map,
-                         const Parameters& parameters = {}) requires(!Face_graph<Points>) &&
-    requires {
-  typename boost::property_traits<Structure_map>::key_type;
+/// The same for points without faces, the elements of a range: see `fitted_structures`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
+          internal::Parameter_chain... Parameters>
+void annotate_by_fit(const Points& points, const Parameters&... given) requires(!Face_graph<Points>) {
+  using Joined = internal::Joined_parameters<Parameters...>;
+  internal::check_annotate_by_fit_parameters<Joined, internal::Point_tag, internal::Normal_tag,
+                                             internal::Normal_orientation_tag>();
+  const Joined parameters = internal::joined_parameters(given...);
+  internal::put_structures_of_fit(parameters, points,
+                                  internal::fitted_structures_of_points<ConcurrencyTag>(points, parameters));
 }
-{
-  internal::check_point_fit_parameters<Parameters, internal::Orientation_tag>();
-  const auto structures = fitted_structures<ConcurrencyTag>(points, parameters);
-  std::size_t i = 0;
-  for (const auto& element : points) put(map, element, structures[i++]);
+
+/// The same as with `vertex_structure_map`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Property_map Structure_map,
+          internal::Parameter_chain... Parameters>
+void annotate_by_fit(const Graph& mesh, Structure_map map, const Parameters&... given) {
+  annotate_by_fit<ConcurrencyTag>(mesh, parameters::vertex_structure_map(map), given...);
+}
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
+          internal::Property_map Structure_map, internal::Parameter_chain... Parameters>
+void annotate_by_fit(const Points& points, Structure_map map,
+                     const Parameters&... given) requires(!Face_graph<Points>) {
+  annotate_by_fit<ConcurrencyTag>(points, parameters::vertex_structure_map(map), given...);
+}
+
+// A call that is mistaken, see explain_misuse.h.
+template <class ConcurrencyTag = CGAL::Sequential_tag, class Elements, class... Others>
+void annotate_by_fit(const Elements&, const Others&...) requires(
+    (Face_graph<Elements> || std::ranges::input_range<Elements>)&&!((internal::Parameter_chain<Others> ||
+                                                                     internal::Property_map<Others>)&&...)) {
+  internal::explain_parameters<Others...>();
 }
 
 } // namespace equiaffine

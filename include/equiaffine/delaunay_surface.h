@@ -2,20 +2,17 @@
 #ifndef EQUIAFFINE_DELAUNAY_SURFACE_H
 #define EQUIAFFINE_DELAUNAY_SURFACE_H
 
-#include <equiaffine/Clip_domain_3.h>
-#include <equiaffine/base/internal/shared/check_argument.h>
+#include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
-#include <equiaffine/delaunay/Facet_sizing.h>
-#include <equiaffine/delaunay/internal/convert_surface.h>
-#include <equiaffine/delaunay/internal/shared/Delaunay_range.h>
-#include <equiaffine/delaunay/internal/shared/mesh_surface.h>
-#include <equiaffine/surface/Any_function_3.h>
-#include <equiaffine/surface/Polyline_3.h>
+#include <equiaffine/delaunay/internal/delaunay_surface_of.h>
+#include <equiaffine/function/internal/shared/explain_misuse.h>
+#include <equiaffine/surface/internal/shared/Face_graph.h>
+#include <equiaffine/surface/internal/shared/copy_to_graph.h>
+#include <equiaffine/to_face_graph.h>
 
-#include <cmath>
-#include <vector>
+#include <utility>
 
 namespace equiaffine {
 
@@ -40,38 +37,52 @@ namespace equiaffine {
 /// Named parameters: `clip` (the box of the function), `facet_sizing` (UNIFORM), `feature_curves` (none),
 /// `parabolic_features` (no).
 /// \throw std::invalid_argument unless the angle lies in [0, 30], the lengths are positive, or 0 for their defaults, and
-/// finite, the box of the function has an interior and is finite, its diagonal is at least 1e-40 and its coordinates at
-/// most 1e40, and the radius is at least 1024 epsilons of the greatest coordinate
+/// finite, the clip domain has an interior and is finite, the diagonal of its box is at least 1e-40 and, as its coordinates,
+/// at most 1e40, and the radius is at least 1024 epsilons of the greatest coordinate
 ///
 /// The result is the same on every run. One thread computes it: 20,000 triangles take about 0.2 seconds, and 10 to 40
 /// evaluations per triangle.
-template <ImplicitFunctionTraits_3 Traits, class NamedParameters = internal::No_parameters>
-Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, const Delaunay_criteria& criteria = {},
-                                                       const NamedParameters& parameters = {}) {
-  internal::check_parameters<NamedParameters, internal::Clip_tag, internal::Facet_sizing_tag,
-                             internal::Feature_curves_tag, internal::Parabolic_features_tag>();
-  const auto domain = internal::get_parameter<internal::Clip_tag>(parameters, Clip_domain_3(traits.bbox()));
-  const auto sizing = internal::get_parameter<internal::Facet_sizing_tag>(parameters, Facet_sizing::UNIFORM);
-  const auto curves =
-      internal::get_parameter<internal::Feature_curves_tag>(parameters, std::vector<Polyline_3<Kernel_of<Traits>>>());
-  constexpr bool has_parabolic_features = internal::has_parameter<internal::Parabolic_features_tag, NamedParameters>;
-  const Delaunay_criteria completed = criteria.completed(domain);
-  check_argument(completed.angle >= 0 && completed.angle <= 30,
-                 "the least angle of a Delaunay mesh is not between 0 and 30 degrees: choose one that is");
-  check_argument(
-      completed.radius > 0 && std::isfinite(completed.radius) && completed.distance > 0 &&
-          std::isfinite(completed.distance),
-      "the radius or the distance of a Delaunay mesh is not a positive length: choose one, or 0 for the default");
-  const Delaunay_range range(domain.bbox());
-  check_argument(range.has_box(), "the box of a Delaunay mesh has a diagonal below 1e-40 or coordinates beyond 1e40: "
-                                  "choose another unit");
-  check_argument(completed.radius >= range.least_radius(),
-                 "the radius of a Delaunay mesh is less than 2.3e-13 of the greatest coordinate of the box: choose a "
-                 "larger one, or an origin nearer to the box");
-  return internal::convert_surface<Kernel_of<Traits>>(
-      mesh_surface(Any_function_3::make(traits),
-                   {domain, completed, sizing, internal::convert_polylines<Any_function_3::Kernel>(curves),
-                    has_parabolic_features}));
+template <ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
+Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, const Delaunay_criteria& criteria,
+                                                       const Parameters&... given) {
+  internal::check_delaunay_parameters<internal::Joined_parameters<Parameters...>>();
+  return internal::delaunay_surface_of(traits, criteria, internal::joined_parameters(given...));
+}
+template <ImplicitFunctionTraits_3 Traits>
+Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits) {
+  return delaunay_surface(traits, Delaunay_criteria());
+}
+
+/// The same for the level set f = isovalue, whose points and triangles are added to containers of the caller: see
+/// to_polygon_soup(). The result has no mesh, but the rest.
+template <ImplicitFunctionTraits_3 Traits, class Points, class Triangles, internal::Parameter_chain... Parameters>
+Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, const typename Traits::FT& isovalue,
+                                                       Points& points, Triangles& triangles,
+                                                       const Delaunay_criteria& criteria, const Parameters&... given) {
+  internal::check_delaunay_parameters<internal::Joined_parameters<Parameters...>>();
+  auto surface = internal::delaunay_surface_of(Level_set_traits_3<Traits>(traits, isovalue), criteria,
+                                               internal::joined_parameters(given...));
+  to_polygon_soup(surface, points, triangles);
+  return internal::without_mesh(std::move(surface));
+}
+
+/// The same for the zero set, which is added to a model of CGAL's MutableFaceGraph: see to_face_graph(). Further named
+/// parameters: `vertex_point_map`, `vertex_status_map`.
+template <ImplicitFunctionTraits_3 Traits, Face_graph Graph, internal::Parameter_chain... Parameters>
+Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Graph& graph,
+                                                       const Delaunay_criteria& criteria, const Parameters&... given) {
+  using Joined = internal::Joined_parameters<Parameters...>;
+  internal::check_delaunay_parameters<Joined, internal::Vertex_point_tag, internal::Vertex_status_tag>();
+  const Joined parameters = internal::joined_parameters(given...);
+  auto surface = internal::delaunay_surface_of(traits, criteria, parameters);
+  internal::copy_to_graph(surface, graph, parameters);
+  return internal::without_mesh(std::move(surface));
+}
+
+// A call that is mistaken, see explain_misuse.h.
+template <class Traits, class... Others>
+void delaunay_surface(const Traits&, const Others&...) requires(!ImplicitFunctionTraits_3<Traits>) {
+  internal::explain_traits<Traits>();
 }
 
 } // namespace equiaffine

@@ -2,18 +2,14 @@
 #ifndef EQUIAFFINE_FITTED_STRUCTURES_H
 #define EQUIAFFINE_FITTED_STRUCTURES_H
 
+#include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/fit/internal/data/feature_angle.h>
-#include <equiaffine/fit/internal/data/fit_input.h>
-#include <equiaffine/fit/internal/data/fit_input_of_soup.h>
 #include <equiaffine/fit/internal/shared/Fit_request.h>
-#include <equiaffine/fit/internal/structures_of_fit.h>
+#include <equiaffine/fit/internal/shared/fitted_structures_of.h>
 #include <equiaffine/surface/internal/shared/Face_graph.h>
 
 #include <CGAL/tags.h>
 
-#include <cstddef>
-#include <iterator>
 #include <ranges>
 #include <vector>
 
@@ -53,52 +49,53 @@ namespace equiaffine {
 /// less sharp a fit exists, and its error says that it means nothing.
 ///
 /// \throw std::invalid_argument if a coordinate is not finite, the diagonal of the points is below 1e-40 or beyond 1e40,
-/// or a parameter makes no sense, as a scale beyond a third
-/// of the diagonal of the data, or one within which most vertices have too few others.
+/// or a parameter makes no sense, as a scale beyond a third of the diagonal of the data, or one within which most vertices
+/// have too few others.
 ///
-/// Takes about 1 ms per vertex, also at a scale; memory is linear in the number
-/// of vertices. The numbers are the same for CGAL::Sequential_tag and CGAL::Parallel_tag. Named parameters:
-/// `vertex_point_map`, `noise`, `scale`, `degree`, `feature_angle`, `orientation`.
-template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, class Parameters = internal::No_parameters>
-std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, const Parameters& parameters = {}) {
-  internal::check_fit_parameters<Parameters, internal::Vertex_point_tag, internal::Orientation_tag,
-                                 internal::Feature_angle_tag>();
-  const internal::Fitted_data_3 fit(internal::fit_input_of_graph(mesh, parameters), internal::fit_request(parameters),
-                                    ConcurrencyTag());
-  auto structures = internal::structures_of_fit<ConcurrencyTag>(fit, parameters);
-  structures.resize(std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()))); // no points of creases
-  return structures;
+/// Takes about 1 ms per vertex, also at a scale; memory is linear in the number of vertices. The numbers are the same for
+/// CGAL::Sequential_tag and CGAL::Parallel_tag. Named parameters, in one chain or several, equiaffine's and CGAL's:
+/// `vertex_point_map`, `vertex_normal_map`, `noise`, `scale`, or CGAL's `ball_radius` for it, `degree`, `feature_angle`,
+/// `orientation`. Normals that come with a mesh help where its faces are coarse beside the surface.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Parameter_chain... Parameters>
+std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, const Parameters&... given) {
+  internal::check_mesh_fit_parameters<internal::Joined_parameters<Parameters...>, internal::Orientation_tag>();
+  return internal::fitted_structures_of_graph<ConcurrencyTag>(mesh, internal::joined_parameters(given...));
+}
+
+/// Returns the local structure at one vertex, from the fit around it: that of the overload for all vertices to within the
+/// estimated error, since most of these have the fit around a vertex nearby. This takes the choice of how to fit, some
+/// hundred fits, unless a `scale` is given.
+template <class Vertex, Face_graph Graph, internal::Parameter_chain... Parameters>
+Fitted_structure_3<double> fitted_structure(const Vertex& v, const Graph& mesh, const Parameters&... given) {
+  internal::check_mesh_fit_parameters<internal::Joined_parameters<Parameters...>, internal::Orientation_tag>();
+  return internal::fitted_structure_of_vertex(v, mesh, internal::joined_parameters(given...));
 }
 
 /// Returns the local structure at points without faces, in their order. Neighbors are the 16 nearest points, so that
 /// two sheets of a surface that are closer than the points on each of them become one. Normals are estimated from the
 /// neighbors and turned to agree along a spanning tree, unless `normal_map` gives them. Equal points count once.
-/// Further named parameters: `point_map`, `normal_map`, `normal_orientation`, `noise`, `scale`, `degree`,
-/// `orientation`.
+/// A range such as CGAL::Point_set_3 has its own map of points. Further named parameters: `point_map`, `normal_map`,
+/// `normal_orientation`, `noise`, `scale`, `degree`, `orientation`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
-          class Parameters = internal::No_parameters>
-std::vector<Fitted_structure_3<double>>
-fitted_structures(const Points& points,
-                  const Parameters& parameters = {}) requires(!Face_graph<Points> && !std::ranges::range<Parameters>) {
-  internal::check_point_fit_parameters<Parameters, internal::Orientation_tag>();
-  auto input = internal::fit_input_of_points<ConcurrencyTag>(points, parameters);
-  const internal::Fitted_data_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
-  return internal::elements_at(internal::structures_of_fit<ConcurrencyTag>(fit, parameters), input.positions);
+          internal::Parameter_chain... Parameters>
+std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points,
+                                                          const Parameters&... given) requires(!Face_graph<Points>) {
+  internal::check_point_fit_parameters<internal::Joined_parameters<Parameters...>, internal::Orientation_tag>();
+  return internal::fitted_structures_of_points<ConcurrencyTag>(points, internal::joined_parameters(given...));
 }
 
 /// Returns the local structure at points with polygons between them, in the order of the points. A polygon is a range
 /// of positions of points. It need not be a mesh: equal points count once, polygons whose orientations contradict are
 /// turned to agree with the first one of what is connected with them, and the surface comes apart where it is not a
-/// manifold. Named parameters: `noise`, `scale`, `degree`, `feature_angle`, `orientation`. \throw std::invalid_argument also if a
-/// polygon has the position of no point.
+/// manifold. Named parameters: `noise`, `scale`, `degree`, `feature_angle`, `orientation`.
+/// \throw std::invalid_argument also if a polygon has the position of no point.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
-          std::ranges::input_range Polygons, class Parameters = internal::No_parameters>
+          std::ranges::input_range Polygons, internal::Parameter_chain... Parameters>
 std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, const Polygons& polygons,
-                                                          const Parameters& parameters = {}) {
-  internal::check_fit_parameters<Parameters, internal::Orientation_tag, internal::Feature_angle_tag>();
-  auto input = internal::fit_input_of_soup(points, polygons, internal::feature_angle(parameters));
-  const internal::Fitted_data_3 fit(std::move(input.data), internal::fit_request(parameters), ConcurrencyTag());
-  return internal::elements_at(internal::structures_of_fit<ConcurrencyTag>(fit, parameters), input.positions);
+                                                          const Parameters&... given) {
+  internal::check_fit_parameters<internal::Joined_parameters<Parameters...>, internal::Orientation_tag,
+                                 internal::Feature_angle_tag>();
+  return internal::fitted_structures_of_soup<ConcurrencyTag>(points, polygons, internal::joined_parameters(given...));
 }
 
 } // namespace equiaffine

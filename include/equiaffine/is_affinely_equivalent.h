@@ -24,11 +24,12 @@ namespace equiaffine {
 /// register_surfaces(), except `number_of_maps`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Source, std::ranges::input_range Points,
           ImplicitFunctionTraits_3 Target, std::ranges::input_range Target_points,
-          class Parameters = internal::No_parameters>
+          internal::Parameter_chain... Parameters>
 CGAL::Uncertain<bool> is_affinely_equivalent(const Source& source, const Points& source_points, const Target& target,
-                                             const Target_points& target_points, const Parameters& parameters = {}) {
-  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag, internal::Least_overlap_tag,
-                             internal::Refined_functions_tag, internal::Tolerance_tag>();
+                                             const Target_points& target_points, const Parameters&... given) {
+  internal::check_map_parameters<internal::Joined_parameters<Parameters...>, internal::Least_overlap_tag,
+                                 internal::Refined_functions_tag>();
+  const auto parameters = internal::joined_parameters(given...);
   const auto registration =
       internal::registration_of<ConcurrencyTag>(source, source_points, target, target_points, parameters);
   if (registration.is_equivalence || registration.result.found()) return registration.is_equivalence;

@@ -2,17 +2,20 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_H
 #define EQUIAFFINE_MARCHING_CUBES_H
 
+#include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/base/named_parameters.h>
-#include <equiaffine/capabilities.h>
+#include <equiaffine/concepts.h>
+#include <equiaffine/function/internal/shared/explain_misuse.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
-#include <equiaffine/marching_cubes/internal/grid/lattice_function.h>
-#include <equiaffine/marching_cubes/internal/lattice_isosurface.h>
+#include <equiaffine/marching_cubes/internal/marching_cubes_of.h>
 #include <equiaffine/surface/Isosurface_3.h>
+#include <equiaffine/surface/internal/shared/Face_graph.h>
+#include <equiaffine/surface/internal/shared/copy_to_graph.h>
+#include <equiaffine/to_face_graph.h>
 
 #include <CGAL/tags.h>
 
-#include <array>
-#include <cstddef>
+#include <utility>
 
 namespace equiaffine {
 
@@ -40,23 +43,42 @@ namespace equiaffine {
 /// (if empty space is skipped, per node near the surface), and per vertex 4 more and 4 to 6 with gradient. The memory
 /// in use is the output, one bit per node, and a buffer for some planes of nodes.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
-          class NamedParameters = internal::No_parameters>
-Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const NamedParameters& parameters = {}) {
-  internal::check_parameters<NamedParameters, internal::Number_of_nodes_tag, internal::Vertex_position_tag,
-                             internal::Skip_empty_space_tag>();
-  constexpr std::array<std::size_t, 3> default_number_of_nodes = {64, 64, 64};
-  constexpr bool skips_empty_space = internal::has_parameter<internal::Skip_empty_space_tag, NamedParameters>;
-  const auto position = internal::get_parameter<internal::Vertex_position_tag>(parameters, Vertex_position::PROJECTED);
-  const auto lattice = [&] {
-    if constexpr (LatticeImplicitFunctionTraits_3<Traits>) {
-      return traits.lattice();
-    } else {
-      const auto nodes = internal::get_parameter<internal::Number_of_nodes_tag>(parameters, default_number_of_nodes);
-      return sampling_lattice(traits, nodes);
-    }
-  }();
-  return internal::isosurface_on_lattice<ConcurrencyTag, skips_empty_space>(internal::Lattice_function(traits, lattice),
-                                                                            position);
+          internal::Parameter_chain... Parameters>
+Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const Parameters&... given) {
+  internal::check_marching_cubes_parameters<internal::Joined_parameters<Parameters...>>();
+  return internal::marching_cubes_of<ConcurrencyTag>(traits, internal::joined_parameters(given...));
+}
+
+/// The same for the level set f = isovalue, whose points and triangles are added to containers of the caller: see
+/// to_polygon_soup(). The result has no mesh, but the rest: what was repaired, and the status of each point.
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Points, class Triangles,
+          internal::Parameter_chain... Parameters>
+Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const typename Traits::FT& isovalue,
+                                               Points& points, Triangles& triangles, const Parameters&... given) {
+  internal::check_marching_cubes_parameters<internal::Joined_parameters<Parameters...>>();
+  auto surface = internal::marching_cubes_of<ConcurrencyTag>(Level_set_traits_3<Traits>(traits, isovalue),
+                                                             internal::joined_parameters(given...));
+  to_polygon_soup(surface, points, triangles);
+  return internal::without_mesh(std::move(surface));
+}
+
+/// The same for the zero set, which is added to a model of CGAL's MutableFaceGraph: see to_face_graph(). Further named
+/// parameters: `vertex_point_map`, `vertex_status_map`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, Face_graph Graph,
+          internal::Parameter_chain... Parameters>
+Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, Graph& graph, const Parameters&... given) {
+  using Joined = internal::Joined_parameters<Parameters...>;
+  internal::check_marching_cubes_parameters<Joined, internal::Vertex_point_tag, internal::Vertex_status_tag>();
+  const Joined parameters = internal::joined_parameters(given...);
+  auto surface = internal::marching_cubes_of<ConcurrencyTag>(traits, parameters);
+  internal::copy_to_graph(surface, graph, parameters);
+  return internal::without_mesh(std::move(surface));
+}
+
+// A call that is mistaken, see explain_misuse.h.
+template <class ConcurrencyTag = CGAL::Sequential_tag, class Traits, class... Others>
+void marching_cubes(const Traits&, const Others&...) requires(!ImplicitFunctionTraits_3<Traits>) {
+  internal::explain_traits<Traits>();
 }
 
 } // namespace equiaffine

@@ -28,10 +28,11 @@ namespace equiaffine {
 /// same numbers.
 /// \throw std::invalid_argument if a face is not a triangle, or a coordinate is not finite.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, class Kernel,
-          class Parameters = internal::No_parameters>
-Fit_move_report move_to_fit(Mesh& mesh, const Fitted_function_traits_3<Kernel>& fit,
-                            const Parameters& parameters = {}) {
-  internal::check_parameters<Parameters, internal::Vertex_point_tag, internal::Vertex_outcome_tag>();
+          internal::Parameter_chain... Parameters>
+Fit_move_report move_to_fit(Mesh& mesh, const Fitted_function_traits_3<Kernel>& fit, const Parameters&... given) {
+  internal::check_parameters<internal::Joined_parameters<Parameters...>, internal::Vertex_point_tag,
+                             internal::Vertex_outcome_tag, internal::Geom_traits_tag, internal::Verbose_tag>();
+  const auto parameters = internal::joined_parameters(given...);
   const auto array = internal::triangle_array_of(mesh, parameters);
   const auto motion = internal::motion_to_fit<ConcurrencyTag>(
       array, fit, internal::crossing_triangles(array.points(), array.triangles()));

@@ -46,13 +46,13 @@ namespace equiaffine {
 /// \throw std::invalid_argument if a surface has no points, or a parameter makes no sense.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Source, std::ranges::input_range Points,
           ImplicitFunctionTraits_3 Target, std::ranges::input_range Target_points,
-          class Parameters = internal::No_parameters>
+          internal::Parameter_chain... Parameters>
 Surface_registration_3<Kernel_of<Target>> register_surfaces(const Source& source, const Points& source_points,
                                                             const Target& target, const Target_points& target_points,
-                                                            const Parameters& parameters = {}) {
-  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag,
-                             internal::Number_of_maps_tag, internal::Least_overlap_tag, internal::Refined_functions_tag,
-                             internal::Tolerance_tag>();
+                                                            const Parameters&... given) {
+  internal::check_registration_parameters<internal::Joined_parameters<Parameters...>,
+                                          internal::Refined_functions_tag>();
+  const auto parameters = internal::joined_parameters(given...);
   return internal::registration_of<ConcurrencyTag>(source, source_points, target, target_points, parameters).result;
 }
 
@@ -74,13 +74,15 @@ Surface_registration_3<Kernel_of<Target>> register_surfaces(const Source& source
 /// `vertex_point_map` for the target.
 /// \throw std::invalid_argument if a coordinate is not finite, a mesh has no faces, or a parameter makes no sense.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Source, Face_graph Target,
-          class Parameters = internal::No_parameters, class Target_parameters = internal::No_parameters>
-auto register_surfaces(const Source& source, const Target& target, const Parameters& parameters = {},
-                       const Target_parameters& target_parameters = {}) {
-  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag,
-                             internal::Number_of_maps_tag, internal::Least_overlap_tag, internal::Tolerance_tag,
-                             internal::Vertex_point_tag>();
-  internal::check_parameters<Target_parameters, internal::Vertex_point_tag>();
+          internal::Parameter_chain Parameters = internal::No_parameters,
+          internal::Parameter_chain Target_parameters = internal::No_parameters>
+auto register_surfaces(const Source& source, const Target& target, const Parameters& given = {},
+                       const Target_parameters& given_of_target = {}) {
+  internal::check_registration_parameters<internal::Joined_parameters<Parameters>, internal::Vertex_point_tag>();
+  internal::check_parameters<internal::Joined_parameters<Target_parameters>, internal::Vertex_point_tag,
+                             internal::Geom_traits_tag>();
+  const auto parameters = internal::joined_parameters(given);
+  const auto target_parameters = internal::joined_parameters(given_of_target);
   using Point_map = decltype(vertex_points(target, target_parameters));
   using Kernel_of_points = typename CGAL::Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
   return internal::registration_of_triangles<ConcurrencyTag, Kernel_of_points>(
@@ -92,11 +94,11 @@ auto register_surfaces(const Source& source, const Target& target, const Paramet
 /// \throw std::invalid_argument also if a polygon has the position of no point.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
           std::ranges::input_range Polygons, std::ranges::input_range Target_points,
-          std::ranges::input_range Target_polygons, class Parameters = internal::No_parameters>
+          std::ranges::input_range Target_polygons, internal::Parameter_chain... Parameters>
 auto register_surfaces(const Points& points, const Polygons& polygons, const Target_points& target_points,
-                       const Target_polygons& target_polygons, const Parameters& parameters = {}) {
-  internal::check_parameters<Parameters, internal::Map_kind_tag, internal::Reflections_tag,
-                             internal::Number_of_maps_tag, internal::Least_overlap_tag, internal::Tolerance_tag>();
+                       const Target_polygons& target_polygons, const Parameters&... given) {
+  internal::check_registration_parameters<internal::Joined_parameters<Parameters...>>();
+  const auto parameters = internal::joined_parameters(given...);
   using Kernel_of_points = typename CGAL::Kernel_traits<std::ranges::range_value_t<Target_points>>::Kernel;
   return internal::registration_of_triangles<ConcurrencyTag, Kernel_of_points>(
       internal::triangles_of_soup(points, polygons), internal::triangles_of_soup(target_points, target_polygons),

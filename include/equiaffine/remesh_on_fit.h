@@ -33,11 +33,13 @@ namespace equiaffine {
 /// \throw std::invalid_argument if a face is not a triangle, a coordinate is not finite, a parameter makes no sense, or
 /// there would be more than 10^8 triangles, or more than 10^4 parts of an edge. The mesh is as it was then.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, class Kernel,
-          class Parameters = internal::No_parameters>
-Fit_remesh_report remesh_on_fit(Mesh& mesh, const Fitted_function_traits_3<Kernel>& fit, const Parameters& np = {}) {
-  internal::check_parameters<Parameters, internal::Vertex_point_tag, internal::Vertex_outcome_tag,
-                             internal::Target_edge_length_tag, internal::Number_of_iterations_tag,
-                             internal::Edge_is_constrained_tag, internal::Feature_angle_tag>();
+          internal::Parameter_chain... Parameters>
+Fit_remesh_report remesh_on_fit(Mesh& mesh, const Fitted_function_traits_3<Kernel>& fit, const Parameters&... given) {
+  internal::check_parameters<internal::Joined_parameters<Parameters...>, internal::Vertex_point_tag,
+                             internal::Vertex_outcome_tag, internal::Target_edge_length_tag,
+                             internal::Number_of_iterations_tag, internal::Edge_is_constrained_tag,
+                             internal::Feature_angle_tag, internal::Geom_traits_tag, internal::Verbose_tag>();
+  const auto np = internal::joined_parameters(given...);
   const internal::Remesh_request request = internal::remesh_request(np);
   internal::Whole_remesh_3<Kernel> remesh(internal::copy_to_remesh<Kernel>(mesh, np), request);
   const auto motion =

@@ -5,7 +5,7 @@
 #include "output/maps.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/register_surfaces.h>
-#include <equiaffine/registration/internal/shared/contradictions_of_meshes.h>
+#include <equiaffine/registration/contradictions_of_meshes.h>
 
 #include <CGAL/compute_average_spacing.h>
 #include <CGAL/tags.h>

@@ -52,12 +52,13 @@ Annotated_surface sample(const Source_function& function, const Mesh_options& op
   const CGAL::Bbox_3 box = level_set.bbox();
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
   check_box_of_delaunay_surface(box);
+  const Clip_domain_3 domain = method.clips_to_ball ? Clip_domain_3::ball_in(box) : Clip_domain_3(box);
+  check_box_of_delaunay_surface(domain.bbox());
   Delaunay_criteria criteria = {method.angle, method.radius, method.distance};
   criteria.radius = std::min(criteria.radius, diagonal); // a larger bound would mean the same
   criteria = criteria.completed(Clip_domain_3(box));
   check_memory_of_delaunay_surface(diagonal, criteria.radius, criteria.distance, options.source.memory_use);
   check_radius_of_delaunay_surface(box, criteria.radius);
-  const Clip_domain_3 domain = method.clips_to_ball ? Clip_domain_3::ball_in(box) : Clip_domain_3(box);
   const auto parameters = parameters::clip(domain).facet_sizing(method.sizing);
   const double fineness = diagonal / std::min(criteria.radius, std::sqrt(criteria.distance * diagonal));
   forewarn(extracting, "a larger --radius or --distance", fineness, false, progress, [&](double coarse) {

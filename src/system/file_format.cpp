@@ -23,9 +23,10 @@ File_format file_format(const std::string& path) {
                                                                                  {".htm", HTML},
                                                                                  {".png", PNG},
                                                                                  {".json", JSON}}};
+  if (!std::filesystem::path(path).has_extension()) return UNNAMED;
   for (const auto& [extension, format] : formats)
     if (has_extension(path, extension)) return format;
-  return std::filesystem::path(path).has_extension() ? OTHER : UNNAMED;
+  return OTHER;
 }
 
 } // namespace equiaffine

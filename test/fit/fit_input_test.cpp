@@ -69,12 +69,32 @@ TEST(Fit_input, points_with_coordinates_that_are_no_numbers_are_refused) {
 }
 
 TEST(Fit_input, points_in_units_that_leave_double_precision_are_refused) {
-  for (const double unit : {1e-41, 1e41}) {
+  for (const double unit : {1e-43, 1e41}) {
     std::vector<Point_3> points;
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j) points.emplace_back(unit * i, unit * j, unit * bowl(i, j));
     EXPECT_THROW(fitted_structures(points), std::invalid_argument) << unit;
-    EXPECT_THROW((Fitted_function_traits_3<Fit_kernel>(points)), std::invalid_argument) << unit;
+    EXPECT_NO_THROW((Fitted_function_traits_3<Fit_kernel>(points))) << unit;
+  }
+}
+
+TEST(Fit_input, normals_of_vertices_that_agree_with_the_faces_are_those_of_the_data) {
+  Fit_mesh mesh = height_field(5, bowl);
+  using Vertex = Fit_mesh::Vertex_index;
+  const auto normals = mesh.add_property_map<Vertex, Fit_kernel::Vector_3>("normals").first;
+  for (const Vertex v : mesh.vertices()) {
+    const auto p = mesh.point(v);
+    normals[v] = Fit_kernel::Vector_3(-2 * p.x() - 0.2 * p.x() * p.y(), -p.y() - 0.1 * p.x() * p.x(), 1);
+  }
+  normals[Vertex(3)] = -normals[Vertex(3)];
+  const auto by_faces = internal::fit_input_of_graph(mesh, parameters::default_values());
+  const auto given = internal::fit_input_of_graph(mesh, parameters::vertex_normal_map(normals));
+  for (const Vertex v : mesh.vertices()) {
+    const auto& n = normals[v];
+    const Eigen::Matrix3d inverse = given.normalization.matrix.inverse();
+    const Eigen::Vector3d normal = (inverse.transpose() * Eigen::Vector3d(n.x(), n.y(), n.z())).normalized();
+    const Eigen::Vector3d& expected = v == Vertex(3) ? by_faces.data.normals[3] : normal;
+    EXPECT_NEAR((given.data.normals[v] - expected).norm(), 0, 1e-12) << v;
   }
 }
 

@@ -6,7 +6,7 @@
 #include "support/solids.h"
 #include <equiaffine/is_affinely_equivalent.h>
 #include <equiaffine/register_surfaces.h>
-#include <equiaffine/registration/internal/shared/contradictions_of_meshes.h>
+#include <equiaffine/registration/contradictions_of_meshes.h>
 
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/generators.h>

@@ -6,6 +6,7 @@
 #define EQUIAFFINE_BASE_NAMED_PARAMETERS_H
 
 #include <equiaffine/base/internal/shared/Named_parameters.h>
+#include <equiaffine/base/internal/shared/joined_parameters.h>
 #include <equiaffine/base/internal/shared/named_parameter_list.h>
 
 #include <array>
@@ -23,5 +24,6 @@ EQUIAFFINE_NAMED_PARAMETERS(, default_values())
 } // namespace equiaffine::parameters
 
 #undef EQUIAFFINE_NAMED_PARAMETERS
+#undef EQUIAFFINE_VERTEX_MAP
 
 #endif

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace equiaffine {
@@ -38,6 +39,22 @@ Volume_3<Kernel_of<Traits>> sample_on_lattice(const Traits& traits, const Lattic
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits>
 Volume_3<Kernel_of<Traits>> sample_on_lattice(const Traits& traits, const Lattice_3<Kernel_of<Traits>>& lattice) {
   return sample_on_lattice<ConcurrencyTag>(traits, lattice, [](std::size_t) {});
+}
+
+/// The values of anything that can be called with a point, `FT operator()(Point_3) const`, from several threads at once. A
+/// Sampled_function_traits_3 of the volume is a function with derivatives.
+template <class ConcurrencyTag = CGAL::Sequential_tag, class Function, class Kernel>
+Volume_3<Kernel> sample_on_lattice(const Function& f, const Lattice_3<Kernel>& lattice) requires(
+    !ImplicitFunctionTraits_3<Function> &&
+    std::is_invocable_r_v<typename Kernel::FT, const Function&, const typename Kernel::Point_3&>) {
+  using FT = typename Kernel::FT;
+  const auto [nx, ny, nz] = lattice.size();
+  Volume_3<Kernel> volume{lattice, std::vector<FT>(lattice.number_of_nodes())};
+  parallel_for<ConcurrencyTag>(0, ny * nz, [&, nx = nx, ny = ny](std::size_t row) {
+    for (std::size_t i = 0; i < nx; ++i)
+      volume.values[row * nx + i] = f(lattice.point(FT(double(i)), FT(double(row % ny)), FT(double(row / ny))));
+  });
+  return volume;
 }
 
 } // namespace equiaffine

@@ -56,7 +56,7 @@ struct Pack_mask {
 
 /// A pack holds as many numbers as one vector register does under the compiler's flags, and is used like one number, by
 /// Jet_3, Monge_chart_3 and the code that uses these. Every operation is that of T in each lane. Functions are those of
-/// <cmath>, except exp, sin and cos of doubles (elementary_functions.h). So a lane has the same bits as a computation
+/// <cmath>, except exp, sin and cos of doubles, which are the library's own. So a lane has the same bits as a computation
 /// with T, unless the compiler contracts products and sums to fused operations, which GCC does by default for
 /// processors that have them (see -ffp-contract): then both are equal to within rounding.
 ///

@@ -39,6 +39,8 @@ public:
     return *choices_.scale() / data_.normalization.scale();
   }
   const Normalization_3& normalization() const { return data_.normalization; }
+  /// The diagonal of the box of the data.
+  double diagonal() const { return diagonal_of_data(data_); }
 
   /// Turns the expansion of a function in normal coordinates into one in those of the data, in their unit of length.
   template <int Order>

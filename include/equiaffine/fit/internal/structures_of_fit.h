@@ -4,11 +4,14 @@
 
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/Local_structure_3.h>
+#include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
 #include <equiaffine/fit/internal/Fitted_data_3.h>
 #include <equiaffine/fit/internal/blend/Patch_cover_3.h>
+#include <equiaffine/fit/internal/polynomial/check_scale.h>
+#include <equiaffine/fit/internal/shared/Extent_of_fit.h>
 #include <equiaffine/surface/internal/shared/foot_on_surface.h>
 
 #include <cmath>
@@ -89,9 +92,33 @@ constexpr double distance_of_direct_fits = 0.1;
 /// whose center is a tenth of the radius away differs from them by as much as noise makes.
 constexpr double distance_of_direct_fits_at_scale = 0.02;
 
+/// Refuses data in units in which affine curvatures, and what they are computed from, leave double precision.
+inline void check_extent(const Fitted_data_3& fit) {
+  check_argument(Extent_of_fit::has(fit.diagonal()),
+                 "the points lie in a box with a diagonal below 1e-40 or beyond 1e40: choose another unit");
+}
+
+/// The structure at a data point by the fit around it.
+inline Fitted_structure_3<double> structure_at_point(const Fitted_data_3& fit, Data_points_3::Index i,
+                                                     Orientation_of_level_set orientation) {
+  check_extent(fit);
+  const Data_points_3& data = fit.data();
+  const auto& choice = fit.choices().at(data.points[i]);
+  const auto curvature = choice ? curvature_fit(data, i, *choice, fit.choices(), Fit_use::NUMBERS) : std::nullopt;
+  const auto foot = curvature ? foot_on_patch(curvature->patch, data.points[i]) : std::nullopt;
+  if (!foot) return structure_without_fit();
+  return structure_of(curvature->patch.taylor(*foot), fit, curvature->accuracy, orientation);
+}
+
+template <class Parameters>
+Orientation_of_level_set orientation_of(const Parameters& parameters) {
+  return get_parameter<Orientation_tag>(parameters, Orientation_of_level_set::ALONG_GRADIENT);
+}
+
 template <class ConcurrencyTag, class Parameters>
 std::vector<Fitted_structure_3<double>> structures_of_fit(const Fitted_data_3& fit, const Parameters& parameters) {
-  const auto orientation = get_parameter<Orientation_tag>(parameters, Orientation_of_level_set::ALONG_GRADIENT);
+  check_extent(fit);
+  const Orientation_of_level_set orientation = orientation_of(parameters);
   const Data_points_3& data = fit.data();
   const double distance = fit.choices().scale() ? distance_of_direct_fits_at_scale : distance_of_direct_fits;
   const Patch_cover_3 cover = patch_cover(data, fit.choices(), Fit_use::NUMBERS, distance, ConcurrencyTag());

@@ -17,6 +17,12 @@ struct Map_request {
   std::optional<double> tolerance = {}; ///< a part of a size; if there is none, the data tell
 };
 
+template <class Parameters, class... OtherTags>
+constexpr void check_map_parameters() {
+  check_parameters<Parameters, Map_kind_tag, Reflections_tag, Tolerance_tag, Geom_traits_tag, Verbose_tag,
+                   OtherTags...>();
+}
+
 template <class Parameters>
 Map_request map_request(const Parameters& parameters) {
   Map_request request;

@@ -19,6 +19,11 @@ struct Registration_request : Map_request {
   Frame_thresholds thresholds = {};
 };
 
+template <class Parameters, class... OtherTags>
+constexpr void check_registration_parameters() {
+  check_map_parameters<Parameters, Number_of_maps_tag, Least_overlap_tag, OtherTags...>();
+}
+
 template <class Parameters>
 Registration_request registration_request(const Parameters& parameters) {
   Registration_request request = {map_request(parameters)};

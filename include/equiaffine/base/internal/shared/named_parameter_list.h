@@ -3,6 +3,13 @@
 #ifndef EQUIAFFINE_BASE_INTERNAL_SHARED_NAMED_PARAMETER_LIST_H
 #define EQUIAFFINE_BASE_INTERNAL_SHARED_NAMED_PARAMETER_LIST_H
 
+/// Defines the function of a writable property map.
+#define EQUIAFFINE_VERTEX_MAP(NAME, TAG, CONST, GIVEN)                                                                 \
+  template <class Map>                                                                                                 \
+  auto NAME(const Map& map) CONST {                                                                                    \
+    return internal::add_parameter<internal::TAG>(map, GIVEN);                                                         \
+  }
+
 /// Defines one function per named parameter. A free function begins a chain of parameters, a member continues one:
 /// `GIVEN` is the chain before, and `CONST` is `const` for members and nothing for free functions.
 #define EQUIAFFINE_NAMED_PARAMETERS(CONST, GIVEN)                                                                      \
@@ -162,6 +169,71 @@
   template <class Map>                                                                                                 \
   auto vertex_outcome_map(const Map& map) CONST {                                                                      \
     return internal::add_parameter<internal::Vertex_outcome_tag>(map, GIVEN);                                          \
-  }
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A property map from the vertices of a mesh to normals there, which fits read; default: the mean of those of */   \
+  /** the faces around. */                                                                                             \
+  template <class Map>                                                                                                 \
+  auto vertex_normal_map(const Map& map) CONST {                                                                       \
+    return internal::add_parameter<internal::Vertex_normal_tag>(map, GIVEN);                                           \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** Another name of `scale`, as CGAL calls it: a radius that is not positive, as -1, asks for the own curvature. */  \
+  inline auto ball_radius(double radius) CONST {                                                                       \
+    return internal::add_parameter<internal::Ball_radius_tag>(radius, GIVEN);                                          \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A kernel; nothing depends on it, since coordinates are doubles. */                                               \
+  template <class Traits>                                                                                              \
+  auto geom_traits(const Traits& traits) CONST {                                                                       \
+    return internal::add_parameter<internal::Geom_traits_tag>(traits, GIVEN);                                          \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** Whether to print; this library never does. */                                                                    \
+  inline auto verbose(bool is_wanted) CONST {                                                                          \
+    return internal::add_parameter<internal::Verbose_tag>(is_wanted, GIVEN);                                           \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** Writable property maps for what annotate() and annotate_by_fit() find at the vertices, or at the elements of */  \
+  /** a range of points. The values are: */                                                                            \
+  /** Point_status, which also says what existed before: a vertex that is UNCONVERGED stays so. */                     \
+  EQUIAFFINE_VERTEX_MAP(vertex_status_map, Vertex_status_tag, CONST, GIVEN)                                            \
+  /** the whole Local_structure_3 of the vertex, or with fits its Fitted_structure_3. */                               \
+  EQUIAFFINE_VERTEX_MAP(vertex_structure_map, Vertex_structure_tag, CONST, GIVEN)                                      \
+  /** the normal of the surface; `vertex_normal_map` is read. */                                                       \
+  EQUIAFFINE_VERTEX_MAP(vertex_unit_normal_map, Vertex_unit_normal_tag, CONST, GIVEN)                                  \
+  /** the Euclidean mean curvature with the sign of CGAL: positive on a sphere, that is minus ours. */                 \
+  EQUIAFFINE_VERTEX_MAP(vertex_mean_curvature_map, Vertex_mean_curvature_tag, CONST, GIVEN)                            \
+  /** the Euclidean Gaussian curvature. */                                                                             \
+  EQUIAFFINE_VERTEX_MAP(vertex_Gaussian_curvature_map, Vertex_Gaussian_curvature_tag, CONST, GIVEN)                    \
+  /** CGAL's Principal_curvatures_and_directions, or any type made of them: the least curvature, the greatest one, */  \
+  /** and their directions, with the sign of CGAL. */                                                                  \
+  EQUIAFFINE_VERTEX_MAP(vertex_principal_curvatures_and_directions_map, Vertex_principal_curvatures_tag, CONST, GIVEN) \
+  /** H. */                                                                                                            \
+  EQUIAFFINE_VERTEX_MAP(vertex_affine_mean_curvature_map, Vertex_affine_mean_curvature_tag, CONST, GIVEN)              \
+  /** K. */                                                                                                            \
+  EQUIAFFINE_VERTEX_MAP(vertex_affine_Gaussian_curvature_map, Vertex_affine_Gaussian_curvature_tag, CONST, GIVEN)      \
+  /** xi. */                                                                                                           \
+  EQUIAFFINE_VERTEX_MAP(vertex_affine_normal_map, Vertex_affine_normal_tag, CONST, GIVEN)                              \
+  /** nu. */                                                                                                           \
+  EQUIAFFINE_VERTEX_MAP(vertex_conormal_map, Vertex_conormal_tag, CONST, GIVEN)                                        \
+  /** J. */                                                                                                            \
+  EQUIAFFINE_VERTEX_MAP(vertex_pick_invariant_map, Vertex_pick_invariant_tag, CONST, GIVEN)                            \
+  /** the six numbers xx xy xz yy yz zz of the affine metric, a std::array. */                                         \
+  EQUIAFFINE_VERTEX_MAP(vertex_affine_metric_map, Vertex_affine_metric_tag, CONST, GIVEN)                              \
+  /** the affine area per area. */                                                                                     \
+  EQUIAFFINE_VERTEX_MAP(vertex_affine_area_density_map, Vertex_affine_area_density_tag, CONST, GIVEN)                  \
+  /** Of annotate_by_fit() alone: estimates of the errors, see Local_structure_error_3; those of normals are */        \
+  /** angles in degrees. */                                                                                            \
+  EQUIAFFINE_VERTEX_MAP(vertex_affine_mean_curvature_error_map, Vertex_affine_mean_curvature_error_tag, CONST, GIVEN)  \
+  EQUIAFFINE_VERTEX_MAP(vertex_affine_Gaussian_curvature_error_map, Vertex_affine_Gaussian_curvature_error_tag, CONST, \
+                        GIVEN)                                                                                         \
+  EQUIAFFINE_VERTEX_MAP(vertex_affine_normal_error_map, Vertex_affine_normal_error_tag, CONST, GIVEN)                  \
+  EQUIAFFINE_VERTEX_MAP(vertex_conormal_error_map, Vertex_conormal_error_tag, CONST, GIVEN)                            \
+  EQUIAFFINE_VERTEX_MAP(vertex_pick_invariant_error_map, Vertex_pick_invariant_error_tag, CONST, GIVEN)                \
+  EQUIAFFINE_VERTEX_MAP(vertex_affine_area_density_error_map, Vertex_affine_area_density_error_tag, CONST, GIVEN)      \
+  EQUIAFFINE_VERTEX_MAP(vertex_mean_curvature_error_map, Vertex_mean_curvature_error_tag, CONST, GIVEN)                \
+  EQUIAFFINE_VERTEX_MAP(vertex_Gaussian_curvature_error_map, Vertex_Gaussian_curvature_error_tag, CONST, GIVEN)        \
+  EQUIAFFINE_VERTEX_MAP(vertex_unit_normal_error_map, Vertex_unit_normal_error_tag, CONST, GIVEN)
 
 #endif

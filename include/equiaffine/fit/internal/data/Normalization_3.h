@@ -2,13 +2,10 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_DATA_NORMALIZATION_3_H
 #define EQUIAFFINE_FIT_INTERNAL_DATA_NORMALIZATION_3_H
 
-#include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/fit/internal/data/Data_points_3.h>
-#include <equiaffine/fit/internal/shared/Extent_of_fit.h>
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <cmath>
@@ -37,14 +34,6 @@ struct Normalization_3 {
   double greatest_stretch() const { return matrix.operatorNorm(); }
   double least_stretch() const { return 1 / matrix.inverse().operatorNorm(); }
 };
-
-/// \throw std::invalid_argument if fits do not work with the unit of the points
-inline void check_extent(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::AlignedBox3d box;
-  for (const auto& p : points) box.extend(p);
-  check_argument(points.empty() || Extent_of_fit::has(box.diagonal().stableNorm()),
-                 "the points lie in a box with a diagonal below 1e-40 or beyond 1e40: choose another unit");
-}
 
 /// Directions in which the edges are a thousand times as short as in others, as for points in a plane, are stretched no
 /// further.

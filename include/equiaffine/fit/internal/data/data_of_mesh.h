@@ -8,6 +8,7 @@
 #include <equiaffine/surface/internal/shared/indexed_polygons.h>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cstddef>
@@ -36,7 +37,6 @@ inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices
                                     std::optional<double> feature_angle) {
   std::vector<Data_points_3::Edge> edges = edges_of(faces);
   Normalized_data result;
-  check_extent(vertices);
   result.normalization = normalization_of(vertices, edges);
   Data_points_3& data = result.data;
   Creased_polygons_3 mesh(vertices, faces);
@@ -57,6 +57,17 @@ inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices
     if (is_on_border[i])
       for (const auto j : connected_ball(data, i, data.spacing[i])) data.is_at_border[j] = 1;
   return result;
+}
+
+/// Replaces the normals that the faces around the vertices have by given ones, but for those that differ by more than 60
+/// degrees: at a crease a vertex has one normal, and two sides.
+inline void improve_normals(Normalized_data& normalized, const std::vector<Eigen::Vector3d>& given) {
+  constexpr double least_cosine = 0.5;
+  const Eigen::Matrix3d inverse_transpose = normalized.normalization.matrix.inverse().transpose();
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const Eigen::Vector3d normal = (inverse_transpose * given[i]).normalized();
+    if (normal.dot(normalized.data.normals[i]) > least_cosine) normalized.data.normals[i] = normal;
+  }
 }
 
 } // namespace equiaffine::internal

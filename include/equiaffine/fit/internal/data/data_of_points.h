@@ -96,7 +96,6 @@ Normalized_data data_of_points(const std::vector<Eigen::Vector3d>& points,
                                Normal_orientation orientation = Normal_orientation::UNORIENTED) {
   Normalized_data result;
   Data_points_3& data = result.data;
-  check_extent(points);
   result.normalization = normalization_of(points, edges_to_nearest<ConcurrencyTag>(points));
   for (const auto& p : points) data.points.push_back(result.normalization(p));
   set_neighbors(data, edges_to_nearest<ConcurrencyTag>(data.points));

@@ -9,6 +9,7 @@
 #include <equiaffine/fit/internal/data/feature_angle.h>
 #include <equiaffine/surface/internal/shared/Face_graph.h>
 #include <equiaffine/surface/internal/shared/indexed_polygons.h>
+#include <equiaffine/surface/internal/shared/points_of_range.h>
 
 #include <CGAL/property_map.h>
 #include <Eigen/Core>
@@ -26,7 +27,14 @@ namespace equiaffine::internal {
 template <Face_graph Graph, class Parameters>
 Normalized_data fit_input_of_graph(const Graph& graph, const Parameters& parameters) {
   const Indexed_polygons mesh = indexed_polygons_of_graph(graph, parameters);
-  return data_of_mesh(mesh.points, mesh.polygons, feature_angle(parameters));
+  Normalized_data result = data_of_mesh(mesh.points, mesh.polygons, feature_angle(parameters));
+  if constexpr (has_parameter<Vertex_normal_tag, Parameters>) {
+    std::vector<Eigen::Vector3d> normals;
+    for (const auto v : vertices(graph))
+      normals.push_back(coordinates_of(get(given_parameter<Vertex_normal_tag>(parameters), v)));
+    improve_normals(result, normals);
+  }
+  return result;
 }
 
 /// The data points of a range without those that come again, and which of them each element of the range is.
@@ -58,10 +66,9 @@ inline std::vector<std::uint32_t> merge_equal_points(std::vector<Eigen::Vector3d
 template <class ConcurrencyTag, std::ranges::input_range Points, class Parameters>
 Fit_input_of_points fit_input_of_points(const Points& range, const Parameters& parameters) {
   std::vector<Eigen::Vector3d> points, normals;
+  const auto point_of = point_of_element(range, parameters);
   for (const auto& element : range) {
-    if constexpr (has_parameter<Point_tag, Parameters>)
-      points.push_back(coordinates_of(get(given_parameter<Point_tag>(parameters), element)));
-    else points.push_back(coordinates_of(element));
+    points.push_back(coordinates_of(point_of(element)));
     if constexpr (has_parameter<Normal_tag, Parameters>)
       normals.push_back(coordinates_of(get(given_parameter<Normal_tag>(parameters), element)));
   }

@@ -4,8 +4,8 @@
 
 namespace equiaffine {
 
-/// The diagonals of boxes of points that fits work with: affine curvatures, and what they are computed from, leave double
-/// precision in other units. Points that are all equal have no curvatures in any unit.
+/// The diagonals of boxes of points whose curvatures fits give: affine curvatures, and what they are computed from, leave
+/// double precision in other units, where the function of a fit still exists. Points that are all equal have no curvatures in any unit.
 struct Extent_of_fit {
   static constexpr double least = 1e-40, greatest = 1e40;
 

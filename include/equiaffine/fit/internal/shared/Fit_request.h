@@ -5,6 +5,9 @@
 #include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/base/named_parameters.h>
 
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -20,7 +23,14 @@ struct Fit_request {
 /// Refuses named parameters that are neither those of every fit nor among `OtherTags`.
 template <class Parameters, class... OtherTags>
 constexpr void check_fit_parameters() {
-  check_parameters<Parameters, Noise_tag, Scale_tag, Degree_tag, OtherTags...>();
+  check_parameters<Parameters, Noise_tag, Scale_tag, Ball_radius_tag, Degree_tag, Geom_traits_tag, Verbose_tag,
+                   OtherTags...>();
+}
+
+/// The same for meshes.
+template <class Parameters, class... OtherTags>
+constexpr void check_mesh_fit_parameters() {
+  check_fit_parameters<Parameters, Vertex_point_tag, Vertex_normal_tag, Feature_angle_tag, OtherTags...>();
 }
 
 /// The same for points without faces.
@@ -37,6 +47,11 @@ Fit_request fit_request(const Parameters& parameters) {
     request.noise = given_parameter<Noise_tag>(parameters);
     check_argument(!request.noise || (*request.noise >= 0 && std::isfinite(*request.noise)),
                    "the noise is a length, 0 or more");
+  }
+  if constexpr (has_parameter<Ball_radius_tag, Parameters>) {
+    const double radius = CGAL::to_double(given_parameter<Ball_radius_tag>(parameters));
+    check_argument(std::isfinite(radius), "the radius of a ball is a length, or -1 for the surface's own curvature");
+    request.scale = std::max(radius, 0.);
   }
   if constexpr (has_parameter<Scale_tag, Parameters>) {
     request.scale = given_parameter<Scale_tag>(parameters);

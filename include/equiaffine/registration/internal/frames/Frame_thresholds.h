@@ -12,28 +12,29 @@ struct Candidate_limits {
   double greatest_mismatch; ///< of gradients, whose mismatch is 1 at most
 };
 
-/// The greatest condition of the linear part of a map between surfaces: the rounding of coordinates, 1e-16, moves points
-/// by less than 1e-12 of the size of the surface, the error that maps of formulas have.
+/// The greatest condition of the linear part of a map between surfaces. With it, the rounding of coordinates to 1e-16 makes
+/// errors of 1e-12, as large as those that maps between formulas have anyway.
 inline constexpr double greatest_condition = 1e4;
 
 /// The thresholds of the search for maps by affine frames. What each is good for was measured by
 /// `benchmark_registration 84 thresholds`, with one of them halved or doubled at a time.
 struct Frame_thresholds {
-  // The weight of a point of the source is the product of these factors, its certainty and its slope.
+  // The points of the source with the greatest weights are tried first: certainty * min(quality, greatest_quality) *
+  // (least_rarity + rarity) * exp(-loss_by_disagreement * disagreement) / (1 + loss_by_condition * condition) * slope.
   double greatest_quality = 0.15;
   double least_rarity = 0.05;
   double loss_by_disagreement = 3;
   double loss_by_condition = 0.002;
 
-  // The cost of a pair: the mismatch of gradients, and these parts of what a step along the target leaves of the
-  // difference of the invariants, and of the length of the step in spacings.
+  // A pair costs mismatch + cost_of_rest * rest + cost_of_step * step. The step, in spacings, leads along the target to
+  // where the invariants agree best, and the rest is how much they still differ there.
   double cost_of_rest = 0.3;
   double cost_of_step = 0.1;
   double longest_step = 3; ///< in spacings
   Candidate_limits usual = {24, 3, 0.6};
   Candidate_limits wrong_structure = {48, 8, 0.9}; ///< where no map was found by the usual ones
 
-  // A counterpart costs 1 or 2 if the pair is an accident.
+  // A counterpart costs residual / accidental_residual + mismatch / accidental_mismatch.
   double accidental_residual = 0.1;
   double accidental_mismatch = 0.3;
   double longest_way = 6; ///< from the candidate, in spacings

@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_PIECES_CONTRADICTIONS_OF_TRIANGLES_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_PIECES_CONTRADICTIONS_OF_TRIANGLES_H
 
+#include <equiaffine/registration/Mesh_contradictions.h>
 #include <equiaffine/registration/internal/pieces/Contact_evidence.h>
 #include <equiaffine/registration/internal/pieces/Piece_of_surface_3.h>
 #include <equiaffine/registration/internal/pieces/contacts.h>
 #include <equiaffine/registration/internal/samples/mesh_samples.h>
-#include <equiaffine/registration/internal/shared/Mesh_contradictions.h>
 #include <equiaffine/registration/internal/tolerances_of_meshes.h>
 
 #include <algorithm>

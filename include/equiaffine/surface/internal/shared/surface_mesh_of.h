@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_SURFACE_MESH_OF_H
-#define EQUIAFFINE_ATTRIBUTES_INTERNAL_SURFACE_MESH_OF_H
+#ifndef EQUIAFFINE_SURFACE_INTERNAL_SHARED_SURFACE_MESH_OF_H
+#define EQUIAFFINE_SURFACE_INTERNAL_SHARED_SURFACE_MESH_OF_H
 
 #include <equiaffine/mesh_topology.h>
 #include <equiaffine/surface/Isosurface_3.h>
@@ -39,6 +39,14 @@ CGAL::Surface_mesh<typename Kernel::Point_3> surface_mesh_of(const Isosurface_3<
     if (mesh.add_face(Vertex_index(a), Vertex_index(b), Vertex_index(c)) == Mesh::null_face())
       mesh.add_face(copy_vertex(a), copy_vertex(b), copy_vertex(c));
   return mesh;
+}
+
+/// What a sampler found beside its mesh.
+template <class Surface>
+Surface without_mesh(Surface surface) {
+  surface.points.clear();
+  surface.triangles.clear();
+  return surface;
 }
 
 } // namespace equiaffine::internal

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_SHARED_CONTRADICTIONS_OF_MESHES_H
-#define EQUIAFFINE_REGISTRATION_INTERNAL_SHARED_CONTRADICTIONS_OF_MESHES_H
+#ifndef EQUIAFFINE_REGISTRATION_CONTRADICTIONS_OF_MESHES_H
+#define EQUIAFFINE_REGISTRATION_CONTRADICTIONS_OF_MESHES_H
 
+#include <equiaffine/registration/Mesh_contradictions.h>
 #include <equiaffine/registration/internal/pieces/contradictions_of_triangles.h>
 #include <equiaffine/registration/internal/samples/triangles_of.h>
-#include <equiaffine/registration/internal/shared/Mesh_contradictions.h>
 
 #include <ranges>
 

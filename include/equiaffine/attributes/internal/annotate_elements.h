@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_ANNOTATE_ELEMENTS_H
+#define EQUIAFFINE_ATTRIBUTES_INTERNAL_ANNOTATE_ELEMENTS_H
+
+#include <equiaffine/attributes.h>
+#include <equiaffine/attributes/internal/Property_maps.h>
+#include <equiaffine/attributes/internal/vertex_maps.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/surface/internal/shared/convert_point.h>
+#include <equiaffine/surface/internal/shared/indexed_polygons.h>
+#include <equiaffine/surface/internal/shared/points_of_range.h>
+
+#include <CGAL/Surface_mesh/Surface_mesh_fwd.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+template <class Mesh>
+inline constexpr bool is_surface_mesh = false;
+template <class Point>
+inline constexpr bool is_surface_mesh<CGAL::Surface_mesh<Point>> = true;
+
+/// Does not compile for meshes whose points have coordinates that are no floating-point numbers.
+template <class Graph, class Parameters>
+constexpr void check_vertex_points() {
+  using Map = std::decay_t<decltype(vertex_points(std::declval<Graph&>(), std::declval<const Parameters&>()))>;
+  check_coordinates<typename boost::property_traits<Map>::value_type>();
+}
+
+/// The structure of the level set at a point of any kernel.
+template <class Traits, class Point, class Parameters>
+auto structure_at(const Traits& traits, const Point& p, Point_status before,
+                  [[maybe_unused]] const Parameters& parameters) {
+  check_coordinates<Point>();
+  const auto q = convert_point<Kernel_of<Traits>>(p);
+  if constexpr (has_parameter<Estimator_tag, Parameters>)
+    return local_structure_at(traits, q, before, parameters::estimator(given_parameter<Estimator_tag>(parameters)));
+  else return local_structure_at(traits, q, before);
+}
+
+/// Fills the maps that are given, for elements with points: vertices of a mesh, or elements of a range. Structures are
+/// computed in parallel, and put one after the other.
+template <class ConcurrencyTag, class Elements, class Point_of, class Traits, class Parameters>
+void annotate_elements(const Elements& elements, const Point_of& point_of, const Traits& traits,
+                       const Parameters& parameters) {
+  static_assert(has_maps<Parameters>(Structure_tags()),
+                "annotate() has nothing to write to: give it property maps, such as "
+                "parameters::vertex_affine_mean_curvature_map(map), or a CGAL::Surface_mesh");
+  using Element = std::decay_t<decltype(*std::begin(elements))>;
+  using Structure = Local_structure_3<typename Traits::FT>;
+  constexpr std::size_t most_at_once = 1 << 16;
+  std::vector<Element> some;
+  std::vector<Structure> structures;
+  for (auto next = std::begin(elements), end = std::end(elements); next != end;) {
+    some.clear();
+    for (; next != end && some.size() < most_at_once; ++next) some.push_back(*next);
+    structures.resize(some.size());
+    parallel_for<ConcurrencyTag>(
+        0, some.size(),
+        [&](std::size_t i) {
+          structures[i] = structure_at(traits, point_of(some[i]), status_before(parameters, some[i]), parameters);
+        },
+        256);
+    for (std::size_t i = 0; i < some.size(); ++i) put_structure(parameters, some[i], structures[i], Structure_tags());
+  }
+}
+
+/// Fills the maps `v:NAME` of a surface mesh with all that is known of its vertices.
+template <class ConcurrencyTag, class Mesh, class Point_of, class Traits, class Parameters>
+void annotate_surface_mesh(Mesh& mesh, const Point_of& point_of, const Traits& traits, const Parameters& parameters) {
+  using Vertex_index = typename Mesh::Vertex_index;
+  Property_maps<Mesh> maps(mesh);
+  parallel_for<ConcurrencyTag>(
+      0, mesh.num_vertices() + mesh.number_of_removed_vertices(),
+      [&](std::size_t i) {
+        const Vertex_index v{static_cast<typename Vertex_index::size_type>(i)};
+        if (!mesh.is_removed(v)) maps.set(v, structure_at(traits, point_of(v), maps.status(v), parameters));
+      },
+      256);
+}
+
+} // namespace equiaffine::internal
+
+#endif

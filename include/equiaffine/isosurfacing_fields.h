@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Functions as fields of CGAL's package Isosurfacing_3 (CGAL 6.1 and later), and its fields on a grid as volumes. No
+// header of that package is needed here.
+#ifndef EQUIAFFINE_ISOSURFACING_FIELDS_H
+#define EQUIAFFINE_ISOSURFACING_FIELDS_H
+
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/Volume_3.h>
+#include <equiaffine/capabilities.h>
+#include <equiaffine/concepts.h>
+
+#include <CGAL/Kernel_traits.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/number_utils.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace equiaffine {
+
+/// The values of f at points of any kernel: the function of a CGAL::Isosurfacing::Value_function_3.
+template <ImplicitFunctionTraits_3 Traits>
+class Value_of_function_3 {
+public:
+  explicit Value_of_function_3(Traits traits) : traits_(std::move(traits)) {}
+
+  template <class Point_3>
+  double operator()(const Point_3& p) const {
+    return CGAL::to_double(traits_.value({CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())}));
+  }
+
+private:
+  Traits traits_;
+};
+
+/// The gradient of f, divided by its length: the function of a CGAL::Isosurfacing::Gradient_function_3. It is zero where f
+/// has none.
+template <ImplicitFunctionTraits_3 Traits>
+class Gradient_of_function_3 {
+public:
+  explicit Gradient_of_function_3(Traits traits) : traits_(std::move(traits)) {}
+
+  template <class Point_3>
+  auto operator()(const Point_3& p) const {
+    using Vector_3 = typename CGAL::Kernel_traits<Point_3>::Kernel::Vector_3;
+    const auto jet = first_order(traits_, {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())});
+    const auto& c = jet.coefficients();
+    const double x = CGAL::to_double(c[1]), y = CGAL::to_double(c[2]), z = CGAL::to_double(c[3]);
+    const double length = std::hypot(x, y, z);
+    return std::isnormal(length) ? Vector_3(x / length, y / length, z / length) : Vector_3(0, 0, 0);
+  }
+
+private:
+  Traits traits_;
+};
+
+/// A model of CGAL's IsosurfacingEdgeIntersectionOracle_3 that puts vertices on the surface, as marching_cubes() does,
+/// where CGAL's interpolate linearly or halve an interval.
+template <ImplicitFunctionTraits_3 Traits>
+class Edge_intersection_of_function_3 {
+public:
+  explicit Edge_intersection_of_function_3(Traits traits) : traits_(std::move(traits)) {}
+
+  template <class Point_3, class FT, class Domain>
+  bool operator()(const Point_3& p0, const Point_3& p1, const FT& value0, const FT& value1, const Domain&,
+                  const FT& isovalue, Point_3& p) const {
+    if ((value0 <= isovalue) == (value1 <= isovalue)) return false;
+    const auto point = [](const Point_3& q) {
+      return typename Traits::Point_3(CGAL::to_double(q.x()), CGAL::to_double(q.y()), CGAL::to_double(q.z()));
+    };
+    const Level_set_traits_3<Traits> level_set(traits_, isovalue);
+    const auto zero = intersect_segment(level_set, point(p0), point(p1), value0 - isovalue, value1 - isovalue);
+    p = Point_3(zero.point.x(), zero.point.y(), zero.point.z());
+    return true;
+  }
+
+private:
+  Traits traits_;
+};
+
+/// The values of a field of CGAL's Isosurfacing_3 at the nodes of its CGAL::Isosurfacing::Cartesian_grid_3. A
+/// Sampled_function_traits_3 of this volume is a function with derivatives.
+template <class Field, class Grid>
+Volume_3<CGAL::Simple_cartesian<double>> sampled_field(const Field& field, const Grid& grid) {
+  using Kernel = CGAL::Simple_cartesian<double>;
+  const auto &first = grid.span().min(), &step = grid.spacing();
+  const double dx = CGAL::to_double(step.x()), dy = CGAL::to_double(step.y()), dz = CGAL::to_double(step.z());
+  const Kernel::Point_3 origin(CGAL::to_double(first.x()), CGAL::to_double(first.y()), CGAL::to_double(first.z()));
+  const Lattice_3<Kernel> lattice({grid.xdim(), grid.ydim(), grid.zdim()}, origin,
+                                  {Kernel::Vector_3(dx, 0, 0), Kernel::Vector_3(0, dy, 0), Kernel::Vector_3(0, 0, dz)});
+  Volume_3<Kernel> volume{lattice, {}};
+  volume.values.reserve(lattice.number_of_nodes());
+  for (std::size_t k = 0; k < grid.zdim(); ++k)
+    for (std::size_t j = 0; j < grid.ydim(); ++j)
+      for (std::size_t i = 0; i < grid.xdim(); ++i) {
+        if constexpr (requires { field(i, j, k); }) volume.values.push_back(CGAL::to_double(field(i, j, k)));
+        else volume.values.push_back(CGAL::to_double(field(grid.point(i, j, k))));
+      }
+  return volume;
+}
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_MARCHING_CUBES_OF_H
+#define EQUIAFFINE_MARCHING_CUBES_INTERNAL_MARCHING_CUBES_OF_H
+
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/capabilities.h>
+#include <equiaffine/concepts.h>
+#include <equiaffine/marching_cubes/Vertex_position.h>
+#include <equiaffine/marching_cubes/internal/grid/lattice_function.h>
+#include <equiaffine/marching_cubes/internal/lattice_isosurface.h>
+#include <equiaffine/surface/Isosurface_3.h>
+
+#include <array>
+#include <cstddef>
+
+namespace equiaffine::internal {
+
+template <class Parameters, class... OtherTags>
+constexpr void check_marching_cubes_parameters() {
+  check_parameters<Parameters, Number_of_nodes_tag, Vertex_position_tag, Skip_empty_space_tag, Geom_traits_tag,
+                   Verbose_tag, OtherTags...>();
+}
+
+/// The function marching_cubes() with all its named parameters in one chain, which may have others.
+template <class ConcurrencyTag, class Traits, class Parameters>
+Isosurface_3<Kernel_of<Traits>> marching_cubes_of(const Traits& traits, const Parameters& parameters) {
+  constexpr std::array<std::size_t, 3> default_number_of_nodes = {64, 64, 64};
+  constexpr bool skips_empty_space = has_parameter<Skip_empty_space_tag, Parameters>;
+  const auto position = get_parameter<Vertex_position_tag>(parameters, Vertex_position::PROJECTED);
+  const auto lattice = [&] {
+    if constexpr (LatticeImplicitFunctionTraits_3<Traits>) return traits.lattice();
+    else return sampling_lattice(traits, get_parameter<Number_of_nodes_tag>(parameters, default_number_of_nodes));
+  }();
+  return isosurface_on_lattice<ConcurrencyTag, skips_empty_space>(Lattice_function(traits, lattice), position);
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SURFACE_INTERNAL_SHARED_COPY_TO_GRAPH_H
+#define EQUIAFFINE_SURFACE_INTERNAL_SHARED_COPY_TO_GRAPH_H
+
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/geometry/Point_status.h>
+#include <equiaffine/surface/Isosurface_3.h>
+#include <equiaffine/surface/internal/shared/indexed_polygons.h>
+#include <equiaffine/surface/internal/shared/points_of_range.h>
+#include <equiaffine/surface/internal/shared/surface_mesh_of.h>
+
+#include <CGAL/boost/graph/copy_face_graph.h>
+#include <CGAL/property_map.h>
+
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+template <class Kernel, class Graph, class Parameters>
+void copy_to_graph(const Isosurface_3<Kernel>& surface, Graph& graph, const Parameters& parameters) {
+  using Target_vertex = typename boost::graph_traits<Graph>::vertex_descriptor;
+  const auto mesh = surface_mesh_of(surface);
+  using Vertex = typename boost::graph_traits<decltype(surface_mesh_of(surface))>::vertex_descriptor;
+  const auto point_map = vertex_points(graph, parameters);
+  check_coordinates<typename boost::property_traits<std::decay_t<decltype(point_map)>>::value_type>();
+  std::vector<std::pair<Vertex, Target_vertex>> copies;
+  CGAL::copy_face_graph(mesh, graph, CGAL::parameters::vertex_to_vertex_output_iterator(std::back_inserter(copies)),
+                        CGAL::parameters::vertex_point_map(point_map));
+  if constexpr (has_parameter<Vertex_status_tag, Parameters>) {
+    const auto status = mesh.template property_map<Vertex, Point_status>("v:status").first;
+    for (const auto& [from, to] : copies) put(given_parameter<Vertex_status_tag>(parameters), to, status[from]);
+  }
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// annotate(), annotate_by_fit() and the samplers with the meshes, maps and named parameters of CGAL.
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/analytic_functions.h>
+#include <equiaffine/annotate.h>
+#include <equiaffine/annotate_by_fit.h>
+#include <equiaffine/marching_cubes.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Linear_cell_complex_for_combinatorial_map.h>
+#include <CGAL/Point_set_3.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/boost/graph/graph_traits_Linear_cell_complex_for_combinatorial_map.h>
+#include <CGAL/boost/graph/helpers.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Other_kernel = CGAL::Exact_predicates_inexact_constructions_kernel; // of the meshes
+using Point = Other_kernel::Point_3;
+using Vector = Other_kernel::Vector_3;
+using Surface_mesh = CGAL::Surface_mesh<Point>;
+using Linear_cell_complex =
+    CGAL::Linear_cell_complex_for_bgl_combinatorial_map_helper<2, 3,
+                                                               CGAL::Linear_cell_complex_traits<3, Other_kernel>>::type;
+template <class Graph>
+using Vertex_of = typename boost::graph_traits<Graph>::vertex_descriptor;
+template <class Graph, class Value>
+using Values = std::map<Vertex_of<Graph>, Value>;
+
+auto ellipsoid(double unit = 1) {
+  const auto f = [unit](const auto& x, const auto& y, const auto& z) {
+    return x * x + 2 * y * y + 3 * z * z - unit * unit;
+  };
+  const double r = 1.3 * unit;
+  return make_analytic_traits<Kernel>(f, CGAL::Bbox_3(-r, -r, -r, r, r, r));
+}
+
+/// Adds quads over a grid of the plane, and a row of pentagons and triangles, to a mesh: z = height(x, y).
+template <class Graph, class Height>
+void add_height_field(Graph& graph, std::size_t n, double unit, const Height& height) {
+  std::vector<Vertex_of<Graph>> v;
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t i = 0; i < n; ++i) {
+      const double x = double(i) / double(n - 1) - 0.5, y = double(j) / double(n - 1) - 0.5;
+      v.push_back(add_vertex(graph));
+      put(CGAL::vertex_point, graph, v.back(), Point(unit * x, unit * y, unit * height(x, y)));
+    }
+  for (std::size_t j = 0; j + 1 < n; ++j)
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      const std::size_t k = j * n + i;
+      if (j > 0 || i + 2 == n) {
+        CGAL::Euler::add_face(std::array{v[k], v[k + 1], v[k + n + 1], v[k + n]}, graph);
+      } else if (i % 2 == 0) {
+        CGAL::Euler::add_face(std::array{v[k], v[k + 1], v[k + 2], v[k + n + 2], v[k + n + 1]}, graph);
+        CGAL::Euler::add_face(std::array{v[k], v[k + n + 1], v[k + n]}, graph);
+      }
+    }
+}
+
+template <class Graph>
+class Annotate_graph : public testing::Test {};
+using Graphs = testing::Types<Surface_mesh, CGAL::Polyhedron_3<Other_kernel>, Linear_cell_complex>;
+TYPED_TEST_SUITE(Annotate_graph, Graphs);
+
+TYPED_TEST(Annotate_graph, maps_that_are_given_hold_the_structure_at_any_scale) {
+  for (const double unit : {1e-6, 1., 1e6}) {
+    const auto traits = ellipsoid(unit);
+    TypeParam graph;
+    std::vector<Point> points;
+    std::vector<std::array<std::size_t, 3>> triangles;
+    marching_cubes(traits, 0., points, triangles, parameters::number_of_nodes(8));
+    marching_cubes(traits, graph, parameters::number_of_nodes(8));
+    ASSERT_EQ(num_vertices(graph), points.size());
+    ASSERT_EQ(num_faces(graph), triangles.size());
+    ASSERT_TRUE(CGAL::is_closed(graph));
+    Values<TypeParam, double> H, K, mean;
+    Values<TypeParam, Vector> normals;
+    Values<TypeParam, std::array<double, 6>> metric;
+    Values<TypeParam, Point_status> status;
+    annotate(graph, traits, CGAL::parameters::geom_traits(Other_kernel()),
+             parameters::vertex_affine_mean_curvature_map(boost::make_assoc_property_map(H))
+                 .vertex_affine_Gaussian_curvature_map(boost::make_assoc_property_map(K))
+                 .vertex_mean_curvature_map(boost::make_assoc_property_map(mean))
+                 .vertex_affine_normal_map(boost::make_assoc_property_map(normals))
+                 .vertex_affine_metric_map(boost::make_assoc_property_map(metric))
+                 .vertex_status_map(boost::make_assoc_property_map(status)));
+    // The affine curvatures of an ellipsoid are those of a sphere with the same volume.
+    const double volume = std::pow(unit, 3) / std::sqrt(6);
+    for (const auto v : vertices(graph)) {
+      const auto p = get(CGAL::vertex_point, graph, v);
+      const auto s = local_structure_at(traits, Kernel::Point_3(p.x(), p.y(), p.z()));
+      ASSERT_EQ(status.at(v), Point_status::REGULAR);
+      EXPECT_NEAR(K.at(v) * volume, 1, 1e-9);
+      EXPECT_NEAR(H.at(v) * std::sqrt(volume), -1, 1e-9);
+      EXPECT_EQ(mean.at(v), -s.euclidean.mean_curvature);
+      EXPECT_EQ(normals.at(v).y(), s.affine.normal[1]);
+      EXPECT_EQ(metric.at(v), s.affine.metric);
+      EXPECT_EQ(annotate(v, graph, traits).affine.mean_curvature, H.at(v));
+    }
+  }
+}
+
+TYPED_TEST(Annotate_graph, fits_to_quads_and_other_polygons_are_right_within_their_errors_at_any_scale) {
+  for (const double unit : {1e-6, 1., 1e6}) {
+    TypeParam graph;
+    const auto height = [](double x, double y) { return 0.5 * x * x + y * y + 0.2 * x * x * y; };
+    add_height_field(graph, 20, unit, height);
+    Values<TypeParam, double> mean, error;
+    annotate_by_fit(graph, CGAL::parameters::verbose(false),
+                    parameters::vertex_mean_curvature_map(boost::make_assoc_property_map(mean))
+                        .vertex_mean_curvature_error_map(boost::make_assoc_property_map(error)));
+    std::size_t right = 0, all = 0;
+    for (const auto v : vertices(graph)) {
+      const auto p = get(CGAL::vertex_point, graph, v);
+      const double x = p.x() / unit, y = p.y() / unit, fx = x + 0.4 * x * y, fy = 2 * y + 0.2 * x * x,
+                   fxx = 1 + 0.4 * y, fxy = 0.4 * x, fyy = 2, g = 1 + fx * fx + fy * fy;
+      const double exact = ((1 + fy * fy) * fxx - 2 * fx * fy * fxy + (1 + fx * fx) * fyy) / (2 * std::pow(g, 1.5));
+      // Faces are counterclockwise from above, where this graph is hollow: negative with the sign of CGAL.
+      right += std::abs(mean.at(v) * unit + exact) <= error.at(v) * unit + 1e-9;
+      ++all;
+      if (std::max(std::abs(x), std::abs(y)) < 0.4) EXPECT_LT(error.at(v) * unit, 0.01) << p;
+    }
+    EXPECT_GE(double(right), 0.9 * double(all));
+  }
+}
+
+TEST(Annotate_maps, curvatures_of_a_sphere_are_positive_as_in_CGAL) {
+  const auto sphere = make_analytic_traits<Kernel>(analytic_functions::Sphere{0.5}, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  Surface_mesh mesh;
+  marching_cubes(sphere, mesh, parameters::number_of_nodes(10));
+  using Vertex = Surface_mesh::Vertex_index;
+  struct Principal {
+    double min_curvature, max_curvature;
+    Vector min_direction, max_direction;
+  };
+  const auto mean = mesh.add_property_map<Vertex, double>("mean").first;
+  const auto gaussian = mesh.add_property_map<Vertex, float>("gaussian").first;
+  const auto principal = mesh.add_property_map<Vertex, Principal>("principal").first;
+  annotate<CGAL::Parallel_if_available_tag>(mesh, sphere,
+                                            parameters::vertex_mean_curvature_map(mean)
+                                                .vertex_Gaussian_curvature_map(gaussian)
+                                                .vertex_principal_curvatures_and_directions_map(principal));
+  ASSERT_GT(mesh.number_of_vertices(), 50U);
+  for (const Vertex v : mesh.vertices()) {
+    EXPECT_NEAR(mean[v], 2, 1e-12);
+    EXPECT_NEAR(gaussian[v], 4, 1e-6);
+    EXPECT_NEAR(principal[v].min_curvature, 2, 1e-12);
+    EXPECT_NEAR(principal[v].max_direction.squared_length(), 1, 1e-12);
+    EXPECT_LE(principal[v].min_curvature, principal[v].max_curvature);
+  }
+  EXPECT_FALSE((mesh.property_map<Vertex, double>("v:k1").second)) << "only what is asked for";
+}
+
+TEST(Annotate_maps, a_vertex_that_did_not_converge_keeps_its_status) {
+  const auto traits = ellipsoid();
+  Surface_mesh mesh;
+  Values<Surface_mesh, Point_status> status;
+  const auto map = boost::make_assoc_property_map(status);
+  const auto facts = marching_cubes(traits, mesh, parameters::number_of_nodes(8).vertex_status_map(map));
+  EXPECT_EQ(facts.vertex_status.size(), mesh.number_of_vertices());
+  EXPECT_TRUE(facts.points.empty());
+  const Surface_mesh::Vertex_index v(3);
+  status[v] = Point_status::UNCONVERGED;
+  annotate(mesh, traits, parameters::vertex_status_map(map));
+  EXPECT_EQ(status[v], Point_status::UNCONVERGED);
+  EXPECT_EQ(status[Surface_mesh::Vertex_index(4)], Point_status::REGULAR);
+}
+
+TEST(Annotate_maps, the_last_of_equal_names_counts_in_chains_of_both_libraries) {
+  const auto traits = ellipsoid();
+  Surface_mesh mesh;
+  marching_cubes(traits, mesh, parameters::number_of_nodes(6));
+  using Vertex = Surface_mesh::Vertex_index;
+  const auto twice = mesh.add_property_map<Vertex, Point>("twice").first;
+  for (const Vertex v : mesh.vertices()) twice[v] = CGAL::ORIGIN + 2 * (mesh.point(v) - CGAL::ORIGIN);
+  const auto K = mesh.add_property_map<Vertex, double>("K").first;
+  const auto at = [&](const auto&... parameters) {
+    annotate(mesh, traits, parameters...);
+    return K[Vertex(0)];
+  };
+  const auto ours = parameters::vertex_affine_Gaussian_curvature_map(K);
+  const double own = at(ours);
+  const double of_twice = at(CGAL::parameters::vertex_point_map(twice), ours);
+  EXPECT_NEAR(of_twice, own / 8, 1e-9 * own);
+  EXPECT_EQ(at(ours, CGAL::parameters::vertex_point_map(twice)), of_twice);
+  EXPECT_EQ(at(ours.vertex_point_map(twice)), of_twice);
+  EXPECT_EQ(at(CGAL::parameters::vertex_point_map(twice), ours.vertex_point_map(mesh.points())), own);
+}
+
+TEST(Annotate_maps, a_range_of_points_has_maps_from_its_elements) {
+  const auto traits = ellipsoid();
+  CGAL::Point_set_3<Point> points;
+  points.insert(Point(1, 0, 0));
+  points.insert(Point(0, std::sqrt(0.5), 0));
+  const auto conormals = points.add_property_map<Vector>("conormal").first;
+  annotate(points, traits, parameters::vertex_conormal_map(conormals));
+  EXPECT_GT(conormals[0].x(), 0);
+  EXPECT_GT(conormals[1].y(), 0);
+  EXPECT_NEAR(conormals[1].x(), 0, 1e-15);
+  std::map<Point, double> K;
+  annotate(std::vector<Point>{{1, 0, 0}}, traits,
+           parameters::vertex_affine_Gaussian_curvature_map(boost::make_assoc_property_map(K)));
+  EXPECT_NEAR(K.at(Point(1, 0, 0)), std::sqrt(6.), 1e-9);
+}
+
+TEST(Annotate_maps, fits_to_a_point_set_take_its_points_and_the_normals_that_CGAL_calls_normal_map) {
+  const auto traits = ellipsoid();
+  const auto surface = marching_cubes(traits, parameters::number_of_nodes(16));
+  CGAL::Point_set_3<Point> points;
+  points.add_normal_map();
+  for (const auto& p : surface.points) {
+    const auto n = local_structure_at(traits, p).euclidean.normal;
+    points.insert(Point(p.x(), p.y(), p.z()), Vector(-n[0], -n[1], -n[2]));
+  }
+  const auto H = points.add_property_map<double>("H").first;
+  const auto error = points.add_property_map<double>("error").first;
+  const auto ours = parameters::vertex_affine_mean_curvature_map(H).vertex_affine_mean_curvature_error_map(error);
+  annotate_by_fit<CGAL::Parallel_if_available_tag>(points, ours, CGAL::parameters::normal_map(points.normal_map()));
+  std::size_t positive = 0;
+  for (const auto& i : points) positive += H[i] > 0;
+  EXPECT_EQ(positive, points.size()) << "normals point inside";
+}
+
+TEST(Annotate_maps, a_fit_at_one_vertex_is_that_of_all_within_the_errors) {
+  const auto traits = ellipsoid();
+  Surface_mesh mesh;
+  marching_cubes(traits, mesh, parameters::number_of_nodes(16));
+  using Vertex = Surface_mesh::Vertex_index;
+  std::map<Vertex, Fitted_structure_3<double>> all;
+  annotate_by_fit(mesh, boost::make_assoc_property_map(all));
+  for (const Vertex v : {Vertex(0), Vertex(50), Vertex(200)}) {
+    const auto one = annotate_by_fit(v, mesh), other = all.at(v);
+    EXPECT_NEAR(one.structure.affine.mean_curvature, other.structure.affine.mean_curvature,
+                one.error.mean_curvature + other.error.mean_curvature);
+  }
+}
+
+TEST(Annotate_maps, a_ball_radius_is_a_scale_and_minus_one_asks_for_the_own_curvature) {
+  Surface_mesh mesh;
+  add_height_field(mesh, 16, 1, [](double x, double y) { return 0.5 * x * x + y * y; });
+  const auto at = [&](const auto& parameters) {
+    return fitted_structures(mesh, parameters)[100].structure.euclidean.mean_curvature;
+  };
+  EXPECT_EQ(at(parameters::ball_radius(0.3)), at(parameters::scale(0.3)));
+  EXPECT_EQ(at(parameters::ball_radius(-1)), at(parameters::default_values()));
+}
+
+TEST(Samplers, write_into_the_containers_of_the_caller_behind_what_is_there) {
+  const auto traits = ellipsoid();
+  const auto surface = marching_cubes(traits, parameters::number_of_nodes(9));
+  std::vector<Point> points = {{7, 7, 7}};
+  std::vector<std::vector<std::size_t>> triangles = {{0, 0, 0}};
+  const auto facts =
+      marching_cubes(traits, 0., points, triangles, CGAL::parameters::verbose(true), parameters::number_of_nodes(9));
+  ASSERT_EQ(points.size(), surface.points.size() + 1);
+  ASSERT_EQ(triangles.size(), surface.triangles.size() + 1);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(triangles[t + 1][k], surface.triangles[t][k] + 1);
+  EXPECT_EQ(points[5].x(), surface.points[4].x());
+  EXPECT_EQ(facts.vertex_status, surface.vertex_status);
+  EXPECT_EQ(facts.repairs.contracted_edges, surface.repairs.contracted_edges);
+}
+
+TEST(Samplers, the_isovalue_is_a_level_of_the_function) {
+  const auto traits = ellipsoid();
+  std::vector<Point> points;
+  std::vector<std::array<int, 3>> triangles;
+  marching_cubes(traits, 0.3, points, triangles, parameters::number_of_nodes(9));
+  ASSERT_FALSE(points.empty());
+  for (const Point& p : points) EXPECT_NEAR(traits.value(Kernel::Point_3(p.x(), p.y(), p.z())), 0.3, 1e-12);
+}
+
+} // namespace

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Programs with one mistake each, chosen by the macro CASE; wrong_programs.py compiles them. The comment of a case has
+// words of the first error that the compiler is to print.
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/analytic_functions.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+
+#if CASE == 3
+#include <equiaffine/annotate_by_fit.h>
+#elif CASE == 7 || CASE == 9 || CASE == 10
+#include <equiaffine/marching_cubes.h>
+#else
+#include <equiaffine/annotate.h>
+#endif
+#if CASE == 1
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#elif CASE == 2 || CASE == 3
+#include <CGAL/Polyhedron_3.h>
+#endif
+
+using namespace equiaffine;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+struct No_taylor {
+  using FT = double;
+  using Point_3 = Kernel::Point_3;
+  using Vector_3 = Kernel::Vector_3;
+  FT value(const Point_3& p) const { return p.x(); }
+  CGAL::Bbox_3 bbox() const { return {}; }
+};
+
+void use([[maybe_unused]] Mesh& mesh, const CGAL::Bbox_3& box) {
+  [[maybe_unused]] const auto sphere = make_analytic_traits<Kernel>(analytic_functions::Sphere{0.5}, box);
+#if CASE == 1 // the points have coordinates that are not doubles, as those of Epeck
+  CGAL::Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel::Point_3> exact;
+  annotate(exact, sphere);
+#elif CASE == 2  // annotate() has nothing to write to: give it property maps
+  CGAL::Polyhedron_3<Kernel> polyhedron;
+  annotate(polyhedron, sphere);
+#elif CASE == 3  // annotate_by_fit() has nothing to write to: give it property maps
+  CGAL::Polyhedron_3<Kernel> polyhedron;
+  annotate_by_fit(polyhedron, parameters::scale(0.1));
+#elif CASE == 4  // this function does not know one of the named parameters that it is given
+  annotate(mesh, sphere, parameters::scale(0.1));
+#elif CASE == 5  // equiaffine does not know one of the named parameters of CGAL that it is given
+  annotate(mesh, sphere, CGAL::parameters::face_index_map(1));
+#elif CASE == 6  // an argument is no named parameter: write parameters::NAME(value)
+  annotate(mesh, sphere, 0.1);
+#elif CASE == 7  // since it has no types FT, Point_3 and Vector_3: make_analytic_traits() makes one of f(x, y, z)
+  marching_cubes([](double x, double y, double z) { return x + y + z; });
+#elif CASE == 8  // since it has no member taylor(p) const that returns a Jet_3<FT>
+  annotate(mesh, No_taylor());
+#elif CASE == 9  // the function takes no jets: write it as a template of the type of its arguments
+  marching_cubes(make_analytic_traits<Kernel>([](double x, double y, double z) { return x + y + z; }, box));
+#elif CASE == 10 // this function does not know one of the named parameters that it is given
+  marching_cubes(sphere, parameters::estimator(Estimator::COMPACT));
+#endif
+}
