@@ -14,7 +14,8 @@ BEGINNING = """# Headers
 These headers are the interface of the library: documented, tested, and changed with a line in the
 [changelog](../CHANGELOG.md). What is in a folder `internal` may change at any time.
 
-A program includes `<equiaffine/NAME.h>` for what it calls, and the header brings the types of arguments and results.
+What people begin with is directly in the folder; the others have types of its arguments and results, and functions for
+special purposes. A header brings the types that it needs.
 This list is made of the first sentence of each header; the rest of its documentation stands there.
 """
 

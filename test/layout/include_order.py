@@ -9,12 +9,15 @@ import pathlib
 import re
 import sys
 
-from rooms import read_lookers, read_porch, read_rooms
+from rooms import read_lookers, read_porch, read_rooms, read_sections
 
 LIBRARY = "include/equiaffine"
-INCLUDE = re.compile(r'^ *# *include +(?:[<"]equiaffine/([^>"]+)[>"]|"([^"]+)")', re.MULTILINE)
+INCLUDE = re.compile(r'^ *# *include *(?:[<"]equiaffine/([^>"]+)[>"]|"([^"]+)")', re.MULTILINE)
 EXPORT = re.compile(r"^#include <equiaffine/([^>]+)> *// IWYU pragma: export", re.MULTILINE)
 NAME = re.compile(r"(?<!testing::)\binternal::(\w+)")
+OPENED = re.compile(r"\busing namespace (?:equiaffine::)?internal\b|\bnamespace \w+ = (?:equiaffine::)?internal\b|"
+                    r"^namespace equiaffine::internal\b", re.MULTILINE)
+PLACE = re.compile(r"[^/]+\.h|[^/]+/[^/]+\.h|[^/]+/internal/(?:[^/]+/)?[^/]+\.h")
 
 
 def room_of(path, porch={}):
@@ -68,15 +71,16 @@ def faults_of_uses(folder, rooms, texts, quoted, porch={}):
             for name, room in rooms.items() for other in room.uses if (name, other) not in used]
 
 
-def only_forwards(text):
-    """Whether a header has one include line and nothing else, so that another header has two paths."""
-    lines = [line for line in text.splitlines() if line and not line.startswith("//")]
-    return len(lines) - sum(line.startswith(("#ifndef", "#define", "#endif")) for line in lines) == 1 and \
-        bool(INCLUDE.search(text))
+def only_forwards(path, text):
+    """Whether a header has include lines and nothing else, so that others have two paths: it may put together what is
+    its room's own."""
+    rest = re.sub(r"/\*.*?\*/|//[^\n]*|^ *#.*?$|namespace [\w:]* *\{\s*\}", "", text, flags=re.MULTILINE | re.DOTALL)
+    included = [library for library, _ in INCLUDE.findall(text) if library]
+    return bool(included) and not rest.strip() and not all(is_own(each) for each in included)
 
 
 def faults_of_library_file(rooms, porch, path, text):
-    if only_forwards(text):
+    if only_forwards(path, text):
         yield f"{path} only forwards: a header has one path"
     if is_for_users(path) and re.search(r"^namespace (equiaffine::)?internal\b", text, re.MULTILINE):
         yield f"{path} is for users, who see no namespace internal"
@@ -108,10 +112,32 @@ def faults_of_circles(texts):
 
 
 def faults_of_example(path, text):
-    """An example shows what users may include."""
+    """An example shows what users may include and name."""
     for library, _ in INCLUDE.findall(text):
         if library and not is_for_users(library):
             yield f"{path} includes {library}: that header is internal"
+    for name in NAME.findall(text):
+        yield f"{path} uses internal::{name}: that name is internal"
+
+
+def faults_of_places(root, porch_lines, library):
+    """Files where no header belongs, headers on the porch that two rooms have, and shared ones that nobody else uses."""
+    for path in sorted((root / LIBRARY).rglob("*")):
+        name = path.relative_to(root / LIBRARY).as_posix()
+        if path.is_file() and not PLACE.fullmatch(name):
+            yield f"{name}: a header is X.h, ROOM/X.h, ROOM/internal/X.h or ROOM/internal/PART/X.h"
+    names = [name for line in porch_lines for name in line.split()]
+    for name in sorted({name for name in names if names.count(name) > 1}):
+        yield f"cmake/rooms.txt: {name}.h belongs to two rooms"
+    used = set()
+    for folder in (LIBRARY, "src", "mesher", "test", "benchmark", "reproduce"):
+        for path, text in read_files(root / folder).items():
+            for included, _ in INCLUDE.findall(text):
+                if included and not (folder == LIBRARY and is_own(path) and room_of(path) == room_of(included)):
+                    used.add(included)
+    for path in library:
+        if "/internal/shared/" in path and path not in used:
+            yield f"{path} is shared with nobody"
 
 
 def rooms_that_define(name, library):
@@ -131,6 +157,11 @@ def is_home(path, room):
 
 def faults_of_looker(path, text, lookers, rooms_of_name):
     """What a file outside of the library looks at inside of a room that is not its own."""
+    if OPENED.search(text) and not path.startswith("mesher/"):
+        yield f"{path} opens the namespace internal: write internal::NAME"
+    for _, quoted in INCLUDE.findall(text):
+        if "include/equiaffine/" in quoted:
+            yield f'{path} includes "{quoted}": write <equiaffine/...>'
     seen = {f"{a}: that header is its room's own": {room_of(a)} for a, _ in INCLUDE.findall(text) if is_own(a)}
     for name in NAME.findall(text):
         rooms = rooms_of_name(name)
@@ -161,7 +192,11 @@ def find_faults(root):
     rooms = all_rooms[LIBRARY]
     faults = [f"{path}: there is no such room in cmake/rooms.txt"
               for path in library if "/" in path and room_of(path) not in rooms]
+    faults += (f"src/{path}: there is no such room in cmake/rooms.txt"
+               for path in program if "/" in path and room_of(path) not in all_rooms["src"])
     faults += faults_of_porch(porch, rooms, library)
+    faults += faults_of_places(root, read_sections(root).get("porch", {}).values(), library)
+    faults += (f"cmake/rooms.txt: there is no file {path}" for path in lookers if not (root / path).exists())
     if faults:
         return faults
     for folder, files, quoted, doors in ((LIBRARY, library, 0, porch), ("src", program, 1, {})):
@@ -178,7 +213,7 @@ def find_faults(root):
     rooms_of_name = functools.cache(lambda name: rooms_that_define(name, library))
     for path, text in library.items():
         faults += faults_of_names(rooms_of_name, room_of(path, porch), path, text)
-    for folder in ("src", "examples", "reproduce", "test", "benchmark"):
+    for folder in ("src", "mesher", "examples", "reproduce", "test", "benchmark"):
         for path, text in read_files(root / folder).items():
             faults += faults_of_looker(f"{folder}/{path}", text, lookers, rooms_of_name)
     return faults

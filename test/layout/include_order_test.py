@@ -19,7 +19,8 @@ class IncludeOrder(unittest.TestCase):
             "include/equiaffine/low/internal/shared/s.h": "namespace equiaffine::internal {\nclass Shared {};\n}\n",
             "include/equiaffine/low/internal/b.h": "namespace equiaffine::internal {\nclass Hidden {};\n}\n",
             "include/equiaffine/other/c.h": "\n",
-            "include/equiaffine/high/door.h": "#include <equiaffine/low/a.h>\n#include <equiaffine/low/internal/shared/s.h>\n",
+            "include/equiaffine/high/door.h": "#include <equiaffine/low/a.h>\n#include <equiaffine/low/internal/shared/s.h>\n"
+                                              "class Door {};\n",
             "src/main.cpp": '#include "above/task.h"\ninternal::Shared shared;\n',
             "src/below/file.h": "#include <equiaffine/entry.h>\n#include <equiaffine/low/internal/shared/s.h>\n",
             "examples/e.cpp": "#include <equiaffine/entry.h>\n#include <equiaffine/low/a.h>\n",
@@ -68,11 +69,78 @@ class IncludeOrder(unittest.TestCase):
     def test_a_header_of_the_porch_that_is_not_there(self):
         self.assert_fault("there is no gone.h on the porch",
                           cmake__rooms_txt="[include/equiaffine]\nlow: |\nhigh: low |\nother: |\n"
-                                           "[porch]\nhigh: entry gone\n[src]\n")
+                                           "[porch]\nhigh: entry gone\n[src]\nbelow: |\nabove: below |\n")
 
     def test_a_header_that_only_forwards(self):
         self.assert_fault("other/c.h only forwards: a header has one path", include__equiaffine__other__c_h=
                           "// Why.\n#ifndef C_H\n#define C_H\n\n#include <equiaffine/low/a.h>\n\n#endif\n")
+
+    def test_a_header_that_only_forwards_in_other_words(self):
+        for text in ("#pragma once\n#include <equiaffine/low/a.h>\n",
+                     "/* Why. */\n#include <equiaffine/low/a.h>\n",
+                     "#include <equiaffine/low/a.h>\n#include <equiaffine/low/internal/shared/s.h>\n",
+                     "#include <equiaffine/low/a.h> // IWYU pragma: export\n#include <vector>\n",
+                     "#include <equiaffine/low/a.h>\nnamespace equiaffine {\n}\n"):
+            self.assert_fault("high/forward.h only forwards", include__equiaffine__high__forward_h=text)
+
+    def test_a_header_that_puts_together_what_is_its_own(self):
+        self.assertEqual(self.faults(include__equiaffine__low__sum_h="#include <equiaffine/low/internal/b.h>\n"), [])
+
+    def test_a_header_where_none_belongs(self):
+        self.assert_fault("low/part/x.h: a header is X.h, ROOM/X.h", include__equiaffine__low__part__x_h="class X {};\n")
+
+    def test_a_header_of_the_porch_in_two_rooms(self):
+        self.assert_fault("entry.h belongs to two rooms",
+                          cmake__rooms_txt="[include/equiaffine]\nlow: |\nhigh: low |\nother: |\n"
+                                           "[porch]\nlow: entry\nhigh: entry\n[src]\nbelow: |\nabove: below |\n")
+
+    def test_a_room_of_the_porch_that_is_not_there(self):
+        self.assert_fault("there is no room attic",
+                          cmake__rooms_txt="[include/equiaffine]\nlow: |\nhigh: low |\nother: |\n"
+                                           "[porch]\nattic: entry\n[src]\nbelow: |\nabove: below |\n")
+
+    def test_a_shared_header_that_nobody_shares(self):
+        self.assert_fault("low/internal/shared/alone.h is shared with nobody",
+                          include__equiaffine__low__internal__shared__alone_h="class Alone {};\n")
+
+    def test_a_file_that_looks_inside_and_is_not_there(self):
+        self.assert_fault("there is no file reproduce/gone.cpp",
+                          cmake__rooms_txt="[include/equiaffine]\nlow: |\nhigh: low |\nother: |\n[porch]\nhigh: entry\n"
+                                           "[src]\nbelow: |\nabove: below |\n[looks inside]\nreproduce/gone.cpp: low\n")
+
+    def test_a_folder_of_the_program_that_is_no_room(self):
+        self.assert_fault("src/attic/x.cpp: there is no such room", src__attic__x_cpp="\n")
+
+    def test_a_test_that_opens_the_namespace_internal(self):
+        for text in ("using namespace equiaffine::internal;\n", "namespace i = equiaffine::internal;\n",
+                     "namespace equiaffine::internal {\n}\n"):
+            self.assert_fault("test/high/a_test.cpp opens the namespace internal", test__high__a_test_cpp=text)
+
+    def test_a_quoted_path_into_the_library(self):
+        self.assert_fault("write <equiaffine/...>",
+                          test__high__a_test_cpp='#include "../../include/equiaffine/low/internal/b.h"\n')
+
+    def test_the_name_of_a_room_in_the_mesher(self):
+        self.assert_fault("mesher/mesh.cpp uses internal::Hidden", mesher__mesh_cpp="internal::Hidden hidden;\n")
+
+    def test_the_name_of_a_room_in_an_example(self):
+        self.assert_fault("examples/e.cpp uses internal::Shared", examples__e_cpp="internal::Shared shared;\n")
+
+    def test_functions_and_constants_are_names_of_a_room(self):
+        for definition in ("inline int hidden(int x) {\n", "inline constexpr int hidden = 3;\n",
+                           "[[noreturn]] inline void hidden(int x) {\n", "using hidden = int;\n",
+                           "template <class T>\nconcept hidden = true;\n", "enum class hidden { A };\n"):
+            self.assert_fault("src/main.cpp uses internal::hidden", src__main_cpp="internal::hidden(3);\n",
+                              include__equiaffine__low__internal__b_h="namespace equiaffine::internal {\n" + definition)
+
+    def test_the_namespace_internal_of_GoogleTest(self):
+        self.assertEqual(self.faults(test__high__a_test_cpp="testing::internal::Hidden hidden;\n"), [])
+
+    def test_a_benchmark_of_peers_is_at_home(self):
+        self.assertEqual(self.faults(benchmark__peers__low_peers_cpp="internal::Hidden hidden;\n"), [])
+
+    def test_a_use_that_nothing_makes_in_the_program(self):
+        self.assert_fault("no file of src/above uses below", src__above__task_h="#include <equiaffine/low/a.h>\n")
 
     def test_an_example_that_includes_what_is_internal(self):
         self.assert_fault("examples/e.cpp includes low/internal/shared/s.h: that header is internal",
@@ -115,7 +183,7 @@ class IncludeOrder(unittest.TestCase):
     def test_rooms_that_use_each_other(self):
         self.assert_fault("low may use high, which is not above it",
                           cmake__rooms_txt="[include/equiaffine]\nlow: high |\nhigh: low |\nother: |\n"
-                                           "[porch]\nhigh: entry\n[src]\n")
+                                           "[porch]\nhigh: entry\n[src]\nbelow: |\nabove: below |\n")
 
     def test_the_name_of_another_room_in_a_test(self):
         self.assert_fault("test/high/a_test.cpp uses internal::Hidden: that name is its room's own",
