@@ -56,6 +56,6 @@ void use([[maybe_unused]] Mesh& mesh, const CGAL::Bbox_3& box) {
 #elif CASE == 9  // the function takes no jets: write it as a template of the type of its arguments
   marching_cubes(make_analytic_traits<Kernel>([](double x, double y, double z) { return x + y + z; }, box));
 #elif CASE == 10 // this function does not know one of the named parameters that it is given
-  marching_cubes(sphere, parameters::estimator(Estimator::COMPACT));
+  marching_cubes(sphere, parameters::scale(0.1));
 #endif
 }

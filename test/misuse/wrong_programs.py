@@ -8,7 +8,7 @@ import re
 import subprocess
 import sys
 
-CASE = re.compile(r"CASE == (\d+) // (.*)")
+CASE = re.compile(r"CASE == (\d+) +// (.*)")
 
 
 def first_error(case):

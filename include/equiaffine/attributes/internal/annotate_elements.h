@@ -26,12 +26,14 @@ inline constexpr bool is_surface_mesh = false;
 template <class Point>
 inline constexpr bool is_surface_mesh<CGAL::Surface_mesh<Point>> = true;
 
-/// Does not compile for meshes whose points have coordinates that are no floating-point numbers.
 template <class Graph, class Parameters>
-constexpr void check_vertex_points() {
-  using Map = std::decay_t<decltype(vertex_points(std::declval<Graph&>(), std::declval<const Parameters&>()))>;
-  check_coordinates<typename boost::property_traits<Map>::value_type>();
-}
+using Point_of_vertices = typename boost::property_traits<
+    std::decay_t<decltype(vertex_points(std::declval<Graph&>(), std::declval<const Parameters&>()))>>::value_type;
+
+/// Whether the points of a mesh have coordinates that are floating-point numbers.
+template <class Graph, class Parameters>
+inline constexpr bool has_double_coordinates =
+    std::is_floating_point_v<std::decay_t<decltype(std::declval<const Point_of_vertices<Graph, Parameters>&>().x())>>;
 
 /// The structure of the level set at a point of any kernel.
 template <class Traits, class Point, class Parameters>
