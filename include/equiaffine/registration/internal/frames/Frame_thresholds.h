@@ -16,8 +16,8 @@ struct Candidate_limits {
 /// errors of 1e-12, as large as those that maps between formulas have anyway.
 inline constexpr double greatest_condition = 1e4;
 
-/// The thresholds of the search for maps by affine frames. What each is good for was measured by
-/// `benchmark_registration 84 thresholds`, with one of them halved or doubled at a time.
+/// The thresholds of the search for maps by affine frames. `benchmark_registration 84 thresholds` shows what most of them
+/// are good for, with one of them halved or doubled at a time.
 struct Frame_thresholds {
   // The points of the source with the greatest weights are tried first: certainty * min(quality, greatest_quality) *
   // (least_rarity + rarity) * exp(-loss_by_disagreement * disagreement) / (1 + loss_by_condition * condition) * slope.
