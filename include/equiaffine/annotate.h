@@ -50,10 +50,7 @@ void annotate(Graph& graph, const Traits& traits, const Parameters&... given) {
   using Joined = internal::Joined_parameters<Parameters...>;
   internal::check_annotate_parameters<Joined, internal::Vertex_point_tag>();
   const Joined parameters = internal::joined_parameters(given...);
-  static_assert(
-      internal::has_double_coordinates<Graph, Joined>,
-      "the points have coordinates that are not doubles, as those of Epeck: equiaffine works with kernels such "
-      "as Epick and Simple_cartesian<double>; CGAL::copy_face_graph copies a mesh to one of them");
+  static_assert(check_coordinates<internal::Point_of_vertices<Graph, Joined>>());
   const auto point_of = [map = vertex_points(graph, parameters)](const auto& v) { return get(map, v); };
   if constexpr (internal::is_surface_mesh<Graph> && !internal::has_maps<Joined>(internal::Structure_tags()))
     internal::annotate_surface_mesh<ConcurrencyTag>(graph, point_of, traits, parameters);

@@ -71,7 +71,7 @@ def faults_of_uses(folder, rooms, texts, quoted, porch={}):
             for name, room in rooms.items() for other in room.uses if (name, other) not in used]
 
 
-def only_forwards(path, text):
+def only_forwards(text):
     """Whether a header has include lines and nothing else, so that others have two paths: it may put together what is
     its room's own."""
     rest = re.sub(r"/\*.*?\*/|//[^\n]*|^ *#.*?$|namespace [\w:]* *\{\s*\}", "", text, flags=re.MULTILINE | re.DOTALL)
@@ -80,7 +80,7 @@ def only_forwards(path, text):
 
 
 def faults_of_library_file(rooms, porch, path, text):
-    if only_forwards(path, text):
+    if only_forwards(text):
         yield f"{path} only forwards: a header has one path"
     if is_for_users(path) and re.search(r"^namespace (equiaffine::)?internal\b", text, re.MULTILINE):
         yield f"{path} is for users, who see no namespace internal"

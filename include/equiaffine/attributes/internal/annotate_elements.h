@@ -30,11 +30,6 @@ template <class Graph, class Parameters>
 using Point_of_vertices = typename boost::property_traits<
     std::decay_t<decltype(vertex_points(std::declval<Graph&>(), std::declval<const Parameters&>()))>>::value_type;
 
-/// Whether the points of a mesh have coordinates that are floating-point numbers.
-template <class Graph, class Parameters>
-inline constexpr bool has_double_coordinates =
-    std::is_floating_point_v<std::decay_t<decltype(std::declval<const Point_of_vertices<Graph, Parameters>&>().x())>>;
-
 /// The structure of the level set at a point of any kernel.
 template <class Traits, class Point, class Parameters>
 auto structure_at(const Traits& traits, const Point& p, Point_status before,

@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <type_traits>
 
-// What annotate() and annotate_by_fit() put into the property maps that they are given.
+// The values that annotate() and annotate_by_fit() put into the property maps that they are given.
 namespace equiaffine::internal {
 
 template <class FT>

@@ -45,6 +45,11 @@ Chain appended(const Chain& chain, const No_parameters&) {
   return chain;
 }
 
+template <class Value, class Tag, class Base>
+Named_parameters<Value, Tag, Base> appended(const No_parameters&, const Named_parameters<Value, Tag, Base>& given) {
+  return given;
+}
+
 /// The chain followed by parameters of ours, in their order.
 template <class Chain, class Value, class Tag, class Base>
 auto appended(const Chain& chain, const Named_parameters<Value, Tag, Base>& given) {

@@ -45,7 +45,7 @@ struct Frame_thresholds {
   /// may be nearly symmetric, and another map fit better.
   std::size_t more_hypotheses = 60;
 
-  // What a hypothesis has to reach, as logarithms of the chance that it is an accident.
+  // A hypothesis has to reach these logarithms of the chance that it is an accident.
   std::size_t probes_at_first = 150; ///< by which a hypothesis is judged before it is refined
   double greatest_first_tolerance = 0.03;
   double first_log10 = -1.5;  ///< hypotheses that are no better are not refined

@@ -5,16 +5,19 @@
 #include <equiaffine/base/named_parameters.h>
 
 #include <type_traits>
+#include <utility>
 
 namespace equiaffine {
 
-/// Does not compile for points whose coordinates are no floating-point numbers.
+/// Does not compile for points whose coordinates are no floating-point numbers, else returns true, so that a static
+/// assertion can call it before anything else fails.
 template <class Point>
-constexpr void check_coordinates() {
+constexpr bool check_coordinates() {
   static_assert(
       std::is_floating_point_v<std::decay_t<decltype(std::declval<const Point&>().x())>>,
       "the points have coordinates that are not doubles, as those of Epeck: equiaffine works with kernels such "
       "as Epick and Simple_cartesian<double>; CGAL::copy_face_graph copies a mesh to one of them");
+  return true;
 }
 
 /// Something from the elements of a range to their points: the map that is given, or that of the range, as

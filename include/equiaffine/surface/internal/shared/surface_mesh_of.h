@@ -41,7 +41,7 @@ CGAL::Surface_mesh<typename Kernel::Point_3> surface_mesh_of(const Isosurface_3<
   return mesh;
 }
 
-/// What a sampler found beside its mesh.
+/// Returns the facts that a sampler found beside its mesh.
 template <class Surface>
 Surface without_mesh(Surface surface) {
   surface.points.clear();
