@@ -24,7 +24,7 @@ auto traits_of(const char* formula) {
 }
 
 // On the axis the square root has no derivatives.
-auto torus() { return traits_of("z^2+(sqrt(x^2+y^2)-0.5)^2-0.04"); }
+auto implicit_torus() { return traits_of("z^2+(sqrt(x^2+y^2)-0.5)^2-0.04"); }
 
 // More than a block of packs, with some on the axis.
 std::vector<Point_3> points() {
@@ -37,9 +37,9 @@ std::vector<Point_3> points() {
 TEST(Attributes, columns_are_the_same_with_and_without_the_status) {
   const auto p = points();
   Attribute_selection selection = select_attributes("normal,k1,affine_mean_curvature,pick_invariant_gradient");
-  const auto with = compute_attributes(torus(), std::span(p).first(40), selection);
+  const auto with = compute_attributes(implicit_torus(), std::span(p).first(40), selection);
   selection.has_status = false;
-  const auto without = compute_attributes(torus(), std::span(p).first(40), selection);
+  const auto without = compute_attributes(implicit_torus(), std::span(p).first(40), selection);
   ASSERT_TRUE(with.status);
   EXPECT_FALSE(without.status);
   ASSERT_EQ(without.columns.size(), 6u);
@@ -56,7 +56,7 @@ TEST(Attributes, columns_are_the_same_with_and_without_the_status) {
 TEST(Attributes, unconverged_points_stay_unconverged_unless_they_are_outside) {
   const std::vector<Point_3> p = {{0.7, 0.1, 0.1}, {0, 0, 0.5}};
   const std::vector<Point_status> sampled = {Point_status::UNCONVERGED, Point_status::UNCONVERGED};
-  const auto on_torus = compute_attributes(torus(), std::span(p), select_attributes("k1"), sampled);
+  const auto on_torus = compute_attributes(implicit_torus(), std::span(p), select_attributes("k1"), sampled);
   ASSERT_TRUE(on_torus.status);
   EXPECT_EQ(*on_torus.status, sampled);
   EXPECT_TRUE(std::isfinite(on_torus.columns[0].values[0]));
@@ -94,11 +94,11 @@ TEST(Attributes, planar_points_have_no_shape_index) {
 
 TEST(Attributes, the_status_comes_without_columns_and_nothing_where_nothing_was_asked_for) {
   const auto p = points();
-  const auto status = compute_attributes(torus(), p, select_attributes("status"));
+  const auto status = compute_attributes(implicit_torus(), p, select_attributes("status"));
   ASSERT_TRUE(status.status);
   EXPECT_TRUE(status.columns.empty());
   EXPECT_EQ(status.status->at(1), Point_status::REGULAR);
-  const auto nothing = compute_attributes(torus(), p, select_attributes("none"));
+  const auto nothing = compute_attributes(implicit_torus(), p, select_attributes("none"));
   EXPECT_TRUE(nothing.columns.empty() && !nothing.status);
 }
 

@@ -26,19 +26,19 @@ using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point_3 = Kernel::Point_3;
 
-struct Surface {
+struct Named_surface {
   const char *name, *expression;
   double half_side;
   std::size_t components;
   long euler_characteristic;
 };
 
-const std::array<Surface, 4> surfaces = {{{"sphere", "x^2+y^2+z^2-1", 1.3, 1, 2},
+const std::array<Named_surface, 4> surfaces = {{{"sphere", "x^2+y^2+z^2-1", 1.3, 1, 2},
                                           {"torus", "z^2+(sqrt(x^2+y^2)-0.5)^2-0.04", 0.8, 1, 0},
                                           {"blobby", "(3*x)^4+(3*y)^4+(3*z)^4-45*x^2-45*y^2-45*z^2+6", 1.2, 2, 4},
                                           {"tanglecube", "x^4-5*x^2+y^4-5*y^2+z^4-5*z^2+11.8", 3, 1, -8}}};
 
-auto traits_of(const Surface& s) {
+auto traits_of(const Named_surface& s) {
   const double b = s.half_side;
   return make_analytic_traits<Kernel>(Expression_3(s.expression), CGAL::Bbox_3(-b, -b, -b, b, b, b));
 }
@@ -71,7 +71,7 @@ using Samplers = ::testing::Types<Marching_cubes_sampler, Delaunay_sampler>;
 TYPED_TEST_SUITE(Every_sampler, Samplers);
 
 TYPED_TEST(Every_sampler, makes_closed_manifolds_of_closed_surfaces_with_the_right_topology) {
-  for (const Surface& s : surfaces) {
+  for (const Named_surface& s : surfaces) {
     const auto surface = TypeParam::sample(traits_of(s));
     const auto t = mesh_topology(surface.triangles, surface.points.size());
     EXPECT_TRUE(t.is_manifold) << s.name;
@@ -82,7 +82,7 @@ TYPED_TEST(Every_sampler, makes_closed_manifolds_of_closed_surfaces_with_the_rig
 }
 
 TYPED_TEST(Every_sampler, puts_its_vertices_on_the_surface_to_rounding) {
-  for (const Surface& s : surfaces) {
+  for (const Named_surface& s : surfaces) {
     const auto traits = traits_of(s);
     const auto surface = TypeParam::sample(traits);
     for (const Point_3& p : surface.points)
@@ -110,7 +110,7 @@ double scale(double K, double H, double K_e) { return std::abs(K) + H * H + std:
 
 TYPED_TEST(Every_sampler, has_the_curvatures_of_50_digits_at_its_vertices) {
   using Number = boost::multiprecision::cpp_bin_float_50;
-  for (const Surface& s : surfaces) {
+  for (const Named_surface& s : surfaces) {
     const auto traits = traits_of(s);
     const auto surface = TypeParam::sample(traits);
     std::size_t compared = 0;
@@ -135,7 +135,7 @@ TYPED_TEST(Every_sampler, has_the_curvatures_of_50_digits_at_its_vertices) {
 TYPED_TEST(Every_sampler, has_the_invariants_of_the_surface_by_their_weights_at_the_vertices_of_an_image) {
   const double determinant = -0.9;
   const Kernel::Aff_transformation_3 map(0.9, 0, 0.9, 0, 2, 0, 1.1, 0, 0.6), inverse = map.inverse();
-  for (const Surface& s : {surfaces[1], surfaces[2]}) {
+  for (const Named_surface& s : {surfaces[1], surfaces[2]}) {
     const auto traits = traits_of(s);
     const Transformed_function_traits_3 image(traits, map);
     const auto surface = TypeParam::sample(image);

@@ -133,7 +133,7 @@ struct Symmetric_shape {
   }
 };
 
-struct Ellipsoid {
+struct Ellipsoid_function {
   auto operator()(const auto& x, const auto& y, const auto& z) const {
     return x * x + y * y / 0.64 + z * z / 0.36 - 1.0;
   }
@@ -148,7 +148,7 @@ TEST(Fitted_structures, a_scale_that_holds_a_shape_as_a_whole_or_too_few_points_
 }
 
 TEST(Fitted_structures, estimates_cover_the_errors_of_a_small_mesh) {
-  const auto shape = make_analytic_traits<Fit_kernel>(Ellipsoid(), CGAL::Bbox_3(-1.1, -1.1, -1.1, 1.1, 1.1, 1.1));
+  const auto shape = make_analytic_traits<Fit_kernel>(Ellipsoid_function(), CGAL::Bbox_3(-1.1, -1.1, -1.1, 1.1, 1.1, 1.1));
   const Fit_mesh exact = to_surface_mesh(marching_cubes(shape, parameters::number_of_nodes(12)));
   for (const double noise : {0., 0.01}) {
     Fit_mesh mesh = exact;

@@ -43,14 +43,14 @@ void expect_group_of_corners(const Solid& solid, const Affine_symmetries_3<Kerne
     for (const Point_3& p : solid.points) ASSERT_TRUE(is_corner(symmetry.map(p))) << name;
 }
 
-struct Expected {
+struct Solid_with_symmetries {
   std::string name;
   Solid solid;
   std::size_t rigid;                 ///< the number of symmetries
   std::optional<std::size_t> affine; ///< of an affine image, if they are to be tried
 };
 
-std::vector<Expected> solids() {
+std::vector<Solid_with_symmetries> solids() {
   return {{"box", box(1, .7, .4), 8, 48},
           {"cube", box(1, 1, 1), 48, {}},
           {"tetrahedron", tetrahedron(), 24, {}},
@@ -63,7 +63,7 @@ std::vector<Expected> solids() {
 
 TEST(Solid_symmetries, meshes_have_exactly_those_of_their_corners) {
   Random random(8);
-  for (const Expected& e : solids()) {
+  for (const Solid_with_symmetries& e : solids()) {
     const Solid turned = moved(e.solid, map_of(1.7 * random_rotation(random), Eigen::Vector3d(1, -2, 3)));
     const auto rigid = symmetries(turned, parameters::map_kind(Map_kind::RIGID));
     EXPECT_EQ(rigid.order(), e.rigid) << e.name;
