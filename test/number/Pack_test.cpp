@@ -29,7 +29,7 @@ constexpr std::size_t size = Pack<double>::size;
 const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
 const Kernel::Aff_transformation_3 shear(0.9, 0, 0.9, 0.1, 0, 2, 0, 0, 1.1, 0, 0.6, 0);
 
-// Packs of std::experimental::simd, where there is one, and of arrays.
+// Packs of the compiler's vectors, where it has them, and of arrays.
 template <class Lanes>
 class Pack_of : public testing::Test {};
 using Arrays = internal::Array_lanes<double, size>;

@@ -60,8 +60,7 @@ struct Pack_mask {
 /// with T, unless the compiler contracts products and sums to fused operations, which GCC does by default for
 /// processors that have them (see -ffp-contract): then both are equal to within rounding.
 ///
-/// `Lanes` says how lanes are kept: in a std::experimental::simd if there is one, else in an array. Results are the
-/// same.
+/// `Lanes` says how lanes are kept: in a vector of the compiler if it has such, else in an array. Results are the same.
 template <class T, class Lanes> // a default is in Pack_fwd.h
 struct Pack {
   using Vector = typename Lanes::Vector;

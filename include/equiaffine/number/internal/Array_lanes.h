@@ -10,8 +10,8 @@
 
 namespace equiaffine::internal {
 
-/// The lanes of a pack as an array, for standard libraries without std::experimental::simd. Simd_lanes has the same
-/// members, and results are the same bit for bit.
+/// The lanes of a pack as an array, for compilers without vectors. Simd_lanes has the same members, and results are the
+/// same bit for bit.
 template <class T, std::size_t Size>
 struct Array_lanes {
   static constexpr std::size_t size = Size;

@@ -8,15 +8,14 @@
 
 namespace equiaffine::internal {
 
-/// Whether there is std::experimental::simd. The standard library of LLVM has a header of this name, but not all of its
-/// contents. Users may define EQUIAFFINE_WITHOUT_SIMD to keep it out.
-#if defined(__GLIBCXX__) && __has_include(<experimental/simd>) && !defined(EQUIAFFINE_WITHOUT_SIMD)
+/// Whether the compiler has vectors as GCC and Clang have. Users may define EQUIAFFINE_WITHOUT_SIMD to do without.
+#if defined(__GNUC__) && !defined(EQUIAFFINE_WITHOUT_SIMD)
 inline constexpr bool has_simd = true;
 #else
 inline constexpr bool has_simd = false;
 #endif
 
-/// Numbers in a std::experimental::simd; Simd_lanes.h defines it.
+/// Numbers in a vector of the compiler; Simd_lanes.h defines it.
 template <class T, std::size_t Size>
 struct Simd_lanes;
 

@@ -7,7 +7,7 @@
 
 #include <equiaffine/marching_cubes/internal/cell/marching_cubes_cases.h>
 
-#include <CGAL/Exact_rational.h>
+#include <CGAL/MP_Float.h>
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
@@ -90,7 +90,7 @@ class Trilinear_cell {
   static constexpr bool has_exact_signs =
       std::is_floating_point_v<FT> && std::numeric_limits<FT>::digits <= std::numeric_limits<double>::digits;
   using Number = std::conditional_t<has_exact_signs, double, FT>;
-  using Exact = std::conditional_t<has_exact_signs, CGAL::Exact_rational, FT>;
+  using Exact = std::conditional_t<has_exact_signs, CGAL::MP_Float, FT>;
 
 public:
   Trilinear_cell(const std::array<FT, 8>& v, const FT& isovalue) : v_(v), isovalue_(isovalue) {
