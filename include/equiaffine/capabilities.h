@@ -3,9 +3,8 @@
 // optional member of the model and a free function, which calls the member or, where there is none, falls back on what
 // every model has. They have the same name, but for the member `lattice(size)` of sampling_lattice(). The wrappers
 // Level_set_traits_3, Transformed_function_traits_3, Batch_function_traits_3 and Any_function_3 have the capabilities
-// of what they wrap.
-// doc/concepts/capabilities.md says what each promises, test/support/conformance.h checks it for every model and
-// wrapper.
+// of what they wrap. doc/concepts/capabilities.md says what each promises, and what happens without the member;
+// test/support/conformance.h checks it for every model and wrapper.
 #ifndef EQUIAFFINE_CAPABILITIES_H
 #define EQUIAFFINE_CAPABILITIES_H
 
