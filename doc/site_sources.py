@@ -41,8 +41,21 @@ def group_of(header):
     sys.exit(f"{header} belongs to no group of doc/reference.dox")
 
 
+@functools.cache
+def concept_pages():
+    """A pattern of the names of concepts that have a page."""
+    names = sorted((path.stem for path in pathlib.Path("doc/concepts").glob("*_3.md")), key=len, reverse=True)
+    return re.compile(rf"(?<![\w`:#])(?:{'|'.join(names)})(?![\w`.])")
+
+
+def with_concepts(line):
+    """A line of text in which names of concepts are references to their pages."""
+    return concept_pages().sub(lambda match: f'@ref concept_{match[0]} "{match[0]}"', line)
+
+
 def in_group(text, group):
-    """The header with everything in its outer namespaces in the group; `begin` is an alias of doc/Doxyfile."""
+    """The header with references to concepts, and with all in its outer namespaces in the group by an alias of doc/Doxyfile."""
+    text = re.sub(r"^ *///.*", lambda match: with_concepts(match[0]), text, flags=re.MULTILINE)
     text = re.sub(r"^(namespace equiaffine(?:::parameters)? \{)$", rf"\1 /** \\begin{{{group}}} */", text, flags=re.MULTILINE)
     return re.sub(r"^\n(\} // namespace equiaffine(?:::parameters)?)$", r"/** @} */\n\1", text, flags=re.MULTILINE)
 
@@ -146,7 +159,9 @@ class Page:
             if n % 2:
                 parts[n] = re.sub(r"^(!?)\[([^]]*)\]\(([^)]*)\)$", self.link, part)
             else:
-                parts[n] = re.sub(r"(?<!`)`([^`]+)`(?!`)", self.code, part)
+                spans = re.split(r"((?<!`)`[^`]+`(?!`))", part)
+                spans = [re.sub("^`(.*)`$", self.code, span) if m % 2 else with_concepts(span) for m, span in enumerate(spans)]
+                parts[n] = "".join(spans)
         return "".join(parts)
 
     def text(self):
