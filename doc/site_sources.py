@@ -5,6 +5,7 @@ A header gets the group of the classified reference that doc/reference.dox puts 
 site that hosts code, gets identifiers for its headings, and its relative links become references. Names of classes and
 functions in code spans become links. Lines keep their numbers, and files their paths below FOLDER."""
 import functools
+import html
 import pathlib
 import posixpath
 import re
@@ -24,14 +25,10 @@ FUNCTION = re.compile(r"^(?!using|return|static_assert|friend)(?:[\w:][\w:<>,.&*
 
 @functools.cache
 def groups():
-    """Group -> its headers and folders of headers, from the lines `Headers:` of doc/reference.dox."""
-    found, group = {}, None
-    for line in pathlib.Path("doc/reference.dox").read_text().splitlines():
-        if match := re.match(r"\\defgroup (\w+)", line):
-            group = match[1]
-        elif line.startswith("Headers:"):
-            found.setdefault(group, []).extend(re.findall(r"`([^`]+)`", line))
-    return found
+    """Group -> its headers and folders of headers, from the paragraphs `Headers:` of doc/reference.dox."""
+    found = re.findall(r"\\defgroup (\w+)(?:(?!\\defgroup).)*?^Headers:(.*?)^$", pathlib.Path("doc/reference.dox").read_text(),
+                       re.MULTILINE | re.DOTALL)
+    return {group: re.findall(r"`([^`]+)`", headers) for group, headers in found}
 
 
 def group_of(header):
@@ -48,14 +45,15 @@ def concept_pages():
     return re.compile(rf"(?<![\w`:#])(?:{'|'.join(names)})(?![\w`.])")
 
 
-def with_concepts(line):
-    """A line of text in which names of concepts are references to their pages."""
+def with_references(line):
+    """A line of text in which names of concepts and paths of pages are references."""
+    line = re.sub(r"(?<![\w`(/])doc/[\w/]+\.md", lambda match: f'@ref {page_of(match[0])} "{match[0]}"', line)
     return concept_pages().sub(lambda match: f'@ref concept_{match[0]} "{match[0]}"', line)
 
 
 def in_group(text, group):
     """The header with references to concepts, and with all in its outer namespaces in the group by an alias of doc/Doxyfile."""
-    text = re.sub(r"^ *///.*", lambda match: with_concepts(match[0]), text, flags=re.MULTILINE)
+    text = re.sub(r"^ *///.*", lambda match: with_references(match[0]), text, flags=re.MULTILINE)
     text = re.sub(r"^(namespace equiaffine(?:::parameters)? \{)$", rf"\1 /** \\begin{{{group}}} */", text, flags=re.MULTILINE)
     return re.sub(r"^\n(\} // namespace equiaffine(?:::parameters)?)$", r"/** @} */\n\1", text, flags=re.MULTILINE)
 
@@ -138,18 +136,16 @@ class Page:
     def code(self, match):
         """A code span that begins with the name of a class, a concept or a function links to its page."""
         span = match[1]
-        name = re.match(r"(?:equiaffine::)?(\w+)", span)
-        if span.endswith(".h") and pathlib.Path(LIBRARY, span).is_file() and self.path == "doc/headers.md":
+        if "\\|" in span:  # between backticks Doxygen 1.9.4 shows the backslash, which keeps the line from ending a cell
+            return f"<code>{html.escape(span).replace('--', chr(92) + '--')}</code>"
+        if span.endswith(".h") and pathlib.Path(LIBRARY, span).is_file() and self.id == "headers":
             stem = posixpath.basename(span)[:-2]
             return f"[{span}](@ref equiaffine::{stem})" if stem in self.names else match[0]
-        if not name or name[1] not in self.names or span[name.end():name.end() + 1] not in ("", "<", "("):
-            return match[0]
-        if (name[1] == name[1].lower() and not span[name.end():].startswith("(")) and len(name[1]) < 9:
-            return match[0]  # a word such as `select` or `values` need not be the function
-        concept = f"doc/concepts/{name[1]}.md"
-        target = page_of(concept) or f"equiaffine::{name[1]}"
-        rest = span[name.end():]
-        return f"[{name[1]}](@ref {target})" + (f"`{rest}`" if rest else "")
+        name = re.match(r"(?:equiaffine::)?(\w+)(?=$|[<(])", span)
+        if not name or name[1] not in self.names or (name[1].islower() and self.id in ("program", "conventions")):
+            return match[0]  # commands and attributes have names of functions
+        target = page_of(f"doc/concepts/{name[1]}.md") or f"equiaffine::{name[1]}"
+        return f'<code>@ref {target} "{name[1]}"{html.escape(span[name.end():])}</code>'
 
     def line(self, line):
         if match := re.match(r"(#{1,6}) (.*)", line):
@@ -160,7 +156,7 @@ class Page:
                 parts[n] = re.sub(r"^(!?)\[([^]]*)\]\(([^)]*)\)$", self.link, part)
             else:
                 spans = re.split(r"((?<!`)`[^`]+`(?!`))", part)
-                spans = [re.sub("^`(.*)`$", self.code, span) if m % 2 else with_concepts(span) for m, span in enumerate(spans)]
+                spans = [re.sub("^`(.*)`$", self.code, span) if m % 2 else with_references(span) for m, span in enumerate(spans)]
                 parts[n] = "".join(spans)
         return "".join(parts)
 
