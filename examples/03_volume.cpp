@@ -16,6 +16,7 @@
 using Kernel = CGAL::Simple_cartesian<double>;
 using Traits = equiaffine::Sampled_function_traits_3<Kernel>;
 
+//! [volume]
 equiaffine::Volume_3<Kernel> sample(std::size_t n) {
   const equiaffine::Lattice_3<Kernel> lattice({n, n, n}, CGAL::Bbox_3(-4, -3, -2, 4, 3, 2));
   equiaffine::Volume_3<Kernel> volume{lattice, {}};
@@ -27,6 +28,7 @@ equiaffine::Volume_3<Kernel> sample(std::size_t n) {
       }
   return volume;
 }
+//! [volume]
 
 int main() {
   for (const std::size_t n : {32, 64}) {

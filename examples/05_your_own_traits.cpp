@@ -13,6 +13,7 @@
 
 using Kernel = CGAL::Simple_cartesian<double>;
 
+//! [traits]
 class Quadric_traits_3 {
 public:
   using FT = double;
@@ -47,6 +48,7 @@ private:
 };
 
 static_assert(equiaffine::ImplicitFunctionTraits_3<Quadric_traits_3>);
+//! [traits]
 
 int main() {
   const Quadric_traits_3 traits({-6, 1, 0, 0, 1, 1, 0, 2, 0, 3}, CGAL::Bbox_3(-4, -3, -2, 3, 3, 2));

@@ -12,6 +12,7 @@
 using Kernel = CGAL::Simple_cartesian<double>;
 
 int main() {
+  //! [delaunay]
   const equiaffine::analytic_functions::Torus torus;
   const auto traits = equiaffine::make_analytic_traits<Kernel>(torus, torus.box());
   const auto surface = equiaffine::delaunay_surface(traits, {.angle = 30, .radius = 0.05});
@@ -20,4 +21,5 @@ int main() {
             << "components: " << topology.components << '\n'
             << "Euler characteristic: " << topology.euler_characteristic << '\n'
             << "certified: " << surface.is_certified << '\n';
+  //! [delaunay]
 }

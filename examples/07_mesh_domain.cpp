@@ -21,12 +21,14 @@ using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 
 int main() {
+  //! [domain]
   const Sphere sphere;
   const double facet_size = 0.2;
   const Domain domain({sphere, sphere.box()}, equiaffine::Clip_domain_3(sphere.box()), facet_size);
   const CGAL::Mesh_criteria_3<Triangulation> criteria(CGAL::Mesh_facet_criteria_3<Triangulation>(30, facet_size, 0.005),
                                                       CGAL::Mesh_cell_criteria_3<Triangulation>(3, 0.3));
   const auto mesh = CGAL::make_mesh_3<Complex>(domain, criteria);
+  //! [domain]
 
   double volume = 0, largest_distance = 0;
   for (auto cell = mesh.cells_in_complex_begin(); cell != mesh.cells_in_complex_end(); ++cell)

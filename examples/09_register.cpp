@@ -18,6 +18,7 @@ using Map = Kernel::Aff_transformation_3;
 
 int main() {
   namespace parameters = equiaffine::parameters;
+  //! [register]
   const equiaffine::Expression_3 f("x^4 + y^4 + z^4 + x^3/3 - x^2*y/4 + x*y^2/4 - x*y*z/3 + y^3/5 - z^3/3 = 1");
   const auto piece = equiaffine::make_analytic_traits<Kernel>(f, CGAL::Bbox_3(0, 0, -2, 2, 2, 2));
   const auto whole = equiaffine::make_analytic_traits<Kernel>(f, CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
@@ -27,6 +28,7 @@ int main() {
   const auto points = equiaffine::marching_cubes(piece, parameters::number_of_nodes(20)).points;
   const auto image_points = equiaffine::marching_cubes(image, parameters::number_of_nodes(31)).points;
   const auto result = equiaffine::register_surfaces(piece, points, image, image_points);
+  //! [register]
   if (!result.found()) {
     std::puts("no map");
     return 1;

@@ -18,6 +18,7 @@ int main() {
   for (const char* equation : {"x^6 + y^6 + z^6 = 1", "x^6 + 2*y^6 + z^6/2 = 1", "x^4 + y^4 + z^4 + 1.2*x*y*z = 1",
                                "x^4 + y^4 + z^4 + x^3/3 + x*y^2/4 - z^3/5 + x*y*z/3 = 1",
                                "x^2 + 2*y^2 + 3*z^2 + x*y/3 = 1", "(x^2 + y^2/4 + z^2 + 0.84)^2 = 4*(x^2 + y^2/4)"}) {
+    //! [symmetries]
     const auto traits =
         equiaffine::make_analytic_traits<Kernel>(equiaffine::Expression_3(equation), CGAL::Bbox_3(-3, -3, -3, 3, 3, 3));
     const auto points = equiaffine::marching_cubes(traits, parameters::number_of_nodes(50)).points;
@@ -29,5 +30,6 @@ int main() {
     }
     const auto rigid = equiaffine::affine_symmetries(traits, points, parameters::map_kind(equiaffine::Map_kind::RIGID));
     std::printf("  %zu symmetries, %zu of them rigid\n", *affine.order(), *rigid.order());
+    //! [symmetries]
   }
 }

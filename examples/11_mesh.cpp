@@ -24,12 +24,14 @@ int main() {
   const auto sampled = equiaffine::marching_cubes(surface, equiaffine::parameters::number_of_nodes(40));
   Mesh mesh = equiaffine::to_surface_mesh(sampled); // or CGAL::IO::read_polygon_mesh("scan.ply", mesh)
 
+  //! [fit]
   equiaffine::annotate_by_fit(mesh);
 
   const auto map = [&](const std::string& name) {
     return mesh.property_map<Mesh::Vertex_index, double>("v:" + name).first;
   };
   const auto K = map("affine_gaussian_curvature"), error = map("affine_gaussian_curvature_error");
+  //! [fit]
   int known = 0, right = 0;
   for (const auto v : mesh.vertices()) {
     if (!(error[v] < 0.01 * std::abs(K[v]))) continue;

@@ -26,6 +26,7 @@ int main() {
   const auto ellipsoid = equiaffine::make_analytic_traits<CGAL::Simple_cartesian<double>>(
       f, CGAL::Bbox_3(-1.2, -1.2, -1.2, 1.2, 1.2, 1.2));
 
+  //! [maps]
   Polyhedron mesh;
   equiaffine::marching_cubes(ellipsoid, mesh, parameters::number_of_nodes(24));
 
@@ -34,6 +35,7 @@ int main() {
                        parameters::vertex_affine_mean_curvature_map(boost::make_assoc_property_map(exact)));
   equiaffine::annotate_by_fit(mesh, parameters::vertex_affine_mean_curvature_map(boost::make_assoc_property_map(fitted))
                                         .vertex_affine_mean_curvature_error_map(boost::make_assoc_property_map(error)));
+  //! [maps]
 
   double difference = 0;
   int right = 0;

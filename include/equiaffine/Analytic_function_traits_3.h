@@ -20,8 +20,8 @@
 namespace equiaffine {
 
 /// A model of FirstOrderBatchImplicitFunctionTraits_3 and, if the function takes Interval, of
-/// SecondOrderBoundedImplicitFunctionTraits_3, for a function given as code: `f(x, y, z)`, templated on its number type,
-/// const and callable from several threads.
+/// SecondOrderBoundedImplicitFunctionTraits_3, for a function given as code: `f(x, y, z)`, templated on its number
+/// type, const and callable from several threads.
 ///
 ///     struct Sphere {
 ///       template <class T> T operator()(const T& x, const T& y, const T& z) const { return x*x + y*y + z*z - 1.0; }
@@ -30,20 +30,22 @@ namespace equiaffine {
 ///
 /// f is called with FT, Interval and jets of both; Marching Cubes, max_distance_to_surface and compute_attributes call
 /// it with jets of Pack<FT>, too. Elementary functions must be found by argument-dependent lookup (`using std::exp;
-/// return exp(x);`). With three template parameters, or `auto`, for the arguments and `auto` for intermediate results it
-/// computes only the derivatives that its structure leaves nonzero.
+/// return exp(x);`). With three template parameters, or `auto`, for the arguments and `auto` for intermediate results
+/// it computes only the derivatives that its structure leaves nonzero.
 template <class Kernel, class Function>
 class Analytic_function_traits_3 {
 public:
-  using FT = typename Kernel::FT;
-  using Point_3 = typename Kernel::Point_3;
-  using Vector_3 = typename Kernel::Vector_3;
+  using FT = typename Kernel::FT;             ///< the number type of the kernel
+  using Point_3 = typename Kernel::Point_3;   ///< points of the kernel
+  using Vector_3 = typename Kernel::Vector_3; ///< vectors of the kernel
 
   /// The level set is sought in `box`. f may be called outside of it.
   Analytic_function_traits_3(Function function, const CGAL::Bbox_3& box) : function_(std::move(function)), box_(box) {}
 
-  FT value(const Point_3& p) const { return function_(p.x(), p.y(), p.z()); }
+  FT value(const Point_3& p) const { return function_(p.x(), p.y(), p.z()); } ///< f(x, y, z)
+  /// The expansion of order 1, by automatic differentiation.
   Jet_3<FT, 1> first_order(const Point_3& p) const { return expand<1, FT>(function_, p.x(), p.y(), p.z()); }
+  /// The expansion of order 4, by `f.taylor(x, y, z)` if the function has that, else by automatic differentiation.
   Jet_3<FT> taylor(const Point_3& p) const {
     if constexpr (internal::HasTaylor<Function, FT>) return function_.taylor(p.x(), p.y(), p.z());
     else return expand<4, FT>(function_, p.x(), p.y(), p.z());
@@ -79,16 +81,19 @@ public:
       for (std::size_t n = 0; n < jets.size(); ++n) jets[n] = expand<4, Pack<FT>>(function_, x[n], y[n], z[n]);
   }
 
+  /// Bounds of the value on a box: f of its sides as intervals.
   Interval bounds(const CGAL::Bbox_3& box) const {
     const auto [x, y, z] = internal::sides_of(box);
     return function_(x, y, z);
   }
 
+  /// Bounds of value and gradient on a box: the expansion of order 1 in interval arithmetic.
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const {
     const auto [x, y, z] = internal::sides_of(box);
     return expand<1, Interval>(function_, x, y, z);
   }
 
+  /// Bounds of the expansion of order 2 on a box, in interval arithmetic.
   Jet_3<Interval, 2> second_order_bounds(const CGAL::Bbox_3& box) const {
     const auto [x, y, z] = internal::sides_of(box);
     return expand<2, Interval>(function_, x, y, z);
@@ -103,8 +108,8 @@ public:
     return Analytic_function_traits_3(*std::move(function), box_);
   }
 
-  CGAL::Bbox_3 bbox() const { return box_; }
-  const Function& function() const { return function_; }
+  CGAL::Bbox_3 bbox() const { return box_; }             ///< the box that the constructor was given
+  const Function& function() const { return function_; } ///< f
 
 private:
   Function function_;

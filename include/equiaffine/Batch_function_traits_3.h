@@ -17,10 +17,10 @@ namespace equiaffine {
 template <ImplicitFunctionTraits_3 Traits>
 class Batch_function_traits_3 : public Traits {
 public:
-  using typename Traits::FT;
-  using typename Traits::Point_3;
+  using typename Traits::FT;      ///< the number type
+  using typename Traits::Point_3; ///< points
 
-  explicit Batch_function_traits_3(Traits traits) : Traits(std::move(traits)) {}
+  explicit Batch_function_traits_3(Traits traits) : Traits(std::move(traits)) {} ///< wraps a copy of the model
 
   /// values[i] = value(points[i]); the spans have the same size.
   void values(std::span<const Point_3> points, std::span<FT> values) const {

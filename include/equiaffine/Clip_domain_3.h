@@ -40,12 +40,14 @@ public:
     return Clip_domain_3(center, radius);
   }
 
-  bool is_ball() const { return radius_ > 0; }
+  bool is_ball() const { return radius_ > 0; }                    ///< whether it is a ball
   const std::array<double, 3>& center() const { return center_; } ///< center of the ball
   double radius() const { return radius_; }                       ///< radius of the ball; 0 for a box
-  const CGAL::Bbox_3& bbox() const { return box_; }
+  const CGAL::Bbox_3& bbox() const { return box_; }               ///< the box, or the one around the ball
+  /// The length of the diagonal of bbox().
   double diagonal() const { return std::hypot(box_.x_span(), box_.y_span(), box_.z_span()); }
 
+  /// Whether a point lies in the domain, its border included.
   template <class Point_3>
   bool contains(const Point_3& p) const {
     double squared_distance = 0;

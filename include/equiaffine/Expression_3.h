@@ -41,7 +41,7 @@ namespace equiaffine {
 /// atan2(y, x) hypot pow; of two or more: min max. Angles are in radians. Nesting is limited to 1000 levels.
 ///
 /// Numbers, constants and what is computed from them alone are rounded to double for every number type, so that all
-/// types evaluate the same function. For double, operators and functions are those of the language and of <cmath>,
+/// types evaluate the same function. For double, operators and functions are those of the language and of `<cmath>`,
 /// except that exp, sin and cos are the library's own, that an integer exponent (up to 2^30 in
 /// magnitude) means repeated multiplication and `^0.5` means sqrt, and that min and max are NaN when an argument is.
 /// Domain errors (log(-1), 0/0) give what T gives: NaN for double.

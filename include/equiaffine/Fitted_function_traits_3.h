@@ -37,30 +37,42 @@ namespace equiaffine {
 /// It is a blend of polynomials fitted to the points around centers, chosen by the data as for `fitted_structures`, of
 /// which it is the continuous counterpart: sum of w_i g_i / sum of w_i, where g_i is a polynomial that approximates the
 /// distance and w_i a weight that vanishes at half the radius of its points (a partition of unity; Ohtake et al.
-/// 2003). Expansions are the means of those of the g_i with the same weights, diffuse derivatives (Nayroles et al. 1992):
-/// they differ from the derivatives of f by what the polynomials disagree on, and are at least as near to those of the
-/// surface as each of them. Another sheet of the surface that is near in space but not connected
-/// nearby has no influence.
+/// 2003). Expansions are the means of those of the g_i with the same weights, diffuse derivatives (Nayroles et al.
+/// 1992): they differ from the derivatives of f by what the polynomials disagree on, and are at least as near to those
+/// of the surface as each of them. Another sheet of the surface that is near in space but not connected nearby has no
+/// influence.
 ///
-/// It is defined in a band along its zero set: up to 2 spacings of the points from the foot of the nearest one along the
-/// normal, and 1.25 across, so that holes larger than that stay holes, and no more than a quarter of a spacing beyond an
-/// open border, which therefore stays where it is. Elsewhere the value is not a number; `in_band` makes the band wider.
-/// The value is continuous in the band, up to points as far from two sheets: where polynomials know nothing, high above
-/// the surface, or are wrong, as beside creases, it is the mean of the heights over the tangent planes at the nearest
-/// feet, which has first derivatives, and no curvature. Fits do not reach over creases, see fitted_structures(): each side
-/// has its own function there, and the value is the greatest one at convex creases, the least at concave ones.
+/// It is defined in a band along its zero set: up to 2 spacings of the points from the foot of the nearest one along
+/// the normal, and 1.25 across, so that holes larger than that stay holes, and no more than a quarter of a spacing
+/// beyond an open border, which therefore stays where it is. Elsewhere the value is not a number; `in_band` makes the
+/// band wider. The value is continuous in the band, up to points as far from two sheets: where polynomials know
+/// nothing, high above the surface, or are wrong, as beside creases, it is the mean of the heights over the tangent
+/// planes at the nearest feet, which has first derivatives, and no curvature. Fits do not reach over creases, see
+/// fitted_structures(): each side has its own function there, and the value is the greatest one at convex creases, the
+/// least at concave ones.
 ///
 /// Construction takes 1 ms per vertex for exact data and 3 ms for noisy ones, memory is linear; copies share it. A
 /// value takes some 6 microseconds, an expansion 11.
 template <class Kernel>
 class Fitted_function_traits_3 {
 public:
-  using FT = typename Kernel::FT;
-  using Point_3 = typename Kernel::Point_3;
-  using Vector_3 = typename Kernel::Vector_3;
+  using FT = typename Kernel::FT;             ///< the number type of the kernel
+  using Point_3 = typename Kernel::Point_3;   ///< points of the kernel
+  using Vector_3 = typename Kernel::Vector_3; ///< vectors of the kernel
 
-  /// From a mesh, a model of CGAL's FaceGraph. Named parameters: `vertex_point_map`, `vertex_normal_map`, `noise`, `scale`, `degree`,
-  /// `feature_angle`.
+  /// From a mesh, a model of CGAL's FaceGraph. The named parameters are those of fitted_structures():
+  ///
+  /// | named parameter | type | default | meaning |
+  /// |---|---|---|---|
+  /// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
+  /// | `vertex_normal_map` | property map | made of the faces | from vertices to normals |
+  /// | `noise` | `std::optional<double>` | estimated | standard deviation of the points from the surface, a length |
+  /// | `scale` | `std::optional<double>` | 0 | a length; 0: none; `std::nullopt`: the data choose |
+  /// | `ball_radius` | `double` | not given | CGAL's name of `scale`, which counts if both are given |
+  /// | `degree` | `std::optional<int>` | chosen by the data | 4, 5, 6, 8 or 10 |
+  /// | `feature_angle` | `std::optional<double>` | 60 | angle of creases in degrees; `std::nullopt`: no creases |
+  /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+  ///
   /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
   template <Face_graph Graph, internal::Parameter_chain Parameters = internal::No_parameters,
             class ConcurrencyTag = CGAL::Parallel_if_available_tag>
@@ -70,7 +82,14 @@ public:
     make(internal::fit_input_of_graph(mesh, parameters), parameters, tag);
   }
 
-  /// From points. Named parameters: `point_map`, `normal_map`, `normal_orientation`, `noise`, `scale`, `degree`.
+  /// From points. In the place of `vertex_point_map`, `vertex_normal_map` and `feature_angle` there are
+  ///
+  /// | named parameter | type | default | meaning |
+  /// |---|---|---|---|
+  /// | `point_map` | property map | the elements | from elements to points |
+  /// | `normal_map` | property map | estimated | from elements to normals |
+  /// | `normal_orientation` | Normal_orientation | ORIENTED | whether given normals are of one side |
+  ///
   /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
   template <std::ranges::input_range Points, internal::Parameter_chain Parameters = internal::No_parameters,
             class ConcurrencyTag = CGAL::Parallel_if_available_tag>
@@ -81,8 +100,8 @@ public:
     make(internal::fit_input_of_points<ConcurrencyTag>(points, parameters).data, parameters, tag);
   }
 
-  /// From points with polygons between them, ranges of positions of points, which need not be a mesh. Named parameters:
-  /// `noise`, `scale`, `degree`, `feature_angle`.
+  /// From points with polygons between them, ranges of positions of points, which need not be a mesh. The named
+  /// parameters are those of a mesh without the two maps.
   /// \throw std::invalid_argument also if a polygon has the position of no point.
   template <std::ranges::input_range Points, std::ranges::input_range Polygons,
             internal::Parameter_chain Parameters = internal::No_parameters,
@@ -112,9 +131,11 @@ public:
     return copy;
   }
 
+  /// The value; not a number outside of the band.
   FT value(const Point_3& p) const {
     return FT(state_->blend.value(normal(p), margin_) / state_->fit.normalization().scale());
   }
+  /// The value and the gradient, which is a diffuse derivative where polynomials are blended.
   Jet_3<FT, 1> first_order(const Point_3& p) const { return expansion<1>(p); }
 
   /// The expansion where the value is that of polynomials; not a number elsewhere.
@@ -170,8 +191,8 @@ public:
   }
 
   /// The distances of points from other sheets of the surface, for those that have one nearer than `distance`: points
-  /// beside them that are not connected with them nearby, or have opposed normals. Marching Cubes tells sheets apart that
-  /// are farther from each other than the steps of its grid.
+  /// beside them that are not connected with them nearby, or have opposed normals. Marching Cubes tells sheets apart
+  /// that are farther from each other than the steps of its grid.
   template <class ConcurrencyTag = CGAL::Sequential_tag>
   std::vector<FT> distances_of_sheets(const FT& distance) const {
     const auto found = internal::distances_of_sheets<ConcurrencyTag>(state_->fit, CGAL::to_double(distance));

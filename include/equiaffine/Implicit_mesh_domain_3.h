@@ -31,20 +31,22 @@ class Implicit_mesh_domain_3 {
   using Oracle = internal::Segment_oracle_3<Traits>;
 
 public:
-  using R = Kernel;
-  using FT = typename Kernel::FT;
-  using Point_3 = typename Kernel::Point_3;
-  using Vector_3 = typename Kernel::Vector_3;
-  using Segment_3 = typename Kernel::Segment_3;
-  using Ray_3 = typename Kernel::Ray_3;
-  using Line_3 = typename Kernel::Line_3;
+  using R = Kernel;                             ///< the kernel
+  using FT = typename Kernel::FT;               ///< its number type
+  using Point_3 = typename Kernel::Point_3;     ///< its points
+  using Vector_3 = typename Kernel::Vector_3;   ///< its vectors
+  using Segment_3 = typename Kernel::Segment_3; ///< its segments
+  using Ray_3 = typename Kernel::Ray_3;         ///< its rays
+  using Line_3 = typename Kernel::Line_3;       ///< its lines
 
-  using Has_features = CGAL::Tag_false;
-  using Subdomain_index = int;
-  using Surface_patch_index = int;
-  using Index = int;
-  using Subdomain = Cgal_optional<Subdomain_index>;
+  using Has_features = CGAL::Tag_false;             ///< there are no features of dimension 0 and 1
+  using Subdomain_index = int;                      ///< 1 for the part where f < 0
+  using Surface_patch_index = int;                  ///< 1 for the zero set
+  using Index = int;                                ///< of a subdomain or a surface patch
+  using Subdomain = Cgal_optional<Subdomain_index>; ///< the index of the subdomain that has a point, or nothing
+  /// The index of the surface patch that a query meets, or nothing.
   using Surface_patch = Cgal_optional<Surface_patch_index>;
+  /// A point, the index of the surface, and 2; or 0 in the last place for none.
   using Intersection = std::tuple<Point_3, Index, int>;
 
   /// `facet_size` is the bound of the radii of surface Delaunay balls that the mesher will be given, or 0 for the
@@ -56,8 +58,10 @@ public:
     check_argument(facet_size >= 0 && std::isfinite(facet_size),
                    "the facet size of a mesh domain is not a positive length: choose one, or 0 for the default");
   }
+  /// Takes the box of the function as the clip domain, and the default facet size.
   explicit Implicit_mesh_domain_3(Traits traits) : Implicit_mesh_domain_3(traits, Clip_domain_3(traits.bbox())) {}
 
+  /// The functor that finds the points with which the mesher begins.
   struct Construct_initial_points {
     /// Writes pairs of Point_3 and Index, as many as certainty and the facet size need. The number of points that the
     /// mesher asks for is ignored.
@@ -69,54 +73,63 @@ public:
       return out;
     }
 
-    std::shared_ptr<const Oracle> oracle;
-    double facet_size;
+    std::shared_ptr<const Oracle> oracle; ///< the function in its clip domain
+    double facet_size;                    ///< bound of the radii of surface Delaunay balls
   };
 
+  /// The functor that says in which subdomain a point lies.
   struct Is_in_domain {
+    /// 1 if f(p) < 0 in the clip domain, else nothing.
     Subdomain operator()(const Point_3& p) const {
       return oracle->is_inside(to_traits(p)) ? Subdomain(subdomain_index_inside) : Subdomain();
     }
 
-    std::shared_ptr<const Oracle> oracle;
+    std::shared_ptr<const Oracle> oracle; ///< the function in its clip domain
   };
 
+  /// The functor that intersects a segment, a ray or a line with the surface.
   struct Construct_intersection {
+    /// A point of the surface on a segment.
     Intersection operator()(const Segment_3& s) const { return find(s.source(), s.to_vector(), 0, 1); }
+    /// A point of the surface on a ray.
     Intersection operator()(const Ray_3& r) const { return find(r.source(), r.to_vector(), 0, infinity); }
+    /// A point of the surface on a line.
     Intersection operator()(const Line_3& l) const { return find(l.point(), l.to_vector(), -infinity, infinity); }
 
+    /// A point p + t d of the surface with `first` <= t <= `last`, in the clip domain.
     Intersection find(const Point_3& p, const Vector_3& d, double first, double last) const {
       const typename Traits::Vector_3 direction(d.x(), d.y(), d.z());
       if (const auto q = (*oracle)(to_traits(p), direction, first, last)) return {to_kernel(*q), surface_index, 2};
       return Intersection(Point_3(CGAL::ORIGIN), 0, 0);
     }
 
-    std::shared_ptr<const Oracle> oracle;
+    std::shared_ptr<const Oracle> oracle; ///< the function in its clip domain
   };
 
+  /// The functor that says whether a segment, a ray or a line meets the surface.
   struct Do_intersect_surface {
+    /// The index of the surface if the query meets it, else nothing.
     template <class Query>
     Surface_patch operator()(const Query& query) const {
       return std::get<2>(Construct_intersection{oracle}(query)) == 0 ? Surface_patch() : Surface_patch(surface_index);
     }
 
-    std::shared_ptr<const Oracle> oracle;
+    std::shared_ptr<const Oracle> oracle; ///< the function in its clip domain
   };
 
-  Construct_initial_points construct_initial_points_object() const { return {oracle_, facet_size_}; }
-  Is_in_domain is_in_domain_object() const { return {oracle_}; }
-  Construct_intersection construct_intersection_object() const { return {oracle_}; }
-  Do_intersect_surface do_intersect_surface_object() const { return {oracle_}; }
+  Construct_initial_points construct_initial_points_object() const { return {oracle_, facet_size_}; } ///< the functor
+  Is_in_domain is_in_domain_object() const { return {oracle_}; }                                      ///< the functor
+  Construct_intersection construct_intersection_object() const { return {oracle_}; }                  ///< the functor
+  Do_intersect_surface do_intersect_surface_object() const { return {oracle_}; }                      ///< the functor
 
-  Index index_from_surface_patch_index(const Surface_patch_index& index) const { return index; }
-  Index index_from_subdomain_index(const Subdomain_index& index) const { return index; }
-  Surface_patch_index surface_patch_index(const Index& index) const { return index; }
-  Subdomain_index subdomain_index(const Index& index) const { return index; }
-  CGAL::Bbox_3 bbox() const { return oracle_->domain().bbox(); }
+  Index index_from_surface_patch_index(const Surface_patch_index& index) const { return index; } ///< the same number
+  Index index_from_subdomain_index(const Subdomain_index& index) const { return index; }         ///< the same number
+  Surface_patch_index surface_patch_index(const Index& index) const { return index; }            ///< the same number
+  Subdomain_index subdomain_index(const Index& index) const { return index; }                    ///< the same number
+  CGAL::Bbox_3 bbox() const { return oracle_->domain().bbox(); } ///< the box of the clip domain
 
-  const Traits& traits() const { return oracle_->traits(); }
-  const Clip_domain_3& domain() const { return oracle_->domain(); }
+  const Traits& traits() const { return oracle_->traits(); }        ///< the function
+  const Clip_domain_3& domain() const { return oracle_->domain(); } ///< the clip domain
 
 private:
   static constexpr int surface_index = 1, subdomain_index_inside = 1;

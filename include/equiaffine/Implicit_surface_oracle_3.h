@@ -27,13 +27,14 @@ namespace equiaffine {
 template <class Domain>
 class Implicit_surface_oracle_3 {
 public:
-  using Surface_3 = Domain;
-  using Point_3 = typename Domain::Point_3;
-  using Segment_3 = typename Domain::Segment_3;
-  using Ray_3 = typename Domain::Ray_3;
-  using Line_3 = typename Domain::Line_3;
-  using Intersection_point = Point_3;
+  using Surface_3 = Domain;                     ///< the surface, an Implicit_mesh_domain_3
+  using Point_3 = typename Domain::Point_3;     ///< points of the mesher
+  using Segment_3 = typename Domain::Segment_3; ///< segments of the mesher
+  using Ray_3 = typename Domain::Ray_3;         ///< rays of the mesher
+  using Line_3 = typename Domain::Line_3;       ///< lines of the mesher
+  using Intersection_point = Point_3;           ///< the type of an intersection
 
+  /// The functor that intersects a segment, a ray or a line with the surface.
   struct Intersect_3 {
     /// `query` is a Segment_3, Ray_3 or Line_3; gives an Intersection_point or nothing.
     template <class Query>
@@ -44,6 +45,7 @@ public:
     }
   };
 
+  /// The functor that finds the points with which the mesher begins.
   struct Construct_initial_points {
     /// Writes points, as many as certainty and the facet size need. The number that the mesher asks for is ignored.
     template <class OutputIterator>
@@ -55,8 +57,8 @@ public:
     }
   };
 
-  Intersect_3 intersect_3_object() const { return {}; }
-  Construct_initial_points construct_initial_points_object() const { return {}; }
+  Intersect_3 intersect_3_object() const { return {}; }                           ///< the functor
+  Construct_initial_points construct_initial_points_object() const { return {}; } ///< the functor
 };
 
 } // namespace equiaffine

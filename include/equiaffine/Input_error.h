@@ -16,10 +16,11 @@ namespace equiaffine {
 /// `excerpt()` is empty or shows the place: the offending text and, below it, a caret.
 class Input_error : public std::runtime_error {
 public:
+  /// Makes an error of two texts.
   explicit Input_error(const std::string& what, std::string excerpt = {})
       : std::runtime_error(printable(what)), excerpt_(std::move(excerpt)) {}
 
-  const std::string& excerpt() const { return excerpt_; }
+  const std::string& excerpt() const { return excerpt_; } ///< the place in the text, or nothing
 
 private:
   std::string excerpt_;

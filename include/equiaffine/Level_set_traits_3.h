@@ -27,56 +27,69 @@ enum class Orientation_of_level_set {
 template <ImplicitFunctionTraits_3 Base>
 class Level_set_traits_3 {
 public:
-  using FT = typename Base::FT;
-  using Point_3 = typename Base::Point_3;
-  using Vector_3 = typename Base::Vector_3;
+  using FT = typename Base::FT;             ///< the number type of the base
+  using Point_3 = typename Base::Point_3;   ///< points of the base
+  using Vector_3 = typename Base::Vector_3; ///< vectors of the base
 
+  /// The level set f = `isovalue` of the base, with normals on the given side.
   Level_set_traits_3(Base base, const FT& isovalue,
                      Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT)
       : base_(std::move(base)), isovalue_(isovalue),
         is_reversed_(orientation == Orientation_of_level_set::AGAINST_GRADIENT) {}
 
-  FT value(const Point_3& p) const { return shifted(base_.value(p)); }
+  FT value(const Point_3& p) const { return shifted(base_.value(p)); } ///< f(p) - v, or v - f(p)
+  /// The expansion of order 1, from that of the base.
   Jet_3<FT, 1> first_order(const Point_3& p) const requires FirstOrderImplicitFunctionTraits_3<Base> {
     return shifted(base_.first_order(p));
   }
+  /// The expansion of order 4, from that of the base.
   Jet_3<FT> taylor(const Point_3& p) const { return shifted(base_.taylor(p)); }
+  /// values[i] becomes value(points[i]).
   void values(std::span<const Point_3> points,
               std::span<FT> values) const requires BatchImplicitFunctionTraits_3<Base> {
     base_.values(points, values);
     for (FT& value : values) value = shifted(value);
   }
+  /// jets[i] becomes first_order(points[i]).
   void first_orders(std::span<const Point_3> points,
                     std::span<Jet_3<FT, 1>> jets) const requires FirstOrderBatchImplicitFunctionTraits_3<Base> {
     base_.first_orders(points, jets);
     for (auto& jet : jets) jet = shifted(jet);
   }
+  /// jets[i] becomes taylor(points[i]).
   void taylors(std::span<const Point_3> points,
                std::span<Jet_3<FT>> jets) const requires BatchImplicitFunctionTraits_3<Base> {
     base_.taylors(points, jets);
     for (auto& jet : jets) jet = shifted(jet);
   }
+  /// jets[n] becomes the expansions at the points of the packs x[n], y[n], z[n].
   void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
                     std::span<Jet_3<Pack<FT>>> jets) const requires PackImplicitFunctionTraits_3<Base> {
     base_.taylor_packs(x, y, z, jets);
     for (auto& jet : jets) jet = shifted(jet);
   }
+  /// Bounds of the value on a box, from those of the base.
   Interval bounds(const CGAL::Bbox_3& box) const requires BoundedImplicitFunctionTraits_3<Base> {
     const Interval b = base_.bounds(box) - Interval(CGAL::to_double(isovalue_));
     return is_reversed_ ? -b : b;
   }
+  /// Bounds of value and gradient on a box, from those of the base.
   Jet_3<Interval, 1>
   first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
     return shifted_bounds(base_.first_order_bounds(box));
   }
+  /// Bounds of the expansion of order 2 on a box, from those of the base.
   Jet_3<Interval, 2>
   second_order_bounds(const CGAL::Bbox_3& box) const requires SecondOrderBoundedImplicitFunctionTraits_3<Base> {
     return shifted_bounds(base_.second_order_bounds(box));
   }
+  /// The tighter bounds of value and gradient on a box, from those of the base.
   Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const requires HasTightFirstOrderBounds<Base> {
     return shifted_bounds(base_.tight_first_order_bounds(box));
   }
+  /// Those that the base has.
   Known_bounds known_bounds() const requires HasKnownBounds<Base> { return base_.known_bounds(); }
+  /// The same level set of the function that may replace the base in a box, if there is one.
   std::optional<Level_set_traits_3>
   restricted(const CGAL::Bbox_3& box) const requires RestrictableImplicitFunctionTraits_3<Base> {
     auto base = base_.restricted(box);
@@ -85,9 +98,10 @@ public:
                               is_reversed_ ? Orientation_of_level_set::AGAINST_GRADIENT
                                            : Orientation_of_level_set::ALONG_GRADIENT);
   }
-  FT rounding(const Point_3& p) const requires HasRounding<Base> { return base_.rounding(p); }
+  FT rounding(const Point_3& p) const requires HasRounding<Base> { return base_.rounding(p); } ///< that of the base
+  /// That of the base.
   double certainty(const Point_3& p) const requires HasCertainty<Base> { return base_.certainty(p); }
-  CGAL::Bbox_3 bbox() const { return base_.bbox(); }
+  CGAL::Bbox_3 bbox() const { return base_.bbox(); } ///< that of the base
 
   /// Calls the base if this is the base itself: otherwise the base would look for zeros of another function.
   Surface_point_3<Kernel_of<Base>> intersect_segment(const Point_3& a, const Point_3& b, const FT& fa,
@@ -95,16 +109,19 @@ public:
     if (isovalue_ == FT(0) && !is_reversed_) return base_.intersect_segment(a, b, fa, fb);
     return internal::zero_on_segment<Kernel_of<Base>>(*this, a, b, fa, fb);
   }
+  /// The lattice of that size on which to sample the base.
   Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
     return sampling_lattice(base_, size);
   }
 
+  /// The lattice of the base.
   auto lattice() const requires LatticeImplicitFunctionTraits_3<Base> { return base_.lattice(); }
+  /// The sample of the base at node (i, j, k), as value() changes values.
   FT sample(std::size_t i, std::size_t j, std::size_t k) const requires LatticeImplicitFunctionTraits_3<Base> {
     return shifted(base_.sample(i, j, k));
   }
 
-  const Base& base() const { return base_; }
+  const Base& base() const { return base_; } ///< the function f
 
 private:
   FT shifted(const FT& value) const { return is_reversed_ ? isovalue_ - value : value - isovalue_; }

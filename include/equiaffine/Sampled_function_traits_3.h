@@ -24,9 +24,9 @@ namespace equiaffine {
 template <class Kernel>
 class Sampled_function_traits_3 {
 public:
-  using FT = typename Kernel::FT;
-  using Point_3 = typename Kernel::Point_3;
-  using Vector_3 = typename Kernel::Vector_3;
+  using FT = typename Kernel::FT;             ///< the number type of the kernel
+  using Point_3 = typename Kernel::Point_3;   ///< points of the kernel
+  using Vector_3 = typename Kernel::Vector_3; ///< vectors of the kernel
 
   /// Makes the spline that `parameters` ask for. If they smooth the samples, `sample` returns smoothed ones.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
@@ -42,9 +42,11 @@ public:
 
   /// Values and coefficients of expansions are NaN outside the support of the spline.
   FT value(const Point_3& p) const { return spline_->value(p); }
+  /// Value and gradient of the spline.
   Jet_3<FT, 1> first_order(const Point_3& p) const { return spline_->template taylor<1>(p); }
-  Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); }
-  Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); }
+  Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); }         ///< the expansion of the spline
+  Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); } ///< see Spline_function_3::bounds()
+  /// See Spline_function_3::first_order_bounds().
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return spline_->first_order_bounds(box); }
   /// The greatest change of second derivatives at p by rounding. It includes the rounding of the samples to float if
   /// all samples are floats, and is 0 outside the support of the spline.
@@ -52,14 +54,14 @@ public:
     const auto cell = spline_->cell_of(p);
     return cell ? (*rounding_)(*cell) : FT(0);
   }
-  CGAL::Bbox_3 bbox() const { return volume_->lattice.bbox(); }
+  CGAL::Bbox_3 bbox() const { return volume_->lattice.bbox(); } ///< the box of the lattice
 
-  const Lattice_3<Kernel>& lattice() const { return volume_->lattice; }
+  const Lattice_3<Kernel>& lattice() const { return volume_->lattice; } ///< the lattice of the samples
 
   /// The sample at node (i, j, k).
   FT sample(std::size_t i, std::size_t j, std::size_t k) const { return (*volume_)(i, j, k); }
 
-  const Spline_function_3<Kernel>& spline() const { return *spline_; }
+  const Spline_function_3<Kernel>& spline() const { return *spline_; } ///< the spline through the samples
 
 private:
   std::shared_ptr<const Volume_3<Kernel>> volume_;

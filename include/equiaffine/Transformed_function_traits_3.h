@@ -31,33 +31,38 @@ namespace equiaffine {
 template <ImplicitFunctionTraits_3 Base>
 class Transformed_function_traits_3 {
 public:
-  using FT = typename Base::FT;
-  using Point_3 = typename Base::Point_3;
-  using Vector_3 = typename Base::Vector_3;
-  using Aff_transformation_3 = CGAL::Aff_transformation_3<Kernel_of<Base>>;
+  using FT = typename Base::FT;                                             ///< the number type of the base
+  using Point_3 = typename Base::Point_3;                                   ///< points of the base
+  using Vector_3 = typename Base::Vector_3;                                 ///< vectors of the base
+  using Aff_transformation_3 = CGAL::Aff_transformation_3<Kernel_of<Base>>; ///< affine maps of its kernel
 
   /// \pre the linear part of `map` has a nonzero determinant.
   explicit Transformed_function_traits_3(Base base,
                                          const Aff_transformation_3& map = Aff_transformation_3(CGAL::IDENTITY))
       : Transformed_function_traits_3(std::move(base), std::make_shared<const Map>(map)) {}
 
-  FT value(const Point_3& p) const { return base_.value(preimage(p)); }
+  FT value(const Point_3& p) const { return base_.value(preimage(p)); } ///< f(A^-1 p)
+  /// The expansion of order 1, from that of the base at the preimage.
   Jet_3<FT, 1> first_order(const Point_3& p) const requires FirstOrderImplicitFunctionTraits_3<Base> {
     return substituted(base_.first_order(preimage(p)));
   }
+  /// The expansion of order 4, from that of the base at the preimage.
   Jet_3<FT> taylor(const Point_3& p) const { return substituted(base_.taylor(preimage(p))); }
 
+  /// values[i] becomes value(points[i]).
   void values(std::span<const Point_3> points,
               std::span<FT> values) const requires BatchImplicitFunctionTraits_3<Base> {
     if (map_->is_identity) return base_.values(points, values);
     base_.values(preimages(points), values);
   }
+  /// jets[i] becomes first_order(points[i]).
   void first_orders(std::span<const Point_3> points,
                     std::span<Jet_3<FT, 1>> jets) const requires FirstOrderBatchImplicitFunctionTraits_3<Base> {
     if (map_->is_identity) return base_.first_orders(points, jets);
     base_.first_orders(preimages(points), jets);
     for (auto& jet : jets) jet = map_->substitution(jet);
   }
+  /// jets[i] becomes taylor(points[i]).
   void taylors(std::span<const Point_3> points,
                std::span<Jet_3<FT>> jets) const requires BatchImplicitFunctionTraits_3<Base> {
     if (map_->is_identity) return base_.taylors(points, jets);
@@ -65,6 +70,7 @@ public:
     for (auto& jet : jets) jet = map_->substitution(jet);
   }
 
+  /// jets[n] becomes the expansions at the points of the packs x[n], y[n], z[n].
   void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
                     std::span<Jet_3<Pack<FT>>> jets) const requires PackImplicitFunctionTraits_3<Base> {
     if (map_->is_identity) return base_.taylor_packs(x, y, z, jets);
@@ -82,19 +88,24 @@ public:
   Interval bounds(const CGAL::Bbox_3& box) const requires BoundedImplicitFunctionTraits_3<Base> {
     return base_.bounds(preimage(box));
   }
+  /// Bounds of value and gradient, from those of the base on the box around the preimage.
   Jet_3<Interval, 1>
   first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
     return substituted(base_.first_order_bounds(preimage(box)));
   }
+  /// Bounds of the expansion of order 2, from those of the base on the box around the preimage.
   Jet_3<Interval, 2>
   second_order_bounds(const CGAL::Bbox_3& box) const requires SecondOrderBoundedImplicitFunctionTraits_3<Base> {
     return substituted(base_.second_order_bounds(preimage(box)));
   }
+  /// The tighter bounds of value and gradient, from those of the base on the box around the preimage.
   Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const requires HasTightFirstOrderBounds<Base> {
     return substituted(base_.tight_first_order_bounds(preimage(box)));
   }
+  /// Those that the base has.
   Known_bounds known_bounds() const requires HasKnownBounds<Base> { return base_.known_bounds(); }
 
+  /// The image of the function that may replace the base in the box around the preimage, if there is one.
   std::optional<Transformed_function_traits_3>
   restricted(const CGAL::Bbox_3& box) const requires RestrictableImplicitFunctionTraits_3<Base> {
     auto base = base_.restricted(preimage(box));
@@ -118,6 +129,7 @@ public:
   /// Affine maps keep the certainty.
   double certainty(const Point_3& p) const requires HasCertainty<Base> { return base_.certainty(preimage(p)); }
 
+  /// Finds a zero on the segment ab by the base, on the preimage of the segment.
   Surface_point_3<Kernel_of<Base>> intersect_segment(const Point_3& a, const Point_3& b, const FT& fa,
                                                      const FT& fb) const requires HasIntersectSegment<Base> {
     auto found = base_.intersect_segment(preimage(a), preimage(b), fa, fb);
@@ -139,18 +151,19 @@ public:
   Lattice_3<Kernel_of<Base>> lattice() const requires LatticeImplicitFunctionTraits_3<Base> {
     return transformed(base_.lattice());
   }
+  /// The sample of the base at node (i, j, k).
   FT sample(std::size_t i, std::size_t j, std::size_t k) const requires LatticeImplicitFunctionTraits_3<Base> {
     return base_.sample(i, j, k);
   }
 
-  const Base& base() const { return base_; }
-  const Aff_transformation_3& transformation() const { return map_->map; }
+  const Base& base() const { return base_; }                               ///< the function f
+  const Aff_transformation_3& transformation() const { return map_->map; } ///< the map A
 
 private:
   using Lattice = Lattice_3<Kernel_of<Base>>;
 
-  /// The map with what is computed from it. Copies of the function share it: CGAL counts the references to a map in a way
-  /// that threads must not do at once.
+  /// The map with what is computed from it. Copies of the function share it: CGAL counts the references to a map in a
+  /// way that threads must not do at once.
   struct Map {
     explicit Map(const Aff_transformation_3& m)
         : map(m), inverse(m.inverse()), is_identity(equals_identity(m)),

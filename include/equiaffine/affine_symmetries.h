@@ -36,7 +36,16 @@ namespace equiaffine {
 /// are sought: an ellipsoid has infinitely many affine symmetries, but 8 rigid ones if its axes differ.
 ///
 /// Takes some 0.1 s for a smooth formula, else 1 to 10 s on one core. The result is the same for CGAL::Sequential_tag
-/// and CGAL::Parallel_tag. Named parameters: `map_kind`, `reflections`, `tolerance`, `complete`.
+/// and CGAL::Parallel_tag.
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `map_kind` | Map_kind | AFFINE | the kind of maps that are sought |
+/// | `reflections` | `bool` | `true` | whether maps may have a negative determinant |
+/// | `tolerance` | `double` | 1e-8 | rms distance by which maps may move points off, a part of the size |
+/// | `complete` | `bool` | `false` | whether all rotations are searched where frames decide, too |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
 /// \throw std::invalid_argument if there are no points, or a parameter makes no sense.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, std::ranges::input_range Points,
           internal::Parameter_chain... Parameters>
@@ -51,7 +60,16 @@ Affine_symmetries_3<Kernel_of<Traits>> affine_symmetries(const Traits& traits, c
 /// The same for the triangles of a mesh, by all rotations; other faces are cut into triangles. Without a
 /// `tolerance` the order is that of the first level within 1 % of the size, less for thin surfaces; the verdict is
 /// EXACT to within the distance between the triangles and the smooth surface that they stand for. Affine maps of a mesh
-/// that bounds no solid are undecided. Named parameters: `map_kind`, `reflections`, `tolerance`, `vertex_point_map`.
+/// that bounds no solid are undecided.
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `map_kind` | Map_kind | AFFINE | the kind of maps that are sought |
+/// | `reflections` | `bool` | `true` | whether maps may have a negative determinant |
+/// | `tolerance` | `double` | none | rms distance by which maps may move points off, a part of the size |
+/// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
 /// \throw std::invalid_argument if a coordinate is not finite, the mesh has no area, or a parameter makes no sense.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Parameter_chain... Parameters>
 auto affine_symmetries(const Graph& mesh, const Parameters&... given) {
@@ -63,7 +81,8 @@ auto affine_symmetries(const Graph& mesh, const Parameters&... given) {
       internal::triangles_of_graph(mesh, parameters), parameters);
 }
 
-/// The same for points with polygons between them, each a range of positions of points. Equal points count once.
+/// The same for points with polygons between them, each a range of positions of points. Equal points count once. There
+/// is no `vertex_point_map`.
 /// \throw std::invalid_argument also if a polygon has the position of no point.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
           std::ranges::input_range Polygons, internal::Parameter_chain... Parameters>

@@ -25,20 +25,37 @@ namespace equiaffine {
 /// model of CGAL's VertexListGraph with any faces, or none; its kernel need not be that of the function, but has
 /// coordinates that are doubles.
 ///
-/// The maps are named parameters, each of which is filled if it is given: `vertex_affine_mean_curvature_map`,
-/// `vertex_affine_Gaussian_curvature_map`, `vertex_affine_normal_map`, `vertex_conormal_map`,
-/// `vertex_pick_invariant_map`, `vertex_affine_metric_map`, `vertex_affine_area_density_map`, `vertex_unit_normal_map`,
-/// `vertex_status_map`, `vertex_structure_map`; and CGAL's `vertex_mean_curvature_map`, `vertex_Gaussian_curvature_map`
-/// and `vertex_principal_curvatures_and_directions_map`, where curvatures of spheres are positive as in CGAL, the opposite
-/// of `Euclidean_structure_3`. A vector is put as what the map holds, if that can be made of three numbers.
+/// The maps are named parameters, each of which is filled if it is given. Those of CGAL have its sign: curvatures of
+/// spheres are positive, the opposite of Euclidean_structure_3. A vector is put as what the map holds, if that can be
+/// made of three numbers, and principal curvatures as a struct with the members of CGAL's
+/// Principal_curvatures_and_directions.
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `vertex_status_map` | map of Point_status | none | which numbers exist; it is read, too |
+/// | `vertex_structure_map` | map of Local_structure_3 | none | the whole structure |
+/// | `vertex_affine_Gaussian_curvature_map` | map of numbers | none | K |
+/// | `vertex_affine_mean_curvature_map` | map of numbers | none | H |
+/// | `vertex_pick_invariant_map` | map of numbers | none | J |
+/// | `vertex_affine_normal_map` | map of vectors | none | xi |
+/// | `vertex_conormal_map` | map of vectors | none | nu |
+/// | `vertex_affine_metric_map` | map of arrays | none | xx xy xz yy yz zz of the affine metric |
+/// | `vertex_affine_area_density_map` | map of numbers | none | the affine area per Euclidean area |
+/// | `vertex_unit_normal_map` | map of vectors | none | n |
+/// | `vertex_mean_curvature_map` | map of numbers | none | -H_e, of CGAL |
+/// | `vertex_Gaussian_curvature_map` | map of numbers | none | K_e, of CGAL |
+/// | `vertex_principal_curvatures_and_directions_map` | map of structs | none | k_1, k_2 with directions, of CGAL |
+/// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
+/// | `estimator` | Estimator | COMPACT | how the affine structure is computed |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
 /// A CGAL::Surface_mesh without such a map gets `v:status` (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`,
-/// `v:direction1`, `v:direction2` (Vector_3), and one of FT for every other attribute of attribute_table.h but the norms
-/// of gradients: `v:k1`, `v:metric_xx`, `v:quadric_defect` and so on.
+/// `v:direction1`, `v:direction2` (Vector_3), and one of FT for every other attribute of attribute_table.h but the
+/// norms of gradients: `v:k1`, `v:metric_xx`, `v:quadric_defect` and so on.
 ///
-/// A vertex whose status is UNCONVERGED before the call keeps that status, unless it is OUTSIDE. CGAL::Sequential_tag and
-/// CGAL::Parallel_tag give the same numbers. Further named parameters: `vertex_point_map`, `estimator`, and those of CGAL
-/// that change nothing here, `geom_traits` and `verbose`. They come in one chain or several, equiaffine's and CGAL's:
+/// A vertex whose status is UNCONVERGED before the call keeps that status, unless it is OUTSIDE. CGAL::Sequential_tag
+/// and CGAL::Parallel_tag give the same numbers. Named parameters come in one chain or several, equiaffine's and
+/// CGAL's:
 /// \code
 /// annotate(graph, traits, CGAL::parameters::vertex_point_map(points),
 ///          equiaffine::parameters::vertex_pick_invariant_map(map));
@@ -69,8 +86,8 @@ Local_structure_3<typename Traits::FT> annotate(const Vertex& v, const Graph& gr
   return structure;
 }
 
-/// The same for a range, such as CGAL::Point_set_3: maps are from its elements. They are points, or `point_map` or a
-/// member of the range gives their points.
+/// The same for a range, such as CGAL::Point_set_3: maps are from its elements. They are points, or a member of the
+/// range gives their points, or the named parameter `point_map`, a property map, in the place of `vertex_point_map`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points, ImplicitFunctionTraits_3 Traits,
           internal::Parameter_chain... Parameters>
 void annotate(const Points& points, const Traits& traits, const Parameters&... given) requires(!Vertex_graph<Points>) {
@@ -79,6 +96,7 @@ void annotate(const Points& points, const Traits& traits, const Parameters&... g
   internal::annotate_elements<ConcurrencyTag>(points, point_of_element(points, parameters), traits, parameters);
 }
 
+/// \cond
 // Calls that are mistaken, see explain_misuse.h.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Elements, class Traits, class... Others>
 void annotate(const Elements&, const Traits&, const Others&...) requires(
@@ -87,6 +105,7 @@ void annotate(const Elements&, const Traits&, const Others&...) requires(
   internal::explain_traits<Traits>();
   internal::explain_parameters<Others...>();
 }
+/// \endcond
 
 } // namespace equiaffine
 

@@ -20,16 +20,26 @@
 namespace equiaffine {
 
 /// Puts the local structure of the surface that the vertices of a mesh are samples of, as `fitted_structures` finds it,
-/// into the property maps that are named parameters, as annotate() with a function does, and estimates of their errors
-/// into `vertex_affine_Gaussian_curvature_error_map`, `vertex_affine_mean_curvature_error_map`,
-/// `vertex_affine_normal_error_map`, `vertex_conormal_error_map`, `vertex_pick_invariant_error_map`,
-/// `vertex_affine_area_density_error_map`, `vertex_mean_curvature_error_map`, `vertex_Gaussian_curvature_error_map` and
-/// `vertex_unit_normal_error_map`. `vertex_structure_map` has a Fitted_structure_3<double>.
+/// into the property maps that are named parameters, as annotate() with a function does, and estimates of their errors.
+/// `vertex_structure_map` has a Fitted_structure_3<double>. The named parameters are those of fitted_structures(), the
+/// maps of annotate(), and maps of the estimated errors:
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `vertex_affine_Gaussian_curvature_error_map` | map of numbers | none | of K |
+/// | `vertex_affine_mean_curvature_error_map` | map of numbers | none | of H |
+/// | `vertex_pick_invariant_error_map` | map of numbers | none | of J |
+/// | `vertex_affine_normal_error_map` | map of numbers | none | of xi, in degrees |
+/// | `vertex_conormal_error_map` | map of numbers | none | of nu, in degrees |
+/// | `vertex_affine_area_density_error_map` | map of numbers | none | of the affine area density |
+/// | `vertex_mean_curvature_error_map` | map of numbers | none | of H_e |
+/// | `vertex_Gaussian_curvature_error_map` | map of numbers | none | of K_e |
+/// | `vertex_unit_normal_error_map` | map of numbers | none | of n, in degrees |
 ///
 /// A CGAL::Surface_mesh without such a map gets the maps that annotate() gives it, the estimates `v:NAME_error` of the
 /// errors of all NAMEs in error_table.h, and `v:affine_gaussian_curvature_noise` and `v:affine_mean_curvature_noise`.
 ///
-/// Further named parameters: those of `fitted_structures`. They come in one chain or several, equiaffine's and CGAL's.
+/// Named parameters come in one chain or several, equiaffine's and CGAL's.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Parameter_chain... Parameters>
 void annotate_by_fit(Graph& mesh, const Parameters&... given) {
   using Joined = internal::Joined_parameters<Parameters...>;
@@ -72,6 +82,7 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, interna
 void annotate_by_fit(const Graph& mesh, Structure_map map, const Parameters&... given) {
   annotate_by_fit<ConcurrencyTag>(mesh, parameters::vertex_structure_map(map), given...);
 }
+/// The same for points without faces.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
           internal::Property_map Structure_map, internal::Parameter_chain... Parameters>
 void annotate_by_fit(const Points& points, Structure_map map,
@@ -79,6 +90,7 @@ void annotate_by_fit(const Points& points, Structure_map map,
   annotate_by_fit<ConcurrencyTag>(points, parameters::vertex_structure_map(map), given...);
 }
 
+/// \cond
 // A call that is mistaken, see explain_misuse.h.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Elements, class... Others>
 void annotate_by_fit(const Elements&, const Others&...) requires(
@@ -86,6 +98,7 @@ void annotate_by_fit(const Elements&, const Others&...) requires(
                                                                      internal::Property_map<Others>)&&...)) {
   internal::explain_parameters<Others...>();
 }
+/// \endcond
 
 } // namespace equiaffine
 

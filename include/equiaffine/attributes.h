@@ -20,7 +20,11 @@
 namespace equiaffine {
 
 /// Returns the local structure of the level set of f through p. `sampled_status` is the status that a sampler gave p: a
-/// point that is UNCONVERGED stays so, with the numbers that exist, unless it is OUTSIDE. Named parameter: `estimator`.
+/// point that is UNCONVERGED stays so, with the numbers that exist, unless it is OUTSIDE.
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `estimator` | Estimator | COMPACT | how the affine structure is computed |
 template <ImplicitFunctionTraits_3 Traits, class Parameters = internal::No_parameters>
 Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, const typename Traits::Point_3& p,
                                                           Point_status sampled_status = Point_status::REGULAR,
@@ -38,7 +42,11 @@ Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, 
 /// local_structure_at: bit for bit if the compiler rounds each product and each sum (-ffp-contract=off), else to within
 /// rounding.
 ///
-/// `sampled_status` is empty or has one entry per point, as in local_structure_at. Named parameter: `estimator`.
+/// `sampled_status` is empty or has one entry per point, as in local_structure_at.
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `estimator` | Estimator | COMPACT | how the affine structure is computed |
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           class Parameters = internal::No_parameters>
 Vertex_attributes compute_attributes(const Traits& traits, std::span<const typename Traits::Point_3> points,

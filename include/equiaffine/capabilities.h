@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A model of ImplicitFunctionTraits_3 may do some things better than others can do for it. Each capability is an optional
-// member of the model and a free function, which calls the member or, where there is none, falls back on what every model
-// has. They have the same name, but for the member `lattice(size)` of sampling_lattice(). The wrappers Level_set_traits_3,
-// Transformed_function_traits_3, Batch_function_traits_3 and Any_function_3 have the capabilities of what they wrap.
-//
-// | free function                              | without the member                                                   |
-// |--------------------------------------------|----------------------------------------------------------------------|
-// | first_order(traits, p)                     | the beginning of taylor(p)                                            |
-// | sampling_lattice(traits, size)             | the axis-parallel lattice of the box                                  |
-// | first_order_bounds(traits, box)            | those of bounds(box), or the whole line, for values; the whole line   |
-// | tight_first_order_bounds(traits, box)      | the mean value theorem with second_order_bounds, or the usual bounds  |
-// | known_bounds(traits)                       | those of which the model's type has members                           |
-// | rounding(traits, p)                        | 0                                                                     |
-// | certainty(traits, p)                       | 1                                                                     |
-// | intersect_segment(traits, a, b, fa, fb)    | Newton's method, or Chandrupatla's without cheap derivatives          |
-//
-// doc/concepts/capabilities.md says what each promises, test/support/conformance.h checks it for every model and wrapper.
+// A model of ImplicitFunctionTraits_3 may do some things better than others can do for it. Each capability is an
+// optional member of the model and a free function, which calls the member or, where there is none, falls back on what
+// every model has. They have the same name, but for the member `lattice(size)` of sampling_lattice(). The wrappers
+// Level_set_traits_3, Transformed_function_traits_3, Batch_function_traits_3 and Any_function_3 have the capabilities
+// of what they wrap. doc/concepts/capabilities.md says what each promises, and what happens without the member;
+// test/support/conformance.h checks it for every model and wrapper.
 #ifndef EQUIAFFINE_CAPABILITIES_H
 #define EQUIAFFINE_CAPABILITIES_H
 
@@ -35,12 +24,14 @@ namespace equiaffine {
 // clang-format off
 
 /// A model chooses the lattices on which it is sampled, such as those that fill the image of a box.
+/// See \ref concept_capabilities.
 template <class Traits>
 concept HasSamplingLattice = requires(const Traits& traits, const typename Lattice_3<Kernel_of<Traits>>::Size& size) {
   { traits.lattice(size) } -> std::convertible_to<Lattice_3<Kernel_of<Traits>>>;
 };
 
 /// A model has bounds of value and gradient that are tighter than its `first_order_bounds`, at a higher cost.
+/// See \ref concept_capabilities.
 template <class Traits>
 concept HasTightFirstOrderBounds = requires(const Traits& traits, const CGAL::Bbox_3& box) {
   { traits.tight_first_order_bounds(box) } -> std::same_as<Jet_3<Interval, 1>>;
@@ -49,10 +40,12 @@ concept HasTightFirstOrderBounds = requires(const Traits& traits, const CGAL::Bb
 /// Which bounds a model has. They are tight in small boxes if their excess over the range shrinks with the square of
 /// the box's size.
 struct Known_bounds {
-  bool have_gradients, are_tight_in_small_boxes;
+  bool have_gradients,          ///< value and gradient have bounds, not the value alone
+      are_tight_in_small_boxes; ///< as said above
 };
 
 /// A model learns at run time which bounds it has, as one that holds another one of any type.
+/// See \ref concept_capabilities.
 template <class Traits>
 concept HasKnownBounds = requires(const Traits& traits) {
   { traits.known_bounds() } -> std::same_as<Known_bounds>;
@@ -60,18 +53,21 @@ concept HasKnownBounds = requires(const Traits& traits) {
 
 /// A model tells how large the errors of its second derivatives are, because these are larger than roundings of the
 /// derivatives, as for a spline.
+/// See \ref concept_capabilities.
 template <class Traits>
 concept HasRounding = requires(const Traits& traits, const typename Traits::Point_3& p) {
   traits.rounding(p);
 };
 
 /// A model tells how far its affine curvatures can be trusted, because it is a fit, which has estimated errors.
+/// See \ref concept_capabilities.
 template <class Traits>
 concept HasCertainty = requires(const Traits& traits, const typename Traits::Point_3& p) {
   { traits.certainty(p) } -> std::convertible_to<double>;
 };
 
 /// A model finds its zeros on segments itself.
+/// See \ref concept_capabilities.
 template <class Traits>
 concept HasIntersectSegment = requires(const Traits& traits, const typename Traits::Point_3& p,
                                        const typename Traits::FT& f) {
@@ -93,8 +89,8 @@ Jet_3<typename Traits::FT, 1> first_order(const Traits& traits, const typename T
   }
 }
 
-/// The lattice of the given size on which to sample a function: the one that the model chooses, or the axis-parallel one
-/// of its box.
+/// The lattice of the given size on which to sample a function: the one that the model chooses, or the axis-parallel
+/// one of its box.
 template <ImplicitFunctionTraits_3 Traits>
 Lattice_3<Kernel_of<Traits>> sampling_lattice(const Traits& traits,
                                               const typename Lattice_3<Kernel_of<Traits>>::Size& size) {
@@ -146,8 +142,8 @@ typename Traits::FT rounding(const Traits& traits, const typename Traits::Point_
   else return typename Traits::FT(0);
 }
 
-/// How far the affine curvatures of the level set through p can be trusted, from 0 to 1. Affine maps of the function keep
-/// it. Registration tries points of greater certainty first.
+/// How far the affine curvatures of the level set through p can be trusted, from 0 to 1. Affine maps of the function
+/// keep it. Registration tries points of greater certainty first.
 template <ImplicitFunctionTraits_3 Traits>
 double certainty(const Traits& traits, const typename Traits::Point_3& p) {
   if constexpr (HasCertainty<Traits>) return traits.certainty(p);

@@ -25,6 +25,7 @@ namespace equiaffine {
 /// A function f on a box of space with its Taylor expansions of total order 4. All members may be called from several
 /// threads at once. A point where f is undefined has the value NaN; one where f is not four times differentiable has
 /// some coefficient that is not finite.
+/// See \ref concept_ImplicitFunctionTraits_3.
 template <class Traits>
 concept ImplicitFunctionTraits_3 =
   std::copy_constructible<Traits> &&
@@ -37,6 +38,7 @@ concept ImplicitFunctionTraits_3 =
   };
 
 /// A function that bounds its values on a box: `bounds(box)` contains f(p) for every p in the box.
+/// See \ref concept_BoundedImplicitFunctionTraits_3.
 template <class Traits>
 concept BoundedImplicitFunctionTraits_3 =
   ImplicitFunctionTraits_3<Traits> &&
@@ -46,6 +48,7 @@ concept BoundedImplicitFunctionTraits_3 =
 
 /// A function that also bounds its gradient: coefficient n of `first_order_bounds(box)` contains that of
 /// `first_order(p)` for every p in the box.
+/// See \ref concept_FirstOrderBoundedImplicitFunctionTraits_3.
 template <class Traits>
 concept FirstOrderBoundedImplicitFunctionTraits_3 =
   BoundedImplicitFunctionTraits_3<Traits> &&
@@ -55,6 +58,7 @@ concept FirstOrderBoundedImplicitFunctionTraits_3 =
 
 /// A function that also bounds its second derivatives, for tighter bounds in small boxes: coefficient n of
 /// `second_order_bounds(box)` contains that of the expansion of order 2 at every p in the box.
+/// See \ref concept_SecondOrderBoundedImplicitFunctionTraits_3.
 template <class Traits>
 concept SecondOrderBoundedImplicitFunctionTraits_3 =
   FirstOrderBoundedImplicitFunctionTraits_3<Traits> &&
@@ -62,8 +66,9 @@ concept SecondOrderBoundedImplicitFunctionTraits_3 =
     { traits.second_order_bounds(box) } -> std::same_as<Jet_3<Interval, 2>>;
   };
 
-/// A function that may be cheaper on a box: `restricted(box)` is nothing, or a function with the same values, bounds and
-/// expansions of order 1 in the box, the numbers bit for bit.
+/// A function that may be cheaper on a box: `restricted(box)` is nothing, or a function with the same values, bounds
+/// and expansions of order 1 in the box, the numbers bit for bit.
+/// See \ref concept_RestrictableImplicitFunctionTraits_3.
 template <class Traits>
 concept RestrictableImplicitFunctionTraits_3 =
   BoundedImplicitFunctionTraits_3<Traits> &&
@@ -72,6 +77,7 @@ concept RestrictableImplicitFunctionTraits_3 =
   };
 
 /// A function that evaluates many points in one call; the numbers are those of the single calls, bit for bit.
+/// See \ref concept_BatchImplicitFunctionTraits_3.
 template <class Traits>
 concept BatchImplicitFunctionTraits_3 =
   ImplicitFunctionTraits_3<Traits> &&
@@ -83,6 +89,7 @@ concept BatchImplicitFunctionTraits_3 =
 
 /// A function that also expands to order 1 at many points in one call, bit for bit as `first_order` does unless the
 /// compiler contracts products and sums.
+/// See \ref concept_BatchImplicitFunctionTraits_3.
 template <class Traits>
 concept FirstOrderBatchImplicitFunctionTraits_3 =
   BatchImplicitFunctionTraits_3<Traits> &&
@@ -93,6 +100,7 @@ concept FirstOrderBatchImplicitFunctionTraits_3 =
 
 /// A function that expands at the points of packs: lane i of x[n], y[n], z[n] is a point, lane i of jets[n] its
 /// expansion, bit for bit unless the compiler contracts products and sums. It may throw Lanes_disagree.
+/// See \ref concept_PackImplicitFunctionTraits_3.
 template <class Traits>
 concept PackImplicitFunctionTraits_3 =
   ImplicitFunctionTraits_3<Traits> &&
@@ -102,6 +110,7 @@ concept PackImplicitFunctionTraits_3 =
   };
 
 /// A function with a cheaper expansion of order 1, for root finding.
+/// See \ref concept_FirstOrderImplicitFunctionTraits_3.
 template <class Traits>
 concept FirstOrderImplicitFunctionTraits_3 =
   ImplicitFunctionTraits_3<Traits> &&
@@ -110,6 +119,7 @@ concept FirstOrderImplicitFunctionTraits_3 =
   };
 
 /// A function that was sampled at the nodes of a lattice and knows the samples.
+/// See \ref concept_LatticeImplicitFunctionTraits_3.
 template <class Traits>
 concept LatticeImplicitFunctionTraits_3 =
   ImplicitFunctionTraits_3<Traits> &&

@@ -31,14 +31,23 @@ namespace equiaffine {
 /// is then not certified, and need not be manifold there. Features much smaller than the radius may be missed.
 /// Nodes of the surface, such as the apex of a cone, are vertices, and so are apexes where f has no gradient, such as
 /// that of half a cone or the corner of a cube. The curves where the surface ends since f is not defined beyond become
-/// features, too, to a hundredth of the radius. Near other singular points the mesh ends in facets of radius/8, whatever
-/// their angles.
+/// features, too, to a hundredth of the radius. Near other singular points the mesh ends in facets of radius/8,
+/// whatever their angles.
 ///
-/// Named parameters: `clip` (the box of the function), `facet_sizing` (UNIFORM), `feature_curves` (none),
-/// `parabolic_features` (no).
-/// \throw std::invalid_argument unless the angle lies in [0, 30], the lengths are positive, or 0 for their defaults, and
-/// finite, the clip domain has an interior and is finite, the diagonal of its box is at least 1e-40 and, as its coordinates,
-/// at most 1e40, and the radius is at least 1024 epsilons of the greatest coordinate
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `clip` | Clip_domain_3 | the box of the function | where the surface is looked for |
+/// | `facet_sizing` | Facet_sizing | UNIFORM | how the size of facets varies |
+/// | `feature_curves` | range of Polyline_3 | none | curves on the surface that edges follow |
+/// | `parabolic_features` | no value | not given | edges follow the parabolic curves |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// Segments of `feature_curves` are short beside the facets; the mesh has vertices of its own on them. With
+/// `parabolic_features` no triangle has points on both sides of a parabolic curve, where the affine curvatures are
+/// infinite.
+/// \throw std::invalid_argument unless the angle lies in [0, 30], the lengths are positive, or 0 for their defaults,
+/// and finite, the clip domain has an interior and is finite, the diagonal of its box is at least 1e-40 and, as its
+/// coordinates, at most 1e40, and the radius is at least 1024 epsilons of the greatest coordinate
 ///
 /// The result is the same on every run. One thread computes it: 20,000 triangles take about 0.2 seconds, and 10 to 40
 /// evaluations per triangle.
@@ -48,6 +57,7 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, con
   internal::check_delaunay_parameters<internal::Joined_parameters<Parameters...>>();
   return internal::delaunay_surface_of(traits, criteria, internal::joined_parameters(given...));
 }
+/// The same with the default criteria.
 template <ImplicitFunctionTraits_3 Traits>
 Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits) {
   return delaunay_surface(traits, Delaunay_criteria());
@@ -67,7 +77,12 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, con
 }
 
 /// The same for the zero set, which is added to a model of CGAL's MutableFaceGraph: see to_face_graph(). Further named
-/// parameters: `vertex_point_map`, `vertex_status_map`.
+/// parameters are
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
+/// | `vertex_status_map` | writable property map | none | from vertices to Point_status |
 template <ImplicitFunctionTraits_3 Traits, Face_graph Graph, internal::Parameter_chain... Parameters>
 Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Graph& graph,
                                                        const Delaunay_criteria& criteria, const Parameters&... given) {
@@ -79,11 +94,13 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Gra
   return internal::without_mesh(std::move(surface));
 }
 
+/// \cond
 // A call that is mistaken, see explain_misuse.h.
 template <class Traits, class... Others>
 void delaunay_surface(const Traits&, const Others&...) requires(!ImplicitFunctionTraits_3<Traits>) {
   internal::explain_traits<Traits>();
 }
+/// \endcond
 
 } // namespace equiaffine
 

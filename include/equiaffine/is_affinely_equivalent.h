@@ -20,8 +20,17 @@ namespace equiaffine {
 /// The answer is true if register_surfaces() finds such a map, and false if the map that it finds moves a part only, or
 /// if all rotations of the whole surfaces were tried, in coordinates in which their solids are round, and none moves
 /// one near the other. Else it is indeterminate, as for surfaces that leave their boxes and have no map with evidence:
-/// the conversion to bool throws CGAL::Uncertain_conversion_exception then. Named parameters: those of
-/// register_surfaces(), except `number_of_maps`.
+/// the conversion to bool throws CGAL::Uncertain_conversion_exception then. The named parameters are those of
+/// register_surfaces() without `number_of_maps`:
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `map_kind` | Map_kind | AFFINE | the kind of maps that are sought |
+/// | `reflections` | `bool` | `true` | whether maps may have a negative determinant |
+/// | `least_overlap` | `double` | 0.05 | part of the points of one surface that lies on the other |
+/// | `tolerance` | `double` | as there | distance of equal surfaces, a part of the size of the target |
+/// | `refined_functions` | `std::pair` | source and target | functions on which maps are refined and judged |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Source, std::ranges::input_range Points,
           ImplicitFunctionTraits_3 Target, std::ranges::input_range Target_points,
           internal::Parameter_chain... Parameters>

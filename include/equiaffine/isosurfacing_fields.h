@@ -24,8 +24,9 @@ namespace equiaffine {
 template <ImplicitFunctionTraits_3 Traits>
 class Value_of_function_3 {
 public:
-  explicit Value_of_function_3(Traits traits) : traits_(std::move(traits)) {}
+  explicit Value_of_function_3(Traits traits) : traits_(std::move(traits)) {} ///< holds a copy of the model
 
+  /// f(p), in double.
   template <class Point_3>
   double operator()(const Point_3& p) const {
     return CGAL::to_double(traits_.value({CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())}));
@@ -35,13 +36,14 @@ private:
   Traits traits_;
 };
 
-/// The gradient of f, divided by its length: the function of a CGAL::Isosurfacing::Gradient_function_3. It is zero where f
-/// has none.
+/// The gradient of f, divided by its length: the function of a CGAL::Isosurfacing::Gradient_function_3. It is zero
+/// where f has none.
 template <ImplicitFunctionTraits_3 Traits>
 class Gradient_of_function_3 {
 public:
-  explicit Gradient_of_function_3(Traits traits) : traits_(std::move(traits)) {}
+  explicit Gradient_of_function_3(Traits traits) : traits_(std::move(traits)) {} ///< holds a copy of the model
 
+  /// The unit vector along the gradient of f at p, or the vector zero.
   template <class Point_3>
   auto operator()(const Point_3& p) const {
     using Vector_3 = typename CGAL::Kernel_traits<Point_3>::Kernel::Vector_3;
@@ -61,8 +63,10 @@ private:
 template <ImplicitFunctionTraits_3 Traits>
 class Edge_intersection_of_function_3 {
 public:
-  explicit Edge_intersection_of_function_3(Traits traits) : traits_(std::move(traits)) {}
+  explicit Edge_intersection_of_function_3(Traits traits) : traits_(std::move(traits)) {} ///< holds a copy of the model
 
+  /// Returns whether the surface f = isovalue passes between p0 and p1, as the values there say, and sets p to the
+  /// point where it does.
   template <class Point_3, class FT, class Domain>
   bool operator()(const Point_3& p0, const Point_3& p1, const FT& value0, const FT& value1, const Domain&,
                   const FT& isovalue, Point_3& p) const {

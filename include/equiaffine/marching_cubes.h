@@ -33,15 +33,23 @@ namespace equiaffine {
 /// counts all this. Parts of the surface that cross no edge of the grid are not found.
 ///
 /// Where the sign changes along an edge at a pole, which projection finds since |f| grows towards it, the vertex is
-/// removed with the triangles around it: the surface ends there, and the mesh is empty if there are only poles. So it is
-/// where f, or its derivatives, cease to exist between two nodes and no zero is found. With
-/// LINEAR vertices poles are not told from zeros. A vertex that could not be projected, as at a jump, stays at its linear
-/// position, is UNCONVERGED, and may be far from the surface.
+/// removed with the triangles around it: the surface ends there, and the mesh is empty if there are only poles. So it
+/// is where f, or its derivatives, cease to exist between two nodes and no zero is found. With LINEAR vertices poles
+/// are not told from zeros. A vertex that could not be projected, as at a jump, stays at its linear position, is
+/// UNCONVERGED, and may be far from the surface.
 ///
-/// Named parameters: `number_of_nodes` (64), `vertex_position` (PROJECTED), `skip_empty_space` (not given).
-/// The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Takes one evaluation per node
-/// (if empty space is skipped, per node near the surface), and per vertex 4 more and 4 to 6 with gradient. The memory
-/// in use is the output, one bit per node, and a buffer for some planes of nodes.
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `number_of_nodes` | `std::size_t`, or an array of three | 64 | nodes along each axis, without a lattice |
+/// | `vertex_position` | Vertex_position | PROJECTED | where vertices are put |
+/// | `skip_empty_space` | no value | not given | asks for bounds, and evaluates near the zero set only |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// Empty space can be skipped if the function is a model of BoundedImplicitFunctionTraits_3. Nothing is skipped without
+/// the parameter, since whether a function written as code accepts Interval cannot be asked without an error where it
+/// does not. The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Takes one evaluation
+/// per node (if empty space is skipped, per node near the surface), and per vertex 4 more and 4 to 6 with gradient. The
+/// memory in use is the output, one bit per node, and a buffer for some planes of nodes.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           internal::Parameter_chain... Parameters>
 Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const Parameters&... given) {
@@ -63,7 +71,12 @@ Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const typen
 }
 
 /// The same for the zero set, which is added to a model of CGAL's MutableFaceGraph: see to_face_graph(). Further named
-/// parameters: `vertex_point_map`, `vertex_status_map`.
+/// parameters are
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
+/// | `vertex_status_map` | writable property map | none | from vertices to Point_status |
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, Face_graph Graph,
           internal::Parameter_chain... Parameters>
 Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, Graph& graph, const Parameters&... given) {
@@ -75,11 +88,13 @@ Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, Graph& grap
   return internal::without_mesh(std::move(surface));
 }
 
+/// \cond
 // A call that is mistaken, see explain_misuse.h.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Traits, class... Others>
 void marching_cubes(const Traits&, const Others&...) requires(!ImplicitFunctionTraits_3<Traits>) {
   internal::explain_traits<Traits>();
 }
+/// \endcond
 
 } // namespace equiaffine
 

@@ -19,7 +19,7 @@ struct Mesh_topology {
   /// Every edge is in one triangle, or in two that pass it in opposite directions, and the triangles around every point
   /// form one fan or one closed ring. Points in no triangle and triangles with a repeated index violate this.
   bool is_manifold = true;
-  std::size_t edges = 0;
+  std::size_t edges = 0;                   ///< the number of edges
   std::size_t boundary_edges = 0;          ///< edges in exactly one triangle
   std::size_t components = 0;              ///< connected by points; a point in no triangle counts
   std::ptrdiff_t euler_characteristic = 0; ///< points - edges + triangles

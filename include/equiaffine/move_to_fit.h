@@ -14,16 +14,21 @@
 
 namespace equiaffine {
 
-/// Moves the vertices of a triangle mesh onto the zero set of a fit to it, or to a surface near it, as far as that leaves
-/// the mesh whole: no triangle turns by more than 60 degrees, and none crosses another one that it did not cross before.
-/// Triangles stay what they are, so that closed meshes stay closed and borders stay borders.
+/// Moves the vertices of a triangle mesh onto the zero set of a fit to it, or to a surface near it, as far as that
+/// leaves the mesh whole: no triangle turns by more than 60 degrees, and none crosses another one that it did not cross
+/// before. Triangles stay what they are, so that closed meshes stay closed and borders stay borders.
 ///
 /// A vertex moves along the gradient of the fit, by 1.25 times the mean length of its edges at most, or the
 /// distance of the data if that is more. It does not where the fit has no derivatives or no zero near enough, faces
 /// another way, or is that of another sheet. Such vertices follow their neighbors, less with every edge from the fit.
 ///
-/// Named parameters: `vertex_point_map`, whose points are the fit's, and `vertex_outcome_map`, which receives the
-/// Fit_outcome of every vertex. Takes some 30 microseconds per vertex, and n log n time for the search of crossings,
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `vertex_point_map` | property map | the mesh's own | from vertices to points of the fit's kernel |
+/// | `vertex_outcome_map` | writable property map | none | from vertices to Fit_outcome |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// Takes some 30 microseconds per vertex, and n log n time for the search of crossings,
 /// again for each of the rounds in which vertices stay, which are at most some 20 + log n. CGAL::Parallel_tag gives the
 /// same numbers.
 /// \throw std::invalid_argument if a face is not a triangle, or a coordinate is not finite.

@@ -22,9 +22,9 @@
 
 namespace equiaffine {
 
-/// Finds the maps that move the surface `source`, or a part of it, onto the surface `target`. Each surface is a function
-/// and a range of points on its zero set, which are moved onto it if they are near; the functions are of any models of
-/// the concept, and defined on their boxes.
+/// Finds the maps that move the surface `source`, or a part of it, onto the surface `target`. Each surface is a
+/// function and a range of points on its zero set, which are moved onto it if they are near; the functions are of any
+/// models of the concept, and defined on their boxes.
 ///
 /// The affine frame at one generic point of the source and that at its counterpart give the map, or the frames of the
 /// principal directions for maps that keep angles. Counterparts are found by their signatures: the nearest ones among
@@ -38,11 +38,21 @@ namespace equiaffine {
 /// (Fitted_function_traits_3) estimates its errors: points where its curvatures are uncertain are tried later. Whole
 /// surfaces of other functions without such frames, as boxes, are matched as meshes are.
 ///
-/// Takes 5 expansions for each of up to 6000 points of a surface, and a number of hypotheses that does not depend on the
-/// number of points. The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit.
+/// Takes 5 expansions for each of up to 6000 points of a surface, and a number of hypotheses that does not depend on
+/// the number of points. The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit.
 ///
-/// Named parameters: `map_kind`, `reflections`, `number_of_maps`, `least_overlap`, `tolerance`,
-/// `refined_functions`.
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `map_kind` | Map_kind | AFFINE | the kind of maps that are sought |
+/// | `reflections` | `bool` | `true` | whether maps may have a negative determinant |
+/// | `number_of_maps` | `std::size_t` | 1 | the greatest number of maps; with more than 1 the search goes on |
+/// | `least_overlap` | `double` | 0.05 | part of the points of one surface that lies on the other |
+/// | `tolerance` | `double` | see above | distance of equal surfaces, a part of the size of the target |
+/// | `refined_functions` | `std::pair` | source and target | functions on which maps are refined and judged |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// `refined_functions` are unsmoothed ones where those by which points are matched are smoothed, since smoothing does
+/// not commute with affine maps.
 /// \throw std::invalid_argument if a surface has no points, or a parameter makes no sense.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Source, std::ranges::input_range Points,
           ImplicitFunctionTraits_3 Target, std::ranges::input_range Target_points,
@@ -60,18 +70,28 @@ Surface_registration_3<Kernel_of<Target>> register_surfaces(const Source& source
 ///
 /// If the whole surfaces are equal, the map keeps the centroid of the area, and an affine one the moments of the solid
 /// inside, so that all rotations and reflections about the centroid are searched by branch and bound. Else pieces are
-/// matched by similarities: two points with their normals give a frame, pairs of points with about the same distance and
-/// angles are tried, and a map is accepted if the points in contact leave it no freedom, at most 2 % of the points of
-/// one surface lie off the other although that does not end there (`contradictions`), and fewer than 1e-6 as good maps
-/// are expected by chance. The `tolerance` is the rms distance of surfaces that are equal, a part of the size; by default
-/// it is what facets explain, 0.3 % to 1 %, and 2e-5 for solids of planes, which have no other facets. Without one, two
-/// scans of an object that are not equal, such as a fine and a coarse one, are matched if one map stands out: its rms is
-/// below 1.5 % of the size, less for thin surfaces, and less than half of that of every other map, and less than 10 % of
-/// the points are off the other surface.
+/// matched by similarities: two points with their normals give a frame, pairs of points with about the same distance
+/// and angles are tried, and a map is accepted if the points in contact leave it no freedom, at most 2 % of the points
+/// of one surface lie off the other although that does not end there (`contradictions`), and fewer than 1e-6 as good
+/// maps are expected by chance. The `tolerance` is the rms distance of surfaces that are equal, a part of the size; by
+/// default it is what facets explain, 0.3 % to 1 %, and 2e-5 for solids of planes, which have no other facets. Without
+/// one, two scans of an object that are not equal, such as a fine and a coarse one, are matched if one map stands out:
+/// its rms is below 1.5 % of the size, less for thin surfaces, and less than half of that of every other map, and less
+/// than 10 % of the points are off the other surface.
 ///
-/// Takes some 5 to 40 s on one core if the wholes are not equal. Named parameters: `map_kind`, `reflections`,
-/// `number_of_maps`, `least_overlap`, `tolerance`, and `vertex_point_map` for the source; `target_parameters` has
-/// `vertex_point_map` for the target.
+/// Takes some 5 to 40 s on one core if the wholes are not equal. The last argument has `vertex_point_map` and
+/// `geom_traits` for the target; the one before it has
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `map_kind` | Map_kind | AFFINE | the kind of maps that are sought |
+/// | `reflections` | `bool` | `true` | whether maps may have a negative determinant |
+/// | `number_of_maps` | `std::size_t` | 1 | the greatest number of maps; with more than 1 the search goes on |
+/// | `least_overlap` | `double` | 0.05 | part of the points of one surface that lies on the other |
+/// | `tolerance` | `double` | see above | rms distance of equal surfaces, a part of the size |
+/// | `vertex_point_map` | property map | the mesh's own | from vertices of the source to points |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
 /// \throw std::invalid_argument if a coordinate is not finite, a mesh has no faces, or a parameter makes no sense.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Source, Face_graph Target,
           internal::Parameter_chain Parameters = internal::No_parameters,

@@ -25,11 +25,18 @@ namespace equiaffine {
 /// makes them round. Vertices beside them go to the fit only if that is within a fifth of an edge. Sharp edges count
 /// where they follow each other as creases do, see fitted_structures().
 ///
-/// Named parameters: `target_edge_length`, by default the mean length of the edges given, `number_of_iterations`, by
-/// default 3, `feature_angle`, by default 60 degrees, `edge_is_constrained_map`, which says of the edges of the result,
-/// too, whether they are kept, `vertex_point_map`, whose points are the fit's, and `vertex_outcome_map`, which receives
-/// the Fit_outcome of every vertex of the result. Takes n log n time, some 0.1 ms per vertex, for each of the lengths
-/// that are tried. CGAL::Parallel_tag gives the same numbers.
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `target_edge_length` | `std::optional<double>` | the mean of those given | a length |
+/// | `number_of_iterations` | `unsigned` | 3 | rounds of splits, collapses, flips and relaxation |
+/// | `feature_angle` | `std::optional<double>` | 60 | angle of edges that are kept, in degrees; `std::nullopt`: none |
+/// | `edge_is_constrained_map` | writable property map | none | from edges to bool: those that are kept |
+/// | `vertex_point_map` | property map | the mesh's own | from vertices to points of the fit's kernel |
+/// | `vertex_outcome_map` | writable property map | none | from vertices of the result to Fit_outcome |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// `edge_is_constrained_map` says of the edges of the result, too, whether they are kept. Takes n log n time, some 0.1
+/// ms per vertex, for each of the lengths that are tried. CGAL::Parallel_tag gives the same numbers.
 /// \throw std::invalid_argument if a face is not a triangle, a coordinate is not finite, a parameter makes no sense, or
 /// there would be more than 10^8 triangles, or more than 10^4 parts of an edge. The mesh is as it was then.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, class Kernel,

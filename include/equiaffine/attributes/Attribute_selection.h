@@ -15,8 +15,9 @@ namespace equiaffine {
 
 /// A column of a file: a scalar attribute, or one component of a vector or form.
 struct Attribute {
-  std::string_view name;
-  std::size_t row, component; ///< indices in attribute_table
+  std::string_view name; ///< as in the header of a file
+  std::size_t row,       ///< of attribute_table
+      component;         ///< of the vector or form in that row; 0 for a scalar
 
   /// Returns the number from a local structure, or the pack of numbers from a structure of packs. It is NaN for the
   /// norm of a gradient, which a local structure does not have.
@@ -29,8 +30,8 @@ struct Attribute {
 
 /// Which attributes to compute, in the order of the table, and whether the status comes with them.
 struct Attribute_selection {
-  std::vector<Attribute> columns;
-  bool has_status = true;
+  std::vector<Attribute> columns; ///< in the order of the table
+  bool has_status = true;         ///< whether the status is asked for, too
 };
 
 /// Reads `basic`, `all`, `none`, or a comma-separated list of names of attributes, of their components (`nx`), of
@@ -48,12 +49,13 @@ inline Attribute_selection select_attributes(std::string_view list) {
 
 /// The names that select_attributes() reads, vectors and forms by one name each, for a text of help.
 struct Attribute_names {
-  std::vector<std::string_view> basic;
+  std::vector<std::string_view> basic;        ///< in `basic`
   std::vector<std::string_view> added_by_all; ///< in `all` and not in `basic`
   std::vector<std::string_view> by_name;      ///< in no list
-  std::vector<std::string_view> signature;
+  std::vector<std::string_view> signature;    ///< in `signature`
 };
 
+/// Returns these names, in the order of the table.
 inline Attribute_names attribute_names() {
   using namespace attribute_lists;
   Attribute_names names;

@@ -29,8 +29,8 @@ namespace equiaffine {
 template <class Kernel>
 class Curvature_error_3 {
 public:
-  using FT = typename Kernel::FT;
-  using Point_3 = typename Kernel::Point_3;
+  using FT = typename Kernel::FT;           ///< the number type of the kernel
+  using Point_3 = typename Kernel::Point_3; ///< points of the kernel
 
   /// `function` is the spline through the samples of `volume` after these were smoothed by the scale `smoothing`. The
   /// deviation of the noise is in the unit of the samples, see Sample_noise.
@@ -44,6 +44,7 @@ public:
                                     tag),
         disturbances_(function.spline(), smoothing, noise_deviation) {}
 
+  /// The estimates at p, NaN where the spline has no regular structure.
   Affine_curvature_error<FT> operator()(const Point_3& p) const {
     const Spline_function_3<Kernel>& spline = function_.spline();
     const auto cell = spline.cell_of(p);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Named parameters in the style of CGAL: `parameters::number_of_nodes(128).vertex_position(Vertex_position::LINEAR)`.
-// internal/shared/named_parameter_list.h documents each. The types are our own, since CGAL's list of names is closed and
+// internal/shared/named_parameter_list.h has the list. The types are our own, since CGAL's list of names is closed and
 // differs between its versions 5 and 6.
 #ifndef EQUIAFFINE_BASE_NAMED_PARAMETERS_H
 #define EQUIAFFINE_BASE_NAMED_PARAMETERS_H

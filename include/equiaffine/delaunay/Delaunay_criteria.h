@@ -12,6 +12,7 @@ struct Delaunay_criteria {
   double radius = 0;   ///< bound of the radius of surface Delaunay balls; 0: 1/50 of the diagonal of the clip domain
   double distance = 0; ///< bound of the distance of a triangle's circumcenter to the center of that ball; 0: radius/10
 
+  /// A fiftieth of the diagonal of the clip domain.
   static double default_radius(const Clip_domain_3& domain) { return domain.diagonal() / 50; }
 
   /// Returns these criteria with the defaults in place of lengths that are 0.

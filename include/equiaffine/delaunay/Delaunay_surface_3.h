@@ -21,8 +21,8 @@ struct Delaunay_surface_3 : Isosurface_3<Kernel> {
   /// There are also boxes where a part of the surface got no triangle, or a feature no edge, because it is too near to
   /// others, where points of features are nearer to each other than a thousandth of the radius, where the mesh is not a
   /// manifold, and where a triangle straddles a parabolic curve that is a feature. The whole box is one of them if
-  /// CGAL's mesher gave up, because the surface has bends much smaller than facets: some triangles are then missing, and
-  /// others do not satisfy the criteria.
+  /// CGAL's mesher gave up, because the surface has bends much smaller than facets: some triangles are then missing,
+  /// and others do not satisfy the criteria.
   std::vector<CGAL::Bbox_3> undecided_boxes;
   Parabolic_curves_3<Kernel> parabolic_curves; ///< if the mesh was asked to follow them
 };

@@ -20,7 +20,7 @@ enum class Fit_outcome : unsigned char {
   ON_FEATURE  ///< the vertex is on a sharp edge that is kept, which the fit makes round
 };
 
-inline constexpr std::size_t number_of_fit_outcomes = 8;
+inline constexpr std::size_t number_of_fit_outcomes = 8; ///< how many values the enumeration has
 
 /// The names of the outcomes, in their order.
 inline constexpr std::array<std::string_view, number_of_fit_outcomes> fit_outcome_names = {
@@ -32,11 +32,13 @@ struct Fit_move_report {
   double largest_move = 0;                                        ///< the distance between old and new positions
   std::size_t crossings = 0; ///< pairs of triangles that cross each other, all of which did so before the move
 
+  /// The number of vertices of the mesh.
   std::size_t number_of_vertices() const {
     std::size_t sum = 0;
     for (const std::size_t n : number_of) sum += n;
     return sum;
   }
+  /// The number of vertices on the zero set.
   std::size_t number_on_fit() const { return number_of[std::size_t(Fit_outcome::ON_FIT)]; }
 };
 

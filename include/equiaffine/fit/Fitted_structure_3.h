@@ -14,8 +14,8 @@ namespace equiaffine {
 /// known.
 template <class FT>
 struct Fitted_structure_3 {
-  Local_structure_3<FT> structure;
-  Local_structure_error_3<FT> error;
+  Local_structure_3<FT> structure;   ///< the numbers
+  Local_structure_error_3<FT> error; ///< their estimated errors
   Local_structure_error_3<FT> noise; ///< two standard deviations of what noise makes; at a scale, the error
   Local_structure_error_3<FT>
       detail; ///< at a scale: how much detail that the scale leaves out may make; else the error

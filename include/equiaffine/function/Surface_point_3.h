@@ -9,11 +9,11 @@ namespace equiaffine {
 /// The result of a search for a point on the zero set of f.
 template <class Kernel>
 struct Surface_point_3 {
-  typename Kernel::Point_3 point;
-  bool has_converged;      ///< if false, no zero was found, and `point` is the best guess
-  std::size_t evaluations; ///< the number of evaluations of f with its gradient
-  bool is_at_pole = false; ///< no zero was found since f changes its sign at a pole, which is `point`
-  bool is_at_end = false;  ///< no zero was found since f, or its derivatives, end beside `point`
+  typename Kernel::Point_3 point; ///< the zero
+  bool has_converged;             ///< if false, no zero was found, and `point` is the best guess
+  std::size_t evaluations;        ///< the number of evaluations of f with its gradient
+  bool is_at_pole = false;        ///< no zero was found since f changes its sign at a pole, which is `point`
+  bool is_at_end = false;         ///< no zero was found since f, or its derivatives, end beside `point`
 };
 
 } // namespace equiaffine

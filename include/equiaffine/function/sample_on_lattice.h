@@ -41,8 +41,8 @@ Volume_3<Kernel_of<Traits>> sample_on_lattice(const Traits& traits, const Lattic
   return sample_on_lattice<ConcurrencyTag>(traits, lattice, [](std::size_t) {});
 }
 
-/// The values of anything that can be called with a point, `FT operator()(Point_3) const`, from several threads at once. A
-/// Sampled_function_traits_3 of the volume is a function with derivatives.
+/// The values of anything that can be called with a point, `FT operator()(Point_3) const`, from several threads at
+/// once. A Sampled_function_traits_3 of the volume is a function with derivatives.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Function, class Kernel>
 Volume_3<Kernel> sample_on_lattice(const Function& f, const Lattice_3<Kernel>& lattice) requires(
     !ImplicitFunctionTraits_3<Function> &&

@@ -17,9 +17,10 @@ namespace equiaffine {
 /// definition. Units: e1 and e2 length^(1/4), xi length^(-1/2), scale length^(-3/2).
 template <class FT>
 struct Affine_frame_3 {
-  std::array<FT, 3> e1, e2; ///< tangent vectors: eigenvectors of B (elliptic points), asymptotic ones (hyperbolic)
-  std::array<FT, 3> xi;     ///< the affine normal, or the opposite vector: J >= 0 for this orientation
-  FT scale;                 ///< r = sqrt(H^2 + J^2 + |D|) with D = H^2 - K
+  std::array<FT, 3> e1, ///< a tangent vector: an eigenvector of B (elliptic points), an asymptotic one (hyperbolic)
+      e2;               ///< the other one
+  std::array<FT, 3> xi; ///< the affine normal, or the opposite vector: J >= 0 for this orientation
+  FT scale;             ///< r = sqrt(H^2 + J^2 + |D|) with D = H^2 - K
   /// H / r, J / r >= 0, sign(D) sqrt|D| / r and Theta / (|D| r^2): all invariants of order 4.
   std::array<FT, 4> signature;
   /// How well the structure determines the frame: 0 where it does not, 1 at most or not much more.

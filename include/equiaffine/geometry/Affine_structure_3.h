@@ -36,8 +36,9 @@ struct Affine_invariants_3 {
 /// The invariants with what follows from them.
 template <class FT>
 struct Affine_structure_3 : Affine_invariants_3<FT> {
-  Mask_of<FT> has_real_principal_curvatures;
-  FT k1, k2; ///< eigenvalues of B, k1 >= k2; NaN where they are complex, which needs a hyperbolic point (K_e < 0)
+  Mask_of<FT> has_real_principal_curvatures; ///< whether the eigenvalues of B are real
+  FT k1,  ///< the greater eigenvalue of B; NaN where they are complex, which needs a hyperbolic point (K_e < 0)
+      k2; ///< the other one
   /// xx xy xz yy yz zz of the Berwald-Blaschke metric; as a form on space it vanishes along xi, so that an affine map
   /// carries it along.
   std::array<FT, 6> metric;
@@ -45,8 +46,9 @@ struct Affine_structure_3 : Affine_invariants_3<FT> {
   /// basis, whatever the unit of length: zero exactly where t is. J vanishes on other surfaces, too, ruled ones among
   /// them: where K_e < 0 no affine invariant of this order tells quadrics from all others.
   FT quadric_defect;
-  std::array<FT, 3> tangent_u, tangent_v; ///< the basis e_u, e_v of the chart in space
-  std::array<FT, 3> metric_in_chart;      ///< uu uv vv of the metric in this basis
+  std::array<FT, 3> tangent_u,       ///< the vector e_u of the chart in space
+      tangent_v;                     ///< the vector e_v
+  std::array<FT, 3> metric_in_chart; ///< uu uv vv of the metric in this basis
   /// uuu uuv uvv vvv in this basis of T, the trace-free part of the cubic form: J = 1/8 |T|^2 in the metric.
   std::array<FT, 4> cubic_in_chart;
 };

@@ -11,10 +11,13 @@ namespace equiaffine {
 /// and mean curvature -1/r. Units: curvatures 1/length, Gaussian curvature 1/length^2.
 template <class FT>
 struct Euclidean_structure_3 {
-  std::array<FT, 3> normal;
-  FT k1, k2;                                ///< principal curvatures, k1 >= k2
-  std::array<FT, 3> direction1, direction2; ///< unit principal directions; direction1, direction2, normal right-handed
-  FT gaussian_curvature, mean_curvature;    ///< k1 k2, (k1 + k2) / 2
+  std::array<FT, 3> normal;     ///< the unit normal n
+  FT k1,                        ///< the greater principal curvature
+      k2;                       ///< the other one
+  std::array<FT, 3> direction1, ///< unit principal direction of k1
+      direction2;               ///< that of k2; direction1, direction2, normal are right-handed
+  FT gaussian_curvature,        ///< k1 k2
+      mean_curvature;           ///< (k1 + k2) / 2
 };
 
 } // namespace equiaffine

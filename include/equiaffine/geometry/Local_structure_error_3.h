@@ -11,11 +11,14 @@ namespace equiaffine {
 /// the number does not exist.
 template <class FT>
 struct Local_structure_error_3 : Affine_curvature_error<FT> {
-  FT pick_invariant;
-  FT affine_area_density;
-  FT affine_normal; ///< an angle
-  FT normal;        ///< an angle, also that of the affine co-normal
-  FT euclidean_gaussian_curvature, euclidean_mean_curvature, k1, k2;
+  FT pick_invariant;               ///< of J
+  FT affine_area_density;          ///< of |K_e|^(1/4)
+  FT affine_normal;                ///< an angle
+  FT normal;                       ///< an angle, also that of the affine co-normal
+  FT euclidean_gaussian_curvature, ///< of K_e
+      euclidean_mean_curvature,    ///< of H_e
+      k1,                          ///< of the greater principal curvature
+      k2;                          ///< of the other one
 };
 
 } // namespace equiaffine

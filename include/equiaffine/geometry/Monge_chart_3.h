@@ -35,23 +35,26 @@ namespace equiaffine {
 /// FT is a number or a pack of numbers; nothing here branches on values but the choice of the pivot of a number.
 template <class FT>
 struct Monge_chart_3 {
-  using Mask = Mask_of<FT>;
+  using Mask = Mask_of<FT>; ///< a truth value, or one per lane of a pack
 
-  Mask pivot_is_x, pivot_is_y; ///< which axis plays z; the next two, cyclically, play x and y
-  Mask is_steep;               ///< the gradient counts as not zero, see `take_gradient_within_rounding_for_zero`
+  Mask pivot_is_x, ///< the x axis plays z; the next two, cyclically, play x and y
+      pivot_is_y;  ///< the y axis plays z; else the z axis does
+  Mask is_steep;   ///< the gradient counts as not zero, see `take_gradient_within_rounding_for_zero`
   /// d counts as not zero: it is more than 1000 roundings of the terms of which its entries are sums could make it, see
   /// also `take_d_within_error_for_zero`.
   Mask is_curved;
-  FT sign; ///< of f_z: normals along the gradient are sign (a, b, 1) up to length
-  FT a, b;
-  std::array<FT, 3> quadratic; ///< of Q
-  std::array<FT, 2> mixed;     ///< of L
-  FT e;
+  FT sign;                           ///< of f_z: normals along the gradient are sign (a, b, 1) up to length
+  FT a,                              ///< f_x / f_z
+      b;                             ///< f_y / f_z
+  std::array<FT, 3> quadratic;       ///< of Q
+  std::array<FT, 2> mixed;           ///< of L
+  FT e;                              ///< of w^2
   std::array<FT, 4> cubic;           ///< of C
   std::array<FT, 3> mixed_quadratic; ///< of D
   std::array<FT, 5> quartic;         ///< of R
   FT determinant;                    ///< of the symmetric coefficients of Q: d / 4
 
+  /// Makes the chart at the point where f has this jet.
   explicit Monge_chart_3(const Jet_3<FT>& jet) {
     using std::abs;
     const auto& c = jet.coefficients();
@@ -87,9 +90,11 @@ struct Monge_chart_3 {
   }
 
   /// The second derivatives of the surface as a graph w = g(u, v): the affine fundamental form.
+  /// @{
   FT h_uu() const { return FT(-2) * quadratic[0]; }
   FT h_uv() const { return FT(-2) * quadratic[1]; }
   FT h_vv() const { return FT(-2) * quadratic[2]; }
+  /// @}
 
   /// The determinant of the affine fundamental form.
   FT d() const { return FT(4) * determinant; }

@@ -19,7 +19,7 @@ enum class Point_status : std::uint8_t {
   UNCONVERGED ///< the point could not be moved onto the surface: quantities are those of the level set through it
 };
 
-inline constexpr std::size_t number_of_point_statuses = 5;
+inline constexpr std::size_t number_of_point_statuses = 5; ///< how many values the enumeration has
 
 /// The status of a point whose structure has the status `structure`, when a sampler says `sampled` of it: a point that
 /// is UNCONVERGED stays so, unless it is OUTSIDE.

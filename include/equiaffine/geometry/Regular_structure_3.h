@@ -16,9 +16,9 @@ namespace equiaffine {
 /// the units at hand, although it could in others.
 template <class FT>
 struct Local_structure_3 {
-  Point_status status;
-  Euclidean_structure_3<FT> euclidean;
-  Affine_structure_3<FT> affine;
+  Point_status status;                 ///< says which numbers exist
+  Euclidean_structure_3<FT> euclidean; ///< the Euclidean structure
+  Affine_structure_3<FT> affine;       ///< the affine structure
 };
 
 /// The local structure at a regular point, or at the regular points of a pack.

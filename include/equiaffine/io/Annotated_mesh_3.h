@@ -9,8 +9,8 @@ namespace equiaffine {
 /// A mesh, or points alone, with the numbers that came with the points.
 template <class Kernel>
 struct Annotated_mesh_3 {
-  Indexed_triangle_mesh_3<Kernel> mesh;
-  Vertex_attributes attributes;
+  Indexed_triangle_mesh_3<Kernel> mesh; ///< has no triangles if there are points alone
+  Vertex_attributes attributes;         ///< columns, status and comments
 };
 
 } // namespace equiaffine

@@ -19,15 +19,16 @@ namespace equiaffine {
 
 /// A number, and the area of the surface that has it.
 struct Weighted_number {
-  double number, weight;
+  double number, ///< the number
+      weight;    ///< the area, in any unit
 };
 
 /// A monotone function from numbers to [-1, 1] that keeps zero and gives equal areas of the surface equal parts of
 /// [-1, 0] and of [0, 1]: the rank of a number among those of its sign.
 class Equalization {
 public:
-  static constexpr std::size_t steps = 64; ///< for each sign
-  using Knots = std::array<double, 2 * steps + 1>;
+  static constexpr std::size_t steps = 64;         ///< for each sign
+  using Knots = std::array<double, 2 * steps + 1>; ///< numbers, ascending
 
   /// Linear on [-1, 1].
   Equalization() : Equalization(std::vector<Weighted_number>()) {}
@@ -49,6 +50,7 @@ public:
   /// The function with these ascending values of its inverse at equal steps.
   explicit Equalization(const Knots& knots) : knots_(knots) {}
 
+  /// The place of a number in [-1, 1].
   double operator()(double number) const {
     const auto [first, last] = std::equal_range(knots_.begin(), knots_.end(), number);
     const auto index = [&](auto knot) { return double(knot - knots_.begin()); };
@@ -59,9 +61,10 @@ public:
     return (index(first) - 1 + (number - below) / (*first - below)) / steps - 1;
   }
 
+  /// The numbers whose places are -1, 1 / steps - 1, ..., 1.
   const Knots& knots() const { return knots_; }
 
-  friend bool operator==(const Equalization&, const Equalization&) = default;
+  friend bool operator==(const Equalization&, const Equalization&) = default; ///< of knots
 
 private:
   static bool is_less(const Weighted_number& each, double number) { return each.number < number; }
@@ -89,11 +92,12 @@ private:
 
 /// The way from a number to a place on its map, and to its color.
 struct Color_mapping {
-  Color_range range;
-  Color_scale scale = Color_scale::LINEAR;
-  Equalization equalization = {}; ///< for the scale of that name
+  Color_range range;                       ///< the numbers of the end colors
+  Color_scale scale = Color_scale::LINEAR; ///< how numbers between them are placed
+  Equalization equalization = {};          ///< for the scale of that name
 
-  /// The place of a number: in [-1, 1] with zero at 0 for a diverging range, otherwise in [0, 1]. Monotone; NaN stays NaN.
+  /// The place of a number: in [-1, 1] with zero at 0 for a diverging range, otherwise in [0, 1]. Monotone; NaN stays
+  /// NaN.
   double position(double value) const {
     if (std::isnan(value)) return value;
     const double clipped = std::clamp(value, range.lower, range.upper);
@@ -101,12 +105,13 @@ struct Color_mapping {
     return clipped < 0 ? -part(clipped, 0, range.lower) : part(clipped, 0, range.upper);
   }
 
+  /// The color of a number on the map that the range asks for.
   CGAL::IO::Color color(double value) const {
     const double t = position(value);
     return range.is_diverging ? diverging_color(t) : sequential_color(t);
   }
 
-  friend bool operator==(const Color_mapping&, const Color_mapping&) = default;
+  friend bool operator==(const Color_mapping&, const Color_mapping&) = default; ///< of all members
 
 private:
   double scaled(double value) const {

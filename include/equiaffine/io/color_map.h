@@ -18,26 +18,27 @@
 
 /// \file
 /// The one mapping from a number to a color: every picture of this library uses it.
-/// The steps are: number -> `Color_range` of the whole column -> position on the map by a `Color_mapping` -> color, sRGB.
-/// The maps are straight paths in Oklab (B. Ottosson, "A perceptual color space for image processing", 2020): lightness
-/// alone, which no form of color blindness takes away, tells the order.
+/// The steps are: number -> `Color_range` of the whole column -> position on the map by a `Color_mapping` -> color,
+/// sRGB. The maps are straight paths in Oklab (B. Ottosson, "A perceptual color space for image processing", 2020):
+/// lightness alone, which no form of color blindness takes away, tells the order.
 
 namespace equiaffine {
 
+/// The ways from a number to its place between the end colors.
 enum class Color_scale {
-  LINEAR,
+  LINEAR,   ///< proportional
   ASINH,    ///< linear below `Color_range::knee`, logarithmic above, with the sign kept
   EQUALIZED ///< by rank, with the sign kept: see `Color_mapping`
 };
 
 /// The numbers that get the two end colors; beyond them colors stay the same.
 struct Color_range {
-  double lower;
-  double upper;
+  double lower;      ///< the least of them
+  double upper;      ///< the greatest of them
   double knee;       ///< the median of |value|, at least the least difference worth a color: > 0
   bool is_diverging; ///< lower == -upper: zero is the middle of the diverging map; else the sequential map is used
 
-  friend bool operator==(const Color_range&, const Color_range&) = default;
+  friend bool operator==(const Color_range&, const Color_range&) = default; ///< of all members
 };
 
 /// The share of numbers, in percent, that gets an end color at each end unless said otherwise.
@@ -46,6 +47,7 @@ inline constexpr double default_clip_percent = 2;
 /// The shares, in percent, that pages can clip off the range at each end.
 inline constexpr std::array<double, 12> clip_steps = {0, 0.1, 0.2, 0.5, 1, 2, 3, 5, 10, 15, 20, 25};
 
+/// The word for a scale on pages and in options of the program.
 constexpr std::string_view to_string(Color_scale scale) {
   switch (scale) {
   case Color_scale::ASINH: return "logarithmic";
@@ -124,8 +126,8 @@ inline CGAL::IO::Color plain_color() { return CGAL::IO::Color(201, 209, 220); }
 /// The gray of colors that say nothing, in legends: a color in doubt keeps its own lightness.
 inline CGAL::IO::Color doubt_color() { return CGAL::IO::Color(136, 136, 136); }
 
-/// The color of regions where a number does not exist because the Gaussian curvature is zero within its error: the hue of
-/// parabolic points, too pale to be taken for a curve.
+/// The color of regions where a number does not exist because the Gaussian curvature is zero within its error: the hue
+/// of parabolic points, too pale to be taken for a curve.
 inline CGAL::IO::Color parabolic_region_color() { return CGAL::IO::Color(166, 205, 178); }
 
 /// The diverging map, for t in [-1, 1]: blue, near-white at 0, red; gray for NaN.

@@ -36,9 +36,9 @@ namespace equiaffine {
 /// character between them.
 template <class Kernel>
 struct Point_table_3 : Annotated_mesh_3<Kernel> {
-  std::vector<std::string> header = {};
-  std::vector<std::string> cells = {};
-  char separator = ',';
+  std::vector<std::string> header = {}; ///< names of the columns
+  std::vector<std::string> cells = {};  ///< row by row
+  char separator = ',';                 ///< the character between cells
 };
 
 /// Reads a CSV file whose header names x, y, z (or X, Y, Z) in any places. Cells are separated by commas, semicolons or
@@ -63,8 +63,8 @@ Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
   return table;
 }
 
-/// Reads points from `.csv`, `.ply`, `.off` or `.xyz`, or from standard input for "-": PLY or OFF if the first word says so,
-/// otherwise CSV.
+/// Reads points from `.csv`, `.ply`, `.off` or `.xyz`, or from standard input for "-": PLY or OFF if the first word
+/// says so, otherwise CSV.
 template <class Kernel>
 Point_table_3<Kernel> read_points(const std::string& path) {
   const auto read = [](std::istream& stream, const std::string& name, std::string_view extension) {

@@ -15,8 +15,8 @@ namespace equiaffine {
 /// Writes one self-contained web page (WebGL 2, no network) that shows the surface colored by any of its attributes.
 /// Numbers are stored in single precision, positions relative to the center of the bounding box; a million vertices
 /// with twenty attributes make 156 MB. A fragment such as `#color=pick_invariant&view=1,0,0` chooses what is shown
-/// first; the page's help lists its keys. Where a column NAME_error has estimates of the errors of NAME, colors and digits
-/// say how far to trust it.
+/// first; the page's help lists its keys. Where a column NAME_error has estimates of the errors of NAME, colors and
+/// digits say how far to trust it.
 /// \pre every column and the status, if there is one, are as long as `points`, triangles index `points`,
 /// `options.color` names an attribute or is `status` (when there is one), `plain` or empty, `options.range` is
 /// ascending, `options.up` is not zero

@@ -24,7 +24,14 @@
 
 namespace equiaffine {
 
-enum class Mesh_format { PLY, OFF, OBJ, STL, CSV };
+/// The formats of files that a mesh is written to.
+enum class Mesh_format {
+  PLY, ///< write_PLY()
+  OFF, ///< write_OFF()
+  OBJ, ///< write_OBJ()
+  STL, ///< write_STL()
+  CSV  ///< write_CSV(), without triangles
+};
 
 /// The format that the extension of a path stands for, in lower or upper case, if there is one.
 inline std::optional<Mesh_format> mesh_format(const std::string& path) {

@@ -14,9 +14,10 @@ namespace equiaffine {
 /// A triangle mesh as plain arrays. Triangles are counterclockwise seen from the side of the greater values.
 template <class FT>
 struct Array_isosurface_3 {
-  std::vector<std::array<FT, 3>, internal::Output_allocator<std::array<FT, 3>>> points;
+  std::vector<std::array<FT, 3>, internal::Output_allocator<std::array<FT, 3>>> points; ///< the points
+  /// Three indices of points each.
   std::vector<std::array<std::uint32_t, 3>, internal::Output_allocator<std::array<std::uint32_t, 3>>> triangles;
-  Isosurface_repairs repairs;
+  Isosurface_repairs repairs; ///< what was repaired
 };
 
 } // namespace equiaffine

@@ -22,20 +22,21 @@ namespace equiaffine {
 /// Thrown when code branches on a condition that differs between the lanes of a pack. The caller then has to compute
 /// the points of the pack one by one.
 struct Lanes_disagree : std::exception {
+  /// The message of the exception.
   const char* what() const noexcept override { return "the lanes of a pack disagree"; }
 };
 
 /// A truth value per lane.
 template <class T, class Lanes>
 struct Pack_mask {
-  using Mask = typename Lanes::Mask;
-  Mask lanes;
+  using Mask = typename Lanes::Mask; ///< the vector of truth values
+  Mask lanes;                        ///< one truth value per lane
 
-  Pack_mask() = default;
-  Pack_mask(bool value) : lanes(value) {}
-  Pack_mask(const Mask& values) : lanes(values) {}
+  Pack_mask() = default;                           ///< leaves the lanes uninitialized
+  Pack_mask(bool value) : lanes(value) {}          ///< the same in all lanes
+  Pack_mask(const Mask& values) : lanes(values) {} ///< one per lane
 
-  bool operator[](std::size_t lane) const { return lanes[lane]; }
+  bool operator[](std::size_t lane) const { return lanes[lane]; } ///< that of one lane
 
   /// The value that all lanes have in common: code with branches works for packs whose lanes agree.
   /// \throw Lanes_disagree if they do not.
@@ -45,6 +46,8 @@ struct Pack_mask {
     return false;
   }
 
+  /// @{
+  /// Does in each lane what it does for a bool; both operands are evaluated.
   [[gnu::always_inline]] friend Pack_mask operator!(const Pack_mask& a) { return !a.lanes; }
   [[gnu::always_inline]] friend Pack_mask operator&&(const Pack_mask& a, const Pack_mask& b) {
     return a.lanes && b.lanes;
@@ -52,27 +55,29 @@ struct Pack_mask {
   [[gnu::always_inline]] friend Pack_mask operator||(const Pack_mask& a, const Pack_mask& b) {
     return a.lanes || b.lanes;
   }
+  /// @}
 };
 
 /// A pack holds as many numbers as one vector register does under the compiler's flags, and is used like one number, by
 /// Jet_3, Monge_chart_3 and the code that uses these. Every operation is that of T in each lane. Functions are those of
-/// <cmath>, except exp, sin and cos of doubles, which are the library's own. So a lane has the same bits as a computation
-/// with T, unless the compiler contracts products and sums to fused operations, which GCC does by default for
-/// processors that have them (see -ffp-contract): then both are equal to within rounding.
+/// `<cmath>`, except exp, sin and cos of doubles, which are the library's own. So a lane has the same bits as a
+/// computation with T, unless the compiler contracts products and sums to fused operations, which GCC does by default
+/// for processors that have them (see -ffp-contract): then both are equal to within rounding.
 ///
 /// `Lanes` says how lanes are kept: in a vector of the compiler if it has such, else in an array. Results are the same.
 template <class T, class Lanes> // a default is in Pack_fwd.h
 struct Pack {
-  using Vector = typename Lanes::Vector;
-  using Mask = Pack_mask<T, Lanes>;
-  static constexpr std::size_t size = Lanes::size;
+  using Vector = typename Lanes::Vector;           ///< the vector of numbers
+  using Mask = Pack_mask<T, Lanes>;                ///< the result of a comparison
+  static constexpr std::size_t size = Lanes::size; ///< the number of lanes
 
-  Vector lanes;
+  Vector lanes; ///< one number per lane
 
-  Pack() = default; // leaves the lanes uninitialized: zeroing them costs factors in jets
+  Pack() = default; ///< leaves the lanes uninitialized: zeroing them costs factors in jets
+  /// The same number in all lanes.
   template <class Number>
   Pack(const Number& value) requires(std::is_arithmetic_v<Number>) : lanes(static_cast<T>(value)) {}
-  Pack(const Vector& values) : lanes(values) {}
+  Pack(const Vector& values) : lanes(values) {} ///< one number per lane
 
   /// Returns the pack whose lane i is f(i).
   template <class F>
@@ -86,8 +91,10 @@ struct Pack {
     return generate([&](std::size_t i) { return f(a[i]); });
   }
 
-  T operator[](std::size_t lane) const { return lanes[lane]; }
+  T operator[](std::size_t lane) const { return lanes[lane]; } ///< the number in one lane
 
+  /// @{
+  /// Does in each lane what it does for T.
   [[gnu::always_inline]] Pack operator-() const { return -lanes; }
   Pack operator+() const { return *this; }
   Pack& operator+=(const Pack& b) { return *this = *this + b; }
@@ -113,11 +120,15 @@ struct Pack {
 
   [[gnu::always_inline]] friend Pack abs(const Pack& a) { return Lanes::abs(a.lanes); }
   [[gnu::always_inline]] friend Pack sqrt(const Pack& a) { return Lanes::sqrt(a.lanes); }
+  /// @}
+  /// @{
   /// A NaN in either argument gives NaN.
   friend Pack min(const Pack& a, const Pack& b) { return select(a < b || a != a, a, b); }
   friend Pack max(const Pack& a, const Pack& b) { return select(a > b || a != a, a, b); }
+  /// @}
 
 #define EQUIAFFINE_PACK_FUNCTION(name)                                                                                 \
+  /** Does in each lane what the function of C++ does. */                                                              \
   friend Pack name(const Pack& a) {                                                                                    \
     return lane_by_lane(a, [](T u) { return std::name(u); });                                                          \
   }
@@ -132,6 +143,7 @@ struct Pack {
   EQUIAFFINE_PACK_FUNCTION(tanh)
 #undef EQUIAFFINE_PACK_FUNCTION
 #define EQUIAFFINE_PACK_FUNCTION(name)                                                                                 \
+  /** Does in each lane what the function of C++ does. */                                                              \
   friend Pack name(const Pack& a, const Pack& b) {                                                                     \
     return generate([&](std::size_t i) { return std::name(a[i], b[i]); });                                             \
   }
@@ -140,6 +152,8 @@ struct Pack {
   EQUIAFFINE_PACK_FUNCTION(hypot)
 #undef EQUIAFFINE_PACK_FUNCTION
 
+  /// @{
+  /// Does in each lane what the library's own function does for doubles, and that of `<cmath>` for other types.
   [[gnu::always_inline]] friend Pack exp(const Pack& a) {
     if constexpr (std::is_same_v<T, double>)
       if (const Mask in_range = abs(a) <= Pack(internal::exponential_range); Lanes::all(in_range.lanes))
@@ -155,6 +169,7 @@ struct Pack {
   }
   friend Pack sin(const Pack& a) { return sine_and_cosine(a).first; }
   friend Pack cos(const Pack& a) { return sine_and_cosine(a).second; }
+  /// @}
 
   /// Does in each lane what internal::scaled_exponential does for a double. Found by argument-dependent lookup in
   /// elementary_functions.h.
@@ -177,7 +192,9 @@ struct Pack {
 } // namespace equiaffine
 
 /// The limits of a pack are those of T, which convert to packs.
+/// \cond
 template <class T, class Lanes>
 struct std::numeric_limits<equiaffine::Pack<T, Lanes>> : std::numeric_limits<T> {};
+/// \endcond
 
 #endif

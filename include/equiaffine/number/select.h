@@ -14,6 +14,7 @@ namespace equiaffine {
 template <class FT>
 using Mask_of = decltype(std::declval<const FT&>() < std::declval<const FT&>());
 
+/// Returns `yes` or `no`. Packs have an overload that does so in each lane.
 template <class FT>
 FT select(bool condition, const FT& yes, const FT& no) {
   return condition ? yes : no;

@@ -12,16 +12,16 @@ namespace equiaffine {
 
 /// A motion p' = matrix p + translation that is tangent to a surface everywhere.
 struct Infinitesimal_map_3 {
-  Eigen::Matrix3d matrix;
-  Eigen::Vector3d translation;
+  Eigen::Matrix3d matrix;      ///< the linear part
+  Eigen::Vector3d translation; ///< the other part
 };
 
 /// The infinitesimal maps along which a surface slips over itself: the Lie algebra of the continuous group of its
 /// symmetries. The generators are a basis, orthonormal in the coordinates in which the points have covariance 1.
 struct Affine_slippage_3 {
-  std::vector<Infinitesimal_map_3> generators;
+  std::vector<Infinitesimal_map_3> generators; ///< a basis
 
-  std::size_t dimension() const { return generators.size(); }
+  std::size_t dimension() const { return generators.size(); } ///< of the group; 0 if the surface does not slip
 };
 
 } // namespace equiaffine

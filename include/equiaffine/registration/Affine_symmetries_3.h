@@ -17,8 +17,8 @@ namespace equiaffine {
 /// A map that moves a surface onto itself.
 template <class Kernel>
 struct Affine_symmetry_3 {
-  typename Kernel::Aff_transformation_3 map;
-  double rms; ///< the root of the mean squared distance of moved points from the surface
+  typename Kernel::Aff_transformation_3 map; ///< the map
+  double rms;                                ///< the root of the mean squared distance of moved points from the surface
 };
 
 /// A finite group of maps, each of which moves a surface onto itself to within an rms distance. All products are in the
@@ -28,7 +28,7 @@ struct Symmetry_level_3 {
   std::vector<Affine_symmetry_3<Kernel>> maps; ///< the identity first
   double rms;                                  ///< the greatest of the maps, a part of the size of the surface
 
-  std::size_t order() const { return maps.size(); }
+  std::size_t order() const { return maps.size(); } ///< the number of its maps
 };
 
 /// A verdict says what is known of the symmetries of a surface.
@@ -42,8 +42,8 @@ enum class Symmetry_verdict {
 /// The result of `affine_symmetries`.
 template <class Kernel>
 struct Affine_symmetries_3 {
-  Symmetry_verdict verdict = Symmetry_verdict::UNDECIDED;
-  std::string reason = {}; ///< why nothing more is known, if the verdict is UNDECIDED
+  Symmetry_verdict verdict = Symmetry_verdict::UNDECIDED; ///< what is known
+  std::string reason = {};                                ///< why nothing more is known, if the verdict is UNDECIDED
   /// Groups, each larger than the one before and with a greater rms: a cube without a corner has 6 symmetries, and 48
   /// to within 3 % of its size.
   std::vector<Symmetry_level_3<Kernel>> levels = {};

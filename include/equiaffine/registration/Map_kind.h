@@ -12,7 +12,9 @@ enum class Map_kind {
   RIGID       ///< those where A is orthogonal: 6 numbers
 };
 
+/// Whether maps of the kind keep volumes, up to their sign.
 constexpr bool keeps_volume(Map_kind kind) { return kind == Map_kind::EQUIAFFINE || kind == Map_kind::RIGID; }
+/// Whether maps of the kind keep angles.
 constexpr bool keeps_angles(Map_kind kind) { return kind == Map_kind::SIMILARITY || kind == Map_kind::RIGID; }
 
 } // namespace equiaffine

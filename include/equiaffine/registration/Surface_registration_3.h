@@ -18,14 +18,14 @@ namespace equiaffine {
 /// A point of the source and one of the target whose frames gave a map, which carries one frame to the other.
 template <class Kernel>
 struct Pair_of_frames_3 {
-  std::array<typename Kernel::Point_3, 2> points;
+  std::array<typename Kernel::Point_3, 2> points;                 ///< of the source, and of the target
   std::array<std::array<typename Kernel::Vector_3, 3>, 2> frames; ///< two tangent vectors and a transversal one each
 };
 
 /// A map that moves the source, or a part of it, onto the target, and what there is to trust it.
 template <class Kernel>
 struct Registered_map_3 {
-  typename Kernel::Aff_transformation_3 map;
+  typename Kernel::Aff_transformation_3 map; ///< from the source to the target
   /// The logarithm of the number of maps as good as this one that chance would make of all that were tried.
   double log10_false_alarms;
   /// The parts of the points of the source, and of the target, that lie on the other surface.
@@ -33,8 +33,8 @@ struct Registered_map_3 {
   double rms; ///< the root of the mean squared distance of these points, in the unit of the target
   /// None if the map is one of a continuous family, or of whole surfaces or pieces that were matched without curvature.
   std::optional<Pair_of_frames_3<Kernel>> pair;
-  /// The parts of the points of the source, and of the target, that lie off the other surface although that does not end
-  /// there, for maps between meshes: they speak against the map, or tell where the surfaces differ.
+  /// The parts of the points of the source, and of the target, that lie off the other surface although that does not
+  /// end there, for maps between meshes: they speak against the map, or tell where the surfaces differ.
   std::optional<std::array<double, 2>> contradictions = {};
 };
 
@@ -50,7 +50,7 @@ struct Surface_registration_3 {
   Affine_slippage_3 slippage;
   std::string reason = {}; ///< why the maps between meshes that were tried are not accepted, if that is known
 
-  bool found() const { return !maps.empty(); }
+  bool found() const { return !maps.empty(); }                          ///< whether there is a map
   const Registered_map_3<Kernel>& best() const { return maps.front(); } ///< \pre found()
 };
 

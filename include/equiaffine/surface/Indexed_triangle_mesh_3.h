@@ -19,20 +19,21 @@ namespace equiaffine {
 /// side to which the surface's normals point.
 template <class Kernel>
 struct Indexed_triangle_mesh_3 {
-  std::vector<typename Kernel::Point_3> points;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<typename Kernel::Point_3> points;        ///< the vertices
+  std::vector<std::array<std::uint32_t, 3>> triangles; ///< three indices each
 };
 
 /// Numbers attached to points, one column per scalar in the order of the file, and the status, if it was asked for. A
 /// number that does not exist is NaN.
 struct Vertex_attributes {
+  /// A name and the numbers of that name.
   struct Column {
-    std::string name;
-    std::vector<double> values;
+    std::string name;           ///< as in the header of a file
+    std::vector<double> values; ///< one per point
   };
-  std::vector<Column> columns;
-  std::optional<std::vector<Point_status>> status;
-  std::vector<std::string> comments = {}; ///< lines of text on the numbers, which only PLY keeps
+  std::vector<Column> columns;                     ///< in the order of the file
+  std::optional<std::vector<Point_status>> status; ///< one per point
+  std::vector<std::string> comments = {};          ///< lines of text on the numbers, which only PLY keeps
 
   /// Whether every column and the status, if there is one, have `size` entries.
   bool has_length(std::size_t size) const {

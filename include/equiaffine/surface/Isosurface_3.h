@@ -17,9 +17,10 @@ struct Isosurface_3 : Indexed_triangle_mesh_3<Kernel> {
   /// One per point: REGULAR, or UNCONVERGED if the point could not be put on the surface and stays at its linear
   /// position.
   std::vector<Point_status> vertex_status;
-  Isosurface_repairs repairs;
+  Isosurface_repairs repairs;           ///< what was repaired
   std::size_t function_evaluations = 0; ///< of f, with or without derivatives
-  double sampling_seconds = 0, projection_seconds = 0;
+  double sampling_seconds = 0,          ///< the time that it took to evaluate the function and to make the mesh
+      projection_seconds = 0;           ///< the time that it took to put vertices on the surface
 };
 
 } // namespace equiaffine

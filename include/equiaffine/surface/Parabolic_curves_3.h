@@ -13,7 +13,7 @@ namespace equiaffine {
 /// curvatures are infinite.
 template <class Kernel>
 struct Parabolic_curves_3 {
-  std::vector<Polyline_3<Kernel>> polylines;
+  std::vector<Polyline_3<Kernel>> polylines; ///< the curves
   std::size_t unconverged_points = 0; ///< points left where linear interpolation along an edge of the mesh puts them
 };
 

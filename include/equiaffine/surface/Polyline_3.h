@@ -10,8 +10,8 @@ namespace equiaffine {
 /// A closed polyline does not repeat its first point.
 template <class Kernel>
 struct Polyline_3 {
-  std::vector<typename Kernel::Point_3> points;
-  bool is_closed = false;
+  std::vector<typename Kernel::Point_3> points; ///< in their order
+  bool is_closed = false;                       ///< whether the first point follows the last one
 };
 
 } // namespace equiaffine

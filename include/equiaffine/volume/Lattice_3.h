@@ -23,11 +23,11 @@ namespace equiaffine {
 template <class Kernel>
 class Lattice_3 {
 public:
-  using FT = typename Kernel::FT;
-  using Point_3 = typename Kernel::Point_3;
-  using Vector_3 = typename Kernel::Vector_3;
-  using Aff_transformation_3 = typename Kernel::Aff_transformation_3;
-  using Size = std::array<std::size_t, 3>;
+  using FT = typename Kernel::FT;                                     ///< the number type of the kernel
+  using Point_3 = typename Kernel::Point_3;                           ///< points of the kernel
+  using Vector_3 = typename Kernel::Vector_3;                         ///< vectors of the kernel
+  using Aff_transformation_3 = typename Kernel::Aff_transformation_3; ///< affine maps of the kernel
+  using Size = std::array<std::size_t, 3>;                            ///< nx, ny, nz
 
   /// \throw std::invalid_argument unless there are two nodes or more along each axis, and no more than can be numbered,
   /// all coordinates are finite and the steps span space
@@ -50,12 +50,13 @@ public:
                    Vector_3(0, (box.ymax() - box.ymin()) / double(size[1] - 1), 0),
                    Vector_3(0, 0, (box.zmax() - box.zmin()) / double(size[2] - 1))}) {}
 
-  const Size& size() const { return size_; }
-  std::size_t number_of_nodes() const { return size_[0] * size_[1] * size_[2]; }
+  const Size& size() const { return size_; }                                     ///< nx, ny, nz
+  std::size_t number_of_nodes() const { return size_[0] * size_[1] * size_[2]; } ///< nx ny nz
+  /// The position of node (i, j, k) among all nodes, i fastest.
   std::size_t index(std::size_t i, std::size_t j, std::size_t k) const { return (k * size_[1] + j) * size_[0] + i; }
 
-  const Point_3& origin() const { return origin_; }
-  const std::array<Vector_3, 3>& steps() const { return steps_; }
+  const Point_3& origin() const { return origin_; }               ///< node (0, 0, 0)
+  const std::array<Vector_3, 3>& steps() const { return steps_; } ///< e0, e1, e2
 
   /// The point with lattice coordinates (u, v, w); nodes have integer ones.
   Point_3 point(const FT& u, const FT& v, const FT& w) const {

@@ -45,14 +45,15 @@ namespace equiaffine {
 template <class Kernel>
 class Spline_function_3 {
 public:
-  using FT = typename Kernel::FT;
-  using Point_3 = typename Kernel::Point_3;
-  using Lattice = Lattice_3<Kernel>;
-  using Matrix = typename Linear_substitution_3<FT>::Matrix;
+  using FT = typename Kernel::FT;                            ///< the number type of the kernel
+  using Point_3 = typename Kernel::Point_3;                  ///< points of the kernel
+  using Lattice = Lattice_3<Kernel>;                         ///< the type of the lattice
+  using Matrix = typename Linear_substitution_3<FT>::Matrix; ///< three rows of three numbers
   static_assert(std::is_floating_point_v<FT>);
 
   /// Fourth derivatives for other steps, and what is made of them, may leave the range of double precision.
-  static constexpr double shortest_step = 1e-70, longest_step = 1e70;
+  static constexpr double shortest_step = 1e-70,
+                          longest_step = 1e70; ///< see shortest_step
 
   /// The coefficients do not depend on the number of threads that compute them. \throw std::invalid_argument unless the
   /// degree is 5, 7 or 9, the smoothing is finite and not negative, there are as many values as nodes, and steps of the
@@ -75,13 +76,13 @@ public:
     else fit<ConcurrencyTag>(smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing)).values);
   }
 
-  const Lattice& lattice() const { return support_.lattice(); }
-  int degree() const { return degree_; }
-  Spline_scheme scheme() const { return scheme_; }
+  const Lattice& lattice() const { return support_.lattice(); } ///< where the samples are
+  int degree() const { return degree_; }                        ///< 5, 7 or 9
+  Spline_scheme scheme() const { return scheme_; }              ///< how samples became coefficients
   /// The degree of the polynomials that extend the samples beyond the border.
   int border_degree() const { return border_degree_; }
 
-  FT value(const Point_3& p) const { return taylor<0>(p).value(); }
+  FT value(const Point_3& p) const { return taylor<0>(p).value(); } ///< the value; NaN outside of the support
 
   /// The cell of the lattice that contains a point of the support.
   std::optional<std::array<std::size_t, 3>> cell_of(const Point_3& p) const {

@@ -12,8 +12,10 @@ namespace equiaffine {
 /// The quantities that the paper estimates, in the conventions of Affine_structure_3.
 template <class FT>
 struct Affine_estimate_3 {
-  std::array<FT, 3> conormal, normal;
-  FT gaussian_curvature, mean_curvature;
+  std::array<FT, 3> conormal, ///< nu
+      normal;                 ///< xi
+  FT gaussian_curvature,      ///< K
+      mean_curvature;         ///< H
 };
 
 namespace internal {

@@ -46,6 +46,8 @@ inline Interval branch_or_kink(const Interval& u, const Interval& v, const Inter
   return degree == 1 ? Interval::hull(a, b) : Interval::whole();
 }
 
+/// @{
+/// Contains the values of the function of this name at the numbers of the intervals where it is defined.
 inline Interval abs(const Interval& a) {
   const double p = std::abs(a.lower()), q = std::abs(a.upper());
   return Interval(a.contains(0) ? 0 : std::min(p, q), std::max(p, q));
@@ -73,6 +75,7 @@ inline Interval log(const Interval& a) {
   if (a.upper() <= 0) return Interval::whole();
   return internal::increasing([](double u) { return std::log(u); }, Interval(std::max(a.lower(), 0.0), a.upper()));
 }
+/// @}
 
 /// a^n, which is monotone in a or, for even n, in |a|. The powers in Jet_functions_3.h call it, too, since repeated
 /// squaring would treat the factors as independent numbers.
@@ -117,6 +120,8 @@ Interval sine_wave(F f, const Interval& a, double maximum) {
 
 } // namespace internal
 
+/// @{
+/// Contains the values of the function of this name at the numbers of the intervals where it is defined.
 inline Interval sin(const Interval& a) {
   return internal::sine_wave([](double u) { return std::sin(u); }, a, std::numbers::pi / 2);
 }
@@ -144,6 +149,7 @@ inline Interval acos(const Interval& a) {
 inline Interval atan(const Interval& a) {
   return internal::increasing([](double u) { return std::atan(u); }, a);
 }
+/// @}
 
 /// Does for intervals what the function of this name in nonsmooth.h does for numbers: derivatives are unbounded if the
 /// box meets the jump.
@@ -161,6 +167,8 @@ inline Interval atan2(const Interval& y, const Interval& x) {
                            function_error_ulps);
 }
 
+/// @{
+/// Contains the values of the function of this name at the numbers of the intervals where it is defined.
 inline Interval sinh(const Interval& a) {
   return internal::increasing([](double u) { return std::sinh(u); }, a);
 }
@@ -181,6 +189,7 @@ inline Interval hypot(const Interval& x, const Interval& y) {
       Interval::widened(std::hypot(p.lower(), q.lower()), std::hypot(p.upper(), q.upper()), function_error_ulps);
   return Interval(std::max(r.lower(), 0.0), r.upper());
 }
+/// @}
 
 } // namespace equiaffine
 

@@ -49,6 +49,8 @@ auto exponential(const Jet_3<T, Order, A>& a, const T& e) {
 
 } // namespace internal
 
+/// @{
+/// The expansion of the function of this name, where the arguments are functions with the given expansions.
 template <class T, int Order, Monomial_set A>
 auto reciprocal(const Jet_3<T, Order, A>& a) {
   const T r = T(1) / a.value();
@@ -135,6 +137,7 @@ auto pow(const S& base, const Jet_3<T, Order, A>& exponent) {
   using std::pow;
   return internal::exponential(exponent * T(log(T(base))), T(pow(T(base), exponent.value())));
 }
+/// @}
 
 } // namespace equiaffine
 

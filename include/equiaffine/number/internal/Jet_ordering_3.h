@@ -11,16 +11,18 @@
 
 namespace equiaffine {
 
-// Jets compare by their values, so that a function may branch.
 #define EQUIAFFINE_JET_COMPARISON(op)                                                                                  \
+  /** Jets compare by their values, so that a function may branch. */                                                  \
   template <class T, int Order, Monomial_set A, Monomial_set B>                                                        \
   auto operator op(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {                                         \
     return a.value() op b.value();                                                                                     \
   }                                                                                                                    \
+  /** Jets compare by their values, so that a function may branch. */                                                  \
   template <class T, int Order, Monomial_set A, JetScalar<T> S>                                                        \
   auto operator op(const Jet_3<T, Order, A>& a, const S& s) {                                                          \
     return a.value() op T(s);                                                                                          \
   }                                                                                                                    \
+  /** Jets compare by their values, so that a function may branch. */                                                  \
   template <class T, int Order, Monomial_set A, JetScalar<T> S>                                                        \
   auto operator op(const S& s, const Jet_3<T, Order, A>& a) {                                                          \
     return T(s) op a.value();                                                                                          \
@@ -53,12 +55,14 @@ auto abs(const Jet_3<T, Order, A>& a) {
   return r;
 }
 
+/// The smaller of two functions, with derivatives as for max().
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto min(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   return -max(-a, -b);
 }
 
-// Overloads for equal types, without which std::max and std::min would match as well after `using std::max`.
+/// @{
+/// Overloads for equal types, without which std::max and std::min would match as well after `using std::max`.
 template <class T, int Order, Monomial_set A>
 auto max(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, A>& b) {
   return max<T, Order, A, A>(a, b);
@@ -67,6 +71,7 @@ template <class T, int Order, Monomial_set A>
 auto min(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, A>& b) {
   return min<T, Order, A, A>(a, b);
 }
+/// @}
 
 } // namespace equiaffine
 

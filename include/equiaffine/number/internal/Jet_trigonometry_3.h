@@ -15,6 +15,7 @@
 
 namespace equiaffine {
 
+/// The sine of a jet.
 template <class T, int Order, Monomial_set A>
 auto sin(const Jet_3<T, Order, A>& a) {
   using internal::sine_and_cosine;
@@ -22,6 +23,7 @@ auto sin(const Jet_3<T, Order, A>& a) {
   return compose(a, std::array<T, 5>{s, c, s * T(-0.5), c * fraction<-1, 6, T>(), s * fraction<1, 24, T>()});
 }
 
+/// The cosine of a jet.
 template <class T, int Order, Monomial_set A>
 auto cos(const Jet_3<T, Order, A>& a) {
   using internal::sine_and_cosine;
@@ -29,6 +31,7 @@ auto cos(const Jet_3<T, Order, A>& a) {
   return compose(a, std::array<T, 5>{c, -s, c * T(-0.5), s * fraction<1, 6, T>(), c * fraction<1, 24, T>()});
 }
 
+/// The tangent of a jet.
 template <class T, int Order, Monomial_set A>
 auto tan(const Jet_3<T, Order, A>& a) {
   using std::tan;
@@ -36,6 +39,7 @@ auto tan(const Jet_3<T, Order, A>& a) {
   return compose(a, std::array<T, 5>{t, d, t * d, d * (T(1) + T(3) * t2) / T(3), t * d * (T(2) + T(3) * t2) / T(3)});
 }
 
+/// The hyperbolic sine of a jet.
 template <class T, int Order, Monomial_set A>
 auto sinh(const Jet_3<T, Order, A>& a) {
   using std::cosh;
@@ -44,6 +48,7 @@ auto sinh(const Jet_3<T, Order, A>& a) {
   return compose(a, std::array<T, 5>{s, c, s * T(0.5), c * fraction<1, 6, T>(), s * fraction<1, 24, T>()});
 }
 
+/// The hyperbolic cosine of a jet.
 template <class T, int Order, Monomial_set A>
 auto cosh(const Jet_3<T, Order, A>& a) {
   using std::cosh;
@@ -52,7 +57,7 @@ auto cosh(const Jet_3<T, Order, A>& a) {
   return compose(a, std::array<T, 5>{c, s, c * T(0.5), s * fraction<1, 6, T>(), c * fraction<1, 24, T>()});
 }
 
-/// tanh' = 1 / cosh^2: 1 - tanh^2 would lose all digits for large arguments.
+/// The hyperbolic tangent of a jet, with tanh' = 1 / cosh^2: 1 - tanh^2 would lose all digits for large arguments.
 template <class T, int Order, Monomial_set A>
 auto tanh(const Jet_3<T, Order, A>& a) {
   using std::cosh;
@@ -73,6 +78,8 @@ std::array<T, 5> asin_derivatives(const T& u) {
 
 } // namespace internal
 
+/// @{
+/// The expansion of the function of this name, where the argument is a function with the given expansion.
 template <class T, int Order, Monomial_set A>
 auto asin(const Jet_3<T, Order, A>& a) {
   using std::asin;
@@ -96,6 +103,7 @@ auto atan(const Jet_3<T, Order, A>& a) {
   const T u = a.value(), g = T(1) / (T(1) + u * u), h = u * g, g2 = g * g, h2 = h * h;
   return compose(a, std::array<T, 5>{atan(u), g, -g * h, g * (h2 - g2 / T(3)), g * h * (g2 - h2)});
 }
+/// @}
 
 /// The angle of (x, y), in (-pi, pi]: the angle of the direction (x_0, y_0) plus the angle relative to it, which is
 /// an arctangent at zero in every quadrant.
@@ -138,12 +146,13 @@ auto hypot(const Jet_3<T, Order, A>& x, const Jet_3<T, Order, B>& y, const Jet_3
   return internal::length(T(hypot(T(hypot(x.value(), y.value())), z.value())), x, y, z);
 }
 
-// Functions of a jet and a number.
 #define EQUIAFFINE_MIXED_JET_FUNCTION(name)                                                                            \
+  /** The same function of a jet and a number. */                                                                      \
   template <class T, int Order, Monomial_set A, JetScalar<T> S>                                                        \
   auto name(const Jet_3<T, Order, A>& a, const S& s) {                                                                 \
     return name(a, Jet_3<T, Order, 1>(T(s)));                                                                          \
   }                                                                                                                    \
+  /** The same function of a number and a jet. */                                                                      \
   template <class T, int Order, Monomial_set A, JetScalar<T> S>                                                        \
   auto name(const S& s, const Jet_3<T, Order, A>& a) {                                                                 \
     return name(Jet_3<T, Order, 1>(T(s)), a);                                                                          \

@@ -28,8 +28,10 @@ class Interval {
   using Limits = std::numeric_limits<double>;
 
 public:
-  Interval() = default;
+  Interval() = default; ///< leaves the bounds uninitialized
 
+  /// The interval that contains a number alone, or, where a double cannot hold that, the numbers beside it. Infinity
+  /// and NaN give what the constructor from two bounds does.
   template <class Number>
   Interval(Number value) requires(std::is_arithmetic_v<Number>) : outwards_{-double(value), double(value)} {
     const double x = double(value);
@@ -44,15 +46,17 @@ public:
       : Interval(lower <= upper ? greater(Outwards{-lower, upper}, repeated(Limits::lowest()))
                                 : repeated(Limits::infinity())) {}
 
-  static Interval whole() { return repeated(Limits::infinity()); }
+  static Interval whole() { return repeated(Limits::infinity()); } ///< all reals
 
-  double lower() const { return -outwards_[0]; }
-  double upper() const { return outwards_[1]; }
-  bool contains(double x) const { return lower() <= x && x <= upper(); }
+  double lower() const { return -outwards_[0]; }                         ///< the lower bound
+  double upper() const { return outwards_[1]; }                          ///< the upper bound
+  bool contains(double x) const { return lower() <= x && x <= upper(); } ///< whether a number lies in it
 
-  Interval operator-() const { return swapped(outwards_); }
-  Interval operator+() const { return *this; }
+  Interval operator-() const { return swapped(outwards_); } ///< the opposite numbers
+  Interval operator+() const { return *this; }              ///< the same interval
 
+  /// @{
+  /// Outward rounded arithmetic.
   friend Interval operator+(const Interval& a, const Interval& b) { return rounded(a.outwards_ + b.outwards_); }
   friend Interval operator-(const Interval& a, const Interval& b) {
     return rounded(a.outwards_ + swapped(b.outwards_));
@@ -77,11 +81,14 @@ public:
   Interval& operator-=(const Interval& b) { return *this = *this - b; }
   Interval& operator*=(const Interval& b) { return *this = *this * b; }
   Interval& operator/=(const Interval& b) { return *this = *this / b; }
+  /// @}
 
+  /// Whether both bounds are equal.
   friend bool operator==(const Interval& a, const Interval& b) {
     return a.lower() == b.lower() && a.upper() == b.upper();
   }
 
+  /// The squares of the numbers of an interval.
   friend Interval square(const Interval& a) {
     const Outwards s = swapped(a.outwards_);
     const double least = std::max(-lesser(a.outwards_, s)[0], 0.0), largest = greater(a.outwards_, s)[0]; // of |a|

@@ -33,12 +33,12 @@ class Jet_3 {
   static_assert((Support & ~internal::all_monomials(Order)) == 0);
 
 public:
-  using Number_type = T;
-  static constexpr int order = Order;
-  static constexpr Monomial_set support = Support;
-  static constexpr std::size_t size = std::size_t(std::popcount(Support));
+  using Number_type = T;                                                   ///< the type of the coefficients
+  static constexpr int order = Order;                                      ///< the total order of the truncation
+  static constexpr Monomial_set support = Support;                         ///< one bit per monomial
+  static constexpr std::size_t size = std::size_t(std::popcount(Support)); ///< the number of coefficients
 
-  Jet_3() = default;
+  Jet_3() = default; ///< leaves coefficients of built-in types uninitialized
 
   /// The constant function.
   Jet_3(const T& value) requires(internal::contains(Support, 0)) {
@@ -46,6 +46,7 @@ public:
     c_[0] = value;
   }
 
+  /// The constant function of another built-in number.
   template <class Number>
   Jet_3(const Number& value) requires(internal::contains(Support, 0) && std::is_arithmetic_v<Number> &&
                                       !std::same_as<Number, T>)
@@ -69,7 +70,7 @@ public:
   /// Position of x^i y^j z^k in the order of the coefficients of a full jet.
   static constexpr int index(int i, int j, int k) { return internal::monomial_index(i, j, k); }
 
-  const T& value() const requires(internal::contains(Support, 0)) { return c_[0]; }
+  const T& value() const requires(internal::contains(Support, 0)) { return c_[0]; } ///< the constant coefficient
 
   /// Coefficient of dx^i dy^j dz^k, i + j + k <= Order: the derivative divided by i! j! k!.
   T coefficient(int i, int j, int k) const {
@@ -85,18 +86,20 @@ public:
 
   /// The coefficients of the monomials in the support, in their order.
   const std::array<T, size>& coefficients() const { return c_; }
-  std::array<T, size>& coefficients() { return c_; }
+  std::array<T, size>& coefficients() { return c_; } ///< the same, to write to
 
   /// Coefficient of monomial number N, a member of the support.
   template <int N>
   const T& at() const {
     return c_[std::size_t(internal::rank(Support, N))];
   }
+  /// The same, to write to.
   template <int N>
   T& at() {
     return c_[std::size_t(internal::rank(Support, N))];
   }
 
+  /// Coefficient of monomial number N, zero if it is no member of the support.
   template <int N>
   T coefficient_or_zero() const {
     if constexpr (internal::contains(Support, N)) return at<N>();
@@ -113,13 +116,16 @@ public:
     (std::make_index_sequence<size>());
   }
 
+  /// The opposite polynomial.
   Jet_3 operator-() const {
     Jet_3 r;
     for_each_monomial([&](auto n) __attribute__((always_inline)) { r.template at<n>() = -this->template at<n>(); });
     return r;
   }
-  Jet_3 operator+() const { return *this; }
+  Jet_3 operator+() const { return *this; } ///< the same polynomial
 
+  /// @{
+  /// Arithmetic with a jet whose monomials are in the support, or with a number.
   template <class Other>
   Jet_3& operator+=(const Other& other) {
     return assign(*this + other);
@@ -136,6 +142,7 @@ public:
   Jet_3& operator/=(const Other& other) {
     return assign(*this / other);
   }
+  /// @}
 
 private:
   template <class Result>
@@ -199,6 +206,8 @@ T square_coefficient(const Jet_3<T, Order, A>& a) {
 
 } // namespace internal
 
+/// @{
+/// Arithmetic of truncated polynomials, and of these with numbers.
 template <class T, int Order, Monomial_set A>
 auto square(const Jet_3<T, Order, A>& a) {
   Jet_3<T, Order, internal::product_of_sets(A, A, Order)> r;
@@ -276,6 +285,7 @@ auto operator/(const Jet_3<T, Order, A>& a, const S& s) {
                           __attribute__((always_inline)) { r.template at<n>() = a.template at<n>() / divisor; });
   return r;
 }
+/// @}
 
 } // namespace equiaffine
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The closed list of named parameters: a new one is one function here, and its tag in Named_parameters.h.
+// The closed list of named parameters: a new one is one function here, and its tag in Named_parameters.h. Functions
+// that take them have tables of types, defaults and meanings.
 #ifndef EQUIAFFINE_BASE_INTERNAL_SHARED_NAMED_PARAMETER_LIST_H
 #define EQUIAFFINE_BASE_INTERNAL_SHARED_NAMED_PARAMETER_LIST_H
 
@@ -13,172 +14,165 @@
 /// Defines one function per named parameter. A free function begins a chain of parameters, a member continues one:
 /// `GIVEN` is the chain before, and `CONST` is `const` for members and nothing for free functions.
 #define EQUIAFFINE_NAMED_PARAMETERS(CONST, GIVEN)                                                                      \
-  /** Nodes per axis, at least 2 each; default 64. */                                                                  \
+  /** Nodes per axis. */                                                                                               \
   inline auto number_of_nodes(const std::array<std::size_t, 3>& n) CONST {                                             \
     return internal::add_parameter<internal::Number_of_nodes_tag>(n, GIVEN);                                           \
   }                                                                                                                    \
+  /** The same number of nodes along each axis. */                                                                     \
   inline auto number_of_nodes(std::size_t n) CONST { return number_of_nodes(std::array<std::size_t, 3>{n, n, n}); }    \
                                                                                                                        \
-  /** A Vertex_position, default PROJECTED. */                                                                         \
+  /** A Vertex_position. */                                                                                            \
   template <class Position>                                                                                            \
   auto vertex_position(Position position) CONST {                                                                      \
     return internal::add_parameter<internal::Vertex_position_tag>(position, GIVEN);                                    \
   }                                                                                                                    \
                                                                                                                        \
-  /** The sampler asks the function for bounds and evaluates it near its zero set only; not the default. Requires */   \
-  /** BoundedImplicitFunctionTraits_3; whether a function written as code accepts Interval cannot be asked without */  \
-  /** an error where it does not. */                                                                                   \
+  /** The sampler asks the function for bounds, and evaluates it near its zero set only. */                            \
   inline auto skip_empty_space() CONST {                                                                               \
     return internal::add_parameter<internal::Skip_empty_space_tag>(std::true_type(), GIVEN);                           \
   }                                                                                                                    \
                                                                                                                        \
-  /** The Estimator of co-normal, affine normal and affine curvatures, default COMPACT. */                             \
+  /** The Estimator of co-normal, affine normal and affine curvatures. */                                              \
   template <class Way>                                                                                                 \
   auto estimator(Way way) CONST {                                                                                      \
     return internal::add_parameter<internal::Estimator_tag>(way, GIVEN);                                               \
   }                                                                                                                    \
                                                                                                                        \
-  /** The Clip_domain_3 where the surface is looked for; default the box of the function. */                           \
+  /** The Clip_domain_3 where the surface is looked for. */                                                            \
   template <class Domain>                                                                                              \
   auto clip(const Domain& domain) CONST {                                                                              \
     return internal::add_parameter<internal::Clip_tag>(domain, GIVEN);                                                 \
   }                                                                                                                    \
                                                                                                                        \
-  /** A range of Polyline_3 on the surface that the edges of the mesh follow, default none. Segments are short */      \
-  /** beside the facets; the mesh has vertices of its own on them. */                                                  \
+  /** A range of Polyline_3 on the surface that the edges of the mesh follow. */                                       \
   template <class Polylines>                                                                                           \
   auto feature_curves(const Polylines& curves) CONST {                                                                 \
     return internal::add_parameter<internal::Feature_curves_tag>(curves, GIVEN);                                       \
   }                                                                                                                    \
                                                                                                                        \
-  /** The edges of the mesh follow the parabolic curves, so that no triangle has points on both sides of one, where */ \
-  /** the affine curvatures are infinite; not the default. */                                                          \
+  /** The edges of the mesh follow the parabolic curves. */                                                            \
   inline auto parabolic_features() CONST {                                                                             \
     return internal::add_parameter<internal::Parabolic_features_tag>(std::true_type(), GIVEN);                         \
   }                                                                                                                    \
                                                                                                                        \
-  /** A Facet_sizing, default UNIFORM. */                                                                              \
+  /** A Facet_sizing. */                                                                                               \
   template <class Sizing>                                                                                              \
   auto facet_sizing(Sizing sizing) CONST {                                                                             \
     return internal::add_parameter<internal::Facet_sizing_tag>(sizing, GIVEN);                                         \
   }                                                                                                                    \
                                                                                                                        \
-  /** A property map from the vertices of a mesh to their points; default the mesh's own. */                           \
+  /** A property map from the vertices of a mesh to their points. */                                                   \
   template <class Map>                                                                                                 \
   auto vertex_point_map(const Map& map) CONST {                                                                        \
     return internal::add_parameter<internal::Vertex_point_tag>(map, GIVEN);                                            \
   }                                                                                                                    \
                                                                                                                        \
-  /** A property map from the elements of a range to their points; default the elements themselves. */                 \
+  /** A property map from the elements of a range to their points. */                                                  \
   template <class Map>                                                                                                 \
   auto point_map(const Map& map) CONST {                                                                               \
     return internal::add_parameter<internal::Point_tag>(map, GIVEN);                                                   \
   }                                                                                                                    \
                                                                                                                        \
-  /** A property map from the elements of a range to the normals of the surface there; default: estimated. */          \
+  /** A property map from the elements of a range to the normals of the surface there. */                              \
   template <class Map>                                                                                                 \
   auto normal_map(const Map& map) CONST {                                                                              \
     return internal::add_parameter<internal::Normal_tag>(map, GIVEN);                                                  \
   }                                                                                                                    \
                                                                                                                        \
-  /** A Normal_orientation: whether the given normals all point to the same side; default ORIENTED. */                 \
+  /** A Normal_orientation: whether the given normals all point to the same side. */                                   \
   template <class Orientation>                                                                                         \
   auto normal_orientation(Orientation orientation) CONST {                                                             \
     return internal::add_parameter<internal::Normal_orientation_tag>(orientation, GIVEN);                              \
   }                                                                                                                    \
                                                                                                                        \
-  /** The standard deviation of points from the surface, a length; default, or without a value: estimated. */          \
+  /** The standard deviation of points from the surface, a length; without a value it is estimated. */                 \
   inline auto noise(std::optional<double> deviation) CONST {                                                           \
     return internal::add_parameter<internal::Noise_tag>(deviation, GIVEN);                                             \
   }                                                                                                                    \
                                                                                                                        \
-  /** The radius around a point whose data say what the curvature is there, a length; default, or without a value: */  \
-  /** chosen by the data. */                                                                                           \
+  /** The scale of curvatures, a length; 0 for the surface's own curvature, without a value the data choose. */        \
   inline auto scale(std::optional<double> radius) CONST {                                                              \
     return internal::add_parameter<internal::Scale_tag>(radius, GIVEN);                                                \
   }                                                                                                                    \
                                                                                                                        \
-  /** The degree of polynomials that are fitted: 4, 5, 6, 8 or 10; default, or without a value: chosen by the data. */ \
+  /** The degree of polynomials that are fitted: 4, 5, 6, 8 or 10; without a value the data choose. */                 \
   inline auto degree(std::optional<int> n) CONST { return internal::add_parameter<internal::Degree_tag>(n, GIVEN); }   \
                                                                                                                        \
-  /** An Orientation_of_level_set: whether normals are those of the data or the opposite ones; default: the former. */ \
+  /** An Orientation_of_level_set: whether normals are those of the data or the opposite ones. */                      \
   template <class Orientation>                                                                                         \
   auto orientation(Orientation side) CONST {                                                                           \
     return internal::add_parameter<internal::Orientation_tag>(side, GIVEN);                                            \
   }                                                                                                                    \
                                                                                                                        \
-  /** A Map_kind: among which maps one is sought; default AFFINE. */                                                   \
+  /** A Map_kind: among which maps one is sought. */                                                                   \
   template <class Kind>                                                                                                \
   auto map_kind(Kind kind) CONST {                                                                                     \
     return internal::add_parameter<internal::Map_kind_tag>(kind, GIVEN);                                               \
   }                                                                                                                    \
                                                                                                                        \
-  /** Whether maps with a negative determinant are allowed; default true. */                                           \
+  /** Whether maps with a negative determinant are allowed. */                                                         \
   inline auto reflections(bool are_allowed) CONST {                                                                    \
     return internal::add_parameter<internal::Reflections_tag>(are_allowed, GIVEN);                                     \
   }                                                                                                                    \
                                                                                                                        \
-  /** How many maps are sought, at most; default 1. With more, the search does not end with the first one. */          \
+  /** How many maps are sought, at most. */                                                                            \
   inline auto number_of_maps(std::size_t n) CONST {                                                                    \
     return internal::add_parameter<internal::Number_of_maps_tag>(n, GIVEN);                                            \
   }                                                                                                                    \
                                                                                                                        \
-  /** The part of the points of one of two surfaces, at least, that has to lie on the other; default 0.05. */          \
+  /** The part of the points of one of two surfaces, at least, that has to lie on the other. */                        \
   inline auto least_overlap(double part) CONST {                                                                       \
     return internal::add_parameter<internal::Least_overlap_tag>(part, GIVEN);                                          \
   }                                                                                                                    \
                                                                                                                        \
-  /** A pair of functions, of the source and of the target, on which maps are refined and judged, instead of those */  \
-  /** by which points are matched: unsmoothed ones, since smoothing does not commute with affine maps. */              \
+  /** A pair of functions, of the source and of the target, on which maps are refined and judged. */                   \
   template <class Functions>                                                                                           \
   auto refined_functions(const Functions& source_and_target) CONST {                                                   \
     return internal::add_parameter<internal::Refined_functions_tag>(source_and_target, GIVEN);                         \
   }                                                                                                                    \
                                                                                                                        \
-  /** How far a symmetry may move points from a surface, a part of its size; default 1e-8, for exact functions. */     \
+  /** How far a map may move points from a surface, a part of its size. */                                             \
   inline auto tolerance(double part) CONST { return internal::add_parameter<internal::Tolerance_tag>(part, GIVEN); }   \
                                                                                                                        \
-  /** Whether all rotations are searched even where affine frames of a few points decide; default false. */            \
+  /** Whether all rotations are searched even where affine frames of a few points decide. */                           \
   inline auto complete(bool is_wanted) CONST {                                                                         \
     return internal::add_parameter<internal::Complete_tag>(is_wanted, GIVEN);                                          \
   }                                                                                                                    \
                                                                                                                        \
-  /** The length of the edges of a remesh, by default the mean one of those given. */                                  \
+  /** The length of the edges of a remesh; without a value it is the mean one of those given. */                       \
   inline auto target_edge_length(std::optional<double> length) CONST {                                                 \
     return internal::add_parameter<internal::Target_edge_length_tag>(length, GIVEN);                                   \
   }                                                                                                                    \
                                                                                                                        \
-  /** How often edges are split, collapsed and flipped and vertices relaxed; default 3. */                             \
+  /** How often edges are split, collapsed and flipped and vertices relaxed. */                                        \
   inline auto number_of_iterations(unsigned n) CONST {                                                                 \
     return internal::add_parameter<internal::Number_of_iterations_tag>(n, GIVEN);                                      \
   }                                                                                                                    \
                                                                                                                        \
-  /** A writable property map from the edges of a mesh to bool: the edges that a remesh keeps; default: none. */       \
+  /** A writable property map from the edges of a mesh to bool: the edges that a remesh keeps. */                      \
   template <class Map>                                                                                                 \
   auto edge_is_constrained_map(const Map& map) CONST {                                                                 \
     return internal::add_parameter<internal::Edge_is_constrained_tag>(map, GIVEN);                                     \
   }                                                                                                                    \
                                                                                                                        \
-  /** The angle between the normals of two triangles, in degrees, from which on their edge is kept by a remesh; */     \
-  /** default 60. Without a value, no edge is kept for its angle. */                                                   \
+  /** The angle of creases between the normals of two faces, in degrees; without a value there are none. */            \
   inline auto feature_angle(std::optional<double> degrees) CONST {                                                     \
     return internal::add_parameter<internal::Feature_angle_tag>(degrees, GIVEN);                                       \
   }                                                                                                                    \
                                                                                                                        \
-  /** A writable property map from the vertices of a mesh to Fit_outcome; default: none. */                            \
+  /** A writable property map from the vertices of a mesh to Fit_outcome. */                                           \
   template <class Map>                                                                                                 \
   auto vertex_outcome_map(const Map& map) CONST {                                                                      \
     return internal::add_parameter<internal::Vertex_outcome_tag>(map, GIVEN);                                          \
   }                                                                                                                    \
                                                                                                                        \
-  /** A property map from the vertices of a mesh to normals there, which fits read; default: the mean of those of */   \
-  /** the faces around. */                                                                                             \
+  /** A property map from the vertices of a mesh to normals there, which fits read. */                                 \
   template <class Map>                                                                                                 \
   auto vertex_normal_map(const Map& map) CONST {                                                                       \
     return internal::add_parameter<internal::Vertex_normal_tag>(map, GIVEN);                                           \
   }                                                                                                                    \
                                                                                                                        \
-  /** Another name of `scale`, as CGAL calls it: a radius that is not positive, as -1, asks for the own curvature. */  \
+  /** Another name of `scale`, as CGAL calls it, where 0 or less asks for the surface's own curvature. */              \
   inline auto ball_radius(double radius) CONST {                                                                       \
     return internal::add_parameter<internal::Ball_radius_tag>(radius, GIVEN);                                          \
   }                                                                                                                    \
@@ -194,46 +188,50 @@
     return internal::add_parameter<internal::Verbose_tag>(is_wanted, GIVEN);                                           \
   }                                                                                                                    \
                                                                                                                        \
-  /** Writable property maps for what annotate() and annotate_by_fit() find at the vertices, or at the elements of */  \
-  /** a range of points. The values are: */                                                                            \
-  /** Point_status, which also says what existed before: a vertex that is UNCONVERGED stays so. */                     \
+  /** Property map of Point_status, which is read, too: a vertex that is UNCONVERGED stays so. */                      \
   EQUIAFFINE_VERTEX_MAP(vertex_status_map, Vertex_status_tag, CONST, GIVEN)                                            \
-  /** the whole Local_structure_3 of the vertex, or with fits its Fitted_structure_3. */                               \
+  /** Writable property map of the Local_structure_3, or with fits the Fitted_structure_3. */                          \
   EQUIAFFINE_VERTEX_MAP(vertex_structure_map, Vertex_structure_tag, CONST, GIVEN)                                      \
-  /** the normal of the surface; `vertex_normal_map` is read. */                                                       \
+  /** Writable property map of the unit normal n; `vertex_normal_map` is read. */                                      \
   EQUIAFFINE_VERTEX_MAP(vertex_unit_normal_map, Vertex_unit_normal_tag, CONST, GIVEN)                                  \
-  /** the Euclidean mean curvature with the sign of CGAL: positive on a sphere, that is minus ours. */                 \
+  /** Writable property map of the Euclidean mean curvature with the sign of CGAL: -H_e. */                            \
   EQUIAFFINE_VERTEX_MAP(vertex_mean_curvature_map, Vertex_mean_curvature_tag, CONST, GIVEN)                            \
-  /** the Euclidean Gaussian curvature. */                                                                             \
+  /** Writable property map of the Euclidean Gaussian curvature K_e. */                                                \
   EQUIAFFINE_VERTEX_MAP(vertex_Gaussian_curvature_map, Vertex_Gaussian_curvature_tag, CONST, GIVEN)                    \
-  /** CGAL's Principal_curvatures_and_directions, or any type made of them: the least curvature, the greatest one, */  \
-  /** and their directions, with the sign of CGAL. */                                                                  \
+  /** Writable property map of CGAL's Principal_curvatures_and_directions, with the sign of CGAL. */                   \
   EQUIAFFINE_VERTEX_MAP(vertex_principal_curvatures_and_directions_map, Vertex_principal_curvatures_tag, CONST, GIVEN) \
-  /** H. */                                                                                                            \
+  /** Writable property map of the affine mean curvature H. */                                                         \
   EQUIAFFINE_VERTEX_MAP(vertex_affine_mean_curvature_map, Vertex_affine_mean_curvature_tag, CONST, GIVEN)              \
-  /** K. */                                                                                                            \
+  /** Writable property map of the affine Gaussian curvature K. */                                                     \
   EQUIAFFINE_VERTEX_MAP(vertex_affine_Gaussian_curvature_map, Vertex_affine_Gaussian_curvature_tag, CONST, GIVEN)      \
-  /** xi. */                                                                                                           \
+  /** Writable property map of the affine normal xi. */                                                                \
   EQUIAFFINE_VERTEX_MAP(vertex_affine_normal_map, Vertex_affine_normal_tag, CONST, GIVEN)                              \
-  /** nu. */                                                                                                           \
+  /** Writable property map of the affine co-normal nu. */                                                             \
   EQUIAFFINE_VERTEX_MAP(vertex_conormal_map, Vertex_conormal_tag, CONST, GIVEN)                                        \
-  /** J. */                                                                                                            \
+  /** Writable property map of the Pick invariant J. */                                                                \
   EQUIAFFINE_VERTEX_MAP(vertex_pick_invariant_map, Vertex_pick_invariant_tag, CONST, GIVEN)                            \
-  /** the six numbers xx xy xz yy yz zz of the affine metric, a std::array. */                                         \
+  /** Writable property map of the affine metric, a std::array of xx xy xz yy yz zz. */                                \
   EQUIAFFINE_VERTEX_MAP(vertex_affine_metric_map, Vertex_affine_metric_tag, CONST, GIVEN)                              \
-  /** the affine area per area. */                                                                                     \
+  /** Writable property map of the affine area per Euclidean area. */                                                  \
   EQUIAFFINE_VERTEX_MAP(vertex_affine_area_density_map, Vertex_affine_area_density_tag, CONST, GIVEN)                  \
-  /** Of annotate_by_fit() alone: estimates of the errors, see Local_structure_error_3; those of normals are */        \
-  /** angles in degrees. */                                                                                            \
+  /** Writable property map of the estimated error of H. */                                                            \
   EQUIAFFINE_VERTEX_MAP(vertex_affine_mean_curvature_error_map, Vertex_affine_mean_curvature_error_tag, CONST, GIVEN)  \
+  /** Writable property map of the estimated error of K. */                                                            \
   EQUIAFFINE_VERTEX_MAP(vertex_affine_Gaussian_curvature_error_map, Vertex_affine_Gaussian_curvature_error_tag, CONST, \
                         GIVEN)                                                                                         \
+  /** Writable property map of the estimated error of xi, an angle in degrees. */                                      \
   EQUIAFFINE_VERTEX_MAP(vertex_affine_normal_error_map, Vertex_affine_normal_error_tag, CONST, GIVEN)                  \
+  /** Writable property map of the estimated error of nu, an angle in degrees. */                                      \
   EQUIAFFINE_VERTEX_MAP(vertex_conormal_error_map, Vertex_conormal_error_tag, CONST, GIVEN)                            \
+  /** Writable property map of the estimated error of J. */                                                            \
   EQUIAFFINE_VERTEX_MAP(vertex_pick_invariant_error_map, Vertex_pick_invariant_error_tag, CONST, GIVEN)                \
+  /** Writable property map of the estimated error of the affine area density. */                                      \
   EQUIAFFINE_VERTEX_MAP(vertex_affine_area_density_error_map, Vertex_affine_area_density_error_tag, CONST, GIVEN)      \
+  /** Writable property map of the estimated error of H_e. */                                                          \
   EQUIAFFINE_VERTEX_MAP(vertex_mean_curvature_error_map, Vertex_mean_curvature_error_tag, CONST, GIVEN)                \
+  /** Writable property map of the estimated error of K_e. */                                                          \
   EQUIAFFINE_VERTEX_MAP(vertex_Gaussian_curvature_error_map, Vertex_Gaussian_curvature_error_tag, CONST, GIVEN)        \
+  /** Writable property map of the estimated error of n, an angle in degrees. */                                       \
   EQUIAFFINE_VERTEX_MAP(vertex_unit_normal_error_map, Vertex_unit_normal_error_tag, CONST, GIVEN)
 
 #endif
