@@ -9,6 +9,7 @@
 
 #include <cstdlib>
 #include <map>
+#include <random>
 #include <set>
 
 namespace {
@@ -135,6 +136,33 @@ TYPED_TEST(Marching_cubes_topology, surfaces_through_nodes_beside_nodes_without_
   const auto sum = repairs_of<TypeParam>("holes");
   EXPECT_GT(sum.contracted_edges, number_of_grids());
   EXPECT_GT(sum.moved_vertices, 0u);
+}
+
+/// Two cells side by side of Chernyaev's case 7.4.2, of which an implementation of Lewiner's tables gave a triangle twice.
+TEST(Marching_cubes_topology, no_triangle_occurs_twice_between_two_ambiguous_cells) {
+  const std::vector<double> values = {13, -1, -1, -7, -1, 1, 7, -7, 15, -9, -3, -1};
+  const auto surface = marching_cubes_of_array(std::span<const double>(values), {2, 2, 3}, 0.0);
+  std::set<std::set<std::uint32_t>> triangles;
+  for (const auto& t : surface.triangles) EXPECT_TRUE(triangles.emplace(t.begin(), t.end()).second);
+  EXPECT_GT(triangles.size(), 0U);
+  EXPECT_TRUE(mesh_topology(surface.triangles, surface.points.size()).is_manifold);
+}
+
+TYPED_TEST(Marching_cubes_topology, volumes_of_small_integers_have_no_holes_at_any_of_their_values) {
+  constexpr std::size_t n = 9;
+  std::mt19937 random(5);
+  for (int grid = 0; grid < 100; ++grid) {
+    std::vector<TypeParam> values(n * n * n, TypeParam(-4));
+    for (std::size_t k = 1; k + 1 < n; ++k)
+      for (std::size_t j = 1; j + 1 < n; ++j)
+        for (std::size_t i = 1; i + 1 < n; ++i) values[i + n * (j + n * k)] = TypeParam(int(random() % 7) - 3);
+    for (int level = -3; level <= 3; ++level) {
+      const auto surface = marching_cubes_of_array(std::span<const TypeParam>(values), {n, n, n}, TypeParam(level));
+      const auto t = mesh_topology(surface.triangles, surface.points.size());
+      EXPECT_TRUE(t.is_manifold) << grid << " " << level;
+      EXPECT_EQ(t.boundary_edges, 0U) << grid << " " << level;
+    }
+  }
 }
 
 TEST(Trilinear_topology, the_oracle_says_the_same_along_all_axes) {
