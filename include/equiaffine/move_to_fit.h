@@ -24,7 +24,7 @@ namespace equiaffine {
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
-/// | `vertex_point_map` | property map | the mesh's own | from vertices to points of the fit's kernel |
+/// | `vertex_point_map` | writable property map | the mesh's own | from vertices to points of the fit's kernel |
 /// | `vertex_outcome_map` | writable property map | none | from vertices to Fit_outcome |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///

@@ -31,7 +31,7 @@ namespace equiaffine {
 /// | `number_of_iterations` | `unsigned` | 3 | rounds of splits, collapses, flips and relaxation |
 /// | `feature_angle` | `std::optional<double>` | 60 | angle of edges that are kept, in degrees; `std::nullopt`: none |
 /// | `edge_is_constrained_map` | writable property map | none | from edges to bool: those that are kept |
-/// | `vertex_point_map` | property map | the mesh's own | from vertices to points of the fit's kernel |
+/// | `vertex_point_map` | writable property map | the mesh's own | from vertices to points of the fit's kernel |
 /// | `vertex_outcome_map` | writable property map | none | from vertices of the result to Fit_outcome |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
