@@ -52,7 +52,7 @@ namespace equiaffine {
 /// least at concave ones.
 ///
 /// Construction takes 1 ms per vertex for exact data and 3 ms for noisy ones, memory is linear; copies share it. A
-/// value takes some 6 microseconds, an expansion 11.
+/// value takes some 5 microseconds, an expansion 8.
 template <class Kernel>
 class Fitted_function_traits_3 {
 public:

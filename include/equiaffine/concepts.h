@@ -66,8 +66,8 @@ concept SecondOrderBoundedImplicitFunctionTraits_3 =
     { traits.second_order_bounds(box) } -> std::same_as<Jet_3<Interval, 2>>;
   };
 
-/// A function that may be cheaper on a box: `restricted(box)` is nothing, or a function with the same values, bounds
-/// and expansions of order 1 in the box, the numbers bit for bit.
+/// A function that may be cheaper on a box: `restricted(box)` is nothing, or a function with the same values and
+/// expansions of order 1 in the box, bit for bit, and with bounds that contain these.
 /// See \ref concept_RestrictableImplicitFunctionTraits_3.
 template <class Traits>
 concept RestrictableImplicitFunctionTraits_3 =

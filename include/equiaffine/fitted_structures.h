@@ -64,7 +64,7 @@ namespace equiaffine {
 /// | `noise` | `std::optional<double>` | estimated | standard deviation of the points from the surface, a length |
 /// | `scale` | `std::optional<double>` | 0 | a length; 0: none; `std::nullopt`: the data choose |
 /// | `ball_radius` | `double` | not given | CGAL's name of `scale`, which counts if both are given |
-/// | `degree` | `std::optional<int>` | chosen by the data | 4, 5, 6, 8 or 10 |
+/// | `degree` | `std::optional<int>` | chosen by the data | 4, 5, 6, or of heights 8, 10 |
 /// | `feature_angle` | `std::optional<double>` | 60 | angle of creases in degrees; `std::nullopt`: no creases |
 /// | `orientation` | Orientation_of_level_set | ALONG_GRADIENT | AGAINST_GRADIENT turns normals round |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
@@ -96,7 +96,7 @@ Fitted_structure_3<double> fitted_structure(const Vertex& v, const Graph& mesh, 
 /// | `noise` | `std::optional<double>` | estimated | standard deviation of the points from the surface, a length |
 /// | `scale` | `std::optional<double>` | 0 | a length; 0: none; `std::nullopt`: the data choose |
 /// | `ball_radius` | `double` | not given | CGAL's name of `scale`, which counts if both are given |
-/// | `degree` | `std::optional<int>` | chosen by the data | 4, 5, 6, 8 or 10 |
+/// | `degree` | `std::optional<int>` | chosen by the data | 4, 5, 6, or of heights 8, 10 |
 /// | `orientation` | Orientation_of_level_set | ALONG_GRADIENT | AGAINST_GRADIENT turns normals round |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
@@ -117,7 +117,7 @@ std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points,
 /// | `noise` | `std::optional<double>` | estimated | standard deviation of the points from the surface, a length |
 /// | `scale` | `std::optional<double>` | 0 | a length; 0: none; `std::nullopt`: the data choose |
 /// | `ball_radius` | `double` | not given | CGAL's name of `scale`, which counts if both are given |
-/// | `degree` | `std::optional<int>` | chosen by the data | 4, 5, 6, 8 or 10 |
+/// | `degree` | `std::optional<int>` | chosen by the data | 4, 5, 6, or of heights 8, 10 |
 /// | `feature_angle` | `std::optional<double>` | 60 | angle of creases in degrees; `std::nullopt`: no creases |
 /// | `orientation` | Orientation_of_level_set | ALONG_GRADIENT | AGAINST_GRADIENT turns normals round |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
