@@ -28,7 +28,7 @@ int main() {
   equiaffine::annotate_by_fit(mesh);
 
   const auto map = [&](const std::string& name) {
-    return mesh.property_map<Mesh::Vertex_index, double>("v:" + name).first;
+    return mesh.add_property_map<Mesh::Vertex_index, double>("v:" + name).first; // it is there
   };
   const auto K = map("affine_gaussian_curvature"), error = map("affine_gaussian_curvature_error");
   //! [fit]

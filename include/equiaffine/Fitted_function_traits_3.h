@@ -21,6 +21,7 @@
 #include <CGAL/tags.h>
 
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -75,7 +76,7 @@ public:
   ///
   /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
   template <Face_graph Graph, internal::Parameter_chain Parameters = internal::No_parameters,
-            class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+            std::derived_from<CGAL::Sequential_tag> ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Fitted_function_traits_3(const Graph& mesh, const Parameters& given = {}, ConcurrencyTag tag = {}) {
     internal::check_mesh_fit_parameters<internal::Joined_parameters<Parameters>>();
     const auto parameters = internal::joined_parameters(given);
@@ -92,7 +93,7 @@ public:
   ///
   /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
   template <std::ranges::input_range Points, internal::Parameter_chain Parameters = internal::No_parameters,
-            class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+            std::derived_from<CGAL::Sequential_tag> ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Fitted_function_traits_3(const Points& points, const Parameters& given = {},
                                     ConcurrencyTag tag = {}) requires(!Face_graph<Points>) {
     internal::check_point_fit_parameters<internal::Joined_parameters<Parameters>>();
@@ -105,7 +106,7 @@ public:
   /// \throw std::invalid_argument also if a polygon has the position of no point.
   template <std::ranges::input_range Points, std::ranges::input_range Polygons,
             internal::Parameter_chain Parameters = internal::No_parameters,
-            class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+            std::derived_from<CGAL::Sequential_tag> ConcurrencyTag = CGAL::Parallel_if_available_tag>
   Fitted_function_traits_3(const Points& points, const Polygons& polygons, const Parameters& given = {},
                            ConcurrencyTag tag = {}) {
     internal::check_fit_parameters<internal::Joined_parameters<Parameters>, internal::Feature_angle_tag>();

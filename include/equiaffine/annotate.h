@@ -74,7 +74,7 @@ void annotate(Graph& graph, const Traits& traits, const Parameters&... given) {
   else internal::annotate_elements<ConcurrencyTag>(vertices(graph), point_of, traits, parameters);
 }
 
-/// The same for one vertex, whose structure is returned, too.
+/// The same for one vertex, whose structure is returned, too. A Surface_mesh gets no maps of its own here.
 template <class Vertex, Vertex_graph Graph, ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
 Local_structure_3<typename Traits::FT> annotate(const Vertex& v, const Graph& graph, const Traits& traits,
                                                 const Parameters&... given) {
@@ -88,9 +88,9 @@ Local_structure_3<typename Traits::FT> annotate(const Vertex& v, const Graph& gr
 
 /// The same for a range, such as CGAL::Point_set_3: maps are from its elements. They are points, or a member of the
 /// range gives their points, or the named parameter `point_map`, a property map, in the place of `vertex_point_map`.
-template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points, ImplicitFunctionTraits_3 Traits,
-          internal::Parameter_chain... Parameters>
-void annotate(const Points& points, const Traits& traits, const Parameters&... given) requires(!Vertex_graph<Points>) {
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::forward_range Points,
+          ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
+void annotate(Points&& points, const Traits& traits, const Parameters&... given) requires(!Vertex_graph<Points>) {
   internal::check_annotate_parameters<internal::Joined_parameters<Parameters...>, internal::Point_tag>();
   const auto parameters = internal::joined_parameters(given...);
   internal::annotate_elements<ConcurrencyTag>(points, point_of_element(points, parameters), traits, parameters);

@@ -21,7 +21,7 @@ namespace equiaffine {
 
 /// Puts the local structure of the surface that the vertices of a mesh are samples of, as `fitted_structures` finds it,
 /// into the property maps that are named parameters, as annotate() with a function does, and estimates of their errors.
-/// `vertex_structure_map` has a Fitted_structure_3<double>. The named parameters are those of fitted_structures(), the
+/// `vertex_structure_map` has a Fitted_structure_3<double>; no map is read. The named parameters are those of fitted_structures(), the
 /// maps of annotate(), and maps of the estimated errors:
 ///
 /// | named parameter | type | default | meaning |
@@ -52,7 +52,8 @@ void annotate_by_fit(Graph& mesh, const Parameters&... given) {
   else internal::put_structures_of_fit(parameters, vertices(mesh), structures);
 }
 
-/// The same for one vertex, whose structure is returned, too; see fitted_structure().
+/// The same for one vertex, whose structure is returned, too; see fitted_structure(). A Surface_mesh gets no maps of
+/// its own here.
 template <class Vertex, Face_graph Graph, internal::Parameter_chain... Parameters>
 Fitted_structure_3<double> annotate_by_fit(const Vertex& v, const Graph& mesh, const Parameters&... given) {
   using Joined = internal::Joined_parameters<Parameters...>;
@@ -65,9 +66,9 @@ Fitted_structure_3<double> annotate_by_fit(const Vertex& v, const Graph& mesh, c
 }
 
 /// The same for points without faces, the elements of a range: see `fitted_structures`.
-template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::forward_range Points,
           internal::Parameter_chain... Parameters>
-void annotate_by_fit(const Points& points, const Parameters&... given) requires(!Face_graph<Points>) {
+void annotate_by_fit(Points&& points, const Parameters&... given) requires(!Face_graph<Points>) {
   using Joined = internal::Joined_parameters<Parameters...>;
   internal::check_annotate_by_fit_parameters<Joined, internal::Point_tag, internal::Normal_tag,
                                              internal::Normal_orientation_tag>();
@@ -83,10 +84,9 @@ void annotate_by_fit(const Graph& mesh, Structure_map map, const Parameters&... 
   annotate_by_fit<ConcurrencyTag>(mesh, parameters::vertex_structure_map(map), given...);
 }
 /// The same for points without faces.
-template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::forward_range Points,
           internal::Property_map Structure_map, internal::Parameter_chain... Parameters>
-void annotate_by_fit(const Points& points, Structure_map map,
-                     const Parameters&... given) requires(!Face_graph<Points>) {
+void annotate_by_fit(Points&& points, Structure_map map, const Parameters&... given) requires(!Face_graph<Points>) {
   annotate_by_fit<ConcurrencyTag>(points, parameters::vertex_structure_map(map), given...);
 }
 

@@ -66,16 +66,18 @@ public:
   explicit Edge_intersection_of_function_3(Traits traits) : traits_(std::move(traits)) {} ///< holds a copy of the model
 
   /// Returns whether the surface f = isovalue passes between p0 and p1, as the values there say, and sets p to the
-  /// point where it does.
+  /// point where it does, or where f jumps over the isovalue. At poles there is none.
   template <class Point_3, class FT, class Domain>
   bool operator()(const Point_3& p0, const Point_3& p1, const FT& value0, const FT& value1, const Domain&,
                   const FT& isovalue, Point_3& p) const {
-    if ((value0 <= isovalue) == (value1 <= isovalue)) return false;
+    const double from = CGAL::to_double(value0 - isovalue), to = CGAL::to_double(value1 - isovalue);
+    if (std::isnan(from) || std::isnan(to) || (from <= 0) == (to <= 0)) return false;
     const auto point = [](const Point_3& q) {
       return typename Traits::Point_3(CGAL::to_double(q.x()), CGAL::to_double(q.y()), CGAL::to_double(q.z()));
     };
     const Level_set_traits_3<Traits> level_set(traits_, isovalue);
-    const auto zero = intersect_segment(level_set, point(p0), point(p1), value0 - isovalue, value1 - isovalue);
+    const auto zero = intersect_segment(level_set, point(p0), point(p1), from, to);
+    if (zero.is_at_pole) return false;
     p = Point_3(zero.point.x(), zero.point.y(), zero.point.z());
     return true;
   }

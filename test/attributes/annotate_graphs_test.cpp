@@ -14,6 +14,7 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/graph_traits_Linear_cell_complex_for_combinatorial_map.h>
 #include <CGAL/boost/graph/helpers.h>
+#include <CGAL/property_map.h>
 
 #include <gtest/gtest.h>
 
@@ -22,6 +23,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <tuple>
 #include <vector>
 
 namespace {
@@ -164,7 +166,7 @@ TEST(Annotate_maps, curvatures_of_a_sphere_are_positive_as_in_CGAL) {
     EXPECT_NEAR(principal[v].max_direction.squared_length(), 1, 1e-12);
     EXPECT_LE(principal[v].min_curvature, principal[v].max_curvature);
   }
-  EXPECT_FALSE((mesh.property_map<Vertex, double>("v:k1").second)) << "only what is asked for";
+  EXPECT_TRUE((mesh.add_property_map<Vertex, double>("v:k1").second)) << "only what is asked for";
 }
 
 TEST(Annotate_maps, a_vertex_that_did_not_converge_keeps_its_status) {
@@ -217,6 +219,40 @@ TEST(Annotate_maps, a_range_of_points_has_maps_from_its_elements) {
   annotate(std::vector<Point>{{1, 0, 0}}, traits,
            parameters::vertex_affine_Gaussian_curvature_map(boost::make_assoc_property_map(K)));
   EXPECT_NEAR(K.at(Point(1, 0, 0)), std::sqrt(6.), 1e-9);
+}
+
+TEST(Annotate_maps, values_may_be_in_the_elements_of_the_range) {
+  using Element = std::tuple<Point, double, std::array<float, 3>, std::array<float, 6>>;
+  std::vector<Element> elements = {{Point(1, 0, 0), 0, {}, {}}, {Point(0, std::sqrt(0.5), 0), 0, {}, {}}};
+  const auto f = ellipsoid();
+  annotate(elements, f,
+           parameters::point_map(CGAL::Nth_of_tuple_property_map<0, Element>())
+               .vertex_affine_Gaussian_curvature_map(CGAL::Nth_of_tuple_property_map<1, Element>())
+               .vertex_affine_normal_map(CGAL::Nth_of_tuple_property_map<2, Element>())
+               .vertex_affine_metric_map(CGAL::Nth_of_tuple_property_map<3, Element>()));
+  for (const auto& [p, K, normal, metric] : elements) {
+    const auto expected = local_structure_at(f, Kernel::Point_3(p.x(), p.y(), p.z())).affine;
+    EXPECT_EQ(K, expected.gaussian_curvature);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(normal[i], float(expected.normal[i]));
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(metric[i], float(expected.metric[i]));
+  }
+}
+
+TEST(Annotate_maps, a_map_that_grows_when_it_is_read_has_the_same_entries_with_threads) {
+  std::vector<Point> points;
+  for (int i = 0; i < 2000; ++i) points.emplace_back(std::cos(i), std::sin(i), 0.01 * i);
+  std::map<Point, double> one, many;
+  std::map<Point, Point_status> status, status_of_many;
+  const auto f = ellipsoid();
+  annotate(points, f,
+           parameters::vertex_pick_invariant_map(boost::make_assoc_property_map(one))
+               .vertex_status_map(boost::make_assoc_property_map(status)));
+  annotate<CGAL::Parallel_if_available_tag>(points, f,
+                                            parameters::vertex_pick_invariant_map(boost::make_assoc_property_map(many))
+                                                .vertex_status_map(boost::make_assoc_property_map(status_of_many)));
+  EXPECT_EQ(one.size(), points.size());
+  EXPECT_EQ(one, many);
+  EXPECT_EQ(status, status_of_many);
 }
 
 TEST(Annotate_maps, fits_to_a_point_set_take_its_points_and_the_normals_that_CGAL_calls_normal_map) {

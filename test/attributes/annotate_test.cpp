@@ -77,12 +77,12 @@ TEST(Annotate, no_face_is_lost_where_a_mesh_is_not_a_manifold) {
     surface.triangles = triangles;
     surface.vertex_status.assign(points.size(), Point_status::REGULAR);
     surface.vertex_status[0] = Point_status::UNCONVERGED;
-    const Mesh mesh = to_surface_mesh(surface);
+    Mesh mesh = to_surface_mesh(surface);
     ASSERT_TRUE(mesh.is_valid(false));
     ASSERT_EQ(mesh.number_of_faces(), triangles.size());
     EXPECT_GT(mesh.number_of_vertices(), points.size());
     for (std::size_t v = 0; v < points.size(); ++v) EXPECT_EQ(mesh.point(Vertex_index(unsigned(v))), points[v]);
-    const auto status = mesh.property_map<Vertex_index, Point_status>("v:status").first;
+    const auto status = mesh.add_property_map<Vertex_index, Point_status>("v:status").first;
     for (const Vertex_index v : mesh.vertices())
       EXPECT_EQ(status[v] == Point_status::UNCONVERGED, mesh.point(v) == points[0]);
     for (const auto face : mesh.faces()) {

@@ -148,7 +148,8 @@ TEST(Fitted_structures, a_scale_that_holds_a_shape_as_a_whole_or_too_few_points_
 }
 
 TEST(Fitted_structures, estimates_cover_the_errors_of_a_small_mesh) {
-  const auto shape = make_analytic_traits<Fit_kernel>(Ellipsoid_function(), CGAL::Bbox_3(-1.1, -1.1, -1.1, 1.1, 1.1, 1.1));
+  const auto shape =
+      make_analytic_traits<Fit_kernel>(Ellipsoid_function(), CGAL::Bbox_3(-1.1, -1.1, -1.1, 1.1, 1.1, 1.1));
   const Fit_mesh exact = to_surface_mesh(marching_cubes(shape, parameters::number_of_nodes(12)));
   for (const double noise : {0., 0.01}) {
     Fit_mesh mesh = exact;
@@ -248,9 +249,9 @@ TEST(Annotate_by_fit, fills_the_maps_of_any_mesh_with_what_fitted_structures_ret
   Fit_mesh mesh = metaballs_mesh(16);
   const auto expected = fitted_structures(mesh);
   annotate_by_fit(mesh);
-  const auto K = mesh.property_map<Fit_mesh::Vertex_index, double>("v:affine_gaussian_curvature").first;
-  const auto error = mesh.property_map<Fit_mesh::Vertex_index, double>("v:affine_gaussian_curvature_error").first;
-  const auto status = mesh.property_map<Fit_mesh::Vertex_index, Point_status>("v:status").first;
+  const auto K = mesh.add_property_map<Fit_mesh::Vertex_index, double>("v:affine_gaussian_curvature").first;
+  const auto error = mesh.add_property_map<Fit_mesh::Vertex_index, double>("v:affine_gaussian_curvature_error").first;
+  const auto status = mesh.add_property_map<Fit_mesh::Vertex_index, Point_status>("v:status").first;
   std::size_t i = 0;
   for (const auto v : mesh.vertices()) {
     expect_same(K[v], expected[i].structure.affine.gaussian_curvature);

@@ -7,6 +7,9 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <map>
+#include <utility>
+
 #if CASE == 3
 #include <equiaffine/annotate_by_fit.h>
 #elif CASE == 7 || CASE == 9 || CASE == 10
@@ -57,5 +60,10 @@ void use([[maybe_unused]] Mesh& mesh, const CGAL::Bbox_3& box) {
   marching_cubes(make_analytic_traits<Kernel>([](double x, double y, double z) { return x + y + z; }, box));
 #elif CASE == 10 // this function does not know one of the named parameters that it is given
   marching_cubes(sphere, parameters::scale(0.1));
+#elif CASE == 11 // this is no property map: boost::make_assoc_property_map() makes one of a std::map
+  std::map<Mesh::Vertex_index, double> values;
+  annotate(mesh, sphere, parameters::vertex_affine_mean_curvature_map(values));
+#elif CASE == 12 // annotate() has nothing to write to: give it property maps
+  annotate(std::as_const(mesh), sphere);
 #endif
 }

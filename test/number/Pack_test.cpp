@@ -191,6 +191,14 @@ TEST(Pack, attributes_of_a_batch_are_those_of_its_points_bit_for_bit) {
                                               "hypot(y, z)^9 + log(x) + cbrt(y) + x^12 + tanh(x*y) + acos(z/2)"));
 }
 
+TEST(Pack, numbers_of_other_sizes_have_lanes_in_arrays) {
+  const Pack<long double> x(-2.25L);
+  for (std::size_t i = 0; i < x.size; ++i) EXPECT_EQ(sqrt(abs(x) * x * x)[i], std::sqrt(2.25L * 2.25L * 2.25L));
+  const auto narrow = Pack<float>::generate([](std::size_t i) { return float(i) - 1.5F; });
+  const auto roots = sqrt(abs(narrow)) + Pack<float>(1);
+  for (std::size_t i = 0; i < narrow.size; ++i) EXPECT_EQ(roots[i], std::sqrt(std::abs(float(i) - 1.5F)) + 1);
+}
+
 TEST(Pack, any_number_of_points_is_a_batch) {
   SKIP_IF_THE_COMPILER_CONTRACTS();
   const auto traits = make_analytic_traits<Kernel>(analytic_functions::Gyroid(), box);

@@ -9,9 +9,19 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace equiaffine::internal {
+
+/// Does not compile for a surface mesh that cannot have the maps `v:NAME`.
+template <class Mesh>
+constexpr void check_mesh_for_maps() {
+  static_assert(
+      std::is_same_v<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel::FT, double>,
+      "a CGAL::Surface_mesh gets maps v:NAME if its coordinates are doubles: give this one property maps, such "
+      "as parameters::vertex_affine_mean_curvature_map(map)");
+}
 
 /// The property maps that `annotate` fills: one per scalar and per vector of attribute_table, one per component of a
 /// form.

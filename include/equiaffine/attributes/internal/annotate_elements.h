@@ -42,29 +42,38 @@ auto structure_at(const Traits& traits, const Point& p, Point_status before,
 }
 
 /// Fills the maps that are given, for elements with points: vertices of a mesh, or elements of a range. Structures are
-/// computed in parallel, and put one after the other.
+/// computed in parallel. Maps are read and written one after the other, since to read boost::associative_property_map may
+/// change it.
 template <class ConcurrencyTag, class Elements, class Point_of, class Traits, class Parameters>
-void annotate_elements(const Elements& elements, const Point_of& point_of, const Traits& traits,
+void annotate_elements(Elements&& elements, const Point_of& point_of, const Traits& traits,
                        const Parameters& parameters) {
   static_assert(has_maps<Parameters>(Structure_tags()),
                 "annotate() has nothing to write to: give it property maps, such as "
-                "parameters::vertex_affine_mean_curvature_map(map), or a CGAL::Surface_mesh");
-  using Element = std::decay_t<decltype(*std::begin(elements))>;
-  using Structure = Local_structure_3<typename Traits::FT>;
+                "parameters::vertex_affine_mean_curvature_map(map), or a CGAL::Surface_mesh that is not const");
   constexpr std::size_t most_at_once = 1 << 16;
-  std::vector<Element> some;
-  std::vector<Structure> structures;
-  for (auto next = std::begin(elements), end = std::end(elements); next != end;) {
-    some.clear();
-    for (; next != end && some.size() < most_at_once; ++next) some.push_back(*next);
-    structures.resize(some.size());
+  auto next = std::begin(elements);
+  const auto end = std::end(elements);
+  std::vector<std::decay_t<decltype(next)>> places;
+  std::vector<std::decay_t<decltype(point_of(*next))>> points;
+  std::vector<Point_status> before;
+  std::vector<Local_structure_3<typename Traits::FT>> structures;
+  while (next != end) {
+    places.clear();
+    points.clear();
+    before.clear();
+    for (; next != end && places.size() < most_at_once; ++next) {
+      places.push_back(next);
+      points.push_back(point_of(*next));
+      before.push_back(status_before(parameters, *next));
+    }
+    structures.resize(places.size());
     parallel_for<ConcurrencyTag>(
-        0, some.size(),
-        [&](std::size_t i) {
-          structures[i] = structure_at(traits, point_of(some[i]), status_before(parameters, some[i]), parameters);
-        },
-        256);
-    for (std::size_t i = 0; i < some.size(); ++i) put_structure(parameters, some[i], structures[i], Structure_tags());
+        0, places.size(),
+        [&](std::size_t i) { structures[i] = structure_at(traits, points[i], before[i], parameters); }, 256);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      auto&& element = *places[i];
+      put_structure(parameters, element, structures[i], Structure_tags());
+    }
   }
 }
 
@@ -72,6 +81,7 @@ void annotate_elements(const Elements& elements, const Point_of& point_of, const
 template <class ConcurrencyTag, class Mesh, class Point_of, class Traits, class Parameters>
 void annotate_surface_mesh(Mesh& mesh, const Point_of& point_of, const Traits& traits, const Parameters& parameters) {
   using Vertex_index = typename Mesh::Vertex_index;
+  check_mesh_for_maps<Mesh>();
   Property_maps<Mesh> maps(mesh);
   parallel_for<ConcurrencyTag>(
       0, mesh.num_vertices() + mesh.number_of_removed_vertices(),

@@ -27,25 +27,26 @@ template <class Parameters>
 inline constexpr bool has_maps_of_fit = has_maps<Parameters>(Structure_tags()) || has_maps<Parameters>(Error_tags());
 
 template <class Parameters, class Key>
-void put_structure_of_fit(const Parameters& parameters, const Key& key, const Fitted_structure_3<double>& structure) {
+void put_structure_of_fit(const Parameters& parameters, Key& key, const Fitted_structure_3<double>& structure) {
   put_structure(parameters, key, structure, Structure_tags());
   put_structure(parameters, key, structure, Error_tags());
 }
 
 /// Fills the maps that are given with the structures of the elements, in their order.
 template <class Parameters, class Elements>
-void put_structures_of_fit(const Parameters& parameters, const Elements& elements,
+void put_structures_of_fit(const Parameters& parameters, Elements&& elements,
                            const std::vector<Fitted_structure_3<double>>& structures) {
   static_assert(has_maps_of_fit<Parameters>,
                 "annotate_by_fit() has nothing to write to: give it property maps, such as "
-                "parameters::vertex_affine_mean_curvature_map(map), or a CGAL::Surface_mesh");
+                "parameters::vertex_affine_mean_curvature_map(map), or a CGAL::Surface_mesh that is not const");
   std::size_t i = 0;
-  for (const auto& element : elements) put_structure_of_fit(parameters, element, structures[i++]);
+  for (auto&& element : elements) put_structure_of_fit(parameters, element, structures[i++]);
 }
 
 /// Fills the maps `v:NAME` of a surface mesh with all that is known of its vertices.
 template <class Mesh>
 void fill_maps_of_fit(Mesh& mesh, const std::vector<Fitted_structure_3<double>>& structures) {
+  check_mesh_for_maps<Mesh>();
   using Maps = Property_maps<Mesh>;
   Maps maps(mesh);
   std::vector<typename Mesh::template Property_map<typename Mesh::Vertex_index, double>> errors;

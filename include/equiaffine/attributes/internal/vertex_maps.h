@@ -147,20 +147,38 @@ constexpr bool has_maps(Tag_list<Tags...>) {
 /// A vector of CGAL, or an array.
 template <class Vector, class FT>
 Vector vector_of(const std::array<FT, 3>& v) {
-  if constexpr (std::is_constructible_v<Vector, FT, FT, FT>) return Vector(v[0], v[1], v[2]);
-  else return Vector{v[0], v[1], v[2]};
+  static_assert(!std::is_arithmetic_v<Vector>,
+                "this property map has numbers, and the value is a vector: give a map of "
+                "CGAL's Vector_3, or of std::array");
+  if constexpr (requires { typename Vector::value_type; }) {
+    using Number = typename Vector::value_type;
+    return Vector{Number(v[0]), Number(v[1]), Number(v[2])};
+  } else return Vector(v[0], v[1], v[2]);
 }
 
+template <class Map>
+constexpr void check_map() {
+  static_assert(Property_map<Map>, "this is no property map: boost::make_assoc_property_map() makes one of a std::map, "
+                                   "and a CGAL::Surface_mesh gives its own");
+}
+
+// The key may be an element that has the value in it.
 template <class Map, class Key, class Value>
-void put_value(const Map& map, const Key& key, const Value& value) {
+void put_value(const Map& map, Key& key, const Value& value) {
   put(map, key, typename boost::property_traits<Map>::value_type(value));
 }
 template <class Map, class Key, class FT>
-void put_value(const Map& map, const Key& key, const std::array<FT, 3>& value) {
+void put_value(const Map& map, Key& key, const std::array<FT, 3>& value) {
   put(map, key, vector_of<typename boost::property_traits<Map>::value_type>(value));
 }
 template <class Map, class Key, class FT>
-void put_value(const Map& map, const Key& key, const Principal_curvatures<FT>& value) {
+void put_value(const Map& map, Key& key, const std::array<FT, 6>& value) {
+  typename boost::property_traits<Map>::value_type form{};
+  for (std::size_t i = 0; i < 6; ++i) form[i] = static_cast<std::decay_t<decltype(form[i])>>(value[i]);
+  put(map, key, form);
+}
+template <class Map, class Key, class FT>
+void put_value(const Map& map, Key& key, const Principal_curvatures<FT>& value) {
   typename boost::property_traits<Map>::value_type result;
   result.min_curvature = value.least;
   result.max_curvature = value.greatest;
@@ -171,9 +189,13 @@ void put_value(const Map& map, const Key& key, const Principal_curvatures<FT>& v
 
 /// Puts what is known of a vertex into those of the maps in the list that are given.
 template <class Parameters, class Key, class S, class... Tags>
-void put_structure(const Parameters& parameters, const Key& key, const S& s, Tag_list<Tags...>) {
+void put_structure(const Parameters& parameters, Key& key, const S& s, Tag_list<Tags...>) {
   const auto put_one = [&]<class Tag>(Tag tag) {
-    if constexpr (has_parameter<Tag, Parameters>) put_value(given_parameter<Tag>(parameters), key, value_for(tag, s));
+    if constexpr (has_parameter<Tag, Parameters>) {
+      const auto& map = given_parameter<Tag>(parameters);
+      check_map<std::decay_t<decltype(map)>>();
+      put_value(map, key, value_for(tag, s));
+    }
   };
   (put_one(Tags()), ...);
 }

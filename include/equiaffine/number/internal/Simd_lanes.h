@@ -119,23 +119,17 @@ public:
 
 private:
   /// Whether all bits of all lanes are set.
-  template <class Lanes>
-  [[gnu::always_inline]] static bool all_bits(const Lanes& lanes) {
-    constexpr std::size_t half = sizeof(Lanes) / sizeof(Integer) / 2;
-    if constexpr (half == 0) return lanes[0] == ~Integer();
-    else if constexpr (half == 1) return (lanes[0] & lanes[1]) == ~Integer();
-    else {
-      return [&]<std::size_t... I>(std::index_sequence<I...>) {
-        return all_bits(__builtin_shufflevector(lanes, lanes, I...) &
-                        __builtin_shufflevector(lanes, lanes, (half + I)...));
-      }
-      (std::make_index_sequence<half>());
-    }
+  [[gnu::always_inline]] static bool all_bits(const Integers& lanes) {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) { return (lanes[I] & ...) == ~Integer(); }
+    (Indices());
   }
 
-  /// The processor's own square roots: std::sqrt would have to set errno for negative numbers, one by one.
+  /// The square roots as the processor computes them: std::sqrt would have to set errno for negative numbers, one by one.
   [[gnu::always_inline]] static Numbers square_roots(const Numbers& a) {
-    constexpr bool is_double = std::is_same_v<T, double>;
+#if __has_builtin(__builtin_elementwise_sqrt)
+    return __builtin_elementwise_sqrt(a);
+#else
+    [[maybe_unused]] constexpr bool is_double = std::is_same_v<T, double>;
 #if defined(__AVX512F__) && defined(__clang__)
     if constexpr (sizeof(a) == 64 && is_double) return __builtin_ia32_sqrtpd512(a, 4);
     if constexpr (sizeof(a) == 64 && !is_double) return __builtin_ia32_sqrtps512(a, 4);
@@ -152,6 +146,7 @@ private:
     if constexpr (sizeof(a) == 16 && !is_double) return __builtin_ia32_sqrtps(a);
 #endif
     return fill<Numbers>([&](std::size_t i) { return std::sqrt(a[i]); }, Indices());
+#endif
   }
 };
 

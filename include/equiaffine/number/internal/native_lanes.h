@@ -24,7 +24,7 @@ template <class T, std::size_t Size>
 struct Array_lanes;
 
 /// The size of a vector register under the compiler's flags. It is part of the type of a pack, so that translation
-/// units compiled for different processors have different packs, never two of one name.
+/// units compiled for registers of different sizes have different packs, never two of one name.
 #if defined(__AVX512F__)
 inline constexpr std::size_t bytes_per_register = 64;
 #elif defined(__AVX__)
@@ -37,7 +37,8 @@ template <class T>
 inline constexpr std::size_t native_size = sizeof(T) < bytes_per_register ? bytes_per_register / sizeof(T) : 1;
 
 template <class T>
-using Native_lanes = std::conditional_t<has_simd, Simd_lanes<T, native_size<T>>, Array_lanes<T, native_size<T>>>;
+using Native_lanes = std::conditional_t<has_simd && (std::is_same_v<T, double> || std::is_same_v<T, float>),
+                                        Simd_lanes<T, native_size<T>>, Array_lanes<T, native_size<T>>>;
 
 } // namespace equiaffine::internal
 

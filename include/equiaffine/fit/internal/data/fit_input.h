@@ -16,7 +16,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <ranges>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -26,6 +28,8 @@ namespace equiaffine::internal {
 /// The data points are the vertices in their order, and behind them others at creases.
 template <Face_graph Graph, class Parameters>
 Normalized_data fit_input_of_graph(const Graph& graph, const Parameters& parameters) {
+  check_coordinates<
+      typename boost::property_traits<std::decay_t<decltype(vertex_points(graph, parameters))>>::value_type>();
   const Indexed_polygons mesh = indexed_polygons_of_graph(graph, parameters);
   Normalized_data result = data_of_mesh(mesh.points, mesh.polygons, feature_angle(parameters));
   if constexpr (has_parameter<Vertex_normal_tag, Parameters>) {
@@ -67,6 +71,7 @@ template <class ConcurrencyTag, std::ranges::input_range Points, class Parameter
 Fit_input_of_points fit_input_of_points(const Points& range, const Parameters& parameters) {
   std::vector<Eigen::Vector3d> points, normals;
   const auto point_of = point_of_element(range, parameters);
+  check_coordinates<std::decay_t<decltype(point_of(*std::begin(range)))>>();
   for (const auto& element : range) {
     points.push_back(coordinates_of(point_of(element)));
     if constexpr (has_parameter<Normal_tag, Parameters>)

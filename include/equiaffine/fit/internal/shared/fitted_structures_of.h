@@ -9,6 +9,7 @@
 #include <equiaffine/fit/internal/shared/Fit_request.h>
 #include <equiaffine/fit/internal/structures_of_fit.h>
 
+#include <CGAL/assertions.h>
 #include <CGAL/tags.h>
 
 #include <algorithm>
@@ -38,7 +39,9 @@ template <class Vertex, class Graph, class Parameters>
 Fitted_structure_3<double> fitted_structure_of_vertex(const Vertex& v, const Graph& mesh,
                                                       const Parameters& parameters) {
   const auto all = vertices(mesh);
-  const auto i = std::distance(std::begin(all), std::find(std::begin(all), std::end(all), v));
+  const auto place = std::find(std::begin(all), std::end(all), v);
+  CGAL_precondition_msg(place != std::end(all), "the vertex is none of the mesh");
+  const auto i = std::distance(std::begin(all), place);
   return structure_at_point(fitted_data_of_graph(mesh, parameters, CGAL::Sequential_tag()), Data_points_3::Index(i),
                             orientation_of(parameters));
 }

@@ -21,7 +21,7 @@ namespace equiaffine::internal {
 template <class Kernel, class Graph, class Parameters>
 void copy_to_graph(const Isosurface_3<Kernel>& surface, Graph& graph, const Parameters& parameters) {
   using Target_vertex = typename boost::graph_traits<Graph>::vertex_descriptor;
-  const auto mesh = surface_mesh_of(surface);
+  auto mesh = surface_mesh_of(surface);
   using Vertex = typename boost::graph_traits<decltype(surface_mesh_of(surface))>::vertex_descriptor;
   const auto point_map = vertex_points(graph, parameters);
   check_coordinates<typename boost::property_traits<std::decay_t<decltype(point_map)>>::value_type>();
@@ -29,7 +29,7 @@ void copy_to_graph(const Isosurface_3<Kernel>& surface, Graph& graph, const Para
   CGAL::copy_face_graph(mesh, graph, CGAL::parameters::vertex_to_vertex_output_iterator(std::back_inserter(copies)),
                         CGAL::parameters::vertex_point_map(point_map));
   if constexpr (has_parameter<Vertex_status_tag, Parameters>) {
-    const auto status = mesh.template property_map<Vertex, Point_status>("v:status").first;
+    const auto status = mesh.template add_property_map<Vertex, Point_status>("v:status").first; // it is there
     for (const auto& [from, to] : copies) put(given_parameter<Vertex_status_tag>(parameters), to, status[from]);
   }
 }
