@@ -58,8 +58,8 @@ private:
   Traits traits_;
 };
 
-/// A model of CGAL's IsosurfacingEdgeIntersectionOracle_3 that puts vertices on the surface, as marching_cubes() does,
-/// where CGAL's interpolate linearly or halve an interval.
+/// A model of CGAL's IsosurfacingEdgeIntersectionOracle_3 that finds the points of edges on the surface to rounding,
+/// where CGAL's interpolate or halve an interval. Dual Contouring asks it; CGAL 6.2's Marching Cubes interpolates.
 template <ImplicitFunctionTraits_3 Traits>
 class Edge_intersection_of_function_3 {
 public:
