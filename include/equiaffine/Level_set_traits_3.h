@@ -87,7 +87,7 @@ public:
   Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const requires HasTightFirstOrderBounds<Base> {
     return shifted_bounds(base_.tight_first_order_bounds(box));
   }
-  /// Those that the base has.
+  /// Returns which bounds the base has.
   Known_bounds known_bounds() const requires HasKnownBounds<Base> { return base_.known_bounds(); }
   /// The same level set of the function that may replace the base in a box, if there is one.
   std::optional<Level_set_traits_3>
@@ -99,7 +99,7 @@ public:
                                            : Orientation_of_level_set::ALONG_GRADIENT);
   }
   FT rounding(const Point_3& p) const requires HasRounding<Base> { return base_.rounding(p); } ///< that of the base
-  /// That of the base.
+  /// Returns the certainty of the base at p.
   double certainty(const Point_3& p) const requires HasCertainty<Base> { return base_.certainty(p); }
   CGAL::Bbox_3 bbox() const { return base_.bbox(); } ///< that of the base
 

@@ -102,7 +102,7 @@ public:
   Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const requires HasTightFirstOrderBounds<Base> {
     return substituted(base_.tight_first_order_bounds(preimage(box)));
   }
-  /// Those that the base has.
+  /// Returns which bounds the base has.
   Known_bounds known_bounds() const requires HasKnownBounds<Base> { return base_.known_bounds(); }
 
   /// The image of the function that may replace the base in the box around the preimage, if there is one.

@@ -47,9 +47,9 @@ public:
   }
   /// Bounds of the value, the whole line if the held model has none.
   Interval bounds(const CGAL::Bbox_3& box) const { return function_->bounds(box); }
-  /// As the free function first_order_bounds() of the held model.
+  /// Returns what the free function first_order_bounds() says of the held model.
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return function_->first_order_bounds(box); }
-  /// As the free function tight_first_order_bounds() of the held model.
+  /// Returns what the free function tight_first_order_bounds() says of the held model.
   Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const {
     return function_->tight_first_order_bounds(box);
   }
