@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes, kernels, maps and named parameters of your own: a CGAL::Polyhedron_3 of another kernel than that of the function
-// gets the numbers that are asked for, in maps that need not belong to it.
+// gets the numbers that are asked for, in maps that need not belong to it, and keeps them in a file.
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/annotate.h>
 #include <equiaffine/annotate_by_fit.h>
+#include <equiaffine/io/polygon_mesh_files.h>
 #include <equiaffine/marching_cubes.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -36,6 +37,11 @@ int main() {
   equiaffine::annotate_by_fit(mesh, parameters::vertex_affine_mean_curvature_map(boost::make_assoc_property_map(fitted))
                                         .vertex_affine_mean_curvature_error_map(boost::make_assoc_property_map(error)));
   //! [maps]
+
+  //! [file]
+  equiaffine::IO::write_polygon_mesh(
+      "ellipsoid.ply", mesh, parameters::vertex_affine_mean_curvature_map(boost::make_assoc_property_map(exact)));
+  //! [file]
 
   double difference = 0;
   int right = 0;

@@ -3,11 +3,11 @@
 #define EQUIAFFINE_IMPLICIT_MESH_DOMAIN_3_H
 
 #include <equiaffine/base/internal/shared/check_argument.h>
+#include <equiaffine/base/internal/shared/convert_point.h>
 #include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/delaunay/internal/Segment_oracle_3.h>
 #include <equiaffine/delaunay/internal/shared/Cgal_optional.h>
 #include <equiaffine/delaunay/internal/shared/certified_seeding.h>
-#include <equiaffine/surface/internal/shared/convert_point.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/tags.h>

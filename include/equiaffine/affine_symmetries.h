@@ -14,7 +14,6 @@
 #include <CGAL/Kernel_traits.h>
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/tags.h>
-#include <boost/property_map/property_map.hpp>
 
 #include <ranges>
 
@@ -75,8 +74,8 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, interna
 auto affine_symmetries(const Graph& mesh, const Parameters&... given) {
   internal::check_map_parameters<internal::Joined_parameters<Parameters...>, internal::Vertex_point_tag>();
   const auto parameters = internal::joined_parameters(given...);
-  using Point_map = decltype(vertex_points(mesh, parameters));
-  using Kernel_of_points = typename CGAL::Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
+  using Point = Point_of_vertices<const Graph, internal::Joined_parameters<Parameters...>>;
+  using Kernel_of_points = typename CGAL::Kernel_traits<Point>::Kernel;
   return internal::symmetries_of_triangles<ConcurrencyTag, Kernel_of_points>(
       internal::triangles_of_graph(mesh, parameters), parameters);
 }

@@ -4,7 +4,7 @@
 #define EQUIAFFINE_ANNOTATE_H
 
 #include <equiaffine/attributes/internal/annotate_elements.h>
-#include <equiaffine/attributes/internal/vertex_maps.h>
+#include <equiaffine/attributes/internal/shared/vertex_maps.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/function/internal/shared/explain_misuse.h>
@@ -67,7 +67,7 @@ void annotate(Graph& graph, const Traits& traits, const Parameters&... given) {
   using Joined = internal::Joined_parameters<Parameters...>;
   internal::check_annotate_parameters<Joined, internal::Vertex_point_tag>();
   const Joined parameters = internal::joined_parameters(given...);
-  static_assert(check_coordinates<internal::Point_of_vertices<Graph, Joined>>());
+  static_assert(check_coordinates<Point_of_vertices<Graph, Joined>>());
   const auto point_of = [map = vertex_points(graph, parameters)](const auto& v) { return get(map, v); };
   if constexpr (internal::is_surface_mesh<Graph> && !internal::has_maps<Joined>(internal::Structure_tags()))
     internal::annotate_surface_mesh<ConcurrencyTag>(graph, point_of, traits, parameters);
@@ -102,6 +102,13 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, class Elements, class Tra
 void annotate(const Elements&, const Traits&, const Others&...) requires(
     (Vertex_graph<Elements> || std::ranges::input_range<Elements>)&&!(ImplicitFunctionTraits_3<Traits> &&
                                                                       (internal::Parameter_chain<Others> && ...))) {
+  internal::explain_traits<Traits>();
+  internal::explain_parameters<Others...>();
+}
+template <class Vertex, class Graph, class Traits, class... Others>
+void annotate(const Vertex&, const Graph&, const Traits&, const Others&...) requires(
+    Vertex_graph<Graph> && !Vertex_graph<Vertex> && !std::ranges::input_range<Vertex> &&
+    !(ImplicitFunctionTraits_3<Traits> && (internal::Parameter_chain<Others> && ...))) {
   internal::explain_traits<Traits>();
   internal::explain_parameters<Others...>();
 }

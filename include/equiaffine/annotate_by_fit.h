@@ -98,6 +98,12 @@ void annotate_by_fit(const Elements&, const Others&...) requires(
                                                                      internal::Property_map<Others>)&&...)) {
   internal::explain_parameters<Others...>();
 }
+template <class Vertex, Face_graph Graph, class... Others>
+void annotate_by_fit(const Vertex&, const Graph&,
+                     const Others&...) requires(!Face_graph<Vertex> && !std::ranges::input_range<Vertex> &&
+                                                !(internal::Parameter_chain<Others> && ...)) {
+  internal::explain_parameters<Others...>();
+}
 /// \endcond
 
 } // namespace equiaffine

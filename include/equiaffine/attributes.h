@@ -25,13 +25,15 @@ namespace equiaffine {
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
 /// | `estimator` | Estimator | COMPACT | how the affine structure is computed |
-template <ImplicitFunctionTraits_3 Traits, class Parameters = internal::No_parameters>
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+template <ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
 Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, const typename Traits::Point_3& p,
                                                           Point_status sampled_status = Point_status::REGULAR,
-                                                          const Parameters& parameters = {}) {
-  internal::check_parameters<Parameters, internal::Estimator_tag>();
-  auto structure = internal::structure_by<Parameters, typename Traits::FT>(
-      parameters, traits.taylor(p), {p.x(), p.y(), p.z()}, equiaffine::rounding(traits, p));
+                                                          const Parameters&... given) {
+  using Joined = internal::Joined_parameters<Parameters...>;
+  internal::check_parameters<Joined, internal::Estimator_tag, internal::Geom_traits_tag, internal::Verbose_tag>();
+  auto structure = internal::structure_by<Joined, typename Traits::FT>(
+      internal::joined_parameters(given...), traits.taylor(p), {p.x(), p.y(), p.z()}, equiaffine::rounding(traits, p));
   structure.status = status_after_sampling(structure.status, sampled_status);
   return structure;
 }
@@ -47,15 +49,17 @@ Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, 
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
 /// | `estimator` | Estimator | COMPACT | how the affine structure is computed |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
-          class Parameters = internal::No_parameters>
+          internal::Parameter_chain... Parameters>
 Vertex_attributes compute_attributes(const Traits& traits, std::span<const typename Traits::Point_3> points,
                                      const Attribute_selection& selection,
-                                     std::span<const Point_status> sampled_status = {},
-                                     const Parameters& parameters = {}) {
+                                     std::span<const Point_status> sampled_status = {}, const Parameters&... given) {
   static_assert(std::is_same_v<typename Traits::FT, double>);
-  internal::check_parameters<Parameters, internal::Estimator_tag>();
-  return internal::compute_columns<ConcurrencyTag>(traits, points, selection, sampled_status, parameters);
+  internal::check_parameters<internal::Joined_parameters<Parameters...>, internal::Estimator_tag,
+                             internal::Geom_traits_tag, internal::Verbose_tag>();
+  return internal::compute_columns<ConcurrencyTag>(traits, points, selection, sampled_status,
+                                                   internal::joined_parameters(given...));
 }
 
 } // namespace equiaffine

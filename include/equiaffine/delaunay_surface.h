@@ -7,9 +7,9 @@
 #include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
 #include <equiaffine/delaunay/internal/delaunay_surface_of.h>
-#include <equiaffine/function/internal/shared/explain_misuse.h>
 #include <equiaffine/surface/internal/shared/Face_graph.h>
 #include <equiaffine/surface/internal/shared/copy_to_graph.h>
+#include <equiaffine/surface/internal/shared/explain_sampler.h>
 #include <equiaffine/to_face_graph.h>
 
 #include <utility>
@@ -58,9 +58,9 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, con
   return internal::delaunay_surface_of(traits, criteria, internal::joined_parameters(given...));
 }
 /// The same with the default criteria.
-template <ImplicitFunctionTraits_3 Traits>
-Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits) {
-  return delaunay_surface(traits, Delaunay_criteria());
+template <ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
+Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, const Parameters&... given) {
+  return delaunay_surface(traits, Delaunay_criteria(), given...);
 }
 
 /// The same for the level set f = isovalue, whose points and triangles are added to containers of the caller: see
@@ -74,6 +74,14 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, con
                                                internal::joined_parameters(given...));
   to_polygon_soup(surface, points, triangles);
   return internal::without_mesh(std::move(surface));
+}
+
+/// The same with the default criteria.
+template <ImplicitFunctionTraits_3 Traits, class Points, class Triangles, internal::Parameter_chain... Parameters>
+Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, const typename Traits::FT& isovalue,
+                                                       Points& points, Triangles& triangles,
+                                                       const Parameters&... given) {
+  return delaunay_surface(traits, isovalue, points, triangles, Delaunay_criteria(), given...);
 }
 
 /// The same for the zero set, which is added to a model of CGAL's MutableFaceGraph: see to_face_graph(). Further named
@@ -94,11 +102,18 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Gra
   return internal::without_mesh(std::move(surface));
 }
 
+/// The same with the default criteria.
+template <ImplicitFunctionTraits_3 Traits, Face_graph Graph, internal::Parameter_chain... Parameters>
+Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Graph& graph, const Parameters&... given) {
+  return delaunay_surface(traits, graph, Delaunay_criteria(), given...);
+}
+
 /// \cond
-// A call that is mistaken, see explain_misuse.h.
+// A call that is mistaken, see explain_sampler.h.
 template <class Traits, class... Others>
-void delaunay_surface(const Traits&, const Others&...) requires(!ImplicitFunctionTraits_3<Traits>) {
-  internal::explain_traits<Traits>();
+void delaunay_surface(const Traits&,
+                      const Others&...) requires Mistaken_for_sampler<Delaunay_criteria, Traits, Others...> {
+  explain_sampler<Delaunay_criteria, Traits, Others...>();
 }
 /// \endcond
 

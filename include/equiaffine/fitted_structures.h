@@ -6,6 +6,7 @@
 #include <equiaffine/fit/Fitted_structure_3.h>
 #include <equiaffine/fit/internal/shared/Fit_request.h>
 #include <equiaffine/fit/internal/shared/fitted_structures_of.h>
+#include <equiaffine/function/internal/shared/explain_misuse.h>
 #include <equiaffine/surface/internal/shared/Face_graph.h>
 
 #include <CGAL/tags.h>
@@ -131,6 +132,18 @@ std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, 
                                  internal::Feature_angle_tag>();
   return internal::fitted_structures_of_soup<ConcurrencyTag>(points, polygons, internal::joined_parameters(given...));
 }
+
+/// \cond
+// Calls that are mistaken, see explain_misuse.h.
+template <class ConcurrencyTag = CGAL::Sequential_tag, class Elements, class First, class... Others>
+void fitted_structures(const Elements&, const First&, const Others&...) requires(
+    (Face_graph<Elements> || std::ranges::input_range<Elements>)&&!(
+        (internal::Parameter_chain<First> || (std::ranges::input_range<First> && !Face_graph<Elements>)) &&
+        (internal::Parameter_chain<Others> && ...))) {
+  if constexpr (Face_graph<Elements> || !std::ranges::input_range<First>) internal::explain_parameters<First>();
+  internal::explain_parameters<Others...>();
+}
+/// \endcond
 
 } // namespace equiaffine
 

@@ -6,6 +6,7 @@
 
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/Volume_3.h>
+#include <equiaffine/base/internal/shared/convert_point.h>
 #include <equiaffine/capabilities.h>
 #include <equiaffine/concepts.h>
 
@@ -29,7 +30,7 @@ public:
   /// f(p), in double.
   template <class Point_3>
   double operator()(const Point_3& p) const {
-    return CGAL::to_double(traits_.value({CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())}));
+    return CGAL::to_double(traits_.value(convert_point<Kernel_of<Traits>>(p)));
   }
 
 private:
@@ -47,7 +48,7 @@ public:
   template <class Point_3>
   auto operator()(const Point_3& p) const {
     using Vector_3 = typename CGAL::Kernel_traits<Point_3>::Kernel::Vector_3;
-    const auto jet = first_order(traits_, {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())});
+    const auto jet = first_order(traits_, convert_point<Kernel_of<Traits>>(p));
     const auto& c = jet.coefficients();
     const double x = CGAL::to_double(c[1]), y = CGAL::to_double(c[2]), z = CGAL::to_double(c[3]);
     const double length = std::hypot(x, y, z);
@@ -72,11 +73,9 @@ public:
                   const FT& isovalue, Point_3& p) const {
     const double from = CGAL::to_double(value0 - isovalue), to = CGAL::to_double(value1 - isovalue);
     if (std::isnan(from) || std::isnan(to) || (from <= 0) == (to <= 0)) return false;
-    const auto point = [](const Point_3& q) {
-      return typename Traits::Point_3(CGAL::to_double(q.x()), CGAL::to_double(q.y()), CGAL::to_double(q.z()));
-    };
+    using Kernel = Kernel_of<Traits>;
     const Level_set_traits_3<Traits> level_set(traits_, isovalue);
-    const auto zero = intersect_segment(level_set, point(p0), point(p1), from, to);
+    const auto zero = intersect_segment(level_set, convert_point<Kernel>(p0), convert_point<Kernel>(p1), from, to);
     if (zero.is_at_pole) return false;
     p = Point_3(zero.point.x(), zero.point.y(), zero.point.z());
     return true;
@@ -91,10 +90,9 @@ private:
 template <class Field, class Grid>
 Volume_3<CGAL::Simple_cartesian<double>> sampled_field(const Field& field, const Grid& grid) {
   using Kernel = CGAL::Simple_cartesian<double>;
-  const auto &first = grid.span().min(), &step = grid.spacing();
+  const auto& step = grid.spacing();
   const double dx = CGAL::to_double(step.x()), dy = CGAL::to_double(step.y()), dz = CGAL::to_double(step.z());
-  const Kernel::Point_3 origin(CGAL::to_double(first.x()), CGAL::to_double(first.y()), CGAL::to_double(first.z()));
-  const Lattice_3<Kernel> lattice({grid.xdim(), grid.ydim(), grid.zdim()}, origin,
+  const Lattice_3<Kernel> lattice({grid.xdim(), grid.ydim(), grid.zdim()}, convert_point<Kernel>(grid.span().min()),
                                   {Kernel::Vector_3(dx, 0, 0), Kernel::Vector_3(0, dy, 0), Kernel::Vector_3(0, 0, dz)});
   Volume_3<Kernel> volume{lattice, {}};
   volume.values.reserve(lattice.number_of_nodes());

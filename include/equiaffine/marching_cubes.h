@@ -5,12 +5,12 @@
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/concepts.h>
-#include <equiaffine/function/internal/shared/explain_misuse.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
 #include <equiaffine/marching_cubes/internal/marching_cubes_of.h>
 #include <equiaffine/surface/Isosurface_3.h>
 #include <equiaffine/surface/internal/shared/Face_graph.h>
 #include <equiaffine/surface/internal/shared/copy_to_graph.h>
+#include <equiaffine/surface/internal/shared/explain_sampler.h>
 #include <equiaffine/to_face_graph.h>
 
 #include <CGAL/tags.h>
@@ -89,10 +89,10 @@ Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, Graph& grap
 }
 
 /// \cond
-// A call that is mistaken, see explain_misuse.h.
+// A call that is mistaken, see explain_sampler.h.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Traits, class... Others>
-void marching_cubes(const Traits&, const Others&...) requires(!ImplicitFunctionTraits_3<Traits>) {
-  internal::explain_traits<Traits>();
+void marching_cubes(const Traits&, const Others&...) requires Mistaken_for_sampler<void, Traits, Others...> {
+  explain_sampler<void, Traits, Others...>();
 }
 /// \endcond
 

@@ -8,6 +8,7 @@
 #include <equiaffine/fit/internal/remesh/crossing_triangles.h>
 #include <equiaffine/fit/internal/remesh/motion_to_fit.h>
 #include <equiaffine/fit/internal/remesh/triangle_array_of.h>
+#include <equiaffine/function/internal/shared/explain_misuse.h>
 #include <equiaffine/surface/internal/shared/Face_graph.h>
 
 #include <CGAL/tags.h>
@@ -43,6 +44,15 @@ Fit_move_report move_to_fit(Mesh& mesh, const Fitted_function_traits_3<Kernel>& 
       array, fit, internal::crossing_triangles(array.points(), array.triangles()));
   return internal::apply_motion<Kernel>(mesh, motion, parameters);
 }
+
+/// \cond
+// A call that is mistaken, see explain_misuse.h.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, class Kernel, class... Others>
+void move_to_fit(Mesh&, const Fitted_function_traits_3<Kernel>&,
+                 const Others&...) requires(!(internal::Parameter_chain<Others> && ...)) {
+  internal::explain_parameters<Others...>();
+}
+/// \endcond
 
 } // namespace equiaffine
 

@@ -4,6 +4,7 @@
 
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/concepts.h>
+#include <equiaffine/function/internal/shared/explain_misuse.h>
 #include <equiaffine/registration/Map_kind.h>
 #include <equiaffine/registration/Surface_registration_3.h>
 #include <equiaffine/registration/internal/Registration_request.h>
@@ -16,7 +17,6 @@
 #include <CGAL/Kernel_traits.h>
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/tags.h>
-#include <boost/property_map/property_map.hpp>
 
 #include <ranges>
 
@@ -80,7 +80,7 @@ Surface_registration_3<Kernel_of<Target>> register_surfaces(const Source& source
 /// than 10 % of the points are off the other surface.
 ///
 /// Takes some 5 to 40 s on one core if the wholes are not equal. The last argument has `vertex_point_map` and
-/// `geom_traits` for the target; the one before it has
+/// `geom_traits` for the target; parameters::joined() makes one argument of several. The one before it has
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
@@ -103,8 +103,8 @@ auto register_surfaces(const Source& source, const Target& target, const Paramet
                              internal::Geom_traits_tag>();
   const auto parameters = internal::joined_parameters(given);
   const auto target_parameters = internal::joined_parameters(given_of_target);
-  using Point_map = decltype(vertex_points(target, target_parameters));
-  using Kernel_of_points = typename CGAL::Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
+  using Point = Point_of_vertices<const Target, internal::Joined_parameters<Target_parameters>>;
+  using Kernel_of_points = typename CGAL::Kernel_traits<Point>::Kernel;
   return internal::registration_of_triangles<ConcurrencyTag, Kernel_of_points>(
       internal::triangles_of_graph(source, parameters), internal::triangles_of_graph(target, target_parameters),
       internal::registration_request(parameters));
@@ -124,6 +124,18 @@ auto register_surfaces(const Points& points, const Polygons& polygons, const Tar
       internal::triangles_of_soup(points, polygons), internal::triangles_of_soup(target_points, target_polygons),
       internal::registration_request(parameters));
 }
+
+/// \cond
+// A call that is mistaken, see explain_misuse.h.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Source, Face_graph Target, class... Others>
+void register_surfaces(const Source&, const Target&,
+                       const Others&...) requires(!(internal::Parameter_chain<Others> && ...) ||
+                                                  sizeof...(Others) > 2) {
+  internal::explain_parameters<Others...>();
+  static_assert(sizeof...(Others) <= 2, "there is one chain of named parameters for the source and one for the target: "
+                                        "parameters::joined() makes one of several");
+}
+/// \endcond
 
 } // namespace equiaffine
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <equiaffine/base/named_parameters.h>
 
+#include <CGAL/Named_function_parameters.h>
+
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 using namespace equiaffine;
 using internal::get_parameter;
@@ -33,6 +36,14 @@ TEST(Named_parameters, the_last_one_given_counts) {
 
 TEST(Named_parameters, one_number_of_nodes_is_that_of_every_axis) {
   EXPECT_EQ(get_parameter<internal::Number_of_nodes_tag>(parameters::number_of_nodes(9), Nodes{}), (Nodes{9, 9, 9}));
+}
+
+TEST(Named_parameters, joined_chains_of_both_libraries_are_one_in_which_the_last_one_counts) {
+  const auto chain = parameters::joined(parameters::scale(1).noise(2), CGAL::parameters::vertex_point_map(3),
+                                        parameters::default_values(), parameters::scale(4));
+  EXPECT_EQ(get_parameter<internal::Scale_tag>(chain, std::optional<double>()), 4);
+  EXPECT_EQ(get_parameter<internal::Noise_tag>(chain, std::optional<double>()), 2);
+  EXPECT_EQ(get_parameter<internal::Vertex_point_tag>(chain, 0), 3);
 }
 
 TEST(Named_parameters, a_parameter_without_value_is_given_or_not) {

@@ -164,6 +164,17 @@ TEST(Delaunay_surface, curves_on_the_border_nearer_than_facets_are_large_are_kep
   EXPECT_TRUE(surface.is_certified);
 }
 
+TEST(Delaunay_surface, a_mesh_of_CGAL_gets_the_same_triangles_by_default_criteria) {
+  const auto traits = traits_of(functions::Gyroid());
+  const auto surface = delaunay_surface(traits, CGAL::parameters::verbose(false));
+  CGAL::Surface_mesh<Point_3> mesh;
+  const auto facts = delaunay_surface(traits, mesh);
+  EXPECT_EQ(mesh.number_of_faces(), surface.triangles.size());
+  EXPECT_GT(mesh.number_of_faces(), 1000u);
+  EXPECT_EQ(facts.is_certified, surface.is_certified);
+  EXPECT_TRUE(facts.triangles.empty());
+}
+
 TEST(Delaunay_surface, beside_features_angles_are_as_large_as_elsewhere) {
   const auto surface = delaunay_surface(traits_of(functions::Gyroid()), {30, 0.2, 0});
   EXPECT_GT(topology(surface).boundary_edges, 500u);

@@ -10,9 +10,9 @@
 #include <map>
 #include <utility>
 
-#if CASE == 3
+#if CASE == 3 || CASE == 15
 #include <equiaffine/annotate_by_fit.h>
-#elif CASE == 7 || CASE == 9 || CASE == 10
+#elif CASE == 7 || CASE == 9 || CASE == 10 || CASE == 13
 #include <equiaffine/marching_cubes.h>
 #else
 #include <equiaffine/annotate.h>
@@ -65,5 +65,11 @@ void use([[maybe_unused]] Mesh& mesh, const CGAL::Bbox_3& box) {
   annotate(mesh, sphere, parameters::vertex_affine_mean_curvature_map(values));
 #elif CASE == 12 // annotate() has nothing to write to: give it property maps
   annotate(std::as_const(mesh), sphere);
+#elif CASE == 13 // what follows the function has to be a mesh of CGAL, or an isovalue with a container of points
+  marching_cubes(sphere, 64);
+#elif CASE == 14 // an argument is no named parameter: write parameters::NAME(value)
+  annotate(Mesh::Vertex_index(0), mesh, sphere, 0.1);
+#elif CASE == 15 // an argument is no named parameter: write parameters::NAME(value)
+  fitted_structures(mesh, 0.1);
 #endif
 }

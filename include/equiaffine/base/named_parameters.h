@@ -19,6 +19,13 @@ namespace equiaffine::parameters {
 /// Every parameter has its default.
 inline internal::No_parameters default_values() { return {}; }
 
+/// Several chains of named parameters, of equiaffine and of CGAL, as one chain, for functions that take a chain for each
+/// of two surfaces. Of two parameters with the same name the last one counts.
+template <internal::Parameter_chain... Chains>
+internal::Joined_parameters<Chains...> joined(const Chains&... chains) {
+  return internal::joined_parameters(chains...);
+}
+
 EQUIAFFINE_NAMED_PARAMETERS(, default_values())
 
 } // namespace equiaffine::parameters

@@ -3,14 +3,11 @@
 #define EQUIAFFINE_IO_READ_PLY_H
 
 #include <equiaffine/io/Annotated_mesh_3.h>
-#include <equiaffine/io/internal/Ply_header.h>
-#include <equiaffine/io/internal/Ply_numbers.h>
 #include <equiaffine/io/internal/ply_elements.h>
-#include <equiaffine/io/internal/text_input.h>
+#include <equiaffine/surface/internal/shared/triangles_of_polygon.h>
 
 #include <istream>
 #include <string>
-#include <string_view>
 
 namespace equiaffine {
 
@@ -19,13 +16,8 @@ namespace equiaffine {
 /// out. `name` stands for the file in messages. Throws `Input_error` for what is not a complete PLY file.
 template <class Kernel>
 Annotated_mesh_3<Kernel> read_PLY(std::istream& stream, const std::string& name) {
-  const std::string text = internal::read_all(stream);
-  std::string_view rest = text;
-  const internal::Ply_header header = internal::Ply_header_parser(rest, name).parse();
-  internal::Ply_numbers numbers(rest, header.encoding, name);
-  Annotated_mesh_3<Kernel> result = internal::read_elements<Kernel>(numbers, header.elements);
-  result.attributes.comments = header.comments;
-  return result;
+  return internal::read_PLY_with<Kernel>(
+      stream, name, [](auto& mesh, const auto& face) { add_triangles_of_polygon(mesh.points, face, mesh.triangles); });
 }
 
 } // namespace equiaffine

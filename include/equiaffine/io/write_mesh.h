@@ -9,10 +9,9 @@
 #include <equiaffine/io/internal/buffered_output.h>
 #include <equiaffine/io/internal/mesh_text.h>
 #include <equiaffine/io/internal/shared/input_file.h>
+#include <equiaffine/io/internal/write_polygons.h>
 #include <equiaffine/io/write_CSV.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
-
-#include <CGAL/assertions.h>
 
 #include <array>
 #include <cstddef>
@@ -46,53 +45,20 @@ inline std::optional<Mesh_format> mesh_format(const std::string& path) {
 template <class Kernel>
 void write_PLY(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh,
                const Vertex_attributes& attributes = {}) {
-  CGAL_precondition(attributes.has_length(mesh.points.size()));
-  internal::Buffered_output out(stream);
-  internal::write_ply_header(out, mesh.points.size(), mesh.triangles.size(), attributes);
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    for (const double x : internal::coordinates(mesh.points[v])) out.write_binary(x);
-    for (const auto& column : attributes.columns) out.write_binary(column.values[v]);
-    if (attributes.status) out.write_binary(static_cast<std::uint8_t>((*attributes.status)[v]));
-  }
-  for (const auto& triangle : mesh.triangles) {
-    out.write_binary(std::uint8_t(3));
-    for (const std::uint32_t v : triangle) out.write_binary(v);
-  }
-  out.flush();
+  internal::write_PLY_of(stream, mesh.points, mesh.triangles, attributes);
 }
 
 /// Writes OFF: points and triangles; it holds no attributes.
 template <class Kernel>
 void write_OFF(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh) {
-  internal::Buffered_output out(stream);
-  out << "OFF\n" << mesh.points.size() << ' ' << mesh.triangles.size() << " 0\n";
-  for (const auto& p : mesh.points) internal::write_line(out, "", internal::coordinates(p));
-  for (const auto& [a, b, c] : mesh.triangles)
-    out << "3 " << std::size_t(a) << ' ' << std::size_t(b) << ' ' << std::size_t(c) << '\n';
-  out.flush();
+  internal::write_OFF_of(stream, mesh.points, mesh.triangles);
 }
 
 /// Writes OBJ: points and triangles, and vertex normals if there are columns `nx ny nz`.
 template <class Kernel>
 void write_OBJ(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh,
                const Vertex_attributes& attributes = {}) {
-  const std::array<const Vertex_attributes::Column*, 3> normal = {
-      find_column(attributes, "nx"), find_column(attributes, "ny"), find_column(attributes, "nz")};
-  const bool has_normals = normal[0] && normal[1] && normal[2];
-  internal::Buffered_output out(stream);
-  for (const auto& p : mesh.points) internal::write_line(out, "v ", internal::coordinates(p));
-  if (has_normals)
-    for (std::size_t v = 0; v < mesh.points.size(); ++v)
-      internal::write_line(out, "vn ", {normal[0]->values[v], normal[1]->values[v], normal[2]->values[v]});
-  for (const auto& triangle : mesh.triangles) {
-    out << 'f';
-    for (const std::uint32_t v : triangle) {
-      out << ' ' << std::size_t(v) + 1;
-      if (has_normals) out << "//" << std::size_t(v) + 1;
-    }
-    out << '\n';
-  }
-  out.flush();
+  internal::write_OBJ_of(stream, mesh.points, mesh.triangles, attributes);
 }
 
 /// Writes STL, binary: triangles in single precision with their own unit normals; it holds no attributes.

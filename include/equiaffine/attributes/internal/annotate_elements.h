@@ -4,9 +4,9 @@
 
 #include <equiaffine/attributes.h>
 #include <equiaffine/attributes/internal/Property_maps.h>
-#include <equiaffine/attributes/internal/vertex_maps.h>
+#include <equiaffine/attributes/internal/shared/vertex_maps.h>
+#include <equiaffine/base/internal/shared/convert_point.h>
 #include <equiaffine/base/internal/shared/parallel_for.h>
-#include <equiaffine/surface/internal/shared/convert_point.h>
 #include <equiaffine/surface/internal/shared/indexed_polygons.h>
 #include <equiaffine/surface/internal/shared/points_of_range.h>
 
@@ -25,10 +25,6 @@ template <class Mesh>
 inline constexpr bool is_surface_mesh = false;
 template <class Point>
 inline constexpr bool is_surface_mesh<CGAL::Surface_mesh<Point>> = true;
-
-template <class Graph, class Parameters>
-using Point_of_vertices = typename boost::property_traits<
-    std::decay_t<decltype(vertex_points(std::declval<Graph&>(), std::declval<const Parameters&>()))>>::value_type;
 
 /// The structure of the level set at a point of any kernel.
 template <class Traits, class Point, class Parameters>

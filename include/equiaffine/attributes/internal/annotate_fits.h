@@ -4,7 +4,7 @@
 
 #include <equiaffine/attributes/internal/Property_maps.h>
 #include <equiaffine/attributes/internal/shared/error_table.h>
-#include <equiaffine/attributes/internal/vertex_maps.h>
+#include <equiaffine/attributes/internal/shared/vertex_maps.h>
 #include <equiaffine/fit/internal/shared/Fit_request.h>
 
 #include <cstddef>

@@ -5,13 +5,14 @@
 #include <equiaffine/io/Annotated_mesh_3.h>
 #include <equiaffine/io/internal/Ply_header.h>
 #include <equiaffine/io/internal/Ply_numbers.h>
+#include <equiaffine/io/internal/text_input.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
-#include <equiaffine/surface/internal/shared/triangles_of_polygon.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <istream>
 #include <limits>
 #include <optional>
 #include <string>
@@ -85,9 +86,10 @@ void read_vertices(Ply_numbers& numbers, const Ply_element& element, Annotated_m
   if (layout.has_status) extract_status(result.attributes);
 }
 
-/// Appends the faces, cut into triangles. Precondition: the points have been read.
-template <class Kernel>
-void read_faces(Ply_numbers& numbers, const Ply_element& element, Indexed_triangle_mesh_3<Kernel>& mesh) {
+/// Calls `add_face(mesh, face)` for each face, a vector of positions of points. Precondition: the points have been read.
+template <class Kernel, class Add_face>
+void read_faces(Ply_numbers& numbers, const Ply_element& element, Indexed_triangle_mesh_3<Kernel>& mesh,
+                const Add_face& add_face) {
   std::vector<double> list;
   std::vector<std::uint32_t> face;
   for (std::size_t f = 0; f < element.count; ++f)
@@ -104,13 +106,14 @@ void read_faces(Ply_numbers& numbers, const Ply_element& element, Indexed_triang
           numbers.fail("face " + std::to_string(f) + " has a vertex that does not exist", "correct the file");
         face.push_back(static_cast<std::uint32_t>(index));
       }
-      add_triangles_of_polygon(mesh.points, face, mesh.triangles);
+      add_face(mesh, face);
     }
 }
 
 /// Reads the elements in the order of the header. Those that are neither vertices nor faces are left out.
-template <class Kernel>
-Annotated_mesh_3<Kernel> read_elements(Ply_numbers& numbers, const std::vector<Ply_element>& elements) {
+template <class Kernel, class Add_face>
+Annotated_mesh_3<Kernel> read_elements(Ply_numbers& numbers, const std::vector<Ply_element>& elements,
+                                       const Add_face& add_face) {
   Annotated_mesh_3<Kernel> result;
   bool has_vertices = false;
   for (const Ply_element& element : elements) {
@@ -118,10 +121,22 @@ Annotated_mesh_3<Kernel> read_elements(Ply_numbers& numbers, const std::vector<P
     if (element.name == "vertex") {
       read_vertices(numbers, element, result);
       has_vertices = true;
-    } else if (element.name == "face") read_faces(numbers, element, result.mesh);
+    } else if (element.name == "face") read_faces(numbers, element, result.mesh, add_face);
     else numbers.skip(element);
   }
   if (!has_vertices) numbers.fail("it has no vertices", "check the path");
+  return result;
+}
+
+/// Reads PLY, and calls `add_face(mesh, face)` for each face.
+template <class Kernel, class Add_face>
+Annotated_mesh_3<Kernel> read_PLY_with(std::istream& stream, const std::string& name, const Add_face& add_face) {
+  const std::string text = read_all(stream);
+  std::string_view rest = text;
+  const Ply_header header = Ply_header_parser(rest, name).parse();
+  Ply_numbers numbers(rest, header.encoding, name);
+  Annotated_mesh_3<Kernel> result = read_elements<Kernel>(numbers, header.elements, add_face);
+  result.attributes.comments = header.comments;
   return result;
 }
 

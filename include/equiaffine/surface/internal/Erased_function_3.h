@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_SURFACE_INTERNAL_ERASED_FUNCTION_3_H
 #define EQUIAFFINE_SURFACE_INTERNAL_ERASED_FUNCTION_3_H
 
+#include <equiaffine/base/internal/shared/convert_point.h>
 #include <equiaffine/capabilities.h>
-#include <equiaffine/surface/internal/shared/convert_point.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Simple_cartesian.h>

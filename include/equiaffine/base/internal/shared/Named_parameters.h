@@ -44,6 +44,7 @@ struct Vertex_normal_tag {};
 struct Ball_radius_tag {};
 struct Geom_traits_tag {};
 struct Verbose_tag {};
+struct Comments_tag {};
 struct Vertex_status_tag {};
 struct Vertex_structure_tag {};
 struct Vertex_unit_normal_tag {};

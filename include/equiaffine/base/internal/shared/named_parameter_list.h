@@ -183,6 +183,12 @@
     return internal::add_parameter<internal::Geom_traits_tag>(traits, GIVEN);                                          \
   }                                                                                                                    \
                                                                                                                        \
+  /** Lines of text, a range of std::string, that a file keeps beside the numbers. */                                  \
+  template <class Lines>                                                                                               \
+  auto comments(const Lines& lines) CONST {                                                                            \
+    return internal::add_parameter<internal::Comments_tag>(lines, GIVEN);                                              \
+  }                                                                                                                    \
+                                                                                                                       \
   /** Whether to print; this library never does. */                                                                    \
   inline auto verbose(bool is_wanted) CONST {                                                                          \
     return internal::add_parameter<internal::Verbose_tag>(is_wanted, GIVEN);                                           \

@@ -28,8 +28,7 @@ namespace equiaffine::internal {
 /// The data points are the vertices in their order, and behind them others at creases.
 template <Face_graph Graph, class Parameters>
 Normalized_data fit_input_of_graph(const Graph& graph, const Parameters& parameters) {
-  check_coordinates<
-      typename boost::property_traits<std::decay_t<decltype(vertex_points(graph, parameters))>>::value_type>();
+  check_coordinates<Point_of_vertices<const Graph, Parameters>>();
   const Indexed_polygons mesh = indexed_polygons_of_graph(graph, parameters);
   Normalized_data result = data_of_mesh(mesh.points, mesh.polygons, feature_angle(parameters));
   if constexpr (has_parameter<Vertex_normal_tag, Parameters>) {

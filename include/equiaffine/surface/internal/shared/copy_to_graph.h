@@ -24,7 +24,7 @@ void copy_to_graph(const Isosurface_3<Kernel>& surface, Graph& graph, const Para
   auto mesh = surface_mesh_of(surface);
   using Vertex = typename boost::graph_traits<decltype(surface_mesh_of(surface))>::vertex_descriptor;
   const auto point_map = vertex_points(graph, parameters);
-  check_coordinates<typename boost::property_traits<std::decay_t<decltype(point_map)>>::value_type>();
+  check_coordinates<Point_of_vertices<Graph, Parameters>>();
   std::vector<std::pair<Vertex, Target_vertex>> copies;
   CGAL::copy_face_graph(mesh, graph, CGAL::parameters::vertex_to_vertex_output_iterator(std::back_inserter(copies)),
                         CGAL::parameters::vertex_point_map(point_map));

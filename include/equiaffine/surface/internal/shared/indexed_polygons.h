@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <boost/graph/graph_traits.hpp>
+#include <boost/property_map/property_map.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,7 +21,9 @@
 #include <limits>
 #include <numeric>
 #include <ranges>
+#include <type_traits>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 // Meshes and points of CGAL become arrays of numbers.
@@ -58,6 +61,11 @@ auto vertex_points(Graph& graph, const Parameters& parameters) {
     return internal::given_parameter<internal::Vertex_point_tag>(parameters);
   else return get(CGAL::vertex_point, graph);
 }
+
+/// The points that this map has.
+template <class Graph, class Parameters>
+using Point_of_vertices = typename boost::property_traits<
+    std::decay_t<decltype(vertex_points(std::declval<Graph&>(), std::declval<const Parameters&>()))>>::value_type;
 
 /// The points are those of the vertices, in their order.
 template <Face_graph Graph, class Parameters>

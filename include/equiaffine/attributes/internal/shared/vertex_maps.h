@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_VERTEX_MAPS_H
-#define EQUIAFFINE_ATTRIBUTES_INTERNAL_VERTEX_MAPS_H
+#ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_SHARED_VERTEX_MAPS_H
+#define EQUIAFFINE_ATTRIBUTES_INTERNAL_SHARED_VERTEX_MAPS_H
 
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/Fitted_structure_3.h>

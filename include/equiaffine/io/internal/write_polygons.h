@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_INTERNAL_WRITE_POLYGONS_H
+#define EQUIAFFINE_IO_INTERNAL_WRITE_POLYGONS_H
+
+#include <equiaffine/io/internal/buffered_output.h>
+#include <equiaffine/io/internal/mesh_text.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+
+#include <CGAL/assertions.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <ostream>
+#include <vector>
+
+// Formats that hold polygons. A polygon is a range of positions of points.
+namespace equiaffine::internal {
+
+template <class Point, class Polygon>
+void write_PLY_of(std::ostream& stream, const std::vector<Point>& points, const std::vector<Polygon>& polygons,
+                  const Vertex_attributes& attributes) {
+  CGAL_precondition(attributes.has_length(points.size()));
+  Buffered_output out(stream);
+  write_ply_header(out, points.size(), polygons.size(), attributes);
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    for (const double x : coordinates(points[v])) out.write_binary(x);
+    for (const auto& column : attributes.columns) out.write_binary(column.values[v]);
+    if (attributes.status) out.write_binary(static_cast<std::uint8_t>((*attributes.status)[v]));
+  }
+  for (const auto& polygon : polygons) {
+    out.write_binary(static_cast<std::uint8_t>(polygon.size()));
+    for (const std::uint32_t v : polygon) out.write_binary(v);
+  }
+  out.flush();
+}
+
+template <class Point, class Polygon>
+void write_OFF_of(std::ostream& stream, const std::vector<Point>& points, const std::vector<Polygon>& polygons) {
+  Buffered_output out(stream);
+  out << "OFF\n" << points.size() << ' ' << polygons.size() << " 0\n";
+  for (const auto& p : points) write_line(out, "", coordinates(p));
+  for (const auto& polygon : polygons) {
+    out << std::size_t(polygon.size());
+    for (const std::uint32_t v : polygon) out << ' ' << std::size_t(v);
+    out << '\n';
+  }
+  out.flush();
+}
+
+template <class Point, class Polygon>
+void write_OBJ_of(std::ostream& stream, const std::vector<Point>& points, const std::vector<Polygon>& polygons,
+                  const Vertex_attributes& attributes) {
+  const std::array<const Vertex_attributes::Column*, 3> normal = {
+      find_column(attributes, "nx"), find_column(attributes, "ny"), find_column(attributes, "nz")};
+  const bool has_normals = normal[0] && normal[1] && normal[2];
+  Buffered_output out(stream);
+  for (const auto& p : points) write_line(out, "v ", coordinates(p));
+  if (has_normals)
+    for (std::size_t v = 0; v < points.size(); ++v)
+      write_line(out, "vn ", {normal[0]->values[v], normal[1]->values[v], normal[2]->values[v]});
+  for (const auto& polygon : polygons) {
+    out << 'f';
+    for (const std::uint32_t v : polygon) {
+      out << ' ' << std::size_t(v) + 1;
+      if (has_normals) out << "//" << std::size_t(v) + 1;
+    }
+    out << '\n';
+  }
+  out.flush();
+}
+
+} // namespace equiaffine::internal
+
+#endif

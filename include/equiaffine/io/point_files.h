@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files of points of CGAL, with the numbers at them as property maps.
+#ifndef EQUIAFFINE_IO_POINT_FILES_H
+#define EQUIAFFINE_IO_POINT_FILES_H
+
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/io/internal/graphs/columns_of_maps.h>
+#include <equiaffine/io/internal/graphs/maps_of_columns.h>
+#include <equiaffine/io/internal/graphs/write_polygon_file.h>
+#include <equiaffine/io/read_points.h>
+#include <equiaffine/surface/internal/shared/indexed_polygons.h>
+#include <equiaffine/surface/internal/shared/points_of_range.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <cstddef>
+#include <ranges>
+#include <string>
+#include <vector>
+
+namespace equiaffine::IO {
+
+/// Adds the points of a file, `.ply`, `.off`, `.xyz` or `.csv`, to a CGAL::Point_set_3 with property maps for the
+/// numbers at them, and returns the comments of the file: NAME of double for each column NAME, of Vector_3 for three
+/// columns NAME_x, NAME_y, NAME_z, `normal` for nx, ny, nz, and `status` of Point_status. Instead, maps can be given
+/// under the names of read_polygon_mesh(). A container of points with `push_back` gets the points alone.
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `vertex_status_map` and so on | writable property maps | none | see annotate() and annotate_by_fit() |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// \throw Input_error if the file cannot be read, or has no numbers for a map. The points are there then.
+template <std::ranges::forward_range Points, internal::Parameter_chain... Parameters>
+std::vector<std::string> read_points(const std::string& path, Points& points, const Parameters&... given) {
+  internal::check_map_file_parameters<internal::Joined_parameters<Parameters...>>();
+  const auto file = equiaffine::read_points<CGAL::Simple_cartesian<double>>(path);
+  const auto parameters = internal::joined_parameters(given...);
+  const std::size_t before = points.size();
+  internal::append_points(points, file.mesh.points);
+  const auto added = std::ranges::subrange(std::ranges::next(std::ranges::begin(points), std::ptrdiff_t(before)),
+                                           std::ranges::end(points));
+  internal::fill_maps(points, added, parameters, file.attributes, path);
+  return file.attributes.comments;
+}
+
+/// Writes points with the numbers at them as `.ply` or `.csv`: those that a CGAL::Point_set_3 has under names, whose
+/// values are numbers or Vector_3, or those of the maps that are given. The file is written whole or not at all.
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `point_map` | property map | the elements, or that of the range | from elements to points |
+/// | `vertex_status_map` and so on | readable property maps | none | see annotate() and annotate_by_fit() |
+/// | `comments` | range of std::string | none | lines that PLY keeps |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// \throw Input_error if the file cannot be written, or its format is not known.
+/// \throw std::invalid_argument if a coordinate is not finite.
+template <std::ranges::forward_range Points, internal::Parameter_chain... Parameters>
+void write_points(const std::string& path, const Points& points, const Parameters&... given) {
+  internal::check_map_file_parameters<internal::Joined_parameters<Parameters...>, internal::Point_tag,
+                                      internal::Comments_tag>();
+  const auto parameters = internal::joined_parameters(given...);
+  const auto point_of = point_of_element(points, parameters);
+  Indexed_polygons mesh;
+  for (const auto& element : points) mesh.points.push_back(coordinates_of(point_of(element)));
+  check_points(mesh.points);
+  internal::write_polygon_file(path, mesh, internal::columns_of_maps(points, points, parameters));
+}
+
+} // namespace equiaffine::IO
+
+#endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files of meshes of CGAL, with the numbers at their vertices as property maps.
+#ifndef EQUIAFFINE_IO_POLYGON_MESH_FILES_H
+#define EQUIAFFINE_IO_POLYGON_MESH_FILES_H
+
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/io/internal/graphs/columns_of_maps.h>
+#include <equiaffine/io/internal/graphs/maps_of_columns.h>
+#include <equiaffine/io/internal/graphs/polygons_of_file.h>
+#include <equiaffine/io/internal/graphs/write_polygon_file.h>
+#include <equiaffine/surface/internal/shared/Face_graph.h>
+#include <equiaffine/surface/internal/shared/indexed_polygons.h>
+#include <equiaffine/surface/internal/shared/points_of_range.h>
+
+#include <CGAL/boost/graph/properties.h>
+
+#include <string>
+#include <vector>
+
+namespace equiaffine::IO {
+
+/// Adds the mesh in a file, `.ply` or `.off`, to a model of CGAL's MutableFaceGraph with the numbers at its vertices,
+/// and returns the comments of the file. The names and the arguments are those of CGAL::IO::read_polygon_mesh(), which
+/// knows more formats and leaves most numbers out. Polygons stay polygons.
+///
+/// A CGAL::Surface_mesh gets maps under names: `v:NAME` of double for each column NAME, of Vector_3 for three columns
+/// NAME_x, NAME_y, NAME_z, `v:normal` for nx, ny, nz, and `v:status` of Point_status, so that it has those that
+/// annotate() gave the mesh that was written. Any mesh can have its own maps filled instead, by the named parameters of
+/// annotate() and annotate_by_fit() but `vertex_structure_map`, with CGAL's sign where the names are those of CGAL.
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `vertex_point_map` | writable property map | the mesh's own | from vertices to points |
+/// | `vertex_status_map` and so on | writable property maps | none | see annotate() and annotate_by_fit() |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// \throw Input_error if the file cannot be read, its faces are no manifold, or it has no numbers for a map. The mesh
+/// has a part of the file then.
+template <Face_graph Graph, internal::Parameter_chain... Parameters>
+std::vector<std::string> read_polygon_mesh(const std::string& path, Graph& mesh, const Parameters&... given) {
+  using Joined = internal::Joined_parameters<Parameters...>;
+  internal::check_map_file_parameters<Joined, internal::Vertex_point_tag>();
+  static_assert(check_coordinates<Point_of_vertices<Graph, Joined>>());
+  const Joined parameters = internal::joined_parameters(given...);
+  const auto file = internal::polygons_of_file(path);
+  const auto added = internal::add_polygons(mesh, vertex_points(mesh, parameters), file, path);
+  internal::fill_maps(mesh, added, parameters, file.attributes, path);
+  return file.attributes.comments;
+}
+
+/// Writes a mesh with the numbers at its vertices, in the format that the extension says: `.ply` and `.csv` hold all
+/// numbers, `.obj` the normals, `.off` and `.stl` none; `.csv` holds no faces, and `.stl` has polygons cut into
+/// triangles. The file is written whole or not at all. The names and the arguments are those of
+/// CGAL::IO::write_polygon_mesh().
+///
+/// A CGAL::Surface_mesh has those of its maps written whose values are numbers or Vector_3, under their names without
+/// `v:`, and `v:status`, unless maps are given. The maps are named parameters as in read_polygon_mesh().
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
+/// | `vertex_status_map` and so on | readable property maps | none | see annotate() and annotate_by_fit() |
+/// | `comments` | range of std::string | none | lines that PLY keeps |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// \throw Input_error if the file cannot be written, or its format is not known.
+/// \throw std::invalid_argument if a coordinate is not finite.
+template <Face_graph Graph, internal::Parameter_chain... Parameters>
+void write_polygon_mesh(const std::string& path, const Graph& mesh, const Parameters&... given) {
+  internal::check_map_file_parameters<internal::Joined_parameters<Parameters...>, internal::Vertex_point_tag,
+                                      internal::Comments_tag>();
+  const auto parameters = internal::joined_parameters(given...);
+  internal::write_polygon_file(path, indexed_polygons_of_graph(mesh, parameters),
+                               internal::columns_of_maps(mesh, vertices(mesh), parameters));
+}
+
+} // namespace equiaffine::IO
+
+#endif
