@@ -29,7 +29,9 @@ public:
   /// f(p), in double.
   template <class Point_3>
   double operator()(const Point_3& p) const {
-    return CGAL::to_double(traits_.value({CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())}));
+    const typename Traits::FT value =
+        traits_.value({CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())});
+    return CGAL::to_double(value);
   }
 
 private:
