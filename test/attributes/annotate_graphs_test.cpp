@@ -118,8 +118,8 @@ TYPED_TEST(Annotate_graph, maps_that_are_given_hold_the_structure_at_any_scale) 
       const auto p = get(CGAL::vertex_point, graph, v);
       const Kernel::Point_3 q(p.x(), p.y(), p.z());
       const auto s = local_structure_at(traits, q);
-      // The affine curvatures of an ellipsoid are those of a sphere with the same volume. The ellipsoid is the level set
-      // through the point, since CGAL's map of the points of OpenMesh rounds what is put into it to floats.
+      // The affine curvatures of an ellipsoid are those of a sphere with the same volume. The ellipsoid is the level
+      // set through the point, since CGAL's map of the points of OpenMesh rounds what is put into it to floats.
       const double radius = std::sqrt(unit * unit + traits.value(q));
       const double volume = std::pow(radius, 3) / std::sqrt(6);
       ASSERT_EQ(status.at(v), Point_status::REGULAR);
