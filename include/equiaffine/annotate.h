@@ -71,7 +71,7 @@ void annotate(Graph& graph, const Traits& traits, const Parameters&... given) {
   const auto point_of = [map = vertex_points(graph, parameters)](const auto& v) { return get(map, v); };
   if constexpr (internal::is_surface_mesh<Graph> && !internal::has_maps<Joined>(internal::Structure_tags()))
     internal::annotate_surface_mesh<ConcurrencyTag>(graph, point_of, traits, parameters);
-  else internal::annotate_elements<ConcurrencyTag>(vertices(graph), point_of, traits, parameters);
+  else internal::annotate_elements<ConcurrencyTag>(vertices_of(graph), point_of, traits, parameters);
 }
 
 /// The same for one vertex, whose structure is returned, too. A Surface_mesh gets no maps of its own here.

@@ -49,7 +49,7 @@ void annotate_by_fit(Graph& mesh, const Parameters&... given) {
   const auto structures = internal::fitted_structures_of_graph<ConcurrencyTag>(mesh, parameters);
   if constexpr (internal::is_surface_mesh<Graph> && !internal::has_maps_of_fit<Joined>)
     internal::fill_maps_of_fit(mesh, structures);
-  else internal::put_structures_of_fit(parameters, vertices(mesh), structures);
+  else internal::put_structures_of_fit(parameters, vertices_of(mesh), structures);
 }
 
 /// The same for one vertex, whose structure is returned, too; see fitted_structure(). A Surface_mesh gets no maps of

@@ -30,7 +30,8 @@ public:
   /// f(p), in double.
   template <class Point_3>
   double operator()(const Point_3& p) const {
-    return CGAL::to_double(traits_.value(convert_point<Kernel_of<Traits>>(p)));
+    const typename Traits::FT value = traits_.value(convert_point<Kernel_of<Traits>>(p));
+    return CGAL::to_double(value);
   }
 
 private:

@@ -71,7 +71,7 @@ void write_polygon_mesh(const std::string& path, const Graph& mesh, const Parame
                                       internal::Comments_tag>();
   const auto parameters = internal::joined_parameters(given...);
   internal::write_polygon_file(path, indexed_polygons_of_graph(mesh, parameters),
-                               internal::columns_of_maps(mesh, vertices(mesh), parameters));
+                               internal::columns_of_maps(mesh, vertices_of(mesh), parameters));
 }
 
 } // namespace equiaffine::IO

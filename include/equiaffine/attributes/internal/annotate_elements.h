@@ -47,17 +47,18 @@ void annotate_elements(Elements&& elements, const Point_of& point_of, const Trai
                 "annotate() has nothing to write to: give it property maps, such as "
                 "parameters::vertex_affine_mean_curvature_map(map), or a CGAL::Surface_mesh that is not const");
   constexpr std::size_t most_at_once = 1 << 16;
-  auto next = std::begin(elements);
-  const auto end = std::end(elements);
+  using std::begin, std::end; // or the functions of the range
+  auto next = begin(elements);
+  const auto last = end(elements);
   std::vector<std::decay_t<decltype(next)>> places;
   std::vector<std::decay_t<decltype(point_of(*next))>> points;
   std::vector<Point_status> before;
   std::vector<Local_structure_3<typename Traits::FT>> structures;
-  while (next != end) {
+  while (next != last) {
     places.clear();
     points.clear();
     before.clear();
-    for (; next != end && places.size() < most_at_once; ++next) {
+    for (; next != last && places.size() < most_at_once; ++next) {
       places.push_back(next);
       points.push_back(point_of(*next));
       before.push_back(status_before(parameters, *next));

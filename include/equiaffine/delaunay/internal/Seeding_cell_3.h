@@ -45,7 +45,8 @@ public:
   /// Whether it is proved that there is no surface in a cell. If there may be some, the cell learns what is found about
   /// it; for an urgent cell no effort is spared.
   bool is_empty(Cell& cell, const CGAL::Bbox_3& box, double side, bool is_urgent) {
-    const double value = known_.have_gradients ? std::abs(CGAL::to_double(traits_.value(center(box)))) : 0;
+    const double value =
+        known_.have_gradients ? std::abs(CGAL::to_double(typename Traits::FT(traits_.value(center(box))))) : 0;
     if (is_far(cell, box, value)) return true;
     if (cell.is_decided) return false;
     if constexpr (BoundedImplicitFunctionTraits_3<Traits>)

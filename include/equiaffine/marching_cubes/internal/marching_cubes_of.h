@@ -27,7 +27,7 @@ Isosurface_3<Kernel_of<Traits>> marching_cubes_of(const Traits& traits, const Pa
   constexpr std::array<std::size_t, 3> default_number_of_nodes = {64, 64, 64};
   constexpr bool skips_empty_space = has_parameter<Skip_empty_space_tag, Parameters>;
   const auto position = get_parameter<Vertex_position_tag>(parameters, Vertex_position::PROJECTED);
-  const auto lattice = [&] {
+  const auto lattice = [&]() -> Lattice_3<Kernel_of<Traits>> {
     if constexpr (LatticeImplicitFunctionTraits_3<Traits>) return traits.lattice();
     else return sampling_lattice(traits, get_parameter<Number_of_nodes_tag>(parameters, default_number_of_nodes));
   }();

@@ -48,7 +48,7 @@ class Erased_model_3 final : public Erased_function_3 {
 public:
   explicit Erased_model_3(Traits traits) : traits_(std::move(traits)) {}
 
-  double value(const Point_3& p) const override { return CGAL::to_double(traits_.value(to_traits(p))); }
+  double value(const Point_3& p) const override { return CGAL::to_double(FT(traits_.value(to_traits(p)))); }
   Jet_3<double, 1> first_order(const Point_3& p) const override {
     return in_doubles(equiaffine::first_order(traits_, to_traits(p)));
   }

@@ -16,7 +16,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <ranges>
 #include <type_traits>
 #include <utility>
@@ -33,7 +32,7 @@ Normalized_data fit_input_of_graph(const Graph& graph, const Parameters& paramet
   Normalized_data result = data_of_mesh(mesh.points, mesh.polygons, feature_angle(parameters));
   if constexpr (has_parameter<Vertex_normal_tag, Parameters>) {
     std::vector<Eigen::Vector3d> normals;
-    for (const auto v : vertices(graph))
+    for (const auto v : vertices_of(graph))
       normals.push_back(coordinates_of(get(given_parameter<Vertex_normal_tag>(parameters), v)));
     improve_normals(result, normals);
   }
@@ -67,10 +66,10 @@ inline std::vector<std::uint32_t> merge_equal_points(std::vector<Eigen::Vector3d
 }
 
 template <class ConcurrencyTag, std::ranges::input_range Points, class Parameters>
-Fit_input_of_points fit_input_of_points(const Points& range, const Parameters& parameters) {
+Fit_input_of_points fit_input_of_points(Points&& range, const Parameters& parameters) {
   std::vector<Eigen::Vector3d> points, normals;
   const auto point_of = point_of_element(range, parameters);
-  check_coordinates<std::decay_t<decltype(point_of(*std::begin(range)))>>();
+  check_coordinates<std::decay_t<decltype(point_of(*std::ranges::begin(range)))>>();
   for (const auto& element : range) {
     points.push_back(coordinates_of(point_of(element)));
     if constexpr (has_parameter<Normal_tag, Parameters>)

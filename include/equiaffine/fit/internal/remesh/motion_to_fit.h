@@ -43,7 +43,7 @@ Fit_move_report apply_motion(Mesh& mesh, const Whole_motion_3& motion, const Par
   Fit_move_report report;
   report.crossings = motion.crossings();
   std::size_t n = 0;
-  for (const auto v : vertices(mesh)) {
+  for (const auto v : vertices_of(mesh)) {
     const Eigen::Vector3d& p = motion.points()[n];
     const Fit_outcome outcome = motion.outcome(n++);
     report.largest_move = std::max(report.largest_move, (p - coordinates_of(get(point_of, v))).norm());

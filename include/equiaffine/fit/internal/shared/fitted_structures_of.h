@@ -30,7 +30,7 @@ template <class ConcurrencyTag, class Graph, class Parameters>
 std::vector<Fitted_structure_3<double>> fitted_structures_of_graph(const Graph& mesh, const Parameters& parameters) {
   auto structures =
       structures_of_fit<ConcurrencyTag>(fitted_data_of_graph(mesh, parameters, ConcurrencyTag()), parameters);
-  const auto all = vertices(mesh);
+  const auto all = vertices_of(mesh);
   structures.resize(std::size_t(std::distance(std::begin(all), std::end(all)))); // without points of creases
   return structures;
 }
@@ -38,7 +38,7 @@ std::vector<Fitted_structure_3<double>> fitted_structures_of_graph(const Graph& 
 template <class Vertex, class Graph, class Parameters>
 Fitted_structure_3<double> fitted_structure_of_vertex(const Vertex& v, const Graph& mesh,
                                                       const Parameters& parameters) {
-  const auto all = vertices(mesh);
+  const auto all = vertices_of(mesh);
   const auto place = std::find(std::begin(all), std::end(all), v);
   CGAL_precondition_msg(place != std::end(all), "the vertex is none of the mesh");
   const auto i = std::distance(std::begin(all), place);
@@ -47,8 +47,7 @@ Fitted_structure_3<double> fitted_structure_of_vertex(const Vertex& v, const Gra
 }
 
 template <class ConcurrencyTag, class Points, class Parameters>
-std::vector<Fitted_structure_3<double>> fitted_structures_of_points(const Points& points,
-                                                                    const Parameters& parameters) {
+std::vector<Fitted_structure_3<double>> fitted_structures_of_points(Points&& points, const Parameters& parameters) {
   auto input = fit_input_of_points<ConcurrencyTag>(points, parameters);
   const Fitted_data_3 fit(std::move(input.data), fit_request(parameters), ConcurrencyTag());
   return elements_at(structures_of_fit<ConcurrencyTag>(fit, parameters), input.positions);

@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_SURFACE_INTERNAL_SHARED_FACE_GRAPH_H
 #define EQUIAFFINE_SURFACE_INTERNAL_SHARED_FACE_GRAPH_H
 
+#include <CGAL/Iterator_range.h>
+
 namespace equiaffine {
 
 /// A graph as CGAL's concept VertexListGraph describes it, whose vertices may have points.
@@ -16,6 +18,19 @@ concept Face_graph = requires(const T& t) {
   vertices(t);
   faces(t);
 };
+
+/// The vertices of a graph as a range. The concepts have a pair of iterators, and CGAL's own meshes ranges that are
+/// pairs.
+template <Vertex_graph Graph>
+auto vertices_of(const Graph& graph) {
+  return CGAL::make_range(vertices(graph));
+}
+
+/// The faces of a mesh as a range.
+template <Face_graph Graph>
+auto faces_of(const Graph& graph) {
+  return CGAL::make_range(faces(graph));
+}
 
 } // namespace equiaffine
 

@@ -74,12 +74,12 @@ Indexed_polygons indexed_polygons_of_graph(const Graph& graph, const Parameters&
   const auto point_of = vertex_points(graph, parameters);
   Indexed_polygons result;
   std::unordered_map<Vertex, std::uint32_t> index;
-  for (const Vertex v : vertices(graph)) {
+  for (const Vertex v : vertices_of(graph)) {
     index.emplace(v, std::uint32_t(result.points.size()));
     result.points.push_back(coordinates_of(get(point_of, v)));
   }
   check_points(result.points);
-  for (const auto f : faces(graph)) {
+  for (const auto f : faces_of(graph)) {
     auto& polygon = result.polygons.emplace_back();
     for (const Vertex v : CGAL::vertices_around_face(halfedge(f, graph), graph)) polygon.push_back(index.at(v));
   }
