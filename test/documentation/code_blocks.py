@@ -2,9 +2,9 @@
 """Compiles the C++ code of the Markdown files: code_blocks.py ROOT COMPILER [FLAG...].
 
 Every block ```cpp is a function of its own, all in one unit after test/documentation/code_blocks.h, which declares what
-the text around them says that there is, and includes all headers for users. Their `#include` lines, classes and templates stand before the function. A
-comment `<!-- needs CGAL 6.1 -->` on the line before a block leaves it out with an older CGAL. The compiler names the
-page and its line."""
+the text around them says that there is, and includes all headers for users. Their `#include` lines, classes and
+templates stand before the function. A comment `<!-- needs CGAL 6.1 -->` on the line before a block leaves it out with an
+older CGAL. The compiler names the page and its line."""
 import pathlib
 import re
 import subprocess
@@ -16,7 +16,8 @@ from links import pages
 BLOCK = re.compile(r"(?:<!-- needs CGAL (\d+)\.(\d+) -->\n)?^( *)```(?:cpp|c\+\+)[^\n]*\n(.*?)^\3```",
                    re.MULTILINE | re.DOTALL | re.IGNORECASE)
 INCLUDE = re.compile(r"^#[^\n]*$", re.MULTILINE)
-DECLARATION = re.compile(r"^(?:template|struct|class|enum|concept)\b(?:[^\n]*;$|.*?^\}[^\n]*;?$)", re.MULTILINE | re.DOTALL)
+DECLARATION = re.compile(r"^(?:template|struct|class|enum|concept)\b(?:[^\n]*;$|.*?^\}[^\n]*;?$)",
+                         re.MULTILINE | re.DOTALL)
 
 
 def cut(pattern, code):
