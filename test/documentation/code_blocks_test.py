@@ -45,7 +45,8 @@ class CodeBlocks(unittest.TestCase):
         self.assertRegex(self.only_fault("int i = given;", "int j = i;"), r"^README\.md:7:")
 
     def test_a_block_in_a_list_is_compiled(self):
-        self.assertRegex(self.only_fault("int i;\n```\n\n- text\n\n  ```cpp\n  taken;\n  ```\n\n```cpp"), r"^README\.md:9:")
+        text = "int i;\n```\n\n- text\n\n  ```cpp\n  taken;\n  ```\n\n```cpp"
+        self.assertRegex(self.only_fault(text), r"^README\.md:9:")
 
     def test_a_block_for_a_newer_CGAL_is_left_out(self):
         text = "int i;\n```\n\n<!-- needs CGAL %s -->\n```cpp\ntaken;"
