@@ -3,7 +3,8 @@
 
 A header gets the group of the classified reference that doc/reference.dox puts it into. A Markdown page, written for a
 site that hosts code, gets identifiers for its headings, and its relative links become references. Names of classes and
-functions in code spans become links. Lines keep their numbers, and files their paths below FOLDER."""
+functions in code spans become links. Signatures show `NamedParameters` where the header has a name of `internal`. Lines
+keep their numbers, and files their paths below FOLDER."""
 import functools
 import html
 import pathlib
@@ -20,6 +21,17 @@ PASSED_ON = {"number/internal/jet.h": "number/Jet_3.h", "number/internal/Jet_fun
              "surface/internal/shared/Face_graph.h": "annotate.h"}
 PAGE_FOLDERS = ("doc", "doc/manual", "doc/concepts")
 DECLARATION = re.compile(r"^(?:class|struct|concept|enum class) (\w+)(?![\w;])", re.MULTILINE)
+# What signatures show in the place of names that are internal.
+SHOWN = (
+    (r"\binternal::Parameter_chain(\.\.\.)? (?=\w)", r"class\1 "),
+    (r"\binternal::No_parameters(?= default_values)", "auto"),
+    (r"\binternal::No_parameters\b", "decltype(parameters::default_values())"),
+    (r"\bParameters\b", "NamedParameters"),
+    (r"\binternal::(?:expression::Ordered|Property_map) (?=\w)", "class "),
+    (r"\binternal::Output_allocator<(?:[^<>]|<[^<>]*>)*>", "Unspecified"),
+    (r"\binternal::maximal_order\b", "4"),
+    (r"\binternal::(?=(?:all_monomials|contains)\()", ""),
+)
 FUNCTION = re.compile(r"^(?!using|return|static_assert|friend)(?:[\w:][\w:<>,.&* ]* )?[&*]?([a-z]\w*)\((?!.*;$)", re.MULTILINE)
 
 
@@ -41,7 +53,7 @@ def group_of(header):
 @functools.cache
 def concept_pages():
     """A pattern of the names of concepts that have a page."""
-    names = sorted((path.stem for path in pathlib.Path("doc/concepts").glob("*_3.md")), key=len, reverse=True)
+    names = sorted((path.stem for path in pathlib.Path("doc/concepts").glob("[A-Z]*.md")), key=len, reverse=True)
     return re.compile(rf"(?<![\w`:#])(?:{'|'.join(names)})(?![\w`.])")
 
 
@@ -49,6 +61,17 @@ def with_references(line):
     """A line of text in which names of concepts and paths of pages are references."""
     line = re.sub(r"(?<![\w`(/])doc/[\w/]+\.md", lambda match: f'@ref {page_of(match[0])} "{match[0]}"', line)
     return concept_pages().sub(lambda match: f'@ref concept_{match[0]} "{match[0]}"', line)
+
+
+def with_names_for_users(text):
+    """A header whose code, apart from the comments, shows no internal names where Doxygen reads it."""
+    def line(match):
+        code = match[0]
+        for pattern, shown in SHOWN:
+            code = re.sub(pattern, shown, code)
+        return code
+
+    return re.sub(r"^(?! *//|#).+", line, text, flags=re.MULTILINE)
 
 
 def in_group(text, group):
@@ -190,7 +213,8 @@ def main(target):
         (target / path).write_text(text)
 
     for header, _ in public_headers():
-        write(LIBRARY + header, in_group(pathlib.Path(LIBRARY, header).read_text(), group_of(header)))
+        text = with_names_for_users(pathlib.Path(LIBRARY, header).read_text())
+        write(LIBRARY + header, in_group(text, group_of(header)))
     for path in ["CHANGELOG.md"] + [str(path) for folder in PAGE_FOLDERS for path in pathlib.Path(folder).glob("*.md")]:
         write(path, Page(path).text())
     write("doc/reference.dox", reference(pathlib.Path("doc/reference.dox").read_text()))

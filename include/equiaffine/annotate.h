@@ -50,7 +50,7 @@ namespace equiaffine {
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
 /// A CGAL::Surface_mesh without such a map gets `v:status` (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`,
-/// `v:direction1`, `v:direction2` (Vector_3), and one of FT for every other attribute of attribute_table.h but the
+/// `v:direction1`, `v:direction2` (Vector_3), and one of FT for every other attribute in doc/program.md but the
 /// norms of gradients: `v:k1`, `v:metric_xx`, `v:quadric_defect` and so on.
 ///
 /// A vertex whose status is UNCONVERGED before the call keeps that status, unless it is OUTSIDE. CGAL::Sequential_tag

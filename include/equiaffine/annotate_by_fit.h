@@ -21,8 +21,8 @@ namespace equiaffine {
 
 /// Puts the local structure of the surface that the vertices of a mesh are samples of, as `fitted_structures` finds it,
 /// into the property maps that are named parameters, as annotate() with a function does, and estimates of their errors.
-/// `vertex_structure_map` has a Fitted_structure_3<double>; no map is read. The named parameters are those of fitted_structures(), the
-/// maps of annotate(), and maps of the estimated errors:
+/// `vertex_structure_map` has a Fitted_structure_3<double>; no map is read. The named parameters are those of
+/// fitted_structures(), the maps of annotate(), and maps of the estimated errors:
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
@@ -37,7 +37,8 @@ namespace equiaffine {
 /// | `vertex_unit_normal_error_map` | map of numbers | none | of n, in degrees |
 ///
 /// A CGAL::Surface_mesh without such a map gets the maps that annotate() gives it, the estimates `v:NAME_error` of the
-/// errors of all NAMEs in error_table.h, and `v:affine_gaussian_curvature_noise` and `v:affine_mean_curvature_noise`.
+/// errors of NAMEs that doc/program.md lists, and `v:affine_gaussian_curvature_noise` and
+/// `v:affine_mean_curvature_noise`.
 ///
 /// Named parameters come in one chain or several, equiaffine's and CGAL's.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Parameter_chain... Parameters>

@@ -77,7 +77,7 @@ std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, con
 
 /// Returns the local structure at one vertex, from the fit around it: that of the overload for all vertices to within
 /// the estimated error, since most of these have the fit around a vertex nearby. This takes the choice of how to fit,
-/// some hundred fits, unless a `scale` is given.
+/// some hundred fits, unless a `scale` is given. The named parameters are those of that overload.
 template <class Vertex, Face_graph Graph, internal::Parameter_chain... Parameters>
 Fitted_structure_3<double> fitted_structure(const Vertex& v, const Graph& mesh, const Parameters&... given) {
   internal::check_mesh_fit_parameters<internal::Joined_parameters<Parameters...>, internal::Orientation_tag>();

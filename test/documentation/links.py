@@ -29,12 +29,17 @@ def anchors(path):
     return {f"{name}-{n}" if n else name for name, count in found.items() for n in range(count + 1)}
 
 
-def find_faults(root):
+def pages(root):
+    """The Markdown files of a checkout, without what was built in it."""
     for path in sorted(root.rglob("*.md")):
-        name = path.relative_to(root)
-        if name.parts[0] in NOT_OURS or name.parts[0].startswith("."):
-            continue
-        text = without_code(path.read_text())
+        folder = path.relative_to(root).parts[0]
+        if folder not in NOT_OURS and not folder.startswith("."):
+            yield path
+
+
+def find_faults(root):
+    for path in pages(root):
+        name, text = path.relative_to(root), without_code(path.read_text())
         for link in LINK.finditer(text):
             target, _, anchor = link[1].partition("#")
             if re.match(r"[a-z]+:", link[1]):

@@ -6,8 +6,9 @@ import pathlib
 import re
 import sys
 
-TAKES_PARAMETERS = re.compile(r"(?:class \w*Parameters = internal::No_parameters|Parameter_chain(?:\.\.\.)? \w*Parameters"
-                              r"(?: = internal::No_parameters)?)(?:,\s*class \w+ = [\w:]+)?>\n(.*\n)")
+TAKES_PARAMETERS = re.compile(r"(?:class \w*Parameters = internal::No_parameters|"
+                              r"Parameter_chain(?:\.\.\.)? \w*[Pp]arameters(?: = internal::No_parameters)?)"
+                              r"(?:,\s*(?:class|[\w:<>]+) \w+ = [\w:]+)?>\n(.*\n)")
 CHECKS = re.compile(r"\binternal::check_(\w+_)?parameters<")
 CALLS_ANOTHER = re.compile(r"(?<!joined_parameters)\([^()]*(?:\([^()]*\)[^()]*)*given\.\.\.\)")
 

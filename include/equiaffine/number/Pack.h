@@ -171,8 +171,7 @@ struct Pack {
   friend Pack cos(const Pack& a) { return sine_and_cosine(a).second; }
   /// @}
 
-  /// Does in each lane what internal::scaled_exponential does for a double. Found by argument-dependent lookup in
-  /// elementary_functions.h.
+  /// 2^(k / 128) (1 + p) for small p and integers k, given as k + 1.5 2^52; exp() of packs consists of it.
   [[gnu::always_inline]] friend Pack scaled_exponential(const Pack& k, const Pack& p) {
     return Lanes::scaled_exponential(k.lanes, p.lanes);
   }
