@@ -57,7 +57,8 @@ namespace equiaffine {
 class Expression_3 {
 public:
   /// Parses n characters in O(n log n). Throws Input_error, with the column in what() and a caret under it in
-  /// excerpt(), for a text outside the grammar and for a constant subexpression that is not finite; also for an entry
+  /// excerpt(), for a text outside the grammar and for a constant subexpression that is not finite: an Unknown_name_error
+  /// for a name that is neither a variable nor among `constants`; also Input_error for an entry
   /// of `constants` that is not finite or whose name is not an identifier or has a meaning already.
   explicit Expression_3(std::string_view text, const std::map<std::string, double>& constants = {})
       : text_(std::make_shared<const std::string>(text)) {

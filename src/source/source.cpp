@@ -9,7 +9,9 @@
 #include "system/resources.h"
 #include "volume/raw_volume.h"
 #include "volume/volume_io.h"
+#include <equiaffine/Expression_3.h>
 #include <equiaffine/Input_error.h>
+#include <equiaffine/formula/Unknown_name_error.h>
 #include <equiaffine/function/sample_on_lattice.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_function_3.h>
@@ -56,9 +58,17 @@ std::string describe_as(const Source_options& options, const std::string& file) 
   }
 }
 
+Expression_3 parse_formula(const Source_options& options) {
+  try {
+    return Expression_3(options.text, options.constants);
+  } catch (const Unknown_name_error& error) {
+    throw Input_error(std::string(error.what()) + " (--set " + error.name() + "=VALUE)", error.excerpt());
+  }
+}
+
 Formula_traits make_formula(const Source_options& options) {
   // Without a box nothing will be sampled: points are given, and the box is not looked at.
-  Expression_3 expression(options.text, options.constants);
+  Expression_3 expression = parse_formula(options);
   check_constants_are_used(options);
   return {std::move(expression), options.box.value_or(CGAL::Bbox_3(-1, -1, -1, 1, 1, 1))};
 }

@@ -549,7 +549,7 @@ TEST(Expression_3, a_missing_operator_is_named) {
 }
 
 TEST(Expression_3, an_unknown_name_is_told_with_a_remedy) {
-  const std::string define = "define it with --set foo=VALUE (in a program: in the map of constants) or use x, y, z";
+  const std::string define = "give it a value as a constant, or use x, y, z";
   expect_error("x + 2*foo", 7, "unknown name 'foo'", define);
   const std::string all =
       "use one of sqrt cbrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh abs min max hypot pow";
@@ -557,12 +557,20 @@ TEST(Expression_3, an_unknown_name_is_told_with_a_remedy) {
   expect_error("1+ln(x)", 3, "unknown function 'ln'", "did you mean 'log'? Otherwise " + all);
   expect_error("log10(x)", 1, "unknown function 'log10'", "did you mean 'log(...)/log(10)'? Otherwise " + all);
   expect_error("frobnicate(x)", 1, "unknown function 'frobnicate'", all);
-  expect_error("X", 1, "unknown name 'X'",
-               "did you mean 'x'? Otherwise define it with --set X=VALUE (in a program: in the map of constants) "
-               "or use x, y, z");
+  expect_error("X", 1, "unknown name 'X'", "did you mean 'x'? Otherwise give it a value as a constant, or use x, y, z");
   const auto error = error_of("x + radios", {{"radius", 1.0}});
   ASSERT_TRUE(error);
   EXPECT_NE(std::string(error->what()).find("did you mean 'radius'?"), std::string::npos) << error->what();
+}
+
+TEST(Expression_3, the_error_of_an_unknown_name_has_the_name) {
+  try {
+    Expression_3("x + 2*radius_1");
+    FAIL();
+  } catch (const equiaffine::Unknown_name_error& error) {
+    EXPECT_EQ(error.name(), "radius_1");
+    EXPECT_EQ(error.excerpt(), "x + 2*radius_1\n      ^");
+  }
 }
 
 TEST(Expression_3, signs_of_other_alphabets_are_told_with_what_to_write) {

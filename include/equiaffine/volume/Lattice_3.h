@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_LATTICE_3_H
 #define EQUIAFFINE_VOLUME_LATTICE_3_H
 
+#include <equiaffine/Input_error.h>
 #include <equiaffine/base/internal/shared/check_argument.h>
 
 #include <CGAL/Aff_transformation_3.h>
@@ -29,14 +30,15 @@ public:
   using Aff_transformation_3 = typename Kernel::Aff_transformation_3; ///< affine maps of the kernel
   using Size = std::array<std::size_t, 3>;                            ///< nx, ny, nz
 
-  /// \throw std::invalid_argument unless there are two nodes or more along each axis, and no more than can be numbered,
-  /// all coordinates are finite and the steps span space
+  /// \throw std::invalid_argument unless there are two nodes or more along each axis, all coordinates are finite and the
+  /// steps span space
+  /// \throw Input_error if there are more nodes than a std::size_t can number
   Lattice_3(const Size& size, const Point_3& origin, const std::array<Vector_3, 3>& steps)
       : size_(size), origin_(origin), steps_(steps) {
     check_argument(size[0] >= 2 && size[1] >= 2 && size[2] >= 2,
                    "a lattice has less than two nodes along an axis: choose a larger size");
-    check_argument(size[0] <= std::numeric_limits<std::size_t>::max() / size[1] / size[2],
-                   "a lattice has more nodes than can be numbered: choose a smaller size");
+    if (size[0] > std::numeric_limits<std::size_t>::max() / size[1] / size[2])
+      throw Input_error("a lattice has more nodes than can be numbered: choose a smaller size");
     check_argument(is_finite(origin) && is_finite(steps[0]) && is_finite(steps[1]) && is_finite(steps[2]),
                    "a coordinate or a step of a lattice is not finite: choose a box with finite sides");
     check_argument(span_space(steps),

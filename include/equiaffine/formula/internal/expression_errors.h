@@ -69,11 +69,13 @@ inline std::string excerpt_at(std::string_view text, std::size_t position) {
   return concatenated({lead, line, trail, "\n", std::string(lead.size() + position - start, ' '), "^"});
 }
 
+inline std::string sentence_at(std::size_t position, std::string_view problem, std::string_view advice) {
+  return concatenated({problem, " at column ", std::to_string(position + 1), " of the expression: ", advice});
+}
+
 [[noreturn]] inline void throw_error_at(std::string_view text, std::size_t position, std::string_view problem,
                                         std::string_view advice) {
-  throw Input_error(
-      concatenated({problem, " at column ", std::to_string(position + 1), " of the expression: ", advice}),
-      excerpt_at(text, position));
+  throw Input_error(sentence_at(position, problem, advice), excerpt_at(text, position));
 }
 
 /// The number of letters to insert, delete or replace to make `a` from `b` (Levenshtein: Binary codes capable of

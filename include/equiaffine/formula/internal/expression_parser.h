@@ -3,6 +3,7 @@
 #define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_PARSER_H
 
 #include <equiaffine/base/internal/shared/from_chars.h>
+#include <equiaffine/formula/Unknown_name_error.h>
 #include <equiaffine/formula/internal/expression_errors.h>
 #include <equiaffine/formula/internal/expression_tape_builder.h>
 
@@ -184,9 +185,9 @@ private:
     const std::string question = near.empty() ? "" : concatenated({"did you mean ", in_quotes(near), "? Otherwise "});
     if (peek() == '(')
       fail(start, concatenated({"unknown function ", name}), concatenated({question, "use one of ", function_names()}));
-    fail(start, concatenated({"unknown name ", name}),
-         concatenated({question, "define it with --set ", shortened(token_),
-                       "=VALUE (in a program: in the map of constants) or use x, y, z"}));
+    throw Unknown_name_error(sentence_at(start, concatenated({"unknown name ", name}),
+                                         concatenated({question, "give it a value as a constant, or use x, y, z"})),
+                             excerpt_at(text_, start), std::string(token_));
   }
 
   [[noreturn]] void fail_before_operand() {

@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAPE_BUILDER_H
 #define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAPE_BUILDER_H
 
+#include <equiaffine/base/internal/shared/bit_cast.h>
 #include <equiaffine/formula/internal/expression_evaluation.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -150,7 +150,7 @@ private:
 
   /// The node of an instruction, which is an earlier one if the instruction occurred before.
   Node intern(const Instruction& i) {
-    const Key key(i.opcode, i.a, i.b, std::bit_cast<std::uint64_t>(i.constant));
+    const Key key(i.opcode, i.a, i.b, bit_cast<std::uint64_t>(i.constant));
     const auto [position, is_new] = known_.try_emplace(key, static_cast<Node>(nodes_.size()));
     if (is_new) nodes_.push_back(i);
     return position->second;

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_PLY_NUMBERS_H
 #define EQUIAFFINE_IO_INTERNAL_PLY_NUMBERS_H
 
+#include <equiaffine/base/internal/shared/bit_cast.h>
 #include <equiaffine/io/internal/Ply_header.h>
 #include <equiaffine/io/internal/shared/fail_to_read.h>
 #include <equiaffine/io/internal/text_input.h>
@@ -86,7 +87,7 @@ private:
     rest_.remove_prefix(bytes.size());
     const bool is_big_endian = encoding_ == Ply_encoding::BINARY_BIG_ENDIAN;
     if (is_big_endian != (std::endian::native == std::endian::big)) std::reverse(bytes.begin(), bytes.end());
-    return std::bit_cast<Number>(bytes);
+    return bit_cast<Number>(bytes);
   }
 
   std::string_view rest_;

@@ -2,15 +2,21 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_BUFFERED_OUTPUT_H
 #define EQUIAFFINE_IO_INTERNAL_BUFFERED_OUTPUT_H
 
+#include <equiaffine/base/internal/shared/bit_cast.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <iomanip>
+#include <locale>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <version>
 
 namespace equiaffine::internal {
 
@@ -31,10 +37,17 @@ public:
   /// Writes a number with 17 significant digits, which give every double back; `nan` and zero get no sign.
   Buffered_output& operator<<(double number) {
     if (std::isnan(number)) return *this << "nan";
+#ifdef __cpp_lib_to_chars
     std::array<char, 32> digits;
     const auto end =
         std::to_chars(digits.data(), digits.data() + digits.size(), number + 0., std::chars_format::general, 17);
     return *this << std::string_view(digits.data(), end.ptr);
+#else // as libc++ before version 14
+    std::ostringstream digits;
+    digits.imbue(std::locale::classic());
+    digits << std::setprecision(17) << number + 0.;
+    return *this << digits.str();
+#endif
   }
 
   Buffered_output& operator<<(std::size_t number) {
@@ -45,7 +58,7 @@ public:
 
   template <class Number>
   void write_binary(Number number) {
-    auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(number);
+    auto bytes = bit_cast<std::array<char, sizeof(Number)>>(number);
     if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
     *this << std::string_view(bytes.data(), bytes.size());
   }

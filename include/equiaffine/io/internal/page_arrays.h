@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_PAGE_ARRAYS_H
 #define EQUIAFFINE_IO_INTERNAL_PAGE_ARRAYS_H
 
+#include <equiaffine/base/internal/shared/bit_cast.h>
 #include <equiaffine/io/internal/base64.h>
 #include <equiaffine/io/internal/shared/Parabolic_parts.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
@@ -9,7 +10,6 @@
 #include <CGAL/number_utils.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace equiaffine::internal {
 inline std::uint32_t float_bits(double value) {
   constexpr double largest = std::numeric_limits<float>::max();
   if (std::abs(value) > largest) value = std::copysign(std::numeric_limits<double>::infinity(), value);
-  return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  return bit_cast<std::uint32_t>(static_cast<float>(value));
 }
 
 /// Writes an array as an element of the page that holds its bytes in base64: `put_all(writer)` puts them.

@@ -6,6 +6,8 @@
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_SHARED_ELEMENTARY_FUNCTIONS_H
 #define EQUIAFFINE_NUMBER_INTERNAL_SHARED_ELEMENTARY_FUNCTIONS_H
 
+#include <equiaffine/base/internal/shared/bit_cast.h>
+#include <equiaffine/number/internal/shared/exponential_table.h>
 #include <equiaffine/number/select.h>
 
 #include <array>
@@ -28,29 +30,12 @@ T nearest_integer(const T& x) {
   return (x + T(shift)) - T(shift);
 }
 
-/// 2^(n / 128), n = 0, ..., 127, as sums of two doubles.
-struct Exponential_table {
-  static constexpr int size = 128;
-  std::array<double, size> high{}, low{};
-
-  constexpr Exponential_table() {
-    for (int n = 0; n < size; ++n) {
-      const long double x = n * 0.693147180559945309417232121458176568L / size;
-      long double sum = 0;
-      for (int k = 24; k > 0; --k) sum = (sum + 1) * x / k;
-      high[std::size_t(n)] = double(1 + sum);
-      low[std::size_t(n)] = double(1 - high[std::size_t(n)] + sum);
-    }
-  }
-};
-inline constexpr Exponential_table exponential_table;
-
 /// 2^(k / 128) (1 + p) for small p and an integer k. The argument is k + 1.5 2^52, whose bits end in those of k.
 inline double scaled_exponential(double k, double p) {
-  const auto bits = std::bit_cast<std::int64_t>(k);
+  const auto bits = bit_cast<std::int64_t>(k);
   const auto n = std::size_t(bits % Exponential_table::size);
   const double e = exponential_table.high[n] + (exponential_table.low[n] + exponential_table.high[n] * p);
-  return std::bit_cast<double>(std::bit_cast<std::int64_t>(e) + ((bits / Exponential_table::size) << 52));
+  return bit_cast<double>(bit_cast<std::int64_t>(e) + ((bits / Exponential_table::size) << 52));
 }
 
 /// c[First] + c[First + 1] x + ... of `Size` terms, by Estrin's scheme; powers[k] = x^(2^k).
