@@ -17,8 +17,11 @@ function(read_viewer_file variable name)
 endfunction()
 
 # The parts of the script, in their order, each a text of its own, since compilers need not read texts above 64 KB.
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS viewer/parts.txt)
+file(READ ${PROJECT_SOURCE_DIR}/viewer/parts.txt parts)
+string(REGEX MATCHALL "[a-z]+" parts "${parts}")
 set(script "")
-foreach(part IN ITEMS data graphics shaders scene panel scale picked picture address control)
+foreach(part IN LISTS parts)
   read_viewer_file(text ${part}.js)
   string(REGEX MATCHALL "@[a-z.]+\\.glsl@" programs "${text}")
   foreach(program IN LISTS programs)

@@ -2,6 +2,7 @@
 // The address of the page, which says what is shown.
 
 // The address says what is shown. Words it does not know are ignored.
+let moreOfAddress = () => ({});  // what another part of the page adds
 function fragment() {
   const list = (values, digits) => values.map(value => Number(value.toPrecision(digits))).join(',');
   const parts = {
@@ -13,7 +14,7 @@ function fragment() {
     isolines: Number(choice.isolines), marks: Number(choice.hasMarks),
     vectors: encodeURIComponent(choice.vectors?.name ?? ''), pick: choice.picked ?? '', from: choice.origin ?? '',
     range: choice.range?.join(',') ?? '', cut: choice.cut.join(','),
-    panel: Number(!document.body.classList.contains('no-panel')),
+    panel: Number(!document.body.classList.contains('no-panel')), ...moreOfAddress(),
   };
   return '#' + Object.entries(parts).map(([name, value]) => name + '=' + value).join('&');
 }

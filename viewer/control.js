@@ -111,7 +111,7 @@ function stepQuantity(step) {
 }
 function setClip(percent) {
   const distance = step => Math.abs(step - percent);
-  choice.clip = clipSteps.reduce((best, step) => distance(step) < distance(best) ? step : best);
+  choice.clip = facts.clipSteps.reduce((best, step) => distance(step) < distance(best) ? step : best);
 }
 function setUp(letter) {
   camera.axis = ['x', 'y', 'z'].map(axis => Number(axis === letter));
@@ -163,7 +163,7 @@ const keys = {
   X: () => lookAlong(0, -1), Y: () => lookAlong(1, -1), Z: () => lookAlong(2, -1), Escape: () => pick(null),
 };
 document.addEventListener('keydown', event => {
-  const isTyping = /^(SELECT|TEXTAREA)$/.test(event.target.tagName) || /^(range|number)$/.test(event.target.type);
+  const isTyping = /^(SELECT|TEXTAREA)$/.test(event.target.tagName) || /^(range|number|text)$/.test(event.target.type);
   if (!scene || isTyping || event.ctrlKey || event.metaKey || event.altKey || !Object.hasOwn(keys, event.key)) return;
   event.preventDefault();
   keys[event.key]();
@@ -172,7 +172,7 @@ document.addEventListener('keydown', event => {
 
 const on = (id, type, act) => byId(id).addEventListener(type, act);
 on('quantity', 'change', event => setQuantity(quantities.find(quantity => quantity.name === event.target.value)));
-on('clip', 'input', event => { choice.clip = clipSteps[event.target.value]; updateColors(); });
+on('clip', 'input', event => { choice.clip = facts.clipSteps[event.target.value]; updateColors(); });
 for (const word of scales) on(`scale-${word}`, 'click', () => chooseScale(word));
 on('edges', 'change', () => toggle('edges'));
 on('isolines', 'change', () => toggle('isolines'));
@@ -208,16 +208,20 @@ function resize() {
   drawNow();
 }
 
-function fillSelects() {
+function fillQuantities() {
   let group = null;
+  byId('quantity').replaceChildren();
   for (const {name, label, symbol, group: title} of quantities) {
     if (group?.label !== (title || 'Other'))
       byId('quantity').append(group = Object.assign(document.createElement('optgroup'), {label: title || 'Other'}));
     group.append(new Option(symbol ? `${label} ${symbol}` : label, name));
   }
-  byId('vectors').append(new Option('none', ''), ...vectors.map(({label, name}) => new Option(label, name)));
+  byId('vectors').replaceChildren(new Option('none', ''), ...vectors.map(({label, name}) => new Option(label, name)));
   byId('vectors-row').hidden = !vectors.length;
-  byId('clip').max = clipSteps.length - 1;
+}
+function fillSelects() {
+  fillQuantities();
+  byId('clip').max = facts.clipSteps.length - 1;
   byId('cut').append(...cutWords.map(word => new Option(word.replace('-', '−'), word)));
   chooseCut(...choice.cut);
 }
@@ -249,6 +253,8 @@ function start() {
                + 'or switch on hardware acceleration.');
   }
   canvas.addEventListener('webglcontextlost', () => say('The graphics driver stopped. Reload the page to go on.'));
+  Object.assign(choice, {scale: facts.scale, clip: facts.clip});
+  camera.axis = unit(facts.up);
   fillSelects();
   showUp();
   followAddress();
@@ -260,4 +266,7 @@ function start() {
   printLight();
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { drawScale(); redraw(); });
 }
-start();
+if (byId('facts')) {
+  takeSurface(surfaceOfPage());
+  start();
+}

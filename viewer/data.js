@@ -3,7 +3,7 @@
 // rules of io/Column_numbers.h; here they are only looked up.
 
 const byId = id => document.getElementById(id);
-const facts = JSON.parse(byId('facts').textContent);
+let facts, mesh, spots, vectors, quantities;  // of the surface that is shown, see takeSurface
 
 function takeBytes(id) {
   const node = byId(id), text = node.textContent;
@@ -14,19 +14,28 @@ function takeBytes(id) {
   return bytes;
 }
 
-const mesh = {
+// The surface in the elements of this page. Columns are functions, since most of them are not looked at.
+const surfaceOfPage = () => ({
+  facts: byId('facts').textContent,
   positions: new Float32Array(takeBytes('positions').buffer),
   triangles: new Uint32Array(takeBytes('triangles').buffer),
   status: takeBytes('status'),
   parts: takeBytes('parts'),  // Parabolic_part of every vertex, or nothing
-};
-mesh.size = mesh.positions.length / 3;
-
-facts.columns.forEach((column, i) => {
-  let values = null;
-  column.values = () => values ??= new Float32Array(takeBytes('column-' + i).buffer);
+  column: i => new Float32Array(takeBytes('column-' + i).buffer),
 });
-const spots = [...mesh.parts.keys()].filter(i => mesh.parts[i] === 1);
+
+function takeSurface({facts: text, column: valuesOf, ...arrays}) {
+  facts = JSON.parse(text);
+  mesh = {...arrays, size: arrays.positions.length / 3};
+  facts.columns.forEach((column, i) => {
+    let values = null;
+    column.values = () => values ??= valuesOf(i);
+  });
+  spots = [...mesh.parts.keys()].filter(i => mesh.parts[i] === 1);
+  vectors = findVectors();
+  quantities = findQuantities();
+  radius = radiusOfMesh();
+}
 // With the numbers that pictures interpolate in parabolic spots.
 function filled(column) {
   if (!spots.length) return column.values();
@@ -42,22 +51,25 @@ const vectorLabels = {
   direction1: 'Principal direction 1', direction2: 'Principal direction 2',
   affine_frame1: 'Affine frame, e₁', affine_frame2: 'Affine frame, e₂', affine_frame3: 'Affine frame, ξ',
 };
-const vectors = [];
-for (const column of facts.columns) {
-  const stem = /^(n|.+_)x$/.exec(column.name)?.[1];
-  const parts = stem && ['x', 'y', 'z'].map(axis => columnNamed(stem + axis));
-  if (!parts || parts.includes(undefined)) continue;
-  const name = stem.replace(/_$/, '');
-  vectors.push({name, parts, label: vectorLabels[name] ?? name, isLine: /^direction/.test(name)});
+function findVectors() {
+  const result = [];
+  for (const column of facts.columns) {
+    const stem = /^(n|.+_)x$/.exec(column.name)?.[1];
+    const parts = stem && ['x', 'y', 'z'].map(axis => columnNamed(stem + axis));
+    if (!parts || parts.includes(undefined)) continue;
+    const name = stem.replace(/_$/, '');
+    result.push({name, parts, label: vectorLabels[name] ?? name, isLine: /^direction/.test(name)});
+  }
+  return result;
 }
 
 // Scalars; components of vectors and of the metric, which have no colors, only when the page was asked for them.
 const plain = {name: 'plain', label: 'No color', group: 'Surface'};
 const statusQuantity = {name: 'status', label: 'Status of the points', group: 'Surface'};
-const quantities = facts.columns.filter(column => column.ranges)
-    .sort((a, b) => a.order - b.order);
-if (mesh.status.length) quantities.push(statusQuantity);
-quantities.push(plain);
+const findQuantities = () => [
+  ...facts.columns.filter(column => column.ranges).sort((a, b) => a.order - b.order),
+  ...(mesh.status.length ? [statusQuantity] : []), plain,
+];
 
 // Calls use(first corner in `triangles`, normal with twice the face's area as length) for every face.
 function faceNormals(p, triangles, use) {

@@ -12,15 +12,19 @@ function rotated(v, axis, angle) {
 }
 
 const tanHalfView = Math.tan(Math.PI / 14);
-let radius = 0;
-for (let i = 0; i < mesh.size; ++i)
-  radius = Math.max(radius, Math.hypot(mesh.positions[3 * i], mesh.positions[3 * i + 1], mesh.positions[3 * i + 2]));
-if (!(radius > 0)) radius = 1;
+let radius = 1;
+function radiusOfMesh() {
+  const {positions, size} = mesh;
+  let most = 0;
+  for (let i = 0; i < size; ++i)
+    most = Math.max(most, Math.hypot(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]));
+  return most > 0 ? most : 1;
+}
 
 // Looks at `target` from `distance` along `back`; right, up, back are orthonormal; dragging turns around `axis`.
 // Positions are relative to the center.
 const camera = {
-  target: [0, 0, 0], right: [1, 0, 0], up: [0, 1, 0], back: [0, 0, 1], distance: 4 * radius, axis: unit(facts.up),
+  target: [0, 0, 0], right: [1, 0, 0], up: [0, 1, 0], back: [0, 0, 1], distance: 4, axis: [0, 0, 1],
 };
 
 function lookFrom(back, up = camera.axis) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is chosen, and the parts of the panel that change with it.
 
-const {clipSteps} = facts;
 const canvas = byId('view'), stage = byId('stage');
 // scale: linear, logarithmic, equalized, or auto for the one that suits the quantity.
-const choice = {quantity: plain, scale: facts.scale, clip: facts.clip, hasMarks: true, edges: false,
-                isolines: false, vectors: null, picked: null, origin: null, range: null, cut: ['none', 0.5]};
+const choice = {quantity: plain, scale: 'auto', clip: 0, hasMarks: true, edges: false, isolines: false,
+                vectors: null, picked: null, origin: null, range: null, cut: ['none', 0.5]};
 // shown: {values, codes, sides, errors} of the quantity. The bar has its range, scale, and place(number) along it.
 let scene = null, range = null, scale = 'linear', place = null, shown = null, areas = null;
 const aspect = () => canvas.width / canvas.height;
@@ -62,7 +61,7 @@ function update() {
 }
 
 // The range of a column for the clip that is chosen, or the only one.
-const rangeOf = column => column.ranges[clipSteps.indexOf(choice.clip)] ?? column.ranges[0];
+const rangeOf = column => column.ranges[facts.clipSteps.indexOf(choice.clip)] ?? column.ranges[0];
 
 // What the quantity is; a range of one sign is not red and blue.
 function showMeaning() {
@@ -89,7 +88,7 @@ function updateColors() {
   const table = values && (range.isDiverging ? facts.diverging : facts.sequential);
   scene.setColors({levels, doubts, codes, sides, region}, table);
   for (const word of scales) byId(`scale-${word}`).setAttribute('aria-pressed', word === scale);
-  byId('clip').value = clipSteps.indexOf(choice.clip);
+  byId('clip').value = facts.clipSteps.indexOf(choice.clip);
   byId('clip-text').value = choice.clip + ' %';
   for (const [id, isOn] of [['edges', choice.edges], ['isolines', choice.isolines], ['marks', choice.hasMarks]])
     byId(id).checked = isOn;

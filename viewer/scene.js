@@ -34,7 +34,8 @@ class Scene {
     this.needle = createProgram(gl, needleVertex, needleFragment);
     this.colors = {statuses: facts.statuses.slice(1).flatMap(s => channels(s.color)), isMapped: false,
                    hasSides: false, region: channels(facts.region), isolines: []};
-    this.fillBuffers();
+    this.fillSurface();
+    this.bindBuffers();
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
@@ -42,8 +43,9 @@ class Scene {
     this.setMap([facts.plain]);
   }
 
-  fillBuffers() {
-    const {gl} = this, position = [0, 'position', 3, gl.FLOAT], code = [3, 'code', 1, gl.UNSIGNED_BYTE];
+  // Takes the mesh, without colors.
+  fillSurface() {
+    const {gl} = this;
     this.fill('position', mesh.positions);
     this.fill('normal', vertexNormals());
     this.fill('level', new Float32Array(mesh.size));
@@ -54,6 +56,13 @@ class Scene {
     this.fill('triangles', mesh.triangles, gl.ELEMENT_ARRAY_BUFFER);
     this.fill('marked', new Uint32Array(0), gl.ELEMENT_ARRAY_BUFFER);
     this.fill('needles', new Float32Array(0));
+    Object.assign(this, {needleCount: 0, markedCount: 0});
+    gl.deleteVertexArray(this.arrays.edges ?? null);
+    delete this.arrays.edges;
+  }
+
+  bindBuffers() {
+    const {gl} = this, position = [0, 'position', 3, gl.FLOAT], code = [3, 'code', 1, gl.UNSIGNED_BYTE];
     this.bind('surface', [position, [1, 'normal', 3, gl.SHORT, 8], [2, 'level', 1, gl.FLOAT], code,
                           [4, 'side', 1, gl.FLOAT], [5, 'doubt', 1, gl.FLOAT],
                           [6, 'hasNoSide', 1, gl.UNSIGNED_BYTE]], 'triangles');

@@ -41,7 +41,7 @@ public:
     std::array<char, 32> digits;
     const auto end =
         std::to_chars(digits.data(), digits.data() + digits.size(), number + 0., std::chars_format::general, 17);
-    return *this << std::string_view(digits.data(), end.ptr);
+    return *this << std::string_view(digits.data(), std::size_t(end.ptr - digits.data()));
 #else // as libc++ before version 14
     std::ostringstream digits;
     digits.imbue(std::locale::classic());
@@ -53,7 +53,7 @@ public:
   Buffered_output& operator<<(std::size_t number) {
     std::array<char, 24> digits;
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
-    return *this << std::string_view(digits.data(), end.ptr);
+    return *this << std::string_view(digits.data(), std::size_t(end.ptr - digits.data()));
   }
 
   template <class Number>

@@ -10,8 +10,6 @@
 #include <equiaffine/io/internal/viewer_files.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
-#include <CGAL/Bbox_3.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -56,13 +54,7 @@ inline void write_head_and_panel(std::ostream& out, const Html_options& options)
 template <class Kernel>
 void write_page(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
                 const Html_options& options) {
-  std::array<double, 3> center = {0, 0, 0};
-  if (!mesh.points.empty()) {
-    CGAL::Bbox_3 box;
-    for (const auto& point : mesh.points) box += point.bbox();
-    center = {box.xmin() + (box.xmax() - box.xmin()) / 2, box.ymin() + (box.ymax() - box.ymin()) / 2,
-              box.zmin() + (box.zmax() - box.zmin()) / 2};
-  }
+  const std::array<double, 3> center = center_of(mesh.points);
   const Parabolic_parts parabolic(mesh.triangles, attributes);
   write_head_and_panel(out, options);
   out << "<script type=\"application/json\" id=\"facts\">" << page_facts(mesh, attributes, options, center, parabolic)

@@ -7,6 +7,7 @@
 #include <equiaffine/io/internal/shared/Parabolic_parts.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>
 
 #include <array>
@@ -16,14 +17,25 @@
 #include <limits>
 #include <ostream>
 #include <string>
+#include <vector>
 
 namespace equiaffine::internal {
 
-/// The bits of the nearest float; those of an infinity beyond the largest.
-inline std::uint32_t float_bits(double value) {
+/// The nearest float; an infinity beyond the largest.
+inline float nearest_float(double value) {
   constexpr double largest = std::numeric_limits<float>::max();
   if (std::abs(value) > largest) value = std::copysign(std::numeric_limits<double>::infinity(), value);
-  return bit_cast<std::uint32_t>(static_cast<float>(value));
+  return static_cast<float>(value);
+}
+
+/// The center of the bounding box of points, to which the positions of a page are relative.
+template <class Point_3>
+std::array<double, 3> center_of(const std::vector<Point_3>& points) {
+  if (points.empty()) return {0, 0, 0};
+  CGAL::Bbox_3 box;
+  for (const Point_3& point : points) box += point.bbox();
+  return {box.xmin() + (box.xmax() - box.xmin()) / 2, box.ymin() + (box.ymax() - box.ymin()) / 2,
+          box.zmin() + (box.zmax() - box.zmin()) / 2};
 }
 
 /// Writes an array as an element of the page that holds its bytes in base64: `put_all(writer)` puts them.
@@ -44,7 +56,8 @@ void write_data(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, 
   write_data_block(out, "positions", [&](Base64_writer& writer) {
     for (const auto& point : mesh.points)
       for (int i = 0; i < 3; ++i)
-        writer.put_little_endian(float_bits(CGAL::to_double(point[i]) - center[static_cast<std::size_t>(i)]));
+        writer.put_little_endian(
+            bit_cast<std::uint32_t>(nearest_float(CGAL::to_double(point[i]) - center[static_cast<std::size_t>(i)])));
   });
   write_data_block(out, "triangles", [&](Base64_writer& writer) {
     for (const auto& triangle : mesh.triangles)
@@ -59,7 +72,8 @@ void write_data(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, 
   });
   for (std::size_t i = 0; i < attributes.columns.size(); ++i)
     write_data_block(out, "column-" + std::to_string(i), [&](Base64_writer& writer) {
-      for (const double value : attributes.columns[i].values) writer.put_little_endian(float_bits(value));
+      for (const double value : attributes.columns[i].values)
+        writer.put_little_endian(bit_cast<std::uint32_t>(nearest_float(value)));
     });
 }
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fits to the vertices of a mesh, or to points: a unit of its own, since it is compiled to be small.
+#include "module.h"
+#include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/attributes/internal/shared/error_table.h>
+#include <equiaffine/fitted_structures.h>
+#include <equiaffine/io/read_points.h>
+
+#include <cstddef>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+/// Reads a mesh or points from the bytes of a file.
+equiaffine::Annotated_mesh_3<Kernel> read_file(const std::string& name, std::string bytes) {
+  std::istringstream stream(std::move(bytes));
+  if (equiaffine::has_extension(name, ".ply")) return equiaffine::read_PLY<Kernel>(stream, name);
+  if (equiaffine::has_extension(name, ".off")) return {equiaffine::read_OFF<Kernel>(stream, name), {}};
+  if (equiaffine::has_extension(name, ".xyz")) return equiaffine::read_XYZ<Kernel>(stream, name);
+  if (equiaffine::has_extension(name, ".csv")) return equiaffine::read_CSV<Kernel>(stream, name);
+  throw equiaffine::Input_error("'" + name + "' is no file that can be read here: use one of .ply .off .xyz .csv");
+}
+
+/// The columns of structures: those of a list, then estimates of the errors.
+equiaffine::Vertex_attributes columns_of(const std::vector<equiaffine::Fitted_structure_3<double>>& structures,
+                                         const char* attributes) {
+  equiaffine::Vertex_attributes result;
+  result.status.emplace();
+  for (const auto& s : structures) result.status->push_back(s.structure.status);
+  const auto add = [&](std::string name, const auto& number_of) {
+    auto& column = result.columns.emplace_back();
+    column.name = std::move(name);
+    for (const auto& s : structures) column.values.push_back(number_of(s));
+  };
+  for (const auto& attribute : equiaffine::select_attributes(attributes).columns)
+    add(std::string(attribute.name), [&](const auto& s) { return attribute.get(s.structure); });
+  for (const auto& row : equiaffine::error_table<double>)
+    add(std::string(row.attribute) + "_error", [&](const auto& s) { return row.get(s.error); });
+  return result;
+}
+
+} // namespace
+
+/// Fits the vertices of a mesh, or points, in the bytes of a file; a negative scale lets the data choose one.
+EXPORTED int eq_annotate(const char* name, const char* bytes, int size, double scale, const char* attributes) {
+  return outcome_of([&] {
+    constexpr std::size_t most = 50000;
+    surface = {};
+    auto file = read_file(name, std::string(bytes, std::size_t(size)));
+    if (file.mesh.points.size() > most)
+      throw equiaffine::Input_error("'" + std::string(name) + "' has " + std::to_string(file.mesh.points.size()) +
+                                    " points: here up to 50000 can be fitted, and any number by the program");
+    const auto parameters = equiaffine::parameters::scale(scale < 0 ? std::nullopt : std::optional(scale));
+    surface.attributes = columns_of(
+        file.mesh.triangles.empty() ? equiaffine::fitted_structures(file.mesh.points, parameters)
+                                    : equiaffine::fitted_structures(file.mesh.points, file.mesh.triangles, parameters),
+        attributes);
+    static_cast<equiaffine::Indexed_triangle_mesh_3<Kernel>&>(surface.mesh) = std::move(file.mesh);
+  });
+}

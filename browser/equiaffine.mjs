@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The library for JavaScript: surfaces of formulas, and curvatures of meshes, with arrays as results. See index.d.ts.
+import createModule from './module.mjs';
+
+// A formula or a file that cannot be used. `excerpt` shows the place with a caret; `unknownName` is a name in the formula
+// that has no value.
+export class Mistake extends Error {
+  constructor(message, excerpt, unknownName) {
+    super(message);
+    Object.assign(this, {name: 'Mistake', excerpt, unknownName});
+  }
+}
+
+const MISTAKE = 1;
+const POSITIONS = 0, TRIANGLES = 1, STATUS = 2, PARTS = 3, POINTS = 4, FIRST_COLUMN = 5;
+
+export class Equiaffine {
+  #module;
+  constructor(module) { this.#module = module; }
+
+  // Whether a formula can be read; throws what is wrong with it.
+  parse(formula, constants = {}) {
+    this.#call(pointers => this.#module._eq_parse(...this.#formula(pointers, formula, constants)));
+  }
+
+  mesh(formula, {constants = {}, box, resolution = 64, level = 0, attributes = 'basic'}) {
+    this.sample(formula, {constants, box, resolution, level, attributes});
+    return this.#surface();
+  }
+
+  annotate(name, bytes, {scale = null, attributes = 'basic'} = {}) {
+    this.fit(name, bytes, {scale, attributes});
+    return this.#surface();
+  }
+
+  // As mesh() and annotate(), for page().
+  sample(formula, {constants, box, resolution, level, attributes}) {
+    this.#call(pointers => this.#module._eq_mesh(...this.#formula(pointers, formula, constants),
+                                                 this.#doubles(pointers, box), resolution, level,
+                                                 this.#text(pointers, attributes)));
+  }
+  fit(name, bytes, {scale, attributes}) {
+    this.#call(pointers => this.#module._eq_annotate(this.#text(pointers, name), this.#bytes(pointers, bytes),
+                                                     bytes.length, scale ?? -1, this.#text(pointers, attributes)));
+  }
+
+  // What a page of the library shows of the last surface: its facts as JSON, and arrays of single precision.
+  page(color = '') {
+    this.#call(pointers => this.#module._eq_page(this.#text(pointers, color)));
+    const {_eq_facts, _eq_number_of_columns, _eq_size} = this.#module, size = _eq_size(POINTS);
+    const floats = this.#copy(Float32Array, POSITIONS, size * (3 + _eq_number_of_columns()));
+    return {
+      facts: this.#string(_eq_facts()), positions: floats.subarray(0, 3 * size),
+      triangles: this.#copy(Uint32Array, TRIANGLES, 3 * _eq_size(TRIANGLES)),
+      status: this.#copy(Uint8Array, STATUS, _eq_size(STATUS)), parts: this.#copy(Uint8Array, PARTS, _eq_size(PARTS)),
+      columns: floats.subarray(3 * size),
+    };
+  }
+
+  #surface() {
+    const {_eq_size, _eq_number_of_columns, _eq_column_name} = this.#module, size = _eq_size(POINTS);
+    const attributes = {};
+    for (let i = 0; i < _eq_number_of_columns(); ++i)
+      attributes[this.#string(_eq_column_name(i))] = this.#copy(Float64Array, FIRST_COLUMN + i, size);
+    return {
+      positions: this.#copy(Float64Array, POINTS, 3 * size),
+      triangles: this.#copy(Uint32Array, TRIANGLES, 3 * _eq_size(TRIANGLES)),
+      status: this.#copy(Uint8Array, STATUS, _eq_size(STATUS)), attributes,
+    };
+  }
+
+  // Calls a function of the module with a list for what is to be freed, and throws what it says is wrong.
+  #call(use) {
+    const pointers = [], module = this.#module;
+    let outcome;
+    try {
+      outcome = use(pointers);
+    } finally {
+      pointers.forEach(pointer => module._free(pointer));
+    }
+    if (!outcome) return;
+    const message = this.#string(module._eq_message());
+    throw outcome === MISTAKE
+        ? new Mistake(message, this.#string(module._eq_excerpt()), this.#string(module._eq_unknown_name()))
+        : new Error(message);
+  }
+
+  #bytes(pointers, bytes) {
+    const pointer = this.#module._malloc(bytes.length + 1);
+    if (!pointer) throw new Error('there is not enough memory');
+    pointers.push(pointer);
+    this.#module.HEAPU8.set(bytes, pointer);
+    this.#module.HEAPU8[pointer + bytes.length] = 0;
+    return pointer;
+  }
+  #text(pointers, text) { return this.#bytes(pointers, new TextEncoder().encode(text)); }
+  #doubles(pointers, numbers) {
+    return this.#bytes(pointers, new Uint8Array(Float64Array.from(numbers).buffer));
+  }
+  #formula(pointers, formula, constants) {
+    const names = Object.keys(constants);
+    return [this.#text(pointers, formula), this.#text(pointers, names.map(name => name + '\0').join('')),
+            this.#doubles(pointers, names.map(name => constants[name])), names.length];
+  }
+  #copy(Type, array, length) {
+    const begin = this.#module._eq_data(array);
+    return new Type(this.#module.HEAPU8.buffer, begin, length).slice();
+  }
+  #string(pointer) {
+    const {HEAPU8} = this.#module;
+    return new TextDecoder().decode(HEAPU8.subarray(pointer, HEAPU8.indexOf(0, pointer)));
+  }
+}
+
+// `wasm` is the bytes of equiaffine.wasm, or a WebAssembly.Module of them; without it, they are read from beside this file.
+export async function load({wasm} = {}) {
+  if (!wasm && globalThis.process?.versions?.node) {
+    const {readFile} = await import('node:fs/promises');
+    wasm = await readFile(new URL('equiaffine.wasm', import.meta.url));
+  }
+  wasm ??= await fetch(new URL('equiaffine.wasm', import.meta.url)).then(response => response.arrayBuffer());
+  const compiled = wasm instanceof WebAssembly.Module ? wasm : await WebAssembly.compile(wasm);
+  const module = await createModule({
+    instantiateWasm(imports, use) {
+      WebAssembly.instantiate(compiled, imports).then(instance => use(instance, compiled));
+      return {};
+    },
+  });
+  return new Equiaffine(module);
+}

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes the playground, one file without anything from elsewhere: make_page.py ROOT MODULE_FOLDER PAGE.
+
+It is the page of viewer/ with the controls and the script of browser/, and the module that scripts/browser has built."""
+import gzip
+import pathlib
+import re
+import sys
+
+DIGITS = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?&_>()[]{}@%$#"
+
+
+def part(path):
+    """The text of a file after its first lines, which say what it is."""
+    return path.read_text().split("\n\n", 1)[1]
+
+
+def script_of(root):
+    """The script of the page, as cmake/embed_viewer.cmake puts it together, and that of the playground."""
+    viewer = root / "viewer"
+    parts = [part(viewer / f"{name}.js") for name in (viewer / "parts.txt").read_text().split()]
+    text = re.sub(r"@([a-z.]+\.glsl)@", lambda match: part(viewer / match[1]).rstrip("\n"), "".join(parts))
+    return "'use strict';\n" + text + part(root / "browser/examples.js") + part(root / "browser/playground.js")
+
+
+def worker_of(root, module_folder):
+    """Glue, library and worker as one classic script."""
+    glue = (module_folder / "module.mjs").read_text().replace("import.meta.url", "''")
+    glue = glue.replace("export default Module", "const createModule = Module")
+    library = part(root / "browser/equiaffine.mjs").replace("import.meta.url", "''")
+    library = re.sub(r"^(import .*|export )", "", library, flags=re.MULTILINE)
+    library = re.sub(r"^import .*\n", "", library, flags=re.MULTILINE)
+    return glue + "\n" + library + part(root / "browser/worker.js")
+
+
+def packed(name, content):
+    """An element with the content, compressed."""
+    data = gzip.compress(content, 9, mtime=0)
+    padded = data + b"\0" * (-len(data) % 4)
+    digits = []
+    for k in range(0, len(padded), 4):
+        word, five = int.from_bytes(padded[k:k + 4], "big"), []
+        for _ in range(5):
+            word, digit = divmod(word, 85)
+            five.append(DIGITS[digit])
+        digits.extend(reversed(five))
+    return f'<script type="text/plain" id="{name}" data-length="{len(data)}">{"".join(digits)}</script>\n'
+
+
+def page_of(root, module_folder):
+    viewer, browser = root / "viewer", root / "browser"
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>Equi-affine playground</title>
+<style>{part(viewer / "page.css")}{part(browser / "playground.css")}</style>
+</head>
+<body>
+{part(viewer / "stage.html")}<aside id="panel">
+<h1 id="title">Equi-affine curvatures of a formula</h1>
+{part(browser / "playground.html")}{part(viewer / "controls.html")}</aside>
+{packed("wasm", (module_folder / "equiaffine.wasm").read_bytes())}{
+packed("worker", worker_of(root, module_folder).encode())}{packed("script", script_of(root).encode())}<script>
+{part(browser / "boot.js")}</script>
+</body>
+</html>
+"""
+
+
+if __name__ == "__main__":
+    page = page_of(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))
+    pathlib.Path(sys.argv[3]).write_text(page)
+    print(f"{sys.argv[3]}: {len(page.encode()) // 1000} kB")

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The surface that the functions of the module share, and what becomes of errors.
+#ifndef EQUIAFFINE_BROWSER_MODULE_H
+#define EQUIAFFINE_BROWSER_MODULE_H
+
+#include <equiaffine/Input_error.h>
+#include <equiaffine/formula/Unknown_name_error.h>
+#include <equiaffine/surface/Isosurface_3.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <cstdint>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#define EXPORTED extern "C" __attribute__((used, visibility("default")))
+
+using Kernel = CGAL::Simple_cartesian<double>;
+
+/// What the last call found.
+struct Surface {
+  equiaffine::Isosurface_3<Kernel> mesh;
+  equiaffine::Vertex_attributes attributes;
+  std::vector<float> floats;       // as a page wants them: positions from the center, then each column
+  std::vector<std::uint8_t> parts; // Parabolic_part of each vertex, or nothing
+  std::string facts;               // of a page, as JSON
+};
+inline Surface surface;
+struct Failure {
+  std::string message, excerpt, unknown_name;
+};
+inline Failure failure;
+
+enum Outcome { DONE, MISTAKE, NO_MEMORY, FAILED };
+
+/// Calls `compute()`; what it throws becomes an outcome and a sentence.
+template <class Compute>
+Outcome outcome_of(const Compute& compute) {
+  failure = {};
+  const auto fail = [](Outcome outcome, const std::string& message) {
+    surface = {};
+    failure.message = message;
+    return outcome;
+  };
+  try {
+    compute();
+    return DONE;
+  } catch (const equiaffine::Unknown_name_error& error) {
+    failure = {{}, error.excerpt(), error.name()};
+    return fail(MISTAKE, error.what());
+  } catch (const equiaffine::Input_error& error) {
+    failure = {{}, error.excerpt(), {}};
+    return fail(MISTAKE, error.what());
+  } catch (const std::invalid_argument& error) {
+    return fail(MISTAKE, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(NO_MEMORY, "there is not enough memory: choose a lower resolution");
+  } catch (const std::exception& error) {
+    return fail(FAILED, error.what());
+  }
+}
+
+#endif

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The playground: a formula with a slider for each name becomes the surface of the page. A worker computes, coarsely while
+// something moves and finely when it rests; the last picture stays meanwhile. `wasmBytes` and `workerText` are given.
+
+const COARSE = 64, REST = 250, LONG = 1500;  // nodes; milliseconds
+const ATTRIBUTES = 'all,quadric_defect,shape_index,curvedness';
+// names: {NAME: [value, least, greatest]}; file: the one that is shown in the place of a formula.
+const state = {formula: '', names: {}, box: [-1, 1, -1, 1, -1, 1], nodes: 96, level: 0, file: null};
+
+let worker = null, compiled = null, running = null, waiting = null, count = 0, restTimer = 0, clock = 0;
+
+async function startWorker() {
+  compiled ??= WebAssembly.compile(wasmBytes);
+  const created = worker = new Worker(URL.createObjectURL(new Blob([workerText], {type: 'text/javascript'})));
+  worker.onmessage = ({data}) => { if (created === worker) finish(data); };
+  worker.onerror = event => { if (created === worker) finish({mistake: {message: event.message, excerpt: ''}}); };
+  const wasm = await compiled;
+  created.postMessage({wasm});
+}
+
+// One task runs, and the last of those that came since waits. A task that takes long is ended for the next one.
+function request(task) {
+  waiting = task;
+  if (!running) return runNext();
+  clearTimeout(clock);
+  if (!running.isKept)
+    clock = setTimeout(() => { if (waiting) restart(); }, Math.max(0, LONG - (performance.now() - running.begin)));
+}
+function runNext() {
+  clearTimeout(clock);
+  running = waiting;
+  waiting = null;
+  if (!running) return;
+  Object.assign(running, {id: ++count, begin: performance.now()});
+  const {isFine, isKept, begin, ...message} = running;
+  worker.postMessage(message);
+  setTimeout(showWork, 600);
+}
+function restart() {
+  worker.terminate();
+  running = null;
+  startWorker();
+  showWork();
+  runNext();
+}
+
+function showWork() {
+  const isLong = running && performance.now() - running.begin > 500;
+  byId('working').hidden = !isLong;
+  if (!isLong) return;
+  const seconds = Math.round((performance.now() - running.begin) / 1000);
+  byId('working-text').textContent = `${running.kind === 'fit' ? 'fitting ' + running.name : 'computing'}, ${seconds} s`;
+  setTimeout(showWork, 500);
+}
+
+function finish({id, page, mistake, milliseconds}) {
+  if (id !== undefined && running?.id !== id) return;
+  const task = running;
+  running = null;
+  showWork();
+  if (mistake?.unknownName && !(mistake.unknownName in state.names) && !state.file) {
+    state.names[mistake.unknownName] = [1, 0, 2];
+    fillNames();
+    if (!waiting) requestBoth();
+  } else if (mistake) {
+    say(mistake);
+    if (task?.kind === 'fit') state.file = null;
+  } else {
+    say(null);
+    show(page, task);
+    const size = task.resolution ? `${task.resolution}³ nodes: ` : '';
+    byId('cost').textContent = `${size}${mesh.size.toLocaleString('en')} vertices in ${Math.max(1, Math.round(milliseconds))} ms`;
+  }
+  runNext();
+}
+
+function say(mistake) {
+  byId('mistake').hidden = !mistake;
+  byId('formula').setAttribute('aria-invalid', Boolean(mistake));
+  if (mistake) byId('mistake').replaceChildren(element('b', '', mistake.message), mistake.excerpt);
+}
+
+// Shows another surface; what was chosen stays chosen, and the camera where it is.
+function show(page, task) {
+  const old = facts, {quantity, vectors: vector, range: typed} = choice, wasEmpty = !mesh?.size;
+  const column = i => page.columns.subarray(i * page.positions.length / 3, (i + 1) * page.positions.length / 3);
+  takeSurface({facts: page.facts, positions: page.positions, triangles: page.triangles, status: page.status,
+               parts: page.parts, column});
+  document.title = state.file ?? (exampleOf()?.name ?? 'Surface');
+  byId('title').textContent = state.file ?? 'Equi-affine curvatures of a formula';
+  byId('message').hidden = mesh.size > 0;
+  byId('message').textContent = 'No point of the surface lies in the box.';
+  if (!scene) return start();
+  areas = null;
+  choice.picked = choice.origin = null;
+  camera.target = add(camera.target, add(old.center, facts.center, -1));
+  scene.fillSurface();
+  if (task.isFine) fillQuantities();
+  setCut(...choice.cut);
+  setVectors(vectors.find(({name}) => name === vector?.name) ?? null);
+  setQuantity(quantities.find(({name}) => name === quantity.name) ?? quantities[0], typed);
+  if (task.isNew || wasEmpty) resetView();
+  if (task.isFine) history.replaceState(null, '', fragment());
+}
+
+// Colors need the quantity, the sign of the Gaussian curvature, normals, and the vectors if there are some.
+function attributesOfDrag() {
+  const names = ['normal', 'gaussian_curvature', 'status'];
+  if (choice.quantity.ranges) names.push(choice.quantity.name);
+  if (choice.vectors && choice.vectors.name !== 'n') names.push(choice.vectors.name);
+  return names.join(',');
+}
+function taskOf(isFine, isNew) {
+  const constants = Object.fromEntries(Object.entries(state.names).map(([name, [value]]) => [name, value]));
+  return {kind: 'sample', formula: state.formula, constants, box: state.box, level: state.level, isFine, isNew,
+          resolution: isFine ? state.nodes : Math.min(COARSE, state.nodes),
+          attributes: isFine || !scene ? ATTRIBUTES : attributesOfDrag(), color: ''};
+}
+// Now coarsely, and finely when nothing has changed for a while.
+function requestBoth(isNew = false) {
+  state.file = null;
+  request(taskOf(false, isNew));
+  clearTimeout(restTimer);
+  restTimer = setTimeout(() => request(taskOf(true, false)), REST);
+}
+
+// A name gets a slider as soon as the formula has it, and keeps its numbers while it comes and goes.
+const namesInFormula = () => new Set(state.formula.match(/[A-Za-z_]\w*/g));
+function fillNames() {
+  const used = namesInFormula();
+  byId('names').replaceChildren(...Object.keys(state.names).filter(name => used.has(name)).map(rowOfName));
+}
+function rowOfName(name) {
+  const row = element('div', 'row'), label = element('label', '', name), entry = state.names[name];
+  const input = (type, value, title) =>
+      Object.assign(document.createElement('input'), {type, step: 'any', value, title, ariaLabel: `${title} of ${name}`});
+  const least = input('number', entry[1], 'least'), greatest = input('number', entry[2], 'greatest');
+  const slider = input('range', entry[0], 'value'), typed = input('number', entry[0], 'value');
+  slider.id = label.htmlFor = 'name-' + name;
+  const bound = () => Object.assign(slider, {min: entry[1], max: entry[2], value: entry[0]});
+  const change = (k, node) => {
+    const number = Number(node.value), isFine = node.value.trim() !== '' && Number.isFinite(number);
+    const isOrdered = k === 0 || (k === 1 ? number < entry[2] : number > entry[1]);
+    node.setAttribute('aria-invalid', !(isFine && isOrdered));
+    if (!isFine || !isOrdered) return;
+    entry[k] = number;
+    if (node === typed) [entry[1], entry[2]] = [Math.min(entry[1], number), Math.max(entry[2], number)];
+    if (node !== slider) bound();
+    [least.value, greatest.value] = [entry[1], entry[2]];
+    if (node !== typed) typed.value = Number(entry[0].toPrecision(6));
+    if (k === 0) requestBoth();
+  };
+  slider.addEventListener('input', () => change(0, slider));
+  typed.addEventListener('input', () => change(0, typed));
+  least.addEventListener('change', () => change(1, least));
+  greatest.addEventListener('change', () => change(2, greatest));
+  bound();
+  row.append(label, typed, least, slider, greatest);
+  return row;
+}
+
+const wholeBox = box => typeof box === 'number' ? [-box, box, -box, box, -box, box] : box;
+function isBox(box) {
+  return box.length === 6 && box.every(Number.isFinite) && [0, 2, 4].every(k => box[k] < box[k + 1]);
+}
+function takeBox() {
+  const words = byId('box').value.trim().split(/[\s,;]+/).map(Number);
+  const box = words.length === 1 ? wholeBox(Math.abs(words[0])) : words;
+  byId('box').setAttribute('aria-invalid', !isBox(box));
+  if (!isBox(box)) return;
+  state.box = box;
+  requestBoth();
+}
+const exampleOf = () => examples.find(({formula}) => formula === state.formula);
+
+// Puts the state into the controls.
+function showState() {
+  const example = exampleOf();
+  byId('formula').value = state.formula;
+  byId('box').value = state.box.join(' ');
+  byId('level').value = state.level;
+  byId('nodes').value = state.nodes;
+  byId('nodes-text').value = state.nodes + '³';
+  byId('example').value = example?.name ?? '';
+  byId('example-text').textContent = example?.text ?? '';
+  fillNames();
+}
+function takeExample({formula, names, box}) {
+  Object.assign(state, {formula, names: structuredClone(names), box: wholeBox(box), level: 0});
+  showState();
+  requestBoth(true);
+}
+
+// The address: f=FORMULA, box=SIX NUMBERS, nodes=N, level=NUMBER, names=NAME:VALUE:LEAST:GREATEST,...
+moreOfAddress = () => state.file ? {} : {
+  f: encodeURIComponent(state.formula), box: state.box.join(','), nodes: state.nodes, level: state.level,
+  names: [...namesInFormula()].filter(name => name in state.names)
+      .map(name => [name, ...state.names[name]].join(':')).join(','),
+};
+// Returns whether the address has another formula than is shown.
+function followFormula() {
+  const asked = new URLSearchParams(location.hash.slice(1)), formula = asked.get('f');
+  if (!formula) return false;
+  const before = JSON.stringify(state), box = (asked.get('box') ?? '').split(',').map(Number);
+  const nodes = Number(asked.get('nodes') || 96), level = Number(asked.get('level') || 0);
+  Object.assign(state, {formula, names: {}, file: null, level: Number.isFinite(level) ? level : 0,
+                        nodes: Number.isFinite(nodes) ? Math.min(256, Math.max(16, Math.round(nodes))) : 96});
+  if (isBox(box)) state.box = box;
+  for (const part of (asked.get('names') ?? '').split(',')) {
+    const [name, ...numbers] = part.split(':'), [value, least, greatest] = numbers.map(Number);
+    if (/^[A-Za-z_]\w*$/.test(name) && [value, least, greatest].every(Number.isFinite) && least < greatest)
+      state.names[name] = [value, least, greatest];
+  }
+  return JSON.stringify(state) !== before;
+}
+
+async function openFile(file) {
+  state.file = file.name;
+  clearTimeout(restTimer);
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  request({kind: 'fit', name: file.name, bytes, scale: -1, attributes: ATTRIBUTES, color: '', isFine: true, isNew: true,
+           isKept: true});
+}
+
+byId('example').append(new Option('your own formula', ''), ...examples.map(({name}) => new Option(name, name)));
+on('example', 'change', event => {
+  const example = examples.find(({name}) => name === event.target.value);
+  if (example) takeExample(example);
+  else byId('formula').focus();
+});
+on('formula', 'input', () => {
+  state.formula = byId('formula').value;
+  const example = exampleOf();
+  byId('example').value = example?.name ?? '';
+  byId('example-text').textContent = example?.text ?? '';
+  fillNames();
+  requestBoth();
+});
+on('box', 'change', takeBox);
+on('level', 'input', event => {
+  if (!Number.isFinite(event.target.valueAsNumber)) return;
+  state.level = event.target.valueAsNumber;
+  requestBoth();
+});
+on('nodes', 'input', event => {
+  state.nodes = Number(event.target.value);
+  byId('nodes-text').value = state.nodes + '³';
+  requestBoth();
+});
+on('file', 'change', event => { if (event.target.files[0]) openFile(event.target.files[0]); });
+on('stop', 'click', () => { waiting = null; state.file = null; restart(); });
+for (const [type, isOver] of [['dragover', true], ['dragleave', false], ['drop', false]])
+  document.addEventListener(type, event => {
+    event.preventDefault();
+    document.body.classList.toggle('is-dropping', isOver);
+    if (type === 'drop' && event.dataTransfer.files[0]) openFile(event.dataTransfer.files[0]);
+  });
+window.addEventListener('hashchange', () => {
+  if (!followFormula()) return;
+  showState();
+  requestBoth(true);
+});
+
+startWorker();
+if (followFormula()) {
+  showState();
+  requestBoth();
+} else {
+  takeExample(examples[0]);
+}
