@@ -209,6 +209,14 @@ TEST_F(Graph_files, a_file_that_cannot_become_a_mesh_gets_a_sentence) {
   std::map<Vertex, double> K;
   const auto map = parameters::vertex_affine_Gaussian_curvature_map(boost::make_assoc_property_map(K));
   EXPECT_NE(read(one, map).find("it has no column 'affine_gaussian_curvature' for a property map"), std::string::npos);
+  const std::string two = text_file("two.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n");
+  EXPECT_NE(read(two).find("its face 0 has fewer than three corners"), std::string::npos) << read(two);
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string again = text_file("again.ply", header + "property float x\nend_header\n0 0 0 0\n");
+  EXPECT_NE(read(again).find("a second property 'x'"), std::string::npos) << read(again);
+  const std::string many = text_file("many.ply", header + "element face 18446744073709551615\nend_header\n0 0 0\n");
+  EXPECT_EQ(read(many), "no error") << "faces without properties are not counted one by one";
   EXPECT_NE(read(path("none.ply")).find("there is no such file"), std::string::npos);
   EXPECT_NE(read(text_file("a.stl", "solid")).find("use one of .ply .off"), std::string::npos);
 }
@@ -223,13 +231,57 @@ TEST_F(Graph_files, a_file_that_cannot_be_written_leaves_nothing_behind) {
   EXPECT_EQ(number_of_files(), 1U) << "the folder";
 }
 
+TEST_F(Graph_files, a_file_that_is_replaced_hands_on_its_permissions_and_a_link_stays_one) {
+  using std::filesystem::perms;
+  const auto permissions = perms::owner_read | perms::owner_write;
+  std::filesystem::permissions(text_file("old.ply", "old"), permissions);
+  std::filesystem::create_symlink(path("old.ply"), path("link.ply"));
+  IO::write_polygon_mesh(path("link.ply"), Surface_mesh());
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link.ply")));
+  EXPECT_EQ(std::filesystem::status(path("old.ply")).permissions(), permissions);
+  EXPECT_GT(std::filesystem::file_size(path("old.ply")), 3U);
+}
+
+TEST_F(Graph_files, maps_whose_columns_would_have_one_name_are_refused) {
+  const auto sentence = [&](const std::vector<std::string>& keys) {
+    Surface_mesh mesh;
+    mesh.add_vertex(Point(1, 2, 3));
+    for (const std::string& key : keys) mesh.add_property_map<Vertex, double>(key, 7);
+    return sentence_of([&] { IO::write_polygon_mesh(path("names.ply"), mesh); });
+  };
+  EXPECT_NE(sentence({"v:x"}).find("'x' would be the name of two property maps, or of a map and a coordinate"),
+            std::string::npos);
+  EXPECT_NE(sentence({"v:a b", "v:a_b"}).find("'a_b' would be the name of two"), std::string::npos);
+  EXPECT_EQ(sentence({"v:a,b", "v:c"}), "no error");
+  EXPECT_EQ(equiaffine::read_points<Kernel>(path("names.ply")).attributes.columns[0].name, "a_b");
+}
+
+TEST_F(Graph_files, maps_of_all_numbers_are_kept_and_filled_again) {
+  Surface_mesh mesh, read;
+  mesh.add_vertex(Point(1, 2, 3));
+  mesh.add_property_map<Vertex, std::size_t>("v:component", 5);
+  mesh.add_property_map<Vertex, bool>("v:is_selected", true);
+  mesh.add_property_map<Vertex, float>("v:weight", 0.5F);
+  IO::write_polygon_mesh(path("numbers.ply"), mesh);
+  const auto weight = read.add_property_map<Vertex, float>("v:weight", 0).first;
+  IO::read_polygon_mesh(path("numbers.ply"), read);
+  EXPECT_EQ(weight[Vertex(0)], 0.5F);
+  EXPECT_FALSE(internal::Named_maps<Surface_mesh>::find<double>(read, "v:weight")) << "there is one of float";
+  EXPECT_EQ((*internal::Named_maps<Surface_mesh>::find<double>(read, "v:component"))[Vertex(0)], 5);
+  EXPECT_EQ((*internal::Named_maps<Surface_mesh>::find<double>(read, "v:is_selected"))[Vertex(0)], 1);
+}
+
 TEST_F(Graph_files, points_of_a_point_set_come_back_with_their_maps) {
   CGAL::Point_set_3<Point> points, read;
   points.insert(Point(1.4, 0, 0));
   points.insert(Point(0, 0.6, 0));
   const auto conormals = points.add_property_map<Vector>("conormal").first;
   const auto K = points.add_property_map<double>("affine_gaussian_curvature").first;
-  annotate(points, torus(), parameters::vertex_conormal_map(conormals).vertex_affine_Gaussian_curvature_map(K));
+  const auto status = points.add_property_map<Point_status>("status").first;
+  annotate(
+      points, torus(),
+      parameters::vertex_conormal_map(conormals).vertex_affine_Gaussian_curvature_map(K).vertex_status_map(status));
+  status[1] = Point_status::PARABOLIC;
   for (const char* name : {"points.ply", "points.csv"}) {
     IO::write_points(path(name), points);
     read.clear();
@@ -242,7 +294,12 @@ TEST_F(Graph_files, points_of_a_point_set_come_back_with_their_maps) {
     ASSERT_TRUE(vectors && numbers) << name;
     EXPECT_EQ((*vectors)[2], conormals[1]);
     EXPECT_EQ((*numbers)[1], K[0]);
+    const auto statuses = internal::Named_maps<decltype(read)>::find<Point_status>(read, "status");
+    ASSERT_TRUE(statuses) << name;
+    EXPECT_EQ((*statuses)[2], Point_status::PARABOLIC);
   }
+  EXPECT_NE(sentence_of([&] { IO::write_points(path("points.stl"), points); }).find("written as .ply or .csv"),
+            std::string::npos);
   std::vector<Point> plain;
   IO::read_points(path("points.csv"), plain);
   EXPECT_EQ(plain.size(), 2U);

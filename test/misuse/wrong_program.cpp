@@ -10,7 +10,9 @@
 #include <map>
 #include <utility>
 
-#if CASE == 3 || CASE == 15
+#if CASE == 16
+#include <equiaffine/io/polygon_mesh_files.h>
+#elif CASE == 3 || CASE == 15
 #include <equiaffine/annotate_by_fit.h>
 #elif CASE == 7 || CASE == 9 || CASE == 10 || CASE == 13
 #include <equiaffine/marching_cubes.h>
@@ -71,5 +73,7 @@ void use([[maybe_unused]] Mesh& mesh, const CGAL::Bbox_3& box) {
   annotate(Mesh::Vertex_index(0), mesh, sphere, 0.1);
 #elif CASE == 15 // an argument is no named parameter: write parameters::NAME(value)
   fitted_structures(mesh, 0.1);
+#elif CASE == 16 // the mesh that is read is const: give one that can be changed
+  IO::read_polygon_mesh("mesh.ply", std::as_const(mesh));
 #endif
 }

@@ -3,10 +3,12 @@
 #ifndef EQUIAFFINE_IO_POINT_FILES_H
 #define EQUIAFFINE_IO_POINT_FILES_H
 
+#include <equiaffine/Input_error.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/io/internal/graphs/columns_of_maps.h>
 #include <equiaffine/io/internal/graphs/maps_of_columns.h>
 #include <equiaffine/io/internal/graphs/write_polygon_file.h>
+#include <equiaffine/io/internal/shared/input_file.h>
 #include <equiaffine/io/read_points.h>
 #include <equiaffine/surface/internal/shared/indexed_polygons.h>
 #include <equiaffine/surface/internal/shared/points_of_range.h>
@@ -35,7 +37,8 @@ namespace equiaffine::IO {
 template <std::ranges::forward_range Points, internal::Parameter_chain... Parameters>
 std::vector<std::string> read_points(const std::string& path, Points& points, const Parameters&... given) {
   internal::check_map_file_parameters<internal::Joined_parameters<Parameters...>>();
-  const auto file = equiaffine::read_points<CGAL::Simple_cartesian<double>>(path);
+  auto file = equiaffine::read_points<CGAL::Simple_cartesian<double>>(path);
+  if (!file.attributes.status) file.attributes.status = internal::status_in_cells(file.header, file.cells);
   const auto parameters = internal::joined_parameters(given...);
   const std::size_t before = points.size();
   internal::append_points(points, file.mesh.points);
@@ -55,10 +58,10 @@ std::vector<std::string> read_points(const std::string& path, Points& points, co
 /// | `comments` | range of std::string | none | lines that PLY keeps |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
-/// \throw Input_error if the file cannot be written, or its format is not known.
+/// \throw Input_error if the file cannot be written, its format is not known, or two columns would have one name.
 /// \throw std::invalid_argument if a coordinate is not finite.
 template <std::ranges::forward_range Points, internal::Parameter_chain... Parameters>
-void write_points(const std::string& path, const Points& points, const Parameters&... given) {
+void write_points(const std::string& path, Points&& points, const Parameters&... given) {
   internal::check_map_file_parameters<internal::Joined_parameters<Parameters...>, internal::Point_tag,
                                       internal::Comments_tag>();
   const auto parameters = internal::joined_parameters(given...);
@@ -66,6 +69,8 @@ void write_points(const std::string& path, const Points& points, const Parameter
   Indexed_polygons mesh;
   for (const auto& element : points) mesh.points.push_back(coordinates_of(point_of(element)));
   check_points(mesh.points);
+  if (!has_extension(path, ".ply") && !has_extension(path, ".csv"))
+    throw Input_error("cannot write '" + path + "': points are written as .ply or .csv");
   internal::write_polygon_file(path, mesh, internal::columns_of_maps(points, points, parameters));
 }
 

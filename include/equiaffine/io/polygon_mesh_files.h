@@ -4,6 +4,7 @@
 #define EQUIAFFINE_IO_POLYGON_MESH_FILES_H
 
 #include <equiaffine/base/named_parameters.h>
+#include <equiaffine/function/internal/shared/explain_misuse.h>
 #include <equiaffine/io/internal/graphs/columns_of_maps.h>
 #include <equiaffine/io/internal/graphs/maps_of_columns.h>
 #include <equiaffine/io/internal/graphs/polygons_of_file.h>
@@ -14,14 +15,16 @@
 
 #include <CGAL/boost/graph/properties.h>
 
+#include <concepts>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace equiaffine::IO {
 
 /// Adds the mesh in a file, `.ply` or `.off`, to a model of CGAL's MutableFaceGraph with the numbers at its vertices,
 /// and returns the comments of the file. The names and the arguments are those of CGAL::IO::read_polygon_mesh(), which
-/// knows more formats and leaves most numbers out. Polygons stay polygons.
+/// knows more formats and leaves most numbers out; errors are exceptions here. Polygons stay polygons.
 ///
 /// A CGAL::Surface_mesh gets maps under names: `v:NAME` of double for each column NAME, of Vector_3 for three columns
 /// NAME_x, NAME_y, NAME_z, `v:normal` for nx, ny, nz, and `v:status` of Point_status, so that it has those that
@@ -40,6 +43,7 @@ template <Face_graph Graph, internal::Parameter_chain... Parameters>
 std::vector<std::string> read_polygon_mesh(const std::string& path, Graph& mesh, const Parameters&... given) {
   using Joined = internal::Joined_parameters<Parameters...>;
   internal::check_map_file_parameters<Joined, internal::Vertex_point_tag>();
+  static_assert(!std::is_const_v<Graph>, "the mesh that is read is const: give one that can be changed");
   static_assert(check_coordinates<Point_of_vertices<Graph, Joined>>());
   const Joined parameters = internal::joined_parameters(given...);
   const auto file = internal::polygons_of_file(path);
@@ -50,11 +54,11 @@ std::vector<std::string> read_polygon_mesh(const std::string& path, Graph& mesh,
 
 /// Writes a mesh with the numbers at its vertices, in the format that the extension says: `.ply` and `.csv` hold all
 /// numbers, `.obj` the normals, `.off` and `.stl` none; `.csv` holds no faces, and `.stl` has polygons cut into
-/// triangles. The file is written whole or not at all. The names and the arguments are those of
-/// CGAL::IO::write_polygon_mesh().
+/// triangles. The file is written whole or not at all. The name and the arguments are those of
+/// CGAL::IO::write_polygon_mesh(), whose parameters of precision and encoding are not needed: every double comes back.
 ///
 /// A CGAL::Surface_mesh has those of its maps written whose values are numbers or Vector_3, under their names without
-/// `v:`, and `v:status`, unless maps are given. The maps are named parameters as in read_polygon_mesh().
+/// `v:` and with `_` for blanks, commas and quotes, and `v:status`, unless maps are given. The maps are named parameters as in read_polygon_mesh().
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
@@ -63,7 +67,7 @@ std::vector<std::string> read_polygon_mesh(const std::string& path, Graph& mesh,
 /// | `comments` | range of std::string | none | lines that PLY keeps |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
-/// \throw Input_error if the file cannot be written, or its format is not known.
+/// \throw Input_error if the file cannot be written, its format is not known, or two columns would have one name.
 /// \throw std::invalid_argument if a coordinate is not finite.
 template <Face_graph Graph, internal::Parameter_chain... Parameters>
 void write_polygon_mesh(const std::string& path, const Graph& mesh, const Parameters&... given) {
@@ -73,6 +77,24 @@ void write_polygon_mesh(const std::string& path, const Graph& mesh, const Parame
   internal::write_polygon_file(path, indexed_polygons_of_graph(mesh, parameters),
                                internal::columns_of_maps(mesh, vertices_of(mesh), parameters));
 }
+
+/// \cond
+// Calls that are mistaken, see explain_misuse.h.
+template <class File, Face_graph Graph, class... Others>
+void read_polygon_mesh(const File&, const Graph&,
+                       const Others&...) requires(!std::convertible_to<File, std::string> ||
+                                                  !(internal::Parameter_chain<Others> && ...)) {
+  static_assert(std::convertible_to<File, std::string>, "a file is named by its path, a std::string");
+  internal::explain_parameters<Others...>();
+}
+template <class File, Face_graph Graph, class... Others>
+void write_polygon_mesh(const File&, const Graph&,
+                        const Others&...) requires(!std::convertible_to<File, std::string> ||
+                                                   !(internal::Parameter_chain<Others> && ...)) {
+  static_assert(std::convertible_to<File, std::string>, "a file is named by its path, a std::string");
+  internal::explain_parameters<Others...>();
+}
+/// \endcond
 
 } // namespace equiaffine::IO
 

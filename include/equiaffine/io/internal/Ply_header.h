@@ -63,7 +63,11 @@ public:
         elements.push_back(std::move(element));
       } else if (keyword == "property") {
         if (elements.empty()) fail("a property before the first element");
-        elements.back().properties.push_back(parse_property(line));
+        Ply_property property = parse_property(line);
+        auto& properties = elements.back().properties;
+        if (std::any_of(properties.begin(), properties.end(), [&](const auto& p) { return p.name == property.name; }))
+          fail("a second property '" + property.name + "'");
+        properties.push_back(std::move(property));
       } else if (keyword == "comment") {
         if (!trim(line).starts_with("made by equiaffine")) comments.emplace_back(trim(line));
       } else if (!keyword.empty() && keyword != "obj_info") fail("the word '" + std::string(keyword) + "'");

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <istream>
@@ -102,7 +103,7 @@ void read_faces(Ply_numbers& numbers, const Ply_element& element, Indexed_triang
       if (property.name != "vertex_indices" && property.name != "vertex_index") continue;
       face.clear();
       for (const double index : list) {
-        if (!(index >= 0 && index < double(mesh.points.size())))
+        if (!(index >= 0 && index < double(mesh.points.size()) && index == std::floor(index)))
           numbers.fail("face " + std::to_string(f) + " has a vertex that does not exist", "correct the file");
         face.push_back(static_cast<std::uint32_t>(index));
       }
@@ -117,6 +118,7 @@ Annotated_mesh_3<Kernel> read_elements(Ply_numbers& numbers, const std::vector<P
   Annotated_mesh_3<Kernel> result;
   bool has_vertices = false;
   for (const Ply_element& element : elements) {
+    if (element.properties.empty() && element.name != "vertex") continue; // of which there may be any number
     numbers.check_length(element);
     if (element.name == "vertex") {
       read_vertices(numbers, element, result);

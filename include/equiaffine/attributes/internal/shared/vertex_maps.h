@@ -165,7 +165,10 @@ constexpr void check_map() {
 // The key may be an element that has the value in it.
 template <class Map, class Key, class Value>
 void put_value(const Map& map, Key& key, const Value& value) {
-  put(map, key, typename boost::property_traits<Map>::value_type(value));
+  using Kept = typename boost::property_traits<Map>::value_type;
+  static_assert(std::is_constructible_v<Kept, const Value&>,
+                "this property map has values of another kind, such as vectors in the place of numbers");
+  put(map, key, Kept(value));
 }
 template <class Map, class Key, class FT>
 void put_value(const Map& map, Key& key, const std::array<FT, 3>& value) {

@@ -8,11 +8,16 @@
 #include <concepts>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 // CGAL::Surface_mesh and CGAL::Point_set_3 keep property maps under names.
 namespace equiaffine::internal {
+
+/// The types of numbers that maps under names are looked for with.
+using Numbers_of_maps = std::tuple<double, float, int, unsigned, long, unsigned long, long long, unsigned long long,
+                                   short, unsigned short, char, signed char, unsigned char, bool>;
 
 template <class Map>
 std::optional<Map> optional_map(const std::pair<Map, bool>& map) { // of CGAL 5

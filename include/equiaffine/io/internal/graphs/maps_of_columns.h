@@ -9,9 +9,13 @@
 #include <equiaffine/io/internal/shared/fail_to_read.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 // The columns of a file become property maps.
@@ -89,6 +93,19 @@ inline std::string vector_at(const std::vector<Vertex_attributes::Column>& colum
   return columns[c + 1].name == names[1] && columns[c + 2].name == names[2] ? name : "";
 }
 
+/// Fills the map of a name, of whatever numbers it has, or adds one of doubles.
+template <class Container, class Elements, class Value_in, class... T>
+void fill_numbers(Container& container, const std::string& key, const Elements& elements, const Value_in& value_in,
+                  std::tuple<T...>) {
+  using Maps = Named_maps<Container>;
+  const auto fill_existing = [&]<class Number>(Number) {
+    const auto map = Maps::template find<Number>(container, key);
+    if (map) fill_map(*map, elements, [&](std::size_t row) { return static_cast<Number>(value_in(row)); });
+    return map.has_value();
+  };
+  if (!(fill_existing(T()) || ...)) fill_map(Maps::template add<double>(container, key), elements, value_in);
+}
+
 /// Adds a map for every column to a container that has maps under names, and one for every three that are a vector.
 template <class Container, class Elements>
 void add_named_maps(Container& container, Elements&& elements, const Vertex_attributes& attributes) {
@@ -97,8 +114,9 @@ void add_named_maps(Container& container, Elements&& elements, const Vertex_attr
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const std::string vector = vector_at(columns, c);
     if (vector.empty()) {
-      fill_map(Maps::template add<double>(container, Maps::key(columns[c].name)), elements,
-               [&](std::size_t row) { return columns[c].values[row]; });
+      fill_numbers(
+          container, Maps::key(columns[c].name), elements, [&](std::size_t row) { return columns[c].values[row]; },
+          Numbers_of_maps());
       continue;
     }
     fill_map(Maps::template add<typename Maps::Vector_3>(container, Maps::key(vector)), elements, [&](std::size_t row) {
@@ -114,9 +132,29 @@ void add_named_maps(Container& container, Elements&& elements, const Vertex_attr
 /// Adds points to a container, or to a point set, which calls that `insert`.
 template <class Points, class Added>
 void append_points(Points& points, const std::vector<Added>& added) {
+  if constexpr (!Point_set<Points>)
+    static_assert(
+        std::is_constructible_v<typename Points::value_type, double, double, double>,
+        "points are read into a container of points, or into a CGAL::Point_set_3, which keeps what comes with "
+        "them");
   for (const Added& p : added)
     if constexpr (Point_set<Points>) points.insert(typename Points::Point_3(p.x(), p.y(), p.z()));
     else points.push_back(typename Points::value_type(p.x(), p.y(), p.z()));
+}
+
+/// The statuses whose words are the column `status` of a table, if there is one and it has no other words.
+inline std::optional<std::vector<Point_status>> status_in_cells(const std::vector<std::string>& header,
+                                                                const std::vector<std::string>& cells) {
+  const auto place = std::size_t(std::find(header.begin(), header.end(), "status") - header.begin());
+  if (place == header.size()) return std::nullopt;
+  std::vector<Point_status> result;
+  for (std::size_t cell = place; cell < cells.size(); cell += header.size()) {
+    std::size_t i = 0;
+    while (i < number_of_point_statuses && cells[cell] != to_string(Point_status(i))) ++i;
+    if (i == number_of_point_statuses) return std::nullopt;
+    result.push_back(Point_status(i));
+  }
+  return result;
 }
 
 /// Fills the maps that are given, or if there are none, adds maps under names to a container that can have them.

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,7 +59,10 @@ auto add_polygons(Graph& graph, const Point_map& point_map, const Polygons_of_fi
   for (std::size_t f = 0; f < file.polygons.size(); ++f) {
     corners.clear();
     for (const std::uint32_t v : file.polygons[f]) corners.push_back(added[v]);
-    if (corners.size() < 3 || CGAL::Euler::add_face(corners, graph) == boost::graph_traits<Graph>::null_face())
+    if (corners.size() < 3 || std::set(corners.begin(), corners.end()).size() < corners.size())
+      fail_to_read(path, "its face " + std::to_string(f) + " has fewer than three corners, or one of them twice",
+                   "remove it, or use read_points(), which gives points and triangles");
+    if (CGAL::Euler::add_face(corners, graph) == boost::graph_traits<Graph>::null_face())
       fail_to_read(path, "its face " + std::to_string(f) + " cannot be added, since the faces are not a manifold there",
                    "orient_polygon_soup() of CGAL mends that, and read_points() gives points and triangles");
   }

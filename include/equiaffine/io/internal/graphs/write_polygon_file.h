@@ -15,9 +15,21 @@
 
 #include <algorithm>
 #include <ostream>
+#include <set>
 #include <string>
 
 namespace equiaffine::internal {
+
+/// Throws if two columns have one name, or one has that of a coordinate, since a reader would take one for the other.
+inline void check_column_names(const std::string& path, const Vertex_attributes& attributes) {
+  std::set<std::string> names = {"x", "y", "z", "X", "Y", "Z"};
+  if (attributes.status) names.insert("status");
+  for (const auto& column : attributes.columns)
+    if (!names.insert(column.name).second)
+      throw Input_error(
+          "cannot write '" + path + "': there '" + column.name +
+          "' would be the name of two property maps, or of a map and a coordinate; give one another name");
+}
 
 /// Writes polygons in the format that the extension of the path stands for, with those numbers that the format holds.
 inline void write_polygon_file(const std::string& path, const Indexed_polygons& mesh,
@@ -28,6 +40,7 @@ inline void write_polygon_file(const std::string& path, const Indexed_polygons& 
   const auto is_large = [](const auto& polygon) { return polygon.size() > 255; };
   if (format == Mesh_format::PLY && std::any_of(mesh.polygons.begin(), mesh.polygons.end(), is_large))
     throw Input_error("cannot write '" + path + "': a face has more than 255 corners; use .off");
+  check_column_names(path, attributes);
   write_whole_file(path, [&](std::ostream& stream) {
     switch (*format) {
     case Mesh_format::PLY: return write_PLY_of(stream, mesh.points, mesh.polygons, attributes);

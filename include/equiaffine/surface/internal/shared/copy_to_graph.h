@@ -20,6 +20,7 @@ namespace equiaffine::internal {
 
 template <class Kernel, class Graph, class Parameters>
 void copy_to_graph(const Isosurface_3<Kernel>& surface, Graph& graph, const Parameters& parameters) {
+  static_assert(!std::is_const_v<Graph>, "the mesh that gets the surface is const: give one that can be changed");
   using Target_vertex = typename boost::graph_traits<Graph>::vertex_descriptor;
   auto mesh = surface_mesh_of(surface);
   using Vertex = typename boost::graph_traits<decltype(surface_mesh_of(surface))>::vertex_descriptor;
