@@ -25,9 +25,9 @@ def script_of(root):
 
 def worker_of(root, module_folder):
     """Glue, library and worker as one classic script."""
-    glue = (module_folder / "module.mjs").read_text().replace("import.meta.url", "''")
+    glue = (module_folder / "module.mjs").read_text().replace("import.meta.url", "'file:///'")
     glue = glue.replace("export default Module", "const createModule = Module")
-    library = part(root / "browser/equiaffine.mjs").replace("import.meta.url", "''")
+    library = part(root / "browser/equiaffine.mjs").replace("import.meta.url", "'file:///'")
     library = re.sub(r"^(import .*|export )", "", library, flags=re.MULTILINE)
     library = re.sub(r"^import .*\n", "", library, flags=re.MULTILINE)
     return glue + "\n" + library + part(root / "browser/worker.js")

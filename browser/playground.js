@@ -82,7 +82,8 @@ function say(mistake) {
 
 // Shows another surface; what was chosen stays chosen, and the camera where it is.
 function show(page, task) {
-  const old = facts, {quantity, vectors: vector, range: typed} = choice, wasEmpty = !mesh?.size;
+  const old = facts, {quantity, range: typed} = choice, wasEmpty = !mesh?.size;
+  const name = wanted.quantity ?? quantity.name, vectorName = wanted.vectors ?? choice.vectors?.name;
   const column = i => page.columns.subarray(i * page.positions.length / 3, (i + 1) * page.positions.length / 3);
   takeSurface({facts: page.facts, positions: page.positions, triangles: page.triangles, status: page.status,
                parts: page.parts, column});
@@ -97,17 +98,30 @@ function show(page, task) {
   scene.fillSurface();
   if (task.isFine) fillQuantities();
   setCut(...choice.cut);
-  setVectors(vectors.find(({name}) => name === vector?.name) ?? null);
-  setQuantity(quantities.find(({name}) => name === quantity.name) ?? quantities[0], typed);
+  setVectors(vectors.find(each => each.name === vectorName) ?? null);
+  setQuantity(quantities.find(each => each.name === name) ?? quantities[0], name === quantity.name ? typed : null);
+  Object.assign(wanted, task.isFine ? {quantity: undefined, vectors: undefined} : {quantity: name, vectors: vectorName});
   if (task.isNew || wasEmpty) resetView();
   if (task.isFine) history.replaceState(null, '', fragment());
 }
 
+// While something moves, a surface has few columns: what it has not is shown with the next fine one.
+const wanted = {};
+const chooseAtOnce = chooseByName;
+chooseByName = (kind, name) => {
+  const isThere = {quantity: quantities, vectors}[kind].some(each => each.name === name);
+  wanted[kind] = undefined;
+  if (!name || isThere) return chooseAtOnce(kind, name);
+  wanted[kind] = name;
+  requestBoth();
+};
+
 // Colors need the quantity, the sign of the Gaussian curvature, normals, and the vectors if there are some.
 function attributesOfDrag() {
   const names = ['normal', 'gaussian_curvature', 'status'];
-  if (choice.quantity.ranges) names.push(choice.quantity.name);
-  if (choice.vectors && choice.vectors.name !== 'n') names.push(choice.vectors.name);
+  const quantity = wanted.quantity ?? choice.quantity.name, vector = wanted.vectors ?? choice.vectors?.name;
+  if (quantity !== 'plain' && quantity !== 'status') names.push(quantity);
+  if (vector && vector !== 'n') names.push(vector);
   return names.join(',');
 }
 function taskOf(isFine, isNew) {
@@ -155,8 +169,12 @@ function rowOfName(name) {
   least.addEventListener('change', () => change(1, least));
   greatest.addEventListener('change', () => change(2, greatest));
   bound();
-  row.append(label, typed, least, slider, greatest);
-  return row;
+  row.append(label, slider, typed);
+  const bounds = element('div', 'row bounds');
+  bounds.append(element('span', ''), least, greatest);
+  const both = element('div', '');
+  both.append(row, bounds);
+  return both;
 }
 
 const wholeBox = box => typeof box === 'number' ? [-box, box, -box, box, -box, box] : box;
@@ -249,10 +267,10 @@ on('nodes', 'input', event => {
 });
 on('file', 'change', event => { if (event.target.files[0]) openFile(event.target.files[0]); });
 on('stop', 'click', () => { waiting = null; state.file = null; restart(); });
-for (const [type, isOver] of [['dragover', true], ['dragleave', false], ['drop', false]])
+for (const type of ['dragover', 'dragleave', 'drop'])
   document.addEventListener(type, event => {
     event.preventDefault();
-    document.body.classList.toggle('is-dropping', isOver);
+    document.body.classList.toggle('is-dropping', type === 'dragover');
     if (type === 'drop' && event.dataTransfer.files[0]) openFile(event.dataTransfer.files[0]);
   });
 window.addEventListener('hashchange', () => {

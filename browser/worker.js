@@ -4,9 +4,9 @@
 let use;
 const library = new Promise(resolve => { use = resolve; });
 self.onmessage = async ({data: {id, wasm, kind, color, ...task}}) => {
-  if (wasm) return use(await load({wasm}));
-  const ea = await library, begin = performance.now();
+  if (wasm) return use(load({wasm}));
   try {
+    const ea = await library, begin = performance.now();
     if (kind === 'fit') ea.fit(task.name, task.bytes, task);
     else ea.sample(task.formula, task);
     const page = ea.page(color);

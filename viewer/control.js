@@ -105,6 +105,11 @@ function chooseCut(word, share) {
   setCut(word, share);
   redraw();
 }
+let chooseByName = (kind, name) => {  // quantity or vectors
+  if (kind === 'quantity') return setQuantity(quantities.find(quantity => quantity.name === name));
+  setVectors(vectors.find(vector => vector.name === name) ?? null);
+  redraw();
+};
 function stepQuantity(step) {
   const n = quantities.length;
   setQuantity(quantities[(quantities.indexOf(choice.quantity) + step + n) % n]);
@@ -171,13 +176,12 @@ document.addEventListener('keydown', event => {
 });
 
 const on = (id, type, act) => byId(id).addEventListener(type, act);
-on('quantity', 'change', event => setQuantity(quantities.find(quantity => quantity.name === event.target.value)));
+for (const kind of ['quantity', 'vectors']) on(kind, 'change', event => chooseByName(kind, event.target.value));
 on('clip', 'input', event => { choice.clip = facts.clipSteps[event.target.value]; updateColors(); });
 for (const word of scales) on(`scale-${word}`, 'click', () => chooseScale(word));
 on('edges', 'change', () => toggle('edges'));
 on('isolines', 'change', () => toggle('isolines'));
 on('marks', 'change', () => toggle('hasMarks'));
-on('vectors', 'change', event => { setVectors(vectors.find(v => v.name === event.target.value) ?? null); redraw(); });
 on('reset', 'click', resetView);
 on('cut', 'change', event => chooseCut(event.target.value, Number(byId('cut-place').value)));
 on('cut-place', 'input', event => chooseCut(choice.cut[0], Number(event.target.value)));

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Says what is wrong with the script of the page and its programs for the graphics processor:
 
-    lint.py HEADER TSC GLSLANG
+    lint.py SOURCE TSC GLSLANG
 
-HEADER is the generated one that has the script, as the page has it. The TypeScript compiler finds names that do not
+SOURCE is the generated header that has the script, as the page has it, or the root of the project for the script of the
+playground. The TypeScript compiler finds names that do not
 exist or are not used, calls with a wrong number of arguments, and errors of syntax; types of elements, which are not
 declared, are left out. Glslang compiles each program."""
 import pathlib
@@ -19,8 +20,12 @@ OPTIONS = ("--allowJs --checkJs --noEmit --target es2022 --lib es2022,dom,dom.it
 PROGRAM = re.compile(r"const (\w+(Vertex|Fragment)) = (placing \+ )?`(.*?)`;", re.DOTALL)
 
 
-def script_of(header):
-    parts = header.read_text().split("viewer_script[] = {")[1]
+def script_of(source):
+    if source.is_dir():
+        sys.path.insert(0, str(source / "browser"))
+        import make_page
+        return "const wasmBytes = new ArrayBuffer(0), workerText = '';\n" + make_page.script_of(source)
+    parts = source.read_text().split("viewer_script[] = {")[1]
     return "".join(re.findall(r'R"viewer\((.*?)\)viewer"', parts, re.DOTALL))
 
 

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tries the npm package as it is delivered: package_test.mjs TARBALL [PROGRAM]. With the program of the same library, the
+// surfaces of both are compared bit by bit.
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {mkdtempSync, readFileSync, rmSync, mkdirSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {pathToFileURL} from 'node:url';
+
+const [tarball, program] = process.argv.slice(2);
+const folder = mkdtempSync(join(tmpdir(), 'equiaffine-'));
+process.on('exit', () => rmSync(folder, {recursive: true}));
+mkdirSync(join(folder, 'node_modules'));
+execFileSync('tar', ['-xzf', tarball, '-C', join(folder, 'node_modules'), '--transform', 's/^package/equiaffine/']);
+writeFileSync(join(folder, 'use.mjs'), "export * from 'equiaffine';\n");
+const {load, Mistake} = await import(pathToFileURL(join(folder, 'use.mjs')));
+const equiaffine = await load();
+
+const torus = '(sqrt(x^2 + y^2) - R)^2 + z^2 = r^2', box = [-3, 3, -3, 3, -1, 1];
+{
+  const {positions, triangles, status, attributes} = equiaffine.mesh(torus, {constants: {R: 2, r: 0.7}, box});
+  const size = positions.length / 3;
+  assert(size > 3000 && status.length === size && attributes.nx.length === size);
+  assert.equal(size - triangles.length / 6, 0, 'the Euler characteristic of a torus');
+  for (let i = 0; i < size; ++i) {
+    const [x, y, z] = positions.subarray(3 * i), rho = Math.hypot(x, y);
+    assert(Math.abs((rho - 2) ** 2 + z ** 2 - 0.49) < 1e-13, 'vertices lie on the surface');
+    const gaussian = (rho - 2) / 0.7 / (0.7 * rho);
+    assert(Math.abs(attributes.gaussian_curvature[i] - gaussian) < 1e-11, 'the Gaussian curvature is that of a torus');
+  }
+}
+{
+  const {attributes} = equiaffine.mesh('x^2 + y^2 + z^2', {box: [-1, 1, -1, 1, -1, 1], level: 0.25, resolution: 20});
+  assert(attributes.affine_gaussian_curvature.every(K => Math.abs(K - 8) < 1e-9), 'K of a sphere is r^-3');
+}
+assert.throws(() => equiaffine.parse('x^2 + foo*y'), error =>
+    error instanceof Mistake && error.unknownName === 'foo' && error.excerpt.endsWith('^'));
+assert.throws(() => equiaffine.mesh('x +', {box}), /unexpected end/);
+assert.throws(() => equiaffine.mesh('x', {box, resolution: 5000}), /more nodes than can be numbered/);
+assert.throws(() => equiaffine.mesh('x', {box: [0, 0, 0, 0, 0, 0]}), Mistake);
+{
+  // A paraboloid as points: H = 0 and H_e is known.
+  const lines = [];
+  for (let i = -12; i <= 12; ++i)
+    for (let j = -12; j <= 12; ++j) lines.push(`${i / 12} ${j / 12} ${(i * i + j * j) / 288}`);
+  const fit = equiaffine.annotate('paraboloid.xyz', new TextEncoder().encode(lines.join('\n')), {scale: 0});
+  const middle = lines.indexOf('0 0 0'), H = fit.attributes.mean_curvature[middle];
+  assert(Math.abs(Math.abs(H) - 1) <= fit.attributes.mean_curvature_error[middle] + 1e-9, 'H_e of a paraboloid');
+  assert(Math.abs(fit.attributes.affine_mean_curvature[middle]) < 1e-3, 'H of a paraboloid is zero');
+}
+assert.throws(() => equiaffine.annotate('a.ply', new Uint8Array([1, 2, 3])), /a\.ply/);
+{
+  const before = process.memoryUsage().rss;
+  for (let i = 0; i < 200; ++i) equiaffine.mesh('x^2 + y^2 + z^2 - 1', {box: [-2, 2, -2, 2, -2, 2], resolution: 24});
+  assert(process.memoryUsage().rss < before + 2 ** 26, 'memory does not grow from call to call');
+}
+console.log('the package works');
+
+// The numbers of a binary PLY file that the program wrote.
+function readPLY(path) {
+  const bytes = readFileSync(path), end = bytes.indexOf('end_header\n') + 11, header = bytes.subarray(0, end).toString();
+  const count = name => Number(new RegExp(`element ${name} (\\d+)`).exec(header)[1]);
+  const names = [...header.matchAll(/property double (\S+)/g)].map(([, name]) => name);
+  const size = count('vertex'), faces = count('face'), stride = 8 * names.length + 1;
+  const view = new DataView(bytes.buffer, bytes.byteOffset + end);
+  const columns = names.map((name, k) => Float64Array.from({length: size},
+                                                           (_, i) => view.getFloat64(stride * i + 8 * k, true)));
+  const status = Uint8Array.from({length: size}, (_, i) => view.getUint8(stride * (i + 1) - 1));
+  const triangles = Uint32Array.from({length: 3 * faces}, (_, k) =>
+      view.getUint32(stride * size + 13 * Math.floor(k / 3) + 1 + 4 * (k % 3), true));
+  return {names, columns, status, triangles};
+}
+
+// Those of the report of the paper, and others whose operations are exact or the library's own: equal in every bit.
+const exact = {
+  'the ellipsoid': ['x^2 + 2*y^2 + 3*z^2 = 1', [-1.2, 1.2, -1.2, 1.2, -1.2, 1.2]],
+  'the blobby surface': ['(3*x)^4+(3*y)^4+(3*z)^4-45*x^2-45*y^2-45*z^2+6', [-1.2, 1.2, -1.2, 1.2, -1.2, 1.2]],
+  'the torus': ['(x^2+y^2+z^2+3.51)^2 = 16*(x^2+y^2)', [-3, 3, -3, 3, -1, 1]],
+  'a tangle': ['x^4-5*x^2+y^4-5*y^2+z^4-5*z^2+11.8', [-3, 3, -3, 3, -3, 3]],
+  'a gyroid': ['sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x)', [-4, 4, -4, 4, -4, 4]],
+  'metaballs': ['exp(-x^2-y^2-z^2)+exp(-(x-1)^2-y^2-z^2)-0.7', [-3, 3, -3, 3, -3, 3]],
+  'planes that cross': ['x*y*z', [-1, 1, -1, 1, -1, 1]],
+};
+// Functions of the C library differ in their last bits: K to within 1e-10 of its size.
+const close = {
+  'a power': ['abs(x)^2.3+abs(y)^2.3+abs(z)^2.3-1', [-1.5, 1.5, -1.5, 1.5, -1.5, 1.5]],
+  'a logarithm': ['log(1+x^2)+y^2+z^2-1', [-2, 2, -2, 2, -2, 2]],
+  'hyperbolic functions': ['tanh(x)+tan(y/3)+cosh(z)-1.6', [-2, 2, -2, 2, -2, 2]],
+};
+
+function compare(name, [formula, place], resolution, isExact) {
+  const file = join(folder, 'native.ply');
+  execFileSync(program, ['mesh', '--function', formula, '--box', ...place.map(String), '--resolution', String(resolution),
+                         '-o', file]);
+  const native = readPLY(file), here = equiaffine.mesh(formula, {box: place, resolution});
+  assert.deepEqual(here.triangles, native.triangles, `${name}: triangles`);
+  assert.deepEqual(here.status, native.status, `${name}: statuses`);
+  native.names.forEach((column, k) => {
+    const numbers = 'xyz'.includes(column) ? here.positions.filter((_, i) => i % 3 === k) : here.attributes[column];
+    if (isExact) assert.deepEqual(numbers, native.columns[k], `${name}: ${column}`);
+    else if (column === 'affine_gaussian_curvature')
+      numbers.forEach((K, i) => assert(Number.isNaN(K) ? Number.isNaN(native.columns[k][i])
+                                       : Math.abs(K - native.columns[k][i]) <= 1e-10 * Math.abs(K), `${name}: K`));
+  });
+}
+if (program) {
+  for (const resolution of [64, 128]) {
+    for (const [name, surface] of Object.entries(exact)) compare(name, surface, resolution, true);
+    for (const [name, surface] of Object.entries(close)) compare(name, surface, resolution, false);
+  }
+  console.log('its surfaces are those of the program');
+}
