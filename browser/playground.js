@@ -13,7 +13,7 @@ async function startWorker() {
   compiled ??= WebAssembly.compile(wasmBytes);
   const created = worker = new Worker(URL.createObjectURL(new Blob([workerText], {type: 'text/javascript'})));
   worker.onmessage = ({data}) => { if (created === worker) finish(data); };
-  worker.onerror = event => { if (created === worker) finish({mistake: {message: event.message, excerpt: ''}}); };
+  worker.onerror = event => { if (created === worker) finish({mistake: {message: event.message, excerpt: '', isFatal: true}}); };
   const wasm = await compiled;
   created.postMessage({wasm});
 }
@@ -36,10 +36,13 @@ function runNext() {
   worker.postMessage(message);
   setTimeout(showWork, 600);
 }
-function restart() {
+function renewWorker() {
   worker.terminate();
-  running = null;
   startWorker();
+}
+function restart() {
+  renewWorker();
+  running = null;
   showWork();
   runNext();
 }
@@ -64,6 +67,7 @@ function finish({id, page, mistake, milliseconds}) {
     if (!waiting) requestBoth();
   } else if (mistake) {
     say(mistake);
+    if (mistake.isFatal) renewWorker();  // its memory does not shrink
     if (task?.kind === 'fit') state.file = null;
   } else {
     say(null);

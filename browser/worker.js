@@ -14,6 +14,6 @@ self.onmessage = async ({data: {id, wasm, kind, color, ...task}}) => {
                      [page.positions.buffer, page.triangles.buffer, page.status.buffer, page.parts.buffer]);
   } catch (error) {
     const {message, excerpt = '', unknownName = ''} = error;
-    self.postMessage({id, mistake: {message, excerpt, unknownName}});
+    self.postMessage({id, mistake: {message, excerpt, unknownName, isFatal: !(error instanceof Mistake)}});
   }
 };
