@@ -37,7 +37,9 @@ using Vertex = Surface_mesh::Vertex_index;
 
 class Graph_files : public testing::Test {
 protected:
-  Graph_files() : folder_(std::filesystem::path(testing::TempDir()) / "equiaffine_graph_files") {
+  Graph_files() { // tests run at the same time
+    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = std::filesystem::path(testing::TempDir()) / ("equiaffine_" + name);
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }
