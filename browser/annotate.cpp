@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits to the vertices of a mesh, or to points: a unit of its own, since it is compiled to be small.
+// Fits to the vertices of a mesh, or to points: a unit of its own, which is compiled beside the other one, and to be
+// smaller.
 #include "module.h"
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/attributes/internal/shared/error_table.h>

@@ -24,6 +24,7 @@ DECLARATION = re.compile(r"^(?:class|struct|concept|enum class) (\w+)(?![\w;])",
 # What signatures show in the place of names that are internal.
 SHOWN = (
     (r"\binternal::Parameter_chain(\.\.\.)? (?=\w)", r"class\1 "),
+    (r"\binternal::Joined_parameters<Chains\.\.\.>", "NamedParameters"),
     (r"\binternal::No_parameters(?= default_values)", "auto"),
     (r"\binternal::No_parameters\b", "decltype(parameters::default_values())"),
     (r"\bParameters\b", "NamedParameters"),
@@ -77,8 +78,8 @@ def with_names_for_users(text):
 def in_group(text, group):
     """The header with references to concepts, and with all in its outer namespaces in the group by an alias of doc/Doxyfile."""
     text = re.sub(r"^ *///.*", lambda match: with_references(match[0]), text, flags=re.MULTILINE)
-    text = re.sub(r"^(namespace equiaffine(?:::parameters)? \{)$", rf"\1 /** \\begin{{{group}}} */", text, flags=re.MULTILINE)
-    return re.sub(r"^\n(\} // namespace equiaffine(?:::parameters)?)$", r"/** @} */\n\1", text, flags=re.MULTILINE)
+    text = re.sub(r"^(namespace equiaffine(?:::(?:parameters|IO))? \{)$", rf"\1 /** \\begin{{{group}}} */", text, flags=re.MULTILINE)
+    return re.sub(r"^\n(\} // namespace equiaffine(?:::(?:parameters|IO))?)$", r"/** @} */\n\1", text, flags=re.MULTILINE)
 
 
 @functools.cache
@@ -92,12 +93,13 @@ def public_headers():
 
 
 def names_in(text):
-    """The classes, concepts and functions of a header, each once, in the order of the header."""
+    """The classes, concepts and functions of a header as they are called in equiaffine, each once, in its order."""
+    namespace = "IO::" if "namespace equiaffine::IO" in text else ""
     if "namespace analytic_functions" in text or "namespace equiaffine::parameters" in text:
         return []
     found = [(match.start(), match[1]) for match in DECLARATION.finditer(text)]
     found += [(match.start(), match[1]) for match in FUNCTION.finditer(text)]
-    return list(dict.fromkeys(name for _, name in sorted(found) if name not in ("requires", "operator", "square", "std")))
+    return list(dict.fromkeys(namespace + name for _, name in sorted(found) if name not in ("requires", "operator", "square", "std")))
 
 
 def page_of(path):
