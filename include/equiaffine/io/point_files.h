@@ -13,9 +13,11 @@
 #include <equiaffine/surface/internal/shared/indexed_polygons.h>
 #include <equiaffine/surface/internal/shared/points_of_range.h>
 
+#include <CGAL/Iterator_range.h>
 #include <CGAL/Simple_cartesian.h>
 
 #include <cstddef>
+#include <iterator>
 #include <ranges>
 #include <string>
 #include <vector>
@@ -42,8 +44,7 @@ std::vector<std::string> read_points(const std::string& path, Points& points, co
   const auto parameters = internal::joined_parameters(given...);
   const std::size_t before = points.size();
   internal::append_points(points, file.mesh.points);
-  const auto added = std::ranges::subrange(std::ranges::next(std::ranges::begin(points), std::ptrdiff_t(before)),
-                                           std::ranges::end(points));
+  const auto added = CGAL::make_range(std::next(std::begin(points), std::ptrdiff_t(before)), std::end(points));
   internal::fill_maps(points, added, parameters, file.attributes, path);
   return file.attributes.comments;
 }
