@@ -16,16 +16,6 @@
 
 namespace {
 
-/// Reads a mesh or points from the bytes of a file.
-equiaffine::Annotated_mesh_3<Kernel> read_file(const std::string& name, std::string bytes) {
-  std::istringstream stream(std::move(bytes));
-  if (equiaffine::has_extension(name, ".ply")) return equiaffine::read_PLY<Kernel>(stream, name);
-  if (equiaffine::has_extension(name, ".off")) return {equiaffine::read_OFF<Kernel>(stream, name), {}};
-  if (equiaffine::has_extension(name, ".xyz")) return equiaffine::read_XYZ<Kernel>(stream, name);
-  if (equiaffine::has_extension(name, ".csv")) return equiaffine::read_CSV<Kernel>(stream, name);
-  throw equiaffine::Input_error("'" + name + "' is no file that can be read here: use one of .ply .off .xyz .csv");
-}
-
 /// The columns of structures: those of a list, then estimates of the errors.
 equiaffine::Vertex_attributes columns_of(const std::vector<equiaffine::Fitted_structure_3<double>>& structures,
                                          const char* attributes) {
@@ -51,7 +41,8 @@ EXPORTED int eq_annotate(const char* name, const char* bytes, int size, double s
   return outcome_of([&] {
     constexpr std::size_t most = 50000;
     surface = {};
-    auto file = read_file(name, std::string(bytes, std::size_t(size)));
+    std::istringstream stream(std::string(bytes, std::size_t(size)));
+    auto file = equiaffine::read_points<Kernel>(stream, name, name);
     if (file.mesh.points.size() > most)
       throw equiaffine::Input_error("'" + std::string(name) + "' has " + std::to_string(file.mesh.points.size()) +
                                     " points: here up to 50000 can be fitted, and any number by the program");

@@ -45,8 +45,8 @@ export class Equiaffine {
   }
 
   // What a page of the library shows of the last surface: its facts as JSON, and arrays of single precision.
-  page(color = '') {
-    this.#call(pointers => this.#module._eq_page(this.#text(pointers, color)));
+  page() {
+    this.#call(() => this.#module._eq_page());
     const {_eq_facts, _eq_number_of_columns, _eq_size} = this.#module, size = _eq_size(POINTS);
     const floats = this.#copy(Float32Array, POSITIONS, size * (3 + _eq_number_of_columns()));
     return {

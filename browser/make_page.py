@@ -29,7 +29,6 @@ def worker_of(root, module_folder):
     glue = glue.replace("export default Module", "const createModule = Module")
     library = part(root / "browser/equiaffine.mjs").replace("import.meta.url", "'file:///'")
     library = re.sub(r"^(import .*|export )", "", library, flags=re.MULTILINE)
-    library = re.sub(r"^import .*\n", "", library, flags=re.MULTILINE)
     return glue + "\n" + library + part(root / "browser/worker.js")
 
 

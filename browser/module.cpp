@@ -59,15 +59,14 @@ EXPORTED int eq_parse(const char* text, const char* names, const double* values,
   return outcome_of([&] { expression(text, names, values, count); });
 }
 
-/// Makes what a page shows of the surface; `color` is the attribute shown first, or empty.
-EXPORTED int eq_page(const char* color) {
+/// Makes what a page shows of the surface.
+EXPORTED int eq_page() {
   return outcome_of([&] {
     namespace internal = equiaffine::internal;
     const auto center = internal::center_of(surface.mesh.points);
     const equiaffine::Parabolic_parts parabolic(surface.mesh.triangles, surface.attributes);
-    equiaffine::Html_options options;
-    options.color = color;
-    surface.facts = internal::page_facts(surface.mesh, surface.attributes, options, center, parabolic);
+    surface.facts =
+        internal::page_facts(surface.mesh, surface.attributes, equiaffine::Html_options(), center, parabolic);
     surface.floats.clear();
     surface.floats.reserve(surface.mesh.points.size() * (3 + surface.attributes.columns.size()));
     for (const auto& p : surface.mesh.points)

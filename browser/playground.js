@@ -132,7 +132,7 @@ function taskOf(isFine, isNew) {
   const constants = Object.fromEntries(Object.entries(state.names).map(([name, [value]]) => [name, value]));
   return {kind: 'sample', formula: state.formula, constants, box: state.box, level: state.level, isFine, isNew,
           resolution: isFine ? state.nodes : Math.min(COARSE, state.nodes),
-          attributes: isFine || !scene ? ATTRIBUTES : attributesOfDrag(), color: ''};
+          attributes: isFine || !scene ? ATTRIBUTES : attributesOfDrag()};
 }
 // Now coarsely, and finely when nothing has changed for a while.
 function requestBoth(isNew = false) {
@@ -195,16 +195,19 @@ function takeBox() {
 }
 const exampleOf = () => examples.find(({formula}) => formula === state.formula);
 
+function showExample() {
+  const example = exampleOf();
+  byId('example').value = example?.name ?? '';
+  byId('example-text').textContent = example?.text ?? '';
+}
 // Puts the state into the controls.
 function showState() {
-  const example = exampleOf();
   byId('formula').value = state.formula;
   byId('box').value = state.box.join(' ');
   byId('level').value = state.level;
   byId('nodes').value = state.nodes;
   byId('nodes-text').value = state.nodes + '³';
-  byId('example').value = example?.name ?? '';
-  byId('example-text').textContent = example?.text ?? '';
+  showExample();
   fillNames();
 }
 function takeExample({formula, names, box}) {
@@ -240,8 +243,7 @@ async function openFile(file) {
   state.file = file.name;
   clearTimeout(restTimer);
   const bytes = new Uint8Array(await file.arrayBuffer());
-  request({kind: 'fit', name: file.name, bytes, scale: -1, attributes: ATTRIBUTES, color: '', isFine: true, isNew: true,
-           isKept: true});
+  request({kind: 'fit', name: file.name, bytes, scale: null, attributes: ATTRIBUTES, isFine: true, isNew: true, isKept: true});
 }
 
 byId('example').append(new Option('your own formula', ''), ...examples.map(({name}) => new Option(name, name)));
@@ -252,9 +254,7 @@ on('example', 'change', event => {
 });
 on('formula', 'input', () => {
   state.formula = byId('formula').value;
-  const example = exampleOf();
-  byId('example').value = example?.name ?? '';
-  byId('example-text').textContent = example?.text ?? '';
+  showExample();
   fillNames();
   requestBoth();
 });

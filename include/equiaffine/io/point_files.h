@@ -65,13 +65,13 @@ template <std::ranges::forward_range Points, internal::Parameter_chain... Parame
 void write_points(const std::string& path, Points&& points, const Parameters&... given) {
   internal::check_map_file_parameters<internal::Joined_parameters<Parameters...>, internal::Point_tag,
                                       internal::Comments_tag>();
+  if (!has_extension(path, ".ply") && !has_extension(path, ".csv"))
+    throw Input_error("cannot write '" + path + "': points are written as .ply or .csv");
   const auto parameters = internal::joined_parameters(given...);
   const auto point_of = point_of_element(points, parameters);
   Indexed_polygons mesh;
   for (const auto& element : points) mesh.points.push_back(coordinates_of(point_of(element)));
   check_points(mesh.points);
-  if (!has_extension(path, ".ply") && !has_extension(path, ".csv"))
-    throw Input_error("cannot write '" + path + "': points are written as .ply or .csv");
   internal::write_polygon_file(path, mesh, internal::columns_of_maps(points, points, parameters));
 }
 

@@ -63,28 +63,30 @@ Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
   return table;
 }
 
-/// Reads points from `.csv`, `.ply`, `.off` or `.xyz`, or from standard input for "-": PLY or OFF if the first word
-/// says so, otherwise CSV.
+/// Reads points in the format that the end of `extension` stands for, `.csv`, `.ply`, `.off` or `.xyz`. `name` stands for
+/// the file in messages. Throws `Input_error` for what is not a complete file of the format.
+template <class Kernel>
+Point_table_3<Kernel> read_points(std::istream& stream, const std::string& name, std::string_view extension) {
+  if (has_extension(extension, ".csv")) return read_CSV<Kernel>(stream, name);
+  if (has_extension(extension, ".ply")) return {read_PLY<Kernel>(stream, name)};
+  if (has_extension(extension, ".off")) return {{read_OFF<Kernel>(stream, name), {}}};
+  if (has_extension(extension, ".xyz")) return {read_XYZ<Kernel>(stream, name)};
+  internal::fail_to_read(name, "its extension is not known", "use one of .csv .ply .off .xyz");
+}
+
+/// Reads points from such a file, or from standard input for "-": PLY or OFF if the first word says so, otherwise CSV.
 template <class Kernel>
 Point_table_3<Kernel> read_points(const std::string& path) {
-  const auto read = [](std::istream& stream, const std::string& name, std::string_view extension) {
-    if (extension == ".ply") return Point_table_3<Kernel>{read_PLY<Kernel>(stream, name)};
-    if (extension == ".xyz") return Point_table_3<Kernel>{read_XYZ<Kernel>(stream, name)};
-    if (extension == ".off") return Point_table_3<Kernel>{{read_OFF<Kernel>(stream, name), {}}};
-    return read_CSV<Kernel>(stream, name);
-  };
   if (path == "-") {
     std::string text = internal::read_all(std::cin);
     std::string_view rest = text;
     const std::string_view word = internal::take_word(rest);
     const char* const extension = word == "ply" ? ".ply" : word.ends_with("OFF") ? ".off" : ".csv";
     std::istringstream stream(std::move(text));
-    return read(stream, "standard input", extension);
+    return read_points<Kernel>(stream, "standard input", extension);
   }
   std::ifstream file = open_input(path);
-  for (const std::string_view extension : {".csv", ".ply", ".off", ".xyz"})
-    if (has_extension(path, extension)) return read(file, path, extension);
-  internal::fail_to_read(path, "its extension is not known", "use one of .csv .ply .off .xyz");
+  return read_points<Kernel>(file, path, path);
 }
 
 /// The columns of `first` that `second` does not have, then those of `second`; the status of `second` if it has one.

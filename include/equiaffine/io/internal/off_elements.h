@@ -22,6 +22,7 @@ Indexed_triangle_mesh_3<Kernel> read_OFF_with(std::istream& stream, const std::s
   const auto [vertices, faces] = scanner.read_header();
   Indexed_triangle_mesh_3<Kernel> mesh;
   mesh.points.reserve(vertices);
+  mesh.triangles.reserve(faces);
   for (std::size_t v = 0; v < vertices; ++v) {
     const auto [x, y, z] = scanner.read_vertex();
     mesh.points.emplace_back(x, y, z);

@@ -6,9 +6,8 @@
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/io/internal/graphs/Named_maps.h>
 #include <equiaffine/io/internal/graphs/columns_of_tags.h>
+#include <equiaffine/io/internal/mesh_text.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
-
-#include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <array>
@@ -28,8 +27,7 @@ namespace equiaffine::internal {
 template <class Value>
 auto numbers_in(const Value& value) {
   if constexpr (std::is_arithmetic_v<Value>) return std::array<double, 1>{double(value)};
-  else if constexpr (requires { value.x(); })
-    return std::array<double, 3>{CGAL::to_double(value.x()), CGAL::to_double(value.y()), CGAL::to_double(value.z())};
+  else if constexpr (requires { value.x(); }) return coordinates(value);
   else {
     std::array<double, std::tuple_size_v<Value>> numbers;
     std::copy(value.begin(), value.end(), numbers.begin());

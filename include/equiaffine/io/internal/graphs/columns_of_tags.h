@@ -15,26 +15,23 @@
 // The columns of a file whose numbers a property map with a tag has.
 namespace equiaffine::internal {
 
+template <class... First, class... Second>
+Tag_list<First..., Second...> concatenated(Tag_list<First...>, Tag_list<Second...>);
+
 /// The maps that a file can hold, but those of the status and of the principal curvatures.
 using Column_tags =
-    Tag_list<Vertex_unit_normal_tag, Vertex_mean_curvature_tag, Vertex_Gaussian_curvature_tag,
-             Vertex_affine_mean_curvature_tag, Vertex_affine_Gaussian_curvature_tag, Vertex_affine_normal_tag,
-             Vertex_conormal_tag, Vertex_pick_invariant_tag, Vertex_affine_metric_tag, Vertex_affine_area_density_tag,
-             Vertex_affine_mean_curvature_error_tag, Vertex_affine_Gaussian_curvature_error_tag,
-             Vertex_affine_normal_error_tag, Vertex_conormal_error_tag, Vertex_pick_invariant_error_tag,
-             Vertex_affine_area_density_error_tag, Vertex_mean_curvature_error_tag, Vertex_Gaussian_curvature_error_tag,
-             Vertex_unit_normal_error_tag>;
+    decltype(concatenated(Tag_list<Vertex_unit_normal_tag, Vertex_mean_curvature_tag, Vertex_Gaussian_curvature_tag,
+                                   Vertex_affine_mean_curvature_tag, Vertex_affine_Gaussian_curvature_tag,
+                                   Vertex_affine_normal_tag, Vertex_conormal_tag, Vertex_pick_invariant_tag,
+                                   Vertex_affine_metric_tag, Vertex_affine_area_density_tag>(),
+                          Error_tags()));
 using Tags_of_files = Tag_list<Vertex_status_tag, Vertex_principal_curvatures_tag>;
 
-/// Refuses named parameters that are neither among these maps nor among the other tags.
-template <class Parameters, class... Others, class... Tags>
-constexpr void check_tags_of_files(Tag_list<Tags...>) {
-  check_parameters<Parameters, Vertex_status_tag, Vertex_principal_curvatures_tag, Geom_traits_tag, Verbose_tag,
-                   Others..., Tags...>();
-}
+/// Refuses named parameters that are neither these maps nor among the other tags.
 template <class Parameters, class... Others>
 constexpr void check_map_file_parameters() {
-  check_tags_of_files<Parameters, Others...>(Column_tags());
+  check_parameters_of_maps<Parameters, Vertex_status_tag, Vertex_principal_curvatures_tag, Geom_traits_tag, Verbose_tag,
+                           Others...>(Column_tags());
 }
 
 constexpr std::string_view attribute_of(Vertex_unit_normal_tag) { return "normal"; }

@@ -21,6 +21,10 @@
 // The columns of a file become property maps.
 namespace equiaffine::internal {
 
+[[noreturn]] inline void fail_without_column(const std::string& name, const std::string& path) {
+  fail_to_read(path, "it has no column '" + name + "' for a property map", "leave out the map, or name another file");
+}
+
 /// The numbers of columns of that many names, which a file has to have.
 template <std::size_t Size>
 class Required_columns {
@@ -29,9 +33,7 @@ public:
                    const std::string& path) {
     for (std::size_t i = 0; i < Size; ++i) {
       columns_[i] = find_column(attributes, names[i]);
-      if (columns_[i] == nullptr)
-        fail_to_read(path, "it has no column '" + names[i] + "' for a property map",
-                     "leave out the map, or name another file");
+      if (columns_[i] == nullptr) fail_without_column(names[i], path);
     }
   }
 
@@ -77,8 +79,7 @@ void fill_given_maps(Elements&& elements, const Parameters& parameters, const Ve
     });
   }
   if constexpr (has_parameter<Vertex_status_tag, Parameters>) {
-    if (!attributes.status)
-      fail_to_read(path, "it has no column 'status' for a property map", "leave out the map, or name another file");
+    if (!attributes.status) fail_without_column("status", path);
     fill_map(given_parameter<Vertex_status_tag>(parameters), elements,
              [&](std::size_t row) { return (*attributes.status)[row]; });
   }

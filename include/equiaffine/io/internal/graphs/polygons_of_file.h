@@ -12,10 +12,10 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <boost/graph/graph_traits.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,10 +56,13 @@ auto add_polygons(Graph& graph, const Point_map& point_map, const Polygons_of_fi
     put(point_map, added.back(), Point(p.x(), p.y(), p.z()));
   }
   std::vector<Vertex> corners;
+  std::vector<std::uint32_t> sorted;
   for (std::size_t f = 0; f < file.polygons.size(); ++f) {
     corners.clear();
     for (const std::uint32_t v : file.polygons[f]) corners.push_back(added[v]);
-    if (corners.size() < 3 || std::set(corners.begin(), corners.end()).size() < corners.size())
+    sorted = file.polygons[f];
+    std::sort(sorted.begin(), sorted.end());
+    if (corners.size() < 3 || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
       fail_to_read(path, "its face " + std::to_string(f) + " has fewer than three corners, or one of them twice",
                    "remove it, or use read_points(), which gives points and triangles");
     if (CGAL::Euler::add_face(corners, graph) == boost::graph_traits<Graph>::null_face())
