@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_MESHER_MEMOIZED_FUNCTION_3_H
 #define EQUIAFFINE_MESHER_MEMOIZED_FUNCTION_3_H
 
+#include <equiaffine/Progress_observer.h>
 #include <equiaffine/surface/Any_function_3.h>
 
 #include <bit>
@@ -42,6 +43,7 @@ public:
   explicit Memoized_function_3(Memory& memory) : memory_(&memory) {}
 
   double value(const Point_3& p) const {
+    Progress_observer::step(); // CGAL's mesher has no other place to end its work
     auto& entry = memory_->entries_[slot(p)];
     if (!(entry.point == p)) {
       entry = {p, memory_->function_.value(p)};

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_DELAUNAY_INTERNAL_CERTIFIED_SEEDING_3_H
 
 #include <equiaffine/Clip_domain_3.h>
+#include <equiaffine/Progress_observer.h>
 #include <equiaffine/delaunay/internal/Octree_3.h>
 #include <equiaffine/delaunay/internal/Seed_packing_3.h>
 #include <equiaffine/delaunay/internal/Seeding_cell_3.h>
@@ -66,6 +67,7 @@ private:
     prover_.begin_level();
     Cells next;
     for (Cell& cell : cells) {
+      Progress_observer::step();
       const CGAL::Bbox_3 box = octree_.box_of(cell.position, level_);
       if (domain_.excludes(box)) continue;
       if (prover_.is_empty(cell, box, h, is_urgent)) {

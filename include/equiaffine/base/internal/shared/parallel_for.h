@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_BASE_INTERNAL_SHARED_PARALLEL_FOR_H
 #define EQUIAFFINE_BASE_INTERNAL_SHARED_PARALLEL_FOR_H
 
+#include <equiaffine/Progress_observer.h>
+
 #include <CGAL/tags.h>
 
 #include <cstddef>
@@ -15,19 +17,21 @@
 namespace equiaffine {
 
 /// Calls f(i) for every i in [begin, end), in any order: on the threads of TBB for CGAL::Parallel_tag when CGAL is used
-/// with TBB, else one after the other. Ranges of `grain` calls or fewer are not split between threads.
+/// with TBB, else one after the other. Ranges of `grain` calls or fewer are not split between threads. A Progress_observer
+/// of the calling thread sees the loop.
 template <class ConcurrencyTag, class F>
 void parallel_for(std::size_t begin, std::size_t end, F f, [[maybe_unused]] std::size_t grain = 1) {
+  const Progress_observer::Loop loop(begin < end ? end - begin : 0);
 #ifdef CGAL_LINKED_WITH_TBB
   if constexpr (std::is_convertible_v<ConcurrencyTag, CGAL::Parallel_tag>) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain),
-                      [&](const tbb::blocked_range<std::size_t>& r) {
-                        for (std::size_t i = r.begin(); i != r.end(); ++i) f(i);
-                      });
+    loop.run_in_threads([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain),
+                        [&](const tbb::blocked_range<std::size_t>& r) { loop.run(r.begin(), r.end(), f); });
+    });
     return;
   }
 #endif
-  for (std::size_t i = begin; i < end; ++i) f(i);
+  loop.run(begin, end, f);
 }
 
 } // namespace equiaffine
