@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Unpacks the parts of the page, which are compressed by gzip and written in 85 characters, four bytes as five of them.
+// Unpacks the parts of the page, which are compressed by gzip and written seven bits a character, see make_page.py.
 
 (async () => {
-  const digits = '0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?&_>()[]{}@%$#';
+  const forbidden = [0, 13, 60];
   const unpack = id => {
-    const text = document.getElementById(id).textContent.trim(), length = Number(document.getElementById(id).dataset.length);
-    const words = new DataView(new ArrayBuffer(4 * Math.ceil(length / 4)));
-    for (let i = 0, k = 0; i < text.length; k += 4) {
-      let word = 0;
-      for (let j = 0; j < 5; ++j) word = 85 * word + digits.indexOf(text[i++]);
-      words.setUint32(k, word);
+    const {textContent: text, dataset: {length}} = document.getElementById(id), bytes = new Uint8Array(Number(length) + 2);
+    let size = 0, buffer = 0, bits = 0;
+    const put = seven => {
+      buffer = (buffer << 7 | seven) & 0x7fff;
+      bits += 7;
+      if (bits < 8) return;
+      bits -= 8;
+      bytes[size++] = buffer >> bits;
+    };
+    for (let i = 0; i < text.length; ++i) {
+      const code = text.charCodeAt(i);
+      if (code >= 128) put(forbidden[(code - 256) >> 7]);
+      put(code & 127);
     }
-    const stream = new Blob([new Uint8Array(words.buffer, 0, length)]).stream();
+    const stream = new Blob([bytes.subarray(0, length)]).stream();
     return new Response(stream.pipeThrough(new DecompressionStream('gzip')));
   };
   try {

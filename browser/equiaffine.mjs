@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The library for JavaScript: surfaces of formulas, and curvatures of meshes, with arrays as results. See index.d.ts.
 import createModule from './module.mjs';
+export {readVolume} from './volume_files.mjs';
 
 // A formula or a file that cannot be used. `excerpt` shows the place with a caret; `unknownName` is a name in the formula
 // that has no value.
@@ -28,16 +29,33 @@ export class Equiaffine {
     return this.#surface();
   }
 
+  // Levels of the volume that came last, see readVolume().
+  levelSet(volume, {level = 0, smoothing = 0, attributes = 'basic'} = {}) {
+    this.takeVolume(volume, smoothing);
+    this.extract({level, attributes});
+    return this.#surface();
+  }
+
   annotate(name, bytes, {scale = null, attributes = 'basic'} = {}) {
     this.fit(name, bytes, {scale, attributes});
     return this.#surface();
   }
 
-  // As mesh() and annotate(), for page().
+  // As mesh(), levelSet() and annotate(), for page().
   sample(formula, {constants, box, resolution, level, attributes}) {
     this.#call(pointers => this.#module._eq_mesh(...this.#formula(pointers, formula, constants),
                                                  this.#doubles(pointers, box), resolution, level,
                                                  this.#text(pointers, attributes)));
+  }
+  takeVolume({values, size, origin, steps}, smoothing) {
+    if (values.length !== size[0] * size[1] * size[2]) throw new Mistake('a volume needs a number for each node', '', '');
+    const pointer = this.#module._eq_values(values.length);
+    if (!pointer) throw new Error('there is not enough memory');
+    this.#module.HEAPF64.set(values, pointer / 8);
+    this.#call(pointers => this.#module._eq_volume(...size, this.#doubles(pointers, [origin, ...steps].flat()), smoothing));
+  }
+  extract({level, attributes}) {
+    this.#call(pointers => this.#module._eq_level_set(level, this.#text(pointers, attributes)));
   }
   fit(name, bytes, {scale, attributes}) {
     this.#call(pointers => this.#module._eq_annotate(this.#text(pointers, name), this.#bytes(pointers, bytes),
@@ -113,7 +131,8 @@ export class Equiaffine {
 }
 
 // `wasm` is the bytes of equiaffine.wasm, or a WebAssembly.Module of them; without it, they are read from beside this file.
-export async function load({wasm} = {}) {
+// `onProgress` is called now and then in a long call: with the number of its stage, the steps that are done, and all.
+export async function load({wasm, onProgress} = {}) {
   if (!wasm && globalThis.process?.versions?.node) {
     const {readFile} = await import('node:fs/promises');
     wasm = await readFile(new URL('equiaffine.wasm', import.meta.url));
@@ -121,6 +140,7 @@ export async function load({wasm} = {}) {
   wasm ??= await fetch(new URL('equiaffine.wasm', import.meta.url)).then(response => response.arrayBuffer());
   const compiled = wasm instanceof WebAssembly.Module ? wasm : await WebAssembly.compile(wasm);
   const module = await createModule({
+    onProgress,
     instantiateWasm(imports, use) {
       WebAssembly.instantiate(compiled, imports).then(instance => use(instance, compiled));
       return {};

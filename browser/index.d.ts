@@ -25,6 +25,24 @@ export interface MeshOptions {
   attributes?: string;
 }
 
+/** Samples at the nodes of a lattice: node (i, j, k) is at origin + i * steps[0] + j * steps[1] + k * steps[2]. */
+export interface Volume {
+  /** One number for each node, i fastest. NaN: none. */
+  values: Float64Array;
+  /** The nodes along each axis, two or more. */
+  size: [number, number, number];
+  origin: number[];
+  steps: [number[], number[], number[]];
+}
+
+export interface LevelSetOptions {
+  /** The surface is volume = level; 0 by default. */
+  level?: number;
+  /** The scale of a smoothing of the samples, in steps; 0, the default: none. */
+  smoothing?: number;
+  attributes?: string;
+}
+
 export interface AnnotateOptions {
   /** The scale of curvatures, a length; 0: the surface's own; null (the default): the data choose. */
   scale?: number | null;
@@ -45,11 +63,19 @@ export class Equiaffine {
   parse(formula: string, constants?: Record<string, number>): void;
   /** Meshes formula = level by Marching Cubes: every vertex lies on the surface to rounding. */
   mesh(formula: string, options: MeshOptions): Surface;
+  /** Meshes a level set of the spline through the samples of a volume, on its own lattice. */
+  levelSet(volume: Volume, options?: LevelSetOptions): Surface;
   /** Curvatures of a mesh or of points, at most 50000, by polynomials that are fitted around each: `bytes` are those of a
    *  file whose name ends with .ply, .off, .xyz or .csv. */
   annotate(name: string, bytes: Uint8Array, options?: AnnotateOptions): Surface;
 }
 
+/** Reads a volume of up to 2^24 nodes from the bytes of a file whose name ends with .nrrd, .mha, .nii or .nii.gz. */
+export function readVolume(name: string, bytes: Uint8Array): Promise<Volume>;
+
 /** Loads the module. `wasm` is the content of equiaffine.wasm, or a WebAssembly.Module of it; by default it is read from
- *  beside equiaffine.mjs. */
-export function load(options?: {wasm?: BufferSource | WebAssembly.Module}): Promise<Equiaffine>;
+ *  beside equiaffine.mjs. `onProgress` is called five times a second while a function computes. */
+export function load(options?: {
+  wasm?: BufferSource | WebAssembly.Module;
+  onProgress?: (stage: number, done: number, total: number) => void;
+}): Promise<Equiaffine>;

@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-DIGITS = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?&_>()[]{}@%$#"
+FORBIDDEN = (0, ord("\r"), ord("<"))  # characters that do not stay as they are in a script element
 
 
 def part(path):
@@ -28,22 +28,20 @@ def worker_of(root, module_folder):
     glue = (module_folder / "module.mjs").read_text().replace("import.meta.url", "'file:///'")
     glue = glue.replace("export default Module", "const createModule = Module")
     library = part(root / "browser/equiaffine.mjs").replace("import.meta.url", "'file:///'")
-    library = re.sub(r"^(import .*|export )", "", library, flags=re.MULTILINE)
+    library += part(root / "browser/volume_files.mjs")
+    library = re.sub(r"^(import .*|export {.*|export )", "", library, flags=re.MULTILINE)
     return glue + "\n" + library + part(root / "browser/worker.js")
 
 
 def packed(name, content):
-    """An element with the content, compressed."""
+    """An element with the content, compressed, seven bits a character. Where these would be a forbidden character, a
+    character of two bytes has its number among these and the next seven bits. boot.js reads this."""
     data = gzip.compress(content, 9, mtime=0)
-    padded = data + b"\0" * (-len(data) % 4)
-    digits = []
-    for k in range(0, len(padded), 4):
-        word, five = int.from_bytes(padded[k:k + 4], "big"), []
-        for _ in range(5):
-            word, digit = divmod(word, 85)
-            five.append(DIGITS[digit])
-        digits.extend(reversed(five))
-    return f'<script type="text/plain" id="{name}" data-length="{len(data)}">{"".join(digits)}</script>\n'
+    bits = "".join(f"{byte:08b}" for byte in data)
+    sevens = iter([int(bits[k:k + 7].ljust(7, "0"), 2) for k in range(0, len(bits), 7)])
+    text = "".join(chr(256 + 128 * FORBIDDEN.index(seven) + next(sevens, 0)) if seven in FORBIDDEN else chr(seven)
+                   for seven in sevens)
+    return f'<script type="text/plain" id="{name}" data-length="{len(data)}">{text}</script>\n'
 
 
 def page_of(root, module_folder):
@@ -70,5 +68,5 @@ packed("worker", worker_of(root, module_folder).encode())}{packed("script", scri
 
 if __name__ == "__main__":
     page = page_of(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))
-    pathlib.Path(sys.argv[3]).write_text(page)
+    pathlib.Path(sys.argv[3]).write_bytes(page.encode())
     print(f"{sys.argv[3]}: {len(page.encode()) // 1000} kB")

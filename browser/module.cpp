@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The library as a WebAssembly module: C functions for equiaffine.mjs. A call computes a surface, which stays until the
 // next one; arrays of it are read from the memory of the module.
-#include "module.h"
-
+#include "sample.h"
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
 #include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/attributes.h>
 #include <equiaffine/io/internal/page_arrays.h>
 #include <equiaffine/io/internal/page_facts.h>
 #include <equiaffine/io/internal/shared/Parabolic_parts.h>
-#include <equiaffine/marching_cubes.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -32,13 +29,6 @@ equiaffine::Expression_3 expression(const char* text, const char* names, const d
   return equiaffine::Expression_3(text, constants);
 }
 
-template <class Traits>
-void sample(const Traits& traits, std::size_t nodes, const char* attributes) {
-  surface.mesh = equiaffine::marching_cubes(traits, equiaffine::parameters::number_of_nodes(nodes).skip_empty_space());
-  surface.attributes = equiaffine::compute_attributes(
-      traits, surface.mesh.points, equiaffine::select_attributes(attributes), surface.mesh.vertex_status);
-}
-
 } // namespace
 
 /// Meshes the level set of a formula in a box, xmin xmax ymin ymax zmin zmax, with that many nodes per axis, and computes
@@ -47,10 +37,11 @@ EXPORTED int eq_mesh(const char* text, const char* names, const double* values, 
                      double level, const char* attributes) {
   return outcome_of([&] {
     surface = {};
-    const auto traits = equiaffine::make_analytic_traits<Kernel>(
-        expression(text, names, values, count), CGAL::Bbox_3(box[0], box[2], box[4], box[1], box[3], box[5]));
-    if (level == 0) sample(traits, std::size_t(nodes), attributes);
-    else sample(equiaffine::Level_set_traits_3(traits, level), std::size_t(nodes), attributes);
+    const equiaffine::Level_set_traits_3 level_set(
+        equiaffine::make_analytic_traits<Kernel>(expression(text, names, values, count),
+                                                 CGAL::Bbox_3(box[0], box[2], box[4], box[1], box[3], box[5])),
+        level);
+    sample(level_set, attributes, equiaffine::parameters::number_of_nodes(std::size_t(nodes)).skip_empty_space());
   });
 }
 

@@ -4,12 +4,15 @@
 #define EQUIAFFINE_BROWSER_MODULE_H
 
 #include <equiaffine/Input_error.h>
+#include <equiaffine/Progress_observer.h>
 #include <equiaffine/formula/Unknown_name_error.h>
 #include <equiaffine/surface/Isosurface_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 
+#include <chrono>
 #include <cstdint>
+#include <emscripten.h>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -35,9 +38,18 @@ inline Failure failure;
 
 enum Outcome { DONE, MISTAKE, NO_MEMORY, FAILED };
 
-/// Calls `compute()`; what it throws becomes an outcome and a sentence.
+/// Calls `compute()`; what it throws becomes an outcome and a sentence. JavaScript sees how far it is.
 template <class Compute>
 Outcome outcome_of(const Compute& compute) {
+  const equiaffine::Progress_observer observer(
+      [](const equiaffine::Progress_observer::Stage& stage) {
+        EM_ASM(
+            {
+              if (Module.onProgress) Module.onProgress($0, $1, $2);
+            },
+            int(stage.number), int(stage.done), int(stage.total));
+      },
+      std::chrono::milliseconds(200));
   failure = {};
   const auto fail = [](Outcome outcome, const std::string& message) {
     surface = {};

@@ -4,8 +4,9 @@
 
 const COARSE = 64, REST = 250, LONG = 1500;  // nodes; milliseconds
 const ATTRIBUTES = 'all,quadric_defect,shape_index,curvedness';
-// names: {NAME: [value, least, greatest]}; file: the one that is shown in the place of a formula.
+// names: {NAME: [value, least, greatest]}; file: the name of the one that is shown in the place of a formula.
 const state = {formula: '', names: {}, box: [-1, 1, -1, 1, -1, 1], nodes: 96, level: 0, file: null};
+let volume = null;  // the bytes of that file and the worker that has read them, if it is a volume
 
 let worker = null, compiled = null, running = null, waiting = null, count = 0, restTimer = 0, clock = 0;
 
@@ -21,6 +22,7 @@ async function startWorker() {
 // One task runs, and the last of those that came since waits. A task that takes long is ended for the next one.
 function request(task) {
   waiting = task;
+  byId('stage').setAttribute('aria-busy', true);
   if (!running) return runNext();
   clearTimeout(clock);
   if (!running.isKept)
@@ -31,8 +33,8 @@ function runNext() {
   running = waiting;
   waiting = null;
   if (!running) return;
-  Object.assign(running, {id: ++count, begin: performance.now()});
-  const {isFine, isKept, begin, ...message} = running;
+  Object.assign(running, {id: ++count, begin: performance.now(), progress: ''});
+  const {isFine, isKept, begin, progress, ...message} = running;
   worker.postMessage(message);
   setTimeout(showWork, 600);
 }
@@ -52,14 +54,19 @@ function showWork() {
   byId('working').hidden = !isLong;
   if (!isLong) return;
   const seconds = Math.round((performance.now() - running.begin) / 1000);
-  byId('working-text').textContent = `${running.kind === 'fit' ? 'fitting ' + running.name : 'computing'}, ${seconds} s`;
+  byId('working-text').textContent = `${running.name ?? 'computing'}: ${running.progress}${seconds} s`;
   setTimeout(showWork, 500);
 }
 
-function finish({id, page, mistake, milliseconds}) {
+function finish({id, page, level, progress, mistake, milliseconds}) {
   if (id !== undefined && running?.id !== id) return;
+  if (progress) {
+    running.progress = `step ${progress.stage}, ${Math.floor(100 * progress.done / progress.total)} %, `;
+    return;
+  }
   const task = running;
   running = null;
+  if (!waiting && (mistake || task?.isFine)) byId('stage').setAttribute('aria-busy', false);
   showWork();
   if (mistake?.unknownName && !(mistake.unknownName in state.names) && !state.file) {
     state.names[mistake.unknownName] = [1, 0, 2];
@@ -68,14 +75,30 @@ function finish({id, page, mistake, milliseconds}) {
   } else if (mistake) {
     say(mistake);
     if (mistake.isFatal) renewWorker();  // its memory does not shrink
-    if (task?.kind === 'fit') state.file = null;
+    if (task?.kind === 'file') forgetFile();
   } else {
     say(null);
+    if (level !== undefined) takeLevel(task, level);
     show(page, task);
     const size = task.resolution ? `${task.resolution}³ nodes: ` : '';
     byId('cost').textContent = `${size}${mesh.size.toLocaleString('en')} vertices in ${Math.max(1, Math.round(milliseconds))} ms`;
   }
   runNext();
+}
+
+function forgetFile() {
+  state.file = null;
+  if (!volume) return;
+  volume = null;
+  state.level = byId('level').value = 0;
+  byId('smoothing-row').hidden = true;
+}
+// A volume has been read, and its level set is shown.
+function takeLevel(task, level) {
+  if (task.kind === 'file') volume = {name: task.name, bytes: task.bytes, worker};
+  state.level = level;
+  if (document.activeElement !== byId('level')) byId('level').value = Number(level.toPrecision(6));
+  byId('smoothing-row').hidden = false;
 }
 
 function say(mistake) {
@@ -136,7 +159,7 @@ function taskOf(isFine, isNew) {
 }
 // Now coarsely, and finely when nothing has changed for a while.
 function requestBoth(isNew = false) {
-  state.file = null;
+  forgetFile();
   request(taskOf(false, isNew));
   clearTimeout(restTimer);
   restTimer = setTimeout(() => request(taskOf(true, false)), REST);
@@ -239,11 +262,20 @@ function followFormula() {
   return JSON.stringify(state) !== before;
 }
 
+const smoothingOfVolume = () => Math.max(0, byId('smoothing').valueAsNumber || 0);
 async function openFile(file) {
+  forgetFile();
   state.file = file.name;
   clearTimeout(restTimer);
   const bytes = new Uint8Array(await file.arrayBuffer());
-  request({kind: 'fit', name: file.name, bytes, scale: null, attributes: ATTRIBUTES, isFine: true, isNew: true, isKept: true});
+  request({kind: 'file', name: file.name, bytes, smoothing: smoothingOfVolume(), attributes: ATTRIBUTES, isFine: true,
+           isNew: true, isKept: true});
+}
+// Another level set of the volume that is shown. A new worker gets the volume again.
+function requestLevel() {
+  const {name, bytes, worker: owner} = volume, isThere = owner === worker;
+  request({kind: isThere ? 'level' : 'file', name, ...(isThere ? {} : {bytes}), level: state.level,
+           smoothing: smoothingOfVolume(), attributes: ATTRIBUTES, isFine: true, isKept: true});
 }
 
 byId('example').append(new Option('your own formula', ''), ...examples.map(({name}) => new Option(name, name)));
@@ -262,7 +294,8 @@ on('box', 'change', takeBox);
 on('level', 'input', event => {
   if (!Number.isFinite(event.target.valueAsNumber)) return;
   state.level = event.target.valueAsNumber;
-  requestBoth();
+  if (volume) requestLevel();
+  else requestBoth();
 });
 on('nodes', 'input', event => {
   state.nodes = Number(event.target.value);
@@ -270,7 +303,12 @@ on('nodes', 'input', event => {
   requestBoth();
 });
 on('file', 'change', event => { if (event.target.files[0]) openFile(event.target.files[0]); });
-on('stop', 'click', () => { waiting = null; state.file = null; restart(); });
+on('smoothing', 'change', () => { if (volume) requestLevel(); });
+on('stop', 'click', () => {
+  waiting = null;
+  if (!volume) forgetFile();
+  restart();
+});
 for (const type of ['dragover', 'dragleave', 'drop'])
   document.addEventListener(type, event => {
     event.preventDefault();

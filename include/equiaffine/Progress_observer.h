@@ -46,7 +46,9 @@ class Progress_observer {
 public:
   /// How far the current stage is. Stages count from 1.
   struct Stage {
-    std::size_t number, done, total;
+    std::size_t number; ///< of the stage
+    std::size_t done;   ///< steps of it, by all threads
+    std::size_t total;  ///< steps that it has
   };
   using Function = std::function<void(const Stage&)>; ///< what looks
   using Clock = std::chrono::steady_clock;            ///< what measures intervals

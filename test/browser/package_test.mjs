@@ -7,6 +7,7 @@ import {mkdtempSync, readFileSync, rmSync, mkdirSync, writeFileSync} from 'node:
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
+import {deflateSync, gzipSync} from 'node:zlib';
 
 const [tarball, program] = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), 'equiaffine-'));
@@ -14,8 +15,9 @@ process.on('exit', () => rmSync(folder, {recursive: true}));
 mkdirSync(join(folder, 'node_modules'));
 execFileSync('tar', ['-xzf', tarball, '-C', join(folder, 'node_modules'), '--transform', 's/^package/equiaffine/']);
 writeFileSync(join(folder, 'use.mjs'), "export * from 'equiaffine';\n");
-const {load, Mistake} = await import(pathToFileURL(join(folder, 'use.mjs')));
-const equiaffine = await load();
+const {load, Mistake, readVolume} = await import(pathToFileURL(join(folder, 'use.mjs')));
+const progress = [];
+const equiaffine = await load({onProgress: (...step) => progress.push(step)});
 
 const torus = '(sqrt(x^2 + y^2) - R)^2 + z^2 = r^2', box = [-3, 3, -3, 3, -1, 1];
 {
@@ -49,12 +51,44 @@ assert.throws(() => equiaffine.mesh('x', {box: [0, 0, 0, 0, 0, 0]}), Mistake);
   assert(Math.abs(Math.abs(H) - 1) <= fit.attributes.mean_curvature_error[middle] + 1e-9, 'H_e of a paraboloid');
   assert(Math.abs(fit.attributes.affine_mean_curvature[middle]) < 1e-3, 'H of a paraboloid is zero');
 }
+{
+  // A ball as a volume, in a header of each format.
+  const n = 24, values = new Float32Array(n ** 3);
+  for (let k = 0; k < n ** 3; ++k)
+    values[k] = Math.hypot(k % n - 11.5, Math.floor(k / n) % n - 11.5, Math.floor(k / n / n) - 11.5) ** 2 / 400;
+  const data = Buffer.from(values.buffer);
+  const nifti = Buffer.alloc(352);
+  nifti.writeInt32LE(348, 0);
+  [3, n, n, n].forEach((number, k) => nifti.writeInt16LE(number, 40 + 2 * k));
+  nifti.writeInt16LE(16, 70);
+  [0.1, 0.1, 0.1].forEach((step, k) => nifti.writeFloatLE(step, 80 + 4 * k));
+  nifti.writeFloatLE(352, 108);
+  const nrrd = encoding => Buffer.from(`NRRD0004\n# a comment\ntype: float\ndimension: 3\nsizes: ${n} ${n} ${n}\n` +
+      `spacings: 0.1 0.1 0.1\nendian: little\nencoding: ${encoding}\n\n`);
+  const meta = isZipped => Buffer.from(`ObjectType = Image\nNDims = 3\nCompressedData = ${isZipped}\nDimSize = ${n} ${n} ${n}\n` +
+      'ElementSpacing = 0.1 0.1 0.1\nElementType = MET_FLOAT\nElementDataFile = LOCAL\n');
+  const files = {
+    'a.nrrd': Buffer.concat([nrrd('raw'), data]), 'b.nrrd': Buffer.concat([nrrd('gzip'), gzipSync(data)]),
+    'a.mha': Buffer.concat([meta('False'), data]), 'b.mha': Buffer.concat([meta('True'), deflateSync(data)]),
+    'a.nii': Buffer.concat([nifti, data]), 'a.nii.gz': gzipSync(Buffer.concat([nifti, data])),
+  };
+  for (const [name, bytes] of Object.entries(files)) {
+    const {attributes, triangles} = equiaffine.levelSet(await readVolume(name, bytes), {level: 0.25});
+    assert(triangles.length > 3000, name);
+    assert(attributes.affine_gaussian_curvature.every(K => Math.abs(K - 1) < 0.01), `${name}: K of a unit ball is 1`);
+    for (const part of [bytes.subarray(0, bytes.length / 2), bytes.subarray(0, 100), bytes.subarray(0, 4), Buffer.alloc(0)])
+      await assert.rejects(readVolume(name, part), error => error instanceof Mistake && error.message.includes(name));
+  }
+  const bomb = Buffer.concat([Buffer.from('NRRD0004\ntype: double\ndimension: 3\nsizes: 3000 3000 3000\nencoding: gzip\n\n')]);
+  await assert.rejects(readVolume('bomb.nrrd', bomb), /up to 16777216 can be sampled/);
+}
 assert.throws(() => equiaffine.annotate('a.ply', new Uint8Array([1, 2, 3])), /a\.ply/);
 {
   const before = process.memoryUsage().rss;
   for (let i = 0; i < 200; ++i) equiaffine.mesh('x^2 + y^2 + z^2 - 1', {box: [-2, 2, -2, 2, -2, 2], resolution: 24});
   assert(process.memoryUsage().rss < before + 2 ** 26, 'memory does not grow from call to call');
 }
+assert(progress.length > 0 && progress.every(([stage, done, total]) => stage > 0 && done < total), 'progress is told');
 console.log('the package works');
 
 // The numbers of a binary PLY file that the program wrote.
@@ -113,7 +147,24 @@ function compare(name, [formula, place], resolution, isExact) {
           assert(Math.abs(here - there) <= (Math.abs(there) < 1e6 ? 1e-10 : 1e-8) * Math.abs(there), `${name}: K ${here} is not ${there}`));
   });
 }
+// Volumes that the program wrote, read here and there.
+async function compareVolume(name) {
+  const file = join(folder, name), output = join(folder, 'native.ply');
+  execFileSync(program, ['sample', '--function', '(x^2 + 2*y^2 + 3*z^2)*exp(x*y)', '--box', '-1', '1', '-1', '1', '-1', '1',
+                         '--resolution', '40', '30', '20', '--type', 'float', '-o', file]);
+  execFileSync(program, ['mesh', '--volume', file, '--isovalue', '0.4', '-o', output]);
+  const native = readPLY(output), here = equiaffine.levelSet(await readVolume(name, readFileSync(file)), {level: 0.4});
+  assert.deepEqual(here.triangles, native.triangles, `${name}: triangles`);
+  assert.deepEqual(here.status, native.status, `${name}: statuses`);
+  native.names.forEach((column, k) => {
+    const numbers = 'xyz'.includes(column) ? here.positions.filter((_, i) => i % 3 === k) : here.attributes[column];
+    eachDifference(numbers, native.columns[k], (here, there) =>
+        assert(column === 'affine_normal_angle' && Math.abs(here - there) < 1e-12, `${name}: ${column} ${here} is not ${there}`));
+  });
+}
+
 if (program) {
+  for (const name of ['v.nrrd', 'v.mha', 'v.nii', 'v.nii.gz']) await compareVolume(name);
   for (const resolution of [64, 128]) {
     for (const [name, surface] of Object.entries(exact)) compare(name, surface, resolution, true);
     for (const [name, surface] of Object.entries(close)) compare(name, surface, resolution, false);

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surfaces of functions, by Marching Cubes.
+#ifndef EQUIAFFINE_BROWSER_SAMPLE_H
+#define EQUIAFFINE_BROWSER_SAMPLE_H
+
+#include "module.h"
+#include <equiaffine/attributes.h>
+#include <equiaffine/marching_cubes.h>
+
+/// The zero set of a function becomes the surface of the module, with the attributes in a list.
+template <class Traits, class... Parameters>
+void sample(const Traits& traits, const char* attributes, const Parameters&... parameters) {
+  surface.mesh = equiaffine::marching_cubes(traits, parameters...);
+  surface.attributes = equiaffine::compute_attributes(
+      traits, surface.mesh.points, equiaffine::select_attributes(attributes), surface.mesh.vertex_status);
+}
+
+#endif
