@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_PROGRESS_OBSERVER_H
 #define EQUIAFFINE_PROGRESS_OBSERVER_H
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -27,6 +28,7 @@ namespace equiaffine {
 /// of the library that was called. Results do not depend on an observer. What CGAL computes for the library, as most of a
 /// Delaunay mesh, is seen where it asks the library for points.
 ///
+/// The function may call the library, which is not observed then. An observer is destroyed in the thread that made it.
 /// One observer in a thread hides those made before it until it is destroyed, in the reverse order of making.
 /// A step costs some 30 ns more while it is observed, and nothing otherwise.
 class Progress_observer {
@@ -55,8 +57,8 @@ public:
 
   /// Calls `function` from now on.
   explicit Progress_observer(Function function, Clock::duration interval = std::chrono::milliseconds(50))
-      : function_(std::move(function)), interval_(interval), next_(Clock::now() + interval),
-        hidden_(std::exchange(of_thread(), {this, true})) {}
+      : function_(std::move(function)), interval_(std::min<Clock::duration>(interval, std::chrono::hours(1 << 16))),
+        next_(Clock::now() + interval_), hidden_(std::exchange(of_thread(), {this, true})) {}
   ~Progress_observer() { of_thread() = hidden_; }
   Progress_observer(const Progress_observer&) = delete;
   Progress_observer& operator=(const Progress_observer&) = delete;
@@ -137,9 +139,12 @@ private:
       throw Ended();
     }
     if (!is_owner || Clock::now() < next_) return;
+    const Of_thread self = std::exchange(of_thread(), {}); // the function may use the library itself
     try {
       function_({stage_, done_.load(std::memory_order_relaxed), total_});
+      of_thread() = self;
     } catch (...) {
+      of_thread() = self;
       error_ = std::current_exception();
       is_ended_.store(true, std::memory_order_relaxed);
       throw;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "attributes/estimates.h"
 #include "commands/commands.h"
-#include "engine/Engine.h"
+#include "commands/evaluate_points.h"
 #include "output/statistics.h"
 #include "source/source.h"
 #include "source/warnings.h"
@@ -10,10 +9,7 @@
 #include <equiaffine/io/read_points.h>
 #include <equiaffine/io/write_mesh.h>
 
-#include <cmath>
-#include <limits>
 #include <optional>
-#include <variant>
 
 namespace equiaffine {
 
@@ -27,17 +23,6 @@ Mesh_format output_format(const std::string& path) {
   return *format;
 }
 
-/// Makes points with infinite or NaN coordinates OUTSIDE, whatever the function returns for them.
-void mark_points_at_infinity(const std::vector<Kernel::Point_3>& points, Vertex_attributes& attributes) {
-  if (!attributes.status) return;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Kernel::Point_3& p = points[i];
-    if (std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z())) continue;
-    (*attributes.status)[i] = Point_status::OUTSIDE;
-    for (auto& column : attributes.columns) column.values[i] = std::numeric_limits<double>::quiet_NaN();
-  }
-}
-
 } // namespace
 
 void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& progress) {
@@ -47,16 +32,7 @@ void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& 
   const Point_table_3<Kernel> table = read_points<Kernel>(options.points);
   const std::vector<Kernel::Point_3>& points = table.mesh.points;
   const Source source = make_source(options.source, progress);
-  progress.begin("computing attributes");
-  Vertex_attributes attributes = std::visit(
-      [&]<class Traits>(const Traits& function) {
-        return engine<Traits>().compute_attributes(
-            {function, options.orientation, points, options.attributes, options.estimator});
-      },
-      source.function);
-  if (options.source.estimates_errors)
-    add_estimates(estimates_at(source, options.source, points, progress), options.estimates, attributes);
-  mark_points_at_infinity(points, attributes);
+  Vertex_attributes attributes = evaluate_points(options, source, points, progress);
   progress.begin("writing");
   if (format == Mesh_format::CSV) write_CSV(output.stream(), table, attributes);
   else write_PLY(output.stream(), table.mesh, merge_attributes(table.attributes, attributes));

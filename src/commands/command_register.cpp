@@ -2,11 +2,9 @@
 #include "commands/commands.h"
 #include "commands/find_map.h"
 #include "commands/maps_view.h"
-#include "commands/what_to_try.h"
 #include "output/maps.h"
 #include "output/maps_display.h"
 #include "output/surface_output.h"
-#include "source/source.h"
 #include "system/atomic_file.h"
 
 #include <array>
@@ -40,16 +38,7 @@ void run_register(const Register_options& options, std::ostream& out, Progress& 
   const bool is_shown = options.display.shows_something();
   const Found_map found = find_map(options, progress);
   const Surface_to_register &source = found.source, &target = found.target;
-  Registration_report report = {describe(options.source.source),
-                                describe(options.target.source),
-                                found.registration,
-                                options.number_of_maps.has_value(),
-                                found.is_by_triangles,
-                                found.maps_left_out,
-                                found.tried,
-                                {}};
-  if (!report.registration.found()) report.advice = what_to_try(options, found);
-
+  const Registration_report report = report_of(options, found);
   progress.begin("writing");
   if (!report.registration.found()) outputs.remove(Output_kind::MOVED);
   outputs[Output_kind::RESULT].stream() << to_JSON(report);

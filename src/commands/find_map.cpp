@@ -2,7 +2,8 @@
 #include "commands/find_map.h"
 
 #include "commands/maps_view.h"
-#include "output/maps.h"
+#include "commands/what_to_try.h"
+#include "source/source.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/register_surfaces.h>
 #include <equiaffine/registration/contradictions_of_meshes.h>
@@ -245,6 +246,19 @@ Found_map find_map(const Register_options& options, Progress& progress) {
   Found_map found = find_by_frames(options, progress);
   if (!found.registration.found() && are_meshes(options, found)) compare_triangles(options, found, progress);
   return found;
+}
+
+Registration_report report_of(const Register_options& options, const Found_map& found) {
+  Registration_report report = {describe(options.source.source),
+                                describe(options.target.source),
+                                found.registration,
+                                options.number_of_maps.has_value(),
+                                found.is_by_triangles,
+                                found.maps_left_out,
+                                found.tried,
+                                {}};
+  if (!report.registration.found()) report.advice = what_to_try(options, found);
+  return report;
 }
 
 } // namespace equiaffine

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_SRC_COMMANDS_FIND_MAP_H
 
 #include "commands/Surface_to_register.h"
+#include "output/maps.h"
 #include "request/options.h"
 #include "system/progress.h"
 #include <equiaffine/registration/Surface_registration_3.h>
@@ -26,6 +27,9 @@ struct Found_map {
 /// are tried at multiples of the distance of their points, until there is a map. At last the triangles of two meshes are
 /// compared without curvature, since CAD parts have none to go by. Throws `Input_error`.
 Found_map find_map(const Register_options& options, Progress& progress);
+
+/// What is reported of it.
+Registration_report report_of(const Register_options& options, const Found_map& found);
 
 } // namespace equiaffine
 

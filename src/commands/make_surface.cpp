@@ -161,6 +161,10 @@ Annotated_surface annotated_surface(const Source& source, const Mesh_options& op
 
 } // namespace
 
+Annotated_surface surface_of(const Source& source, const Mesh_options& options, Progress& progress) {
+  return annotated_surface(source, options, {}, progress);
+}
+
 Made_surface make_surface(const Mesh_options& options, Progress& progress) {
   const Stopwatch stopwatch;
   const auto* const delaunay = std::get_if<Delaunay_options>(&options.method);

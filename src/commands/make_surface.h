@@ -45,6 +45,9 @@ struct Made_surface {
 /// doc/program.md on `--method remesh`.
 Made_surface make_surface(const Mesh_options& options, Progress& progress);
 
+/// Makes a surface of a source that was made before.
+Annotated_surface surface_of(const Source& source, const Mesh_options& options, Progress& progress);
+
 } // namespace equiaffine
 
 #endif

@@ -4,16 +4,12 @@
 #include "cli/parse_options.h"
 #include "commands/commands.h"
 #include "request/options.h"
+#include "system/limit_threads.h"
 #include "system/progress.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/base/internal/shared/printable.h>
 
-#ifdef CGAL_LINKED_WITH_TBB
-#include <tbb/global_control.h>
-#endif
-
 #include <exception>
-#include <memory>
 #include <new>
 #include <optional>
 #include <variant>
@@ -21,14 +17,6 @@
 namespace equiaffine {
 
 namespace {
-
-#ifdef CGAL_LINKED_WITH_TBB
-auto limit_threads(std::size_t threads) {
-  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
-}
-#else
-std::unique_ptr<int> limit_threads(std::size_t) { return nullptr; } // without TBB there is one thread
-#endif
 
 void run_command(const Options& options, const Streams& streams) {
   const auto limit = options.threads ? limit_threads(*options.threads) : nullptr;

@@ -6,9 +6,11 @@
 #include "system/kernel.h"
 #include "system/resources.h"
 #include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/Volume_3.h>
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/delaunay/Facet_sizing.h>
 #include <equiaffine/geometry/Estimator.h>
+#include <equiaffine/io/Annotated_mesh_3.h>
 #include <equiaffine/io/color_map.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
 #include <equiaffine/registration/Map_kind.h>
@@ -19,6 +21,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -63,6 +66,9 @@ struct Source_options {
   Memory_use memory_use = Memory_use::HALF;
   std::optional<double> narrow_band; ///< distances are not needed beyond so many voxels
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
+  /// What is read in the place of the file `text`, if the volume, or the mesh or points, are in memory already.
+  std::function<Volume_3<Kernel>()> volume;
+  std::function<Annotated_mesh_3<Kernel>()> data;
 };
 
 /// The page and the picture that are asked for, and their first view.

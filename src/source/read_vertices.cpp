@@ -41,23 +41,6 @@ Point_table_3<Kernel> read_foreign_vertices(const std::string& path) {
   return table;
 }
 
-/// Throws for a coordinate that is not finite, and for points that fits would refuse.
-void check_points(const std::vector<Kernel::Point_3>& points, const std::string& path) {
-  CGAL::Bbox_3 box;
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (!std::isfinite(points[v].x()) || !std::isfinite(points[v].y()) || !std::isfinite(points[v].z()))
-      fail(path, "point " + std::to_string(v) + ", counted from 0, has a coordinate that is not a finite number",
-           "correct or remove it");
-    box += points[v].bbox();
-  }
-  const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
-  if (Extent_of_fit::has(diagonal)) return;
-  std::ostringstream reason;
-  reason << "its points lie in a box with the diagonal " << diagonal << ", and fits work with " << Extent_of_fit::least
-         << " to " << Extent_of_fit::greatest;
-  fail(path, reason.str(), "choose another unit");
-}
-
 Point_table_3<Kernel> read_any_vertices(const std::string& path) {
   if (path == "-") return read_points<Kernel>(path);
   switch (file_format(path)) {
@@ -75,9 +58,25 @@ Point_table_3<Kernel> read_any_vertices(const std::string& path) {
 
 Point_table_3<Kernel> read_vertices(const std::string& path) {
   Point_table_3<Kernel> table = read_any_vertices(path);
-  if (table.mesh.points.empty()) fail(path, "it has no points", "give a mesh, or points of a surface");
-  check_points(table.mesh.points, path);
+  check_vertices(table.mesh.points, path);
   return table;
+}
+
+void check_vertices(const std::vector<Kernel::Point_3>& points, const std::string& path) {
+  if (points.empty()) fail(path, "it has no points", "give a mesh, or points of a surface");
+  CGAL::Bbox_3 box;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (!std::isfinite(points[v].x()) || !std::isfinite(points[v].y()) || !std::isfinite(points[v].z()))
+      fail(path, "point " + std::to_string(v) + ", counted from 0, has a coordinate that is not a finite number",
+           "correct or remove it");
+    box += points[v].bbox();
+  }
+  const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
+  if (Extent_of_fit::has(diagonal)) return;
+  std::ostringstream reason;
+  reason << "its points lie in a box with the diagonal " << diagonal << ", and fits work with " << Extent_of_fit::least
+         << " to " << Extent_of_fit::greatest;
+  fail(path, reason.str(), "choose another unit");
 }
 
 } // namespace equiaffine

@@ -6,6 +6,7 @@
 #include <equiaffine/io/read_points.h>
 
 #include <string>
+#include <vector>
 
 namespace equiaffine {
 
@@ -14,6 +15,10 @@ namespace equiaffine {
 /// triangles from their first corner. "-" reads PLY, OFF or CSV from standard input. Throws `Input_error` for what
 /// cannot be read, for a file without points, and for coordinates that are not finite or in an extreme unit.
 Point_table_3<Kernel> read_vertices(const std::string& path);
+
+/// Throws `Input_error` if there are no points, a coordinate is not finite, or the unit is extreme. `name` stands for where
+/// they come from.
+void check_vertices(const std::vector<Kernel::Point_3>& points, const std::string& name);
 
 } // namespace equiaffine
 

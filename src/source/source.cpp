@@ -95,6 +95,13 @@ double height_of_band(const Source_options& options, const CGAL::Bbox_3& box, do
   return 2 * std::max({radius, std::sqrt((x + y + z).squared_length()), default_radius});
 }
 
+/// The fit in the box of the options, or in that of the data, and near the data.
+Fit_traits placed_fit(const Fit_traits& fit, const Source_options& options, const std::vector<Kernel::Point_3>& data,
+                      double radius) {
+  const CGAL::Bbox_3 box = options.box ? *options.box : widened_box(data);
+  return fit.in_box(box).in_band(height_of_band(options, box, radius));
+}
+
 /// Fits the vertices of a mesh or points. Nothing is known of too few points, which is an error unless they are
 /// registered: then no map is found.
 Fit_traits make_fit(const Source_options& options, const Point_table_3<Kernel>& table, double radius,
@@ -108,11 +115,15 @@ Fit_traits make_fit(const Source_options& options, const Point_table_3<Kernel>& 
                        : options.fit.degree ? " or a smaller --degree"
                                             : ""));
   warn_of_opposed_normals(table, progress);
-  const CGAL::Bbox_3 box = options.box ? *options.box : widened_box(table.mesh.points);
-  return fit.in_box(box).in_band(height_of_band(options, box, radius));
+  return placed_fit(fit, options, table.mesh.points, radius);
 }
 
 Point_table_3<Kernel> read_data(const Source_options& options, Progress& progress) {
+  if (options.data) {
+    Point_table_3<Kernel> table{options.data()};
+    check_vertices(table.mesh.points, options.text);
+    return table;
+  }
   progress.begin("reading the vertices");
   return read_vertices(options.text);
 }
@@ -169,6 +180,7 @@ struct Fitted_spline {
 Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
   Volume_3<Kernel> volume = [&] {
     if (source.kind != Source_kind::VOLUME) return sample_source(source, progress);
+    if (source.volume) return source.volume();
     progress.begin("reading the volume");
     return source.raw ? read_raw_volume(source.text, *source.raw) : read_volume(source.text);
   }();
@@ -195,9 +207,13 @@ Source_function transformed_function(Traits traits, const Source_options& option
       std::move(traits), options.transformation.value_or(CGAL::Aff_transformation_3<Kernel>(CGAL::IDENTITY)));
 }
 
+Source source_of(const Fit_traits& fit, Indexed_triangle_mesh_3<Kernel> data, const Source_options& options) {
+  return {.function = transformed_function(fit, options), .fit = fit, .data = std::move(data)};
+}
+
 Source fitted(Point_table_3<Kernel> table, const Source_options& options, double radius, Progress& progress) {
   const Fit_traits fit = make_fit(options, table, radius, progress);
-  return {.function = transformed_function(fit, options), .fit = fit, .data = std::move(table.mesh)};
+  return source_of(fit, std::move(table.mesh), options);
 }
 
 } // namespace
@@ -219,6 +235,12 @@ Volume_3<Kernel> sample_source(const Source_options& options, Progress& progress
   };
   return options.kind == Source_kind::FIT ? sample(make_fit(options, read_data(options, progress), 0, progress), "fit")
                                           : sample(make_formula(options), "formula");
+}
+
+Source source_of_fit(const Fit_traits& fit, Indexed_triangle_mesh_3<Kernel> data, const Source_options& options,
+                     double radius) {
+  const Fit_traits placed = placed_fit(fit, options, data.points, radius);
+  return source_of(placed, std::move(data), options);
 }
 
 Source refitted(const Source& source, const Source_options& options, Progress& progress) {

@@ -31,6 +31,10 @@ struct Source {
 /// Delaunay facets of that radius. Throws `Input_error`.
 Source make_source(const Source_options& options, Progress& progress, double radius = 0);
 
+/// The source of a fit that was made before, to those data.
+Source source_of_fit(const Fit_traits& fit, Indexed_triangle_mesh_3<Kernel> data, const Source_options& options,
+                     double radius = 0);
+
 /// The source of a fit to a mesh, fitted again with other options. Throws `Input_error`.
 Source refitted(const Source& source, const Source_options& options, Progress& progress);
 

@@ -90,6 +90,24 @@ TEST(Progress_observer, sees_nothing_before_its_interval) {
   Progress_observer::step();
 }
 
+TEST(Progress_observer, may_use_the_library_itself) {
+  int calls = 0, steps = 0;
+  const Progress_observer observer(
+      [&](const Stage&) {
+        ++calls;
+        parallel_for<CGAL::Parallel_if_available_tag>(0, 3, [](std::size_t) { Progress_observer::step(); });
+      },
+      at_every_step);
+  parallel_for<CGAL::Sequential_tag>(0, 5, [&](std::size_t) { ++steps; });
+  EXPECT_EQ(calls, 5);
+  EXPECT_EQ(steps, 5);
+}
+
+TEST(Progress_observer, takes_any_interval) {
+  const Progress_observer observer([](const Stage&) { FAIL(); }, Progress_observer::Clock::duration::max());
+  Progress_observer::step();
+}
+
 TEST(Progress_observer, hides_those_before_it_while_it_lives) {
   int first = 0, second = 0;
   const auto compute = [] { parallel_for<CGAL::Sequential_tag>(0, 5, [](std::size_t) {}); };

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Arrays of numpy as data of the library, and data of the library as arrays that share their memory.
+#ifndef EQUIAFFINE_PYTHON_ARRAYS_H
+#define EQUIAFFINE_PYTHON_ARRAYS_H
+
+#include "system/kernel.h"
+#include <equiaffine/Volume_3.h>
+#include <equiaffine/io/Annotated_mesh_3.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::python {
+
+namespace py = pybind11;
+
+using Points_array = py::array_t<double, py::array::c_style>;
+using Faces_array = py::array_t<std::int64_t, py::array::c_style>;
+using Status_array = py::array_t<std::uint8_t, py::array::c_style>;
+
+/// Points, triangles, columns and statuses in arrays, which it keeps alive. mesh() needs no lock of the interpreter.
+class Points_view {
+public:
+  /// Throws for a triangle with a point that there is not, and for a column of another length.
+  Points_view(Points_array points, Faces_array faces, const py::dict& columns, std::optional<Status_array> status);
+
+  /// A copy for the library.
+  Annotated_mesh_3<Kernel> mesh() const;
+
+private:
+  Points_array points_;
+  Faces_array faces_;
+  std::vector<std::pair<std::string, Points_array>> columns_;
+  std::optional<Status_array> status_;
+};
+
+/// Samples in an array of three dimensions of any type of numbers of this machine, with any strides, which it keeps alive.
+/// volume() needs no lock of the interpreter.
+class Volume_view {
+public:
+  /// `steps` has the step along each axis of the array in its rows.
+  Volume_view(py::array samples, py::array_t<double> origin, py::array_t<double> steps);
+
+  /// The samples, each converted once.
+  Volume_3<Kernel> volume() const;
+
+  bool is_float() const { return type_ == 'f'; } ///< whether they are of single precision
+
+private:
+  py::array samples_;
+  Lattice_3<Kernel> lattice_;
+  char type_;
+};
+
+/// The numbers as an array that owns them.
+py::array array_of(std::vector<double>&& values);
+
+/// {"columns": {name: array}, "status": array or None, "comments": [text]}
+py::dict columns_of(Vertex_attributes&& attributes);
+
+/// The same with "V" (n, 3), "F" (m, 3).
+py::dict arrays_of(Indexed_triangle_mesh_3<Kernel>&& mesh, Vertex_attributes&& attributes);
+
+/// {"values", "origin", "steps"}
+py::dict arrays_of(Volume_3<Kernel>&& volume);
+
+} // namespace equiaffine::python
+
+#endif

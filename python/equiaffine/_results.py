@@ -1,0 +1,256 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What functions return."""
+import enum
+
+import numpy
+
+
+class Status(enum.IntEnum):
+    """What is known at a vertex: numbers are NaN where they do not exist."""
+    REGULAR = 0
+    PARABOLIC = 1    # affine quantities do not exist
+    SINGULAR = 2     # the gradient is zero
+    OUTSIDE = 3      # nothing is known of the surface
+    UNCONVERGED = 4  # the vertex could not be put onto the surface
+
+
+class Values:
+    """Numbers at points by name, such as `values["mean_curvature"]`; vectors, as `values["normal"]`, are (n, 3).
+
+    Attributes
+    ----------
+    attributes : dict
+        Arrays of shape (n,) by name. `NAME_error` is an estimate of the error of NAME, where there is one.
+    status : numpy.ndarray or None
+        Of uint8, see `Status`.
+    """
+
+    def __init__(self, attributes, status=None):
+        self.attributes = attributes
+        self.status = status
+
+    _VECTORS = {"normal": "n", "affine_normal": "xi", "conormal": "nu"}
+
+    def __getitem__(self, name):
+        if name in self.attributes:
+            return self.attributes[name]
+        short = self._VECTORS.get(name, name)
+        for x, y, z in [[short + axis for axis in "xyz"], [f"{short}_{axis}" for axis in "xyz"]]:
+            if x in self.attributes and y in self.attributes and z in self.attributes:
+                return numpy.stack([self.attributes[axis] for axis in (x, y, z)], axis=1)
+        raise KeyError(f"{name}: there are {', '.join(self.attributes)}")
+
+    def __contains__(self, name):
+        try:
+            self[name]
+        except KeyError:
+            return False
+        return True
+
+    def __repr__(self):
+        return f"<{type(self).__name__}: {self._size()}, {len(self.attributes)} attributes>"
+
+    def _size(self):
+        return f"{len(next(iter(self.attributes.values()), ()))} points"
+
+
+class Surface(Values):
+    """A mesh, or points, with numbers at its vertices.
+
+    Attributes
+    ----------
+    V : numpy.ndarray
+        Vertices, (n, 3) of float64.
+    F : numpy.ndarray
+        Triangles, (m, 3) of int64, counterclockwise seen from the side to which normals point.
+    attributes : dict
+        Arrays of shape (n,) by name.
+    status : numpy.ndarray or None
+        Of uint8, see `Status`.
+    scale : float or None
+        The scale of curvatures of fits, None if they are the surface's own.
+    """
+
+    def __init__(self, V, F=None, attributes=None, status=None, scale=None):
+        super().__init__({} if attributes is None else attributes, status)
+        self.V = V
+        self.F = numpy.empty((0, 3), numpy.int64) if F is None else F
+        self.scale = scale
+
+    def _size(self):
+        return f"{len(self.V)} vertices, {len(self.F)} triangles"
+
+    def save(self, path):
+        """Write a .ply, .off, .obj, .stl, .csv or .vtp file with all that the format can hold, whole or not at all."""
+        from ._functions import write
+        write(path, self)
+
+    def to_pyvista(self):
+        """Return a `pyvista.PolyData` with all attributes as arrays of points."""
+        import pyvista
+        faces = numpy.column_stack([numpy.full(len(self.F), 3), self.F]).ravel()
+        result = pyvista.PolyData(self.V, faces) if len(self.F) else pyvista.PolyData(self.V)
+        for name, values in self.attributes.items():
+            result.point_data[name] = values
+        if self.status is not None:
+            result.point_data["status"] = self.status
+        return result
+
+    def to_trimesh(self):
+        """Return a `trimesh.Trimesh` with all attributes as attributes of vertices."""
+        import trimesh
+        return trimesh.Trimesh(self.V, self.F, process=False, vertex_attributes=dict(self.attributes))
+
+    def _repr_html_(self):
+        if not len(self.F):
+            return None
+        import html
+
+        from ._functions import page_of
+        return (f'<iframe style="width:100%;height:600px;border:0" title="surface" '
+                f'srcdoc="{html.escape(page_of(self))}"></iframe>')
+
+
+class Volume:
+    """Samples on a grid: that with the index i, j, k is at `origin + direction @ (spacing * (i, j, k))`.
+
+    Attributes
+    ----------
+    values : numpy.ndarray
+        Of three dimensions; NaN means no sample.
+    spacing, origin : numpy.ndarray
+        Of shape (3,).
+    direction : numpy.ndarray
+        Unit vectors along the axes of the array in the columns of a (3, 3) matrix.
+    """
+
+    def __init__(self, values, spacing=(1, 1, 1), origin=(0, 0, 0), direction=None):
+        self.values = numpy.asarray(values)
+        self.spacing = numpy.broadcast_to(numpy.asarray(spacing, float), 3)
+        self.origin = numpy.asarray(origin, float)
+        self.direction = numpy.eye(3) if direction is None else numpy.asarray(direction, float)
+
+    def __repr__(self):
+        return f"<Volume: {' x '.join(map(str, self.values.shape))} of {self.values.dtype}>"
+
+    def save(self, path):
+        """Write a .nrrd, .mhd, .mha, .nii, .nii.gz or .vti file: float32 as it is, other types as float64."""
+        from ._functions import write
+        write(path, self)
+
+
+class Fit:
+    """A function that is fitted to the vertices of a mesh or to points: zero on the surface, positive outside.
+
+    It is known near the data; elsewhere it is NaN. `fit` makes it.
+
+    Attributes
+    ----------
+    scale : float or None
+        The scale of its curvatures, None if they are the surface's own.
+    """
+
+    def __init__(self, core):
+        self._core = core
+
+    @property
+    def scale(self):
+        return self._core.scale
+
+    def __call__(self, points):
+        """Return the values at points (n, 3)."""
+        return self.evaluate(points, attributes="status")["value"]
+
+    def evaluate(self, points, **options):
+        """Return the numbers at points: see `evaluate`."""
+        from ._functions import evaluate
+        return evaluate(self, points, **options)
+
+    def mesh(self, **options):
+        """Return the surface of the fit: see `mesh`."""
+        from ._functions import mesh
+        return mesh(self, **options)
+
+    def __repr__(self):
+        return "<Fit: the surface's own curvatures>" if self.scale is None else f"<Fit at the scale {self.scale:.4g}>"
+
+
+def _matrix_of(mapping):
+    matrix = numpy.eye(4)
+    matrix[:3, :3] = mapping["matrix"]
+    matrix[:3, 3] = mapping["translation"]
+    return matrix
+
+
+class Registration:
+    """The map from a surface to another one, or why there is none. It is true if there is one.
+
+    Attributes
+    ----------
+    found : bool
+        Whether there is a map.
+    matrix : numpy.ndarray or None
+        (4, 4), which moves a point (x, y, z, 1) of the source onto the target.
+    rms : float or None
+        The root of the mean squared distance of the points that agree.
+    inliers : tuple or None
+        The parts of source and target that lie on the other surface.
+    log10_false_alarms : float or None
+        The logarithm of the number of maps as good as this one that chance would make.
+    summary : str
+        What the program says, and why there is no map.
+    report : dict
+        All that the program writes.
+    """
+
+    def __init__(self, report, summary):
+        self.report = report
+        self.summary = summary
+        self.found = report["found"]
+        self.matrix = _matrix_of(report) if self.found else None
+        self.rms = report.get("rms")
+        self.inliers = tuple(report["inliers"]) if self.found else None
+        self.log10_false_alarms = report.get("log10_false_alarms")
+
+    def apply(self, points):
+        """Return points of the source (n, 3) moved onto the target."""
+        if not self.found:
+            raise ValueError("there is no map: " + self.summary)
+        return numpy.asarray(points) @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+
+    def __bool__(self):
+        return self.found
+
+    def __repr__(self):
+        return f"<Registration: {self.summary}>"
+
+
+class Symmetries:
+    """The maps of a surface onto itself.
+
+    Attributes
+    ----------
+    decided : bool
+        Whether it is known how many there are.
+    order : int or None
+        Their number, None if there are infinitely many or if it is not decided.
+    matrices : numpy.ndarray or None
+        (k, 4, 4), the identity first; None if it is not decided.
+    dimension : int
+        In how many ways the surface slips over itself. If it is not 0, `matrices` has a map of each continuous family.
+    summary : str
+        What the program says, and why it is not decided.
+    report : dict
+        All that the program writes.
+    """
+
+    def __init__(self, report, summary):
+        self.report = report
+        self.summary = summary
+        self.decided = not report["undecided"]
+        self.order = report["order"] if self.decided else None
+        self.matrices = numpy.stack([_matrix_of(mapping) for mapping in report["maps"]]) if self.decided else None
+        self.dimension = report["continuous"]["dimension"]
+
+    def __repr__(self):
+        return f"<Symmetries: {self.summary}>"

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_COMMANDS_FIND_SYMMETRIES_H
+#define EQUIAFFINE_SRC_COMMANDS_FIND_SYMMETRIES_H
+
+#include "commands/Surface_to_register.h"
+#include "output/maps.h"
+#include "request/options.h"
+#include "system/progress.h"
+#include <equiaffine/io/Annotated_mesh_3.h>
+
+#include <optional>
+#include <string>
+
+namespace equiaffine {
+
+/// A surface whose symmetries are sought, and what was found.
+struct Found_symmetries {
+  Symmetries symmetries;
+  Indexed_triangle_mesh_3<Kernel> mesh;
+  std::optional<Surface_to_register> level_set; ///< unless the mesh is the surface
+
+  /// What the surface is called.
+  std::string name(const Source_options& source) const;
+
+  /// The surface with marks of the symmetries.
+  Annotated_mesh_3<Kernel> shown() const;
+};
+
+/// Finds symmetries. Points without faces become a mesh. Affine frames of a fit are tried where a mesh bounds no solid.
+/// Throws `Input_error`, also if nothing is known of the surface.
+Found_symmetries find_symmetries(const Symmetries_options& options, Progress& progress);
+
+/// What is reported of them.
+Symmetries_report report_of(const Symmetries_options& options, const Found_symmetries& found);
+
+} // namespace equiaffine
+
+#endif
