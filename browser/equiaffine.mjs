@@ -12,7 +12,12 @@ export class Mistake extends Error {
   }
 }
 
-const MISTAKE = 1;
+const MISTAKE = 1, MOST_PER_AXIS = 4096;
+const isFinite = number => typeof number === 'number' && Number.isFinite(number);
+function check(holds, message) {
+  if (!holds) throw new Mistake(message, '', '');
+}
+export const bytesOf = data => data instanceof Uint8Array ? data : new Uint8Array(data.buffer ?? data);
 const POSITIONS = 0, TRIANGLES = 1, STATUS = 2, PARTS = 3, POINTS = 4, FIRST_COLUMN = 5;
 
 export class Equiaffine {
@@ -43,23 +48,31 @@ export class Equiaffine {
 
   // As mesh(), levelSet() and annotate(), for page().
   sample(formula, {constants, box, resolution, level, attributes}) {
+    check(box?.length === 6 && [...box].every(isFinite), 'a box has six numbers: xmin, xmax, ymin, ymax, zmin, zmax');
+    check(Number.isInteger(resolution) && resolution >= 2 && resolution <= MOST_PER_AXIS,
+          `the resolution is a whole number from 2 to ${MOST_PER_AXIS}`);
+    check(isFinite(level), 'the level is a number');
     this.#call(pointers => this.#module._eq_mesh(...this.#formula(pointers, formula, constants),
                                                  this.#doubles(pointers, box), resolution, level,
                                                  this.#text(pointers, attributes)));
   }
   takeVolume({values, size, origin, steps}, smoothing) {
-    if (values.length !== size[0] * size[1] * size[2]) throw new Mistake('a volume needs a number for each node', '', '');
+    check(size?.length === 3 && values?.length === size[0] * size[1] * size[2], 'a volume has a number for each node');
+    check([origin, ...steps].length === 4 && [origin, ...steps].flat().length === 12, 'a volume has an origin and three steps');
+    check(isFinite(smoothing) && smoothing >= 0, 'the smoothing is a number, 0 or more');
     const pointer = this.#module._eq_values(values.length);
     if (!pointer) throw new Error('there is not enough memory');
     this.#module.HEAPF64.set(values, pointer / 8);
     this.#call(pointers => this.#module._eq_volume(...size, this.#doubles(pointers, [origin, ...steps].flat()), smoothing));
   }
   extract({level, attributes}) {
+    check(isFinite(level), 'the level is a number');
     this.#call(pointers => this.#module._eq_level_set(level, this.#text(pointers, attributes)));
   }
   fit(name, bytes, {scale, attributes}) {
-    this.#call(pointers => this.#module._eq_annotate(this.#text(pointers, name), this.#bytes(pointers, bytes),
-                                                     bytes.length, scale ?? -1, this.#text(pointers, attributes)));
+    const data = bytesOf(bytes);
+    this.#call(pointers => this.#module._eq_annotate(this.#text(pointers, name), this.#bytes(pointers, data), data.length,
+                                                     scale ?? -1, this.#text(pointers, attributes)));
   }
 
   // What a page of the library shows of the last surface: its facts as JSON, and arrays of single precision.

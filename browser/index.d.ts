@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+/// <reference lib="dom" />
 
 /** A surface. All arrays are copies, which the caller may keep or transfer. */
 export interface Surface {
@@ -58,7 +59,9 @@ export class Mistake extends Error {
   unknownName: string;
 }
 
+/** The library; load() makes it. */
 export class Equiaffine {
+  private constructor();
   /** Throws a Mistake unless the formula can be read. */
   parse(formula: string, constants?: Record<string, number>): void;
   /** Meshes formula = level by Marching Cubes: every vertex lies on the surface to rounding. */
@@ -67,11 +70,11 @@ export class Equiaffine {
   levelSet(volume: Volume, options?: LevelSetOptions): Surface;
   /** Curvatures of a mesh or of points, at most 50000, by polynomials that are fitted around each: `bytes` are those of a
    *  file whose name ends with .ply, .off, .xyz or .csv. */
-  annotate(name: string, bytes: Uint8Array, options?: AnnotateOptions): Surface;
+  annotate(name: string, bytes: Uint8Array | ArrayBuffer, options?: AnnotateOptions): Surface;
 }
 
 /** Reads a volume of up to 2^24 nodes from the bytes of a file whose name ends with .nrrd, .mha, .nii or .nii.gz. */
-export function readVolume(name: string, bytes: Uint8Array): Promise<Volume>;
+export function readVolume(name: string, bytes: Uint8Array | ArrayBuffer): Promise<Volume>;
 
 /** Loads the module. `wasm` is the content of equiaffine.wasm, or a WebAssembly.Module of it; by default it is read from
  *  beside equiaffine.mjs. `onProgress` is called five times a second while a function computes. */

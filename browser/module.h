@@ -68,7 +68,7 @@ Outcome outcome_of(const Compute& compute) {
   } catch (const std::invalid_argument& error) {
     return fail(MISTAKE, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(NO_MEMORY, "there is not enough memory: choose a lower resolution");
+    return fail(NO_MEMORY, "there is not enough memory here: choose a lower resolution, or use the program");
   } catch (const std::exception& error) {
     return fail(FAILED, error.what());
   }

@@ -3,29 +3,36 @@
 // something moves and finely when it rests; the last picture stays meanwhile. `wasmBytes` and `workerText` are given.
 
 const COARSE = 64, REST = 250, LONG = 1500;  // nodes; milliseconds
+const MOST_BYTES = 2 ** 29;  // of a file
 const ATTRIBUTES = 'all,quadric_defect,shape_index,curvedness';
-// names: {NAME: [value, least, greatest]}; file: the name of the one that is shown in the place of a formula.
-const state = {formula: '', names: {}, box: [-1, 1, -1, 1, -1, 1], nodes: 96, level: 0, file: null};
-let volume = null;  // the bytes of that file and the worker that has read them, if it is a volume
+// The formula that is asked for; names: {NAME: [value, least, greatest]}.
+const state = {formula: '', names: Object.create(null), box: [-1, 1, -1, 1, -1, 1], nodes: 96, level: 0};
+// Files in the place of the formula: the one that is asked for, and the one whose surface is shown. A volume has a level,
+// and the worker that has read it: {name, bytes, level, worker}.
+let askedFile = null, shownFile = null;
 
-let worker = null, compiled = null, running = null, waiting = null, count = 0, restTimer = 0, clock = 0;
+let worker = null, compiled = null, running = null, waiting = null, count = 0, change = 0, restTimer = 0, clock = 0;
 
 async function startWorker() {
   compiled ??= WebAssembly.compile(wasmBytes);
-  const created = worker = new Worker(URL.createObjectURL(new Blob([workerText], {type: 'text/javascript'})));
+  const address = URL.createObjectURL(new Blob([workerText], {type: 'text/javascript'})), created = new Worker(address);
+  worker = created;
   worker.onmessage = ({data}) => { if (created === worker) finish(data); };
   worker.onerror = event => { if (created === worker) finish({mistake: {message: event.message, excerpt: '', isFatal: true}}); };
   const wasm = await compiled;
   created.postMessage({wasm});
+  URL.revokeObjectURL(address);
 }
 
-// One task runs, and the last of those that came since waits. A task that takes long is ended for the next one.
+// One task runs, and the last of those that came since waits. A task is ended for the next one if it takes long, and at
+// once if it computes a file that nobody asks for any more. The fine surface waits for the coarse one of the same change.
 function request(task) {
   waiting = task;
-  byId('stage').setAttribute('aria-busy', true);
-  if (!running) return runNext();
+  setBusy(true);
   clearTimeout(clock);
-  if (!running.isKept)
+  if (!running) return runNext();
+  if (running.file && running.file !== task.file) return restart();
+  if (!running.file && running.change !== task.change)
     clock = setTimeout(() => { if (waiting) restart(); }, Math.max(0, LONG - (performance.now() - running.begin)));
 }
 function runNext() {
@@ -34,9 +41,14 @@ function runNext() {
   waiting = null;
   if (!running) return;
   Object.assign(running, {id: ++count, begin: performance.now(), progress: ''});
-  const {isFine, isKept, begin, progress, ...message} = running;
-  worker.postMessage(message);
-  setTimeout(showWork, 600);
+  worker.postMessage(messageOf(running));
+}
+// What the worker gets: a file only if it has not read it.
+function messageOf({id, file, kind, formula, constants, box, resolution, level, smoothing, attributes}) {
+  if (!file) return {id, kind, formula, constants, box, resolution, level, attributes};
+  const isThere = file.worker === worker;
+  return {id, kind: isThere ? 'level' : 'file', name: file.name, ...(isThere ? {} : {bytes: file.bytes}),
+          level: file.level, smoothing, attributes};
 }
 function renewWorker() {
   worker.terminate();
@@ -45,20 +57,30 @@ function renewWorker() {
 function restart() {
   renewWorker();
   running = null;
-  showWork();
   runNext();
+  showWork();
+}
+// Ends what runs. What waits comes next, or what is shown stays.
+function stopTask() {
+  if (!waiting) {
+    clearTimeout(restTimer);
+    askFor(shownFile);
+    setBusy(false);
+  }
+  restart();
 }
 
+const setBusy = isBusy => byId('stage').setAttribute('aria-busy', isBusy);
 function showWork() {
   const isLong = running && performance.now() - running.begin > 500;
   byId('working').hidden = !isLong;
   if (!isLong) return;
   const seconds = Math.round((performance.now() - running.begin) / 1000);
-  byId('working-text').textContent = `${running.name ?? 'computing'}: ${running.progress}${seconds} s`;
-  setTimeout(showWork, 500);
+  byId('working-text').textContent = `${running.file?.name ?? 'computing'}: ${running.progress}${seconds} s`;
 }
+setInterval(showWork, 250);
 
-function finish({id, page, level, progress, mistake, milliseconds}) {
+function finish({id, page, level, progress, mistake, unknownNames, milliseconds}) {
   if (id !== undefined && running?.id !== id) return;
   if (progress) {
     running.progress = `step ${progress.stage}, ${Math.floor(100 * progress.done / progress.total)} %, `;
@@ -66,44 +88,51 @@ function finish({id, page, level, progress, mistake, milliseconds}) {
   }
   const task = running;
   running = null;
-  if (!waiting && (mistake || task?.isFine)) byId('stage').setAttribute('aria-busy', false);
   showWork();
-  if (mistake?.unknownName && !(mistake.unknownName in state.names) && !state.file) {
-    state.names[mistake.unknownName] = [1, 0, 2];
-    fillNames();
-    if (!waiting) requestBoth();
-  } else if (mistake) {
-    say(mistake);
-    if (mistake.isFatal) renewWorker();  // its memory does not shrink
-    if (task?.kind === 'file') forgetFile();
-  } else {
-    say(null);
-    if (level !== undefined) takeLevel(task, level);
-    show(page, task);
-    const size = task.resolution ? `${task.resolution}³ nodes: ` : '';
-    byId('cost').textContent = `${size}${mesh.size.toLocaleString('en')} vertices in ${Math.max(1, Math.round(milliseconds))} ms`;
+  if (!waiting && (mistake || task?.isFine)) setBusy(false);
+  if (mistake?.isFatal) renewWorker();  // its memory does not shrink
+  if (task && task.file === askedFile) {
+    if (unknownNames) addNames(unknownNames);
+    else if (mistake) fail(task, mistake);
+    else succeed(task, page, level, milliseconds);
   }
-  runNext();
+  if (!running) runNext();
+}
+function addNames(names) {
+  for (const name of names) state.names[name] ??= [1, 0, 2];
+  fillNames();
+  if (!waiting) requestBoth();
+}
+function fail(task, mistake) {
+  say(mistake, task);
+  if (task.file && task.file !== shownFile) askFor(shownFile);
+  if (!scene) byId('message').textContent = 'No surface yet';
+}
+function succeed(task, page, level, milliseconds) {
+  say(null);
+  if (task.file && level !== undefined) Object.assign(task.file, {level, worker});
+  shownFile = task.file;
+  showLevel();
+  show(page, task);
+  const size = task.file ? '' : `${task.resolution}³ nodes: `;
+  byId('cost').textContent = `${size}${mesh.size.toLocaleString('en')} vertices in ${Math.max(1, Math.round(milliseconds))} ms`;
 }
 
-function forgetFile() {
-  state.file = null;
-  if (!volume) return;
-  volume = null;
-  state.level = byId('level').value = 0;
-  byId('smoothing-row').hidden = true;
+// Controls of a formula are hidden while a file is asked for.
+function askFor(file) {
+  askedFile = file;
+  byId('formula-part').classList.toggle('has-file', Boolean(file));
+  showLevel();
 }
-// A volume has been read, and its level set is shown.
-function takeLevel(task, level) {
-  if (task.kind === 'file') volume = {name: task.name, bytes: task.bytes, worker};
-  state.level = level;
-  if (document.activeElement !== byId('level')) byId('level').value = Number(level.toPrecision(6));
-  byId('smoothing-row').hidden = false;
+function showLevel() {
+  byId('level-row').hidden = Boolean(askedFile) && askedFile.level === undefined;
+  byId('smoothing-row').hidden = askedFile?.level === undefined;
+  if (document.activeElement !== byId('level')) byId('level').value = Number((askedFile?.level ?? state.level).toPrecision(6));
 }
 
-function say(mistake) {
+function say(mistake, task) {
   byId('mistake').hidden = !mistake;
-  byId('formula').setAttribute('aria-invalid', Boolean(mistake));
+  byId('formula').setAttribute('aria-invalid', Boolean(mistake && !task.file));
   if (mistake) byId('mistake').replaceChildren(element('b', '', mistake.message), mistake.excerpt);
 }
 
@@ -114,13 +143,19 @@ function show(page, task) {
   const column = i => page.columns.subarray(i * page.positions.length / 3, (i + 1) * page.positions.length / 3);
   takeSurface({facts: page.facts, positions: page.positions, triangles: page.triangles, status: page.status,
                parts: page.parts, column});
-  document.title = state.file ?? (exampleOf()?.name ?? 'Surface');
-  byId('title').textContent = state.file ?? 'Equi-affine curvatures of a formula';
+  document.title = shownFile?.name ?? exampleOf()?.name ?? 'Surface';
+  byId('title').textContent = shownFile?.name ?? 'Equi-affine curvatures of a formula';
   byId('message').hidden = mesh.size > 0;
   byId('message').textContent = 'No point of the surface lies in the box.';
-  if (!scene) return start();
+  if (!scene) {
+    document.body.classList.remove('is-empty');
+    start();
+    choice.picked = choice.origin = null;
+    return;
+  }
   areas = null;
   choice.picked = choice.origin = null;
+  if (task.isFine && isAddressNew) pickAsAsked();
   camera.target = add(camera.target, add(old.center, facts.center, -1));
   scene.fillSurface();
   if (task.isFine) fillQuantities();
@@ -129,7 +164,16 @@ function show(page, task) {
   setQuantity(quantities.find(each => each.name === name) ?? quantities[0], name === quantity.name ? typed : null);
   Object.assign(wanted, task.isFine ? {quantity: undefined, vectors: undefined} : {quantity: name, vectors: vectorName});
   if (task.isNew || wasEmpty) resetView();
-  if (task.isFine) history.replaceState(null, '', fragment());
+  if (task.isFine && !shownFile) history.replaceState(null, '', fragment());
+}
+
+// The vertices in an address are those of the fine surface.
+let isAddressNew = true;
+function pickAsAsked() {
+  const words = new URLSearchParams(location.hash.slice(1));
+  choice.picked = vertexAsked(words.get('pick'));
+  choice.origin = vertexAsked(words.get('from'));
+  isAddressNew = false;
 }
 
 // While something moves, a surface has few columns: what it has not is shown with the next fine one.
@@ -153,13 +197,14 @@ function attributesOfDrag() {
 }
 function taskOf(isFine, isNew) {
   const constants = Object.fromEntries(Object.entries(state.names).map(([name, [value]]) => [name, value]));
-  return {kind: 'sample', formula: state.formula, constants, box: state.box, level: state.level, isFine, isNew,
+  return {kind: 'sample', file: null, change, formula: state.formula, constants, box: state.box, level: state.level, isFine, isNew,
           resolution: isFine ? state.nodes : Math.min(COARSE, state.nodes),
           attributes: isFine || !scene ? ATTRIBUTES : attributesOfDrag()};
 }
 // Now coarsely, and finely when nothing has changed for a while.
 function requestBoth(isNew = false) {
-  forgetFile();
+  if (askedFile) askFor(null);
+  ++change;
   request(taskOf(false, isNew));
   clearTimeout(restTimer);
   restTimer = setTimeout(() => request(taskOf(true, false)), REST);
@@ -227,55 +272,60 @@ function showExample() {
 function showState() {
   byId('formula').value = state.formula;
   byId('box').value = state.box.join(' ');
-  byId('level').value = state.level;
+  showLevel();
   byId('nodes').value = state.nodes;
   byId('nodes-text').value = state.nodes + '³';
   showExample();
   fillNames();
 }
+const withoutPrototype = names => Object.assign(Object.create(null), names);
 function takeExample({formula, names, box}) {
-  Object.assign(state, {formula, names: structuredClone(names), box: wholeBox(box), level: 0});
+  Object.assign(state, {formula, names: withoutPrototype(structuredClone(names)), box: wholeBox(box), level: 0});
   showState();
   requestBoth(true);
 }
 
 // The address: f=FORMULA, box=SIX NUMBERS, nodes=N, level=NUMBER, names=NAME:VALUE:LEAST:GREATEST,...
-moreOfAddress = () => state.file ? {} : {
+moreOfAddress = () => shownFile ? {} : {
   f: encodeURIComponent(state.formula), box: state.box.join(','), nodes: state.nodes, level: state.level,
   names: [...namesInFormula()].filter(name => name in state.names)
       .map(name => [name, ...state.names[name]].join(':')).join(','),
 };
 // Returns whether the address has another formula than is shown.
 function followFormula() {
-  const asked = new URLSearchParams(location.hash.slice(1)), formula = asked.get('f');
+  const words = new URLSearchParams(location.hash.slice(1)), formula = words.get('f');
   if (!formula) return false;
-  const before = JSON.stringify(state), box = (asked.get('box') ?? '').split(',').map(Number);
-  const nodes = Number(asked.get('nodes') || 96), level = Number(asked.get('level') || 0);
-  Object.assign(state, {formula, names: {}, file: null, level: Number.isFinite(level) ? level : 0,
+  const before = JSON.stringify(state), box = (words.get('box') ?? '').split(',').map(Number);
+  const nodes = Number(words.get('nodes') || 96), level = Number(words.get('level') || 0);
+  isAddressNew = true;
+  Object.assign(state, {formula, names: Object.create(null), level: Number.isFinite(level) ? level : 0,
                         nodes: Number.isFinite(nodes) ? Math.min(256, Math.max(16, Math.round(nodes))) : 96});
   if (isBox(box)) state.box = box;
-  for (const part of (asked.get('names') ?? '').split(',')) {
+  for (const part of (words.get('names') ?? '').split(',')) {
     const [name, ...numbers] = part.split(':'), [value, least, greatest] = numbers.map(Number);
     if (/^[A-Za-z_]\w*$/.test(name) && [value, least, greatest].every(Number.isFinite) && least < greatest)
       state.names[name] = [value, least, greatest];
   }
-  return JSON.stringify(state) !== before;
+  return askedFile || JSON.stringify(state) !== before;
 }
 
-const smoothingOfVolume = () => Math.max(0, byId('smoothing').valueAsNumber || 0);
-async function openFile(file) {
-  forgetFile();
-  state.file = file.name;
-  clearTimeout(restTimer);
-  const bytes = new Uint8Array(await file.arrayBuffer());
-  request({kind: 'file', name: file.name, bytes, smoothing: smoothingOfVolume(), attributes: ATTRIBUTES, isFine: true,
-           isNew: true, isKept: true});
+// A file, or another level set of the volume that is asked for.
+function requestFile(isNew) {
+  request({file: askedFile, smoothing: Math.max(0, byId('smoothing').valueAsNumber || 0), attributes: ATTRIBUTES, isFine: true,
+           isNew});
 }
-// Another level set of the volume that is shown. A new worker gets the volume again.
-function requestLevel() {
-  const {name, bytes, worker: owner} = volume, isThere = owner === worker;
-  request({kind: isThere ? 'level' : 'file', name, ...(isThere ? {} : {bytes}), level: state.level,
-           smoothing: smoothingOfVolume(), attributes: ATTRIBUTES, isFine: true, isKept: true});
+async function openFile(file) {
+  const opened = {name: file.name};
+  clearTimeout(restTimer);
+  askFor(opened);
+  byId('smoothing').value = 0;
+  try {
+    if (file.size > MOST_BYTES) throw new Error(`it has more than ${MOST_BYTES / 2 ** 20} MB; use the program`);
+    opened.bytes = new Uint8Array(await file.arrayBuffer());
+    if (askedFile === opened) requestFile(true);
+  } catch (error) {
+    if (askedFile === opened) fail({file: opened}, {message: `cannot read '${file.name}': ${error.message}`, excerpt: ''});
+  }
 }
 
 byId('example').append(new Option('your own formula', ''), ...examples.map(({name}) => new Option(name, name)));
@@ -293,8 +343,8 @@ on('formula', 'input', () => {
 on('box', 'change', takeBox);
 on('level', 'input', event => {
   if (!Number.isFinite(event.target.valueAsNumber)) return;
-  state.level = event.target.valueAsNumber;
-  if (volume) requestLevel();
+  (askedFile ?? state).level = event.target.valueAsNumber;
+  if (askedFile) requestFile(false);
   else requestBoth();
 });
 on('nodes', 'input', event => {
@@ -303,12 +353,9 @@ on('nodes', 'input', event => {
   requestBoth();
 });
 on('file', 'change', event => { if (event.target.files[0]) openFile(event.target.files[0]); });
-on('smoothing', 'change', () => { if (volume) requestLevel(); });
-on('stop', 'click', () => {
-  waiting = null;
-  if (!volume) forgetFile();
-  restart();
-});
+on('smoothing', 'change', () => { if (askedFile) requestFile(false); });
+on('stop', 'click', stopTask);
+on('formula-again', 'click', () => requestBoth(true));
 for (const type of ['dragover', 'dragleave', 'drop'])
   document.addEventListener(type, event => {
     event.preventDefault();
@@ -321,6 +368,7 @@ window.addEventListener('hashchange', () => {
   requestBoth(true);
 });
 
+document.body.classList.add('is-empty');
 startWorker();
 if (followFormula()) {
   showState();

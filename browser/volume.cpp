@@ -44,6 +44,7 @@ EXPORTED int eq_volume(int nx, int ny, int nz, const double* placing, double smo
 EXPORTED int eq_level_set(double level, const char* attributes) {
   return outcome_of([&] {
     surface = {};
+    if (!spline) throw equiaffine::Input_error("there is no volume yet");
     sample(equiaffine::Level_set_traits_3(*spline, level), attributes);
   });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads volumes of scalars from the bytes of a file: NRRD, MetaImage and NIfTI-1, compressed or not, in ITK's frame (x to
-// the left, y to the back, z up), as the program does.
-import {Mistake} from './equiaffine.mjs';
+// the left, y to the back, z up), as the program does. What it does not understand it refuses.
+import {Mistake, bytesOf} from './equiaffine.mjs';
 
 const MOST_NODES = 2 ** 24;
 export const isVolume = name => /\.(nrrd|mha|nii(\.gz)?)$/i.test(name);
@@ -23,7 +23,7 @@ async function decompressed(name, bytes, format, most) {
       size += taken.length;
     }
   } catch {
-    refuse(name, 'its compressed data are damaged');
+    if (size < most) refuse(name, 'its compressed data are damaged, or end before the size stated in the header');
   }
   reader.cancel().catch(() => {});
   return result.subarray(0, size);
@@ -32,8 +32,9 @@ async function decompressed(name, bytes, format, most) {
 const WIDTHS = {Int8: 1, Uint8: 1, Int16: 2, Uint16: 2, Int32: 4, Uint32: 4, Float32: 4, Float64: 8};
 
 function nodesOf(name, size) {
-  if (size.length !== 3 || !size.every(n => Number.isInteger(n) && n >= 2))
-    refuse(name, `it has ${size.join(' x ')} nodes, and three axes with two or more are needed`);
+  if (size.length !== 3) refuse(name, `it has ${size.length} axes, and three are needed`);
+  if (!size.every(n => Number.isInteger(n) && n >= 2))
+    refuse(name, `it has ${size.join(' x ')} nodes, and two or more are needed along each axis`);
   const nodes = size[0] * size[1] * size[2];
   if (nodes > MOST_NODES) refuse(name, `it has ${size.join(' x ')} nodes: here up to ${MOST_NODES} can be sampled, and any number by the program`);
   return nodes;
@@ -58,58 +59,66 @@ function placed(name, values, size, origin, steps) {
   return {values, size, origin, steps};
 }
 
-// The lines KEY SEPARATOR VALUE up to the end of the header, and the position after it.
-function fieldsOf(bytes, end, separator) {
-  const text = new TextDecoder('latin1').decode(bytes.subarray(0, 2 ** 16)), match = end.exec(text);
+// The fields of a header, whose first line counts if there are several, and the position after it.
+function fieldsOf(bytes, end, line) {
+  const text = new TextDecoder('latin1').decode(bytes.subarray(0, 2 ** 20)), match = end.exec(text);
   if (!match) return null;
-  const position = match.index + match[0].length, fields = {};
-  for (const line of text.slice(0, position).split(/\r?\n/)) {
-    const [, key, value] = separator.exec(line) ?? [];
-    if (key) fields[key.toLowerCase()] = value.trim();
+  const position = match.index + match[0].length, fields = Object.create(null);
+  for (const each of text.slice(0, position).split(/\r?\n/)) {
+    const [, key, value] = line.exec(each) ?? [];
+    if (key) fields[key.trim().toLowerCase()] ??= value.trim();
   }
   return {fields, position};
 }
-const numbersIn = text => (text ?? '').match(/[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?/gi)?.map(Number) ?? [];
+// NaN stands for a word that is no number.
+const numbersIn = text => (text ?? '').split(/[\s,()]+/).filter(Boolean).map(Number);
+const isTrue = text => /^(true|t|1)/i.test(text ?? '');
 const times = (spacing, k) => [0, 1, 2].map(axis => axis === k ? spacing : 0);
 
 async function readNRRD(name, bytes) {
-  const {fields, position} = fieldsOf(bytes, /^NRRD\d{4}[^]*?\r?\n\r?\n/, /^([^#:][^:]*):=?(.*)$/) ??
+  const {fields, position} = fieldsOf(bytes, /^NRRD\d{4}[^]*?\r?\n\r?\n/, /^([^#:][^:]*):(?!=)(.*)$/) ??
       refuse(name, 'it is no NRRD file');
   if (fields['data file'] || fields.datafile) refuse(name, 'its data are in another file; convert it to one file');
-  const size = numbersIn(fields.sizes), nodes = nodesOf(name, size), words = (fields.type ?? '').replace(/_t$/, '');
+  for (const skip of ['byte skip', 'byteskip', 'line skip', 'lineskip'])
+    if (Number(fields[skip] ?? 0) !== 0) refuse(name, `its field '${skip}' is not supported`);
+  const size = numbersIn(fields.sizes), nodes = nodesOf(name, size);
+  if (Number(fields.dimension) !== 3) refuse(name, 'its dimension is not 3');
+  const words = (fields.type ?? '').toLowerCase().replace(/_t$| int$/, '');
   const type = {'signed char': 'Int8', int8: 'Int8', uchar: 'Uint8', 'unsigned char': 'Uint8', uint8: 'Uint8',
                 short: 'Int16', int16: 'Int16', 'signed short': 'Int16', ushort: 'Uint16', 'unsigned short': 'Uint16',
                 uint16: 'Uint16', int: 'Int32', int32: 'Int32', 'signed int': 'Int32', uint: 'Uint32',
                 'unsigned int': 'Uint32', uint32: 'Uint32', float: 'Float32', double: 'Float64'}[words];
-  const encoding = fields.encoding ?? 'raw';
+  const encoding = (fields.encoding ?? 'raw').toLowerCase();
   if (!['raw', 'gzip', 'gz'].includes(encoding)) refuse(name, `its encoding ${encoding} is not supported; use raw or gzip`);
   let data = bytes.subarray(position);
   if (encoding !== 'raw') data = await decompressed(name, data, 'gzip', (WIDTHS[type] ?? 1) * nodes);
   const vectors = (fields['space directions'] ?? '').match(/\([^)]*\)/g)?.map(numbersIn);
+  if (fields['space directions'] && vectors?.length !== 3) refuse(name, 'its space directions are not three vectors');
   const spacings = numbersIn(fields.spacings);
   const toLPS = /^(RAS|right-anterior)/i.test(fields.space ?? '') ? [-1, -1, 1]
       : /^(LAS|left-anterior)/i.test(fields.space ?? '') ? [1, -1, 1] : [1, 1, 1];
   const turned = vector => vector.map((x, axis) => x * toLPS[axis]);
   const steps = vectors?.length === 3 && vectors.every(v => v.length === 3) ? vectors.map(turned)
       : [0, 1, 2].map(k => times(Number.isFinite(spacings[k]) ? spacings[k] : 1, k));
-  const origin = numbersIn(fields['space origin']);
-  return placed(name, numbersOf(name, data, type, fields.endian !== 'big', nodes), size,
-                origin.length === 3 ? turned(origin) : [0, 0, 0], steps);
+  const origin = numbersIn(fields['space origin']), least = numbersIn(fields['axis mins'] ?? fields.axismins);
+  return placed(name, numbersOf(name, data, type, !/^big$/i.test(fields.endian ?? ''), nodes), size,
+                origin.length === 3 ? turned(origin) : least.length === 3 && !vectors ? least : [0, 0, 0], steps);
 }
 
 async function readMetaImage(name, bytes) {
-  const {fields, position} = fieldsOf(bytes, /^[^]*?ElementDataFile\s*=[^\n]*\n/i, /^\s*(\w+)\s*=(.*)$/) ??
+  const {fields, position} = fieldsOf(bytes, /^\s*ElementDataFile\s*=[^\n]*\n/im, /^\s*(\w+)\s*=(.*)$/) ??
       refuse(name, 'it is no MetaImage file');
   if (!/^local$/i.test(fields.elementdatafile)) refuse(name, 'its data are in another file; convert it to one file');
   if (Number(fields.elementnumberofchannels ?? 1) !== 1) refuse(name, 'it has several numbers at each node');
+  if (Number(fields.ndims) !== 3) refuse(name, 'its NDims is not 3');
+  if (fields.binarydata && !isTrue(fields.binarydata)) refuse(name, 'its data are a text; convert it to binary data');
   const size = numbersIn(fields.dimsize), nodes = nodesOf(name, size);
   const type = {MET_CHAR: 'Int8', MET_UCHAR: 'Uint8', MET_SHORT: 'Int16', MET_USHORT: 'Uint16', MET_INT: 'Int32',
                 MET_UINT: 'Uint32', MET_FLOAT: 'Float32', MET_DOUBLE: 'Float64'}[fields.elementtype];
-  const isTrue = text => /^true$/i.test(text ?? '');
   let data = bytes.subarray(position);
   if (isTrue(fields.compresseddata)) data = await decompressed(name, data, 'deflate', (WIDTHS[type] ?? 1) * nodes);
   const isBig = isTrue(fields.elementbyteordermsb ?? fields.binarydatabyteordermsb);
-  const origin = numbersIn(fields.offset ?? fields.position ?? fields.origin), spacings = numbersIn(fields.elementspacing);
+  const origin = numbersIn(fields.offset ?? fields.position ?? fields.origin), spacings = numbersIn(fields.elementspacing ?? fields.elementsize);
   const matrix = numbersIn(fields.transformmatrix ?? fields.rotation ?? fields.orientation);
   const steps = [0, 1, 2].map(k => {
     const direction = matrix.length === 9 ? matrix.slice(3 * k, 3 * k + 3) : times(1, k);
@@ -126,16 +135,20 @@ async function readNIfTI(name, given) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, header), isLittle = view.getInt16(40, true) < 8;
   const short = at => view.getInt16(at, isLittle), float = at => view.getFloat32(at, isLittle);
   if (view.getInt32(0, isLittle) !== 348) refuse(name, 'it is no NIfTI-1 file');
+  if (view.getUint8(345) !== 0x2b) refuse(name, 'its data are in another file; convert it to one file');  // n+1
   const dimensions = Array.from({length: Math.min(7, Math.max(0, short(40)))}, (_, k) => short(42 + 2 * k));
   while (dimensions.length > 3 && dimensions.at(-1) === 1) dimensions.pop();
   const nodes = nodesOf(name, dimensions);
   const type = {2: 'Uint8', 4: 'Int16', 8: 'Int32', 16: 'Float32', 64: 'Float64', 256: 'Int8', 512: 'Uint16', 768: 'Uint32'}[short(70)];
-  const begin = Math.max(0, Math.min(most, float(108) || header));
+  const begin = float(108) || header;
+  if (!(begin >= 348 && begin <= most)) refuse(name, 'its field vox_offset makes no sense');
   if (isZipped) bytes = await decompressed(name, given, 'gzip', begin + (WIDTHS[type] ?? 1) * nodes);
-  const values = numbersOf(name, bytes.subarray(begin), type, isLittle, nodes, float(112) || 1, float(112) ? float(116) : 0);
+  const values = numbersOf(name, bytes.subarray(begin), type, isLittle, nodes, float(112) || 1, (float(112) && float(116)) || 0);
   const spacings = [80, 84, 88].map(float);
   let rows = [0, 1, 2].map(axis => [...times(spacings[axis], axis), 0]);
-  if (short(254) > 0) {
+  // Of two frames ITK takes the second one if that is the scanner's.
+  const hasSecond = short(254) > 0 && (short(252) <= 0 || short(254) === 1);
+  if (hasSecond) {
     rows = [280, 296, 312].map(at => [0, 4, 8, 12].map(k => float(at + k)));
   } else if (short(252) > 0) {
     const [b, c, d] = [256, 260, 264].map(float), a = Math.sqrt(Math.max(0, 1 - b * b - c * c - d * d));
@@ -144,11 +157,12 @@ async function readNIfTI(name, given) {
             [2 * (b * c + a * d) * sx, (a * a + c * c - b * b - d * d) * sy, 2 * (c * d - a * b) * sz, float(272)],
             [2 * (b * d - a * c) * sx, 2 * (c * d + a * b) * sy, (a * a + d * d - b * b - c * c) * sz, float(276)]];
   }
-  const toLPS = [-1, -1, 1], column = k => rows.map((row, axis) => toLPS[axis] * row[k]);
+  const toLPS = short(252) > 0 || short(254) > 0 ? [-1, -1, 1] : [1, 1, 1], column = k => rows.map((row, axis) => toLPS[axis] * row[k]);
   return placed(name, values, dimensions, column(3), [0, 1, 2].map(column));
 }
 
-export function readVolume(name, bytes) {
+export function readVolume(name, data) {
+  const bytes = bytesOf(data);
   if (/\.nrrd$/i.test(name)) return readNRRD(name, bytes);
   return /\.mha$/i.test(name) ? readMetaImage(name, bytes) : readNIfTI(name, bytes);
 }

@@ -10,15 +10,37 @@ const taken = {volume: null, smoothing: 0};  // the volume of the module, and th
 function levelIn(values) {
   let least = Infinity, greatest = -Infinity;
   for (const value of values) {
+    if (!Number.isFinite(value)) continue;
     if (value < least) least = value;
     if (value > greatest) greatest = value;
   }
+  if (least > greatest) throw new Mistake('the volume has no finite number', '', '');
   return least < 0 && greatest > 0 ? 0 : (least + greatest) / 2;
+}
+
+// The names in a formula that have no value yet.
+function unknownNames(ea, {formula, constants}) {
+  const names = [], all = {...constants};
+  for (let error = null; names.length < 1000; names.push(error.unknownName), all[error.unknownName] = 1) {
+    try {
+      ea.parse(formula, all);
+      return names;
+    } catch (mistake) {
+      if (!mistake.unknownName) return names;
+      error = mistake;
+    }
+  }
+  return names;
 }
 
 async function compute(ea, {kind, ...task}) {
   if (kind === 'sample') return ea.sample(task.formula, task);
-  if (kind === 'file' && !isVolume(task.name)) return ea.fit(task.name, task.bytes, {scale: null, ...task});
+  if (kind === 'file' && !isVolume(task.name)) {
+    if (!/\.(ply|off|xyz|csv)$/i.test(task.name))
+      throw new Mistake(`cannot read '${task.name}': its extension is not known; use one of .ply .off .xyz .csv for a mesh ` +
+                        'or points, .nrrd .mha .nii .nii.gz for a volume', '', '');
+    return ea.fit(task.name, task.bytes, {scale: null, ...task});
+  }
   if (kind === 'file') taken.volume = await readVolume(task.name, task.bytes);
   if (kind === 'file' || task.smoothing !== taken.smoothing) ea.takeVolume(taken.volume, task.smoothing);
   taken.smoothing = task.smoothing;
@@ -37,6 +59,7 @@ self.onmessage = async ({data: {id, wasm, ...task}}) => {
                      [page.positions.buffer, page.triangles.buffer, page.status.buffer, page.parts.buffer]);
   } catch (error) {
     const {message, excerpt = '', unknownName = ''} = error;
-    self.postMessage({id, mistake: {message, excerpt, unknownName, isFatal: !(error instanceof Mistake)}});
+    self.postMessage({id, mistake: {message, excerpt, isFatal: !(error instanceof Mistake)},
+                      unknownNames: unknownName ? unknownNames(await library, task) : undefined});
   }
 };
