@@ -76,6 +76,7 @@ py::object annotate(const Words& words, const Points_view& points, const py::obj
     const auto structures = fit_vertices(data, options.fit, options.orientation);
     const Estimates estimates = estimates_of(structures);
     auto attributes = std::make_shared<Vertex_attributes>(attributes_of(structures, options.attributes));
+    add_estimates(estimates, options.estimates, *attributes);
     add_errors(estimates, *attributes);
     warn_of_opposed_normals(data, progress);
     warn_of_doubt(*estimates.fit, options.fit, has_affine_curvatures(options.attributes, options.estimates), progress);
@@ -131,7 +132,7 @@ void give(Surface_options& surface, const std::optional<Points_view>& points) {
 }
 
 py::tuple register_(const Words& words, const std::optional<Points_view>& source,
-                      const std::optional<Points_view>& target, const py::object& progress_function) {
+                    const std::optional<Points_view>& target, const py::object& progress_function) {
   auto [options, threads] = parsed<Register_options>(words);
   give(options.source, source);
   give(options.target, target);
@@ -143,7 +144,7 @@ py::tuple register_(const Words& words, const std::optional<Points_view>& source
 }
 
 py::tuple symmetries(const Words& words, const std::optional<Points_view>& surface,
-                       const py::object& progress_function) {
+                     const py::object& progress_function) {
   auto [options, threads] = parsed<Symmetries_options>(words);
   give(options.surface, surface);
   return observed(progress_function, threads, [&, &options = options](Progress& progress) {
@@ -204,6 +205,7 @@ void show(const Words& words, const std::string& title, const Points_view& point
 } // namespace
 
 PYBIND11_MODULE(_core, module) {
+  using namespace py::literals;
   module.attr("version") = EQUIAFFINE_VERSION;
   py::register_exception_translator([](std::exception_ptr error) {
     try {
@@ -222,17 +224,17 @@ PYBIND11_MODULE(_core, module) {
         const CGAL::Bbox_3 box = self.traits.bbox();
         return std::array{box.xmin(), box.xmax(), box.ymin(), box.ymax(), box.zmin(), box.zmax()};
       });
-  module.def("mesh", &mesh);
-  module.def("annotate", &annotate);
-  module.def("evaluate", &evaluate);
-  module.def("fit", &fit);
-  module.def("register", &register_);
-  module.def("symmetries", &symmetries);
-  module.def("read_surface", &read_surface);
-  module.def("read_volume", &read_samples);
-  module.def("write_surface", &write);
-  module.def("write_volume", &write_samples);
-  module.def("show", &show);
+  module.def("mesh", &mesh, "words"_a, "given"_a, "progress"_a);
+  module.def("annotate", &annotate, "words"_a, "points"_a, "progress"_a);
+  module.def("evaluate", &evaluate, "words"_a, "given"_a, "points"_a, "progress"_a);
+  module.def("fit", &fit, "words"_a, "points"_a, "progress"_a);
+  module.def("register", &register_, "words"_a, "source"_a, "target"_a, "progress"_a);
+  module.def("symmetries", &symmetries, "words"_a, "surface"_a, "progress"_a);
+  module.def("read_surface", &read_surface, "path"_a);
+  module.def("read_volume", &read_samples, "path"_a);
+  module.def("write_surface", &write, "path"_a, "points"_a);
+  module.def("write_volume", &write_samples, "path"_a, "volume"_a);
+  module.def("show", &show, "words"_a, "title"_a, "points"_a);
 }
 
 } // namespace equiaffine::python

@@ -15,7 +15,7 @@ results.mkdir(exist_ok=True)
 FORMULA = "(3*x)^4 + (3*y)^4 + (3*z)^4 - 45*(x^2 + y^2 + z^2) + 6*c"
 
 # %%
-for c in (1, 4, 9):
+for c in (0.5, 1, 2.5):
     surface = ea.mesh(FORMULA, constants={"c": c}, box=1.2, resolution=96)
     K, H = surface["affine_gaussian_curvature"], surface["affine_mean_curvature"]
     parabolic = np.mean(surface.status == ea.Status.PARABOLIC)

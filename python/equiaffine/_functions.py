@@ -304,7 +304,7 @@ def fit(V, F=None, *, scale=None, noise=None, normals=None, degree=None, feature
     >>> import equiaffine
     >>> ball = equiaffine.mesh("x^2 + y^2 + z^2 = 1", box=1.2, resolution=24)
     >>> f = equiaffine.fit(ball.V, ball.F)
-    >>> abs(round(float(f([[0, 0, 1.01]])[0]), 4))
+    >>> abs(round(float(f([[0, 0, 1.01]])[0]), 3))
     0.01
     """
     V, F, normals = _data(V, F, normals)

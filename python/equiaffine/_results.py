@@ -29,7 +29,7 @@ class Values:
         self.attributes = attributes
         self.status = status
 
-    _VECTORS = {"normal": "n", "affine_normal": "xi", "conormal": "nu"}
+    _VECTORS = {"normal": "n"}
 
     def __getitem__(self, name):
         if name in self.attributes:
