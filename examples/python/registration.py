@@ -20,7 +20,7 @@ center = whole.V.mean(axis=0)
 is_in_piece = whole.V[:, 0] > center[0] - 0.2
 numbers = np.cumsum(is_in_piece) - 1
 F = numbers[whole.F[is_in_piece[whole.F].all(axis=1)]]
-piece = ea.Surface((whole.V[is_in_piece] @ shear.T) + [1, 2, 3], F)
+piece = ea.Surface(whole.V[is_in_piece] @ shear.T + [3, 0, 0], F)
 
 # %%
 found = ea.register(piece, whole)

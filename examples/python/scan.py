@@ -31,13 +31,13 @@ for name in ("gaussian_curvature", "mean_curvature", "affine_gaussian_curvature"
     print(f"{name}: median {np.nanmedian(number):.3g}, known to 20 % at {100 * known:.0f} % of the vertices")
 
 # %%
-# An ellipsoid x^2/a^2 + y^2/b^2 + z^2/c^2 = 1 has the same K everywhere, (a b c)^(-3/2).
+# An ellipsoid x^2/a^2 + y^2/b^2 + z^2/c^2 = 1 has the same K everywhere, 1 / (a b c).
 if len(sys.argv) == 1:
-    K = 6 ** 0.75
+    K = 6 ** 0.5
     error = np.abs(found["affine_gaussian_curvature"] - K)
     print(f"K is {K:.4g}: the estimate of the error covers it at "
           f"{100 * np.mean(error <= found['affine_gaussian_curvature_error']):.0f} % of the vertices")
 
 # %%
-ea.view(found, results / "scan.png", color="affine_gaussian_curvature", size=(800, 640))
+ea.view(found, results / "scan.png", color="gaussian_curvature", size=(800, 640))
 found.save(results / "scan.ply")
