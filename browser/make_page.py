@@ -20,7 +20,7 @@ def script_of(root):
     viewer = root / "viewer"
     parts = [part(viewer / f"{name}.js") for name in (viewer / "parts.txt").read_text().split()]
     text = re.sub(r"@([a-z.]+\.glsl)@", lambda match: part(viewer / match[1]).rstrip("\n"), "".join(parts))
-    return "'use strict';\n" + text + part(root / "browser/examples.js") + part(root / "browser/playground.js")
+    return "'use strict';\n" + text + "".join(part(root / f"browser/{name}.js") for name in ("examples", "tasks", "playground"))
 
 
 def worker_of(root, module_folder):
