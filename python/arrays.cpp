@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "arrays.h"
 
-#include <algorithm>
+#include <equiaffine/Progress_observer.h>
+
 #include <cstring>
 #include <stdexcept>
 
@@ -50,40 +51,46 @@ void with_type(char type, const Use& use) {
 
 } // namespace
 
-Points_view::Points_view(Points_array points, Faces_array faces, const py::dict& columns,
-                         std::optional<Status_array> status)
-    : points_(std::move(points)), faces_(std::move(faces)), status_(std::move(status)) {
-  const py::ssize_t size = points_.shape(0);
-  const std::int64_t* const begin = faces_.data();
-  const std::int64_t* const end = begin + faces_.size();
-  const auto* const wrong = std::find_if(begin, end, [&](std::int64_t v) { return v < 0 || v >= size; });
-  if (wrong != end)
-    throw std::invalid_argument("face " + std::to_string((wrong - begin) / 3) + " has the vertex " +
-                                std::to_string(*wrong) + ", and there are " + std::to_string(size));
-  for (const auto& [name, values] : columns) {
-    columns_.emplace_back(py::cast<std::string>(name), py::cast<Points_array>(values));
-    if (columns_.back().second.size() != size)
-      throw std::invalid_argument("the attribute '" + columns_.back().first + "' has " +
-                                  std::to_string(columns_.back().second.size()) + " numbers for " +
-                                  std::to_string(size) + " vertices");
-  }
-}
-
-Annotated_mesh_3<Kernel> Points_view::mesh() const {
+Annotated_mesh_3<Kernel> mesh_of(const Points_array& points, const Faces_array& faces, const py::dict& columns,
+                                 const std::optional<Status_array>& status, std::vector<std::string> comments) {
   Annotated_mesh_3<Kernel> result;
-  const double* const points = points_.data();
-  const std::int64_t* const faces = faces_.data();
-  for (py::ssize_t i = 0; i < points_.size(); i += 3)
-    result.mesh.points.emplace_back(points[i], points[i + 1], points[i + 2]);
-  for (py::ssize_t k = 0; k < faces_.size(); k += 3)
-    result.mesh.triangles.push_back(
-        {std::uint32_t(faces[k]), std::uint32_t(faces[k + 1]), std::uint32_t(faces[k + 2])});
-  for (const auto& [name, values] : columns_)
-    result.attributes.columns.push_back({name, {values.data(), values.data() + values.size()}});
-  if (status_) {
-    auto& status = result.attributes.status.emplace();
-    for (py::ssize_t i = 0; i < status_->size(); ++i) status.push_back(Point_status(status_->data()[i]));
+  const py::ssize_t size = points.shape(0);
+  const double* const coordinates = points.data();
+  result.mesh.points.reserve(std::size_t(size));
+  for (py::ssize_t i = 0; i < 3 * size; i += 3)
+    result.mesh.points.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
+  const std::int64_t* const vertices = faces.data();
+  result.mesh.triangles.resize(std::size_t(faces.shape(0)));
+  for (std::size_t k = 0; k < 3 * result.mesh.triangles.size(); ++k) {
+    if (vertices[k] < 0 || vertices[k] >= size)
+      throw std::invalid_argument("face " + std::to_string(k / 3) + " has the vertex " + std::to_string(vertices[k]) +
+                                  ", and there are " + std::to_string(size));
+    result.mesh.triangles[k / 3][k % 3] = std::uint32_t(vertices[k]);
   }
+  const auto check_shape = [&](const std::string& name, const py::array& values) {
+    if (values.ndim() != 1 || values.size() != size)
+      throw std::invalid_argument("the " + name + " has " + std::to_string(values.size()) + " numbers for " +
+                                  std::to_string(size) + " vertices");
+  };
+  for (const auto& [name, given] : columns) {
+    const auto values = py::cast<Points_array>(given);
+    auto& column = result.attributes.columns.emplace_back();
+    column.name = py::cast<std::string>(name);
+    check_shape("attribute '" + column.name + "'", values);
+    column.values.assign(values.data(), values.data() + size);
+  }
+  if (status) {
+    check_shape("status", *status);
+    auto& statuses = result.attributes.status.emplace();
+    for (py::ssize_t i = 0; i < size; ++i) {
+      const std::uint8_t number = status->data()[i];
+      if (number >= number_of_point_statuses)
+        throw std::invalid_argument("vertex " + std::to_string(i) + " has the status " + std::to_string(number) +
+                                    ", which does not exist");
+      statuses.push_back(Point_status(number));
+    }
+  }
+  result.attributes.comments = std::move(comments);
   return result;
 }
 
@@ -99,25 +106,25 @@ Volume_3<Kernel> Volume_view::volume() const {
   const py::ssize_t *const n = samples_.shape(), *const stride = samples_.strides();
   with_type(type_, [&]<class T>(T) {
     double* out = result.values.data();
-    for (py::ssize_t k = 0; k < n[2]; ++k)
+    for (py::ssize_t k = 0; k < n[2]; ++k) {
+      Progress_observer::step();
       for (py::ssize_t j = 0; j < n[1]; ++j)
         for (py::ssize_t i = 0; i < n[0]; ++i) {
           T number;
           std::memcpy(&number, data + i * stride[0] + j * stride[1] + k * stride[2], sizeof(T));
           *out++ = double(number);
         }
+    }
   });
   return result;
 }
 
-py::array array_of(std::vector<double>&& values) {
-  const auto size = py::ssize_t(values.size());
-  return shared_array<double>(std::move(values), {size});
-}
-
 py::dict columns_of(Vertex_attributes&& attributes) {
   py::dict columns;
-  for (auto& column : attributes.columns) columns[py::str(column.name)] = array_of(std::move(column.values));
+  for (auto& column : attributes.columns) {
+    const auto size = py::ssize_t(column.values.size());
+    columns[py::str(column.name)] = shared_array<double>(std::move(column.values), {size});
+  }
   py::object status = py::none();
   if (attributes.status) {
     const auto size = py::ssize_t(attributes.status->size());
@@ -130,8 +137,10 @@ py::dict columns_of(Vertex_attributes&& attributes) {
   return result;
 }
 
-py::dict arrays_of(Indexed_triangle_mesh_3<Kernel>&& mesh, Vertex_attributes&& attributes) {
+py::dict arrays_of(Indexed_triangle_mesh_3<Kernel>&& mesh, Vertex_attributes&& attributes,
+                   std::optional<double> scale) {
   py::dict result = columns_of(std::move(attributes));
+  result["scale"] = scale;
   const auto vertices = py::ssize_t(mesh.points.size()), faces = py::ssize_t(mesh.triangles.size());
   static_assert(sizeof(Kernel::Point_3) == 3 * sizeof(double));
   result["V"] = shared_array<double>(std::move(mesh.points), {vertices, 3});

@@ -24,21 +24,10 @@ using Points_array = py::array_t<double, py::array::c_style>;
 using Faces_array = py::array_t<std::int64_t, py::array::c_style>;
 using Status_array = py::array_t<std::uint8_t, py::array::c_style>;
 
-/// Points, triangles, columns and statuses in arrays, which it keeps alive. mesh() needs no lock of the interpreter.
-class Points_view {
-public:
-  /// Throws for a triangle with a point that there is not, and for a column of another length.
-  Points_view(Points_array points, Faces_array faces, const py::dict& columns, std::optional<Status_array> status);
-
-  /// A copy for the library.
-  Annotated_mesh_3<Kernel> mesh() const;
-
-private:
-  Points_array points_;
-  Faces_array faces_;
-  std::vector<std::pair<std::string, Points_array>> columns_;
-  std::optional<Status_array> status_;
-};
+/// Points, triangles, columns and statuses, copied from arrays: these may change while the library computes. Throws for a
+/// triangle with a point that there is not, for columns and statuses of another length, and for a status that is none.
+Annotated_mesh_3<Kernel> mesh_of(const Points_array& points, const Faces_array& faces, const py::dict& columns,
+                                 const std::optional<Status_array>& status, std::vector<std::string> comments);
 
 /// Samples in an array of three dimensions of any type of numbers of this machine, with any strides, which it keeps alive.
 /// volume() needs no lock of the interpreter.
@@ -58,14 +47,11 @@ private:
   char type_;
 };
 
-/// The numbers as an array that owns them.
-py::array array_of(std::vector<double>&& values);
-
 /// {"columns": {name: array}, "status": array or None, "comments": [text]}
 py::dict columns_of(Vertex_attributes&& attributes);
 
-/// The same with "V" (n, 3), "F" (m, 3).
-py::dict arrays_of(Indexed_triangle_mesh_3<Kernel>&& mesh, Vertex_attributes&& attributes);
+/// The same with "V" (n, 3), "F" (m, 3), and the "scale" of curvatures of a fit.
+py::dict arrays_of(Indexed_triangle_mesh_3<Kernel>&& mesh, Vertex_attributes&& attributes, std::optional<double> scale);
 
 /// {"values", "origin", "steps"}
 py::dict arrays_of(Volume_3<Kernel>&& volume);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The module equiaffine._core: the commands of the program on arrays. Options come as words of its command line, so that
-// both refuse the same and compute the same; equiaffine/__init__.py makes these words of keyword arguments.
+// both refuse the same and compute the same; equiaffine/_arguments.py makes these words of keyword arguments.
 #include "arrays.h"
 #include "attributes/estimates.h"
 #include "cli/parse_options.h"
@@ -8,7 +8,9 @@
 #include "commands/find_map.h"
 #include "commands/find_symmetries.h"
 #include "commands/make_surface.h"
+#include "commands/show.h"
 #include "observed.h"
+#include "output/fit_display.h"
 #include "output/maps.h"
 #include "output/surface_output.h"
 #include "source/fit_vertices.h"
@@ -16,8 +18,11 @@
 #include "source/warnings.h"
 #include "volume/volume_io.h"
 #include <equiaffine/Input_error.h>
-#include <equiaffine/mesh_topology.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
 
+#include <CGAL/tags.h>
+
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +35,7 @@ namespace equiaffine::python {
 namespace {
 
 using Words = std::vector<std::string>;
+using Mesh = Annotated_mesh_3<Kernel>;
 
 /// A fit that is used again and again, with the data it was made of.
 struct Fit {
@@ -37,8 +43,11 @@ struct Fit {
   Indexed_triangle_mesh_3<Kernel> data;
 };
 
-/// What a source is made of, beside the words: nothing, a volume, or a fit.
-using Given = std::variant<std::monostate, Volume_view, std::shared_ptr<const Fit>>;
+/// A formula and the numbers of its names.
+using Formula = std::pair<std::string, std::map<std::string, double>>;
+
+/// What a source is made of.
+using Given = std::variant<Formula, Volume_view, std::shared_ptr<const Fit>>;
 
 /// The command in the words, which is of that type, and the number of threads that it may use.
 template <class Command_options>
@@ -48,91 +57,84 @@ std::pair<Command_options, std::optional<std::size_t>> parsed(const Words& words
 }
 
 Source make_given_source(Source_options& options, const Given& given, Progress& progress, double radius) {
-  if (const auto* volume = std::get_if<Volume_view>(&given)) options.volume = [volume] { return volume->volume(); };
   if (const auto* fit = std::get_if<std::shared_ptr<const Fit>>(&given))
     return source_of_fit((*fit)->traits, (*fit)->data, options, radius);
+  if (const auto* formula = std::get_if<Formula>(&given)) std::tie(options.text, options.constants) = *formula;
+  if (const auto* volume = std::get_if<Volume_view>(&given)) options.volume = [volume] { return volume->volume(); };
   return make_source(options, progress, radius);
 }
 
 py::object mesh(const Words& words, const Given& given, const py::object& progress_function) {
   auto [options, threads] = parsed<Mesh_options>(words);
   return observed(progress_function, threads, [&, &options = options](Progress& progress) {
+    check_memory(options);
     const auto* const delaunay = std::get_if<Delaunay_options>(&options.method);
     const Source source = make_given_source(options.source, given, progress, delaunay ? delaunay->radius : 0);
-    Annotated_surface surface = surface_of(source, options, progress);
-    add_errors(surface.estimates, surface.attributes);
-    if (surface.close_sheets) warn_of_close_sheets(*surface.close_sheets, progress);
-    return [surface = std::make_shared<Annotated_surface>(std::move(surface))] {
-      return arrays_of(std::move(surface->mesh), std::move(surface->attributes));
+    auto surface = std::make_shared<Annotated_surface>(surface_of(source, options, progress));
+    add_errors(surface->estimates, surface->attributes);
+    if (const auto& fit = surface->estimates.fit) surface->attributes.comments = comments_of(*fit);
+    warn_of(*surface, source, options, progress);
+    return [surface, scale = source.fit ? source.fit->scale() : std::nullopt] {
+      return arrays_of(std::move(surface->mesh), std::move(surface->attributes), scale);
     };
   });
 }
 
-py::object annotate(const Words& words, const Points_view& points, const py::object& progress_function) {
+py::object annotate(const Words& words, Mesh data, const py::object& progress_function) {
   auto [options, threads] = parsed<Annotate_options>(words);
   return observed(progress_function, threads, [&, &options = options](Progress& progress) {
-    Annotated_mesh_3<Kernel> data = points.mesh();
     check_vertices(data.mesh.points, options.mesh);
     const auto structures = fit_vertices(data, options.fit, options.orientation);
     const Estimates estimates = estimates_of(structures);
-    auto attributes = std::make_shared<Vertex_attributes>(attributes_of(structures, options.attributes));
-    add_estimates(estimates, options.estimates, *attributes);
-    add_errors(estimates, *attributes);
+    data.attributes = attributes_of(structures, options.attributes);
+    add_estimates(estimates, options.estimates, data.attributes);
+    add_errors(estimates, data.attributes);
+    data.attributes.comments = comments_of(*estimates.fit);
     warn_of_opposed_normals(data, progress);
     warn_of_doubt(*estimates.fit, options.fit, has_affine_curvatures(options.attributes, options.estimates), progress);
-    return [mesh = std::make_shared<Indexed_triangle_mesh_3<Kernel>>(std::move(data.mesh)), attributes,
-            scale = estimates.fit->scale] {
-      py::dict result = arrays_of(std::move(*mesh), std::move(*attributes));
-      result["scale"] = scale;
-      return result;
+    return [&data, scale = estimates.fit->scale] {
+      return arrays_of(std::move(data.mesh), std::move(data.attributes), scale);
     };
   });
 }
 
-py::object evaluate(const Words& words, const Given& given, const Points_view& at,
-                    const py::object& progress_function) {
+py::object evaluate(const Words& words, const Given& given, const Mesh& at, const py::object& progress_function) {
   auto [options, threads] = parsed<Evaluate_options>(words);
   return observed(progress_function, threads, [&, &options = options](Progress& progress) {
     const Source source = make_given_source(options.source, given, progress, 0);
-    auto points = at.mesh().mesh.points;
-    auto values = std::make_shared<std::vector<double>>(points.size());
+    const auto& points = at.mesh.points;
+    std::vector<double> values(points.size());
     std::visit(
         [&](const auto& f) {
-          for (std::size_t i = 0; i < points.size(); ++i) (*values)[i] = f.value(points[i]);
+          parallel_for<CGAL::Parallel_if_available_tag>(
+              0, points.size(), [&](std::size_t i) { values[i] = f.value(points[i]); }, 256);
         },
         source.function);
     auto attributes = std::make_shared<Vertex_attributes>(evaluate_points(options, source, points, progress));
-    return [attributes, values] {
-      py::dict result = columns_of(std::move(*attributes));
-      py::dict columns = result["columns"];
-      columns["value"] = array_of(std::move(*values));
-      return result;
-    };
+    attributes->columns.push_back({"value", std::move(values)});
+    return [attributes] { return columns_of(std::move(*attributes)); };
   });
 }
 
-std::shared_ptr<Fit> fit(const Words& words, const Points_view& points, const py::object& progress_function) {
+std::shared_ptr<Fit> fit(const Words& words, Mesh data, const py::object& progress_function) {
   auto [options, threads] = parsed<Annotate_options>(words);
   return observed(progress_function, threads, [&, &options = options](Progress& progress) {
-    Annotated_mesh_3<Kernel> data = points.mesh();
     check_vertices(data.mesh.points, options.mesh);
     const auto traits = blend_vertices(data, options.fit);
     if (traits.bbox() == CGAL::Bbox_3())
-      throw Input_error("cannot fit '" + options.mesh +
-                        "': no point has enough others around it for a polynomial; give "
-                        "more points or a larger scale");
+      throw Input_error("no point has enough others around it for a polynomial; give more points or a larger --scale");
     warn_of_opposed_normals(data, progress);
     return [fit = std::make_shared<Fit>(Fit{traits, std::move(data.mesh)})] { return fit; };
   });
 }
 
 /// Gives a surface of a register or symmetries command its data, if they are in memory.
-void give(Surface_options& surface, const std::optional<Points_view>& points) {
-  if (points) surface.source.data = [&points] { return points->mesh(); };
+void give(Surface_options& surface, const std::optional<Mesh>& data) {
+  if (data) surface.source.data = [&data] { return *data; };
 }
 
-py::tuple register_(const Words& words, const std::optional<Points_view>& source,
-                    const std::optional<Points_view>& target, const py::object& progress_function) {
+py::tuple register_(const Words& words, const std::optional<Mesh>& source, const std::optional<Mesh>& target,
+                    const py::object& progress_function) {
   auto [options, threads] = parsed<Register_options>(words);
   give(options.source, source);
   give(options.target, target);
@@ -143,8 +145,7 @@ py::tuple register_(const Words& words, const std::optional<Points_view>& source
   });
 }
 
-py::tuple symmetries(const Words& words, const std::optional<Points_view>& surface,
-                     const py::object& progress_function) {
+py::tuple symmetries(const Words& words, const std::optional<Mesh>& surface, const py::object& progress_function) {
   auto [options, threads] = parsed<Symmetries_options>(words);
   give(options.surface, surface);
   return observed(progress_function, threads, [&, &options = options](Progress& progress) {
@@ -157,7 +158,7 @@ py::tuple symmetries(const Words& words, const std::optional<Points_view>& surfa
 py::object read_surface(const std::string& path) {
   return observed(py::none(), std::nullopt, [&](Progress&) {
     return [table = std::make_shared<Point_table_3<Kernel>>(read_vertices(path))] {
-      return arrays_of(std::move(table->mesh), std::move(table->attributes));
+      return arrays_of(std::move(table->mesh), std::move(table->attributes), std::nullopt);
     };
   });
 }
@@ -168,9 +169,8 @@ py::object read_samples(const std::string& path) {
   });
 }
 
-void write(const std::string& path, const Points_view& points) {
+void write(const std::string& path, const Mesh& surface) {
   observed(py::none(), std::nullopt, [&](Progress&) {
-    const Annotated_mesh_3<Kernel> surface = points.mesh();
     check_surface_output(path);
     Output_file file(path);
     write_surface(file, surface.mesh, surface.attributes);
@@ -186,18 +186,10 @@ void write_samples(const std::string& path, const Volume_view& view) {
   });
 }
 
-void show(const Words& words, const std::string& title, const Points_view& points) {
+void show_surface(const Words& words, const Mesh& surface) {
   auto [options, threads] = parsed<View_options>(words);
   observed(py::none(), threads, [&, &options = options](Progress&) {
-    const Annotated_mesh_3<Kernel> surface = points.mesh();
-    check_display_outputs(options.display);
-    Outputs outputs;
-    outputs.add_displays(options.display);
-    write_displays(outputs, surface.mesh, surface.attributes, options.display,
-                   {title,
-                    {{"Vertices", std::to_string(surface.mesh.points.size())},
-                     {"Triangles", std::to_string(surface.mesh.triangles.size())}}});
-    outputs.commit();
+    show(surface, "the surface", options);
     return [] { return py::none(); };
   });
 }
@@ -207,34 +199,35 @@ void show(const Words& words, const std::string& title, const Points_view& point
 PYBIND11_MODULE(_core, module) {
   using namespace py::literals;
   module.attr("version") = EQUIAFFINE_VERSION;
+  static PyObject* const sentence = PyErr_NewException("equiaffine._core.Sentence", PyExc_ValueError, nullptr);
+  module.attr("Sentence") = py::reinterpret_borrow<py::object>(sentence);
   py::register_exception_translator([](std::exception_ptr error) {
     try {
       if (error) std::rethrow_exception(error);
     } catch (const Input_error& input_error) {
       const std::string& excerpt = input_error.excerpt();
-      PyErr_SetString(PyExc_ValueError, (input_error.what() + (excerpt.empty() ? "" : "\n" + excerpt)).c_str());
+      PyErr_SetString(sentence, (input_error.what() + (excerpt.empty() ? "" : "\n" + excerpt)).c_str());
     }
   });
-  py::class_<Volume_view>(module, "Volume_view").def(py::init<py::array, py::array_t<double>, py::array_t<double>>());
-  py::class_<Points_view>(module, "Points_view")
-      .def(py::init<Points_array, Faces_array, py::dict, std::optional<Status_array>>());
-  py::class_<Fit, std::shared_ptr<Fit>>(module, "Fit")
-      .def_property_readonly("scale", [](const Fit& self) { return self.traits.scale(); })
-      .def_property_readonly("box", [](const Fit& self) {
-        const CGAL::Bbox_3 box = self.traits.bbox();
-        return std::array{box.xmin(), box.xmax(), box.ymin(), box.ymax(), box.zmin(), box.zmax()};
-      });
+  module.def("interpreter_ends", [] { is_interpreter_ending = true; });
+  py::class_<Volume_view>(module, "Volume_view")
+      .def(py::init<py::array, py::array_t<double>, py::array_t<double>>(), "samples"_a, "origin"_a, "steps"_a);
+  py::class_<Mesh>(module, "Mesh")
+      .def(py::init(&mesh_of), "points"_a, "faces"_a, "columns"_a, "status"_a, "comments"_a);
+  py::class_<Fit, std::shared_ptr<Fit>>(module, "Fit").def_property_readonly("scale", [](const Fit& self) {
+    return self.traits.scale();
+  });
   module.def("mesh", &mesh, "words"_a, "given"_a, "progress"_a);
-  module.def("annotate", &annotate, "words"_a, "points"_a, "progress"_a);
+  module.def("annotate", &annotate, "words"_a, "data"_a, "progress"_a);
   module.def("evaluate", &evaluate, "words"_a, "given"_a, "points"_a, "progress"_a);
-  module.def("fit", &fit, "words"_a, "points"_a, "progress"_a);
+  module.def("fit", &fit, "words"_a, "data"_a, "progress"_a);
   module.def("register", &register_, "words"_a, "source"_a, "target"_a, "progress"_a);
   module.def("symmetries", &symmetries, "words"_a, "surface"_a, "progress"_a);
   module.def("read_surface", &read_surface, "path"_a);
   module.def("read_volume", &read_samples, "path"_a);
-  module.def("write_surface", &write, "path"_a, "points"_a);
+  module.def("write_surface", &write, "path"_a, "surface"_a);
   module.def("write_volume", &write_samples, "path"_a, "volume"_a);
-  module.def("show", &show, "words"_a, "title"_a, "points"_a);
+  module.def("show", &show_surface, "words"_a, "surface"_a);
 }
 
 } // namespace equiaffine::python

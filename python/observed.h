@@ -7,42 +7,67 @@
 #include "system/progress.h"
 #include <equiaffine/Progress_observer.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <optional>
 #include <pybind11/pybind11.h>
 #include <sstream>
 #include <string>
+#include <thread>
 
 namespace equiaffine::python {
 
 namespace py = pybind11;
+
+/// Whether the interpreter has begun to end. It ends threads that ask for its lock then, through functions that do not
+/// expect it.
+inline std::atomic<bool> is_interpreter_ending = false;
+
+/// A daemon thread has nothing to do any more, and the process ends without it.
+inline void wait_for_the_end() {
+  while (is_interpreter_ending) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
+/// Gives the lock of the interpreter to other threads.
+class Without_lock {
+public:
+  Without_lock() : state_(PyEval_SaveThread()) {}
+  ~Without_lock() {
+    wait_for_the_end();
+    PyEval_RestoreThread(state_);
+  }
+  Without_lock(const Without_lock&) = delete;
+  Without_lock& operator=(const Without_lock&) = delete;
+
+private:
+  PyThreadState* const state_;
+};
 
 /// Calls `compute(progress)` without the lock, and what it returns with it. A signal, as of Ctrl-C, ends the computation,
 /// as does an exception of the `progress` function, which is called with the number of a stage, the steps that are done,
 /// and all of them. Warnings of the program become those of Python.
 template <class Compute>
 auto observed(const py::object& progress_function, std::optional<std::size_t> threads, const Compute& compute) {
-  std::ostringstream warnings;
+  std::ostringstream lines;
   const auto finish = [&] {
-    const py::gil_scoped_release without_lock;
+    const Without_lock without_lock;
     const auto limit = threads ? limit_threads(*threads) : nullptr;
     const Progress_observer observer([&](const Progress_observer::Stage& stage) {
+      wait_for_the_end();
       const py::gil_scoped_acquire lock;
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (!progress_function.is_none()) progress_function(stage.number, stage.done, stage.total);
     });
-    Progress progress(warnings, false, std::chrono::hours(1));
+    Progress progress(lines, false, std::chrono::hours(1 << 16));
     return compute(progress);
   }();
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  std::istringstream lines(warnings.str());
-  for (std::string line; std::getline(lines, line);) {
-    const std::string mark = "warning: ";
-    const std::size_t place = line.find(mark);
-    const std::string text = place == std::string::npos ? line : line.substr(place + mark.size());
-    if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 2) != 0) throw py::error_already_set();
-  }
+  const std::string mark = "warning: ";
+  std::istringstream stream(lines.str());
+  for (std::string line; std::getline(stream, line);)
+    if (const std::size_t place = line.find(mark); place != std::string::npos)
+      py::module_::import("equiaffine._sentences").attr("warn")(line.substr(place + mark.size()));
   return finish();
 }
 

@@ -15,9 +15,14 @@ makes a function of them; `evaluate` has the numbers at points; `register` finds
 What is wrong with an argument is a `ValueError` with a sentence. Long functions let other threads run, and Ctrl-C ends
 them. Their argument `progress` is a function of the number of a stage, the steps of it that are done, and all of them.
 """
+import atexit as _atexit
+
+from ._core import interpreter_ends as _interpreter_ends
 from ._core import version as __version__
 from ._functions import curvatures, evaluate, fit, mesh, read, register, symmetries, view, write
 from ._results import Fit, Registration, Status, Surface, Symmetries, Values, Volume
 
 __all__ = ["Fit", "Registration", "Status", "Surface", "Symmetries", "Values", "Volume", "curvatures", "evaluate", "fit",
            "mesh", "read", "register", "symmetries", "view", "write"]
+
+_atexit.register(_interpreter_ends)

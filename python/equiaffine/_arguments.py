@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Arguments of the functions become words of the program's command line, and arrays of the types that the core takes."""
-import contextlib
+import math
 import numbers
+import operator
 import os
-import pathlib
 import re
 
 import numpy
@@ -11,89 +11,141 @@ import numpy
 from . import _core
 from ._results import Fit, Surface, Volume
 
-ARGUMENTS = {"isovalue": "level", "function": "f", "volume": "f", "set": "constants"}
 
-
-@contextlib.contextmanager
-def sentences():
-    """Names options of the command line in errors as arguments here."""
+def number_word(name, value):
+    """A number, or a word such as "auto", for the command line."""
+    if isinstance(value, str) and re.fullmatch(r"[a-z]+", value):
+        return value
     try:
-        yield
-    except ValueError as error:
-        if not error.args or not isinstance(error.args[0], str):
-            raise
-        text = re.sub(r"--([a-z][a-z-]*)", lambda match: ARGUMENTS.get(match[1], match[1].replace("-", "_")),
-                      error.args[0])
-        raise ValueError(text) from None
+        if isinstance(value, (bool, str, bytes)) or numpy.ndim(value) != 0 or isinstance(value, complex):
+            raise TypeError
+        number = float(value)
+    except TypeError:
+        raise ValueError(f"{name}: give a number, and not {value!r}") from None
+    if not math.isfinite(number):
+        raise ValueError(f"{name}: give a finite number, and not {value!r}")
+    return repr(number)
 
 
-def word_of(value):
-    return repr(float(value)) if isinstance(value, numbers.Real) and not isinstance(value, bool) else str(value)
-
-
-def words_of(**options):
-    """The words of options: None is left out, True is an option without a value, and sequences are several values."""
+def numbers_of(**values):
+    """The words of options with a number each; None is left out."""
     words = []
-    for name, value in options.items():
-        if value is None or value is False:
-            continue
-        words.append("--" + name.replace("_", "-"))
-        if value is True:
-            continue
-        if isinstance(value, (str, numbers.Real)):
-            words.append(word_of(value))
-        else:
-            words.extend(word_of(each) for each in numpy.asarray(value).tolist())
+    for name, value in values.items():
+        if value is not None:
+            words += ["--" + name.replace("_", "-"), number_word(name, value)]
     return words
 
 
-def integers_of(value):
-    """Whole numbers, of which one may stand for three."""
-    if value is None:
-        return None
-    return [str(int(each)) for each in numpy.atleast_1d(value)]
+def integer_of(name, value):
+    try:
+        return str(operator.index(value))
+    except TypeError:
+        raise ValueError(f"{name}: give a whole number, and not {value!r}") from None
 
 
-def common_words(attributes, threads):
+def choice_of(name, value, *choices):
+    if value not in choices:
+        raise ValueError(f"{name}: give one of {', '.join(choices)}, and not {value!r}")
+    return value
+
+
+def resolution_of(resolution):
+    """Three numbers of nodes, of which one may stand for all."""
+    values = list(numpy.atleast_1d(numpy.asarray(resolution, object)))
+    if len(values) not in (1, 3):
+        raise ValueError(f"resolution: give a whole number, or three, and not {resolution!r}")
+    return [integer_of("resolution", value) for value in (values * 3 if len(values) == 1 else values)]
+
+
+def common_words(attributes, threads, orientation=None):
     if not isinstance(attributes, str):
-        attributes = ",".join(attributes)
-    return ["--attributes", attributes] + ([] if threads is None else ["--threads", str(int(threads))])
+        try:
+            attributes = ",".join(attributes)
+        except TypeError:
+            raise ValueError(f"attributes: give names, and not {attributes!r}") from None
+    words = ["--attributes", attributes]
+    if orientation is not None:
+        words += ["--orientation", choice_of("orientation", orientation, "gradient", "against")]
+    return words + thread_words(threads)
+
+
+def thread_words(threads):
+    return [] if threads is None else ["--threads", integer_of("threads", threads)]
 
 
 def box_of(box):
     if box is None:
         return None
-    box = numpy.asarray(box, float)
+    try:
+        box = numpy.asarray(box, float)
+    except (TypeError, ValueError):
+        box = numpy.empty(0)
     if box.ndim == 0:
         box = numpy.array([-1, 1, -1, 1, -1, 1]) * abs(float(box))
-    if box.size != 6:
+    if box.shape not in ((6,), (3, 2)) or not numpy.isfinite(box).all() or not (box.ravel()[::2] < box.ravel()[1::2]).all():
         raise ValueError("box: give xmin, xmax, ymin, ymax, zmin, zmax, or one number for a cube around the origin")
     return box.ravel()
 
 
+def box_words(box):
+    box = box_of(box)
+    return [] if box is None else ["--box", *map(repr, box.tolist())]
+
+
+def array_of(values, name, kinds):
+    """An array of numbers of those kinds, without a mask."""
+    if numpy.ma.is_masked(values):
+        raise ValueError(f"{name}: an array with masked elements has no meaning here; leave the elements out")
+    try:
+        values = numpy.asarray(values)
+    except ValueError:
+        values = numpy.empty(0, object)
+    if values.dtype.kind not in kinds:
+        raise ValueError(f"{name}: give an array of {'integers' if 'f' not in kinds else 'real numbers'}, and not of {values.dtype}")
+    return values
+
+
 def points_of(points, name):
-    points = numpy.asarray(points)
-    if points.ndim != 2 or points.shape[1] != 3 or points.dtype.kind not in "fiu":
-        raise ValueError(f"{name}: give an array of numbers of the shape (n, 3), and not {points.dtype} {points.shape}")
+    points = array_of(points, name, "fiu")
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise ValueError(f"{name}: give an array of the shape (n, 3), and not {points.shape}")
     return points.astype(float, copy=False)
 
 
 def faces_of(F):
-    if F is None:
+    if F is None or numpy.size(F) == 0:
         return numpy.empty((0, 3), numpy.int64)
-    F = numpy.asarray(F)
-    if F.size == 0:
-        return numpy.empty((0, 3), numpy.int64)
-    if F.ndim != 2 or F.shape[1] != 3 or F.dtype.kind not in "iu":
-        raise ValueError(f"F: give an array of integers of the shape (m, 3), and not {F.dtype} {F.shape}")
+    F = array_of(F, "F", "iu")
+    if F.ndim != 2 or F.shape[1] != 3:
+        raise ValueError(f"F: give an array of integers of the shape (m, 3), and not {F.shape}")
     return F.astype(numpy.int64, copy=False)
 
 
-def view_of(V, F=None, normals=None):
+def mesh_of(V, F=None, normals=None, name="V"):
     columns = {}
     if normals is not None:
         columns = dict(zip(("nx", "ny", "nz"), numpy.ascontiguousarray(points_of(normals, "normals").T)))
-    return _core.Points_view(points_of(V, "V"), faces_of(F), columns, None)
+    return _core.Mesh(points_of(V, name), faces_of(F), columns, None, [])
+
+
+def whole_mesh_of(surface):
+    """A surface, or (V, F), with all that is known of it."""
+    if isinstance(surface, tuple):
+        surface = Surface(*surface)
+    if not isinstance(surface, Surface):
+        raise ValueError(f"give a Surface or (V, F), and not {type(surface).__name__}")
+    columns = {}
+    for name, values in surface.attributes.items():
+        if not isinstance(name, str) or not re.fullmatch(r"[^\s,;\"\x00-\x1f]+", name) or name in ("x", "y", "z", "status"):
+            raise ValueError(f"the name {name!r} of an attribute cannot be written: use letters, digits and underscores")
+        columns[name] = array_of(values, name, "biuf").astype(float)
+    status = surface.status
+    if status is not None:
+        status = array_of(status, "status", "iu")
+        if status.size and not 0 <= status.min() <= status.max() <= 255:
+            raise ValueError("status: there is a number that is no Status")
+        status = status.astype(numpy.uint8)
+    return _core.Mesh(points_of(surface.V, "V"), faces_of(surface.F), columns, status, list(surface.comments))
 
 
 def steps_of(spacing, direction):
@@ -104,10 +156,12 @@ def steps_of(spacing, direction):
     return (direction * spacing).T
 
 
-def volume_view_of(values, spacing, origin, direction):
-    values = numpy.asarray(values)
-    if values.ndim != 3 or values.dtype.kind not in "biuf":
-        raise ValueError(f"f: give an array of real numbers of three dimensions, and not {values.dtype} {values.shape}")
+def volume_view_of(values, spacing, origin, direction, name="f"):
+    if numpy.ma.isMaskedArray(values):
+        values = values.astype(float).filled(numpy.nan)
+    values = array_of(values, name, "biuf")
+    if values.ndim != 3:
+        raise ValueError(f"{name}: give an array of three dimensions, and not of the shape {values.shape}")
     if not values.dtype.isnative or values.dtype.char in "eg":
         values = values.astype(float)
     origin = numpy.zeros(3) if origin is None else numpy.asarray(origin, float)
@@ -117,39 +171,39 @@ def volume_view_of(values, spacing, origin, direction):
 
 
 def sampled(function, box, resolution):
-    """The values of a function of arrays x, y, z on a grid."""
+    """The values of a function of arrays x, y, z on a grid, the steps, and the first node."""
     box = box_of(box)
     if box is None:
         raise ValueError("box: say where the function is to be sampled, such as box=2")
-    shape = numpy.broadcast_to(64 if resolution is None else resolution, 3).astype(int)
+    shape = [int(word) for word in resolution_of(64 if resolution is None else resolution)]
     if min(shape) < 2:
         raise ValueError("resolution: two nodes or more are needed along each axis")
-    axes = [numpy.linspace(box[2 * k], box[2 * k + 1], shape[k]) for k in range(3)]
+    x, y, z = [numpy.linspace(box[2 * k], box[2 * k + 1], shape[k]) for k in range(3)]
     values = numpy.empty(shape)
-    for i, x in enumerate(axes[0]):
-        y, z = numpy.meshgrid(axes[1], axes[2], indexing="ij")
-        values[i] = function(numpy.full_like(y, x), y, z)
-    return values, (box[1::2] - box[::2]) / (shape - 1), box[::2]
+    y, z = numpy.meshgrid(y, z, indexing="ij")
+    for i in range(shape[0]):
+        values[i] = function(numpy.full_like(y, x[i]), y, z)
+    return values, (box[1::2] - box[::2]) / (numpy.array(shape) - 1), box[::2]
 
 
 def source_of(f, *, constants=None, box=None, resolution=None, spacing=None, origin=None, direction=None, smoothing=None):
-    """The words of a source, and what is given in memory."""
+    """The words of a source, and what it is made of."""
     def refuse(kind, **others):
         for name, value in others.items():
             if value is not None:
                 raise TypeError(f"{name} is not for {kind}")
     samples = {"spacing": spacing, "origin": origin, "direction": direction}
+    resolution_words = [] if resolution is None else ["--resolution", *resolution_of(resolution)]
     if isinstance(f, str):
         refuse("a formula", smoothing=smoothing, **samples)
-        words = ["--function=" + f, *words_of(box=box_of(box))]
-        for name, value in (constants or {}).items():
-            words += ["--set", f"{name}={word_of(value)}"]
-        return words + ([] if resolution is None else ["--resolution", *integers_of(resolution)]), None
+        if not hasattr(constants or {}, "items"):
+            raise ValueError("constants: give a dictionary of names and numbers")
+        numbers = {str(name): float(number_word(f"constants[{name!r}]", value)) for name, value in (constants or {}).items()}
+        return ["--function=f", *box_words(box), *resolution_words], (f, numbers)
     refuse("what is no formula", constants=constants)
     if isinstance(f, Fit):
         refuse("a fit", smoothing=smoothing, **samples)
-        words = ["--fit=the data", *words_of(box=box_of(box))]
-        return words + ([] if resolution is None else ["--resolution", *integers_of(resolution)]), f._core
+        return ["--fit=V", *box_words(box), *resolution_words], f._core
     if callable(f):
         refuse("a function", **samples)
         f, spacing, origin = sampled(f, box, resolution)
@@ -158,14 +212,14 @@ def source_of(f, *, constants=None, box=None, resolution=None, spacing=None, ori
         f, spacing, origin, direction = f.values, f.spacing, f.origin, f.direction
     else:
         refuse("an array", box=box, resolution=resolution)
-    return (["--volume=the array", *words_of(smoothing=smoothing)], volume_view_of(f, spacing, origin, direction))
+    return ["--volume=f", *numbers_of(smoothing=smoothing)], volume_view_of(f, spacing, origin, direction)
 
 
 def fit_words(scale, noise, degree, feature_angle):
-    if scale is not None and not isinstance(scale, str) and scale == 0:
+    if isinstance(scale, numbers.Real) and scale == 0:
         scale = "none"
-    degree = None if degree is None else str(degree)
-    return words_of(scale=scale, noise=noise, degree=degree, feature_angle=feature_angle)
+    words = numbers_of(scale=scale, noise=noise, feature_angle=feature_angle)
+    return words if degree is None else [*words, "--degree", integer_of("degree", degree)]
 
 
 def data_of(V, F, normals=None):
@@ -181,19 +235,19 @@ def data_of(V, F, normals=None):
 
 def registered(a, name):
     """The words of a surface, and its data if they are in memory."""
-    if isinstance(a, (str, pathlib.PurePath)):
+    if isinstance(a, (str, os.PathLike)):
         path = os.fspath(a)
-        if isinstance(a, str) and not os.path.exists(path):
+        if not os.path.exists(path):
             raise ValueError(f"{name}: there is no file '{path}'")
         return [path], None
-    if isinstance(a, tuple):
-        return [name + ".ply"], view_of(*a)
     if isinstance(a, Surface):
-        return [name + ".ply"], view_of(*data_of(a, None))
-    return [name + ".ply"], view_of(a)
+        a = data_of(a, None)
+    return [name + ".ply"], mesh_of(*a, name=name) if isinstance(a, tuple) else mesh_of(a, name=name)
 
 
-def whole_view_of(surface):
-    status = None if surface.status is None else numpy.asarray(surface.status, numpy.uint8)
-    columns = {name: numpy.ascontiguousarray(values, float) for name, values in surface.attributes.items()}
-    return _core.Points_view(points_of(surface.V, "V"), faces_of(surface.F), columns, status)
+def path_of(path):
+    """The bytes of a path, for any name that a file may have, and its text."""
+    text = os.fsdecode(path)
+    if text in ("", "-"):
+        raise ValueError(f"path: give the name of a file, and not {text!r}")
+    return os.fsencode(path), text

@@ -9,15 +9,16 @@ import webbrowser
 import numpy
 
 from . import _core
-from ._arguments import (common_words, data_of, fit_words, integers_of, registered, sentences, source_of, view_of,
-                         volume_view_of, whole_view_of, words_of)
+from ._arguments import (choice_of, common_words, data_of, fit_words, integer_of, mesh_of, number_word, numbers_of, path_of, registered,
+                         source_of, thread_words, volume_view_of, whole_mesh_of)
 from ._results import Fit, Registration, Surface, Symmetries, Values, Volume
+from ._sentences import here, sentences
 
 _VOLUMES = (".nrrd", ".nhdr", ".mhd", ".mha", ".nii", ".nii.gz", ".inr", ".inr.gz", ".vti")
 
 
 def _surface(arrays):
-    return Surface(arrays["V"], arrays["F"], arrays["columns"], arrays["status"], arrays.get("scale"))
+    return Surface(arrays["V"], arrays["F"], arrays["columns"], arrays["status"], arrays["scale"], arrays["comments"])
 
 
 def mesh(f, *, level=0, box=None, resolution=None, method="marching-cubes", spacing=None, origin=None, direction=None,
@@ -70,8 +71,10 @@ def mesh(f, *, level=0, box=None, resolution=None, method="marching-cubes", spac
     """
     words, given = source_of(f, constants=constants, box=box, resolution=resolution, spacing=spacing, origin=origin,
                            direction=direction, smoothing=smoothing)
-    words += words_of(isovalue=level, method=method, angle=angle, radius=radius, distance=distance)
-    words += ["--orientation", orientation, *common_words(attributes, threads)]
+    words += ["--isovalue", number_word("level", level)]
+    words += ["--method", choice_of("method", method, "marching-cubes", "delaunay")]
+    words += numbers_of(angle=angle, radius=radius, distance=distance)
+    words += common_words(attributes, threads, orientation)
     with sentences():
         return _surface(_core.mesh(["mesh", *words, "-o", "result.ply"], given, progress))
 
@@ -116,10 +119,10 @@ def curvatures(V, F=None, *, scale=None, noise=None, normals=None, degree=None, 
     True
     """
     V, F, normals = data_of(V, F, normals)
-    words = ["annotate", "the data.ply", *fit_words(scale, noise, degree, feature_angle), "--orientation", orientation,
-             *common_words(attributes, threads), "-o", "result.ply"]
+    words = ["annotate", "V", *fit_words(scale, noise, degree, feature_angle),
+             *common_words(attributes, threads, orientation), "-o", "result.ply"]
     with sentences():
-        return _surface(_core.annotate(words, view_of(V, F, normals), progress))
+        return _surface(_core.annotate(words, mesh_of(V, F, normals), progress))
 
 
 def fit(V, F=None, *, scale=None, noise=None, normals=None, degree=None, feature_angle=None, threads=None, progress=None):
@@ -140,10 +143,10 @@ def fit(V, F=None, *, scale=None, noise=None, normals=None, degree=None, feature
     0.01
     """
     V, F, normals = data_of(V, F, normals)
-    words = ["annotate", "the data.ply", *fit_words(scale, noise, degree, feature_angle), *common_words("none", threads),
+    words = ["annotate", "V", *fit_words(scale, noise, degree, feature_angle), *common_words("none", threads),
              "-o", "result.ply"]
     with sentences():
-        return Fit(_core.fit(words, view_of(V, F, normals), progress))
+        return Fit(_core.fit(words, mesh_of(V, F, normals), progress))
 
 
 def evaluate(f, points, *, constants=None, box=None, resolution=None, spacing=None, origin=None, direction=None,
@@ -169,15 +172,18 @@ def evaluate(f, points, *, constants=None, box=None, resolution=None, spacing=No
     >>> at["value"].tolist()
     [1.0, 8.0]
     """
-    if isinstance(f, str) and box is None and resolution is not None:
-        raise TypeError("resolution is not for a formula at points")
     words, given = source_of(f, constants=constants, box=box, resolution=resolution, spacing=spacing, origin=origin,
                            direction=direction, smoothing=smoothing)
-    words += ["--orientation", orientation, *common_words(attributes, threads)]
+    words += common_words(attributes, threads, orientation)
     with sentences():
-        result = _core.evaluate(["evaluate", *words, "--points", "the points.csv", "-o", "result.csv"], given,
-                                view_of(points), progress)
+        result = _core.evaluate(["evaluate", *words, "--points", "points.csv", "-o", "result.csv"], given,
+                                mesh_of(points, name="points"), progress)
     return Values(result["columns"], result["status"])
+
+
+def _map_words(kind, reflection, tolerance):
+    words = ["--kind", choice_of("kind", kind, "affine", "equiaffine", "similarity", "rigid")]
+    return words + ([] if reflection else ["--no-reflection"]) + numbers_of(tolerance=tolerance)
 
 
 def register(a, b, *, kind="affine", reflection=True, tolerance=None, overlap=None, threads=None, progress=None):
@@ -213,12 +219,11 @@ def register(a, b, *, kind="affine", reflection=True, tolerance=None, overlap=No
     True
     """
     (source, source_view), (target, target_view) = registered(a, "a"), registered(b, "b")
-    words = ["register", *source, "to", *target, "--kind", kind, *words_of(tolerance=tolerance, min_overlap=overlap,
-                                                                       no_reflection=not reflection)]
-    words += [] if threads is None else ["--threads", str(int(threads))]
+    words = ["register", *source, "to", *target, *_map_words(kind, reflection, tolerance), *thread_words(threads)]
+    words += [] if overlap is None else ["--min-overlap", number_word("overlap", overlap)]
     with sentences():
         report, summary = _core.register([*words, "-o", "result.json"], source_view, target_view, progress)
-    return Registration(json.loads(report), summary.strip())
+    return Registration(json.loads(report), here(summary.strip()))
 
 
 def symmetries(a, *, kind="affine", reflection=True, tolerance=None, threads=None, progress=None):
@@ -244,19 +249,18 @@ def symmetries(a, *, kind="affine", reflection=True, tolerance=None, threads=Non
     48
     """
     surface, view = registered(a, "a")
-    words = ["symmetries", *surface, "--kind", kind, *words_of(tolerance=tolerance, no_reflection=not reflection)]
-    words += [] if threads is None else ["--threads", str(int(threads))]
+    words = ["symmetries", *surface, *_map_words(kind, reflection, tolerance), *thread_words(threads)]
     with sentences():
         report, summary = _core.symmetries([*words, "-o", "result.json"], view, progress)
-    return Symmetries(json.loads(report), summary.strip())
+    return Symmetries(json.loads(report), here(summary.strip()))
 
 
 def read(path):
     """Read a file: a Surface from .ply, .off, .obj, .stl, .csv or .xyz, and a Volume from .nrrd, .mhd, .mha, .nii,
     .nii.gz, .inr, .inr.gz or .vti."""
-    path = os.fspath(path)
+    path, text = path_of(path)
     with sentences():
-        if not path.lower().endswith(_VOLUMES):
+        if not text.lower().endswith(_VOLUMES):
             return _surface(_core.read_surface(path))
         arrays = _core.read_volume(path)
     spacing = numpy.linalg.norm(arrays["steps"], axis=1)
@@ -269,11 +273,11 @@ def write(path, data):
     A Surface goes into .ply, .off, .obj, .stl, .csv or .vtp, of which .ply, .csv and .vtp keep its attributes; a Volume
     into .nrrd, .mhd, .mha, .nii, .nii.gz or .vti.
     """
-    path = os.fspath(path)
+    path, _ = path_of(path)
     with sentences():
         if isinstance(data, Volume):
-            return _core.write_volume(path, volume_view_of(data.values, data.spacing, data.origin, data.direction))
-        return _core.write_surface(path, whole_view_of(data))
+            return _core.write_volume(path, volume_view_of(data.values, data.spacing, data.origin, data.direction, "values"))
+        return _core.write_surface(path, whole_mesh_of(data))
 
 
 def view(surface, path=None, *, color=None, up=None, range=None, colors=None, size=None):
@@ -281,27 +285,46 @@ def view(surface, path=None, *, color=None, up=None, range=None, colors=None, si
 
     Parameters
     ----------
-    surface : Surface
-        What is shown.
+    surface : Surface or tuple
+        What is shown: a Surface or (V, F), with triangles.
     path : path, optional
-        Of a page, .html, or a picture, .png. Without it a page is opened.
+        Of a page, .html, or a picture, .png. Without it a page is opened, whose file stays among the temporary ones.
     color : str
         The attribute that is shown.
-    up, range, colors, size
-        The direction that is up; the numbers that have the end colors; "linear", "logarithmic" or "equalized"; and the size of a
-        picture in pixels: see `equiaffine view --help`.
+    up : {"x", "y", "z", "auto"}
+        The axis that is up.
+    range : pair of floats
+        The numbers that have the end colors.
+    colors : {"linear", "logarithmic", "equalized", "auto"}
+        How numbers become colors.
+    size : pair of ints
+        Width and height of a picture in pixels.
     """
-    words = ["view", "the surface.ply", *words_of(color=color, up=up, range=range, colors=colors)]
-    words += [] if size is None else ["--size", *integers_of(size)]
-    target = path
-    if path is None:
-        handle, target = tempfile.mkstemp(prefix="equiaffine-", suffix=".html")
-        os.close(handle)
-    option = "--png" if os.fspath(target).lower().endswith(".png") else "-o"
+    words = [] if color is None else ["--color", str(color)]
+    words += [] if up is None else ["--up", choice_of("up", up, "x", "y", "z", "auto")]
+    words += [] if colors is None else ["--colors", choice_of("colors", colors, "linear", "logarithmic", "equalized", "auto")]
+    if range is not None:
+        words += ["--range", *(number_word("range", number) for number in range)]
+    if size is not None:
+        words += ["--size", *(integer_of("size", number) for number in size)]
+    mesh_to_show = whole_mesh_of(surface)
+    if path is not None:
+        return _show(words, mesh_to_show, path)
+    handle, target = tempfile.mkstemp(prefix="equiaffine-", suffix=".html")
+    os.close(handle)
+    try:
+        _show(words, mesh_to_show, target)
+    except BaseException:
+        os.unlink(target)
+        raise
+    webbrowser.open(pathlib.Path(target).as_uri())
+
+
+def _show(words, mesh_to_show, path):
+    path, text = path_of(path)
+    option = "--png" if text.lower().endswith(".png") else "-o"
     with sentences():
-        _core.show([*words, option, os.fspath(target)], "Surface", whole_view_of(surface))
-    if path is None:
-        webbrowser.open(pathlib.Path(target).as_uri())
+        _core.show(["view", "surface.ply", *words, option, path], mesh_to_show)
 
 
 def page_of(surface):
@@ -309,4 +332,4 @@ def page_of(surface):
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "page.html"
         view(surface, path)
-        return path.read_text()
+        return path.read_text(encoding="utf-8")

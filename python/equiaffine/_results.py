@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What functions return."""
+import contextlib
 import enum
+import re
 
 import numpy
+
+_MOST_VERTICES_OF_NOTEBOOK = 200000  # a page of more would be too large for a cell
 
 
 class Status(enum.IntEnum):
@@ -31,7 +35,15 @@ class Values:
 
     _VECTORS = {"normal": "n"}
 
+    def keys(self):
+        return self.attributes.keys()
+
+    def __iter__(self):
+        return iter(self.attributes)
+
     def __getitem__(self, name):
+        if not isinstance(name, str):
+            raise KeyError(name)
         if name in self.attributes:
             return self.attributes[name]
         short = self._VECTORS.get(name, name)
@@ -68,14 +80,22 @@ class Surface(Values):
     status : numpy.ndarray or None
         Of uint8, see `Status`.
     scale : float or None
-        The scale of curvatures of fits, None if they are the surface's own.
+        The scale of curvatures of a fit; None if they are the surface's own, or not of a fit.
+    comments : list of str
+        What is known of a fit, as lines of a PLY file.
     """
 
-    def __init__(self, V, F=None, attributes=None, status=None, scale=None):
+    def __init__(self, V, F=None, attributes=None, status=None, scale=None, comments=()):
         super().__init__({} if attributes is None else attributes, status)
         self.V = V
         self.F = numpy.empty((0, 3), numpy.int64) if F is None else F
         self.scale = scale
+        self.comments = list(comments)
+        for comment in self.comments:
+            found = re.fullmatch(r"fit scale: (\S+).*", comment, re.IGNORECASE)
+            if found and scale is None:
+                with contextlib.suppress(ValueError):
+                    self.scale = float(found[1])
 
     def _size(self):
         return f"{len(self.V)} vertices, {len(self.F)} triangles"
@@ -102,7 +122,7 @@ class Surface(Values):
         return trimesh.Trimesh(self.V, self.F, process=False, vertex_attributes=dict(self.attributes))
 
     def _repr_html_(self):
-        if not len(self.F):
+        if not len(self.F) or len(self.V) > _MOST_VERTICES_OF_NOTEBOOK:
             return None
         import html
 

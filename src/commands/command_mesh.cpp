@@ -5,9 +5,7 @@
 #include "output/statistics.h"
 #include "output/surface_output.h"
 #include "source/source.h"
-#include "source/warnings.h"
 #include "system/atomic_file.h"
-#include "system/resources.h"
 #include <equiaffine/parabolic_curves.h>
 
 #include <string>
@@ -91,9 +89,7 @@ Outputs outputs_of(const Mesh_options& options) {
 
 void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress) {
   Outputs outputs = outputs_of(options);
-  if (options.source.derivatives == Derivatives::JETS && std::holds_alternative<Marching_cubes_options>(options.method))
-    check_memory_of_surface(options.source.resolution.value_or(default_resolution(options.source.kind)),
-                            options.source.memory_use);
+  check_memory(options);
   auto [source, surface, source_seconds] = make_surface(options, progress);
 
   const Stopwatch write_stopwatch;
@@ -114,15 +110,7 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   if (Output_file* const file = outputs.find(Output_kind::STATISTICS)) file->stream() << to_JSON(statistics);
   progress.end();
   outputs.commit();
-  if (!options.attributes.columns.empty())
-    warn_of_outside(options.source, source, surface.status[std::size_t(Point_status::OUTSIDE)],
-                    surface.mesh.points.size(), "vertices", progress);
-  if (!surface.reason_against_remesh.empty())
-    progress.warn("the faces are not remeshed, and Marching Cubes makes others: " + surface.reason_against_remesh);
-  if (statistics.close_sheets) warn_of_close_sheets(*statistics.close_sheets, progress);
-  if (statistics.fit)
-    warn_of_doubt(*statistics.fit, options.source.fit, has_affine_curvatures(options.attributes, options.estimates),
-                  progress);
+  warn_of(surface, source, options, progress);
   if (!outputs.use_standard_output()) {
     out << summary(statistics);
     if (options.curves) out << summary(*surface.curves);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/commands.h"
+#include "commands/show.h"
 #include "output/fit_display.h"
 #include "output/surface_output.h"
 #include "picture/draw_surface.h"
@@ -40,12 +41,10 @@ void check_arrows(const std::string& arrows, const Vertex_attributes& attributes
 
 } // namespace
 
-void run_view(const View_options& options, std::ostream& out) {
+Outputs show(const Annotated_mesh_3<Kernel>& surface, const std::string& name, const View_options& options) {
   check_display_outputs(options.display);
   Outputs outputs;
   outputs.add_displays(options.display);
-  const std::string name = options.mesh == "-" ? "standard input" : name_of_file(options.mesh);
-  const Annotated_mesh_3<Kernel> surface = read_mesh(options.mesh);
   if (surface.mesh.triangles.empty())
     throw Input_error("cannot show '" + name + "': it has no faces; 'equiaffine mesh --fit " + options.mesh +
                       " -o OUT.ply --html PAGE.html' shows the surface through the points");
@@ -60,6 +59,13 @@ void run_view(const View_options& options, std::ostream& out) {
       outputs, surface.mesh, surface.attributes, options.display,
       {page_title(options.mesh, "Surface") + label_suffix(fit), description, notes_of(fit), label_suffix(fit)});
   outputs.commit();
+  return outputs;
+}
+
+void run_view(const View_options& options, std::ostream& out) {
+  check_display_outputs(options.display);
+  const std::string name = options.mesh == "-" ? "standard input" : name_of_file(options.mesh);
+  const Outputs outputs = show(read_mesh(options.mesh), name, options);
   if (!outputs.use_standard_output()) outputs.report(out);
 }
 

@@ -87,14 +87,14 @@ Found_symmetries find_symmetries(const Symmetries_options& options, Progress& pr
                                            parameters_of(options).tolerance(tolerance).complete(options.is_complete));
   if (!is_undecided(by_function) || found.mesh.triangles.empty()) found.symmetries = by_function;
   found.mesh = surface.shown();
-  if (!std::isfinite(found.symmetries.maps.front().rms))
-    throw Input_error("nothing is known of the symmetries of " + found.name(source) +
-                      ": it has a surface beside none of its points; give more points");
   return found;
 }
 
 Symmetries_report report_of(const Symmetries_options& options, const Found_symmetries& found) {
   Symmetries_report report = {found.name(options.surface.source), found.symmetries, options.is_complete, {}};
+  if (!std::isfinite(report.symmetries.maps.front().rms))
+    throw Input_error("nothing is known of the symmetries of " + report.source +
+                      ": it has a surface beside none of its points; give more points");
   if (is_undecided(report.symmetries) || report.symmetries.order() == 1U)
     report.advice = what_to_try(options, report.symmetries);
   return report;

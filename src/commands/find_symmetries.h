@@ -27,10 +27,10 @@ struct Found_symmetries {
 };
 
 /// Finds symmetries. Points without faces become a mesh. Affine frames of a fit are tried where a mesh bounds no solid.
-/// Throws `Input_error`, also if nothing is known of the surface.
+/// Throws `Input_error`.
 Found_symmetries find_symmetries(const Symmetries_options& options, Progress& progress);
 
-/// What is reported of them.
+/// What is reported of them. Throws `Input_error` if nothing is known of the surface.
 Symmetries_report report_of(const Symmetries_options& options, const Found_symmetries& found);
 
 } // namespace equiaffine

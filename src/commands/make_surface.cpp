@@ -9,6 +9,7 @@
 #include "commands/remove_crumbs.h"
 #include "engine/Engine.h"
 #include "source/any_level_set.h"
+#include "source/warnings.h"
 #include "system/forewarn.h"
 #include "system/resources.h"
 #include <equiaffine/Input_error.h>
@@ -160,6 +161,24 @@ Annotated_surface annotated_surface(const Source& source, const Mesh_options& op
 }
 
 } // namespace
+
+void check_memory(const Mesh_options& options) {
+  if (options.source.derivatives == Derivatives::JETS && std::holds_alternative<Marching_cubes_options>(options.method))
+    check_memory_of_surface(options.source.resolution.value_or(default_resolution(options.source.kind)),
+                            options.source.memory_use);
+}
+
+void warn_of(const Annotated_surface& surface, const Source& source, const Mesh_options& options, Progress& progress) {
+  if (!options.attributes.columns.empty())
+    warn_of_outside(options.source, source, surface.status[std::size_t(Point_status::OUTSIDE)],
+                    surface.mesh.points.size(), "vertices", progress);
+  if (!surface.reason_against_remesh.empty())
+    progress.warn("the faces are not remeshed, and Marching Cubes makes others: " + surface.reason_against_remesh);
+  if (surface.close_sheets) warn_of_close_sheets(*surface.close_sheets, progress);
+  if (surface.estimates.fit)
+    warn_of_doubt(*surface.estimates.fit, options.source.fit,
+                  has_affine_curvatures(options.attributes, options.estimates), progress);
+}
 
 Annotated_surface surface_of(const Source& source, const Mesh_options& options, Progress& progress) {
   return annotated_surface(source, options, {}, progress);

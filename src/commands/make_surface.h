@@ -45,6 +45,12 @@ struct Made_surface {
 /// doc/program.md on `--method remesh`.
 Made_surface make_surface(const Mesh_options& options, Progress& progress);
 
+/// Throws `Input_error` if the grid of a surface needs more memory than it may.
+void check_memory(const Mesh_options& options);
+
+/// Warns of what the user of a surface would not expect.
+void warn_of(const Annotated_surface& surface, const Source& source, const Mesh_options& options, Progress& progress);
+
 /// Makes a surface of a source that was made before.
 Annotated_surface surface_of(const Source& source, const Mesh_options& options, Progress& progress);
 

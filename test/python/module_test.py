@@ -163,6 +163,22 @@ class Errors(InTemporaryFolder):
         self.assert_sentence("method", ea.mesh, "x", box=1, method="magic")
         self.assert_sentence("resolution", ea.mesh, "x", box=1, resolution=1)
         self.assert_sentence("level", ea.mesh, "x^2", box=1, level=-1)
+        self.assert_sentence("give one of marching-cubes", ea.mesh, "x", box=1, method=None)
+        self.assert_sentence("constants=.*VALUE", ea.mesh, "q*x", box=1)
+        self.assert_sentence("such as box=2", ea.mesh, "x")
+        self.assert_sentence("level: give a number", ea.mesh, "x", box=1, level=[1, 2])
+        self.assert_sentence("level: give a finite", ea.mesh, "x", box=1, level=np.nan)
+        self.assert_sentence("level: give a number", ea.mesh, "x", box=1, level=True)
+        self.assert_sentence("whole number", ea.mesh, "x", box=1, resolution=8.7)
+        self.assert_sentence("whole number", ea.mesh, "x", box=1, threads=1.5)
+        self.assert_sentence("attributes", ea.mesh, "x", box=1, attributes=None)
+        self.assert_sentence("cannot name a constant", ea.mesh, "c*x", box=1, constants={"c": 1, "c=3": 1})
+        self.assert_sentence("GB", ea.mesh, "x", box=1, resolution=20000)
+        self.assert_sentence("unknown name 'help'(?s:.*)\n--help\n  \\^", ea.mesh, "--help", box=1)
+        self.assert_sentence("nothing to evaluate", ea.mesh, "", box=1)
+        self.assertGreater(len(ea.mesh("-x", box=1).V), 0)
+        self.assert_sentence("box: give", ea.mesh, "x", box=[[-1, -1, -1], [1, 1, 1]])
+        self.assert_sentence("box: give", ea.mesh, lambda x, y, z: x, box=[1, -1, 1, -1, 1, -1])
         self.assert_sentence("complex", ea.mesh, np.zeros((3, 3, 3), complex))
         self.assert_sentence("three dimensions", ea.mesh, np.zeros((3, 3)))
         self.assert_sentence("shape", ea.curvatures, [[1, 2], [3, 4]])
@@ -177,6 +193,35 @@ class Errors(InTemporaryFolder):
         for wrong in ({"smoothing": 1}, {"spacing": 1}):
             with self.assertRaises(TypeError):
                 ea.mesh("x", box=1, **wrong)
+
+    def test_masks_are_no_samples_or_refused(self):
+        x, y, z = np.mgrid[-1:1:20j, -1:1:20j, -1:1:20j]
+        values = x**2 + y**2 + z**2
+        masked = ea.mesh(np.ma.masked_where(x > 0, values), level=0.5)
+        np.testing.assert_array_equal(masked.V, ea.mesh(np.where(x > 0, np.nan, values), level=0.5).V)
+        self.assert_sentence("masked", ea.curvatures, np.ma.masked_where(values.reshape(-1, 1) > 1, np.zeros((8000, 1))))
+
+    def test_a_status_that_is_none_is_refused(self):
+        ball = ea.mesh("x^2 + y^2 + z^2 = 1", box=1.2, resolution=12)
+        for status in (np.full(len(ball.V), 200), np.full(len(ball.V), -1), ball.status[:3], np.full(len(ball.V), 0.5)):
+            wrong = ea.Surface(ball.V, ball.F, {}, status)
+            self.assert_sentence("status", wrong.save, self.folder / "a.csv")
+            self.assert_sentence("status", ea.view, wrong, self.folder / "a.html", color="status")
+
+    def test_what_cannot_be_shown_is_refused_and_leaves_nothing(self):
+        ball = ea.mesh("x^2 + y^2 + z^2 = 1", box=1.2, resolution=12)
+        before = set(pathlib.Path(tempfile.gettempdir()).glob("equiaffine-*.html"))
+        self.assert_sentence("nope", ea.view, ball, color="nope")
+        self.assert_sentence("has no faces", ea.view, ea.Surface(ball.V))
+        self.assertEqual(set(pathlib.Path(tempfile.gettempdir()).glob("equiaffine-*.html")), before)
+
+    def test_exceptions_of_progress_stay_as_they_are(self):
+        class Enough(ValueError):
+            pass
+        def end(*_):
+            raise Enough("use --my-option")
+        with self.assertRaisesRegex(Enough, "use --my-option"):
+            ea.mesh(BLOBBY, box=1.2, resolution=200, progress=end)
 
     def test_a_map_is_never_invented(self):
         a = ea.mesh("x^4 + 2*y^4 + z^4 + x*y^2 + 0.3*x*z = 1", box=1.5, resolution=20)
@@ -219,6 +264,26 @@ class Files(InTemporaryFolder):
             np.testing.assert_allclose(back.spacing, (1, 2, 3), err_msg=name)
             np.testing.assert_allclose(back.origin, (4, 5, 6), err_msg=name)
             np.testing.assert_allclose(back.direction, turn, atol=1e-12, err_msg=name)
+
+    def test_the_scale_of_a_fit_stays_known(self):
+        ball = ea.mesh("x^2 + y^2 + z^2 = 1", box=1.2, resolution=20)
+        f = ea.fit(ball, scale=0.5)
+        for found in (ea.curvatures(ball, scale=0.5), f.mesh(resolution=30)):
+            self.assertEqual(found.scale, 0.5)
+            found.save(self.folder / "a.ply")
+            self.assertEqual(ea.read(self.folder / "a.ply").scale, 0.5)
+            ea.view(found, self.folder / "a.html")
+            self.assertIn("at scale 0.5", (self.folder / "a.html").read_text(encoding="utf-8"))
+
+    def test_files_may_have_any_name(self):
+        surface = ea.mesh("x^2 + y^2 + z^2 = 1", box=2, resolution=12)
+        for name in (b"\xff.ply", "\u00e4 b.ply".encode(), b"-a.ply"):
+            path = os.fsencode(self.folder) + b"/" + name
+            surface.save(path)
+            for same in (path, os.fsdecode(path), pathlib.Path(os.fsdecode(path))):
+                np.testing.assert_array_equal(ea.read(same).V, surface.V)
+        with self.assertRaises(ValueError):
+            surface.save("-")
 
     def test_pages_and_pictures(self):
         surface = ea.mesh(BLOBBY, box=1.2, resolution=20)
@@ -297,6 +362,11 @@ class Threads(unittest.TestCase):
         if process == 0:
             os._exit(0 if len(ea.mesh("x^2 + y^2 + z^2 = 1", box=2, resolution=12, threads=1).V) > 100 else 1)
         self.assertEqual(os.waitpid(process, 0)[1], 0)
+
+    def test_a_process_ends_while_a_daemon_thread_computes(self):
+        code = ("import threading, time, equiaffine as ea; threading.Thread(target=lambda: ea.mesh('sin(x)*y + z', box=5, "
+                "resolution=500), daemon=True).start(); time.sleep(0.3)")
+        self.assertEqual(subprocess.run([sys.executable, "-c", code], check=False, capture_output=True).returncode, 0)
 
     def test_progress_is_told_and_may_end_the_work(self):
         seen = []

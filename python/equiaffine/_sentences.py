@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The program's sentences speak of its command line; here they speak of arguments."""
+import contextlib
+import re
+import warnings
+
+from . import _core
+
+_COMMANDS = {"annotate": "curvatures"}
+_ARGUMENTS = {"isovalue": "level", "function": "f", "volume": "f", "fit": "f", "set": "constants", "min-overlap": "overlap",
+              "output": "path"}
+_CHANGES = [
+    (r"see 'equiaffine (\w+) --help'", lambda match: f"see help(equiaffine.{_COMMANDS.get(match[1], match[1])})"),
+    (r"--set (\w+)=VALUE", r'constants={"\1": VALUE}'),
+    (r"the option --([a-z-]+) is missing", lambda match: f"{_ARGUMENTS.get(match[1], match[1])} is missing"),
+    (r"the --function is", "the formula is"),
+    (r"--box -2 2 -2 2 -2 2", "box=2"),
+    (r"--no-reflection", "reflection=False"),
+    (r"--(method|kind|smoothing|scale) ([a-z][a-z-]*)\b", r'\1="\2"'),
+    (r"--([a-z][a-z-]*) ([A-Z]+|[\d.]+)\b", lambda match: f"{_ARGUMENTS.get(match[1], match[1].replace('-', '_'))}={match[2]}"),
+    (r"--([a-z][a-z-]*)", lambda match: _ARGUMENTS.get(match[1], match[1].replace("-", "_"))),
+]
+
+
+def here(text):
+    """The sentence with the names of arguments."""
+    for pattern, change in _CHANGES:
+        text = re.sub(pattern, change, text)
+    return text
+
+
+@contextlib.contextmanager
+def sentences():
+    """Lets errors of the program be ValueErrors with the names of arguments."""
+    try:
+        yield
+    except _core.Sentence as error:
+        sentence, line_end, excerpt = str(error).partition("\n")
+        raise ValueError(here(sentence) + line_end + excerpt) from None
+
+
+def warn(text):
+    """Warns where a function of the module was called."""
+    warnings.warn(here(text), UserWarning, stacklevel=3)
