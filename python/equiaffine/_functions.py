@@ -9,8 +9,8 @@ import webbrowser
 import numpy
 
 from . import _core
-from ._arguments import (choice_of, common_words, data_of, fit_words, integer_of, mesh_of, number_word, numbers_of, path_of, registered,
-                         source_of, thread_words, volume_view_of, whole_mesh_of)
+from ._arguments import (choice_of, common_words, data_of, fit_words, integer_of, mesh_of, number_word, numbers_of,
+                         path_of, registered, source_of, thread_words, volume_view_of, whole_mesh_of)
 from ._results import Fit, Registration, Surface, Symmetries, Values, Volume
 from ._sentences import here, sentences
 

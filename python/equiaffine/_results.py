@@ -33,8 +33,6 @@ class Values:
         self.attributes = attributes
         self.status = status
 
-    _VECTORS = {"normal": "n"}
-
     def keys(self):
         return self.attributes.keys()
 
@@ -46,10 +44,9 @@ class Values:
             raise KeyError(name)
         if name in self.attributes:
             return self.attributes[name]
-        short = self._VECTORS.get(name, name)
-        for x, y, z in [[short + axis for axis in "xyz"], [f"{short}_{axis}" for axis in "xyz"]]:
-            if x in self.attributes and y in self.attributes and z in self.attributes:
-                return numpy.stack([self.attributes[axis] for axis in (x, y, z)], axis=1)
+        columns = ["nx", "ny", "nz"] if name == "normal" else [f"{name}_{axis}" for axis in "xyz"]
+        if all(column in self.attributes for column in columns):
+            return numpy.stack([self.attributes[column] for column in columns], axis=1)
         raise KeyError(f"{name}: there are {', '.join(self.attributes)}")
 
     def __contains__(self, name):
