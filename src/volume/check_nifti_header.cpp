@@ -10,10 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 
 namespace equiaffine {
 
@@ -139,13 +137,6 @@ private:
 } // namespace
 
 void check_nifti_header(const std::string& path) {
-  const std::string_view compressed = ".gz";
-  if (path.ends_with(compressed)) {
-    const std::string other = path.substr(0, path.size() - compressed.size());
-    if (std::filesystem::exists(other))
-      fail_to_read_volume(path, "'" + other + "' lies beside it, which ITK would read in its place",
-                          "move or rename one of them");
-  }
   const Nifti_header header(path);
   header.check_frame();
   const double expected = header.size_of_file();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "system/Temporary_folder.h"
 #include "volume/header_checks.h"
 #include "volume/sample_type.h"
 #include "volume/volume_formats.h"
@@ -18,8 +19,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace equiaffine {
@@ -113,6 +117,29 @@ std::size_t sample_type_of(const std::string& path, const itk::ImageIOBase& io) 
   }
 }
 
+/// The name by which ITK reads a file. Its NIfTI library takes `a.nii` for `a.nii.gz` where both are there, so that the
+/// latter gets a link in a folder of its own.
+class Name_for_ITK {
+public:
+  Name_for_ITK(const std::string& path, Volume_format format) : name_(path) {
+    namespace fs = std::filesystem;
+    const std::string_view compressed = ".gz";
+    if (format != Volume_format::NIFTI || !path.ends_with(compressed) ||
+        !fs::exists(path.substr(0, path.size() - compressed.size())))
+      return;
+    folder_.emplace(fs::temp_directory_path());
+    const fs::path link = folder_->path() / "volume.nii.gz";
+    fs::create_symlink(fs::absolute(path), link);
+    name_ = link.string();
+  }
+
+  const std::string& operator()() const { return name_; }
+
+private:
+  std::optional<Temporary_folder> folder_;
+  std::string name_;
+};
+
 } // namespace
 
 void read_itk_volume(const std::string& path, Volume_format format, Shared_volume& volume) {
@@ -120,7 +147,8 @@ void read_itk_volume(const std::string& path, Volume_format format, Shared_volum
   if (format == Volume_format::META) check_meta_header(path);
   const Captured_standard_error standard_error;
   const itk::ImageIOBase::Pointer io = make_image_io(format);
-  io->SetFileName(path);
+  const Name_for_ITK name(path, format);
+  io->SetFileName(name());
   try {
     io->ReadImageInformation();
   } catch (const itk::ExceptionObject& exception) {
