@@ -237,7 +237,7 @@ function followFormula() {
     if (/^[A-Za-z_]\w*$/.test(name) && [value, least, greatest].every(Number.isFinite) && least < greatest)
       state.names[name] = [value, least, greatest];
   }
-  return askedFile || JSON.stringify(state) !== before;
+  return Boolean(askedFile) || JSON.stringify(state) !== before;
 }
 
 // A file, or another level set of the volume that is asked for.

@@ -15,7 +15,7 @@ async function startWorker() {
   URL.revokeObjectURL(address);
 }
 
-// One task runs, and the last of those that came since waits. A task is ended for the next one if it takes long, and at
+// A task is ended for the next one if it takes long, and at
 // once if it computes a file that nobody asks for any more. The fine surface waits for the coarse one of the same change.
 function request(task) {
   waiting = task;

@@ -42,7 +42,7 @@ class Progress_observer {
     return observer;
   }
 
-  // What a thread that helps throws; the owner throws the exception of the function instead.
+  // A thread that helps throws this; the owner throws the exception of the function instead.
   struct Ended {};
 
 public:

@@ -198,8 +198,8 @@ def source_of(f, *, constants=None, box=None, resolution=None, spacing=None, ori
         refuse("a formula", smoothing=smoothing, **samples)
         if not hasattr(constants or {}, "items"):
             raise ValueError("constants: give a dictionary of names and numbers")
-        numbers = {str(name): float(number_word(f"constants[{name!r}]", value)) for name, value in (constants or {}).items()}
-        return ["--function=f", *box_words(box), *resolution_words], (f, numbers)
+        values = {str(name): float(number_word(f"constants[{name!r}]", value)) for name, value in (constants or {}).items()}
+        return ["--function=f", *box_words(box), *resolution_words], (f, values)
     refuse("what is no formula", constants=constants)
     if isinstance(f, Fit):
         refuse("a fit", smoothing=smoothing, **samples)

@@ -207,7 +207,7 @@ def register(a, b, *, kind="affine", reflection=True, tolerance=None, overlap=No
     Returns
     -------
     Registration
-        Without a map if there is no evidence for any: never a wrong one to be polite.
+        Without a map if there is no evidence for any.
 
     Examples
     --------
@@ -218,11 +218,11 @@ def register(a, b, *, kind="affine", reflection=True, tolerance=None, overlap=No
     >>> bool(numpy.abs(found.matrix[:3, :3] - shear).max() < 1e-3)
     True
     """
-    (source, source_view), (target, target_view) = registered(a, "a"), registered(b, "b")
+    (source, source_data), (target, target_data) = registered(a, "a"), registered(b, "b")
     words = ["register", *source, "to", *target, *_map_words(kind, reflection, tolerance), *thread_words(threads)]
     words += [] if overlap is None else ["--min-overlap", number_word("overlap", overlap)]
     with sentences():
-        report, summary = _core.register([*words, "-o", "result.json"], source_view, target_view, progress)
+        report, summary = _core.register([*words, "-o", "result.json"], source_data, target_data, progress)
     return Registration(json.loads(report), here(summary.strip()))
 
 
@@ -248,10 +248,10 @@ def symmetries(a, *, kind="affine", reflection=True, tolerance=None, threads=Non
     >>> equiaffine.symmetries((V, F), kind="rigid").order
     48
     """
-    surface, view = registered(a, "a")
+    surface, data = registered(a, "a")
     words = ["symmetries", *surface, *_map_words(kind, reflection, tolerance), *thread_words(threads)]
     with sentences():
-        report, summary = _core.symmetries([*words, "-o", "result.json"], view, progress)
+        report, summary = _core.symmetries([*words, "-o", "result.json"], data, progress)
     return Symmetries(json.loads(report), here(summary.strip()))
 
 

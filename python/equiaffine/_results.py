@@ -199,7 +199,18 @@ def _matrix_of(mapping):
     return matrix
 
 
-class Registration:
+class _Findings:
+    """What the program reports, and what it says of it."""
+
+    def __init__(self, report, summary):
+        self.report = report
+        self.summary = summary
+
+    def __repr__(self):
+        return f"<{type(self).__name__}: {self.summary}>"
+
+
+class Registration(_Findings):
     """The map from a surface to another one, or why there is none. It is true if there is one.
 
     Attributes
@@ -221,8 +232,7 @@ class Registration:
     """
 
     def __init__(self, report, summary):
-        self.report = report
-        self.summary = summary
+        super().__init__(report, summary)
         self.found = report["found"]
         self.matrix = _matrix_of(report) if self.found else None
         self.rms = report.get("rms")
@@ -238,11 +248,8 @@ class Registration:
     def __bool__(self):
         return self.found
 
-    def __repr__(self):
-        return f"<Registration: {self.summary}>"
 
-
-class Symmetries:
+class Symmetries(_Findings):
     """The maps of a surface onto itself.
 
     Attributes
@@ -262,12 +269,8 @@ class Symmetries:
     """
 
     def __init__(self, report, summary):
-        self.report = report
-        self.summary = summary
+        super().__init__(report, summary)
         self.decided = not report["undecided"]
         self.order = report["order"] if self.decided else None
         self.matrices = numpy.stack([_matrix_of(mapping) for mapping in report["maps"]]) if self.decided else None
         self.dimension = report["continuous"]["dimension"]
-
-    def __repr__(self):
-        return f"<Symmetries: {self.summary}>"

@@ -28,7 +28,7 @@ struct Found_map {
 /// compared without curvature, since CAD parts have none to go by. Throws `Input_error`.
 Found_map find_map(const Register_options& options, Progress& progress);
 
-/// What is reported of it.
+/// Returns the report on it.
 Registration_report report_of(const Register_options& options, const Found_map& found);
 
 } // namespace equiaffine

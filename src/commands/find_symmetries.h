@@ -19,7 +19,7 @@ struct Found_symmetries {
   Indexed_triangle_mesh_3<Kernel> mesh;
   std::optional<Surface_to_register> level_set; ///< unless the mesh is the surface
 
-  /// What the surface is called.
+  /// Returns the name of the surface for people.
   std::string name(const Source_options& source) const;
 
   /// The surface with marks of the symmetries.
@@ -30,7 +30,7 @@ struct Found_symmetries {
 /// Throws `Input_error`.
 Found_symmetries find_symmetries(const Symmetries_options& options, Progress& progress);
 
-/// What is reported of them. Throws `Input_error` if nothing is known of the surface.
+/// Returns the report on them. Throws `Input_error` if nothing is known of the surface.
 Symmetries_report report_of(const Symmetries_options& options, const Found_symmetries& found);
 
 } // namespace equiaffine

@@ -66,7 +66,7 @@ struct Source_options {
   Memory_use memory_use = Memory_use::HALF;
   std::optional<double> narrow_band; ///< distances are not needed beyond so many voxels
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
-  /// What is read in the place of the file `text`, if the volume, or the mesh or points, are in memory already.
+  /// These return data that are in memory already: then `text` is only their name, and no file is read.
   std::function<Volume_3<Kernel>()> volume;
   std::function<Annotated_mesh_3<Kernel>()> data;
 };

@@ -20,7 +20,7 @@ def main():
             archive.extractall(folder)
         unpacked = folder / package.name[:-len(".tar.gz")]
         sources = {path.relative_to(ROOT) for part in FOLDERS for path in (ROOT / part).rglob("*")
-                   if path.is_file() and "__pycache__" not in path.parts}
+                   if path.is_file() and not {"__pycache__", "equiaffine.egg-info"} & set(path.parts)}
         missing = sorted(str(path) for path in sources if not (unpacked / path).exists())
         assert not missing, f"the source package lacks {missing}"
         subprocess.run(["cmake", "-S", unpacked, "-B", folder / "build", "-G", "Ninja", "-DEQUIAFFINE_BUILD_PYTHON=ON",
