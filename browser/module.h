@@ -12,11 +12,14 @@
 
 #include <chrono>
 #include <cstdint>
-#include <emscripten.h>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#ifdef __EMSCRIPTEN__
+#include <emscripten.h>
+#endif
 
 #define EXPORTED extern "C" __attribute__((used, visibility("default")))
 
@@ -38,18 +41,21 @@ inline Failure failure;
 
 enum Outcome { DONE, MISTAKE, NO_MEMORY, FAILED };
 
+/// Tells JavaScript how far a call is. The benchmark compiles this for the machine, where there is no JavaScript.
+inline void report([[maybe_unused]] const equiaffine::Progress_observer::Stage& stage) {
+#ifdef __EMSCRIPTEN__
+  EM_ASM(
+      {
+        if (Module.onProgress) Module.onProgress($0, $1, $2);
+      },
+      int(stage.number), int(stage.done), int(stage.total));
+#endif
+}
+
 /// Calls `compute()`; what it throws becomes an outcome and a sentence. JavaScript sees how far it is.
 template <class Compute>
 Outcome outcome_of(const Compute& compute) {
-  const equiaffine::Progress_observer observer(
-      [](const equiaffine::Progress_observer::Stage& stage) {
-        EM_ASM(
-            {
-              if (Module.onProgress) Module.onProgress($0, $1, $2);
-            },
-            int(stage.number), int(stage.done), int(stage.total));
-      },
-      std::chrono::milliseconds(200));
+  const equiaffine::Progress_observer observer(report, std::chrono::milliseconds(200));
   failure = {};
   const auto fail = [](Outcome outcome, const std::string& message) {
     surface = {};

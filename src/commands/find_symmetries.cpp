@@ -27,13 +27,7 @@ double default_tolerance(const Source_options& source) {
 /// The triangles of the file that the source names, none if it has no faces.
 Indexed_triangle_mesh_3<Kernel> read_triangles(const Source_options& source, Progress& progress) {
   progress.begin("reading the mesh");
-  Indexed_triangle_mesh_3<Kernel> mesh;
-  if (source.data) {
-    mesh = source.data().mesh;
-    check_vertices(mesh.points, source.text);
-  } else {
-    mesh = read_vertices(source.text).mesh;
-  }
+  Indexed_triangle_mesh_3<Kernel> mesh = read_vertices(source).mesh;
   if (source.transformation)
     for (Kernel::Point_3& p : mesh.points) p = (*source.transformation)(p);
   return mesh;

@@ -62,6 +62,13 @@ Point_table_3<Kernel> read_vertices(const std::string& path) {
   return table;
 }
 
+Point_table_3<Kernel> read_vertices(const Source_options& source) {
+  if (!source.data) return read_vertices(source.text);
+  Point_table_3<Kernel> table{source.data()};
+  check_vertices(table.mesh.points, source.text);
+  return table;
+}
+
 void check_vertices(const std::vector<Kernel::Point_3>& points, const std::string& path) {
   if (points.empty()) fail(path, "it has no points", "give a mesh, or points of a surface");
   CGAL::Bbox_3 box;

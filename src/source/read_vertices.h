@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_SRC_SOURCE_READ_VERTICES_H
 #define EQUIAFFINE_SRC_SOURCE_READ_VERTICES_H
 
+#include "request/options.h"
 #include "system/kernel.h"
 #include <equiaffine/io/read_points.h>
 
@@ -15,6 +16,9 @@ namespace equiaffine {
 /// triangles from their first corner. "-" reads PLY, OFF or CSV from standard input. Throws `Input_error` for what
 /// cannot be read, for a file without points, and for coordinates that are not finite or in an extreme unit.
 Point_table_3<Kernel> read_vertices(const std::string& path);
+
+/// The mesh or points of a source, from memory or from its file. Throws `Input_error` for the same.
+Point_table_3<Kernel> read_vertices(const Source_options& source);
 
 /// Throws `Input_error` if there are no points, a coordinate is not finite, or the unit is extreme. `name` stands for where
 /// they come from.

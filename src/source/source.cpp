@@ -119,13 +119,8 @@ Fit_traits make_fit(const Source_options& options, const Point_table_3<Kernel>& 
 }
 
 Point_table_3<Kernel> read_data(const Source_options& options, Progress& progress) {
-  if (options.data) {
-    Point_table_3<Kernel> table{options.data()};
-    check_vertices(table.mesh.points, options.text);
-    return table;
-  }
   progress.begin("reading the vertices");
-  return read_vertices(options.text);
+  return read_vertices(options);
 }
 
 Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size, Progress& progress) {
