@@ -4,6 +4,7 @@
 
 #include "Surface_complex.h"
 #include "orient_triangles.h"
+#include <equiaffine/Progress_observer.h>
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
 #include <equiaffine/mesh_topology.h>
 #include <equiaffine/surface/internal/shared/curve_step.h>
@@ -51,6 +52,7 @@ inline Facet_mesh read_facets(const Surface_complex& complex, const Memoized_fun
   auto& [points, triangles] = static_cast<Indexed_triangle_mesh_3<Any_function_3::Kernel>&>(mesh.surface);
   std::vector<Vector_3> gradients;
   for (auto facet = complex.facets_in_complex_begin(); facet != complex.facets_in_complex_end(); ++facet) {
+    Progress_observer::step();
     std::array<std::uint32_t, 3> triangle;
     for (int i = 0; i < 3; ++i)
       triangle[std::size_t(i)] = number_of(facet->first->vertex((facet->second + 1 + i) & 3), mesh);

@@ -4,6 +4,7 @@
 
 #include "Surface_complex.h"
 #include "initial_points.h"
+#include <equiaffine/Progress_observer.h>
 
 #include <CGAL/spatial_sort.h>
 
@@ -38,6 +39,7 @@ insert_sorted(Surface_complex& complex, const std::vector<Any_function_3::Point_
   CGAL::spatial_sort(sorted.begin(), sorted.end());
   Surface_triangulation::Cell_handle hint;
   for (const auto& p : sorted) {
+    Progress_observer::step();
     const auto vertex = insert_point(complex, Surface_triangulation::Weighted_point(p), dimension, hint);
     if (vertex != Surface_vertex()) hint = vertex->cell();
     else hidden.push_back(p);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "arrays.h"
 
-#include <equiaffine/Progress_observer.h>
+#include <equiaffine/base/internal/shared/large_pages.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
 
+#include <CGAL/tags.h>
+
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -101,20 +105,20 @@ Volume_view::Volume_view(py::array samples, py::array_t<double> origin, py::arra
 
 Volume_3<Kernel> Volume_view::volume() const {
   Volume_3<Kernel> result{lattice_, {}};
-  result.values.resize(lattice_.number_of_nodes());
+  resize_with_large_pages(result.values, lattice_.number_of_nodes());
   const auto* const data = static_cast<const char*>(samples_.data());
   const py::ssize_t *const n = samples_.shape(), *const stride = samples_.strides();
   with_type(type_, [&]<class T>(T) {
-    double* out = result.values.data();
-    for (py::ssize_t k = 0; k < n[2]; ++k) {
-      Progress_observer::step();
+    parallel_for<CGAL::Parallel_if_available_tag>(0, std::size_t(n[2]), [&](std::size_t slab) {
+      const auto k = py::ssize_t(slab);
+      double* out = result.values.data() + k * n[0] * n[1];
       for (py::ssize_t j = 0; j < n[1]; ++j)
         for (py::ssize_t i = 0; i < n[0]; ++i) {
           T number;
           std::memcpy(&number, data + i * stride[0] + j * stride[1] + k * stride[2], sizeof(T));
           *out++ = double(number);
         }
-    }
+    });
   });
   return result;
 }
@@ -144,11 +148,12 @@ py::dict arrays_of(Indexed_triangle_mesh_3<Kernel>&& mesh, Vertex_attributes&& a
   const auto vertices = py::ssize_t(mesh.points.size()), faces = py::ssize_t(mesh.triangles.size());
   static_assert(sizeof(Kernel::Point_3) == 3 * sizeof(double));
   result["V"] = shared_array<double>(std::move(mesh.points), {vertices, 3});
-  py::array_t<std::int64_t> triangles({faces, py::ssize_t(3)});
-  std::int64_t* out = triangles.mutable_data();
-  for (const auto& triangle : mesh.triangles)
-    for (const std::uint32_t v : triangle) *out++ = v;
-  result["F"] = triangles;
+  std::vector<std::int64_t> indices;
+  resize_with_large_pages(indices, 3 * mesh.triangles.size());
+  parallel_for<CGAL::Parallel_if_available_tag>(
+      0, mesh.triangles.size(),
+      [&](std::size_t t) { std::copy(mesh.triangles[t].begin(), mesh.triangles[t].end(), &indices[3 * t]); }, 4096);
+  result["F"] = shared_array<std::int64_t>(std::move(indices), {faces, 3});
   return result;
 }
 

@@ -46,7 +46,7 @@ class Progress_observer {
   struct Ended {};
 
 public:
-  /// How far the current stage is. Stages count from 1.
+  /// How far the current stage is. Stages count from 1; the number is 0 before the first of them.
   struct Stage {
     std::size_t number; ///< of the stage
     std::size_t done;   ///< steps of it, by all threads

@@ -55,7 +55,8 @@ def mesh(f, *, level=0, box=None, resolution=None, method="marching-cubes", spac
     threads : int
         The greatest number of threads. The result does not depend on it.
     progress : callable
-        Is called with the number of a stage, the steps that are done, and all of them.
+        Is called some twenty times a second with the number of a stage, the steps that are done, and all of them, which
+        are 0 where their number is not known. An exception that it raises ends the work.
 
     Returns
     -------

@@ -4,6 +4,7 @@
 #include "system/resources.h"
 #include "system/signals.h"
 #include <equiaffine/Input_error.h>
+#include <equiaffine/Progress_observer.h>
 
 #include <algorithm>
 #include <array>
@@ -85,6 +86,7 @@ std::string answer_of(const std::function<void()>& task) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
   forget_signals();
+  std::signal(SIGINT, SIG_IGN); // Ctrl-C is sent to both processes, and the parent decides
   if (const int nothing = ::open("/dev/null", O_RDWR); nothing != -1) {
     ::dup2(nothing, STDOUT_FILENO);
     ::dup2(nothing, STDERR_FILENO);
@@ -97,14 +99,55 @@ std::string answer_of(const std::function<void()>& task) {
   ::_exit(0);
 }
 
-/// Reads from the pipe until the child closes it; false if that is not before the deadline.
+/// A child process, which is ended before this object is.
+class Child {
+public:
+  explicit Child(pid_t process) : process_(process) {}
+  ~Child() {
+    if (process_ == 0) return;
+    ::kill(process_, SIGKILL);
+    wait();
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  /// Waits for its end and returns how it ended.
+  int wait() {
+    int status = 0;
+    while (::waitpid(process_, &status, 0) == -1 && errno == EINTR) {
+    }
+    process_ = 0;
+    return status;
+  }
+
+private:
+  pid_t process_;
+};
+
+/// The end of a pipe that is read.
+class Pipe_end {
+public:
+  explicit Pipe_end(int descriptor) : descriptor_(descriptor) {}
+  ~Pipe_end() { ::close(descriptor_); }
+  Pipe_end(const Pipe_end&) = delete;
+  Pipe_end& operator=(const Pipe_end&) = delete;
+
+  int operator()() const { return descriptor_; }
+
+private:
+  const int descriptor_;
+};
+
+/// Reads from the pipe until the child closes it; false if that is not before the deadline. An observer may look twenty
+/// times a second.
 bool read_until_closed(int pipe, Clock::time_point deadline, std::string& text) {
   std::array<char, 4096> buffer;
   while (true) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
     if (left <= 0) return false;
+    Progress_observer::step();
     pollfd request = {pipe, POLLIN, 0};
-    if (::poll(&request, 1, int(std::min<long long>(left, 1000))) <= 0) continue;
+    if (::poll(&request, 1, int(std::min<long long>(left, 50))) <= 0) continue;
     const ssize_t count = ::read(pipe, buffer.data(), buffer.size());
     if (count == 0) return true;
     if (count > 0) text.append(buffer.data(), std::size_t(count));
@@ -155,15 +198,12 @@ void run_in_child(const std::function<void()>& task, const Child_limits& limits)
     live(task, limits, pipe[1]);
   }
   ::close(pipe[1]);
+  Child process(child);
+  const Pipe_end end(pipe[0]);
   std::string answer;
   const auto patience = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(2 * limits.seconds));
-  const bool has_ended = read_until_closed(pipe[0], Clock::now() + patience, answer);
-  ::close(pipe[0]);
-  if (!has_ended) ::kill(child, SIGKILL);
-  int status = 0;
-  while (::waitpid(child, &status, 0) == -1 && errno == EINTR) {
-  }
-  if (!has_ended) throw_too_slow(limits);
+  if (!read_until_closed(end(), Clock::now() + patience, answer)) throw_too_slow(limits);
+  const int status = process.wait();
   if (answer != std::string{done}) throw_answer(answer, status, limits);
 }
 

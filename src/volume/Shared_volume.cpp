@@ -2,11 +2,16 @@
 #include "volume/Shared_volume.h"
 
 #include "volume/sample_type.h"
+#include <equiaffine/base/internal/shared/large_pages.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
 
+#include <CGAL/tags.h>
+
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstring>
 #include <type_traits>
-#include <vector>
 
 namespace equiaffine {
 
@@ -58,10 +63,17 @@ Volume_3<Kernel> Shared_volume::to_volume() {
   const std::byte* const bytes = memory_.data();
   const Header header = header_in(bytes);
   const Lattice_3<Kernel> lattice = lattice_of(header);
-  return with_sample_type(header.type, [&](auto number) -> Volume_3<Kernel> {
+  Volume_3<Kernel> volume{lattice, {}};
+  resize_with_large_pages(volume.values, lattice.number_of_nodes());
+  with_sample_type(header.type, [&](auto number) {
     const auto* const samples = reinterpret_cast<const decltype(number)*>(bytes + size_of_header);
-    return {lattice, std::vector<double>(samples, samples + lattice.number_of_nodes())};
+    const auto& [nx, ny, nz] = lattice.size();
+    parallel_for<CGAL::Parallel_if_available_tag>(0, nz, [&, slab = nx * ny](std::size_t k) {
+      std::transform(samples + k * slab, samples + (k + 1) * slab, volume.values.begin() + std::ptrdiff_t(k * slab),
+                     [](auto sample) { return double(sample); });
+    });
   });
+  return volume;
 }
 
 } // namespace equiaffine

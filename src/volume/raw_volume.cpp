@@ -3,6 +3,8 @@
 
 #include "volume/sample_type.h"
 #include "volume/volume_formats.h"
+#include <equiaffine/Progress_observer.h>
+#include <equiaffine/base/internal/shared/large_pages.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -29,15 +31,16 @@ Volume_3<Kernel> read_raw_volume(const std::string& path, const Raw_layout& layo
                             std::string(raw_types[layout.type]) + " have " + std::to_string(std::uint64_t(expected)),
                         "correct --dims or --type");
   std::ifstream file(path, std::ios::binary);
-  Volume_3<Kernel> volume{lattice, std::vector<double>(lattice.number_of_nodes())};
+  Volume_3<Kernel> volume{lattice, {}};
+  resize_with_large_pages(volume.values, lattice.number_of_nodes());
   with_sample_type(layout.type, [&](auto number) {
     using T = decltype(number);
     std::vector<T> row(layout.dims[0]);
     for (std::size_t n = 0; n < volume.values.size() && file; n += row.size()) {
+      Progress_observer::step();
       file.read(reinterpret_cast<char*>(row.data()), std::streamsize(row.size() * sizeof(T)));
       for (std::size_t i = 0; i < row.size(); ++i) volume.values[n + i] = double(row[i]);
     }
-    return 0;
   });
   if (!file) fail_to_read_volume(path, "it cannot be read", "check its permissions");
   return volume;

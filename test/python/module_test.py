@@ -10,7 +10,9 @@ import sys
 import tempfile
 import threading
 import time
+import types
 import unittest
+import unittest.mock
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -140,6 +142,21 @@ class Sources(InTemporaryFolder):
         np.testing.assert_allclose(ball["normal"], ball.V / 2, atol=1e-12)
         with self.assertRaises(KeyError):
             ball["nonsense"]
+
+    def test_meshes_of_other_packages_are_made_as_these_take_them(self):
+        ball = ea.mesh("x^2 + y^2 + z^2 = 4", box=3, resolution=20)
+        pyvista, trimesh = types.ModuleType("pyvista"), types.ModuleType("trimesh")
+        pyvista.PolyData = lambda points, faces: types.SimpleNamespace(points=points, faces=faces, point_data={})
+        trimesh.Trimesh = lambda points, faces, **options: (points, faces, options)
+        with unittest.mock.patch.dict(sys.modules, pyvista=pyvista, trimesh=trimesh):
+            data = ball.to_pyvista()
+            points, faces, options = ball.to_trimesh()
+        np.testing.assert_array_equal(data.faces.reshape(-1, 4), np.insert(ball.F, 0, 3, axis=1))
+        self.assertEqual(set(data.point_data), {*ball.attributes, "status"})
+        self.assertIs(points, ball.V)
+        self.assertIs(faces, ball.F)
+        self.assertEqual(set(options["vertex_attributes"]), set(ball.attributes))
+        self.assertFalse(options["process"])
 
     def test_nan_is_no_sample(self):
         x, y, z = np.mgrid[-1:1:24j, -1:1:24j, -1:1:24j]

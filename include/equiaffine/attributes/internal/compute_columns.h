@@ -4,9 +4,11 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_COMPUTE_COLUMNS_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_COMPUTE_COLUMNS_H
 
+#include <equiaffine/Progress_observer.h>
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/attributes/internal/Expanded_block.h>
 #include <equiaffine/attributes/internal/structure_by.h>
+#include <equiaffine/base/internal/shared/large_pages.h>
 #include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 #include <equiaffine/surface/internal/shared/affine_gradients.h>
@@ -84,8 +86,11 @@ Vertex_attributes compute_columns(const Traits& traits, std::span<const typename
                                   const Parameters& parameters) {
   Vertex_attributes result;
   if (selection.columns.empty() && !selection.has_status) return result;
-  for (const Attribute& attribute : selection.columns)
-    result.columns.push_back({std::string(attribute.name), std::vector<double>(points.size())});
+  for (const Attribute& attribute : selection.columns) {
+    Progress_observer::step();
+    auto& column = result.columns.emplace_back(Vertex_attributes::Column{std::string(attribute.name), {}});
+    resize_with_large_pages(column.values, points.size());
+  }
   std::vector<Point_status> status(points.size());
   constexpr std::size_t block = Expanded_block::points;
   parallel_for<ConcurrencyTag>(

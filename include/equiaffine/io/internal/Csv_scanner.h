@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_CSV_SCANNER_H
 #define EQUIAFFINE_IO_INTERNAL_CSV_SCANNER_H
 
+#include <equiaffine/Progress_observer.h>
 #include <equiaffine/io/internal/shared/fail_to_read.h>
 #include <equiaffine/io/internal/text_input.h>
 
@@ -56,6 +57,7 @@ public:
 
   /// Takes the next row that is not blank: its cells as they are written; none at the end of the file.
   std::vector<std::string_view> next_row() {
+    Progress_observer::step();
     std::size_t end = 0;
     do {
       line_number_ = next_line_number_;

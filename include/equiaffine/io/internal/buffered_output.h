@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_BUFFERED_OUTPUT_H
 #define EQUIAFFINE_IO_INTERNAL_BUFFERED_OUTPUT_H
 
+#include <equiaffine/Progress_observer.h>
 #include <equiaffine/base/internal/shared/bit_cast.h>
 
 #include <algorithm>
@@ -64,6 +65,7 @@ public:
   }
 
   void flush() {
+    Progress_observer::step();
     stream_.write(buffer_.data(), std::streamsize(buffer_.size()));
     buffer_.clear();
   }

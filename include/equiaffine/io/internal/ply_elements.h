@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_PLY_ELEMENTS_H
 #define EQUIAFFINE_IO_INTERNAL_PLY_ELEMENTS_H
 
+#include <equiaffine/Progress_observer.h>
 #include <equiaffine/io/Annotated_mesh_3.h>
 #include <equiaffine/io/internal/Ply_header.h>
 #include <equiaffine/io/internal/Ply_numbers.h>
@@ -77,6 +78,7 @@ void read_vertices(Ply_numbers& numbers, const Ply_element& element, Annotated_m
   result.mesh.points.reserve(element.count);
   std::vector<double> row(element.properties.size()), list;
   for (std::size_t v = 0; v < element.count; ++v) {
+    Progress_observer::step();
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (element.properties[i].count_type) numbers.next_list(element.properties[i], list);
       else row[i] = numbers.next(element.properties[i].type);
@@ -93,7 +95,8 @@ void read_faces(Ply_numbers& numbers, const Ply_element& element, Indexed_triang
                 const Add_face& add_face) {
   std::vector<double> list;
   std::vector<std::uint32_t> face;
-  for (std::size_t f = 0; f < element.count; ++f)
+  for (std::size_t f = 0; f < element.count; ++f) {
+    Progress_observer::step();
     for (const Ply_property& property : element.properties) {
       if (!property.count_type) {
         numbers.next(property.type);
@@ -109,6 +112,7 @@ void read_faces(Ply_numbers& numbers, const Ply_element& element, Indexed_triang
       }
       add_face(mesh, face);
     }
+  }
 }
 
 /// Reads the elements in the order of the header. Those that are neither vertices nor faces are left out.

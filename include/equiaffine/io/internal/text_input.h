@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_TEXT_INPUT_H
 #define EQUIAFFINE_IO_INTERNAL_TEXT_INPUT_H
 
+#include <equiaffine/Progress_observer.h>
 #include <equiaffine/base/internal/shared/from_chars.h>
 
 #include <cstddef>
@@ -40,6 +41,7 @@ std::optional<Number> parse_number(std::string_view text) {
 
 /// Takes the first line off `text` and returns it without its end; counts it in `line_number`.
 inline std::string_view take_line(std::string_view& text, std::size_t& line_number) {
+  Progress_observer::step();
   const std::size_t end = text.find('\n');
   std::string_view line = text.substr(0, end);
   text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);

@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_LATTICE_ISOSURFACE_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LATTICE_ISOSURFACE_H
 
+#include <equiaffine/base/internal/shared/large_pages.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
 #include <equiaffine/marching_cubes/internal/grid/lattice_function.h>
 #include <equiaffine/marching_cubes/internal/grid/sample_signs.h>
 #include <equiaffine/marching_cubes/internal/isosurface_plan.h>
-#include <equiaffine/marching_cubes/internal/large_pages.h>
 #include <equiaffine/marching_cubes/internal/linear_isosurface.h>
 #include <equiaffine/marching_cubes/internal/vertex/pole_removal.h>
 #include <equiaffine/marching_cubes/internal/vertex/vertex_projection.h>

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SPLINE_COEFFICIENTS_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SPLINE_COEFFICIENTS_H
 
+#include <equiaffine/base/internal/shared/large_pages.h>
 #include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/volume/Spline_scheme.h>
@@ -33,7 +34,7 @@ public:
   /// Turns samples into coefficients, along x, then y, then z. Those that are not finite become NaN.
   template <class ConcurrencyTag>
   void fit(const std::vector<FT>& samples, const Size& nodes, Spline_scheme scheme, int border_degree) {
-    values_.resize(size_[0] * size_[1] * size_[2] + overread);
+    resize_with_large_pages(values_, size_[0] * size_[1] * size_[2] + overread);
     with_degree(degree_, [&](auto n) {
       with_line_filter<FT, n>(scheme, border_degree, [&](const auto& line) {
         using Filter = std::decay_t<decltype(line)>;

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_NOISE_MEASUREMENT_H
 #define EQUIAFFINE_VOLUME_INTERNAL_NOISE_MEASUREMENT_H
 
+#include <equiaffine/Progress_observer.h>
 #include <equiaffine/Volume_3.h>
 #include <equiaffine/base/internal/shared/quantile.h>
 
@@ -52,9 +53,11 @@ std::vector<std::array<std::size_t, 3>> nodes_to_measure(const Volume_3<Kernel>&
   if (*std::min_element(size.begin(), size.end()) <= 2 * margin) return {};
   const auto for_each_node = [&](const auto& visit) {
     for (std::size_t k = margin; k < size[2] - margin; ++k)
-      for (std::size_t j = margin; j < size[1] - margin; ++j)
+      for (std::size_t j = margin; j < size[1] - margin; ++j) {
+        Progress_observer::step();
         for (std::size_t i = margin; i < size[0] - margin; ++i)
           if (is_beside_level_set(volume, isovalue, i, j, k)) visit(std::array{i, j, k});
+      }
   };
   std::size_t count = 0, n = 0;
   for_each_node([&](const auto&) { ++count; });

@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_GRID_NODE_SIGNS_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_GRID_NODE_SIGNS_H
 
+#include <equiaffine/base/internal/shared/large_pages.h>
 #include <equiaffine/marching_cubes/internal/grid/sign_word.h>
-#include <equiaffine/marching_cubes/internal/large_pages.h>
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_ROTATION_SEARCH_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_ROTATION_SEARCH_H
 
+#include <equiaffine/Progress_observer.h>
 #include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/registration/internal/wholes/Distance_grid.h>
 
@@ -99,12 +100,14 @@ private:
   static std::vector<Cell> divided(const std::vector<Cell>& cells, double half) {
     std::vector<Cell> result;
     result.reserve(8 * cells.size());
-    for (const Cell& cell : cells)
+    for (const Cell& cell : cells) {
+      Progress_observer::step();
       for (int part = 0; part < 8; ++part) {
         Cell child = cell;
         for (std::size_t k = 0; k < 3; ++k) child.center[k] += float(part >> k & 1 ? half : -half);
         result.push_back(child);
       }
+    }
     return result;
   }
 
@@ -132,6 +135,7 @@ private:
     std::stable_sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.rms < b.rms; });
     Rotation_candidates result{{}, tolerance};
     for (const Cell& cell : cells) {
+      Progress_observer::step();
       const Eigen::Matrix3d matrix = cell.matrix();
       if (std::any_of(result.rotations.begin(), result.rotations.end(), [&](const Rotation_candidate& other) {
             return difference(matrix, other.matrix) < least_difference;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_LARGE_PAGES_H
-#define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LARGE_PAGES_H
+#ifndef EQUIAFFINE_BASE_INTERNAL_SHARED_LARGE_PAGES_H
+#define EQUIAFFINE_BASE_INTERNAL_SHARED_LARGE_PAGES_H
 
 #include <cstddef>
 #include <cstdint>
@@ -9,12 +9,12 @@
 #include <sys/mman.h>
 #endif
 
-namespace equiaffine::internal {
+namespace equiaffine {
 
 inline constexpr std::size_t large_page = std::size_t(1) << 21;
 
 /// Asks for large pages where memory is written for the first time: the first touch of every small page costs more than
-/// what Marching Cubes computes for it. This is advice only: a system that ignores it makes programs slower, not wrong.
+/// what Marching Cubes or a spline computes for it. This is advice only: a system that ignores it makes programs slower, not wrong.
 inline void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
   const auto begin = reinterpret_cast<std::uintptr_t>(memory);
@@ -32,6 +32,6 @@ void resize_with_large_pages(Vector& vector, std::size_t n) {
   vector.resize(n);
 }
 
-} // namespace equiaffine::internal
+} // namespace equiaffine
 
 #endif
