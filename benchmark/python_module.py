@@ -15,7 +15,7 @@ import time
 
 import numpy as np
 
-RUNS = 5
+RUNS = 9
 BLOBBY = "(3*x)^4 + (3*y)^4 + (3*z)^4 - 45*x^2 - 45*y^2 - 45*z^2 + 6"
 
 

@@ -32,7 +32,7 @@ void read_tolerance(const Option_words& option, Draft& draft) {
                 "give a part of the size of the surface, such as 1e-3, or leave it out");
 }
 
-const std::vector<Option_row> rows = {
+const std::vector<Option_row> rows_of_maps = {
     {"--kind", registering, MAPS, 1, "affine|equiaffine|similarity|rigid",
      "the maps that are sought: all (affine, the default), those that keep volumes,\n"
      "those that keep angles, or those that keep lengths",
@@ -59,6 +59,6 @@ const std::vector<Option_row> rows = {
 
 } // namespace
 
-std::span<const Option_row> map_options() { return rows; }
+std::span<const Option_row> map_options() { return rows_of_maps; }
 
 } // namespace equiaffine

@@ -153,7 +153,7 @@ void read_range(const Option_words& option, Draft& draft) {
 
 void read_output(const Option_words& option, Draft& draft) { draft.output = option.word(); }
 
-const std::vector<Option_row> rows = {
+const std::vector<Option_row> rows_of_outputs = {
     {"-o,--output", MESH, OUTPUT, 1, "OUT",
      "the mesh: .ply .off .obj .stl" + vtp +
          ", or its vertices as .csv; - writes OFF to standard\n"
@@ -233,6 +233,6 @@ const std::vector<Option_row> rows = {
 
 } // namespace
 
-std::span<const Option_row> output_options() { return rows; }
+std::span<const Option_row> output_options() { return rows_of_outputs; }
 
 } // namespace equiaffine

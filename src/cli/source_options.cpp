@@ -75,7 +75,7 @@ void read_file(const Option_words& option, Draft& draft) {
   read_source(is_volume(option.word()) ? Source_kind::VOLUME : Source_kind::FIT, option, draft);
 }
 
-const std::vector<Option_row> rows = {
+const std::vector<Option_row> rows_of_sources = {
     {"FILE", registering, SOURCE, 1, "",
      "vertices of a mesh or points, as with --fit, or a volume, as with --volume: the extension\n"
      "tells; - reads PLY, OFF or CSV from standard input",
@@ -152,6 +152,6 @@ const std::vector<Option_row> rows = {
 
 } // namespace
 
-std::span<const Option_row> source_options() { return rows; }
+std::span<const Option_row> source_options() { return rows_of_sources; }
 
 } // namespace equiaffine

@@ -72,7 +72,7 @@ void read_clip(const Option_words& option, Draft& draft) {
 
 const std::string threads_help = "threads to use, all by default; the result is always the same";
 
-const std::vector<Option_row> rows = {
+const std::vector<Option_row> rows_of_surfaces = {
     {"--isovalue", MESH | registering, SURFACE, 1, "V", "the level set f = V, by default 0",
      [](const Option_words& option, Draft& draft) { draft.isovalue = parse_number(option); }},
     {"--transform",
@@ -150,6 +150,6 @@ const std::vector<Option_row> rows = {
 
 } // namespace
 
-std::span<const Option_row> surface_options() { return rows; }
+std::span<const Option_row> surface_options() { return rows_of_surfaces; }
 
 } // namespace equiaffine

@@ -18,7 +18,7 @@ constexpr const char *scale_label = "Scale", *own_scale = "none: the curvatures 
                      *known_label = "Vertices known to 20 / 50 %", *errors_label = "Errors";
 constexpr std::array<std::string_view, 4> labels = {scale_label, noise_label, parabolic_label, known_label};
 constexpr std::size_t longest_value = 200;
-constexpr std::string_view begin_of_comment = "fit ", separator = ": ";
+constexpr std::string_view begin_of_comment = "fit ", end_of_label = ": ";
 
 bool has_errors(const Vertex_attributes& attributes) {
   return std::any_of(attributes.columns.begin(), attributes.columns.end(),
@@ -41,17 +41,17 @@ std::vector<std::string> comments_of(const Fit_statistics& statistics) {
   const Description fit = description_of(statistics);
   std::vector<std::string> comments;
   for (const auto& [label, value] : fit)
-    comments.push_back((std::string(begin_of_comment) + label).append(separator) + value);
+    comments.push_back((std::string(begin_of_comment) + label).append(end_of_label) + value);
   return comments;
 }
 
 Description description_of_fit(const Vertex_attributes& attributes) {
   Description fit;
   for (const std::string_view comment : attributes.comments) {
-    const std::size_t colon = comment.find(separator);
+    const std::size_t colon = comment.find(end_of_label);
     if (!comment.starts_with(begin_of_comment) || colon == std::string_view::npos) continue;
     const std::string_view label = comment.substr(begin_of_comment.size(), colon - begin_of_comment.size());
-    const std::string_view value = comment.substr(colon + separator.size());
+    const std::string_view value = comment.substr(colon + end_of_label.size());
     const bool is_known = std::find(labels.begin(), labels.end(), label) != labels.end();
     const bool is_new = std::none_of(fit.begin(), fit.end(), [&](const auto& row) { return row.first == label; });
     if (is_known && is_new && value.size() < longest_value) fit.emplace_back(label, value);

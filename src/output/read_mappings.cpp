@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/read_mappings.h"
 
+#include "output/json_text.h"
 #include "system/file_format.h"
 #include "system/kernel.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/io/internal/shared/Column_numbers.h>
 #include <equiaffine/io/internal/shared/input_file.h>
 #include <equiaffine/io/read_PLY.h>
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -19,7 +18,6 @@ namespace equiaffine {
 
 namespace {
 
-using Json = nlohmann::json;
 using Mappings = std::map<std::string, Color_mapping>;
 
 /// The JSON text in the element `facts` of the page; empty if there is none.

@@ -45,11 +45,12 @@ struct Words {
   std::string_view attribute, label, symbol;
 };
 
-constexpr std::array<Words, 5> words = {{{"affine_gaussian_curvature", "affine Gaussian curvature", "K"},
-                                         {"affine_mean_curvature", "affine mean curvature", "H"},
-                                         {"pick_invariant", "Pick invariant", "J"},
-                                         {"affine_normal", "affine normal", "affine normal"},
-                                         {"affine_area_density", "affine area density", "affine area density"}}};
+constexpr std::array<Words, 5> curvature_words = {
+    {{"affine_gaussian_curvature", "affine Gaussian curvature", "K"},
+     {"affine_mean_curvature", "affine mean curvature", "H"},
+     {"pick_invariant", "Pick invariant", "J"},
+     {"affine_normal", "affine normal", "affine normal"},
+     {"affine_area_density", "affine area density", "affine area density"}}};
 
 } // namespace
 
@@ -60,14 +61,14 @@ const Fit_statistics::Parts& Fit_statistics::known_of(std::string_view attribute
 }
 
 Known_quantity first_known(const Fit_statistics& fit) {
-  for (const auto& [attribute, label, symbol] : words)
+  for (const auto& [attribute, label, symbol] : curvature_words)
     if (fit.known_of(attribute).back() >= 0.5) return {label, fit.known_of(attribute)};
-  return {words[0].label, fit.known[0]};
+  return {curvature_words[0].label, fit.known[0]};
 }
 
 std::string table_of_known(const Fit_statistics& fit) {
   std::ostringstream text;
-  for (const auto& [attribute, label, symbol] : words) {
+  for (const auto& [attribute, label, symbol] : curvature_words) {
     const auto& [to_10, to_20, to_50] = fit.known_of(attribute);
     text << (text.str().empty() ? "" : ", ") << symbol << ' ' << std::lround(100 * to_20) << " / "
          << std::lround(100 * to_50);

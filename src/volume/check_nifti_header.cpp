@@ -17,7 +17,7 @@ namespace equiaffine {
 
 namespace {
 
-constexpr std::int32_t size_of_header = 348;
+constexpr std::int32_t size_of_nifti_header = 348;
 
 /// The least place of the data in a file that has the header, too.
 constexpr double first_place_of_data = 352;
@@ -48,10 +48,10 @@ constexpr std::array datatypes = {Datatype{2, 8},      Datatype{4, 16},   Dataty
 /// The header of a NIfTI-1 file, which begins with its own length in the byte order of the file.
 class Nifti_header {
 public:
-  explicit Nifti_header(const std::string& path) : path_(path), bytes_(beginning_of(path, size_of_header)) {
-    if (bytes_.size() < size_of_header) fail_to_read_volume_data(path);
-    is_swapped_ = number<std::int32_t>(0) != size_of_header;
-    if (number<std::int32_t>(0) != size_of_header)
+  explicit Nifti_header(const std::string& path) : path_(path), bytes_(beginning_of(path, size_of_nifti_header)) {
+    if (bytes_.size() < size_of_nifti_header) fail_to_read_volume_data(path);
+    is_swapped_ = number<std::int32_t>(0) != size_of_nifti_header;
+    if (number<std::int32_t>(0) != size_of_nifti_header)
       fail_at("sizeof_hdr", number<std::int32_t>(0), "convert it to NIfTI-1, where that is 348");
   }
 
