@@ -3,7 +3,6 @@
 #ifndef EQUIAFFINE_PYTHON_OBSERVED_H
 #define EQUIAFFINE_PYTHON_OBSERVED_H
 
-#include "system/limit_threads.h"
 #include "system/progress.h"
 #include <equiaffine/Progress_observer.h>
 
@@ -15,6 +14,10 @@
 #include <sstream>
 #include <string>
 #include <thread>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/task_arena.h>
+#endif
 
 namespace equiaffine::python {
 
@@ -44,6 +47,16 @@ private:
   PyThreadState* const state_;
 };
 
+/// Returns what `compute` returns, for which no more threads than these work, whatever other calls are allowed.
+template <class Compute>
+auto with_threads([[maybe_unused]] std::optional<std::size_t> threads, const Compute& compute) {
+#ifdef CGAL_LINKED_WITH_TBB
+  const int available = tbb::this_task_arena::max_concurrency();
+  if (threads && *threads < std::size_t(available)) return tbb::task_arena(int(*threads)).execute(compute);
+#endif
+  return compute();
+}
+
 /// Calls `compute(progress)` without the lock, and what it returns with it. A signal, as of Ctrl-C, ends the computation,
 /// as does an exception of the `progress` function, which is called with the number of a stage, the steps that are done,
 /// and all of them. Warnings of the program become those of Python.
@@ -52,7 +65,6 @@ auto observed(const py::object& progress_function, std::optional<std::size_t> th
   std::ostringstream lines;
   const auto finish = [&] {
     const Without_lock without_lock;
-    const auto limit = threads ? limit_threads(*threads) : nullptr;
     const Progress_observer observer([&](const Progress_observer::Stage& stage) {
       wait_for_the_end();
       const py::gil_scoped_acquire lock;
@@ -60,7 +72,7 @@ auto observed(const py::object& progress_function, std::optional<std::size_t> th
       if (!progress_function.is_none()) progress_function(stage.number, stage.done, stage.total);
     });
     Progress progress(lines, false, std::chrono::hours(1 << 16));
-    return compute(progress);
+    return with_threads(threads, [&] { return compute(progress); });
   }();
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   const std::string mark = "warning: ";

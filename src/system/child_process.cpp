@@ -92,6 +92,8 @@ std::string answer_of(const std::function<void()>& task) {
     ::dup2(nothing, STDERR_FILENO);
   }
   is_child = true;
+  // The observer of the parent may wait for locks of threads that the child does not have: this one hides it.
+  const Progress_observer nobody([](const Progress_observer::Stage&) {}, std::chrono::hours(1 << 16));
   set_limit(RLIMIT_CORE, 0);
   set_limit(RLIMIT_CPU, std::ceil(limits.seconds));
   limit_memory(limits.memory);

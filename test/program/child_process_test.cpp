@@ -3,10 +3,12 @@
 #include "system/child_process.h"
 #include "system/resources.h"
 #include <equiaffine/Input_error.h>
+#include <equiaffine/Progress_observer.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstddef>
 #include <cstring>
@@ -16,12 +18,15 @@
 #include <stdexcept>
 #include <string>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <vector>
 
 namespace {
 
 using equiaffine::Child_failure;
 using equiaffine::Input_error;
+using equiaffine::Progress_observer;
 using equiaffine::run_in_child;
 using equiaffine::Shared_memory;
 
@@ -88,6 +93,26 @@ TEST(Program_child_process, fails_if_it_takes_too_long) {
     }
   };
   EXPECT_EQ(failure_of(compute, {1, megabyte}), "took longer than 1 s");
+}
+
+TEST(Program_child_process, is_ended_by_an_observer_of_its_parent) {
+  struct Enough {};
+  const Progress_observer observer([](const Progress_observer::Stage&) { throw Enough(); });
+  EXPECT_THROW(run_in_child([] { ::pause(); }, generous), Enough);
+  EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "a child is left";
+}
+
+TEST(Program_child_process, is_not_seen_from_within_by_an_observer_of_its_parent) {
+  const Progress_observer observer(
+      [parent = ::getpid()](const Progress_observer::Stage&) {
+        if (::getpid() != parent) throw std::runtime_error("seen");
+      },
+      std::chrono::milliseconds(0));
+  EXPECT_EQ(failure_of([] { Progress_observer::step(); }), "no failure");
+}
+
+TEST(Program_child_process, leaves_Control_C_to_its_parent) {
+  EXPECT_EQ(failure_of([] { std::raise(SIGINT); }), "no failure");
 }
 
 TEST(Program_child_process, has_no_more_memory_than_it_is_allowed) {
