@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Times whole commands from a formula to a file: the blobby surface of the README with its basic attributes as PLY.
+"""Times whole commands from a formula or a volume to a file: the blobby surface of the README with its basic attributes as
+PLY, and the gyroid of two periods per axis in a volume of floats, a MetaImage file.
 
 Times are medians of processor time, user and system, on one thread; programs take turns, so that a busy machine slows
 all of them alike. The figures of two threads are the best ratios of wall times. With --before PROGRAM an older program
-does the same on one thread, and the ratios are figures, too, as is whether its file has the bytes of ours from two.
+does the same on one thread, and the ratios are figures, too, as is whether its file has the bytes of ours from two. Memory is the
+greatest resident set of a command, mapped files included. The peer for volumes is VTK's vtkFlyingEdges3D, which reads the
+same file and writes a PLY file without attributes.
 """
 import argparse
 import filecmp
+import importlib.util
 import os
 import statistics
 import subprocess
@@ -15,23 +19,71 @@ import tempfile
 import time
 
 FORMULA = "(3*x)^4+(3*y)^4+(3*z)^4-45*x^2-45*y^2-45*z^2+6"
+HAS_VTK = importlib.util.find_spec("vtk") is not None
 TARGETS = {256: (0.35, 3), 512: (1.2, 5), 1024: (5, 8)}  # seconds, and the ratio to the program before
+GYROID = "sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x)"
+VOLUMES = {400: (5, 0.6), 640: (None, 2.2)}  # seconds and GB
+FLYING_EDGES = """
+import sys, vtk
+reader = vtk.vtkMetaImageReader()
+reader.SetFileName(sys.argv[1])
+surface = vtk.vtkFlyingEdges3D()
+surface.SetInputConnection(reader.GetOutputPort())
+surface.SetValue(0, 0)
+surface.ComputeNormalsOff()
+writer = vtk.vtkPLYWriter()
+writer.SetInputConnection(surface.GetOutputPort())
+writer.SetFileName(sys.argv[2])
+writer.Write()
+"""
+
+
+def run_command(command):
+    """Returns processor seconds, wall seconds and the greatest resident set in GB of one command."""
+    began = time.monotonic()
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    _, status, usage = os.wait4(process.pid, 0)
+    if status != 0:
+        raise SystemExit(f"'{' '.join(command)}' failed")
+    return usage.ru_utime + usage.ru_stime, time.monotonic() - began, usage.ru_maxrss * 1024 / 1e9
 
 
 def run(program, resolution, threads, output):
     """Returns processor seconds and wall seconds of one command."""
-    command = [program, "mesh", "--function", FORMULA, "--box", *["-1.2", "1.2"] * 3, "--resolution", str(resolution),
-               "--threads", str(threads), "-o", output]
-    began = time.monotonic()
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-    _, status, usage = os.wait4(process.pid, 0)
-    if status != 0:
-        raise SystemExit(f"'{' '.join(command)}' failed")
-    return usage.ru_utime + usage.ru_stime, time.monotonic() - began
+    return run_command([program, "mesh", "--function", FORMULA, "--box", *["-1.2", "1.2"] * 3, "--resolution",
+                        str(resolution), "--threads", str(threads), "-o", output])[:2]
 
 
 def figure(name, value, unit, target):
     print(f"figure road_{name} {value:.3g} {unit} target {target}", flush=True)
+
+
+def time_volume(options, folder, nodes, seconds, gigabytes):
+    volume = os.path.join(folder, "gyroid.mha")
+    ours, theirs = os.path.join(folder, "ours.ply"), os.path.join(folder, "theirs.ply")
+    run_command([options.program, "sample", "--function", GYROID, "--box", *["-6.283185307", "6.283185307"] * 3,
+                 "--resolution", str(nodes), "--type", "float", "-o", volume])
+    mesh = ["mesh", "--volume", volume, "--threads"]
+    flying_edges = ["/usr/bin/python3", "-c", FLYING_EDGES, volume, theirs]
+    one, two, peer, before = [], [], [], []
+    for _ in range(options.repeats):
+        one.append(run_command([options.program, *mesh, "1", "-o", ours]))
+        two.append(run_command([options.program, *mesh, "2", "-o", ours]))
+        if HAS_VTK:
+            peer.append(run_command(flying_edges))
+        if options.before:
+            before.append(run_command([options.before, *mesh, "1", "-o", theirs]))
+    median = lambda runs, column: statistics.median(run[column] for run in runs)
+    figure(f"volume_{nodes}", median(one, 0), "s", f"<={seconds}" if seconds else "-")
+    figure(f"volume_{nodes}_memory", max(run[2] for run in one + two), "GB", f"<={gigabytes}")
+    figure(f"volume_{nodes}_two_threads", max(a[1] / b[1] for a, b in zip(one, two)), "ratio", ">=1.7")
+    if peer:
+        figure(f"volume_{nodes}_flying_edges", median(peer, 0), "s", "-")
+        figure(f"volume_{nodes}_flying_edges_memory", max(run[2] for run in peer), "GB", "-")
+    if before:
+        figure(f"volume_{nodes}_over_before", median(before, 0) / median(one, 0), "ratio", ">=1")
+        figure(f"volume_{nodes}_memory_before", max(run[2] for run in before), "GB", "-")
+        figure(f"volume_{nodes}_same_bytes", filecmp.cmp(ours, theirs, shallow=False), "bool", ">=1")
 
 
 def main():
@@ -58,6 +110,8 @@ def main():
                 figure(f"{resolution}_over_before", statistics.median(before) / seconds[resolution], "ratio",
                        f">={ratio}")
                 figure(f"{resolution}_same_bytes", filecmp.cmp(ours, theirs, shallow=False), "bool", ">=1")
+        for nodes, (most_seconds, most_memory) in VOLUMES.items():
+            time_volume(options, folder, nodes, most_seconds, most_memory)
     for resolution in (512, 1024):
         figure(f"{resolution}_over_{resolution // 2}", seconds[resolution] / seconds[resolution // 2], "ratio", "<=4.5")
 

@@ -6,8 +6,11 @@
 
 #include <CGAL/tags.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
-#include <cstring>
 #include <stdexcept>
 
 namespace equiaffine::python {
@@ -34,7 +37,7 @@ Lattice_3<Kernel> lattice_of(const py::array& samples, const py::array_t<double>
 
 /// Calls `use(number)` with a number of the type that numpy has that letter for.
 template <class Use>
-void with_type(char type, const Use& use) {
+auto with_type(char type, const Use& use) {
   switch (type) {
   case '?':
   case 'B': return use((unsigned char)(0));
@@ -51,6 +54,13 @@ void with_type(char type, const Use& use) {
   case 'd': return use(0.);
   default: throw std::invalid_argument("the samples have another type than integers, float32 and float64");
   }
+}
+
+Volume_view_3<Kernel> view_of(const py::array& samples, const Lattice_3<Kernel>& lattice) {
+  return with_type(samples.dtype().char_(), [&]<class Number>(Number) {
+    return Volume_view_3<Kernel>(lattice, static_cast<const Number*>(samples.data()),
+                                 {samples.strides(0), samples.strides(1), samples.strides(2)});
+  });
 }
 
 } // namespace
@@ -98,30 +108,8 @@ Annotated_mesh_3<Kernel> mesh_of(const Points_array& points, const Faces_array& 
   return result;
 }
 
-Volume_view::Volume_view(py::array samples, py::array_t<double> origin, py::array_t<double> steps)
-    : samples_(std::move(samples)), lattice_(lattice_of(samples_, origin, steps)), type_(samples_.dtype().char_()) {
-  with_type(type_, [](auto) {});
-}
-
-Volume_3<Kernel> Volume_view::volume() const {
-  Volume_3<Kernel> result{lattice_, {}};
-  resize_with_large_pages(result.values, lattice_.number_of_nodes());
-  const auto* const data = static_cast<const char*>(samples_.data());
-  const py::ssize_t *const n = samples_.shape(), *const stride = samples_.strides();
-  with_type(type_, [&]<class T>(T) {
-    parallel_for<CGAL::Parallel_if_available_tag>(0, std::size_t(n[2]), [&](std::size_t slab) {
-      const auto k = py::ssize_t(slab);
-      double* out = result.values.data() + k * n[0] * n[1];
-      for (py::ssize_t j = 0; j < n[1]; ++j)
-        for (py::ssize_t i = 0; i < n[0]; ++i) {
-          T number;
-          std::memcpy(&number, data + i * stride[0] + j * stride[1] + k * stride[2], sizeof(T));
-          *out++ = double(number);
-        }
-    });
-  });
-  return result;
-}
+Volume_array::Volume_array(py::array samples, const py::array_t<double>& origin, const py::array_t<double>& steps)
+    : samples_(std::move(samples)), view_(view_of(samples_, lattice_of(samples_, origin, steps))) {}
 
 py::dict columns_of(Vertex_attributes&& attributes) {
   py::dict columns;
@@ -148,6 +136,9 @@ py::dict arrays_of(Indexed_triangle_mesh_3<Kernel>&& mesh, Vertex_attributes&& a
   const auto vertices = py::ssize_t(mesh.points.size()), faces = py::ssize_t(mesh.triangles.size());
   static_assert(sizeof(Kernel::Point_3) == 3 * sizeof(double));
   result["V"] = shared_array<double>(std::move(mesh.points), {vertices, 3});
+#ifdef __GLIBC__
+  ::malloc_trim(0); // what the computation has freed goes back to the system before triangles are copied
+#endif
   std::vector<std::int64_t> indices;
   resize_with_large_pages(indices, 3 * mesh.triangles.size());
   parallel_for<CGAL::Parallel_if_available_tag>(

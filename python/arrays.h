@@ -5,6 +5,7 @@
 
 #include "system/kernel.h"
 #include <equiaffine/Volume_3.h>
+#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/io/Annotated_mesh_3.h>
 
 #include <cstddef>
@@ -30,21 +31,19 @@ Annotated_mesh_3<Kernel> mesh_of(const Points_array& points, const Faces_array& 
                                  const std::optional<Status_array>& status, std::vector<std::string> comments);
 
 /// Samples in an array of three dimensions of any type of numbers of this machine, with any strides, which it keeps alive.
-/// volume() needs no lock of the interpreter.
-class Volume_view {
+class Volume_array {
 public:
   /// `steps` has the step along each axis of the array in its rows.
-  Volume_view(py::array samples, py::array_t<double> origin, py::array_t<double> steps);
+  Volume_array(py::array samples, const py::array_t<double>& origin, const py::array_t<double>& steps);
 
-  /// The samples, each converted once.
-  Volume_3<Kernel> volume() const;
+  /// The samples, where they are; needs no lock of the interpreter.
+  const Volume_view_3<Kernel>& view() const { return view_; }
 
-  bool is_float() const { return type_ == 'f'; } ///< whether they are of single precision
+  bool is_float() const { return samples_.dtype().char_() == 'f'; } ///< whether they are of single precision
 
 private:
   py::array samples_;
-  Lattice_3<Kernel> lattice_;
-  char type_;
+  Volume_view_3<Kernel> view_;
 };
 
 /// {"columns": {name: array}, "status": array or None, "comments": [text]}

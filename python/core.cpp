@@ -47,7 +47,7 @@ struct Fit {
 using Formula = std::pair<std::string, std::map<std::string, double>>;
 
 /// What a source is made of.
-using Given = std::variant<Formula, Volume_view, std::shared_ptr<const Fit>>;
+using Given = std::variant<Formula, Volume_array, std::shared_ptr<const Fit>>;
 
 /// The command in the words, which is of that type, and the number of threads that it may use.
 template <class Command_options>
@@ -60,7 +60,7 @@ Source make_given_source(Source_options& options, const Given& given, Progress& 
   if (const auto* fit = std::get_if<std::shared_ptr<const Fit>>(&given))
     return source_of_fit((*fit)->traits, (*fit)->data, options, radius);
   if (const auto* formula = std::get_if<Formula>(&given)) std::tie(options.text, options.constants) = *formula;
-  if (const auto* volume = std::get_if<Volume_view>(&given)) options.volume = [volume] { return volume->volume(); };
+  if (const auto* volume = std::get_if<Volume_array>(&given)) options.volume = [volume] { return volume->view(); };
   return make_source(options, progress, radius);
 }
 
@@ -74,8 +74,15 @@ py::object mesh(const Words& words, const Given& given, const py::object& progre
     add_errors(surface->estimates, surface->attributes);
     if (const auto& fit = surface->estimates.fit) surface->attributes.comments = comments_of(*fit);
     warn_of(*surface, source, options, progress);
-    return [surface, scale = source.fit ? source.fit->scale() : std::nullopt] {
-      return arrays_of(std::move(surface->mesh), std::move(surface->attributes), scale);
+    return [surface, spline = source.spline, scale = source.fit ? source.fit->scale() : std::nullopt] {
+      py::dict result = arrays_of(std::move(surface->mesh), std::move(surface->attributes), scale), report;
+      report["max_distance"] = surface->max_distance;
+      if (spline) {
+        report["noise"] = spline->noise.deviation;
+        report["smoothing"] = spline->smoothing;
+      }
+      result["report"] = report;
+      return result;
     };
   });
 }
@@ -165,7 +172,9 @@ py::object read_surface(const std::string& path) {
 
 py::object read_samples(const std::string& path) {
   return observed(py::none(), std::nullopt, [&](Progress&) {
-    return [volume = std::make_shared<Volume_3<Kernel>>(read_volume(path))] { return arrays_of(std::move(*volume)); };
+    return [volume = std::make_shared<Volume_3<Kernel>>(read_volume(path, Samples_in::MEMORY).to_volume())] {
+      return arrays_of(std::move(*volume));
+    };
   });
 }
 
@@ -179,9 +188,9 @@ void write(const std::string& path, const Mesh& surface) {
   });
 }
 
-void write_samples(const std::string& path, const Volume_view& view) {
+void write_samples(const std::string& path, const Volume_array& samples) {
   observed(py::none(), std::nullopt, [&](Progress&) {
-    write_volume(path, view.volume(), view.is_float());
+    write_volume(path, samples.view().to_volume(), samples.is_float());
     return [] { return py::none(); };
   });
 }
@@ -210,8 +219,9 @@ PYBIND11_MODULE(_core, module) {
     }
   });
   module.def("interpreter_ends", [] { is_interpreter_ending = true; });
-  py::class_<Volume_view>(module, "Volume_view")
-      .def(py::init<py::array, py::array_t<double>, py::array_t<double>>(), "samples"_a, "origin"_a, "steps"_a);
+  py::class_<Volume_array>(module, "Volume_array")
+      .def(py::init<py::array, const py::array_t<double>&, const py::array_t<double>&>(), "samples"_a, "origin"_a,
+           "steps"_a);
   py::class_<Mesh>(module, "Mesh")
       .def(py::init(&mesh_of), "points"_a, "faces"_a, "columns"_a, "status"_a, "comments"_a);
   py::class_<Fit, std::shared_ptr<Fit>>(module, "Fit").def_property_readonly("scale", [](const Fit& self) {

@@ -46,6 +46,12 @@ public:
     else
       for (std::size_t i = 0; i < points.size(); ++i) jets[i] = Traits::taylor(points[i]);
   }
+
+  /// Wraps the model restricted to a block of cells.
+  Batch_function_traits_3
+  restricted_to_cells(const Cell_block& cells) const requires CellwiseImplicitFunctionTraits_3<Traits> {
+    return Batch_function_traits_3(Traits::restricted_to_cells(cells));
+  }
 };
 
 } // namespace equiaffine

@@ -93,10 +93,7 @@ public:
   std::optional<Level_set_traits_3>
   restricted(const CGAL::Bbox_3& box) const requires RestrictableImplicitFunctionTraits_3<Base> {
     auto base = base_.restricted(box);
-    if (!base) return std::nullopt;
-    return Level_set_traits_3(*std::move(base), isovalue_,
-                              is_reversed_ ? Orientation_of_level_set::AGAINST_GRADIENT
-                                           : Orientation_of_level_set::ALONG_GRADIENT);
+    return base ? std::optional(with_base(*std::move(base))) : std::nullopt;
   }
   FT rounding(const Point_3& p) const requires HasRounding<Base> { return base_.rounding(p); } ///< that of the base
   /// Returns the certainty of the base at p.
@@ -120,10 +117,28 @@ public:
   FT sample(std::size_t i, std::size_t j, std::size_t k) const requires LatticeImplicitFunctionTraits_3<Base> {
     return shifted(base_.sample(i, j, k));
   }
+  /// The samples of the base at node (i, j, k) and after it along i, as value() changes values.
+  void samples(std::size_t i, std::size_t j, std::size_t k, std::span<FT> out) const requires HasSamples<Base> {
+    base_.samples(i, j, k, out);
+    for (FT& sample : out) sample = shifted(sample);
+  }
+  /// The cell of the base's lattice that contains p.
+  auto cell_of(const Point_3& p) const requires CellwiseImplicitFunctionTraits_3<Base> { return base_.cell_of(p); }
+  /// The same level set of the base restricted to a block of cells.
+  Level_set_traits_3
+  restricted_to_cells(const Cell_block& cells) const requires CellwiseImplicitFunctionTraits_3<Base> {
+    return with_base(base_.restricted_to_cells(cells));
+  }
 
   const Base& base() const { return base_; } ///< the function f
 
 private:
+  Level_set_traits_3 with_base(Base base) const {
+    return Level_set_traits_3(std::move(base), isovalue_,
+                              is_reversed_ ? Orientation_of_level_set::AGAINST_GRADIENT
+                                           : Orientation_of_level_set::ALONG_GRADIENT);
+  }
+
   FT shifted(const FT& value) const { return is_reversed_ ? isovalue_ - value : value - isovalue_; }
 
   /// The value is rounded as that of a number is: v + (-f) has the bits of v - f.

@@ -2,16 +2,20 @@
 #ifndef EQUIAFFINE_SAMPLED_FUNCTION_TRAITS_3_H
 #define EQUIAFFINE_SAMPLED_FUNCTION_TRAITS_3_H
 
+#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/concepts.h>
+#include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_function_3.h>
 #include <equiaffine/volume/internal/shared/Spline_rounding_3.h>
 #include <equiaffine/volume/smooth_volume.h>
 
 #include <CGAL/Simple_cartesian.h>
 
+#include <array>
 #include <cstddef>
 #include <memory>
-#include <utility>
+#include <optional>
+#include <span>
 
 namespace equiaffine {
 
@@ -19,8 +23,10 @@ namespace equiaffine {
 /// signs at nodes are those of the samples. The convolution scheme smooths, so that the spline's value at a node
 /// differs from the sample there.
 ///
-/// This is a model of ImplicitFunctionTraits_3 with first-order bounds and expansions, and with a lattice. Copies share
-/// the immutable data.
+/// This is a model of ImplicitFunctionTraits_3 with first-order bounds and expansions, with a lattice, and cell by cell:
+/// Marching Cubes and the attributes need the memory of the samples, in the type that they have, and that of a block of
+/// cells for each thread, while other algorithms need one more number per node (Spline_function_3). Copies share the
+/// immutable data.
 template <class Kernel>
 class Sampled_function_traits_3 {
 public:
@@ -28,17 +34,16 @@ public:
   using Point_3 = typename Kernel::Point_3;   ///< points of the kernel
   using Vector_3 = typename Kernel::Vector_3; ///< vectors of the kernel
 
-  /// Makes the spline that `parameters` ask for. If they smooth the samples, `sample` returns smoothed ones.
+  /// Makes the spline that `parameters` ask for. If they smooth the samples, `sample` returns smoothed ones. A Volume_3
+  /// is copied or moved, and a view of samples of any type only viewed.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  explicit Sampled_function_traits_3(Volume_3<Kernel> volume, const Spline_parameters& parameters = {},
-                                     ConcurrencyTag tag = {}) {
-    const Sample_format<FT> format(volume.values);
-    const FT smoothing(parameters.smoothing);
-    volume_ = std::make_shared<const Volume_3<Kernel>>(smooth_volume<ConcurrencyTag>(std::move(volume), smoothing));
-    spline_ = std::make_shared<const Spline_function_3<Kernel>>(
-        *volume_, Spline_parameters{.degree = parameters.degree, .scheme = parameters.scheme}, tag);
-    rounding_ = std::make_shared<const Spline_rounding_3<Kernel>>(*spline_, smoothing, format);
-  }
+  explicit Sampled_function_traits_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters = {},
+                                     ConcurrencyTag tag = {})
+      : volume_(smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing))),
+        spline_(std::make_shared<const Spline_function_3<Kernel>>(
+            volume_, Spline_parameters{.degree = parameters.degree, .scheme = parameters.scheme}, tag)),
+        rounding_(std::make_shared<const Spline_rounding_3<Kernel>>(*spline_, FT(parameters.smoothing),
+                                                                    sample_format<ConcurrencyTag>(volume))) {}
 
   /// Values and coefficients of expansions are NaN outside the support of the spline.
   FT value(const Point_3& p) const { return spline_->value(p); }
@@ -54,24 +59,44 @@ public:
     const auto cell = spline_->cell_of(p);
     return cell ? (*rounding_)(*cell) : FT(0);
   }
-  CGAL::Bbox_3 bbox() const { return volume_->lattice.bbox(); } ///< the box of the lattice
+  CGAL::Bbox_3 bbox() const { return lattice().bbox(); } ///< the box of the lattice
 
-  const Lattice_3<Kernel>& lattice() const { return volume_->lattice; } ///< the lattice of the samples
+  const Lattice_3<Kernel>& lattice() const { return volume_.lattice(); } ///< the lattice of the samples
 
   /// The sample at node (i, j, k).
-  FT sample(std::size_t i, std::size_t j, std::size_t k) const { return (*volume_)(i, j, k); }
+  FT sample(std::size_t i, std::size_t j, std::size_t k) const { return volume_(i, j, k); }
+  /// The samples at node (i, j, k) and those after it along i, as many as there is room for.
+  void samples(std::size_t i, std::size_t j, std::size_t k, std::span<FT> out) const {
+    volume_.copy_line({i, j, k}, 0, out);
+  }
+
+  /// The cell of the lattice that contains p, if p is in the support of the spline.
+  std::optional<std::array<std::size_t, 3>> cell_of(const Point_3& p) const { return spline_->cell_of(p); }
+  /// The same function, cheaper in memory if it is evaluated in these cells only: see
+  /// Spline_function_3::restricted_to_cells().
+  Sampled_function_traits_3 restricted_to_cells(const Cell_block& cells) const {
+    Sampled_function_traits_3 result = *this;
+    result.spline_ = std::make_shared<const Spline_function_3<Kernel>>(spline_->restricted_to_cells(cells));
+    return result;
+  }
 
   const Spline_function_3<Kernel>& spline() const { return *spline_; } ///< the spline through the samples
 
 private:
-  std::shared_ptr<const Volume_3<Kernel>> volume_;
+  Volume_view_3<Kernel> volume_;
   std::shared_ptr<const Spline_function_3<Kernel>> spline_;
   std::shared_ptr<const Spline_rounding_3<Kernel>> rounding_;
 };
 
 static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
 static_assert(FirstOrderImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
-static_assert(LatticeImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+static_assert(CellwiseImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+
+template <class Kernel>
+Sampled_function_traits_3(Volume_3<Kernel>, const Spline_parameters& = {}) -> Sampled_function_traits_3<Kernel>;
+template <class Kernel, class ConcurrencyTag>
+Sampled_function_traits_3(Volume_3<Kernel>, const Spline_parameters&, ConcurrencyTag)
+    -> Sampled_function_traits_3<Kernel>;
 
 } // namespace equiaffine
 

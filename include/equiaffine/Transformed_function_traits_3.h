@@ -155,6 +155,19 @@ public:
   FT sample(std::size_t i, std::size_t j, std::size_t k) const requires LatticeImplicitFunctionTraits_3<Base> {
     return base_.sample(i, j, k);
   }
+  /// The samples of the base at node (i, j, k) and after it along i.
+  void samples(std::size_t i, std::size_t j, std::size_t k, std::span<FT> out) const requires HasSamples<Base> {
+    base_.samples(i, j, k, out);
+  }
+  /// The cell of the base's lattice that contains the preimage of p.
+  auto cell_of(const Point_3& p) const requires CellwiseImplicitFunctionTraits_3<Base> {
+    return base_.cell_of(preimage(p));
+  }
+  /// The image of the base restricted to a block of cells.
+  Transformed_function_traits_3
+  restricted_to_cells(const Cell_block& cells) const requires CellwiseImplicitFunctionTraits_3<Base> {
+    return Transformed_function_traits_3(base_.restricted_to_cells(cells), map_);
+  }
 
   const Base& base() const { return base_; }                               ///< the function f
   const Aff_transformation_3& transformation() const { return map_->map; } ///< the map A

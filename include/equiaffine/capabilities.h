@@ -18,6 +18,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <span>
 
 namespace equiaffine {
 
@@ -72,6 +73,13 @@ template <class Traits>
 concept HasIntersectSegment = requires(const Traits& traits, const typename Traits::Point_3& p,
                                        const typename Traits::FT& f) {
   { traits.intersect_segment(p, p, f, f) } -> std::same_as<Surface_point_3<Kernel_of<Traits>>>;
+};
+
+/// A model hands out the samples of a row of nodes at once.
+/// See \ref concept_capabilities.
+template <class Traits>
+concept HasSamples = requires(const Traits& traits, std::size_t i, std::span<typename Traits::FT> out) {
+  traits.samples(i, i, i, out);
 };
 
 // clang-format on
@@ -162,6 +170,15 @@ Surface_point_3<Kernel_of<Traits>> intersect_segment(const Traits& traits, const
                                                      const typename Traits::FT& fb) {
   if constexpr (HasIntersectSegment<Traits>) return traits.intersect_segment(a, b, fa, fb);
   else return internal::zero_on_segment<Kernel_of<Traits>>(traits, a, b, fa, fb);
+}
+
+/// Writes the samples of a function at node (i, j, k) of its lattice and those after it along i, as many as there is room
+/// for.
+template <LatticeImplicitFunctionTraits_3 Traits>
+void samples(const Traits& traits, std::size_t i, std::size_t j, std::size_t k, std::span<typename Traits::FT> out) {
+  if constexpr (HasSamples<Traits>) traits.samples(i, j, k, out);
+  else
+    for (std::size_t n = 0; n < out.size(); ++n) out[n] = traits.sample(i + n, j, k);
 }
 
 } // namespace equiaffine

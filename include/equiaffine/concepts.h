@@ -8,11 +8,13 @@
 #include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/number/internal/shared/Pack_fwd.h>
+#include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Lattice_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel_traits.h>
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <optional>
@@ -127,6 +129,16 @@ concept LatticeImplicitFunctionTraits_3 =
     { traits.lattice() }
       -> std::convertible_to<Lattice_3<typename CGAL::Kernel_traits<typename Traits::Point_3>::Kernel>>;
     { traits.sample(i, i, i) } -> std::convertible_to<typename Traits::FT>;
+  };
+
+/// A lattice function that may take less memory where it is evaluated in a block of cells only.
+/// See \ref concept_CellwiseImplicitFunctionTraits_3.
+template <class Traits>
+concept CellwiseImplicitFunctionTraits_3 =
+  LatticeImplicitFunctionTraits_3<Traits> &&
+  requires(const Traits& traits, const typename Traits::Point_3& p, const Cell_block& cells) {
+    { traits.cell_of(p) } -> std::same_as<std::optional<std::array<std::size_t, 3>>>;
+    { traits.restricted_to_cells(cells) } -> std::same_as<Traits>;
   };
 
 // clang-format on

@@ -16,6 +16,10 @@ def number_word(name, value):
     """A number, or a word such as "auto", for the command line."""
     if isinstance(value, str) and re.fullmatch(r"[a-z]+", value):
         return value
+    return repr(finite_number(name, value))
+
+
+def finite_number(name, value):
     try:
         if isinstance(value, (bool, str, bytes)) or numpy.ndim(value) != 0 or isinstance(value, complex):
             raise TypeError
@@ -24,7 +28,7 @@ def number_word(name, value):
         raise ValueError(f"{name}: give a number, and not {value!r}") from None
     if not math.isfinite(number):
         raise ValueError(f"{name}: give a finite number, and not {value!r}")
-    return repr(number)
+    return number
 
 
 def numbers_of(**values):
@@ -73,6 +77,46 @@ def thread_words(threads):
     return [] if threads is None else ["--threads", integer_of("threads", threads)]
 
 
+def numbers_in(name, value, count):
+    """So many finite numbers, of which one may stand for all where that is said."""
+    try:
+        if isinstance(value, str):
+            raise ValueError
+        found = numpy.asarray(value, float)
+    except (TypeError, ValueError):
+        found = numpy.empty(0)
+    if found.shape != (count,) or not numpy.isfinite(found).all():
+        raise ValueError(f"{name}: give {count} finite numbers, and not {value!r}")
+    return found
+
+
+def spacing_of(spacing):
+    if spacing is None:
+        return numpy.ones(3)
+    if numpy.ndim(spacing) == 0:
+        return numpy.full(3, finite_number("spacing", spacing))
+    return numbers_in("spacing", spacing, 3)
+
+
+def direction_of(direction):
+    """A matrix with unit vectors in its columns."""
+    if direction is None:
+        return numpy.eye(3)
+    try:
+        found = numpy.asarray(direction, float)
+    except (TypeError, ValueError):
+        found = numpy.empty(0)
+    if found.shape != (3, 3) or not (abs(numpy.linalg.norm(found, axis=0) - 1) < 1e-6).all():
+        raise ValueError("direction: give a matrix of the shape (3, 3), with a unit vector in each column; lengths are spacing")
+    return found
+
+
+def progress_of(progress):
+    if progress is not None and not callable(progress):
+        raise ValueError(f"progress: give a function of three numbers, and not {progress!r}")
+    return progress
+
+
 def box_of(box):
     if box is None:
         return None
@@ -100,6 +144,8 @@ def array_of(values, name, kinds):
         values = numpy.asarray(values)
     except ValueError:
         values = numpy.empty(0, object)
+    if values.dtype.kind == "U" and values.ndim == 0:
+        raise ValueError(f"{name}: give an array, and not a text; read(path) reads a file")
     if values.dtype.kind not in kinds:
         raise ValueError(f"{name}: give an array of {'integers' if 'f' not in kinds else 'real numbers'}, and not of {values.dtype}")
     return values
@@ -121,22 +167,43 @@ def faces_of(F):
     return F.astype(numpy.int64, copy=False)
 
 
+def finite_points_of(points, name):
+    points = points_of(points, name)
+    wrong = ~numpy.isfinite(points).all(axis=1)
+    if wrong.any():
+        raise ValueError(f"{name}: {wrong.sum()} points are not finite, the first at {wrong.argmax()}; leave them out")
+    return points
+
+
 def mesh_of(V, F=None, normals=None, name="V"):
-    columns = {}
+    """Vertices and triangles, with normals."""
+    if isinstance(V, (tuple, Surface, Volume, Fit)):
+        raise ValueError(f"{name}: give an array of the shape (n, 3), and not {type(V).__name__}")
+    V, columns = finite_points_of(V, name), {}
     if normals is not None:
-        columns = dict(zip(("nx", "ny", "nz"), numpy.ascontiguousarray(points_of(normals, "normals").T)))
-    return _core.Mesh(points_of(V, name), faces_of(F), columns, None, [])
+        normals = points_of(normals, "normals")
+        if len(normals) != len(V):
+            raise ValueError(f"normals: give one for each of the {len(V)} points, and not {len(normals)}")
+        columns = dict(zip(("nx", "ny", "nz"), numpy.ascontiguousarray(normals.T)))
+    return _core.Mesh(V, faces_of(F), columns, None, [])
+
+
+def places_of(points):
+    """Points where a function is evaluated, which need not be finite."""
+    return _core.Mesh(points_of(points, "points"), faces_of(None), {}, None, [])
 
 
 def whole_mesh_of(surface):
     """A surface, or (V, F), with all that is known of it."""
-    if isinstance(surface, tuple):
+    if isinstance(surface, tuple) and 2 <= len(surface) <= 3:
         surface = Surface(*surface)
     if not isinstance(surface, Surface):
         raise ValueError(f"give a Surface or (V, F), and not {type(surface).__name__}")
     columns = {}
     for name, values in surface.attributes.items():
-        if not isinstance(name, str) or not re.fullmatch(r"[^\s,;\"\x00-\x1f]+", name) or name in ("x", "y", "z", "status"):
+        if name in ("x", "y", "z", "status"):
+            raise ValueError(f"attributes: {name!r} is the name of what a file has besides; choose another one")
+        if not isinstance(name, str) or not re.fullmatch(r"[^\s,;\"\x00-\x1f]+", name):
             raise ValueError(f"the name {name!r} of an attribute cannot be written: use letters, digits and underscores")
         columns[name] = array_of(values, name, "biuf").astype(float)
     status = surface.status
@@ -149,11 +216,7 @@ def whole_mesh_of(surface):
 
 
 def steps_of(spacing, direction):
-    spacing = numpy.broadcast_to(numpy.asarray(1 if spacing is None else spacing, float), 3)
-    direction = numpy.eye(3) if direction is None else numpy.asarray(direction, float)
-    if direction.shape != (3, 3):
-        raise ValueError("direction: give a matrix of the shape (3, 3), with a unit vector in each column")
-    return (direction * spacing).T
+    return (direction_of(direction) * spacing_of(spacing)).T
 
 
 def volume_view_of(values, spacing, origin, direction, name="f"):
@@ -164,10 +227,8 @@ def volume_view_of(values, spacing, origin, direction, name="f"):
         raise ValueError(f"{name}: give an array of three dimensions, and not of the shape {values.shape}")
     if not values.dtype.isnative or values.dtype.char in "eg":
         values = values.astype(float)
-    origin = numpy.zeros(3) if origin is None else numpy.asarray(origin, float)
-    if origin.shape != (3,):
-        raise ValueError("origin: give three numbers")
-    return _core.Volume_view(values, origin, steps_of(spacing, direction))
+    origin = numpy.zeros(3) if origin is None else numbers_in("origin", origin, 3)
+    return _core.Volume_array(values, origin, steps_of(spacing, direction))
 
 
 def sampled(function, box, resolution):
@@ -182,7 +243,10 @@ def sampled(function, box, resolution):
     values = numpy.empty(shape)
     y, z = numpy.meshgrid(y, z, indexing="ij")
     for i in range(shape[0]):
-        values[i] = function(numpy.full_like(y, x[i]), y, z)
+        found = array_of(function(numpy.full_like(y, x[i]), y, z), "f(x, y, z)", "biuf")
+        if found.shape not in ((), y.shape):
+            raise ValueError(f"f: for arrays of the shape {y.shape} it returns one of {found.shape}; return a number for each point")
+        values[i] = found
     return values, (box[1::2] - box[::2]) / (numpy.array(shape) - 1), box[::2]
 
 
@@ -198,9 +262,11 @@ def source_of(f, *, constants=None, box=None, resolution=None, spacing=None, ori
         refuse("a formula", smoothing=smoothing, **samples)
         if not hasattr(constants or {}, "items"):
             raise ValueError("constants: give a dictionary of names and numbers")
-        values = {str(name): float(number_word(f"constants[{name!r}]", value)) for name, value in (constants or {}).items()}
+        values = {str(name): finite_number(f"constants[{name!r}]", value) for name, value in (constants or {}).items()}
         return ["--function=f", *box_words(box), *resolution_words], (f, values)
     refuse("what is no formula", constants=constants)
+    if isinstance(f, Surface):
+        raise ValueError("f: a Surface is no function; fit(surface) makes one")
     if isinstance(f, Fit):
         refuse("a fit", smoothing=smoothing, **samples)
         return ["--fit=V", *box_words(box), *resolution_words], f._core
@@ -215,15 +281,17 @@ def source_of(f, *, constants=None, box=None, resolution=None, spacing=None, ori
     return ["--volume=f", *numbers_of(smoothing=smoothing)], volume_view_of(f, spacing, origin, direction)
 
 
-def fit_words(scale, noise, degree, feature_angle):
+def fit_words(scale, noise=None, degree=None, feature_angle=None):
     if isinstance(scale, numbers.Real) and scale == 0:
         scale = "none"
     words = numbers_of(scale=scale, noise=noise, feature_angle=feature_angle)
-    return words if degree is None else [*words, "--degree", integer_of("degree", degree)]
+    return words if degree in (None, "auto") else [*words, "--degree", integer_of("degree", degree)]
 
 
 def data_of(V, F, normals=None):
     """Vertices, triangles and normals, of a Surface, too."""
+    if isinstance(V, tuple) and F is None:
+        raise ValueError("V: give V and F as two arguments, or a Surface")
     if not isinstance(V, Surface):
         return V, F, normals
     if F is not None:
@@ -242,6 +310,10 @@ def registered(a, name):
         return [path], None
     if isinstance(a, Surface):
         a = data_of(a, None)
+    if isinstance(a, (Fit, Volume)):
+        raise ValueError(f"{name}: give a Surface, (V, F), points or the path of a file, and not a {type(a).__name__}")
+    if isinstance(a, tuple) and not 2 <= len(a) <= 3:
+        raise ValueError(f"{name}: give (V, F) or (V, F, normals)")
     return [name + ".ply"], mesh_of(*a, name=name) if isinstance(a, tuple) else mesh_of(a, name=name)
 
 

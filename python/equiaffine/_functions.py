@@ -9,8 +9,9 @@ import webbrowser
 import numpy
 
 from . import _core
-from ._arguments import (choice_of, common_words, data_of, fit_words, integer_of, mesh_of, number_word, numbers_of,
-                         path_of, registered, source_of, thread_words, volume_view_of, whole_mesh_of)
+from ._arguments import (choice_of, common_words, data_of, fit_words, integer_of, mesh_of, number_word, numbers_in,
+                         numbers_of, path_of, places_of, progress_of, registered, source_of, thread_words, volume_view_of,
+                         whole_mesh_of)
 from ._results import Fit, Registration, Surface, Symmetries, Values, Volume
 from ._sentences import here, sentences
 
@@ -18,7 +19,8 @@ _VOLUMES = (".nrrd", ".nhdr", ".mhd", ".mha", ".nii", ".nii.gz", ".inr", ".inr.g
 
 
 def _surface(arrays):
-    return Surface(arrays["V"], arrays["F"], arrays["columns"], arrays["status"], arrays["scale"], arrays["comments"])
+    return Surface(arrays["V"], arrays["F"], arrays["columns"], arrays["status"], arrays["scale"], arrays["comments"],
+                   arrays.get("report"))
 
 
 def mesh(f, *, level=0, box=None, resolution=None, method="marching-cubes", spacing=None, origin=None, direction=None,
@@ -29,8 +31,10 @@ def mesh(f, *, level=0, box=None, resolution=None, method="marching-cubes", spac
     Parameters
     ----------
     f : str, numpy.ndarray, Volume, callable or Fit
-        A formula in x, y, z; samples in an array of three dimensions, NaN where there is none; a function of arrays
-        x, y, z, which is sampled on the grid; or a fit. Derivatives of samples are those of a spline.
+        A formula in x, y, z; samples in an array of three dimensions, which must not change during the call; a function,
+        which is called for each x of the grid with arrays x, y, z of the other two axes, and returns a number for each
+        point; or a fit. Derivatives of samples are those of a spline. NaN means no sample: nothing is known within 7 voxels
+        of it, and of what smoothing reaches, so that vertices there are OUTSIDE.
     level : float
         The value of f on the surface.
     box : float or sequence of 6 floats
@@ -42,9 +46,14 @@ def mesh(f, *, level=0, box=None, resolution=None, method="marching-cubes", spac
     spacing, origin, direction : sequences of floats
         Where samples are: see `Volume`.
     attributes : str or sequence of str
-        "basic", "all", "none", or names: see `equiaffine mesh --help`.
+        "basic" is normal, k1, k2, gaussian_curvature, mean_curvature, conormal, affine_normal, affine_gaussian_curvature,
+        affine_mean_curvature, pick_invariant, affine_normal_angle, affine_area_density, status. "all" adds affine_k1,
+        affine_k2, direction1, direction2, metric. Or some of these names, also quadric_defect, shape_index, curvedness,
+        affine_frame1, affine_frame2, affine_frame3, affine_frame_scale, affine_frame_quality, affine_signature, signature;
+        or "none".
     smoothing : float or "auto"
-        The scale in voxels by which samples are smoothed; 0, the default, is none.
+        The scale in voxels by which samples are smoothed; 0, the default, is none. Integers and other samples with noise
+        need it: curvatures of unsmoothed noise are noise. "auto" chooses by the noise; `Surface.report` says what.
     constants : dict
         Numbers of names in a formula.
     orientation : {"gradient", "against"}
@@ -77,7 +86,7 @@ def mesh(f, *, level=0, box=None, resolution=None, method="marching-cubes", spac
     words += numbers_of(angle=angle, radius=radius, distance=distance)
     words += common_words(attributes, threads, orientation)
     with sentences():
-        return _surface(_core.mesh(["mesh", *words, "-o", "result.ply"], given, progress))
+        return _surface(_core.mesh(["mesh", *words, "-o", "result.ply"], given, progress_of(progress)))
 
 
 def curvatures(V, F=None, *, scale=None, noise=None, normals=None, degree=None, feature_angle=None, attributes="all",
@@ -90,10 +99,10 @@ def curvatures(V, F=None, *, scale=None, noise=None, normals=None, degree=None, 
         Vertices, (n, 3). Or a Surface, with its faces.
     F : array_like
         Triangles, (m, 3) of integers. Without them V are points.
-    scale : float, optional
+    scale : float, "auto" or "none", optional
         The length that tells shape from detail. By default curvatures are the surface's own where the data resolve them,
         else those at the smallest scale at which half of the vertices are known to 20 %; 0 insists on the surface's own.
-    noise : float
+    noise : float or "auto"
         The standard deviation of the points from the surface, a length; by default it is estimated.
     normals : array_like
         Normals of points without triangles, (n, 3).
@@ -102,7 +111,9 @@ def curvatures(V, F=None, *, scale=None, noise=None, normals=None, degree=None, 
     feature_angle : float
         Edges that bend by more than this angle in degrees, 60 by default, are creases if they follow each other; 180 for
         none.
-    attributes, orientation, threads, progress
+    orientation : {"gradient", "against"}
+        Whether normals are those of the data or the opposite ones. Triangles stay as they are.
+    attributes, threads, progress
         As of `mesh`. Each number NAME comes with an estimate of its error, NAME_error.
 
     Returns
@@ -123,7 +134,12 @@ def curvatures(V, F=None, *, scale=None, noise=None, normals=None, degree=None, 
     words = ["annotate", "V", *fit_words(scale, noise, degree, feature_angle),
              *common_words(attributes, threads, orientation), "-o", "result.ply"]
     with sentences():
-        return _surface(_core.annotate(words, mesh_of(V, F, normals), progress))
+        surface = _surface(_core.annotate(words, mesh_of(V, F, normals), progress_of(progress)))
+    names = surface.attributes.keys()
+    for error in [name for name in names if name.endswith("_error")]:
+        if error[:-6] not in surface and error[:-6] not in names:
+            del surface.attributes[error]
+    return surface
 
 
 def fit(V, F=None, *, scale=None, noise=None, normals=None, degree=None, feature_angle=None, threads=None, progress=None):
@@ -147,7 +163,10 @@ def fit(V, F=None, *, scale=None, noise=None, normals=None, degree=None, feature
     words = ["annotate", "V", *fit_words(scale, noise, degree, feature_angle), *common_words("none", threads),
              "-o", "result.ply"]
     with sentences():
-        return Fit(_core.fit(words, mesh_of(V, F, normals), progress))
+        core = _core.fit(words, mesh_of(V, F, normals), progress_of(progress))
+    copy = lambda array: None if array is None else numpy.array(array)
+    return Fit(core, dict(V=copy(V), F=copy(F), scale=scale, noise=noise, normals=copy(normals), degree=degree,
+                          feature_angle=feature_angle))
 
 
 def evaluate(f, points, *, constants=None, box=None, resolution=None, spacing=None, origin=None, direction=None,
@@ -157,7 +176,7 @@ def evaluate(f, points, *, constants=None, box=None, resolution=None, spacing=No
     Parameters
     ----------
     f
-        As of `mesh`; other parameters, too. A formula needs no box here.
+        As of `mesh`; other parameters, too. Box and resolution are for a function alone.
     points : array_like
         (n, 3).
 
@@ -173,27 +192,31 @@ def evaluate(f, points, *, constants=None, box=None, resolution=None, spacing=No
     >>> at["value"].tolist()
     [1.0, 8.0]
     """
+    if isinstance(f, (str, Fit)) and (box is not None or resolution is not None):
+        raise TypeError("box and resolution are for a function that is sampled")
     words, given = source_of(f, constants=constants, box=box, resolution=resolution, spacing=spacing, origin=origin,
                            direction=direction, smoothing=smoothing)
     words += common_words(attributes, threads, orientation)
     with sentences():
         result = _core.evaluate(["evaluate", *words, "--points", "points.csv", "-o", "result.csv"], given,
-                                mesh_of(points, name="points"), progress)
+                                places_of(points), progress_of(progress))
     return Values(result["columns"], result["status"])
 
 
 def _map_words(kind, reflection, tolerance):
+    if not isinstance(reflection, (bool, numpy.bool_)):
+        raise ValueError(f"reflection: give True or False, and not {reflection!r}")
     words = ["--kind", choice_of("kind", kind, "affine", "equiaffine", "similarity", "rigid")]
     return words + ([] if reflection else ["--no-reflection"]) + numbers_of(tolerance=tolerance)
 
 
-def register(a, b, *, kind="affine", reflection=True, tolerance=None, overlap=None, threads=None, progress=None):
+def register(a, b, *, kind="affine", reflection=True, tolerance=None, overlap=None, scale=None, threads=None, progress=None):
     """Find the map that moves a surface, or a part of it, onto another one.
 
     Parameters
     ----------
     a, b : Surface, tuple, array_like or path
-        The source and the target: a Surface, (V, F), points, or the path of a file.
+        The source and the target: a Surface, (V, F), (V, F, normals), points, or the path of a mesh or of points.
     kind : {"affine", "equiaffine", "similarity", "rigid"}
         The maps among which one is sought.
     reflection : bool
@@ -202,6 +225,8 @@ def register(a, b, *, kind="affine", reflection=True, tolerance=None, overlap=No
         How far the surfaces may be apart, as a part of the size of the target; by default the data decide.
     overlap : float
         The part of one of the surfaces, at least, that is to lie on the other; 0.05 by default.
+    scale : float, optional
+        The length that tells shape from detail on both sides, as of `curvatures`.
     threads, progress
         As of `mesh`.
 
@@ -220,21 +245,23 @@ def register(a, b, *, kind="affine", reflection=True, tolerance=None, overlap=No
     True
     """
     (source, source_data), (target, target_data) = registered(a, "a"), registered(b, "b")
-    words = ["register", *source, "to", *target, *_map_words(kind, reflection, tolerance), *thread_words(threads)]
+    at_scale = fit_words(scale)
+    words = ["register", *source, *at_scale, "to", *target, *at_scale, *_map_words(kind, reflection, tolerance),
+             *thread_words(threads)]
     words += [] if overlap is None else ["--min-overlap", number_word("overlap", overlap)]
     with sentences():
-        report, summary = _core.register([*words, "-o", "result.json"], source_data, target_data, progress)
+        report, summary = _core.register([*words, "-o", "result.json"], source_data, target_data, progress_of(progress))
     return Registration(json.loads(report), here(summary.strip()))
 
 
-def symmetries(a, *, kind="affine", reflection=True, tolerance=None, threads=None, progress=None):
+def symmetries(a, *, kind="affine", reflection=True, tolerance=None, scale=None, threads=None, progress=None):
     """Find the maps of a surface onto itself.
 
     Parameters
     ----------
     a : Surface, tuple, array_like or path
         As of `register`.
-    kind, reflection, tolerance, threads, progress
+    kind, reflection, tolerance, scale, threads, progress
         As of `register`; the tolerance is a part of the size of the surface.
 
     Returns
@@ -250,9 +277,9 @@ def symmetries(a, *, kind="affine", reflection=True, tolerance=None, threads=Non
     48
     """
     surface, data = registered(a, "a")
-    words = ["symmetries", *surface, *_map_words(kind, reflection, tolerance), *thread_words(threads)]
+    words = ["symmetries", *surface, *fit_words(scale), *_map_words(kind, reflection, tolerance), *thread_words(threads)]
     with sentences():
-        report, summary = _core.symmetries([*words, "-o", "result.json"], data, progress)
+        report, summary = _core.symmetries([*words, "-o", "result.json"], data, progress_of(progress))
     return Symmetries(json.loads(report), here(summary.strip()))
 
 
@@ -269,7 +296,7 @@ def read(path):
 
 
 def write(path, data):
-    """Write a Surface or a Volume to a file in the format of its extension, whole or not at all.
+    """Write a Surface, (V, F) or a Volume to a file in the format of its extension, whole or not at all.
 
     A Surface goes into .ply, .off, .obj, .stl, .csv or .vtp, of which .ply, .csv and .vtp keep its attributes; a Volume
     into .nrrd, .mhd, .mha, .nii, .nii.gz or .vti.
@@ -291,7 +318,7 @@ def view(surface, path=None, *, color=None, up=None, range=None, colors=None, si
     path : path, optional
         Of a page, .html, or a picture, .png. Without it a page is opened, whose file stays among the temporary ones.
     color : str
-        The attribute that is shown.
+        The attribute that is shown, a component of a vector such as "nx", "status", or "plain" for none.
     up : {"x", "y", "z", "auto"}
         The axis that is up.
     range : pair of floats
@@ -305,8 +332,10 @@ def view(surface, path=None, *, color=None, up=None, range=None, colors=None, si
     words += [] if up is None else ["--up", choice_of("up", up, "x", "y", "z", "auto")]
     words += [] if colors is None else ["--colors", choice_of("colors", colors, "linear", "logarithmic", "equalized", "auto")]
     if range is not None:
-        words += ["--range", *(number_word("range", number) for number in range)]
+        words += ["--range", *map(repr, numbers_in("range", range, 2).tolist())]
     if size is not None:
+        if numpy.shape(size) != (2,):
+            raise ValueError(f"size: give two whole numbers, and not {size!r}")
         words += ["--size", *(integer_of("size", number) for number in size)]
     mesh_to_show = whole_mesh_of(surface)
     if path is not None:

@@ -18,13 +18,22 @@ class Status(enum.IntEnum):
     UNCONVERGED = 4  # the vertex could not be put onto the surface
 
 
+def _irregular(status):
+    """How many points have another status than REGULAR, in words."""
+    if status is None:
+        return ""
+    counts = numpy.bincount(status, minlength=len(Status))
+    return "".join(f", {counts[kind]} {kind.name.lower()}" for kind in Status if kind and counts[kind])
+
+
 class Values:
-    """Numbers at points by name, such as `values["mean_curvature"]`; vectors, as `values["normal"]`, are (n, 3).
+    """Numbers at points by name, such as `values["mean_curvature"]`; vectors, as `values["normal"]`, are copies, (n, 3).
 
     Attributes
     ----------
     attributes : dict
-        Arrays of shape (n,) by name. `NAME_error` is an estimate of the error of NAME, where there is one.
+        Arrays of shape (n,) by name. `NAME_error` is an estimate of the error of NAME, where there is one: inf where
+        nothing is known of it.
     status : numpy.ndarray or None
         Of uint8, see `Status`.
     """
@@ -35,6 +44,12 @@ class Values:
 
     def keys(self):
         return self.attributes.keys()
+
+    def items(self):
+        return self.attributes.items()
+
+    def get(self, name, default=None):
+        return self[name] if name in self else default
 
     def __iter__(self):
         return iter(self.attributes)
@@ -60,7 +75,7 @@ class Values:
         return f"<{type(self).__name__}: {self._size()}, {len(self.attributes)} attributes>"
 
     def _size(self):
-        return f"{len(next(iter(self.attributes.values()), ()))} points"
+        return f"{len(next(iter(self.attributes.values()), ()))} points{_irregular(self.status)}"
 
 
 class Surface(Values):
@@ -71,7 +86,7 @@ class Surface(Values):
     V : numpy.ndarray
         Vertices, (n, 3) of float64.
     F : numpy.ndarray
-        Triangles, (m, 3) of int64, counterclockwise seen from the side to which normals point.
+        Triangles, (m, 3) of int64. Those that `mesh` makes are counterclockwise seen from the side to which normals point.
     attributes : dict
         Arrays of shape (n,) by name.
     status : numpy.ndarray or None
@@ -80,14 +95,18 @@ class Surface(Values):
         The scale of curvatures of a fit; None if they are the surface's own, or not of a fit.
     comments : list of str
         What is known of a fit, as lines of a PLY file.
+    report : dict
+        What `mesh` found out: "max_distance", the greatest distance of a vertex from the surface as Newton's method sees it;
+        of samples "noise", their standard deviation, and "smoothing", the scale in voxels.
     """
 
-    def __init__(self, V, F=None, attributes=None, status=None, scale=None, comments=()):
+    def __init__(self, V, F=None, attributes=None, status=None, scale=None, comments=(), report=None):
         super().__init__({} if attributes is None else attributes, status)
         self.V = V
         self.F = numpy.empty((0, 3), numpy.int64) if F is None else F
         self.scale = scale
         self.comments = list(comments)
+        self.report = {} if report is None else report
         for comment in self.comments:
             found = re.fullmatch(r"fit scale: (\S+).*", comment, re.IGNORECASE)
             if found and scale is None:
@@ -95,10 +114,13 @@ class Surface(Values):
                     self.scale = float(found[1])
 
     def _size(self):
-        return f"{len(self.V)} vertices, {len(self.F)} triangles"
+        return f"{len(self.V)} vertices, {len(self.F)} triangles{_irregular(self.status)}"
 
     def save(self, path):
-        """Write a .ply, .off, .obj, .stl, .csv or .vtp file with all that the format can hold, whole or not at all."""
+        """Write a .ply, .off, .obj, .stl, .csv or .vtp file with all that the format can hold, whole or not at all.
+
+        Of these, .stl and .vtp are not read back, and .csv without the status.
+        """
         from ._functions import write
         write(path, self)
 
@@ -142,10 +164,13 @@ class Volume:
     """
 
     def __init__(self, values, spacing=(1, 1, 1), origin=(0, 0, 0), direction=None):
+        from ._arguments import direction_of, numbers_in, spacing_of
         self.values = numpy.asarray(values)
-        self.spacing = numpy.broadcast_to(numpy.asarray(spacing, float), 3)
-        self.origin = numpy.asarray(origin, float)
-        self.direction = numpy.eye(3) if direction is None else numpy.asarray(direction, float)
+        if self.values.ndim != 3:
+            raise ValueError(f"values: give an array of three dimensions, and not of the shape {self.values.shape}")
+        self.spacing = spacing_of(spacing)
+        self.origin = numbers_in("origin", origin, 3)
+        self.direction = direction_of(direction)
 
     def __repr__(self):
         return f"<Volume: {' x '.join(map(str, self.values.shape))} of {self.values.dtype}>"
@@ -159,7 +184,7 @@ class Volume:
 class Fit:
     """A function that is fitted to the vertices of a mesh or to points: zero on the surface, positive outside.
 
-    It is known near the data; elsewhere it is NaN. `fit` makes it.
+    It is known near the data; elsewhere it is NaN. `fit` makes it. It can be pickled: what is loaded is fitted again.
 
     Attributes
     ----------
@@ -167,8 +192,11 @@ class Fit:
         The scale of its curvatures, None if they are the surface's own.
     """
 
-    def __init__(self, core):
-        self._core = core
+    def __init__(self, core, arguments):
+        self._core, self._arguments = core, arguments
+
+    def __reduce__(self):
+        return _fitted_again, (self._arguments,)
 
     @property
     def scale(self):
@@ -184,12 +212,17 @@ class Fit:
         return evaluate(self, points, **options)
 
     def mesh(self, **options):
-        """Return the surface of the fit: see `mesh`."""
+        """Return the surface of the fit: see `mesh`. With the resolution 129, the default, it takes some ten seconds."""
         from ._functions import mesh
         return mesh(self, **options)
 
     def __repr__(self):
         return "<Fit: the surface's own curvatures>" if self.scale is None else f"<Fit at the scale {self.scale:.4g}>"
+
+
+def _fitted_again(arguments):
+    from ._functions import fit
+    return fit(**arguments)
 
 
 def _matrix_of(mapping):
@@ -243,7 +276,8 @@ class Registration(_Findings):
         """Return points of the source (n, 3) moved onto the target."""
         if not self.found:
             raise ValueError("there is no map: " + self.summary)
-        return numpy.asarray(points) @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+        from ._arguments import points_of
+        return points_of(points, "points") @ self.matrix[:3, :3].T + self.matrix[:3, 3]
 
     def __bool__(self):
         return self.found

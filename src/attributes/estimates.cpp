@@ -2,7 +2,7 @@
 #include "attributes/estimates.h"
 
 #include "source/source.h"
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/function/internal/shared/point_blocks.h>
 #include <equiaffine/io/internal/shared/trust.h>
 
 #include <algorithm>
@@ -28,17 +28,24 @@ struct Preimage {
   }
 };
 
-template <class At>
-auto at_points(std::span<const Kernel::Point_3> points, Progress& progress, const At& at) {
-  progress.begin("estimating errors", points.size());
-  std::vector<decltype(at(points.front()))> results(points.size());
-  parallel_for<CGAL::Parallel_if_available_tag>(
-      0, points.size(),
-      [&](std::size_t i) {
-        results[i] = at(points[i]);
-        progress.advance();
-      },
-      64);
+/// Calls at(local, p) for the preimage p of every point: `local` is the estimator, which may be restricted to cells around
+/// p.
+template <class Estimator, class At>
+auto at_points(const Estimator& estimator, std::span<const Kernel::Point_3> images, const Preimage& preimage,
+               Progress& progress, const At& at) {
+  progress.begin("estimating errors", images.size());
+  std::vector<Kernel::Point_3> points;
+  points.reserve(images.size());
+  for (const auto& image : images) points.push_back(preimage.map(image));
+  std::vector<decltype(at(estimator, points.front()))> results(points.size());
+  for_each_point_block<CGAL::Parallel_if_available_tag>(
+      estimator, std::span<const Kernel::Point_3>(points), 64, 0,
+      [&](const Estimator& local, std::span<const std::size_t> numbers) {
+        for (const std::size_t n : numbers) {
+          results[n] = at(local, points[n]);
+          progress.advance();
+        }
+      });
   return results;
 }
 
@@ -77,10 +84,11 @@ Estimates estimates_at(const Source& source, const Source_options& options, std:
   const Preimage preimage(options);
   Estimates estimates;
   if (source.fit) {
-    estimates = estimates_of(
-        at_points(points, progress, [&](const auto& p) { return source.fit->structure(preimage.map(p)); }));
+    estimates = estimates_of(at_points(*source.fit, points, preimage, progress,
+                                       [](const Fit_traits& fit, const auto& p) { return fit.structure(p); }));
   } else if (source.errors) {
-    const auto errors = at_points(points, progress, [&](const auto& p) { return (*source.errors)(preimage.map(p)); });
+    const auto errors = at_points(*source.errors, points, preimage, progress,
+                                  [](const Curvature_error_3<Kernel>& local, const auto& p) { return local(p); });
     for (const auto& attribute : estimate_attributes()) {
       if (!attribute.is_of_splines) continue;
       auto& column = estimates.columns.emplace_back(Vertex_attributes::Column{attribute.name, {}});

@@ -5,23 +5,32 @@
 #include "output/statistics.h"
 #include "output/surface_output.h"
 #include "source/source.h"
+#include "system/Background_work.h"
 #include "system/atomic_file.h"
+#include <equiaffine/io/internal/shared/Ply_writer.h>
+#include <equiaffine/io/write_mesh.h>
+#include <equiaffine/mesh_topology.h>
 #include <equiaffine/parabolic_curves.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace equiaffine {
 
 namespace {
 
-Statistics make_statistics(const Mesh_options& options, const Annotated_surface& surface, const Source& source) {
+Statistics make_statistics(const Mesh_options& options, const Annotated_surface& surface, const Source& source,
+                           const Mesh_topology& topology) {
   Statistics statistics;
   statistics.source = describe(options.source);
   statistics.isovalue = options.isovalue;
   statistics.vertices = surface.mesh.points.size();
   statistics.faces = surface.mesh.triangles.size();
-  statistics.topology = mesh_topology(surface.mesh.triangles, surface.mesh.points.size());
+  statistics.topology = topology;
   statistics.status = surface.status;
   statistics.max_distance_to_surface = surface.max_distance;
   statistics.sample_seconds = surface.mesh.sampling_seconds;
@@ -85,20 +94,61 @@ Outputs outputs_of(const Mesh_options& options) {
   return outputs;
 }
 
+/// Whether a single file of vertices is all that needs the attributes, so that nobody has to keep them.
+bool are_attributes_only_written(const Mesh_options& options) {
+  return mesh_format(options.output) == Mesh_format::PLY && options.source.kind != Source_kind::FIT &&
+         !options.source.estimates_errors && !options.display.shows_something() && !options.curves;
+}
+
+/// Computes the attributes of a surface, and writes those of some vertices while those of the next ones are computed.
+void write_computed_attributes(Output_file& file, const Source& source, const Mesh_options& options,
+                               Annotated_surface& surface) {
+  constexpr std::size_t vertices_of_block = std::size_t(1) << 19;
+  const std::span<const Kernel::Point_3> points(surface.mesh.points);
+  Vertex_attributes layout;
+  for (const Attribute& attribute : options.attributes.columns)
+    layout.columns.push_back({std::string(attribute.name), {}});
+  if (options.attributes.has_status) layout.status.emplace();
+  Ply_writer writer(file.stream(), points.size(), surface.mesh.triangles.size(), layout);
+  Background_work writing;
+  for_each_attribute_block(
+      source, options, surface, vertices_of_block, [&](std::size_t first, Vertex_attributes&& attributes) {
+        writing.wait();
+        const auto block = points.subspan(first, std::min(vertices_of_block, points.size() - first));
+        writing.start(
+            [&writer, block, attributes = std::move(attributes)] { writer.write_vertices(block, attributes); });
+      });
+  writing.wait();
+  writer.write_faces(surface.mesh.triangles);
+  writer.flush();
+}
+
 } // namespace
 
 void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress) {
   Outputs outputs = outputs_of(options);
   check_memory(options);
-  auto [source, surface, source_seconds] = make_surface(options, progress);
+  const bool are_only_written = are_attributes_only_written(options);
+  auto [source, surface, source_seconds] =
+      make_surface(options, progress, are_only_written ? Attribute_time::LATER : Attribute_time::WITH_SURFACE);
+  Mesh_topology topology;
+  Background_work counting;
+  counting.start([&topology, &mesh = surface.mesh] { topology = mesh_topology(mesh.triangles, mesh.points.size()); });
+  if (are_only_written) {
+    const Stopwatch stopwatch;
+    progress.begin("computing and writing attributes");
+    write_computed_attributes(outputs[Output_kind::RESULT], source, options, surface);
+    surface.annotation_seconds = stopwatch.seconds();
+  }
 
   const Stopwatch write_stopwatch;
   progress.begin("writing");
-  Statistics statistics = make_statistics(options, surface, source);
+  counting.wait();
+  Statistics statistics = make_statistics(options, surface, source, topology);
   statistics.sample_seconds += source_seconds;
   const Description fit = statistics.fit ? description_of(*statistics.fit) : Description();
   if (statistics.fit && !surface.attributes.columns.empty()) surface.attributes.comments = comments_of(*statistics.fit);
-  write_surface(outputs[Output_kind::RESULT], surface.mesh, surface.attributes);
+  if (!are_only_written) write_surface(outputs[Output_kind::RESULT], surface.mesh, surface.attributes);
   if (options.source.estimates_errors) add_errors(surface.estimates, surface.attributes);
   write_displays(outputs, surface.mesh, surface.attributes, options.display,
                  {page_title(options.output, statistics.source) + label_suffix(fit),

@@ -19,6 +19,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace equiaffine {
 
@@ -28,21 +29,23 @@ namespace {
 /// -infinity.
 template <class Traits>
 std::pair<double, double> range_on_grid(const Traits& function) {
-  const auto samples = [&] {
-    if constexpr (LatticeImplicitFunctionTraits_3<Traits>) {
-      Volume_3<Kernel> volume{function.lattice(), {}};
-      const auto [nx, ny, nz] = volume.lattice.size();
-      for (std::size_t k = 0; k < nz; ++k)
-        for (std::size_t j = 0; j < ny; ++j)
-          for (std::size_t i = 0; i < nx; ++i) volume.values.push_back(function.sample(i, j, k));
-      return volume;
-    } else
-      return sample_on_lattice<CGAL::Parallel_if_available_tag>(function, sampling_lattice(function, {33, 33, 33}));
-  }();
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
-  for (const double value : samples.values) {
-    if (value < least) least = value; // std::min would keep a NaN
-    if (value > greatest) greatest = value;
+  const auto add = [&](const std::vector<double>& values) {
+    for (const double value : values) {
+      if (value < least) least = value; // std::min would keep a NaN
+      if (value > greatest) greatest = value;
+    }
+  };
+  if constexpr (LatticeImplicitFunctionTraits_3<Traits>) {
+    const auto [nx, ny, nz] = function.lattice().size();
+    std::vector<double> row(nx);
+    for (std::size_t k = 0; k < nz; ++k)
+      for (std::size_t j = 0; j < ny; ++j) {
+        samples(function, 0, j, k, row);
+        add(row);
+      }
+  } else {
+    add(sample_on_lattice<CGAL::Parallel_if_available_tag>(function, sampling_lattice(function, {33, 33, 33})).values);
   }
   return {least, greatest};
 }

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -115,23 +116,32 @@ Annotated_surface sample(const Source_function& function, const Mesh_options& op
   return surface;
 }
 
-/// Computes distances from the surface, and the attributes that files have; the statistics count the status in any case.
 template <class Traits>
-void add_attributes(const Traits& function, const Mesh_options& options, Annotated_surface& surface) {
+void for_each_attribute_block(const Traits& function, const Mesh_options& options, Annotated_surface& surface,
+                              std::size_t vertices_of_block,
+                              const std::function<void(std::size_t, Vertex_attributes&&)>& visit) {
   const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
-  const auto& points = surface.mesh.points;
-  const auto& status = surface.mesh.vertex_status;
-  surface.max_distance = engine<Traits>().max_distance_to_surface(level_set, points, status);
+  const std::span<const Kernel::Point_3> points(surface.mesh.points);
+  const std::span<const Point_status> sampled_status(surface.mesh.vertex_status);
+  surface.max_distance = engine<Traits>().max_distance_to_surface(level_set, points, sampled_status);
   Attribute_selection selection = options.attributes;
   selection.has_status = true;
-  surface.attributes = engine<Traits>().compute_attributes(
-      {function, options.orientation, points, selection, options.estimator, status});
+  for (std::size_t first = 0; first < points.size(); first += vertices_of_block) {
+    const std::size_t count = std::min(vertices_of_block, points.size() - first);
+    Vertex_attributes attributes = engine<Traits>().compute_attributes(
+        {function, options.orientation, points.subspan(first, count), selection, options.estimator,
+         sampled_status.empty() ? sampled_status : sampled_status.subspan(first, count)});
+    const auto counts = equiaffine::count(*attributes.status);
+    for (std::size_t s = 0; s < counts.size(); ++s) surface.status[s] += counts[s];
+    if (!options.attributes.has_status) attributes.status.reset();
+    visit(first, std::move(attributes));
+  }
   surface.mesh.function_evaluations += 3 * points.size();
 }
 
-/// Samples the surface and computes its attributes.
+/// Samples the surface and computes its attributes, unless that is done later.
 Annotated_surface annotated_surface(const Source& source, const Mesh_options& options, Remesh remesh,
-                                    Progress& progress) {
+                                    Attribute_time time, Progress& progress) {
   Annotated_surface surface = sample(source.function, options, std::move(remesh), progress);
   if (source.fit && !surface.remesh) {
     remove_crumbs(surface.mesh, *source.fit, options.source);
@@ -142,15 +152,16 @@ Annotated_surface annotated_surface(const Source& source, const Mesh_options& op
   }
   if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
     for (auto& triangle : surface.mesh.triangles) std::swap(triangle[1], triangle[2]);
+  if (time == Attribute_time::LATER) return surface;
   const Stopwatch stopwatch;
   progress.begin("computing attributes");
-  std::visit([&](const auto& function) { add_attributes(function, options, surface); }, source.function);
-  surface.status = count(*surface.attributes.status);
+  for_each_attribute_block(
+      source, options, surface, surface.mesh.points.size(),
+      [&](std::size_t, Vertex_attributes&& attributes) { surface.attributes = std::move(attributes); });
   surface.estimates = estimates_at(source, options.source, surface.mesh.points, progress);
   add_estimates(surface.estimates, options.estimates, surface.attributes);
   if (surface.remesh && !options.attributes.columns.empty())
     surface.attributes.columns.push_back({"fit_outcome", std::move(surface.outcomes)});
-  if (!options.attributes.has_status) surface.attributes.status.reset();
   surface.annotation_seconds = stopwatch.seconds();
   if (options.curves && !surface.curves) {
     progress.begin("finding parabolic curves");
@@ -161,6 +172,14 @@ Annotated_surface annotated_surface(const Source& source, const Mesh_options& op
 }
 
 } // namespace
+
+void for_each_attribute_block(const Source& source, const Mesh_options& options, Annotated_surface& surface,
+                              std::size_t vertices_of_block,
+                              const std::function<void(std::size_t, Vertex_attributes&&)>& visit) {
+  std::visit(
+      [&](const auto& function) { for_each_attribute_block(function, options, surface, vertices_of_block, visit); },
+      source.function);
+}
 
 void check_memory(const Mesh_options& options) {
   if (options.source.derivatives == Derivatives::JETS && std::holds_alternative<Marching_cubes_options>(options.method))
@@ -181,16 +200,16 @@ void warn_of(const Annotated_surface& surface, const Source& source, const Mesh_
 }
 
 Annotated_surface surface_of(const Source& source, const Mesh_options& options, Progress& progress) {
-  return annotated_surface(source, options, {}, progress);
+  return annotated_surface(source, options, {}, Attribute_time::WITH_SURFACE, progress);
 }
 
-Made_surface make_surface(const Mesh_options& options, Progress& progress) {
+Made_surface make_surface(const Mesh_options& options, Progress& progress, Attribute_time time) {
   const Stopwatch stopwatch;
   const auto* const delaunay = std::get_if<Delaunay_options>(&options.method);
   Source source = make_source(options.source, progress, delaunay ? delaunay->radius : 0);
   const double seconds = stopwatch.seconds();
   Remesh remesh = remesh_of_source(source, options, progress);
-  Annotated_surface surface = annotated_surface(source, options, std::move(remesh), progress);
+  Annotated_surface surface = annotated_surface(source, options, std::move(remesh), time, progress);
   return {std::move(source), std::move(surface), seconds};
 }
 

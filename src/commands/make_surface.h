@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,9 +42,20 @@ struct Made_surface {
   double source_seconds;
 };
 
+/// When the attributes of a surface are computed: with it, or later by for_each_attribute_block().
+enum class Attribute_time { WITH_SURFACE, LATER };
+
 /// Makes the surface. Where the data choose the scale of a fit, the source may be one at a smaller scale: see
 /// doc/program.md on `--method remesh`.
-Made_surface make_surface(const Mesh_options& options, Progress& progress);
+Made_surface make_surface(const Mesh_options& options, Progress& progress,
+                          Attribute_time time = Attribute_time::WITH_SURFACE);
+
+/// Computes distances from the surface, and the attributes that files have, for blocks of vertices one after the other;
+/// the statistics count the status in any case. Calls visit(first, attributes) with the number of the first vertex of each
+/// block.
+void for_each_attribute_block(const Source& source, const Mesh_options& options, Annotated_surface& surface,
+                              std::size_t vertices_of_block,
+                              const std::function<void(std::size_t, Vertex_attributes&&)>& visit);
 
 /// Throws `Input_error` if the grid of a surface needs more memory than it may.
 void check_memory(const Mesh_options& options);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture/Canvas.h"
 
+#include <equiaffine/Progress_observer.h>
+
 namespace equiaffine {
 
 Canvas::Canvas(std::size_t width, std::size_t height, std::size_t first_row)
@@ -35,7 +37,8 @@ Picture Canvas::picture() const {
   constexpr std::size_t n = samples_per_axis;
   Picture picture{width_ / n, height_ / n, {}};
   picture.rgb.reserve(3 * picture.width * picture.height);
-  for (std::size_t row = 0; row < picture.height; ++row)
+  for (std::size_t row = 0; row < picture.height; ++row) {
+    Progress_observer::step();
     for (std::size_t column = 0; column < picture.width; ++column)
       for (std::size_t channel = 0; channel < 3; ++channel) {
         float sum = 0;
@@ -44,6 +47,7 @@ Picture Canvas::picture() const {
         const float mean = std::clamp(sum / float(n * n), 0.F, 1.F);
         picture.rgb.push_back(static_cast<unsigned char>(std::lround(255 * std::pow(mean, 1 / 2.2F))));
       }
+  }
   return picture;
 }
 

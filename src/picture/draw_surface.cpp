@@ -3,6 +3,7 @@
 
 #include "picture/Camera.h"
 #include "picture/Line_drawing.h"
+#include <equiaffine/Progress_observer.h>
 #include <equiaffine/io/internal/shared/trust.h>
 
 #include <algorithm>
@@ -62,6 +63,7 @@ public:
 
   void draw(Canvas& canvas, const Surface_paint& paint) const {
     for (const auto& triangle : triangles_) {
+      Progress_observer::step();
       const auto& [a, b, c] = triangle;
       const auto shade = [&](const std::array<double, 3>& weights, bool is_front) {
         const auto& [u, v, w] = weights;

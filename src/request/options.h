@@ -6,7 +6,7 @@
 #include "system/kernel.h"
 #include "system/resources.h"
 #include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Volume_3.h>
+#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/delaunay/Facet_sizing.h>
 #include <equiaffine/geometry/Estimator.h>
@@ -67,7 +67,7 @@ struct Source_options {
   std::optional<double> narrow_band; ///< distances are not needed beyond so many voxels
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
   /// These return data that are in memory already: then `text` is only their name, and no file is read.
-  std::function<Volume_3<Kernel>()> volume;
+  std::function<Volume_view_3<Kernel>()> volume;
   std::function<Annotated_mesh_3<Kernel>()> data;
 };
 

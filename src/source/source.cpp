@@ -25,6 +25,7 @@
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace equiaffine {
 
@@ -140,10 +141,16 @@ Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size
 }
 
 /// Throws if values are missing and the scheme is interpolation, whose recursive filter would spread them everywhere.
-void check_values(const Volume_3<Kernel>& volume, const Source_options& options) {
+void check_values(const Volume_view_3<Kernel>& volume, const Source_options& options) {
   if (options.spline.scheme != Spline_scheme::INTERPOLATION) return;
-  const auto missing =
-      std::count_if(volume.values.begin(), volume.values.end(), [](double x) { return !std::isfinite(x); });
+  const auto [nx, ny, nz] = volume.lattice().size();
+  std::vector<double> row(nx);
+  std::ptrdiff_t missing = 0;
+  for (std::size_t k = 0; k < nz; ++k)
+    for (std::size_t j = 0; j < ny; ++j) {
+      volume.copy_line({0, j, k}, 0, row);
+      missing += std::count_if(row.begin(), row.end(), [](double x) { return !std::isfinite(x); });
+    }
   if (missing > 0)
     throw Input_error("--spline-scheme: interpolation needs a value at every node, and " +
                       describe_as(options, options.text) + " has " + std::to_string(missing) +
@@ -173,26 +180,25 @@ struct Fitted_spline {
 };
 
 Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
-  Volume_3<Kernel> volume = [&] {
+  const Volume_view_3<Kernel> volume = [&]() -> Volume_view_3<Kernel> {
     if (source.kind != Source_kind::VOLUME) return sample_source(source, progress);
     if (source.volume) return source.volume();
     progress.begin("reading the volume");
     return source.raw ? read_raw_volume(source.text, *source.raw) : read_volume(source.text);
   }();
   check_values(volume, source);
-  check_steps(volume.lattice, source);
+  check_steps(volume.lattice(), source);
   const auto& [degree, scheme, scale, isovalue] = source.spline;
   progress.begin("measuring noise");
   const Sample_noise noise = estimate_noise(volume, isovalue);
   const double smoothing = scale ? *scale : choose_smoothing(volume, noise, degree, scheme, isovalue);
   progress.begin("fitting a spline");
-  const Spline_statistics statistics = {degree, scheme, smoothing, noise, std::ranges::min(volume.lattice.size())};
+  const Spline_statistics statistics = {degree, scheme, smoothing, noise, std::ranges::min(volume.lattice().size())};
   const Spline_parameters parameters = {.degree = degree, .scheme = scheme, .smoothing = smoothing};
-  const bool has_unsmoothed = source.is_registered && smoothing > 0;
-  if (!source.estimates_errors && !has_unsmoothed) return {Spline_traits(std::move(volume), parameters), statistics};
   Fitted_spline fit = {Spline_traits(volume, parameters), statistics};
   if (source.estimates_errors) fit.errors.emplace(fit.function, volume, smoothing, noise.deviation);
-  if (has_unsmoothed) fit.unsmoothed.emplace(std::move(volume), Spline_parameters{.degree = degree, .scheme = scheme});
+  if (source.is_registered && smoothing > 0)
+    fit.unsmoothed.emplace(volume, Spline_parameters{.degree = degree, .scheme = scheme});
   return fit;
 }
 

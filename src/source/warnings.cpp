@@ -26,6 +26,9 @@ void warn_of_outside(const Source_options& options, const Source& source, std::s
   else if (options.narrow_band)
     text << "distances are known in the band of --narrow-band " << *options.narrow_band
          << " only; give a larger one or leave it out";
+  else if (options.kind == Source_kind::VOLUME)
+    text << "nothing is known outside of the volume and within " << degree << " voxels of a node without a value"
+         << (source.spline->smoothing > 0 ? ", or more since samples are smoothed" : "");
   else return;
   progress.warn(text.str());
 }

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume/Shared_volume.h"
 
+#include "system/Mapped_file.h"
 #include "volume/sample_type.h"
-#include <equiaffine/base/internal/shared/large_pages.h>
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include "volume/volume_formats.h"
 
-#include <CGAL/tags.h>
-
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
@@ -23,6 +20,8 @@ struct Header {
   std::array<double, 3> origin;
   std::array<std::array<double, 3>, 3> steps;
   std::size_t type;
+  std::size_t length_of_path; ///< of the file with the samples, which stands in their place; 0 if they are here
+  std::size_t first_in_file;
 };
 
 static_assert(std::is_trivially_copyable_v<Header>);
@@ -44,36 +43,53 @@ Lattice_3<Kernel> lattice_of(const Header& header) {
           {to_vector(header.steps[0]), to_vector(header.steps[1]), to_vector(header.steps[2])}};
 }
 
-} // namespace
-
-void* Shared_volume::allocate(const Lattice_3<Kernel>& lattice, std::size_t type) {
-  std::byte* const bytes = memory_.allocate(size_of_header + lattice.number_of_nodes() * size_of_sample(type));
-  Header header = {lattice.size(), {}, {}, type};
+Header header_of(const Lattice_3<Kernel>& lattice, std::size_t type) {
+  Header header = {lattice.size(), {}, {}, type, 0, 0};
   for (int axis = 0; axis < 3; ++axis) {
     header.origin[std::size_t(axis)] = lattice.origin()[axis];
     for (std::size_t step = 0; step < 3; ++step) header.steps[step][std::size_t(axis)] = lattice.steps()[step][axis];
   }
+  return header;
+}
+
+} // namespace
+
+void* Shared_volume::allocate(const Lattice_3<Kernel>& lattice, std::size_t type) {
+  std::byte* const bytes = memory_->allocate(size_of_header + lattice.number_of_nodes() * size_of_sample(type));
+  const Header header = header_of(lattice, type);
   std::memcpy(bytes, &header, sizeof header);
   return bytes + size_of_header;
 }
 
-Lattice_3<Kernel> Shared_volume::lattice() { return lattice_of(header_in(memory_.data())); }
+void Shared_volume::refer_to(const Lattice_3<Kernel>& lattice, std::size_t type, const Raw_data& data) {
+  std::byte* const bytes = memory_->allocate(size_of_header + data.path.size());
+  Header header = header_of(lattice, type);
+  header.length_of_path = data.path.size();
+  header.first_in_file = data.first;
+  std::memcpy(bytes, &header, sizeof header);
+  std::memcpy(bytes + size_of_header, data.path.data(), data.path.size());
+}
 
-Volume_3<Kernel> Shared_volume::to_volume() {
-  const std::byte* const bytes = memory_.data();
-  const Header header = header_in(bytes);
+Lattice_3<Kernel> Shared_volume::lattice() { return lattice_of(header_in(memory_->data())); }
+
+Volume_view_3<Kernel> Shared_volume::view(const std::string& path) {
+  const std::byte* samples = memory_->data();
+  const Header header = header_in(samples);
   const Lattice_3<Kernel> lattice = lattice_of(header);
-  Volume_3<Kernel> volume{lattice, {}};
-  resize_with_large_pages(volume.values, lattice.number_of_nodes());
-  with_sample_type(header.type, [&](auto number) {
-    const auto* const samples = reinterpret_cast<const decltype(number)*>(bytes + size_of_header);
-    const auto& [nx, ny, nz] = lattice.size();
-    parallel_for<CGAL::Parallel_if_available_tag>(0, nz, [&, slab = nx * ny](std::size_t k) {
-      std::transform(samples + k * slab, samples + (k + 1) * slab, volume.values.begin() + std::ptrdiff_t(k * slab),
-                     [](auto sample) { return double(sample); });
-    });
+  samples += size_of_header;
+  std::shared_ptr<const void> owner = memory_;
+  if (header.length_of_path > 0) {
+    const auto file =
+        std::make_shared<const Mapped_file>(std::string(reinterpret_cast<const char*>(samples), header.length_of_path));
+    if (file->size() < header.first_in_file + lattice.number_of_nodes() * size_of_sample(header.type))
+      fail_to_read_volume(path, file->data() ? "its data have become shorter" : "its data cannot be read",
+                          file->data() ? "read it again when it is complete" : "check the permissions of their file");
+    samples = file->data() + header.first_in_file;
+    owner = file;
+  }
+  return with_sample_type(header.type, [&](auto number) {
+    return Volume_view_3<Kernel>(lattice, reinterpret_cast<const decltype(number)*>(samples), owner);
   });
-  return volume;
 }
 
 } // namespace equiaffine

@@ -4,11 +4,23 @@
 
 #include "system/Shared_memory.h"
 #include "system/kernel.h"
-#include <equiaffine/Volume_3.h>
+#include <equiaffine/Volume_view_3.h>
 
 #include <cstddef>
+#include <memory>
+#include <string>
 
 namespace equiaffine {
+
+/// Where samples that a file has as they are in memory stay: in the file, which then must not be cut short, or read into
+/// memory.
+enum class Samples_in { FILE, MEMORY };
+
+/// Where the samples of a volume lie in a file, one after the other, as they are in memory.
+struct Raw_data {
+  std::string path;
+  std::size_t first; ///< the place of the first byte
+};
 
 /// A volume in the type of numbers of its file, in memory that a child process shares with its parent: the child
 /// allocates and fills it, and the parent takes the lattice and the samples from it.
@@ -17,13 +29,17 @@ public:
   /// Makes room for the samples of a lattice and returns the place of the first one. `type` is a position in raw_types.
   void* allocate(const Lattice_3<Kernel>& lattice, std::size_t type);
 
+  /// Says instead that the parent finds the samples at that place of a file.
+  void refer_to(const Lattice_3<Kernel>& lattice, std::size_t type, const Raw_data& data);
+
   Lattice_3<Kernel> lattice();
 
-  /// The samples as doubles; they are converted here, by the parent, and copied nowhere else.
-  Volume_3<Kernel> to_volume();
+  /// The samples, where they are. A file must not be cut short as long as there is a copy of the view. Throws `Input_error`
+  /// about the volume `path` if the samples are in a file and no longer there.
+  Volume_view_3<Kernel> view(const std::string& path);
 
 private:
-  Shared_memory memory_;
+  std::shared_ptr<Shared_memory> memory_ = std::make_shared<Shared_memory>();
 };
 
 } // namespace equiaffine

@@ -56,12 +56,9 @@ void check_meta_header(const std::string& path) {
   std::string_view rest = header;
   std::size_t axes = 0;
   while (!rest.empty()) {
-    const std::string_view line = take_line(rest);
-    const std::size_t equals = line.find('=');
-    if (equals == std::string_view::npos) continue;
-    const std::string_view field = line.substr(0, line.find_last_not_of(" \t", equals - 1) + 1);
-    std::string_view content = line.substr(equals + 1);
-    content = take_line(content);
+    const auto found = meta_field(take_line(rest));
+    if (!found) continue;
+    const auto& [field, content] = *found;
     if (field == "NDims") {
       const std::optional<long long> count = to_integer(content, 1, largest_number_of_axes);
       if (!count) fail_at_field(path, field, content, "write the number of axes, which is 3");

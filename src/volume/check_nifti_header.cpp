@@ -10,8 +10,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 
 namespace equiaffine {
 
@@ -141,8 +143,10 @@ void check_nifti_header(const std::string& path) {
   header.check_frame();
   const double expected = header.size_of_file();
   // ITK's NIfTI reader says nothing when a file ends early.
-  const std::optional<double> size = decompressed_size(path);
-  if (!size || *size < expected) fail_to_read_volume_data(path);
+  std::error_code error;
+  const std::optional<double> size =
+      is_gzip(path) ? decompressed_size(path) : double(std::filesystem::file_size(path, error));
+  if (error || !size || *size < expected) fail_to_read_volume_data(path);
 }
 
 } // namespace equiaffine

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <system_error>
 
@@ -53,6 +54,21 @@ std::optional<double> decompressed_size(const std::string& path) {
   gzerror(file.get(), &error);
   if (error != Z_OK) return std::nullopt;
   return size;
+}
+
+bool is_gzip(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return file.get() == 0x1f && file.get() == 0x8b;
+}
+
+std::optional<Meta_field> meta_field(std::string_view line) {
+  constexpr std::string_view separators = "=:";
+  const std::size_t at = line.find_first_of(separators);
+  if (at == std::string_view::npos) return std::nullopt;
+  std::string_view name = line.substr(0, at), content = line.substr(at);
+  content.remove_prefix(
+      std::min(content.find_first_not_of("=: \t"), content.size())); // as the MetaIO library skips them
+  return Meta_field{take_line(name), take_line(content)};
 }
 
 std::string_view take_line(std::string_view& text) {

@@ -19,8 +19,19 @@ std::optional<double> decompressed_size(const std::string& path);
 /// How much of a MetaImage or NRRD file is read as its header.
 constexpr std::size_t longest_header = 1 << 20;
 
+/// Whether gzip compressed a file.
+bool is_gzip(const std::string& path);
+
 /// Removes the first line from a text and returns it without the spaces at its ends.
 std::string_view take_line(std::string_view& text);
+
+/// A line of a MetaImage header: a name and, behind = or :, its content.
+struct Meta_field {
+  std::string_view name, content;
+};
+
+/// The field that a line of a MetaImage header holds, or nothing if it has no separator.
+std::optional<Meta_field> meta_field(std::string_view line);
 
 /// The words of a text, which spaces, tabs and ends of lines separate.
 std::vector<std::string_view> words_of(std::string_view text);

@@ -4,7 +4,7 @@
 
 #include "request/Raw_layout.h"
 #include "system/kernel.h"
-#include <equiaffine/Volume_3.h>
+#include <equiaffine/Volume_view_3.h>
 
 #include <string>
 
@@ -12,7 +12,7 @@ namespace equiaffine {
 
 /// Reads samples one after the other, the first index fastest, in the byte order of this computer. Throws `Input_error`
 /// unless the file has exactly the size that the layout says.
-Volume_3<Kernel> read_raw_volume(const std::string& path, const Raw_layout& layout);
+Volume_view_3<Kernel> read_raw_volume(const std::string& path, const Raw_layout& layout);
 
 } // namespace equiaffine
 

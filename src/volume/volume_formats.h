@@ -9,6 +9,7 @@
 #include <equiaffine/Volume_3.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdio>
 #include <memory>
 #include <ostream>
@@ -18,7 +19,8 @@ namespace equiaffine {
 
 enum class Volume_format { NRRD, META, NIFTI, INR, VTI };
 
-void read_itk_volume(const std::string& path, Volume_format format, Shared_volume& volume);
+/// `where` says whether the volume may refer to the file.
+void read_itk_volume(const std::string& path, Volume_format format, Samples_in where, Shared_volume& volume);
 void read_dicom_series(const std::string& folder, Shared_volume& volume);
 void read_inr_volume(const std::string& path, Shared_volume& volume);
 void read_vti_volume(const std::string& path, Shared_volume& volume);
@@ -36,12 +38,15 @@ void write_vti_volume(std::ostream& stream, const Volume_3<Kernel>& volume, bool
 [[noreturn]] void fail_to_read_volume_type(const std::string& path);
 
 /// Allows a child process the memory that a reader may use for this many nodes, which a header has to say before the
-/// reader decompresses them. Throws `Input_error` if too few for a volume or too many for this computer.
-void admit_nodes(const std::string& path, const Lattice_3<Kernel>::Size& size);
+/// reader decompresses them. Throws `Input_error` if too few for a volume or too many for this computer, where a sample
+/// takes that many bytes.
+void admit_nodes(const std::string& path, const Lattice_3<Kernel>::Size& size,
+                 std::size_t bytes_of_sample = sizeof(double));
 
 /// The lattice of a file, whose nodes it admits; throws `Input_error` for what a file may hold and a lattice may not.
 Lattice_3<Kernel> make_lattice(const std::string& path, const Lattice_3<Kernel>::Size& size,
-                               const Kernel::Point_3& origin, const std::array<Kernel::Vector_3, 3>& steps);
+                               const Kernel::Point_3& origin, const std::array<Kernel::Vector_3, 3>& steps,
+                               std::size_t bytes_of_sample = sizeof(double));
 
 /// Collects what is written to the process's standard error during its life: the libraries that read volumes report
 /// there, and one of them only there.

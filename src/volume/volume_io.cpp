@@ -111,24 +111,25 @@ void fail_to_read_volume_type(const std::string& path) {
   fail_to_read_volume(path, "its type of numbers is not supported", "convert it to float or double");
 }
 
-void admit_nodes(const std::string& path, const Lattice_3<Kernel>::Size& size) {
+void admit_nodes(const std::string& path, const Lattice_3<Kernel>::Size& size, std::size_t bytes_of_sample) {
   // A reader holds the samples once or twice itself, at most as doubles, beside those in shared memory.
   constexpr double copies = 4, for_small_volumes = 1 << 28;
-  const double doubles = sizeof(double) * double(size[0]) * double(size[1]) * double(size[2]);
+  const double nodes = double(size[0]) * double(size[1]) * double(size[2]);
   const std::string size_text =
       std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]);
   if (*std::min_element(size.begin(), size.end()) < 2)
     fail_to_read_volume(path, "it has " + size_text + " nodes",
                         "a volume needs at least 2 nodes along each of its axes");
-  if (doubles > physical_memory())
+  if (double(bytes_of_sample) * nodes > physical_memory())
     fail_to_read_volume(path, "it has " + size_text + " nodes and does not fit into memory",
                         "check its header or crop it");
-  allow_memory(copies * doubles + for_small_volumes);
+  allow_memory(copies * sizeof(double) * nodes + for_small_volumes);
 }
 
 Lattice_3<Kernel> make_lattice(const std::string& path, const Lattice_3<Kernel>::Size& size,
-                               const Kernel::Point_3& origin, const std::array<Kernel::Vector_3, 3>& steps) {
-  admit_nodes(path, size);
+                               const Kernel::Point_3& origin, const std::array<Kernel::Vector_3, 3>& steps,
+                               std::size_t bytes_of_sample) {
+  admit_nodes(path, size, bytes_of_sample);
   const double determinant = CGAL::determinant(steps[0], steps[1], steps[2]);
   const bool is_finite =
       std::isfinite(determinant) && std::isfinite(origin.x()) && std::isfinite(origin.y()) && std::isfinite(origin.z());
@@ -161,17 +162,17 @@ std::string Captured_standard_error::text() const {
 namespace {
 
 /// Reads a file or a folder with the reader of its format; `extension` is null for a folder.
-void read_here(const std::string& path, const Extension* extension, Shared_volume& volume) {
+void read_here(const std::string& path, const Extension* extension, Samples_in where, Shared_volume& volume) {
   if constexpr (has_itk)
     if (!extension) return read_dicom_series(path, volume);
   if constexpr (has_vtk)
     if (extension->format == Volume_format::VTI) return read_vti_volume(path, volume);
   if constexpr (has_itk)
-    if (extension->format != Volume_format::INR) return read_itk_volume(path, extension->format, volume);
+    if (extension->format != Volume_format::INR) return read_itk_volume(path, extension->format, where, volume);
   read_inr_volume(path, volume);
 }
 
-Volume_3<Kernel> read_in_child(const std::string& path, const Extension* extension) {
+Volume_view_3<Kernel> read_in_child(const std::string& path, const Extension* extension, Samples_in where) {
   constexpr double seconds = 10, bytes_per_second = 20e6; // a reader takes a tenth of that
   constexpr double memory_for_header = 1 << 29, copies = 4;
   // A volume that takes more than the memory is not read.
@@ -179,9 +180,9 @@ Volume_3<Kernel> read_in_child(const std::string& path, const Extension* extensi
       std::min(physical_memory(), size_of_volume(path, extension ? std::optional(extension->format) : std::nullopt));
   try {
     Shared_volume volume;
-    run_in_child([&] { read_here(path, extension, volume); },
+    run_in_child([&] { read_here(path, extension, where, volume); },
                  {seconds + size / bytes_per_second, memory_for_header + copies * size});
-    return volume.to_volume();
+    return volume.view(path);
   } catch (const Child_failure& failure) {
     fail_to_read_volume(path, std::string("the library that reads this format ") + failure.what(), failure.advice());
   } catch (const std::bad_alloc&) {
@@ -191,12 +192,12 @@ Volume_3<Kernel> read_in_child(const std::string& path, const Extension* extensi
 
 } // namespace
 
-Volume_3<Kernel> read_volume(const std::string& path) {
+Volume_view_3<Kernel> read_volume(const std::string& path, Samples_in where) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) fail_to_read_volume(path, "there is no such file", "check the path");
   if (fs::is_directory(status)) {
-    if constexpr (has_itk) return read_in_child(path, nullptr);
+    if constexpr (has_itk) return read_in_child(path, nullptr, where);
     else fail_to_read_volume_without("ITK", path);
   }
   const std::optional<Extension> extension = find_extension(path);
@@ -208,7 +209,7 @@ Volume_3<Kernel> read_volume(const std::string& path) {
   if (::access(path.c_str(), R_OK) != 0) fail_to_read_volume(path, "permission denied", "make it readable");
   if (fs::is_regular_file(status) && fs::file_size(path, error) == 0)
     fail_to_read_volume(path, "it is empty", "get the complete file again");
-  return read_in_child(path, &*extension);
+  return read_in_child(path, &*extension, where);
 }
 
 bool is_volume(const std::string& path) {

@@ -4,18 +4,20 @@
 
 #include "system/atomic_file.h"
 #include "system/kernel.h"
+#include "volume/Shared_volume.h"
 #include <equiaffine/Volume_3.h>
+#include <equiaffine/Volume_view_3.h>
 
 #include <string>
 
 namespace equiaffine {
 
 /// Reads a volume of scalars: `.nrrd .nhdr .mhd .mha .nii .nii.gz` or a folder with one DICOM series through ITK,
-/// `.inr .inr.gz` through CGAL, `.vti` through VTK. Every pixel type becomes double. Node (i, j, k) lies at
+/// `.inr .inr.gz` through CGAL, `.vti` through VTK. Samples keep their type. Node (i, j, k) lies at
 /// origin + directions * spacings * (i, j, k): for ITK's formats in ITK's physical frame (millimeters; x to the left,
 /// y to the back, z up), for `.inr` at (TX + VX i, TY + VY j, TZ + VZ k), as in `CGAL::Image_3`.
 /// Throws `Input_error` for everything that is not a complete volume with two nodes or more per axis.
-Volume_3<Kernel> read_volume(const std::string& path);
+Volume_view_3<Kernel> read_volume(const std::string& path, Samples_in where = Samples_in::FILE);
 
 /// Whether a path is that of a folder, or has an extension of files that hold volumes, `.raw` included.
 bool is_volume(const std::string& path);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/Temporary_folder.h"
 #include "volume/header_checks.h"
+#include "volume/raw_data.h"
 #include "volume/sample_type.h"
 #include "volume/volume_formats.h"
 #include <equiaffine/Input_error.h>
@@ -80,7 +81,7 @@ void check_scalars(const std::string& path, const itk::ImageIOBase& io) {
                         dimension < 3 ? "a volume needs 3" : "extract one volume to a file first");
 }
 
-Lattice_3<Kernel> lattice_of(const std::string& path, const itk::ImageIOBase& io) {
+Lattice_3<Kernel> lattice_of(const std::string& path, const itk::ImageIOBase& io, std::size_t bytes_of_sample) {
   Lattice_3<Kernel>::Size size;
   std::array<Vector_3, 3> steps;
   for (unsigned axis = 0; axis < 3; ++axis) {
@@ -88,7 +89,7 @@ Lattice_3<Kernel> lattice_of(const std::string& path, const itk::ImageIOBase& io
     size[axis] = io.GetDimensions(axis);
     steps[axis] = io.GetSpacing(axis) * Vector_3(direction[0], direction[1], direction[2]);
   }
-  return make_lattice(path, size, Point_3(io.GetOrigin(0), io.GetOrigin(1), io.GetOrigin(2)), steps);
+  return make_lattice(path, size, Point_3(io.GetOrigin(0), io.GetOrigin(1), io.GetOrigin(2)), steps, bytes_of_sample);
 }
 
 itk::ImageIORegion whole_region(const itk::ImageIOBase& io) {
@@ -142,7 +143,7 @@ private:
 
 } // namespace
 
-void read_itk_volume(const std::string& path, Volume_format format, Shared_volume& volume) {
+void read_itk_volume(const std::string& path, Volume_format format, Samples_in where, Shared_volume& volume) {
   if (format == Volume_format::NIFTI) check_nifti_header(path);
   if (format == Volume_format::META) check_meta_header(path);
   const Captured_standard_error standard_error;
@@ -156,10 +157,14 @@ void read_itk_volume(const std::string& path, Volume_format format, Shared_volum
                         "check that the extension is right and the file complete");
   }
   check_scalars(path, *io);
-  const Lattice_3<Kernel> lattice = lattice_of(path, *io);
+  const std::size_t type = sample_type_of(path, *io);
+  const Lattice_3<Kernel> lattice = lattice_of(path, *io, size_of_sample(type));
+  if (where == Samples_in::FILE)
+    if (const auto data = find_raw_data(path, format, type, lattice.number_of_nodes()))
+      return volume.refer_to(lattice, type, *data);
   io->SetIORegion(whole_region(*io));
   try {
-    io->Read(volume.allocate(lattice, sample_type_of(path, *io)));
+    io->Read(volume.allocate(lattice, type));
     // ITK 5.2 reports MetaImage data that end early or do not decompress on standard error only.
     const std::string report = standard_error.text();
     if (report.find("not read completely") != std::string::npos ||
@@ -223,7 +228,7 @@ void check_written(const std::string& path, Volume_format format, const Lattice_
   const Lattice_3<Kernel> stored = [&] {
     try {
       Shared_volume volume;
-      read_itk_volume(path, format, volume);
+      read_itk_volume(path, format, Samples_in::FILE, volume);
       return volume.lattice();
     } catch (const Input_error&) {
       throw Input_error(could_not_be_stored);

@@ -366,6 +366,17 @@ TEST_F(Program_command_line, a_page_is_made_with_the_mesh_or_from_it_later) {
   EXPECT_NE(page.find("<title>s</title>"), std::string::npos);
 }
 
+TEST_F(Program_command_line, attributes_that_are_written_as_they_are_computed_are_those_that_are_kept_for_a_page) {
+  // The sphere has more vertices than are computed at once.
+  const Arguments mesh = Arguments{"mesh", "--resolution", "520", "--attributes", "k1,status"} + sphere;
+  const std::string alone = run_well(mesh + Arguments{"-o", "alone.ply", "--stats", "alone.json"});
+  const std::string with_page = run_well(mesh + Arguments{"-o", "paged.ply", "--html", "page.html"});
+  EXPECT_GT(file("alone.ply").size(), (std::size_t(1) << 19) * (33 + 2 * 13)) << "a row has 33 bytes, a triangle 13";
+  EXPECT_EQ(file("alone.ply"), file("paged.ply"));
+  const auto first_lines = [](const std::string& text) { return text.substr(0, text.find("wrote")); };
+  EXPECT_EQ(first_lines(alone), first_lines(with_page));
+}
+
 TEST_F(Program_command_line, a_page_of_samples_has_the_errors_that_the_mesh_gets_on_request_only) {
   const Arguments mesh = Arguments{"mesh", "-o", "s.ply", "--html", "s.html", "--resolution", "16"} + sphere;
   const std::string errors = "affine_gaussian_curvature_error";
@@ -780,7 +791,7 @@ TEST_F(Program_command_line, distances_are_sampled_in_the_box_of_the_mesh_and_a_
   write_file(folder_ / "slab.off", "OFF\n8 6 0\n0 0 0\n4 0 0\n4 2 0\n0 2 0\n0 0 1\n4 0 1\n4 2 1\n0 2 1\n"
                                    "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
   run_well({"sample", "--distance-to", "slab.off", "--resolution", "9", "-o", "d.nrrd"});
-  const auto volume = equiaffine::read_volume(folder_ / "d.nrrd");
+  const auto volume = equiaffine::read_volume(folder_ / "d.nrrd").to_volume();
   const CGAL::Bbox_3 expected(-.4, -.4, -.4, 4.4, 2.4, 1.4), box = volume.lattice.bbox();
   for (int a = 0; a < 3; ++a) {
     EXPECT_NEAR(box.min(a), expected.min(a), rounding);

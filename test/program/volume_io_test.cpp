@@ -2,6 +2,7 @@
 #include "system/child_process.h"
 #include "volume/Shared_volume.h"
 #include "volume/data_files.h"
+#include "volume/raw_data.h"
 #include "volume/sample_type.h"
 #include "volume/volume_formats.h"
 #include "volume/volume_io.h"
@@ -169,7 +170,7 @@ TEST_F(Program_volume_io, every_format_keeps_a_rotated_left_handed_anisotropic_v
   for (const std::string& extension : written_extensions()) {
     SCOPED_TRACE(extension);
     write_volume(path("a" + extension), volume, false);
-    const Volume copy = read_volume(path("a" + extension));
+    const Volume copy = read_volume(path("a" + extension)).to_volume();
     EXPECT_EQ(copy.values, volume.values);
     // Steps are stored as length times direction, and by NIfTI as floats: this allows a few roundings of a coordinate.
     const double rounding = 4 * (is_nifti(extension) ? float_epsilon : epsilon) * largest_coordinate(volume.lattice);
@@ -182,7 +183,7 @@ TEST_F(Program_volume_io, every_format_but_nifti_keeps_an_axis_parallel_lattice_
   for (const std::string& extension : written_extensions()) {
     SCOPED_TRACE(extension);
     write_volume(path("a" + extension), volume, false);
-    const Lattice lattice = read_volume(path("a" + extension)).lattice;
+    const Lattice lattice = read_volume(path("a" + extension)).lattice();
     const double bound = is_nifti(extension) ? 4 * float_epsilon * largest_coordinate(lattice) : 0;
     EXPECT_LE(largest_distance_between_nodes(lattice, volume.lattice), bound);
   }
@@ -196,7 +197,7 @@ TEST_F(Program_volume_io, floats_are_the_nearest_ones) {
   for (const std::string& extension : written_extensions()) {
     SCOPED_TRACE(extension);
     write_volume(path("a" + extension), volume, true);
-    EXPECT_EQ(read_volume(path("a" + extension)).values, floats);
+    EXPECT_EQ(read_volume(path("a" + extension)).to_volume().values, floats);
   }
 }
 
@@ -210,7 +211,7 @@ TEST_F(Program_volume_io, a_sheared_lattice_is_kept_or_refused) {
       EXPECT_EQ(number_of_files(), files);
     } else {
       write_volume(path("a" + extension), volume, false);
-      EXPECT_LE(largest_distance_between_nodes(read_volume(path("a" + extension)).lattice, volume.lattice),
+      EXPECT_LE(largest_distance_between_nodes(read_volume(path("a" + extension)).lattice(), volume.lattice),
                 4 * epsilon * largest_coordinate(volume.lattice));
     }
   }
@@ -220,7 +221,7 @@ TEST_F(Program_volume_io, two_nodes_per_axis_are_enough) {
   const Volume volume = sampled(Lattice({2, 2, 2}, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1)));
   for (const std::string& extension : written_extensions()) {
     write_volume(path("a" + extension), volume, false);
-    EXPECT_EQ(read_volume(path("a" + extension)).values, volume.values) << extension;
+    EXPECT_EQ(read_volume(path("a" + extension)).to_volume().values, volume.values) << extension;
   }
 }
 
@@ -269,6 +270,79 @@ TEST_F(Program_volume_io, the_size_of_a_volume_is_that_of_its_header_and_the_fil
   EXPECT_EQ(equiaffine::size_of_volume(path("data"), std::nullopt), 23000);
 }
 
+TEST_F(Program_volume_io, samples_that_lie_in_a_file_as_in_memory_are_found_there) {
+  using equiaffine::Volume_format;
+  constexpr std::size_t type_float = 8;
+  const auto place = [&](const std::string& text, Volume_format format) -> std::string {
+    write_file("header", text);
+    const auto data = equiaffine::find_raw_data(path("header"), format, type_float, 16);
+    return data ? fs::path(data->path).filename().string() + " " + std::to_string(data->first) : "elsewhere";
+  };
+  write_file("samples.raw", std::string(64, 'x'));
+  const std::string meta = "ObjectType = Image\nNDims = 3\nBinaryData = True\n", local = "ElementDataFile = LOCAL\n";
+  const auto meta_image = [&](const std::string& text) { return place(meta + text, Volume_format::META); };
+  const std::string samples(64, '\n'), first = std::to_string((meta + local).size());
+  EXPECT_EQ(meta_image(local + samples), "header " + first);
+  EXPECT_EQ(meta_image(local + samples + "more"), "header " + first);
+  EXPECT_EQ(meta_image(local + samples.substr(1)), "elsewhere") << "it ends early";
+  EXPECT_EQ(meta_image("CompressedData = False\nElementDataFile = samples.raw\n"), "samples.raw 0");
+  EXPECT_EQ(meta_image("ElementDataFile = " + path("samples.raw") + "\r\n"), "samples.raw 0");
+  EXPECT_EQ(meta_image("ElementDataFile = absent.raw\n"), "elsewhere");
+  EXPECT_EQ(meta_image("ElementDataFile = LIST\nsamples.raw\n"), "elsewhere");
+  EXPECT_EQ(meta_image("ElementDataFile = samples%d.raw 1 2 1\n"), "elsewhere");
+  for (const char* const line :
+       {"CompressedData = True\n", "BinaryDataByteOrderMSB = True\n", "BinaryData = False\n",
+        "ElementByteOrderMSB = true\n", "HeaderSize = -1\n", "CompressedData : True\n", "ElementByteOrderMSB == True\n",
+        "HeaderSize: -1\n", "CompressedData True\n", "CompressedData =\n = True\n"})
+    EXPECT_EQ(meta_image(line + local + samples), "elsewhere") << line;
+
+  const auto nrrd = [&](const std::string& text) {
+    return place("NRRD0004\ntype: float\n" + text, Volume_format::NRRD);
+  };
+  EXPECT_EQ(nrrd("encoding: raw\nendian: little\n# x: y\n\n" + samples), "header 58");
+  EXPECT_EQ(nrrd("Encoding: RAW\r\n\r\n" + samples), "header 38") << "numbers of a byte have no order";
+  for (const char* const line :
+       {"encoding: gzip\n", "endian: big\n", "data file: samples.raw\n", "byte skip: -1\n", "line skip: 1\n"})
+    EXPECT_EQ(nrrd("encoding: raw\nendian: little\n" + std::string(line) + "\n" + samples), "elsewhere") << line;
+
+  const auto nifti = [&](float offset, float slope, float intercept, std::int16_t type = 16) {
+    std::string header(352, '\0');
+    const std::int32_t size = 348;
+    std::memcpy(header.data() + 70, &type, sizeof type);
+    const std::array<float, 3> numbers = {offset, slope, intercept};
+    std::memcpy(header.data(), &size, sizeof size);
+    std::memcpy(header.data() + 108, numbers.data(), sizeof numbers);
+    header.replace(344, 3, "n+1");
+    return place(header + samples, Volume_format::NIFTI);
+  };
+  EXPECT_EQ(nifti(352, 0, 0), "header 352");
+  EXPECT_EQ(nifti(352, 1, 0), "header 352");
+  EXPECT_EQ(nifti(352, 1, 0, 4), "elsewhere") << "the reader says float, and these are integers of 16 bits";
+  for (const auto& [offset, slope, intercept] :
+       {std::array<float, 3>{352, 2, 0}, {352, 1, 1}, {352, 0, 5}, {353, 1, 0}, {1e30F, 1, 0}})
+    EXPECT_EQ(nifti(offset, slope, intercept), "elsewhere");
+}
+
+TEST_F(Program_volume_io, a_volume_is_the_same_in_its_file_and_through_a_reader) {
+  const Volume volume = sampled(rotated_lattice());
+  for (const std::string name : {"a.mha", "a.mhd", "a.nrrd", "a.nii"}) {
+    write_volume(path(name), volume, true);
+    const auto format = name == "a.nrrd"  ? equiaffine::Volume_format::NRRD
+                        : name == "a.nii" ? equiaffine::Volume_format::NIFTI
+                                          : equiaffine::Volume_format::META;
+    constexpr std::size_t type_float = 8;
+    const auto data = equiaffine::find_raw_data(path(name), format, type_float, volume.values.size());
+    ASSERT_TRUE(data) << name;
+    std::ifstream file(data->path, std::ios::binary);
+    file.seekg(std::streamoff(data->first));
+    std::vector<float> samples(volume.values.size());
+    file.read(reinterpret_cast<char*>(samples.data()), std::streamsize(samples.size() * sizeof(float)));
+    for (const auto where : {equiaffine::Samples_in::FILE, equiaffine::Samples_in::MEMORY})
+      EXPECT_EQ(read_volume(path(name), where).to_volume().values, std::vector<double>(samples.begin(), samples.end()));
+    for (std::size_t n = 0; n < samples.size(); ++n) EXPECT_EQ(samples[n], float(volume.values[n])) << name;
+  }
+}
+
 TEST_F(Program_volume_io, mistakes_about_names_say_what_is_possible) {
   expect_reading_error("absent.nrrd", "there is no such file");
   write_file("a.jpeg", "x");
@@ -300,7 +374,7 @@ TEST_F(Program_volume_io, an_inr_file_has_its_spacing_and_translation) {
   gzclose(file);
   for (const char* name : {"little.inr", "big.inr", "zipped.inr.gz"}) {
     SCOPED_TRACE(name);
-    const Volume volume = read_volume(path(name));
+    const Volume volume = read_volume(path(name)).to_volume();
     EXPECT_EQ(volume.values, std::vector<double>(values.begin(), values.end()));
     EXPECT_EQ(volume.lattice.point(0, 0, 0), Point_3(-1, 2, 30));
     EXPECT_EQ(volume.lattice.point(3, 2, 1), Point_3(-1 + 3 * 0.5, 2 + 2 * 1.5, 30 + 2.5));
@@ -315,7 +389,7 @@ TEST_F(Program_volume_io, an_inr_file_may_have_integers_but_no_vectors_and_no_ro
                                             13,   14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24};
   const std::string type = "TYPE=signed fixed\nPIXSIZE=16 bits\nCPU=decm\n";
   write_file("a.inr", inr(std::string(inr_size) + "VDIM=1\n" + type, bytes_of(values)));
-  EXPECT_EQ(read_volume(path("a.inr")).values, std::vector<double>(values.begin(), values.end()));
+  EXPECT_EQ(read_volume(path("a.inr")).to_volume().values, std::vector<double>(values.begin(), values.end()));
   write_file("v.inr", inr(std::string(inr_size) + "VDIM=2\n" + type, bytes_of(values) + bytes_of(values)));
   expect_reading_error("v.inr", "2 numbers per node");
   write_file("r.inr", inr(std::string(inr_size) + "VDIM=1\nRZ=0.5\n" + type, bytes_of(values)));
@@ -326,7 +400,7 @@ TEST_F(Program_volume_io, an_inr_header_is_told_what_is_wrong_with_which_field) 
   const std::string data = bytes_of(std::vector<float>(24, 1.5F));
   const std::string size = inr_size, type = "VDIM=1\nTYPE=float\nPIXSIZE=32 bits\nCPU=decm\n";
   write_file("right.inr", inr(size + type, data));
-  EXPECT_EQ(read_volume(path("right.inr")).values, std::vector<double>(24, 1.5));
+  EXPECT_EQ(read_volume(path("right.inr")).to_volume().values, std::vector<double>(24, 1.5));
   const auto expect_error_at = [&](const std::string& fields, const std::string& part) {
     write_file("wrong.inr", inr(fields, data));
     expect_reading_error("wrong.inr", part);
@@ -397,7 +471,7 @@ TEST_F(Program_volume_io, every_type_of_numbers_becomes_double) {
   for (const char* type :
        {"int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float", "double"}) {
     write_file("a.nrrd", nrrd(type, "2 2 2", "(1,0,0) (0,2,0) (0,0,3)", "1 2 3 4 5 6 7 117"));
-    EXPECT_EQ(read_volume(path("a.nrrd")).values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 117})) << type;
+    EXPECT_EQ(read_volume(path("a.nrrd")).to_volume().values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 117})) << type;
   }
 }
 
@@ -423,10 +497,10 @@ TEST_F(Program_volume_io, a_compressed_nifti_file_is_read_although_another_one_l
   for (double& value : other.values) value *= 7;
   write_volume(path("a.nii.gz"), volume, false);
   write_volume(path("a.nii"), other, false);
-  EXPECT_EQ(read_volume(path("a.nii.gz")).values, volume.values);
-  EXPECT_EQ(read_volume(path("a.nii")).values, other.values);
+  EXPECT_EQ(read_volume(path("a.nii.gz")).to_volume().values, volume.values);
+  EXPECT_EQ(read_volume(path("a.nii")).to_volume().values, other.values);
   write_volume(path("a.nii.gz"), volume, false);
-  EXPECT_EQ(read_volume(path("a.nii.gz")).values, volume.values);
+  EXPECT_EQ(read_volume(path("a.nii.gz")).to_volume().values, volume.values);
 }
 
 TEST_F(Program_volume_io, a_nifti_file_may_have_a_fourth_axis_of_one_volume_and_a_scale) {
@@ -435,13 +509,13 @@ TEST_F(Program_volume_io, a_nifti_file_may_have_a_fourth_axis_of_one_volume_and_
   std::string bytes = read_file("a.nii");
   patch_nifti(bytes, {4, 5, 4, 3, 1, 1}, 1, 0);
   write_file("single.nii", bytes);
-  EXPECT_EQ(read_volume(path("single.nii")).values, volume.values);
+  EXPECT_EQ(read_volume(path("single.nii")).to_volume().values, volume.values);
   patch_nifti(bytes, {4, 5, 4, 1, 3, 1}, 1, 0);
   write_file("series.nii", bytes);
   expect_reading_error("series.nii", "4 axes");
   patch_nifti(bytes, {3, 5, 4, 3, 1, 1}, 2, -3);
   write_file("scaled.nii", bytes);
-  const Volume scaled = read_volume(path("scaled.nii"));
+  const Volume scaled = read_volume(path("scaled.nii")).to_volume();
   for (std::size_t node = 0; node < volume.values.size(); ++node)
     EXPECT_NEAR(scaled.values[node], 2 * volume.values[node] - 3,
                 4 * float_epsilon * std::abs(volume.values[node]) + 1e-6);
@@ -509,7 +583,7 @@ TEST_F(Program_volume_io, a_meta_header_with_damaged_fields_is_refused) {
     expect_reading_error("wrong.mha", part);
   };
   write_file("right.mha", header("3", "2 2 2", "1 1 1", "LOCAL") + data);
-  EXPECT_EQ(read_volume(path("right.mha")).values, std::vector<double>(8, 0));
+  EXPECT_EQ(read_volume(path("right.mha")).to_volume().values, std::vector<double>(8, 0));
   for (const char* axes : {"4294967296", "-1", "0", "three", "11"}) // MetaIO takes memory for the first without end
     expect_error_of(header(axes, "2 2 2", "1 1 1", "LOCAL"), "NDims '" + std::string(axes) + "'");
   for (const char* size : {"2 2", "2 2 0", "2 2 -2", "2 2 99999999999", "2 2 2.5"})
@@ -538,7 +612,7 @@ TEST_F(Program_volume_io, both_files_of_a_meta_image_replace_the_old_ones_togeth
   EXPECT_EQ(read_file("a.raw"), "old");
   file.commit();
   EXPECT_EQ(number_of_files(), 2u);
-  EXPECT_EQ(read_volume(path("a.mhd")).values, volume.values);
+  EXPECT_EQ(read_volume(path("a.mhd")).to_volume().values, volume.values);
 }
 
 /// One slice of a CT series, with its place in the patient; its first value tells it from the others.
@@ -584,7 +658,7 @@ TEST_F(Program_volume_io, a_dicom_series_is_ordered_by_the_places_of_its_slices)
   write_slice(series / "c.dcm", R"(10\20\30)", 100);
   write_slice(series / "a.dcm", R"(10.96\21.28\31.2)", 200);
   write_slice(series / "b.dcm", R"(11.92\22.56\32.4)", 300);
-  const Volume volume = read_volume(series);
+  const Volume volume = read_volume(series).to_volume();
   ASSERT_EQ(volume.lattice.size(), (Lattice::Size{4, 3, 3}));
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t j = 0; j < 3; ++j)
@@ -624,7 +698,7 @@ std::string data_array(const std::string& attributes, const std::string& numbers
 
 TEST_F(Program_volume_io, a_vti_file_has_its_extent_and_directions) {
   write_file("a.vti", vti("<PointData>" + data_array("Name=\"f\"", "1 2 3 4 5 6 7 8 9 10 11 -12") + "</PointData>"));
-  const Volume volume = read_volume(path("a.vti"));
+  const Volume volume = read_volume(path("a.vti")).to_volume();
   EXPECT_EQ(volume.values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, -12}));
   // Node (1, 3, -1) of the extent; x and y are exchanged by the directions.
   EXPECT_EQ(volume.lattice.point(0, 0, 0), Point_3(10 + 3 * 1.5, 20 + 0.5, 30 - 2));
@@ -655,7 +729,7 @@ TEST_F(Program_volume_io, a_vti_header_with_damaged_fields_is_refused) {
   };
   const std::string unit = "0 1 0 1 0 1";
   write_file("right.vti", vti(unit, "1 1 1", "Float32"));
-  EXPECT_EQ(read_volume(path("right.vti")).values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(read_volume(path("right.vti")).to_volume().values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8}));
   const std::string largest = "0 2147483647 ";
   expect_error_of(vti(largest + largest + largest, "1 1 1", "Float32"), "does not fit into memory");
   expect_error_of(vti("1 0 0 1 0 1", "1 1 1", "Float32"), "WholeExtent '1 0 0 1 0 1'");
@@ -676,7 +750,7 @@ TEST_F(Program_volume_io, a_vti_file_needs_one_array_of_scalars_at_its_points) {
   expect_reading_error("two.vti", "marked as its scalars");
   write_file("marked.vti", vti("<PointData Scalars=\"g\">" + data_array("Name=\"f\"", numbers) +
                                data_array("Name=\"g\"", "0 2 3 4 5 6 7 8 9 10 11 12") + "</PointData>"));
-  EXPECT_EQ(read_volume(path("marked.vti")).values[0], 0);
+  EXPECT_EQ(read_volume(path("marked.vti")).to_volume().values[0], 0);
   write_file(
       "vector.vti",
       vti("<PointData>" + data_array("Name=\"f\" NumberOfComponents=\"2\"", numbers + " " + numbers) + "</PointData>"));

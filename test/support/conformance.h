@@ -8,6 +8,7 @@
 #define EQUIAFFINE_TEST_SUPPORT_CONFORMANCE_H
 
 #include "support/contraction.h"
+#include "support/same_bits.h"
 #include <equiaffine/Batch_function_traits_3.h>
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
@@ -21,7 +22,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <random>
@@ -58,11 +58,6 @@ double remainder(const Traits& traits, const typename Traits::Point_3& p, double
     worst = std::max(worst, std::abs(traits.value(q) - predicted));
   }
   return worst / size;
-}
-
-template <class T>
-bool same_bits(const T& a, const T& b) {
-  return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
 /// The cube around p whose sides are 2 r.
@@ -137,7 +132,9 @@ constexpr bool has_refinements_of() {
                  SecondOrderBoundedImplicitFunctionTraits_3<Wrapper>) &&
          implies(RestrictableImplicitFunctionTraits_3<Base>, RestrictableImplicitFunctionTraits_3<Wrapper>) &&
          implies(PackImplicitFunctionTraits_3<Base>, PackImplicitFunctionTraits_3<Wrapper>) &&
-         implies(LatticeImplicitFunctionTraits_3<Base>, LatticeImplicitFunctionTraits_3<Wrapper>);
+         implies(LatticeImplicitFunctionTraits_3<Base>, LatticeImplicitFunctionTraits_3<Wrapper>) &&
+         implies(CellwiseImplicitFunctionTraits_3<Base>, CellwiseImplicitFunctionTraits_3<Wrapper>) &&
+         implies(HasSamples<Base>, HasSamples<Wrapper>);
 }
 
 /// Expects a wrapper to answer at the image of a point what the base answers at the point.
@@ -189,6 +186,16 @@ void expect_same_numbers(const Wrapper& wrapper) {
     }
     if constexpr (LatticeImplicitFunctionTraits_3<Wrapper>) {
       EXPECT_TRUE(same_bits(wrapper.sample(i, i, i), base.sample(i, i, i)));
+      std::array<double, 2> row;
+      samples(wrapper, i, i, i, row);
+      EXPECT_TRUE(same_bits(row[0], base.sample(i, i, i)) && same_bits(row[1], base.sample(i + 1, i, i)));
+    }
+    if constexpr (CellwiseImplicitFunctionTraits_3<Wrapper>) {
+      const auto cell = wrapper.cell_of(points[i]);
+      EXPECT_EQ(cell, base.cell_of(points[i]));
+      const auto [x, y, z] = *cell;
+      const auto part = wrapper.restricted_to_cells({{x, y, z}, {x + 1, y + 1, z + 1}});
+      for (const auto& p : points) EXPECT_TRUE(same_bits(part.taylor(p), base.taylor(p)));
     }
     if constexpr (RestrictableImplicitFunctionTraits_3<Wrapper>) {
       const auto part = wrapper.restricted(box);

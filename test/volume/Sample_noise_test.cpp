@@ -9,8 +9,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace {
@@ -122,4 +125,30 @@ TEST(Sample_noise, details_of_a_few_voxels_are_not_smoothed_away) {
 TEST(Sample_noise, noise_is_smoothed_away_though_that_moves_the_surface) {
   const Volume volume = sample(64, 0.1); // by more than a voxel in a fifth of the nodes
   EXPECT_GE(choose_smoothing(volume, estimate_noise(volume, 0.), 7, scheme, {0.}), 6);
+}
+
+TEST(Sample_noise, nodes_beside_the_level_set_are_those_with_a_neighbor_on_the_other_side) {
+  const Lattice_3<Kernel> lattice({131, 17, 18}, CGAL::Bbox_3(-1.25, -1.1, -1, 1.25, 1.1, 1));
+  Volume volume = sample_volume(lattice, ellipsoid, 0.3);
+  for (std::size_t n = 0; n < volume.values.size(); n += 97)
+    volume.values[n] = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t n = 0; n < volume.values.size(); n += 89) volume.values[n] = std::numeric_limits<double>::infinity();
+  const double level = 0.1;
+  const auto is_below = [&](std::size_t i, std::size_t j, std::size_t k) { return volume(i, j, k) < level; };
+  for (const std::size_t margin : {std::size_t(0), std::size_t(1), std::size_t(6)})
+    for (const std::size_t most : {std::size_t(50), std::size_t(1000000)}) {
+      std::vector<std::array<std::size_t, 3>> nodes, chosen;
+      for (std::size_t k = margin; k + margin < 18; ++k)
+        for (std::size_t j = margin; j + margin < 17; ++j)
+          for (std::size_t i = margin; i + margin < 131; ++i)
+            if (std::isfinite(volume(i, j, k)) && ((i + 1 < 131 && is_below(i + 1, j, k) != is_below(i, j, k)) ||
+                                                   (j + 1 < 17 && is_below(i, j + 1, k) != is_below(i, j, k)) ||
+                                                   (k + 1 < 18 && is_below(i, j, k + 1) != is_below(i, j, k))))
+              nodes.push_back({i, j, k});
+      const std::size_t step = nodes.size() / most + 1;
+      for (std::size_t n = step / 2; n < nodes.size(); n += step) chosen.push_back(nodes[n]);
+      const auto view = Volume_view_3<Kernel>::of(volume);
+      EXPECT_EQ(internal::nodes_to_measure<CGAL::Parallel_if_available_tag>(view, std::optional(level), margin, most),
+                chosen);
+    }
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/same_bits.h"
 #include "support/sample_volume.h"
+#include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/volume/Spline_function_3.h>
 #include <equiaffine/volume/smooth_volume.h>
@@ -597,6 +599,75 @@ TEST(Spline_function_3, arguments_without_a_result_are_refused_in_every_build) {
   volume.values.pop_back();
   EXPECT_THROW(Spline_function_3{volume}, std::invalid_argument);
   EXPECT_THROW(equiaffine::smooth_volume(volume, 2.), std::invalid_argument);
+}
+
+TEST(Spline_function_3, a_part_has_the_bits_of_the_whole_in_its_cells_and_elsewhere) {
+  const Lattice_3 lattice = skew_lattice(23, 12, 40); // one axis is all border
+  Volume_3 volume = random_volume(lattice);
+  volume.values[lattice.index(15, 6, 30)] = std::numeric_limits<double>::infinity();
+  for (const int degree : {5, 7, 9})
+    for (const auto scheme : {Spline_scheme::CONVOLUTION, Spline_scheme::QUASI_INTERPOLATION,
+                              Spline_scheme::INTERPOLATION, Spline_scheme::PAPER}) {
+      const Spline_function_3 whole(volume, {.degree = degree, .scheme = scheme});
+      const auto points = points_of(lattice);
+      std::vector<Jet_3> jets;
+      for (const Point_3& p : points) jets.push_back(whole.taylor(p));
+      const Spline_function_3 unevaluated(volume, {.degree = degree, .scheme = scheme});
+      for (const equiaffine::Cell_block& cells : {equiaffine::Cell_block{{0, 0, 0}, {1, 2, 3}},
+                                                  {{3, 4, 5}, {10, 11, 12}},
+                                                  {{12, 3, 25}, {22, 11, 39}},
+                                                  {{0, 0, 0}, {22, 11, 39}}}) {
+        const Spline_function_3 part = unevaluated.restricted_to_cells(cells),
+                                of_part = part.restricted_to_cells(cells);
+        for (std::size_t n = 0; n < points.size(); ++n) {
+          EXPECT_TRUE(same_bits(part.taylor(points[n]), jets[n])) << degree << ' ' << int(scheme) << ' ' << points[n];
+          EXPECT_TRUE(same_bits(of_part.taylor(points[n]), jets[n]));
+        }
+        const CGAL::Bbox_3 box = lattice.point(4.2, 5, 6).bbox() + lattice.point(5, 5.5, 7).bbox();
+        EXPECT_EQ(part.bounds(box), whole.bounds(box)) << "those of the whole, which are computed now";
+      }
+    }
+}
+
+TEST(Spline_function_3, a_part_has_the_bits_of_the_whole_where_borders_meet_and_smooth_samples_go_on_beyond_them) {
+  for (const std::size_t nodes : {8, 9, 10, 30}) { // the first ones have fewer than the greater border degree asks for
+    const Lattice_3 lattice = skew_lattice(nodes, 30, 31);
+    const Volume_3 volume = sample(lattice, [](double x, double y, double z) { return std::exp(0.1 * (x - y + z)); });
+    const Spline_function_3 whole(volume), unevaluated(volume);
+    EXPECT_EQ(whole.border_degree(), 9);
+    const auto points = points_of(lattice);
+    std::vector<Jet_3> jets;
+    for (const Point_3& p : points) jets.push_back(whole.taylor(p));
+    const std::size_t last = nodes - 1;
+    for (const equiaffine::Cell_block& cells : {equiaffine::Cell_block{{0, 0, 0}, {1, 1, 1}},
+                                                {{last - 1, 28, 29}, {last, 29, 30}},
+                                                {{0, 12, 3}, {last, 20, 9}},
+                                                {{2, 5, 20}, {last - 2, 27, 30}}}) {
+      const Spline_function_3 part = unevaluated.restricted_to_cells(cells);
+      for (std::size_t n = 0; n < points.size(); ++n)
+        EXPECT_TRUE(same_bits(part.taylor(points[n]), jets[n])) << nodes << ' ' << points[n];
+    }
+  }
+}
+
+TEST(Spline_function_3, samples_of_any_type_are_converted_exactly) {
+  const Lattice_3 lattice = skew_lattice(12, 13, 14);
+  Volume_3 volume = random_volume(lattice);
+  std::vector<float> samples;
+  for (double& x : volume.values) samples.push_back(float(x)), x = double(samples.back());
+  const Spline_function_3 of_doubles(volume), of_floats(equiaffine::Volume_view_3<Kernel>(lattice, samples.data()));
+  for (const Point_3& p : points_of(lattice)) EXPECT_TRUE(same_bits(of_floats.taylor(p), of_doubles.taylor(p)));
+}
+
+TEST(Spline_function_3, the_first_evaluations_may_come_from_many_threads) {
+  const Lattice_3 lattice = skew_lattice(40, 41, 42);
+  const Volume_3 volume = random_volume(lattice);
+  const auto points = points_of(lattice);
+  const Spline_function_3 alone(volume, {}, CGAL::Sequential_tag()), together(volume);
+  std::vector<double> values(points.size());
+  equiaffine::parallel_for<CGAL::Parallel_if_available_tag>(
+      0, points.size(), [&](std::size_t n) { values[n] = together.value(points[n]); });
+  for (std::size_t n = 0; n < points.size(); ++n) EXPECT_TRUE(same_bits(values[n], alone.value(points[n])));
 }
 
 #ifdef CGAL_LINKED_WITH_TBB

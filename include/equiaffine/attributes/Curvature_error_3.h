@@ -4,15 +4,20 @@
 
 #include <equiaffine/Local_structure_3.h>
 #include <equiaffine/Sampled_function_traits_3.h>
+#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/geometry/Affine_curvature_error.h>
+#include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_function_3.h>
 #include <equiaffine/volume/internal/shared/Spline_disturbances_3.h>
 
 #include <CGAL/tags.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
+#include <optional>
 
 namespace equiaffine {
 
@@ -25,7 +30,8 @@ namespace equiaffine {
 ///
 /// The standard deviation is computed from 35 independent disturbances of the expansion, each as large as the noise
 /// makes it, for which the curvatures are computed again. An estimate cannot see what both splines miss, such as
-/// details smaller than a voxel. It is NaN where a curvature does not exist. Takes some 10 microseconds per point.
+/// details smaller than a voxel. It is NaN where a curvature does not exist. Takes some 10 microseconds per point. Copies
+/// share the immutable data.
 template <class Kernel>
 class Curvature_error_3 {
 public:
@@ -35,14 +41,26 @@ public:
   /// `function` is the spline through the samples of `volume` after these were smoothed by the scale `smoothing`. The
   /// deviation of the noise is in the unit of the samples, see Sample_noise.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  Curvature_error_3(const Sampled_function_traits_3<Kernel>& function, const Volume_3<Kernel>& volume,
+  Curvature_error_3(const Sampled_function_traits_3<Kernel>& function, const Volume_view_3<Kernel>& volume,
                     const FT& smoothing, const FT& noise_deviation, ConcurrencyTag tag = {})
       : function_(function), other_(volume,
                                     {.degree = function.spline().degree() == 9 ? 7 : 9,
                                      .scheme = other_scheme(function.spline().scheme()),
                                      .smoothing = double(FT(1.2) * smoothing)},
                                     tag),
-        disturbances_(function.spline(), smoothing, noise_deviation) {}
+        disturbances_(
+            std::make_shared<const Spline_disturbances_3<Kernel>>(function.spline(), smoothing, noise_deviation)) {}
+
+  const Lattice_3<Kernel>& lattice() const { return function_.lattice(); } ///< the lattice of the samples
+  /// The cell of the lattice that contains p, if p is in the support of the splines.
+  std::optional<std::array<std::size_t, 3>> cell_of(const Point_3& p) const { return function_.cell_of(p); }
+  /// The same estimates, cheaper in memory in these cells: see Spline_function_3::restricted_to_cells().
+  Curvature_error_3 restricted_to_cells(const Cell_block& cells) const {
+    Curvature_error_3 result = *this;
+    result.function_ = function_.restricted_to_cells(cells);
+    result.other_ = other_.restricted_to_cells(cells);
+    return result;
+  }
 
   /// The estimates at p, NaN where the spline has no regular structure.
   Affine_curvature_error<FT> operator()(const Point_3& p) const {
@@ -57,7 +75,7 @@ public:
     FT gaussian = 0, mean = 0;
     for (std::size_t n = 0; n < jet.size; ++n) {
       const auto [i, j, k] = internal::monomials[n];
-      auto disturbed = spline.to_space(disturbances_(*cell, {i, j, k}));
+      auto disturbed = spline.to_space((*disturbances_)(*cell, {i, j, k}));
       for (std::size_t m = 0; m < disturbed.size; ++m) disturbed.coefficients()[m] += jet.coefficients()[m];
       const Curvatures c = curvatures(disturbed);
       gaussian += (c.gaussian - at_p.gaussian) * (c.gaussian - at_p.gaussian);
@@ -84,7 +102,7 @@ private:
 
   Sampled_function_traits_3<Kernel> function_;
   Spline_function_3<Kernel> other_;
-  Spline_disturbances_3<Kernel> disturbances_;
+  std::shared_ptr<const Spline_disturbances_3<Kernel>> disturbances_;
 };
 
 } // namespace equiaffine

@@ -4,10 +4,13 @@
 #define EQUIAFFINE_VOLUME_SAMPLE_NOISE_H
 
 #include <equiaffine/Volume_3.h>
+#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/volume/Spline_scheme.h>
-#include <equiaffine/volume/internal/Smoothing_trial.h>
 #include <equiaffine/volume/internal/border_degree.h>
-#include <equiaffine/volume/internal/noise_measurement.h>
+#include <equiaffine/volume/internal/noise/Smoothing_trial.h>
+#include <equiaffine/volume/internal/noise/noise_measurement.h>
+
+#include <CGAL/tags.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,13 +30,20 @@ struct Sample_noise {
 /// noise of deviation 1. Details of the function with a wavelength of a few samples count as noise, too. Integers have
 /// at least the noise of rounding, 1 / sqrt(12). For other samples the deviation is 0 if the volume has less than 13
 /// nodes along an axis. Takes the time of some passes over the samples.
-template <class Kernel>
-Sample_noise estimate_noise(const Volume_3<Kernel>& volume,
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
+Sample_noise estimate_noise(const Volume_view_3<Kernel>& volume,
                             std::optional<typename Kernel::FT> isovalue = std::nullopt) {
   const double deviation =
-      internal::white_noise_deviation(volume, internal::nodes_to_measure(volume, isovalue, 6, 40000));
+      internal::white_noise_deviation(volume, internal::nodes_to_measure<ConcurrencyTag>(volume, isovalue, 6, 40000));
   const double quantum = internal::quantum_of(volume);
   return {std::max(deviation, quantum == 1 ? 1 / std::sqrt(12.0) : 0), quantum};
+}
+
+/// The same for a volume of numbers of the kernel. \throw std::invalid_argument unless there are as many values as nodes
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
+Sample_noise estimate_noise(const Volume_3<Kernel>& volume,
+                            std::optional<typename Kernel::FT> isovalue = std::nullopt) {
+  return estimate_noise<ConcurrencyTag>(Volume_view_3<Kernel>::of(volume), isovalue);
 }
 
 /// The scale for smooth_volume with the least estimated error of fourth derivatives, out of 0, 1.5, 2, 2.5, 3, 4, 5, 6
@@ -48,16 +58,23 @@ Sample_noise estimate_noise(const Volume_3<Kernel>& volume,
 /// are wrong at every scale, and the larger scales would smooth the details away.
 ///
 /// Scales whose window does not fit into the volume are left out, and 0 is chosen where there is no spline.
-template <class Kernel>
-typename Kernel::FT choose_smoothing(const Volume_3<Kernel>& volume, const Sample_noise& noise, int degree,
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
+typename Kernel::FT choose_smoothing(const Volume_view_3<Kernel>& volume, const Sample_noise& noise, int degree,
                                      Spline_scheme scheme, std::optional<typename Kernel::FT> isovalue = std::nullopt) {
   if (scheme == Spline_scheme::INTERPOLATION) scheme = Spline_scheme::QUASI_INTERPOLATION; // the same but for its reach
-  const auto& size = volume.lattice.size();
-  const internal::Smoothing_test_site<Kernel> site = {volume, internal::nodes_to_measure(volume, isovalue, 1, 300),
-                                                      noise.deviation};
+  const auto& size = volume.lattice().size();
+  const internal::Smoothing_test_site<Kernel> site = {
+      volume, internal::nodes_to_measure<ConcurrencyTag>(volume, isovalue, 1, 300), noise.deviation};
   if (*std::min_element(size.begin(), size.end()) <= std::size_t(degree) || site.cells.empty()) return 0;
-  const int border_degree = internal::border_degree(volume.values, size, degree, scheme);
+  const int border_degree = internal::border_degree(volume, degree, scheme);
   return internal::least_risky_scale(site, {degree, scheme, border_degree, 0});
+}
+
+/// The same for a volume of numbers of the kernel. \throw std::invalid_argument unless there are as many values as nodes
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
+typename Kernel::FT choose_smoothing(const Volume_3<Kernel>& volume, const Sample_noise& noise, int degree,
+                                     Spline_scheme scheme, std::optional<typename Kernel::FT> isovalue = std::nullopt) {
+  return choose_smoothing<ConcurrencyTag>(Volume_view_3<Kernel>::of(volume), noise, degree, scheme, isovalue);
 }
 
 } // namespace equiaffine

@@ -2,12 +2,14 @@
 #ifndef EQUIAFFINE_VOLUME_SPLINE_FUNCTION_3_H
 #define EQUIAFFINE_VOLUME_SPLINE_FUNCTION_3_H
 
-#include <equiaffine/Volume_3.h>
+#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/number/internal/shared/Linear_substitution_3.h>
+#include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/internal/Coefficient_source.h>
 #include <equiaffine/volume/internal/Spline_coefficients.h>
 #include <equiaffine/volume/internal/Spline_support_3.h>
 #include <equiaffine/volume/internal/border_degree.h>
@@ -15,14 +17,16 @@
 #include <equiaffine/volume/smooth_volume.h>
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/assertions.h>
 #include <CGAL/tags.h>
 
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <type_traits>
-#include <vector>
+#include <utility>
 
 namespace equiaffine {
 
@@ -41,7 +45,9 @@ namespace equiaffine {
 /// it by a factor of 30 to 70, along edges by the square of that factor, and in corners by its cube. See Unser,
 /// Aldroubi, Eden: B-spline signal processing, 1993; de Boor: Quasiinterpolants, 1990.
 ///
-/// Const members may be called from many threads at once. The function keeps one number per node and per padding node.
+/// The function keeps the samples, as they are. It computes its coefficients, one number per node and per padding node,
+/// when it is first evaluated; restricted_to_cells() makes functions that have only those of a block of cells. Copies
+/// share samples and coefficients. Const members may be called from many threads at once.
 template <class Kernel>
 class Spline_function_3 {
 public:
@@ -56,31 +62,42 @@ public:
                           longest_step = 1e70; ///< see shortest_step
 
   /// The coefficients do not depend on the number of threads that compute them. \throw std::invalid_argument unless the
-  /// degree is 5, 7 or 9, the smoothing is finite and not negative, there are as many values as nodes, and steps of the
-  /// lattice are no shorter or longer than they may be
+  /// degree is 5, 7 or 9, the smoothing is finite and not negative, and steps of the lattice are no shorter or longer
+  /// than they may be
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  explicit Spline_function_3(const Volume_3<Kernel>& volume, const Spline_parameters& parameters = {},
-                             ConcurrencyTag = {})
-      : degree_(checked_degree(parameters.degree)), border_degree_(parameters.degree), scheme_(parameters.scheme),
-        support_(volume.lattice), substitution_(support_.to_lattice()),
-        coefficients_(volume.lattice.size(), parameters.degree) {
-    check_argument(volume.values.size() == lattice().number_of_nodes(),
-                   "a volume has not as many values as its lattice has nodes: choose the lattice that it has");
+  explicit Spline_function_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters = {},
+                             ConcurrencyTag tag = {})
+      : fit_{checked_degree(parameters.degree), parameters.scheme, parameters.degree}, support_(volume.lattice()),
+        substitution_(support_.to_lattice()) {
     for (const auto& step : lattice().steps())
       check_argument(shortest_step * shortest_step <= step.squared_length() &&
                          step.squared_length() <= longest_step * longest_step,
                      "a step of the lattice of a spline is not from 1e-70 to 1e70 long: choose another unit");
     for (const std::size_t nodes : lattice().size())
-      if (nodes <= std::size_t(degree_)) return;
-    if (parameters.smoothing == 0) fit<ConcurrencyTag>(volume.values);
-    else fit<ConcurrencyTag>(smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing)).values);
+      if (nodes <= std::size_t(degree())) return;
+    Volume_view_3<Kernel> smooth = smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing));
+    fit_.border_degree = internal::border_degree(smooth, degree(), scheme());
+    source_ = std::make_shared<const internal::Coefficient_source<Kernel>>(std::move(smooth), fit_, tag);
   }
 
   const Lattice& lattice() const { return support_.lattice(); } ///< where the samples are
-  int degree() const { return degree_; }                        ///< 5, 7 or 9
-  Spline_scheme scheme() const { return scheme_; }              ///< how samples became coefficients
+  int degree() const { return fit_.degree; }                    ///< 5, 7 or 9
+  Spline_scheme scheme() const { return fit_.scheme; }          ///< how samples become coefficients
   /// The degree of the polynomials that extend the samples beyond the border.
-  int border_degree() const { return border_degree_; }
+  int border_degree() const { return fit_.border_degree; }
+
+  /// The same function, bit for bit, with the coefficients of a block of cells only, which are computed at once and in
+  /// this thread. It may be evaluated elsewhere, too, which costs some 10 microseconds a point. If the coefficients of all
+  /// cells exist already, or if the scheme is interpolation, they are used. \pre the block has cells, and the lattice all
+  /// of them
+  Spline_function_3 restricted_to_cells(const Cell_block& cells) const {
+    for (std::size_t a = 0; a < 3; ++a)
+      CGAL_precondition(cells.first[a] < cells.end[a] && cells.end[a] < lattice().size()[a]);
+    Spline_function_3 result = *this;
+    if (source_ && scheme() != Spline_scheme::INTERPOLATION && !source_->all_if_computed())
+      result.part_ = std::make_shared<const Coefficients>(source_->of_cells(cells));
+    return result;
+  }
 
   FT value(const Point_3& p) const { return taylor<0>(p).value(); } ///< the value; NaN outside of the support
 
@@ -106,9 +123,16 @@ public:
       jet.coefficients().fill(std::numeric_limits<FT>::quiet_NaN());
       return jet;
     }
-    return substitution_(scheme_ == Spline_scheme::PAPER
-                             ? coefficients_.template interpolated_expansion<Order>(place->cell, place->offset)
-                             : coefficients_.template expansion<Order>(place->cell, place->offset));
+    const auto expansion = [&](const Coefficients& coefficients) {
+      return substitution_(scheme() == Spline_scheme::PAPER
+                               ? coefficients.template interpolated_expansion<Order>(place->cell, place->offset)
+                               : coefficients.template expansion<Order>(place->cell, place->offset));
+    };
+    if (!part_) return expansion(source_->all());
+    if (part_->cells().contains(place->cell)) return expansion(*part_);
+    if (const Coefficients* const all = source_->all_if_computed()) return expansion(*all);
+    const auto [i, j, k] = place->cell;
+    return expansion(source_->of_cells({{i, j, k}, {i + 1, j + 1, k + 1}}));
   }
 
   /// Computes an interval that contains the values at all points of the box, also as value() rounds them, from the
@@ -116,9 +140,10 @@ public:
   /// the number of cells that the box meets.
   Interval bounds(const CGAL::Bbox_3& box) const {
     const auto common = locate(box);
-    if (!common || !common->is_whole_box || bounds_->has_nan(coefficients_.data(), common->box))
-      return Interval::whole();
-    return bounds_->value(coefficients_.data(), common->box);
+    if (!common || !common->is_whole_box) return Interval::whole();
+    const Coefficients& all = source_->all();
+    const auto of_box = bounds_of(all);
+    return of_box.has_nan(all.data(), common->box) ? Interval::whole() : of_box.value(all.data(), common->box);
   }
 
   /// Computes intervals that contain the values and the first derivatives in the same sense. In boxes of up to 9 cells
@@ -129,9 +154,13 @@ public:
     const auto common = locate(box);
     std::array<Interval, 4> bounds;
     bounds.fill(Interval::whole());
-    if (!common) bounds[0] = internal::no_values();
-    else if (common->is_whole_box) bounds = bounds_->first_order(coefficients_.data(), common->box);
-    else bounds[0] = bounds_->value(coefficients_.data(), common->box);
+    if (common) {
+      const Coefficients& all = source_->all();
+      if (common->is_whole_box) bounds = bounds_of(all).first_order(all.data(), common->box);
+      else bounds[0] = bounds_of(all).value(all.data(), common->box);
+    } else {
+      bounds[0] = internal::no_values();
+    }
     Jet_3<Interval, 1> in_space(bounds[0]);
     for (std::size_t b = 0; b < 3; ++b)
       for (std::size_t a = 0; a < 3; ++a)
@@ -147,36 +176,39 @@ private:
   }
 
   using Support = internal::Spline_support_3<Kernel>;
+  using Coefficients = internal::Spline_coefficients<FT>;
 
-  template <class ConcurrencyTag>
-  void fit(const std::vector<FT>& samples) {
-    border_degree_ = internal::border_degree(samples, lattice().size(), degree_, scheme_);
-    coefficients_.template fit<ConcurrencyTag>(samples, lattice().size(), scheme_, border_degree_);
-    bounds_.emplace(degree_, coefficients_.size(), support_.slack());
+  internal::Bspline_bounds<FT> bounds_of(const Coefficients& coefficients) const {
+    return {degree(), coefficients.size(), support_.slack()};
   }
 
   std::optional<typename Support::Place> locate(const Point_3& p) const {
-    if (!bounds_) return std::nullopt;
+    if (!source_) return std::nullopt;
     return support_.locate(p);
   }
 
   std::optional<typename Support::Common_box> locate(const CGAL::Bbox_3& box) const {
-    if (!bounds_) return std::nullopt;
+    if (!source_) return std::nullopt;
     auto common = support_.locate(box);
-    if (common && scheme_ == Spline_scheme::PAPER) { // its values are means over the corners of a cell
+    if (common && scheme() == Spline_scheme::PAPER) { // its values are means over the corners of a cell
       common->box.begin = {0, 0, 0};
       common->box.end = {1, 1, 1};
     }
     return common;
   }
 
-  int degree_, border_degree_;
-  Spline_scheme scheme_;
+  internal::Spline_fit fit_;
   Support support_;
   Linear_substitution_3<FT> substitution_;
-  internal::Spline_coefficients<FT> coefficients_;
-  std::optional<internal::Bspline_bounds<FT>> bounds_; // empty if the lattice has too few nodes for a spline
+  std::shared_ptr<const internal::Coefficient_source<Kernel>>
+      source_;                               // null if the lattice has too few nodes for a spline
+  std::shared_ptr<const Coefficients> part_; // of a block of cells, if the function is restricted
 };
+
+template <class Kernel>
+Spline_function_3(const Volume_3<Kernel>&, const Spline_parameters& = {}) -> Spline_function_3<Kernel>;
+template <class Kernel, class ConcurrencyTag>
+Spline_function_3(const Volume_3<Kernel>&, const Spline_parameters&, ConcurrencyTag) -> Spline_function_3<Kernel>;
 
 } // namespace equiaffine
 

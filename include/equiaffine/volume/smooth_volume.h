@@ -3,15 +3,12 @@
 #define EQUIAFFINE_VOLUME_SMOOTH_VOLUME_H
 
 #include <equiaffine/Volume_3.h>
-#include <equiaffine/base/internal/shared/check_argument.h>
-#include <equiaffine/volume/internal/local_polynomial.h>
-#include <equiaffine/volume/internal/separable_filter.h>
+#include <equiaffine/Volume_view_3.h>
+#include <equiaffine/volume/internal/smoothed_samples.h>
 
 #include <CGAL/tags.h>
 
-#include <array>
-#include <cmath>
-#include <cstddef>
+#include <utility>
 
 namespace equiaffine {
 
@@ -27,19 +24,14 @@ namespace equiaffine {
 /// Takes 20 scale operations per node. The result does not depend on the number of threads.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_3<Kernel> smooth_volume(Volume_3<Kernel> volume, const typename Kernel::FT& scale) {
-  using FT = typename Kernel::FT;
-  using Filter = internal::Smoothing_filter<FT>;
-  check_argument(scale >= 0 && scale - scale == 0,
-                 "the scale that a volume is smoothed by is not a number of 0 or more: choose one");
-  check_argument(volume.values.size() == volume.lattice.number_of_nodes(),
-                 "a volume has not as many values as its lattice has nodes: choose the lattice that it has");
-  if (scale <= 1) return volume;
-  const auto& size = volume.lattice.size();
-  const std::array<Filter, 3> filters = {Filter(scale, size[0]), Filter(scale, size[1]), Filter(scale, size[2])};
-  Volume_3<Kernel> result{volume.lattice, std::vector<FT>(volume.values.size())};
-  internal::Separable_filter<ConcurrencyTag, FT, Filter>(size, 0, result.values.data())(
-      {&filters[0], &filters[1], &filters[2]}, volume.values.data());
-  return result;
+  const auto view = Volume_view_3<Kernel>::of(volume);
+  return internal::smooths(scale) ? internal::smoothed_samples<ConcurrencyTag>(view, scale) : std::move(volume);
+}
+
+/// The same for samples of any type: the result has numbers of the kernel, or is the volume itself.
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
+Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale) {
+  return internal::smooths(scale) ? internal::smoothed_samples<ConcurrencyTag>(volume, scale) : volume;
 }
 
 } // namespace equiaffine

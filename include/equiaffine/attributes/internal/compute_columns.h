@@ -9,11 +9,12 @@
 #include <equiaffine/attributes/internal/Expanded_block.h>
 #include <equiaffine/attributes/internal/structure_by.h>
 #include <equiaffine/base/internal/shared/large_pages.h>
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/function/internal/shared/point_blocks.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 #include <equiaffine/surface/internal/shared/affine_gradients.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -26,13 +27,14 @@ namespace equiaffine::internal {
 struct Attribute_rows {
   const std::vector<Attribute>& attributes;
   std::vector<Vertex_attributes::Column>& columns; ///< one per attribute
-  std::span<Point_status> status;                  ///< one per point of the block
-  std::size_t first;                               ///< the number of the first of these rows in the columns
+  std::vector<Point_status>& statuses;
+  std::span<const std::size_t> numbers; ///< of the points of the block, which are also those of their rows
 
-  double& number(std::size_t row, std::size_t column) const { return columns[column].values[first + row]; }
+  double& number(std::size_t row, std::size_t column) const { return columns[column].values[numbers[row]]; }
+  Point_status& status(std::size_t row) const { return statuses[numbers[row]]; }
 
   void set(std::size_t row, const Local_structure_3<double>& structure) const {
-    status[row] = structure.status;
+    status(row) = structure.status;
     for (std::size_t c = 0; c < attributes.size(); ++c) number(row, c) = attributes[c].get(structure);
   }
 };
@@ -48,7 +50,7 @@ inline void measure_pack(const Expanded_block& block, std::size_t n, const Attri
     for (std::size_t i = 0; i < count; ++i) rows.number(begin + i, c) = numbers[i];
   }
   for (std::size_t i = 0; i < count; ++i) {
-    rows.status[begin + i] = Point_status::REGULAR;
+    rows.status(begin + i) = Point_status::REGULAR;
     if (!pack.is_regular[i])
       rows.set(begin + i, irregular_structure(block.jet(begin + i), pack.is_steep[i], block.rounding(begin + i)));
   }
@@ -92,19 +94,21 @@ Vertex_attributes compute_columns(const Traits& traits, std::span<const typename
     resize_with_large_pages(column.values, points.size());
   }
   std::vector<Point_status> status(points.size());
-  constexpr std::size_t block = Expanded_block::points;
-  parallel_for<ConcurrencyTag>(
-      0, (points.size() + block - 1) / block,
-      [&](std::size_t n) {
-        const std::size_t first = n * block, count = std::min(block, points.size() - first);
-        const auto points_of_block = points.subspan(first, count);
-        const Attribute_rows rows{selection.columns, result.columns, std::span(status).subspan(first, count), first};
-        measure_block(expand_block(traits, points_of_block), parameters, rows);
-        measure_gradients(traits, points_of_block, rows);
-        for (std::size_t i = first; i < first + count && !sampled_status.empty(); ++i)
-          status[i] = status_after_sampling(status[i], sampled_status[i]);
-      },
-      256 / block);
+  const bool looks_beside_points =
+      std::any_of(selection.columns.begin(), selection.columns.end(),
+                  [](const Attribute& attribute) { return bool(attribute_table<double>[attribute.row].gradient); });
+  for_each_point_block<ConcurrencyTag>(
+      traits, points, Expanded_block::points, looks_beside_points ? 1 : 0,
+      [&](const Traits& local, std::span<const std::size_t> numbers) {
+        std::array<typename Traits::Point_3, Expanded_block::points> points_of_block;
+        for (std::size_t n = 0; n < numbers.size(); ++n) points_of_block[n] = points[numbers[n]];
+        const auto block = std::span<const typename Traits::Point_3>(points_of_block).first(numbers.size());
+        const Attribute_rows rows{selection.columns, result.columns, status, numbers};
+        measure_block(expand_block(local, block), parameters, rows);
+        measure_gradients(local, block, rows);
+        if (sampled_status.empty()) return;
+        for (const std::size_t n : numbers) status[n] = status_after_sampling(status[n], sampled_status[n]);
+      });
   if (selection.has_status) result.status = std::move(status);
   return result;
 }

@@ -3,15 +3,12 @@
 #define EQUIAFFINE_IO_INTERNAL_MESH_TEXT_H
 
 #include <equiaffine/io/internal/buffered_output.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/number_utils.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <string_view>
 
 namespace equiaffine::internal {
@@ -25,25 +22,6 @@ std::array<double, 3> coordinates(const Point_3& p) {
 /// Writes a keyword and three numbers as a line.
 inline void write_line(Buffered_output& out, std::string_view keyword, const std::array<double, 3>& numbers) {
   out << keyword << numbers[0] << ' ' << numbers[1] << ' ' << numbers[2] << '\n';
-}
-
-/// Writes the header of a PLY file: what the numbers after it are.
-inline void write_ply_header(Buffered_output& out, std::size_t points, std::size_t triangles,
-                             const Vertex_attributes& attributes) {
-  out << "ply\nformat binary_little_endian 1.0\ncomment made by equiaffine";
-  if (attributes.status) {
-    out << "; status:";
-    for (std::size_t i = 0; i < number_of_point_statuses; ++i) out << ' ' << i << ' ' << to_string(Point_status(i));
-  }
-  for (std::string line : attributes.comments) {
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    out << "\ncomment " << line;
-  }
-  out << "\nelement vertex " << points << "\nproperty double x\nproperty double y\nproperty double z\n";
-  for (const auto& column : attributes.columns) out << "property double " << column.name << '\n';
-  if (attributes.status) out << "property uchar status\n";
-  out << "element face " << triangles << "\nproperty list uchar int vertex_indices\nend_header\n";
 }
 
 /// The unit normal of a triangle, or zero if it has none.

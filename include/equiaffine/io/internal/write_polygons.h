@@ -4,14 +4,14 @@
 
 #include <equiaffine/io/internal/buffered_output.h>
 #include <equiaffine/io/internal/mesh_text.h>
+#include <equiaffine/io/internal/shared/Ply_writer.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
-
-#include <CGAL/assertions.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <ostream>
+#include <span>
 #include <vector>
 
 // Formats that hold polygons. A polygon is a range of positions of points.
@@ -20,19 +20,10 @@ namespace equiaffine::internal {
 template <class Point, class Polygon>
 void write_PLY_of(std::ostream& stream, const std::vector<Point>& points, const std::vector<Polygon>& polygons,
                   const Vertex_attributes& attributes) {
-  CGAL_precondition(attributes.has_length(points.size()));
-  Buffered_output out(stream);
-  write_ply_header(out, points.size(), polygons.size(), attributes);
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    for (const double x : coordinates(points[v])) out.write_binary(x);
-    for (const auto& column : attributes.columns) out.write_binary(column.values[v]);
-    if (attributes.status) out.write_binary(static_cast<std::uint8_t>((*attributes.status)[v]));
-  }
-  for (const auto& polygon : polygons) {
-    out.write_binary(static_cast<std::uint8_t>(polygon.size()));
-    for (const std::uint32_t v : polygon) out.write_binary(v);
-  }
-  out.flush();
+  Ply_writer writer(stream, points.size(), polygons.size(), attributes);
+  writer.write_vertices(std::span<const Point>(points), attributes);
+  writer.write_faces(polygons);
+  writer.flush();
 }
 
 template <class Point, class Polygon>

@@ -22,38 +22,48 @@ namespace equiaffine::internal {
 
 using Index_triangle = std::array<Isosurface_numbering::Index, 3>;
 
-/// Does the work of for_each_vertex_of_plane().
+/// Does the work of for_each_vertex().
 template <bool HasUndefined, class Place>
-void visit_vertices_of_plane(const Isosurface_plan& plan, std::size_t k, const Place& place) {
+void visit_vertices(const Isosurface_plan& plan, const Node_block& block, const Place& place) {
   const Node_signs& signs = plan.signs;
-  for (std::size_t j = 0; j < signs.size()[1]; ++j) {
-    if (!plan.numbering.has_vertices(j, k)) continue;
-    auto vertex = plan.numbering.row(j, k).first;
-    const Node_signs::Edge_row<HasUndefined> edges(signs, j, k);
-    signs.for_each_word(j, k, [&](std::size_t w) {
-      const auto crossed = edges.crossed(w);
-      const auto visit_along = [&](auto axis) {
-        for (Node_signs::Word bits = crossed[axis]; bits != 0; bits &= bits - 1)
-          place(vertex[axis]++, 64 * w + std::size_t(std::countr_zero(bits)), j, k, axis);
-      };
-      if ((crossed[0] | crossed[1] | crossed[2]) == 0) return;
-      visit_along(std::integral_constant<std::size_t, 0>());
-      visit_along(std::integral_constant<std::size_t, 1>());
-      visit_along(std::integral_constant<std::size_t, 2>());
-    });
-  }
+  for (std::size_t k = block[2].first; k < block[2].end; ++k)
+    for (std::size_t j = block[1].first; j < block[1].end; ++j) {
+      if (!plan.numbering.has_vertices(j, k)) continue;
+      auto vertex = plan.numbering.row(j, k).first;
+      const Node_signs::Edge_row<HasUndefined> edges(signs, j, k);
+      signs.for_each_word(j, k, [&](std::size_t w) {
+        if (64 * w >= block[0].end) return;
+        const auto crossed = edges.crossed(w);
+        if ((crossed[0] | crossed[1] | crossed[2]) == 0) return;
+        const auto visit_along = [&](auto axis) {
+          if (64 * w < block[0].first) vertex[axis] += Isosurface_numbering::Index(std::popcount(crossed[axis]));
+          else
+            for (Node_signs::Word bits = crossed[axis]; bits != 0; bits &= bits - 1)
+              place(vertex[axis]++, 64 * w + std::size_t(std::countr_zero(bits)), j, k, axis);
+        };
+        visit_along(std::integral_constant<std::size_t, 0>());
+        visit_along(std::integral_constant<std::size_t, 1>());
+        visit_along(std::integral_constant<std::size_t, 2>());
+      });
+    }
 }
 
-/// Calls place(vertex, i, j, k, axis) for every vertex on an edge that begins in plane k. (i, j, k) is the node at
-/// which the edge begins, and `axis` is a std::integral_constant.
+/// Calls place(vertex, i, j, k, axis) for every vertex on an edge that begins at a node of a block, which begins and ends
+/// with a word of signs or a row. (i, j, k) is the node at which the edge begins, and `axis` is a std::integral_constant.
 template <class Place>
-void for_each_vertex_of_plane(const Isosurface_plan& plan, std::size_t k, const Place& place) {
-  plan.has_undefined ? visit_vertices_of_plane<true>(plan, k, place) : visit_vertices_of_plane<false>(plan, k, place);
+void for_each_vertex(const Isosurface_plan& plan, const Node_block& block, const Place& place) {
+  plan.has_undefined ? visit_vertices<true>(plan, block, place) : visit_vertices<false>(plan, block, place);
 }
 
-/// Calls visit(vertices, edges) for the vertices on edges that begin in plane k, with up to 64 of them at a time.
+/// All nodes in plane k.
+inline Node_block plane_of_nodes(const Isosurface_plan& plan, std::size_t k) {
+  const auto& size = plan.signs.size();
+  return {{{0, size[0]}, {0, size[1]}, {k, k + 1}}};
+}
+
+/// Calls visit(vertices, edges) for the vertices on edges that begin at nodes of a block, with up to 64 of them at a time.
 template <class Visit>
-void for_each_batch_of_plane(const Isosurface_plan& plan, std::size_t k, const Visit& visit) {
+void for_each_batch(const Isosurface_plan& plan, const Node_block& block, const Visit& visit) {
   constexpr std::size_t batch = 64;
   std::vector<std::size_t> vertices;
   std::vector<Grid_edge> edges;
@@ -62,7 +72,7 @@ void for_each_batch_of_plane(const Isosurface_plan& plan, std::size_t k, const V
     vertices.clear();
     edges.clear();
   };
-  for_each_vertex_of_plane(plan, k, [&](std::size_t v, std::size_t i, std::size_t j, std::size_t, std::size_t axis) {
+  for_each_vertex(plan, block, [&](std::size_t v, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) {
     vertices.push_back(v);
     edges.push_back({{i, j, k}, axis});
     if (edges.size() == batch) visit_batch();

@@ -26,19 +26,21 @@ Grid_rows place_on_edges(const Grid& grid, const Isosurface_plan& plan, typename
   Grid_rows rows(planes);
   parallel_for<ConcurrencyTag>(0, planes, [&](std::size_t k) {
     if constexpr (requires(std::span<const Grid_edge> edges) { grid.edges(edges); }) {
-      for_each_batch_of_plane(plan, k, [&](std::span<const std::size_t> vertices, std::span<const Grid_edge> edges) {
-        const auto ends = grid.edges(edges);
-        for (std::size_t n = 0; n < edges.size(); ++n) {
-          points[vertices[n]] = ends[n].linear_intersection();
-          if (ends[n].ends_at(points[vertices[n]])) rows.add(edges[n].node[1], k);
-        }
-      });
+      for_each_batch(plan, plane_of_nodes(plan, k),
+                     [&](std::span<const std::size_t> vertices, std::span<const Grid_edge> edges) {
+                       const auto ends = grid.edges(edges);
+                       for (std::size_t n = 0; n < edges.size(); ++n) {
+                         points[vertices[n]] = ends[n].linear_intersection();
+                         if (ends[n].ends_at(points[vertices[n]])) rows.add(edges[n].node[1], k);
+                       }
+                     });
     } else {
-      for_each_vertex_of_plane(plan, k, [&](std::size_t v, std::size_t i, std::size_t j, std::size_t, auto axis) {
-        const auto vertex = grid.edge_vertex({i, j, k}, axis);
-        points[v] = vertex.point;
-        if (vertex.is_at_node) rows.add(j, k);
-      });
+      for_each_vertex(plan, plane_of_nodes(plan, k),
+                      [&](std::size_t v, std::size_t i, std::size_t j, std::size_t, auto axis) {
+                        const auto vertex = grid.edge_vertex({i, j, k}, axis);
+                        points[v] = vertex.point;
+                        if (vertex.is_at_node) rows.add(j, k);
+                      });
     }
   });
   return rows;

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_SURFACE_INTERNAL_NEWTON_DISTANCE_H
 
 #include <equiaffine/Batch_function_traits_3.h>
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/function/internal/shared/point_blocks.h>
 #include <equiaffine/function/internal/shared/sign_change.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/surface/distance_estimate.h>
@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <mutex>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -73,7 +74,6 @@ struct Greatest_distance {
 template <class Traits>
 Greatest_distance<typename Traits::FT> greatest_distance_of_block(const Batch_function_traits_3<Traits>& traits,
                                                                   std::span<const typename Traits::Point_3> points,
-                                                                  std::span<const Point_status> status,
                                                                   const typename Traits::FT& resolvable) {
   using FT = typename Traits::FT;
   std::vector<Jet_3<FT, 1>> jets(points.size());
@@ -88,7 +88,6 @@ Greatest_distance<typename Traits::FT> greatest_distance_of_block(const Batch_fu
   traits.values(ends, values);
   Greatest_distance<FT> result;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!status.empty() && status[i] == Point_status::UNCONVERGED) continue;
     result.add(steps[i].distance);
     result.is_unknown |= steps[i].leads_away_from_zeros(values[i]);
   }
@@ -102,22 +101,24 @@ typename Traits::FT max_distance_to_surface(const Traits& traits, std::span<cons
   using FT = typename Traits::FT;
   using std::abs;
   using std::sqrt;
+  using Batch = Batch_function_traits_3<Traits>;
   constexpr std::size_t block = 256;
   FT coordinate(0);
   for (const auto& p : points) coordinate = std::max({coordinate, abs(p.x()), abs(p.y()), abs(p.z())});
   const FT resolvable = sqrt(std::numeric_limits<FT>::epsilon()) * coordinate;
-  const Batch_function_traits_3<Traits> batch(traits);
-  std::vector<Greatest_distance<FT>> greatest((points.size() + block - 1) / block);
-  parallel_for<ConcurrencyTag>(0, greatest.size(), [&](std::size_t n) {
-    const std::size_t first = n * block, count = std::min(block, points.size() - first);
-    greatest[n] = greatest_distance_of_block(batch, points.subspan(first, count),
-                                             status.empty() ? status : status.subspan(first, count), resolvable);
-  });
   Greatest_distance<FT> result;
-  for (const auto& of_block : greatest) {
-    result.add(of_block.greatest);
-    result.is_unknown |= of_block.is_unknown;
-  }
+  std::mutex mutex;
+  // The end of a step may be in the next cell.
+  for_each_point_block<ConcurrencyTag>(
+      Batch(traits), points, block, 1, [&](const Batch& local, std::span<const std::size_t> numbers) {
+        std::vector<typename Traits::Point_3> points_of_block;
+        for (const std::size_t n : numbers)
+          if (status.empty() || status[n] != Point_status::UNCONVERGED) points_of_block.push_back(points[n]);
+        const auto of_block = greatest_distance_of_block<Traits>(local, points_of_block, resolvable);
+        const std::lock_guard lock(mutex);
+        result.add(of_block.greatest);
+        result.is_unknown |= of_block.is_unknown;
+      });
   return result.result();
 }
 

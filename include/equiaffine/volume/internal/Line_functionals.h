@@ -122,6 +122,11 @@ public:
 
   const T& operator[](std::size_t cell) const { return values_[kinds_(cell)]; }
 
+  std::size_t kind(std::size_t cell) const { return kinds_(cell); }
+
+  /// The kind of the cells between the borders. It is also its representative.
+  std::size_t inner_kind() const { return kinds_.kinds / 2; }
+
   /// The offset of a cell from the representative cell of its kind.
   std::size_t offset_from_representative(std::size_t cell) const { return cell - kinds_(cell); }
 

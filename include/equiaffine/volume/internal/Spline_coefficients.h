@@ -2,62 +2,89 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SPLINE_COEFFICIENTS_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SPLINE_COEFFICIENTS_H
 
+#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/base/internal/shared/large_pages.h>
 #include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/number/Jet_3.h>
+#include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_scheme.h>
 #include <equiaffine/volume/internal/bspline.h>
 #include <equiaffine/volume/internal/bspline_evaluation.h>
 #include <equiaffine/volume/internal/bspline_interpolation.h>
 #include <equiaffine/volume/internal/separable_filter.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
+#include <span>
 #include <type_traits>
 #include <vector>
 
 namespace equiaffine::internal {
 
-/// The coefficients of a tensor product spline, with padding on all sides so that every cell has its (n + 1)^3 of them.
+/// How samples become coefficients: the degree of the spline, the scheme, and the degree of the polynomials that extend
+/// the samples beyond the border (border_degree.h).
+struct Spline_fit {
+  int degree;
+  Spline_scheme scheme;
+  int border_degree;
+
+  /// Calls f(filter) with the filter of lines that turns samples into coefficients.
+  template <class FT, class F>
+  void with_filter(const F& f) const {
+    with_degree(degree, [&](auto n) { with_line_filter<FT, n>(scheme, border_degree, f); });
+  }
+};
+
+/// The coefficients of a tensor product spline that a block of cells needs, (n + 1)^3 for each cell. Coefficients are
+/// counted from the first one before the border of the lattice: those of cell i along an axis are i to i + n.
 template <class FT>
 class Spline_coefficients {
 public:
   using Size = std::array<std::size_t, 3>;
 
-  /// No coefficients, for a lattice of `nodes`.
-  Spline_coefficients(const Size& nodes, int degree) : degree_(degree) {
-    for (std::size_t a = 0; a < 3; ++a) size_[a] = nodes[a] + 2 * std::size_t(spline_padding(degree));
+  /// Computes the coefficients of all cells of a volume, in threads.
+  template <class ConcurrencyTag, class Kernel>
+  static Spline_coefficients of_all_cells(const Volume_view_3<Kernel>& volume, const Spline_fit& fit) {
+    const Size& nodes = volume.lattice().size();
+    Spline_coefficients result(fit.degree, {{}, {nodes[0] - 1, nodes[1] - 1, nodes[2] - 1}});
+    fit.with_filter<FT>([&](const auto& line) {
+      using Filter = std::decay_t<decltype(line)>;
+      Separable_filter<ConcurrencyTag, Kernel, Filter>(nodes, Filter::padding,
+                                                       result.values_.get())({&line, &line, &line}, volume);
+    });
+    const std::size_t slab = result.size_[0] * result.size_[1];
+    parallel_for<ConcurrencyTag>(0, result.size_[2], [&](std::size_t k) { result.remove_infinities(k * slab, slab); });
+    return result;
   }
 
-  /// Turns samples into coefficients, along x, then y, then z. Those that are not finite become NaN.
-  template <class ConcurrencyTag>
-  void fit(const std::vector<FT>& samples, const Size& nodes, Spline_scheme scheme, int border_degree) {
-    resize_with_large_pages(values_, size_[0] * size_[1] * size_[2] + overread);
-    with_degree(degree_, [&](auto n) {
-      with_line_filter<FT, n>(scheme, border_degree, [&](const auto& line) {
-        using Filter = std::decay_t<decltype(line)>;
-        Separable_filter<ConcurrencyTag, FT, Filter>(nodes, Filter::padding, values_.data())({&line, &line, &line},
-                                                                                             samples.data());
-      });
+  /// Computes the coefficients of a block of cells from the samples that they depend on. They have the same bits as if
+  /// all were computed. \pre the scheme is not interpolation, whose coefficients depend on all samples
+  template <class Kernel>
+  static Spline_coefficients of_cells(const Volume_view_3<Kernel>& volume, const Spline_fit& fit,
+                                      const Cell_block& cells) {
+    Spline_coefficients result(fit.degree, cells);
+    fit.with_filter<FT>([&](const auto& line) {
+      if constexpr (requires { line.samples_of({}, 0); }) result.filter(line, volume);
     });
-    const std::size_t slab = size_[0] * size_[1];
-    parallel_for<ConcurrencyTag>(0, size_[2], [&](std::size_t k) {
-      FT* const first = values_.data() + k * slab;
-      for (FT* x = first; x != first + slab; ++x)
-        if (!std::isfinite(*x)) *x = std::numeric_limits<FT>::quiet_NaN(); // an infinity could pass as a value
-    });
+    result.remove_infinities(0, result.size_[0] * result.size_[1] * result.size_[2]);
+    return result;
   }
 
-  const FT* data() const { return values_.data(); }
+  const Cell_block& cells() const { return cells_; }
+
+  const FT* data() const { return values_.get(); }
   const Size& size() const { return size_; }
 
-  /// The expansion in lattice coordinates at a place of a cell.
+  /// The expansion in lattice coordinates at a place of a cell of the block.
   template <int Order>
   Jet_3<FT, Order> expansion(const Size& cell, const std::array<FT, 3>& offset) const {
     Jet_3<FT, Order> jet;
-    const FT* first = &values_[(cell[2] * size_[1] + cell[1]) * size_[0] + cell[0]]; // padding shifts the lattice, too
+    const std::size_t i = cell[0] - cells_.first[0], j = cell[1] - cells_.first[1], k = cell[2] - cells_.first[2];
+    const FT* first = &values_[(k * size_[1] + j) * size_[0] + i];
     with_degree(degree_,
                 [&](auto n) { contract<n, Order>(first, size_[0], size_[0] * size_[1], offset, jet.coefficients()); });
     return jet;
@@ -81,9 +108,50 @@ public:
   }
 
 private:
+  Spline_coefficients(int degree, const Cell_block& cells) : degree_(degree), cells_(cells) {
+    for (std::size_t a = 0; a < 3; ++a) size_[a] = cells.end[a] - cells.first[a] + std::size_t(degree);
+    const std::size_t count = size_[0] * size_[1] * size_[2];
+    values_ = numbers(count + overread);
+    std::fill_n(&values_[count], overread, FT(0));
+    advise_large_pages(values_.get(), count * sizeof(FT));
+  }
+
+  /// Numbers that will be written before they are read.
+  static std::unique_ptr<FT[]> numbers(std::size_t count) { return std::unique_ptr<FT[]>(new FT[count]); }
+
+  /// The part of the coefficients of all cells along an axis.
+  Line_part part(std::size_t axis) const { return {cells_.first[axis], cells_.first[axis] + size_[axis]}; }
+
+  /// Filters the samples around the block along x and y, plane by plane, then all planes along z.
+  template <class Filter, class Kernel>
+  void filter(const Filter& line, const Volume_view_3<Kernel>& volume) {
+    const Size& nodes = volume.lattice().size();
+    std::array<Line_part, 3> given;
+    for (std::size_t a = 0; a < 3; ++a) given[a] = line.samples_of(part(a), nodes[a]);
+    const auto& [x, y, z] = given;
+    const std::size_t slab = size_[0] * size_[1];
+    std::vector<FT> samples(x.size()), along_x(y.size() * size_[0]);
+    const auto along_y = numbers(z.size() * slab);
+    for (std::size_t k = z.first; k < z.end; ++k) {
+      for (std::size_t j = y.first; j < y.end; ++j) {
+        volume.copy_line({x.first, j, k}, 0, samples);
+        line.apply_to_part(samples.data(), x, nodes[0], 1, part(0), &along_x[(j - y.first) * size_[0]], 1);
+      }
+      line.apply_to_part(along_x.data(), y, nodes[1], size_[0], part(1), &along_y[(k - z.first) * slab], size_[0]);
+    }
+    line.apply_to_part(along_y.get(), z, nodes[2], slab, part(2), values_.get(), slab);
+  }
+
+  /// Makes numbers that are not finite NaN: an infinity could pass as a value.
+  void remove_infinities(std::size_t first, std::size_t count) {
+    for (FT& x : std::span(&values_[first], count))
+      if (!std::isfinite(x)) x = std::numeric_limits<FT>::quiet_NaN();
+  }
+
   int degree_;
-  Size size_; // padding included
-  std::vector<FT> values_;
+  Cell_block cells_;
+  Size size_;
+  std::unique_ptr<FT[]> values_;
 };
 
 } // namespace equiaffine::internal

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_BORDER_DEGREE_H
 #define EQUIAFFINE_VOLUME_INTERNAL_BORDER_DEGREE_H
 
+#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/volume/Spline_scheme.h>
 #include <equiaffine/volume/internal/bspline.h>
 
@@ -10,56 +11,59 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <vector>
+#include <span>
 
 namespace equiaffine::internal {
 
-/// How far the polynomial of degree d through f_1 .. f_{d+1} is from f_0, where f_j = samples[j stride]: the magnitude
-/// of the difference of order d + 1.
+/// How far the polynomial of degree d through f_1 .. f_{d+1} is from f_0: the magnitude of the difference of order d + 1.
 template <class FT>
-FT error_of_prediction(const FT* samples, std::ptrdiff_t stride, int d) {
+FT error_of_prediction(std::span<const FT> f, int d) {
   FT sum = 0, binomial = 1; // exact: small integers
   for (int j = 0; j <= d + 1; ++j) {
-    sum += (j % 2 ? -binomial : binomial) * samples[j * stride];
+    sum += (j % 2 ? -binomial : binomial) * f[std::size_t(j)];
     binomial = binomial * FT(d + 1 - j) / FT(j + 1);
   }
   return std::abs(sum);
 }
 
-/// The vote of the end of a line that begins at `*end`: 1 if the greater degree predicts the sample there better than
-/// the lesser one, else -1; 0 if the lesser one predicts it up to the rounding of the samples it takes, or if one of them
-/// is NaN.
+/// The vote of the end of a line that has the samples f from its end on: 1 if the greater degree predicts the sample
+/// there better than the lesser one, else -1; 0 if the lesser one predicts it up to the rounding of the samples it takes,
+/// or if one of them is NaN.
 template <class FT>
-int vote_for_greater_degree(const FT* end, std::ptrdiff_t stride, int lesser, int greater) {
-  const FT of_lesser = error_of_prediction(end, stride, lesser);
-  const FT of_greater = error_of_prediction(end, stride, greater);
+int vote_for_greater_degree(std::span<const FT> f, int lesser, int greater) {
+  const FT of_lesser = error_of_prediction(f, lesser);
+  const FT of_greater = error_of_prediction(f, greater);
   FT largest = 0; // the last sample alone may be nearly 0
-  for (int j = 0; j <= lesser + 1; ++j) largest = std::max(largest, std::abs(end[j * stride]));
+  for (int j = 0; j <= lesser + 1; ++j) largest = std::max(largest, std::abs(f[std::size_t(j)]));
   if (!(of_lesser > 1000 * std::numeric_limits<FT>::epsilon() * largest)) return 0;
   return of_greater < of_lesser ? 1 : -1;
 }
 
-/// The degree of the polynomials that extend size[0] x size[1] x size[2] samples beyond the border for a spline of
-/// degree n (see Line_filter): n + 2, at most 9, if that degree predicts the sample at most ends of lines from its
-/// neighbors better than degree n does; else n. Degree n wins for noise and for edges in a scan, which the greater
-/// degree would magnify. Time: proportional to the number of samples in the n + 4 layers at the border.
-template <class FT>
-int border_degree(const std::vector<FT>& samples, const std::array<std::size_t, 3>& size, int degree,
-                  Spline_scheme scheme) {
+/// The degree of the polynomials that extend a volume beyond the border for a spline of degree n (see Line_filter): n +
+/// 2, at most 9, if that degree predicts the sample at most ends of lines from its neighbors better than degree n does;
+/// else n. Degree n wins for noise and for edges in a scan, which the greater degree would magnify. Time: proportional to
+/// the number of samples in the n + 4 layers at the border.
+template <class Kernel>
+int border_degree(const Volume_view_3<Kernel>& volume, int degree, Spline_scheme scheme) {
+  using FT = typename Kernel::FT;
   const int greater = std::min(degree + 2, greatest_border_degree);
   if (scheme != Spline_scheme::QUASI_INTERPOLATION || greater == degree) return degree;
-  const std::array<std::size_t, 3> strides = {1, size[0], size[0] * size[1]};
+  const std::array<std::size_t, 3>& size = volume.lattice().size();
+  std::array<FT, std::size_t(greatest_border_degree) + 2> samples;
+  const std::span f = std::span(samples).first(std::size_t(greater) + 2);
   std::ptrdiff_t votes = 0;
   for (std::size_t a = 0; a < 3; ++a) {
-    if (size[a] < std::size_t(greater) + 2) continue;
+    if (size[a] < f.size()) continue;
     const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
-    const auto stride = std::ptrdiff_t(strides[a]);
-    for (std::size_t k = 0; k < size[c]; ++k)
-      for (std::size_t j = 0; j < size[b]; ++j) {
-        const FT* const begin = samples.data() + k * strides[c] + j * strides[b];
-        const FT* const last = begin + (size[a] - 1) * strides[a];
-        votes += vote_for_greater_degree(begin, stride, degree, greater);
-        votes += vote_for_greater_degree(last, -stride, degree, greater);
+    std::array<std::size_t, 3> node;
+    for (node[c] = 0; node[c] < size[c]; ++node[c])
+      for (node[b] = 0; node[b] < size[b]; ++node[b]) {
+        node[a] = 0;
+        volume.copy_line(node, a, f);
+        votes += vote_for_greater_degree<FT>(f, degree, greater);
+        node[a] = size[a] - 1;
+        volume.copy_line_backwards(node, a, f);
+        votes += vote_for_greater_degree<FT>(f, degree, greater);
       }
   }
   return votes > 0 ? greater : degree;

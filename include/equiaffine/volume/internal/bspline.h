@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_H
 #define EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_H
 
+#include <equiaffine/volume/internal/Spline_pack.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -42,6 +44,12 @@ constexpr auto bspline_basis_polynomials() {
 
 /// The greatest degree of the polynomials that extend samples beyond a border.
 inline constexpr int greatest_border_degree = 9;
+
+/// The numbers of a line from `first` up to, but without, `end`.
+struct Line_part {
+  std::size_t first, end;
+  std::size_t size() const { return end - first; }
+};
 
 /// A local linear map from the samples f_0 .. f_{N-1} of a line to coefficients c_{-m} .. c_{N-1+m}, m = floor(n / 2).
 ///
@@ -88,21 +96,44 @@ struct Line_filter {
   /// Filters a line whose elements are rows of `width` numbers: samples i = 0 .. count - 1 at `samples + i width`,
   /// coefficients i = -m .. count - 1 + m at `coefficients + (i + m) stride`. Precondition: count > Degree.
   void apply(const FT* samples, std::size_t count, std::size_t width, FT* coefficients, std::size_t stride) const {
-    if (count > std::size_t(border_degree)) apply_border(border, samples, count, width, coefficients, stride);
-    else apply_border(border_weights(int(count) - 1), samples, count, width, coefficients, stride);
+    apply_to_part(samples, {0, count}, count, width, {0, count + 2 * std::size_t(padding)}, coefficients, stride);
+  }
 
-    const auto reach = std::size_t(radius);
-    for (std::size_t i = reach; i < count - reach; ++i) {
-      const FT* center = samples + i * width;
-      FT* row = coefficients + (i + std::size_t(padding)) * stride;
-      for (std::size_t x = 0; x < width; ++x) row[x] = weights[0] * center[x];
-      for (std::size_t s = 1; s <= reach; ++s)
-        for (std::size_t x = 0; x < width; ++x)
-          row[x] += weights[s] * ((center - s * width)[x] + (center + s * width)[x]);
-    }
+  /// The samples of a line of `count` that a part of its coefficients depends on. Here and in apply_to_part()
+  /// coefficients are counted from the first one, c_{-m}.
+  Line_part samples_of(const Line_part& part, std::size_t count) const {
+    const auto r = std::size_t(radius), m = std::size_t(padding);
+    const std::size_t used = std::min(count, std::size_t(border_degree) + 1); // by each coefficient at a border
+    Line_part samples = {part.first < r + m ? 0 : part.first - r - m,
+                         part.end + r < m ? 0 : std::min(part.end + r - m, count)};
+    if (part.first < r + m) samples.end = std::max(samples.end, used);
+    if (part.end + r > count + m) samples.first = std::min(samples.first, count - used);
+    return samples;
+  }
+
+  /// Does a part of the work of apply(): `samples` begins with the given part of the samples, which has those that
+  /// samples_of() says, and `coefficients` with the part of the coefficients that is computed. These have the same bits
+  /// whatever the part is.
+  void apply_to_part(const FT* samples, const Line_part& given, std::size_t count, std::size_t width,
+                     const Line_part& part, FT* coefficients, std::size_t stride) const {
+    if (count > std::size_t(border_degree))
+      apply_border(border, samples, given, count, width, part, coefficients, stride);
+    else apply_border(border_weights(int(count) - 1), samples, given, count, width, part, coefficients, stride);
+
+    const std::size_t reach = std::size_t(radius) + std::size_t(padding), all = count + 2 * std::size_t(padding);
+    const std::size_t first = std::max(part.first, reach), end = std::min(part.end, all - reach);
+    if (first >= end) return;
+    const FT* const center = samples + (first - std::size_t(padding) - given.first) * width;
+    FT* const row = coefficients + (first - part.first) * stride;
+    const bool is_packed = stride == width; // then all rows are one
+    const std::size_t rows = is_packed ? 1 : end - first, length = is_packed ? (end - first) * width : width;
+    for (std::size_t i = 0; i < rows; ++i)
+      if (radius == 0) combine<0>(center + i * width, width, length, row + i * stride);
+      else combine<padding>(center + i * width, width, length, row + i * stride);
   }
 
 private:
+  using Pack = Spline_pack<FT>;
   using Weights = std::array<FT, padding + 1>;
 
   /// The coefficients of the series (arcsinh(delta/2) / (delta/2))^(n+1) in powers of delta^2.
@@ -136,22 +167,52 @@ private:
     return weights;
   }
 
-  /// The coefficients at and beyond both borders.
-  void apply_border(const Border& at_border, const FT* samples, std::size_t count, std::size_t width, FT* coefficients,
-                    std::size_t stride) const {
+  /// Writes the sums of `length` numbers and of those that lie up to `Reach` times `width` before and behind them.
+  template <int Reach>
+  void combine(const FT* center, std::size_t width, std::size_t length, FT* sums) const {
+    const Weights w = weights; // a copy, which the sums cannot overlap
+    std::size_t x = 0;
+    for (; x + std::size_t(Pack::lanes) <= length; x += std::size_t(Pack::lanes)) {
+      typename Pack::type sum = w[0] * Pack::load(center + x);
+      for (int s = 1; s <= Reach; ++s)
+        sum += w[std::size_t(s)] *
+               (Pack::load(center + x - std::size_t(s) * width) + Pack::load(center + x + std::size_t(s) * width));
+      Pack::store(sum, sums + x);
+    }
+    for (; x < length; ++x) {
+      FT sum = w[0] * center[x];
+      for (int s = 1; s <= Reach; ++s)
+        sum += w[std::size_t(s)] * ((center - std::size_t(s) * width)[x] + (center + std::size_t(s) * width)[x]);
+      sums[x] = sum;
+    }
+  }
+
+  /// The coefficients of a part of the line that are at and beyond its borders.
+  void apply_border(const Border& at_border, const FT* samples, const Line_part& given, std::size_t count,
+                    std::size_t width, const Line_part& part, FT* coefficients, std::size_t stride) const {
     const std::size_t rows = std::size_t(radius) + std::size_t(padding);
     const std::size_t last = count - 1 + 2 * std::size_t(padding);
     const std::size_t used = std::min(count, std::size_t(border_degree) + 1);
+    const auto sum_up = [&](std::size_t coefficient, std::size_t end, const auto& sample) {
+      if (coefficient < part.first || coefficient >= part.end) return;
+      FT* const row = coefficients + (coefficient - part.first) * stride;
+      const auto weights_of_end = at_border[end]; // a copy, which the sums cannot overlap
+      const auto from = [&](std::size_t j) { return samples + (sample(j) - given.first) * width; };
+      std::size_t x = 0;
+      for (; x + std::size_t(Pack::lanes) <= width; x += std::size_t(Pack::lanes)) {
+        typename Pack::type sum = {};
+        for (std::size_t j = 0; j < used; ++j) sum += weights_of_end[j] * Pack::load(from(j) + x);
+        Pack::store(sum, row + x);
+      }
+      for (; x < width; ++x) {
+        FT sum = 0;
+        for (std::size_t j = 0; j < used; ++j) sum += weights_of_end[j] * from(j)[x];
+        row[x] = sum;
+      }
+    };
     for (std::size_t end = 0; end < rows; ++end) {
-      FT* first_row = coefficients + end * stride;
-      FT* last_row = coefficients + (last - end) * stride;
-      std::fill_n(first_row, width, FT(0));
-      std::fill_n(last_row, width, FT(0));
-      for (std::size_t j = 0; j < used; ++j)
-        for (std::size_t x = 0; x < width; ++x) {
-          first_row[x] += at_border[end][j] * samples[j * width + x];
-          last_row[x] += at_border[end][j] * samples[(count - 1 - j) * width + x];
-        }
+      sum_up(end, end, [](std::size_t j) { return j; });
+      sum_up(last - end, end, [&](std::size_t j) { return count - 1 - j; });
     }
   }
 

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SEPARABLE_FILTER_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SEPARABLE_FILTER_H
 
+#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/base/internal/shared/parallel_for.h>
 
 #include <algorithm>
@@ -13,19 +14,23 @@ namespace equiaffine::internal {
 
 /// Applies a filter of lines along each axis of size[0] x size[1] x size[2] samples; Line_filter::apply is an example.
 /// The result, `to`, has `padding` more nodes at each end of each axis.
-template <class ConcurrencyTag, class FT, class Filter>
+template <class ConcurrencyTag, class Kernel, class Filter>
 class Separable_filter {
 public:
+  using FT = typename Kernel::FT;
   using Size = std::array<std::size_t, 3>;
 
   Separable_filter(const Size& size, std::size_t padding, FT* to)
       : size_(size), row_(size[0] + 2 * padding), slab_(row_ * (size[1] + 2 * padding)), padding_(padding), to_(to) {}
 
-  void operator()(const std::array<const Filter*, 3>& filters, const FT* samples) const {
+  void operator()(const std::array<const Filter*, 3>& filters, const Volume_view_3<Kernel>& volume) const {
     const auto [nx, ny, nz] = size_;
-    parallel_for<ConcurrencyTag>(0, ny * nz, [&, nx = nx, ny = ny](std::size_t line) {
-      const std::size_t j = line % ny, k = line / ny;
-      filters[0]->apply(samples + line * nx, nx, 1, to_ + (k + padding_) * slab_ + (j + padding_) * row_, 1);
+    parallel_for<ConcurrencyTag>(0, nz, [&, nx = nx, ny = ny](std::size_t k) {
+      std::vector<FT> samples(nx);
+      for (std::size_t j = 0; j < ny; ++j) {
+        volume.copy_line({0, j, k}, 0, samples);
+        filters[0]->apply(samples.data(), nx, 1, to_ + (k + padding_) * slab_ + (j + padding_) * row_, 1);
+      }
     });
     parallel_for<ConcurrencyTag>(
         0, nz, [&, ny = ny](std::size_t k) { in_place(*filters[1], to_ + (k + padding_) * slab_, ny, row_); });

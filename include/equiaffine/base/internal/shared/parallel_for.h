@@ -12,6 +12,7 @@
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #endif
 
 namespace equiaffine {
@@ -32,6 +33,19 @@ void parallel_for(std::size_t begin, std::size_t end, F f, [[maybe_unused]] std:
   }
 #endif
   loop.run(begin, end, f);
+}
+
+/// Calls f(). While a loop of f waits for other threads, the calling thread does no work of other loops, which could need
+/// what f is about to make.
+template <class ConcurrencyTag, class F>
+void isolated(const F& f) {
+#ifdef CGAL_LINKED_WITH_TBB
+  if constexpr (std::is_convertible_v<ConcurrencyTag, CGAL::Parallel_tag>) {
+    tbb::this_task_arena::isolate(f);
+    return;
+  }
+#endif
+  f();
 }
 
 } // namespace equiaffine

@@ -38,6 +38,12 @@ public:
 
   Lattice_function(const Traits& traits, const Lattice_3<Kernel>& lattice) : traits_(traits), lattice_(lattice) {}
 
+  /// The same function for a block of cells, which may take less memory there.
+  Lattice_function
+  restricted_to_cells(const Cell_block& cells) const requires CellwiseImplicitFunctionTraits_3<Traits> {
+    return Lattice_function(traits_.restricted_to_cells(cells), lattice_);
+  }
+
   const Batch_function_traits_3<Traits>& traits() const { return traits_; }
   const Lattice_3<Kernel>& lattice() const { return lattice_; }
   static FT isovalue() { return FT(0); }

@@ -105,11 +105,12 @@ private:
   /// Returns the number of values.
   std::size_t compute_values(const Batch_function_traits_3<Traits>& traits, const Node_block& block) {
     std::size_t n = 0;
+    const std::size_t row = block[0].size();
     for (std::size_t k = block[2].first; k < block[2].end; ++k)
-      for (std::size_t j = block[1].first; j < block[1].end; ++j)
-        for (std::size_t i = block[0].first; i < block[0].end; ++i, ++n)
-          if constexpr (has_samples) values_[n] = traits.sample(i, j, k);
-          else points_[n] = function_.point({i, j, k});
+      for (std::size_t j = block[1].first; j < block[1].end; ++j, n += row)
+        if constexpr (has_samples) samples(traits, block[0].first, j, k, std::span(values_).subspan(n, row));
+        else
+          for (std::size_t i = 0; i < row; ++i) points_[n + i] = function_.point({block[0].first + i, j, k});
     if constexpr (!has_samples) {
       traits.values(std::span<const Point_3>(points_).first(n), std::span(values_).first(n));
       evaluations_ += n;

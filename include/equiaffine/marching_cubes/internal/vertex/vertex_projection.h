@@ -2,11 +2,14 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_VERTEX_VERTEX_PROJECTION_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_VERTEX_VERTEX_PROJECTION_H
 
-#include <equiaffine/capabilities.h>
-#include <equiaffine/function/internal/shared/sign_change.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/concepts.h>
+#include <equiaffine/function/internal/shared/point_blocks.h>
 #include <equiaffine/marching_cubes/internal/grid/lattice_function.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
 #include <equiaffine/marching_cubes/internal/vertex/intersect_edges.h>
+#include <equiaffine/marching_cubes/internal/vertex/project_within_cell.h>
+#include <equiaffine/marching_cubes/internal/vertex/vertex_blocks.h>
 #include <equiaffine/marching_cubes/internal/vertex/zero_area_repair.h>
 #include <equiaffine/surface/Isosurface_3.h>
 
@@ -18,7 +21,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -37,6 +39,7 @@ struct Projection_report {
 /// its vertices are moved back.
 ///
 /// Slabs of planes are projected one after the other, so that only the linear positions of one slab are kept in memory.
+/// A function that can be restricted to cells is evaluated in one tile of its lattice after the other.
 /// Vertices that are moved back may turn other triangles over. These are few, and the linear positions of their
 /// vertices are computed again.
 template <class ConcurrencyTag, class Traits>
@@ -47,27 +50,24 @@ class Vertex_projection {
   using Vector_3 = typename Traits::Vector_3;
   using Function = Lattice_function<Traits>;
   using Triangle = std::array<std::uint32_t, 3>;
-  static constexpr std::size_t slab = 32; // the number of planes in a slab
 
 public:
   Vertex_projection(const Function& function, const Isosurface_plan& plan,
                     const std::vector<Inner_vertex<FT>>& inner_vertices, Isosurface_3<Kernel>& surface)
       : function_(function), plan_(plan), numbering_(plan.numbering), inner_vertices_(inner_vertices),
-        surface_(surface), evaluations_(numbering_.number_of_planes()), flipped_(numbering_.number_of_planes()),
-        poles_(numbering_.number_of_planes()), suspects_(numbering_.number_of_planes()) {}
+        surface_(surface), flipped_(numbering_.number_of_planes()), suspects_(numbering_.number_of_planes()) {}
 
   Projection_report run() {
-    const std::size_t planes = numbering_.number_of_planes();
+    const std::size_t planes = numbering_.number_of_planes(), slab = planes_of_slab<Traits>(plan_.signs.size());
     Positions linear;
     for (std::size_t k = 0; k < planes; k += slab) {
       const std::size_t end = std::min(k + slab, planes);
       linear = linear_positions(k, end, linear);
-      for_each_plane(k, end, [&](std::size_t plane) { project(plane); });
-      for_each_plane(k > 0 ? k - 1 : 0, end - 1, [&](std::size_t layer) { find_flipped(layer, linear); });
+      project_slab(k, end);
+      parallel_for<ConcurrencyTag>(k > 0 ? k - 1 : 0, end - 1, [&](std::size_t layer) { find_flipped(layer, linear); });
     }
     undo_flips();
-    return {std::accumulate(evaluations_.begin(), evaluations_.end(), std::size_t(0)), flips_undone_,
-            std::move(suspects_), joined(poles_)};
+    return {evaluations_, flips_undone_, std::move(suspects_), std::move(poles_)};
   }
 
 private:
@@ -78,10 +78,12 @@ private:
     const Point_3& operator[](std::size_t v) const { return points[v - first]; }
   };
 
-  template <class Visit>
-  static void for_each_plane(std::size_t first, std::size_t end, const Visit& visit) {
-    parallel_for<ConcurrencyTag>(first, end, visit);
-  }
+  /// What one thread has found out about the vertices at the nodes of a block.
+  struct Part {
+    std::size_t evaluations = 0;
+    std::vector<std::size_t> poles;
+    std::vector<std::array<std::size_t, 2>> suspects; ///< j, k of rows of nodes
+  };
 
   /// The linear positions of the vertices on edges that begin in the planes `first` to `end` - 1, which are not yet
   /// projected, and in the plane below them, which is projected already: its linear positions are in `below`.
@@ -95,56 +97,47 @@ private:
     return linear;
   }
 
-  /// Projects the vertices on the edges that begin in plane k and those in the cells above it.
-  void project(std::size_t k) {
-    for_each_batch_of_plane(plan_, k,
-                            [&](std::span<const std::size_t> vertices, std::span<const Grid_edge> grid_edges) {
-                              const auto edges = function_.edges(grid_edges);
-                              evaluations_[k] += Function::evaluations(2 * edges.size());
-                              const auto projected = intersect_edges<Traits>(function_.traits(), edges);
-                              for (std::size_t n = 0; n < vertices.size(); ++n) {
-                                set_projected(vertices[n], k, projected[n]);
-                                if (edges[n].ends_at(surface_.points[vertices[n]]))
-                                  suspects_.add(grid_edges[n].node[1], k);
-                              }
-                            });
-    const Index_range inner = numbering_.inner_vertices_of_layer(k);
-    for (std::size_t v = inner.first; v < inner.end; ++v) set_projected(v, k, project_within_cell(inner_vertex(v)));
+  /// Projects the vertices on the edges that begin in the planes `first` to `end` - 1, and those in the cells above them.
+  void project_slab(std::size_t first, std::size_t end) {
+    const std::vector<Node_block> blocks = blocks_of_slab<Traits>(plan_, {first, end});
+    std::vector<Part> parts(blocks.size());
+    parallel_for<ConcurrencyTag>(0, blocks.size(), [&](std::size_t n) {
+      if constexpr (CellwiseImplicitFunctionTraits_3<Traits>) {
+        if (const auto cells = cells_with_vertices(plan_, inner_vertices_, blocks[n]))
+          project(function_.restricted_to_cells(*cells), blocks[n], parts[n]);
+      } else {
+        project(function_, blocks[n], parts[n]);
+      }
+    });
+    for (const Part& part : parts) {
+      evaluations_ += part.evaluations;
+      poles_.insert(poles_.end(), part.poles.begin(), part.poles.end());
+      for (const auto& [j, k] : part.suspects) suspects_.add(j, k);
+    }
   }
 
-  void set_projected(std::size_t v, std::size_t k, const Surface_point_3<Kernel>& projected) {
+  /// Projects the vertices on the edges that begin at nodes of a block, and those in the cells that begin there.
+  void project(const Function& function, const Node_block& block, Part& part) {
+    for_each_batch(plan_, block, [&](std::span<const std::size_t> vertices, std::span<const Grid_edge> grid_edges) {
+      const auto edges = function.edges(grid_edges);
+      part.evaluations += Function::evaluations(2 * edges.size());
+      const auto projected = intersect_edges<Traits>(function.traits(), edges);
+      for (std::size_t n = 0; n < vertices.size(); ++n) {
+        set_projected(vertices[n], projected[n], part);
+        if (edges[n].ends_at(surface_.points[vertices[n]]))
+          part.suspects.push_back({grid_edges[n].node[1], grid_edges[n].node[2]});
+      }
+    });
+    for_each_inner_vertex(plan_, inner_vertices_, block, [&](std::size_t v) {
+      set_projected(v, project_within_cell<Traits>(function, inner_vertex(v)), part);
+    });
+  }
+
+  void set_projected(std::size_t v, const Surface_point_3<Kernel>& projected, Part& part) {
     if (projected.has_converged) surface_.points[v] = projected.point;
     else surface_.vertex_status[v] = Point_status::UNCONVERGED;
-    if (projected.is_at_pole || projected.is_at_end) poles_[k].push_back(v);
-    evaluations_[k] += projected.evaluations;
-  }
-
-  /// Finds a zero of the function near a vertex inside a cell. It is looked for along each axis, between the vertex and
-  /// a wall a little within the cell, so that the vertex stays inside.
-  Surface_point_3<Kernel> project_within_cell(const Inner_vertex<FT>& vertex) const {
-    const auto& traits = function_.traits();
-    const Point_3 p = point_of(vertex);
-    Surface_point_3<Kernel> best{p, false, 1};
-    FT best_distance(1); // in squared steps of the lattice
-    const FT value = traits.value(p);
-    if (value == FT(0)) return {p, true, 1};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (const FT& wall : {FT(0.0625), FT(0.9375)}) {
-        auto end = vertex.offset;
-        end[axis] = wall;
-        const Point_3 q = function_.point(vertex.cell, end);
-        const FT end_value = traits.value(q);
-        ++best.evaluations;
-        if (!is_sign_change(value, end_value) || p == q) continue;
-        const auto found = intersect_segment(traits, p, q, value, end_value);
-        best.evaluations += found.evaluations;
-        const FT distance = (found.point - p).squared_length() / function_.lattice().steps()[axis].squared_length();
-        if (!found.has_converged || !(distance < best_distance)) continue;
-        best.point = found.point;
-        best.has_converged = true;
-        best_distance = distance;
-      }
-    return best;
+    if (projected.is_at_pole || projected.is_at_end) part.poles.push_back(v);
+    part.evaluations += projected.evaluations;
   }
 
   /// Finds the triangles of layer k that projection has turned over.
@@ -193,7 +186,8 @@ private:
 
   /// Puts back the vertices of flipped triangles, and of those that are flipped once other vertices are back.
   void undo_flips() {
-    std::vector<std::size_t> suspects = joined(flipped_);
+    std::vector<std::size_t> suspects;
+    for (const auto& of_layer : flipped_) suspects.insert(suspects.end(), of_layer.begin(), of_layer.end());
     for (std::size_t n = 0; n < suspects.size(); ++n) {
       const std::size_t t = suspects[n];
       if (!is_flipped_now(t)) continue;
@@ -216,7 +210,7 @@ private:
   /// Computes the linear position of a vertex again.
   Point_3 linear_position(std::size_t v) {
     if (is_inner(v)) return point_of(inner_vertex(v));
-    evaluations_[0] += Function::evaluations(2);
+    evaluations_ += Function::evaluations(2);
     return function_.edge(*numbering_.edge_of(v)).linear_intersection();
   }
 
@@ -247,12 +241,6 @@ private:
     });
   }
 
-  static std::vector<std::size_t> joined(const std::vector<std::vector<std::size_t>>& parts) {
-    std::vector<std::size_t> all;
-    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-    return all;
-  }
-
   bool is_inner(std::size_t v) const { return v >= numbering_.number_of_edge_vertices(); }
   const Inner_vertex<FT>& inner_vertex(std::size_t v) const {
     return inner_vertices_[v - numbering_.number_of_edge_vertices()];
@@ -264,9 +252,9 @@ private:
   const Isosurface_numbering& numbering_;
   const std::vector<Inner_vertex<FT>>& inner_vertices_;
   Isosurface_3<Kernel>& surface_;
-  std::vector<std::size_t> evaluations_;          // per plane
+  std::size_t evaluations_ = 0;
   std::vector<std::vector<std::size_t>> flipped_; // triangles per layer
-  std::vector<std::vector<std::size_t>> poles_;   // vertices per plane
+  std::vector<std::size_t> poles_;                // vertices
   Grid_rows suspects_;
   std::size_t flips_undone_ = 0;
 };

@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SHARED_SPLINE_ROUNDING_3_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SHARED_SPLINE_ROUNDING_3_H
 
+#include <equiaffine/Volume_view_3.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/volume/Spline_function_3.h>
 #include <equiaffine/volume/internal/Line_functionals.h>
 
@@ -20,14 +22,37 @@ struct Sample_format {
   FT greatest = 0; ///< the greatest magnitude of a sample that is finite
   bool are_floats = true;
 
-  explicit Sample_format(const std::vector<FT>& samples) {
-    for (const FT& x : samples)
-      if (std::isfinite(x)) {
-        greatest = std::max(greatest, std::abs(x));
-        are_floats = are_floats && x == FT(float(x));
-      }
+  void add(const FT& x) {
+    if (!std::isfinite(x)) return;
+    greatest = std::max(greatest, std::abs(x));
+    are_floats = are_floats && x == FT(float(x));
+  }
+
+  void add(const Sample_format& other) {
+    greatest = std::max(greatest, other.greatest);
+    are_floats = are_floats && other.are_floats;
   }
 };
+
+/// The format of the samples of a volume.
+template <class ConcurrencyTag, class Kernel>
+Sample_format<typename Kernel::FT> sample_format(const Volume_view_3<Kernel>& volume) {
+  using FT = typename Kernel::FT;
+  const auto [nx, ny, nz] = volume.lattice().size();
+  std::vector<Sample_format<FT>> of_planes(nz);
+  parallel_for<ConcurrencyTag>(0, nz, [&, nx = nx, ny = ny](std::size_t k) {
+    std::vector<FT> row(nx);
+    Sample_format<FT> format;
+    for (std::size_t j = 0; j < ny; ++j) {
+      volume.copy_line({0, j, k}, 0, row);
+      for (const FT& x : row) format.add(x);
+    }
+    of_planes[k] = format;
+  });
+  Sample_format<FT> format;
+  for (const auto& of_plane : of_planes) format.add(of_plane);
+  return format;
+}
 
 /// Estimates from above how far rounding may change the second derivatives of a spline, as if all samples were as large
 /// as the largest one: two roundings of every term, and one of the samples to float if all are floats.
@@ -51,10 +76,18 @@ public:
                                                 {spline.degree(), spline.scheme(), spline.border_degree(), smoothing});
       gains_[a] = {line.kinds(), [&](std::size_t kind) { return gains(line, kind); }};
     }
+    inside_ = error({gains_[0].inner_kind(), gains_[1].inner_kind(), gains_[2].inner_kind()});
   }
 
   /// The largest error of a second derivative in the coordinates of space, in the middle of a cell.
   FT operator()(const Cell& cell) const {
+    for (std::size_t a = 0; a < 3; ++a)
+      if (gains_[a].kind(cell[a]) != gains_[a].inner_kind()) return error(cell);
+    return inside_;
+  }
+
+private:
+  FT error(const Cell& cell) const {
     FT greatest = 0;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = i; j < 3; ++j) {
@@ -67,7 +100,6 @@ public:
     return greatest;
   }
 
-private:
   /// The greatest change of the value and of the first two derivatives along one axis by errors of magnitude 1, of all
   /// terms or of all samples.
   struct Gains {
@@ -100,6 +132,7 @@ private:
   typename Spline::Matrix to_lattice_;
   FT rounding_of_terms_, rounding_of_samples_; // of the largest ones
   std::array<internal::Per_kind_of_cell<Gains>, 3> gains_;
+  FT inside_ = 0; // the error in cells away from the borders
 };
 
 } // namespace equiaffine

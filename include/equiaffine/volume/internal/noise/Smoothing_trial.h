@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_VOLUME_INTERNAL_SMOOTHING_TRIAL_H
-#define EQUIAFFINE_VOLUME_INTERNAL_SMOOTHING_TRIAL_H
+#ifndef EQUIAFFINE_VOLUME_INTERNAL_NOISE_SMOOTHING_TRIAL_H
+#define EQUIAFFINE_VOLUME_INTERNAL_NOISE_SMOOTHING_TRIAL_H
 
-#include <equiaffine/Volume_3.h>
+#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/volume/internal/Line_functionals.h>
-#include <equiaffine/volume/internal/Spline_probe.h>
 #include <equiaffine/volume/internal/local_polynomial.h>
-#include <equiaffine/volume/internal/noise_measurement.h>
+#include <equiaffine/volume/internal/noise/Spline_probe.h>
+#include <equiaffine/volume/internal/noise/noise_measurement.h>
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ namespace equiaffine::internal {
 /// The cells in which scales of smoothing are compared, and the standard deviation of the noise in the samples.
 template <class Kernel>
 struct Smoothing_test_site {
-  const Volume_3<Kernel>& volume;
+  const Volume_view_3<Kernel>& volume;
   std::vector<std::array<std::size_t, 3>> cells;
   double deviation;
 };
@@ -32,14 +32,14 @@ public:
   using Site = Smoothing_test_site<Kernel>;
 
   Smoothing_trial(const Site& site, const Spline_rule<typename Kernel::FT>& rule)
-      : probe_(site.volume.lattice.size(), rule) {
+      : probe_(site.volume.lattice().size(), rule) {
     for (const auto& cell : site.cells) measured_.push_back(probe_.measure(site.volume, cell));
   }
 
   /// Whether this scale moves the surface that `unsmoothed` has: in more than a tenth of the cells the value changes by
   /// more than hypot(two standard deviations of the change that noise explains, the slope times a tenth of a voxel).
   bool moves_surface(const Smoothing_trial& unsmoothed, const Site& site) const {
-    const Volume_3<Kernel>& volume = site.volume;
+    const Volume_view_3<Kernel>& volume = site.volume;
     std::vector<double> excesses;
     for (std::size_t n = 0; n < site.cells.size(); ++n) {
       const auto& [i, j, k] = site.cells[n];
@@ -89,7 +89,7 @@ template <class Kernel>
 typename Kernel::FT least_risky_scale(const Smoothing_test_site<Kernel>& site, Spline_rule<typename Kernel::FT> rule) {
   using FT = typename Kernel::FT;
   using Trial = Smoothing_trial<Kernel>;
-  const auto& size = site.volume.lattice.size();
+  const auto& size = site.volume.lattice().size();
   const std::size_t shortest = *std::min_element(size.begin(), size.end());
   const Trial unsmoothed(site, rule);
   Trial last = unsmoothed;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_VOLUME_INTERNAL_SPLINE_PROBE_H
-#define EQUIAFFINE_VOLUME_INTERNAL_SPLINE_PROBE_H
+#ifndef EQUIAFFINE_VOLUME_INTERNAL_NOISE_SPLINE_PROBE_H
+#define EQUIAFFINE_VOLUME_INTERNAL_NOISE_SPLINE_PROBE_H
 
-#include <equiaffine/Volume_3.h>
+#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/volume/internal/Line_functionals.h>
 
 #include <algorithm>
@@ -29,14 +29,16 @@ public:
   }
 
   /// The value and the fourth derivatives along x, y and z.
-  std::array<double, 4> measure(const Volume_3<Kernel>& volume, const Cell& cell) const {
+  std::array<double, 4> measure(const Volume_view_3<Kernel>& volume, const Cell& cell) const {
+    std::vector<FT> samples(weights_[0][cell[0]].value.size());
     const Weights &y = weights_[1][cell[1]], &z = weights_[2][cell[2]];
     std::array<double, 4> sum{};
     for (std::size_t k = 0; k < z.value.size(); ++k) {
       double value = 0, along_x = 0, along_y = 0;
       for (std::size_t j = 0; j < y.value.size(); ++j) {
         const std::array<std::size_t, 3> node = {first(0, cell), first(1, cell) + j, first(2, cell) + k};
-        const auto line = measure_line(&volume.values[volume.lattice.index(node[0], node[1], node[2])], cell[0]);
+        volume.copy_line(node, 0, samples);
+        const Pair line = measure_line(samples, cell[0]);
         value += y.value[j] * line.value;
         along_x += y.value[j] * line.derivative;
         along_y += y.derivative[j] * line.value;
@@ -93,7 +95,7 @@ private:
   };
 
   /// The value and the fourth derivative of a line along x, from its first sample that is used.
-  Pair measure_line(const FT* samples, std::size_t cell) const {
+  Pair measure_line(const std::vector<FT>& samples, std::size_t cell) const {
     const Weights& x = weights_[0][cell];
     Pair sum{0, 0};
     for (std::size_t i = 0; i < x.value.size(); ++i) {

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_VOLUME_VIEW_3_H
+#define EQUIAFFINE_VOLUME_VIEW_3_H
+
+#include <equiaffine/Volume_3.h>
+#include <equiaffine/base/internal/shared/check_argument.h>
+#include <equiaffine/base/internal/shared/large_pages.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
+
+#include <CGAL/tags.h>
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+namespace equiaffine {
+
+/// A volume whose samples stay where they are, in the type of numbers that they have: integers and floating-point
+/// numbers of any size, with any distance between neighbors. They are converted when they are asked for, a line at a
+/// time. A NaN marks a node without a value.
+///
+///     std::vector<std::uint16_t> samples = ...; // i fastest
+///     Sampled_function_traits_3<Kernel> f(Volume_view_3<Kernel>(lattice, samples.data()));
+///
+/// The samples must neither change nor move while a view of them, or a function that was made of one, is in use. Copies
+/// share them. Const members may be called from many threads at once.
+template <class Kernel>
+class Volume_view_3 {
+public:
+  using FT = typename Kernel::FT;                ///< the number type of the kernel, to which samples are converted
+  using Lattice = Lattice_3<Kernel>;             ///< the type of the lattice
+  using Node = std::array<std::size_t, 3>;       ///< i, j, k
+  using Strides = std::array<std::ptrdiff_t, 3>; ///< distances in bytes
+
+  /// Views samples that lie one after the other, i fastest. If there is an `owner`, it is kept as long as the view.
+  template <class Number>
+  Volume_view_3(const Lattice& lattice, const Number* samples, std::shared_ptr<const void> owner = nullptr)
+      : Volume_view_3(lattice, samples, packed_strides(lattice.size(), sizeof(Number)), std::move(owner)) {}
+
+  /// Views samples whose neighbors along each axis lie `strides` apart. Strides may be negative, and need not be
+  /// multiples of the size of a number.
+  template <class Number>
+  Volume_view_3(const Lattice& lattice, const Number* samples, const Strides& strides,
+                std::shared_ptr<const void> owner = nullptr)
+      : lattice_(lattice), first_(reinterpret_cast<const std::byte*>(samples)), strides_(strides),
+        convert_(&convert<Number>), owner_(std::move(owner)) {
+    static_assert(std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>); // a byte may be no bool
+  }
+
+  /// Views the values of a volume, which must outlive the view. \throw std::invalid_argument unless there are as many of
+  /// them as nodes
+  static Volume_view_3 of(const Volume_3<Kernel>& volume) {
+    check_argument(volume.values.size() == volume.lattice.number_of_nodes(),
+                   "a volume has not as many values as its lattice has nodes: choose the lattice that it has");
+    return Volume_view_3(volume.lattice, volume.values.data());
+  }
+  static Volume_view_3 of(Volume_3<Kernel>&&) = delete;
+
+  /// Takes a volume over. \throw std::invalid_argument unless there are as many values as nodes
+  Volume_view_3(Volume_3<Kernel> volume) // NOLINT(google-explicit-constructor): a volume is a view of its own values
+      : Volume_view_3(std::make_shared<const Volume_3<Kernel>>(std::move(volume))) {}
+
+  const Lattice& lattice() const { return lattice_; } ///< where the samples are
+
+  /// The sample at node (i, j, k).
+  FT operator()(std::size_t i, std::size_t j, std::size_t k) const {
+    FT sample;
+    convert_(at({i, j, k}), 0, 1, &sample);
+    return sample;
+  }
+
+  /// Copies the samples at a node and those that follow it along an axis, as many as there is room for.
+  void copy_line(const Node& first, std::size_t axis, std::span<FT> out) const {
+    convert_(at(first), strides_[axis], out.size(), out.data());
+  }
+
+  /// Copies the samples at a node and those before it along an axis, as many as there is room for.
+  void copy_line_backwards(const Node& last, std::size_t axis, std::span<FT> out) const {
+    convert_(at(last), -strides_[axis], out.size(), out.data());
+  }
+
+  /// Copies all samples.
+  template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+  Volume_3<Kernel> to_volume() const {
+    Volume_3<Kernel> result{lattice_, {}};
+    resize_with_large_pages(result.values, lattice_.number_of_nodes());
+    const auto [nx, ny, nz] = lattice_.size();
+    parallel_for<ConcurrencyTag>(0, ny * nz, [&, nx = nx, ny = ny](std::size_t row) {
+      copy_line({0, row % ny, row / ny}, 0, std::span(result.values).subspan(row * nx, nx));
+    });
+    return result;
+  }
+
+private:
+  explicit Volume_view_3(std::shared_ptr<const Volume_3<Kernel>> volume) : Volume_view_3(of(*volume)) {
+    owner_ = std::move(volume);
+  }
+
+  static Strides packed_strides(const Node& size, std::size_t width) {
+    const auto step = std::ptrdiff_t(width), row = step * std::ptrdiff_t(size[0]);
+    return {step, row, row * std::ptrdiff_t(size[1])};
+  }
+
+  template <class Number>
+  static void convert(const std::byte* first, std::ptrdiff_t stride, std::size_t count, FT* out) {
+    constexpr std::size_t width = sizeof(Number), at_once = 16; // so many at a time the compiler converts in packs
+    std::array<Number, at_once> numbers;                        // a copy, as samples may not be aligned
+    std::size_t n = 0;
+    if (stride == std::ptrdiff_t(width))
+      for (; n + at_once <= count; n += at_once) {
+        std::memcpy(numbers.data(), first + n * width, sizeof numbers);
+        for (std::size_t i = 0; i < at_once; ++i) out[n + i] = FT(numbers[i]);
+      }
+    for (; n < count; ++n) {
+      std::memcpy(numbers.data(), first + std::ptrdiff_t(n) * stride, width);
+      out[n] = FT(numbers[0]);
+    }
+  }
+
+  const std::byte* at(const Node& n) const {
+    return first_ + std::ptrdiff_t(n[0]) * strides_[0] + std::ptrdiff_t(n[1]) * strides_[1] +
+           std::ptrdiff_t(n[2]) * strides_[2];
+  }
+
+  Lattice lattice_;
+  const std::byte* first_;
+  Strides strides_;
+  void (*convert_)(const std::byte*, std::ptrdiff_t, std::size_t, FT*); // knows the type of the numbers
+  std::shared_ptr<const void> owner_;
+};
+
+} // namespace equiaffine
+
+#endif
