@@ -7,6 +7,7 @@
 
 #include <CGAL/number_utils.h>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -117,9 +118,10 @@ public:
   FT sample(std::size_t i, std::size_t j, std::size_t k) const requires LatticeImplicitFunctionTraits_3<Base> {
     return shifted(base_.sample(i, j, k));
   }
-  /// The samples of the base at node (i, j, k) and after it along i, as value() changes values.
-  void samples(std::size_t i, std::size_t j, std::size_t k, std::span<FT> out) const requires HasSamples<Base> {
-    base_.samples(i, j, k, out);
+  /// The samples of the base at the nodes of a block, as value() changes values.
+  void samples(const std::array<std::size_t, 3>& first, const std::array<std::size_t, 3>& size,
+               std::span<FT> out) const requires HasSamples<Base> {
+    base_.samples(first, size, out);
     for (FT& sample : out) sample = shifted(sample);
   }
   /// The cell of the base's lattice that contains p.

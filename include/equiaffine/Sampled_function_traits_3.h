@@ -65,9 +65,10 @@ public:
 
   /// The sample at node (i, j, k).
   FT sample(std::size_t i, std::size_t j, std::size_t k) const { return volume_(i, j, k); }
-  /// The samples at node (i, j, k) and those after it along i, as many as there is room for.
-  void samples(std::size_t i, std::size_t j, std::size_t k, std::span<FT> out) const {
-    volume_.copy_line({i, j, k}, 0, out);
+  /// The samples at the nodes of a block of that size, i fastest.
+  void samples(const std::array<std::size_t, 3>& first, const std::array<std::size_t, 3>& size,
+               std::span<FT> out) const {
+    volume_.copy_block(first, size, out);
   }
 
   /// The cell of the lattice that contains p, if p is in the support of the spline.

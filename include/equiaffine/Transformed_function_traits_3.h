@@ -155,9 +155,10 @@ public:
   FT sample(std::size_t i, std::size_t j, std::size_t k) const requires LatticeImplicitFunctionTraits_3<Base> {
     return base_.sample(i, j, k);
   }
-  /// The samples of the base at node (i, j, k) and after it along i.
-  void samples(std::size_t i, std::size_t j, std::size_t k, std::span<FT> out) const requires HasSamples<Base> {
-    base_.samples(i, j, k, out);
+  /// The samples of the base at the nodes of a block.
+  void samples(const std::array<std::size_t, 3>& first, const std::array<std::size_t, 3>& size,
+               std::span<FT> out) const requires HasSamples<Base> {
+    base_.samples(first, size, out);
   }
   /// The cell of the base's lattice that contains the preimage of p.
   auto cell_of(const Point_3& p) const requires CellwiseImplicitFunctionTraits_3<Base> {

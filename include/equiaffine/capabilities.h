@@ -16,6 +16,7 @@
 
 #include <CGAL/Bbox_3.h>
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <span>
@@ -75,11 +76,12 @@ concept HasIntersectSegment = requires(const Traits& traits, const typename Trai
   { traits.intersect_segment(p, p, f, f) } -> std::same_as<Surface_point_3<Kernel_of<Traits>>>;
 };
 
-/// A model hands out the samples of a row of nodes at once.
+/// A model hands out the samples of a block of nodes at once.
 /// See \ref concept_capabilities.
 template <class Traits>
-concept HasSamples = requires(const Traits& traits, std::size_t i, std::span<typename Traits::FT> out) {
-  traits.samples(i, i, i, out);
+concept HasSamples = requires(const Traits& traits, const std::array<std::size_t, 3>& node,
+                              std::span<typename Traits::FT> out) {
+  traits.samples(node, node, out);
 };
 
 // clang-format on
@@ -172,13 +174,18 @@ Surface_point_3<Kernel_of<Traits>> intersect_segment(const Traits& traits, const
   else return internal::zero_on_segment<Kernel_of<Traits>>(traits, a, b, fa, fb);
 }
 
-/// Writes the samples of a function at node (i, j, k) of its lattice and those after it along i, as many as there is room
-/// for.
+/// Writes the samples of a function at the nodes of a block of its lattice, i fastest: the block begins with node `first`, and
+/// has `size` nodes along each axis.
 template <LatticeImplicitFunctionTraits_3 Traits>
-void samples(const Traits& traits, std::size_t i, std::size_t j, std::size_t k, std::span<typename Traits::FT> out) {
-  if constexpr (HasSamples<Traits>) traits.samples(i, j, k, out);
-  else
-    for (std::size_t n = 0; n < out.size(); ++n) out[n] = traits.sample(i + n, j, k);
+void samples(const Traits& traits, const std::array<std::size_t, 3>& first, const std::array<std::size_t, 3>& size,
+             std::span<typename Traits::FT> out) {
+  if constexpr (HasSamples<Traits>) traits.samples(first, size, out);
+  else {
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < size[2]; ++k)
+      for (std::size_t j = 0; j < size[1]; ++j)
+        for (std::size_t i = 0; i < size[0]; ++i) out[n++] = traits.sample(first[0] + i, first[1] + j, first[2] + k);
+  }
 }
 
 } // namespace equiaffine

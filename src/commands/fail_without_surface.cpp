@@ -41,7 +41,7 @@ std::pair<double, double> range_on_grid(const Traits& function) {
     std::vector<double> row(nx);
     for (std::size_t k = 0; k < nz; ++k)
       for (std::size_t j = 0; j < ny; ++j) {
-        samples(function, 0, j, k, row);
+        samples(function, {0, j, k}, {nx, 1, 1}, row);
         add(row);
       }
   } else {

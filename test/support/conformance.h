@@ -187,7 +187,7 @@ void expect_same_numbers(const Wrapper& wrapper) {
     if constexpr (LatticeImplicitFunctionTraits_3<Wrapper>) {
       EXPECT_TRUE(same_bits(wrapper.sample(i, i, i), base.sample(i, i, i)));
       std::array<double, 2> row;
-      samples(wrapper, i, i, i, row);
+      samples(wrapper, {i, i, i}, {2, 1, 1}, row);
       EXPECT_TRUE(same_bits(row[0], base.sample(i, i, i)) && same_bits(row[1], base.sample(i + 1, i, i)));
     }
     if constexpr (CellwiseImplicitFunctionTraits_3<Wrapper>) {

@@ -35,6 +35,10 @@ void expect_numbers(const View& view) {
   EXPECT_EQ(column, (std::vector{number(2, 0, 1), number(2, 1, 1), number(2, 2, 1)}));
   view.copy_line_backwards({3, 1, 1}, 2, depth);
   EXPECT_EQ(depth, (std::vector{number(3, 1, 1), number(3, 1, 0)}));
+  std::vector<double> block(8);
+  view.copy_block({2, 1, 0}, {2, 2, 2}, block);
+  EXPECT_EQ(block, (std::vector{number(2, 1, 0), number(3, 1, 0), number(2, 2, 0), number(3, 2, 0), number(2, 1, 1),
+                                number(3, 1, 1), number(2, 2, 1), number(3, 2, 1)}));
   view.copy_line_backwards({3, 0, 0}, 0, row);
   EXPECT_EQ(row, (std::vector{number(3, 0, 0), number(2, 0, 0), number(1, 0, 0)}));
 }
@@ -63,6 +67,18 @@ TYPED_TEST(Volume_view_3_of, numbers_with_any_strides_and_alignment) {
                 sizeof sample);
   }
   expect_numbers(View(lattice, reinterpret_cast<const TypeParam*>(first), {i, j, k}));
+}
+
+TYPED_TEST(Volume_view_3_of, numbers_with_k_or_j_fastest) {
+  constexpr std::ptrdiff_t width = sizeof(TypeParam);
+  for (const View::Strides& strides : {View::Strides{6 * width, 2 * width, width}, {3 * width, width, 12 * width}}) {
+    std::vector<TypeParam> samples(24);
+    for (std::size_t n = 0; n < 24; ++n)
+      samples[std::size_t(std::ptrdiff_t(n % 4) * strides[0] + std::ptrdiff_t(n / 4 % 3) * strides[1] +
+                          std::ptrdiff_t(n / 12) * strides[2]) /
+              sizeof(TypeParam)] = TypeParam(n);
+    expect_numbers(View(lattice, samples.data(), strides));
+  }
 }
 
 TEST(Volume_view_3, a_volume_is_viewed_or_taken_over) {

@@ -46,7 +46,8 @@ namespace equiaffine {
 /// Aldroubi, Eden: B-spline signal processing, 1993; de Boor: Quasiinterpolants, 1990.
 ///
 /// The function keeps the samples, as they are. It computes its coefficients, one number per node and per padding node,
-/// when it is first evaluated; restricted_to_cells() makes functions that have only those of a block of cells. Copies
+/// when it is first evaluated, or at once for interpolation; restricted_to_cells() makes functions that have only those of
+/// a block of cells. Copies
 /// share samples and coefficients. Const members may be called from many threads at once.
 template <class Kernel>
 class Spline_function_3 {
@@ -78,6 +79,7 @@ public:
     Volume_view_3<Kernel> smooth = smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing));
     fit_.border_degree = internal::border_degree(smooth, degree(), scheme());
     source_ = std::make_shared<const internal::Coefficient_source<Kernel>>(std::move(smooth), fit_, tag);
+    if (scheme() == Spline_scheme::INTERPOLATION) source_->all(); // no part of them can be computed alone
   }
 
   const Lattice& lattice() const { return support_.lattice(); } ///< where the samples are

@@ -130,13 +130,18 @@ private:
     for (std::size_t a = 0; a < 3; ++a) given[a] = line.samples_of(part(a), nodes[a]);
     const auto& [x, y, z] = given;
     const std::size_t slab = size_[0] * size_[1];
-    std::vector<FT> samples(x.size()), along_x(y.size() * size_[0]);
-    const auto along_y = numbers(z.size() * slab);
+    constexpr std::size_t planes_at_once = 16;
+    const std::size_t plane = x.size() * y.size();
+    const auto samples = numbers(planes_at_once * plane), along_y = numbers(z.size() * slab);
+    std::vector<FT> along_x(y.size() * size_[0]);
     for (std::size_t k = z.first; k < z.end; ++k) {
-      for (std::size_t j = y.first; j < y.end; ++j) {
-        volume.copy_line({x.first, j, k}, 0, samples);
-        line.apply_to_part(samples.data(), x, nodes[0], 1, part(0), &along_x[(j - y.first) * size_[0]], 1);
+      const std::size_t n = (k - z.first) % planes_at_once;
+      if (n == 0) {
+        const std::size_t planes = std::min(planes_at_once, z.end - k);
+        volume.copy_block({x.first, y.first, k}, {x.size(), y.size(), planes}, {samples.get(), planes * plane});
       }
+      for (std::size_t j = 0; j < y.size(); ++j)
+        line.apply_to_part(&samples[n * plane + j * x.size()], x, nodes[0], 1, part(0), &along_x[j * size_[0]], 1);
       line.apply_to_part(along_x.data(), y, nodes[1], size_[0], part(1), &along_y[(k - z.first) * slab], size_[0]);
     }
     line.apply_to_part(along_y.get(), z, nodes[2], slab, part(2), values_.get(), slab);

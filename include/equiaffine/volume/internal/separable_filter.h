@@ -24,18 +24,22 @@ public:
       : size_(size), row_(size[0] + 2 * padding), slab_(row_ * (size[1] + 2 * padding)), padding_(padding), to_(to) {}
 
   void operator()(const std::array<const Filter*, 3>& filters, const Volume_view_3<Kernel>& volume) const {
-    const auto [nx, ny, nz] = size_;
-    parallel_for<ConcurrencyTag>(0, nz, [&, nx = nx, ny = ny](std::size_t k) {
-      std::vector<FT> samples(nx);
-      for (std::size_t j = 0; j < ny; ++j) {
-        volume.copy_line({0, j, k}, 0, samples);
-        filters[0]->apply(samples.data(), nx, 1, to_ + (k + padding_) * slab_ + (j + padding_) * row_, 1);
+    const std::size_t ny = size_[1], nz = size_[2];
+    constexpr std::size_t planes_at_once = 16;
+    parallel_for<ConcurrencyTag>(0, (nz + planes_at_once - 1) / planes_at_once, [&](std::size_t n) {
+      const std::size_t first = n * planes_at_once, planes = std::min(planes_at_once, size_[2] - first);
+      std::vector<FT> samples(size_[0] * planes);
+      for (std::size_t j = 0; j < size_[1]; ++j) {
+        volume.copy_block({0, j, first}, {size_[0], 1, planes}, samples);
+        for (std::size_t k = 0; k < planes; ++k)
+          filters[0]->apply(&samples[k * size_[0]], size_[0], 1,
+                            to_ + (first + k + padding_) * slab_ + (j + padding_) * row_, 1);
       }
     });
-    parallel_for<ConcurrencyTag>(
-        0, nz, [&, ny = ny](std::size_t k) { in_place(*filters[1], to_ + (k + padding_) * slab_, ny, row_); });
+    parallel_for<ConcurrencyTag>(0, nz,
+                                 [&](std::size_t k) { in_place(*filters[1], to_ + (k + padding_) * slab_, ny, row_); });
     parallel_for<ConcurrencyTag>(0, ny + 2 * padding_,
-                                 [&, nz = nz](std::size_t j) { in_place(*filters[2], to_ + j * row_, nz, slab_); });
+                                 [&](std::size_t j) { in_place(*filters[2], to_ + j * row_, nz, slab_); });
   }
 
 private:

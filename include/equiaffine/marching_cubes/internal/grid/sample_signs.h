@@ -50,8 +50,9 @@ public:
 
   std::size_t evaluations() const { return evaluations_; }
 
-  /// Samples at all nodes of a block, row by row.
+  /// Samples at all nodes of a block.
   void sample_all(const Node_block& block) {
+    if constexpr (has_samples) return read_samples(block);
     for (std::size_t k = block[2].first; k < block[2].end; ++k)
       for (std::size_t j = block[1].first; j < block[1].end; ++j)
         for (std::size_t i = block[0].first; i < block[0].end; i += batch)
@@ -64,6 +65,19 @@ public:
   void sample_near_surface(const Node_block& block) { sample_part(function_.traits(), block); }
 
 private:
+  /// Takes the signs of the samples of a block, all planes at once for the sake of arrays in which k is fastest.
+  void read_samples(const Node_block& block) {
+    const std::size_t planes = block[2].size();
+    std::vector<FT> values(batch * planes);
+    for (std::size_t j = block[1].first; j < block[1].end; ++j)
+      for (std::size_t i = block[0].first; i < block[0].end; i += batch) {
+        const std::size_t n = std::min(batch, block[0].end - i);
+        samples(function_.traits(), {i, j, block[2].first}, {n, 1, planes}, std::span(values).first(n * planes));
+        for (std::size_t k = 0; k < planes; ++k)
+          signs_.set(i, j, block[2].first + k, sign_word(&values[k * n], n, FT(0)));
+      }
+  }
+
   /// Samples a block of which `traits` has the values: deep in the recursion it is a part of the function.
   void sample_part(const Batch_function_traits_3<Traits>& traits, const Node_block& block) {
     const auto box = box_around(function_.lattice(), block);
@@ -105,16 +119,11 @@ private:
   /// Returns the number of values.
   std::size_t compute_values(const Batch_function_traits_3<Traits>& traits, const Node_block& block) {
     std::size_t n = 0;
-    const std::size_t row = block[0].size();
     for (std::size_t k = block[2].first; k < block[2].end; ++k)
-      for (std::size_t j = block[1].first; j < block[1].end; ++j, n += row)
-        if constexpr (has_samples) samples(traits, block[0].first, j, k, std::span(values_).subspan(n, row));
-        else
-          for (std::size_t i = 0; i < row; ++i) points_[n + i] = function_.point({block[0].first + i, j, k});
-    if constexpr (!has_samples) {
-      traits.values(std::span<const Point_3>(points_).first(n), std::span(values_).first(n));
-      evaluations_ += n;
-    }
+      for (std::size_t j = block[1].first; j < block[1].end; ++j)
+        for (std::size_t i = block[0].first; i < block[0].end; ++i) points_[n++] = function_.point({i, j, k});
+    traits.values(std::span<const Point_3>(points_).first(n), std::span(values_).first(n));
+    evaluations_ += n;
     return n;
   }
 
@@ -135,7 +144,7 @@ struct Sampled_signs {
 /// have their values at the nodes.
 template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
 Sampled_signs sample_signs(const Lattice_function<Traits>& function) {
-  constexpr std::size_t planes_per_slab = 8;
+  constexpr std::size_t planes_per_slab = Lattice_function<Traits>::has_samples ? 16 : 8;
   const auto& size = function.lattice().size();
   Node_signs signs(size);
   std::vector<std::size_t> evaluations((size[2] + planes_per_slab - 1) / planes_per_slab); // per slab

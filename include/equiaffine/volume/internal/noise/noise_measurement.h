@@ -52,10 +52,9 @@ public:
   void for_each_row(std::size_t first, std::size_t end, const Visit& visit) const {
     const auto [nx, ny, nz] = volume_.lattice().size();
     std::vector<Word> found(words_);
-    Plane here, above = read(first);
+    const std::vector<Plane> planes = read(first, std::min(end + 1, nz));
     for (std::size_t k = first; k < end; ++k) {
-      std::swap(here, above);
-      if (k + 1 < nz && (isovalue_ || k + 1 < end)) above = read(k + 1);
+      const Plane& here = planes[k - first];
       for (std::size_t j = 0; j < ny; ++j) {
         const Word* const side = &here.below[j * words_];
         for (std::size_t w = 0; w < words_; ++w) {
@@ -63,7 +62,7 @@ public:
           Word differ = side[w] ^ (side[w] >> 1 | (is_last ? 0 : side[w + 1] << 63));
           if (is_last) differ &= ~(Word(1) << (nx - 1) % 64);
           if (j + 1 < ny) differ |= side[w] ^ side[w + words_];
-          if (k + 1 < nz && isovalue_) differ |= side[w] ^ above.below[j * words_ + w];
+          if (k + 1 < nz && isovalue_) differ |= side[w] ^ planes[k + 1 - first].below[j * words_ + w];
           found[w] = here.finite[j * words_ + w] & (isovalue_ ? differ : ~Word(0));
         }
         visit(j, k, std::span<const Word>(found));
@@ -77,25 +76,27 @@ private:
     std::vector<Word> finite, below;
   };
 
-  Plane read(std::size_t k) const {
+  std::vector<Plane> read(std::size_t first_plane, std::size_t end) const {
     const auto [nx, ny, nz] = volume_.lattice().size();
     const FT isovalue = isovalue_.value_or(FT(0));
-    std::vector<FT> samples(nx);
-    Plane plane;
+    std::vector<Plane> planes(end - first_plane);
+    std::vector<FT> samples(nx * planes.size());
     for (std::size_t j = 0; j < ny; ++j) {
       Progress_observer::step();
-      volume_.copy_line({0, j, k}, 0, samples);
-      for (std::size_t first = 0; first < nx; first += 64) {
-        Word finite = 0, below = 0;
-        for (std::size_t i = first; i < std::min(first + 64, nx); ++i) {
-          finite |= Word(samples[i] - samples[i] == FT(0)) << i % 64;
-          below |= Word(samples[i] < isovalue) << i % 64;
+      volume_.copy_block({0, j, first_plane}, {nx, 1, planes.size()}, samples);
+      for (std::size_t k = 0; k < planes.size(); ++k)
+        for (std::size_t first = 0; first < nx; first += 64) {
+          Word finite = 0, below = 0;
+          for (std::size_t i = first; i < std::min(first + 64, nx); ++i) {
+            const FT sample = samples[k * nx + i];
+            finite |= Word(sample - sample == FT(0)) << i % 64;
+            below |= Word(sample < isovalue) << i % 64;
+          }
+          planes[k].finite.push_back(finite);
+          planes[k].below.push_back(below);
         }
-        plane.finite.push_back(finite);
-        plane.below.push_back(below);
-      }
     }
-    return plane;
+    return planes;
   }
 
   const Volume_view_3<Kernel>& volume_;
@@ -125,9 +126,9 @@ std::vector<std::array<std::size_t, 3>> nodes_to_measure(const Volume_view_3<Ker
                                 if (j >= margin && j + margin < size[1]) visit(j, plane, row);
                               });
   };
-  constexpr std::size_t planes_at_once = 8; // of which one more is read
-  const std::size_t planes = size[2] - 2 * margin;
-  parallel_for<ConcurrencyTag>(0, (planes + planes_at_once - 1) / planes_at_once, [&](std::size_t n) {
+  constexpr std::size_t planes_at_once = 16; // of which one more is read
+  const std::size_t blocks = (size[2] - 2 * margin + planes_at_once - 1) / planes_at_once;
+  parallel_for<ConcurrencyTag>(0, blocks, [&](std::size_t n) {
     const std::size_t k = margin + n * planes_at_once;
     for_each_row(k, std::min(k + planes_at_once, size[2] - margin),
                  [&](std::size_t, std::size_t plane, std::span<const std::uint64_t> row) {
@@ -139,16 +140,21 @@ std::vector<std::array<std::size_t, 3>> nodes_to_measure(const Volume_view_3<Ker
   const std::size_t count = first.back();
   if (count == 0 && isovalue) return nodes_to_measure<ConcurrencyTag, Kernel>(volume, std::nullopt, margin, most);
   const std::size_t step = count / most + 1;
-  std::vector<std::array<std::size_t, 3>> nodes;
-  for (std::size_t k = margin; k < size[2] - margin; ++k) {
+  std::vector<std::vector<std::array<std::size_t, 3>>> chosen(blocks);
+  parallel_for<ConcurrencyTag>(0, blocks, [&](std::size_t block) {
+    const std::size_t k = margin + block * planes_at_once,
+                      end_of_planes = std::min(k + planes_at_once, size[2] - margin);
     std::size_t n = first[k];
-    if ((first[k + 1] + step - 1 - step / 2) / step == (n + step - 1 - step / 2) / step) continue; // none is chosen
-    for_each_row(k, k + 1, [&](std::size_t j, std::size_t, std::span<const std::uint64_t> row) {
+    const auto chosen_before = [&](std::size_t number) { return (number + step - 1 - step / 2) / step; };
+    if (chosen_before(n) == chosen_before(first[end_of_planes])) return;
+    for_each_row(k, end_of_planes, [&](std::size_t j, std::size_t plane, std::span<const std::uint64_t> row) {
       for (std::size_t w = 0; w < row.size(); ++w)
         for (std::uint64_t bits = within_margins(row[w], w); bits != 0; bits &= bits - 1)
-          if (n++ % step == step / 2) nodes.push_back({64 * w + std::size_t(std::countr_zero(bits)), j, k});
+          if (n++ % step == step / 2) chosen[block].push_back({64 * w + std::size_t(std::countr_zero(bits)), j, plane});
     });
-  }
+  });
+  std::vector<std::array<std::size_t, 3>> nodes;
+  for (const auto& of_block : chosen) nodes.insert(nodes.end(), of_block.begin(), of_block.end());
   return nodes;
 }
 

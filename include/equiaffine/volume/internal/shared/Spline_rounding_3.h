@@ -38,19 +38,21 @@ struct Sample_format {
 template <class ConcurrencyTag, class Kernel>
 Sample_format<typename Kernel::FT> sample_format(const Volume_view_3<Kernel>& volume) {
   using FT = typename Kernel::FT;
-  const auto [nx, ny, nz] = volume.lattice().size();
-  std::vector<Sample_format<FT>> of_planes(nz);
-  parallel_for<ConcurrencyTag>(0, nz, [&, nx = nx, ny = ny](std::size_t k) {
-    std::vector<FT> row(nx);
+  constexpr std::size_t planes_at_once = 16;
+  const auto& size = volume.lattice().size();
+  std::vector<Sample_format<FT>> of_planes((size[2] + planes_at_once - 1) / planes_at_once);
+  parallel_for<ConcurrencyTag>(0, of_planes.size(), [&](std::size_t n) {
+    const std::size_t k = n * planes_at_once, planes = std::min(planes_at_once, size[2] - k);
+    std::vector<FT> samples(size[0] * planes);
     Sample_format<FT> format;
-    for (std::size_t j = 0; j < ny; ++j) {
-      volume.copy_line({0, j, k}, 0, row);
-      for (const FT& x : row) format.add(x);
+    for (std::size_t j = 0; j < size[1]; ++j) {
+      volume.copy_block({0, j, k}, {size[0], 1, planes}, samples);
+      for (const FT& x : samples) format.add(x);
     }
-    of_planes[k] = format;
+    of_planes[n] = format;
   });
   Sample_format<FT> format;
-  for (const auto& of_plane : of_planes) format.add(of_plane);
+  for (const auto& of_some : of_planes) format.add(of_some);
   return format;
 }
 
