@@ -23,8 +23,8 @@
 namespace equiaffine {
 
 /// A volume whose samples stay where they are, in the type of numbers that they have: integers and floating-point
-/// numbers of any size, with any distance between neighbors. They are converted when they are asked for, a line at a
-/// time. A NaN marks a node without a value.
+/// numbers of any size, with any distance between neighbors. They are converted when they are asked for, a line or a
+/// block at a time. A NaN marks a node without a value.
 ///
 ///     std::vector<std::uint16_t> samples = ...; // i fastest
 ///     Sampled_function_traits_3<Kernel> f(Volume_view_3<Kernel>(lattice, samples.data()));
@@ -38,6 +38,9 @@ public:
   using Lattice = Lattice_3<Kernel>;             ///< the type of the lattice
   using Node = std::array<std::size_t, 3>;       ///< i, j, k
   using Strides = std::array<std::ptrdiff_t, 3>; ///< distances in bytes
+
+  /// Blocks of so many planes use up what the memory hands out at once where k is fastest: 64 bytes are 16 floats.
+  static constexpr std::size_t planes_at_once = 16;
 
   /// Views samples that lie one after the other, i fastest. If there is an `owner`, it is kept as long as the view.
   template <class Number>
@@ -115,7 +118,6 @@ public:
     Volume_3<Kernel> result{lattice_, {}};
     resize_with_large_pages(result.values, lattice_.number_of_nodes());
     const auto [nx, ny, nz] = lattice_.size();
-    constexpr std::size_t planes_at_once = 16;
     parallel_for<ConcurrencyTag>(
         0, (nz + planes_at_once - 1) / planes_at_once, [&, nx = nx, ny = ny, nz = nz](std::size_t n) {
           const std::size_t k = n * planes_at_once, planes = std::min(planes_at_once, nz - k);

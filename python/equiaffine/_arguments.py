@@ -78,7 +78,7 @@ def thread_words(threads):
 
 
 def numbers_in(name, value, count):
-    """So many finite numbers, of which one may stand for all where that is said."""
+    """An array of so many finite numbers."""
     try:
         if isinstance(value, str):
             raise ValueError

@@ -12,11 +12,11 @@
 
 namespace equiaffine {
 
-/// Where samples that a file has as they are in memory stay: in the file, which then must not be cut short, or read into
+/// Samples that a file has as they are in memory stay in the file, which then must not be cut short, or are read into
 /// memory.
 enum class Samples_in { FILE, MEMORY };
 
-/// Where the samples of a volume lie in a file, one after the other, as they are in memory.
+/// This is the place in a file where the samples of a volume lie one after the other, as they are in memory.
 struct Raw_data {
   std::string path;
   std::size_t first; ///< the place of the first byte

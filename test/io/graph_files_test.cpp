@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files of meshes and points of CGAL with their property maps.
+#include "support/same_bits.h"
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Input_error.h>
 #include <equiaffine/analytic_functions.h>
@@ -18,7 +19,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -63,11 +63,6 @@ private:
 
 auto torus() {
   return make_analytic_traits<Kernel>(analytic_functions::Torus{1, 0.4}, CGAL::Bbox_3(-1.5, -1.5, -1, 1.5, 1.5, 1));
-}
-
-template <class T>
-bool same_bits(const T& a, const T& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 template <class T>

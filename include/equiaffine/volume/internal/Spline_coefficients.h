@@ -130,7 +130,7 @@ private:
     for (std::size_t a = 0; a < 3; ++a) given[a] = line.samples_of(part(a), nodes[a]);
     const auto& [x, y, z] = given;
     const std::size_t slab = size_[0] * size_[1];
-    constexpr std::size_t planes_at_once = 16;
+    constexpr std::size_t planes_at_once = Volume_view_3<Kernel>::planes_at_once;
     const std::size_t plane = x.size() * y.size();
     const auto samples = numbers(planes_at_once * plane), along_y = numbers(z.size() * slab);
     std::vector<FT> along_x(y.size() * size_[0]);

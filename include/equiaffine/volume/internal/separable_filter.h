@@ -25,7 +25,7 @@ public:
 
   void operator()(const std::array<const Filter*, 3>& filters, const Volume_view_3<Kernel>& volume) const {
     const std::size_t ny = size_[1], nz = size_[2];
-    constexpr std::size_t planes_at_once = 16;
+    constexpr std::size_t planes_at_once = Volume_view_3<Kernel>::planes_at_once;
     parallel_for<ConcurrencyTag>(0, (nz + planes_at_once - 1) / planes_at_once, [&](std::size_t n) {
       const std::size_t first = n * planes_at_once, planes = std::min(planes_at_once, size_[2] - first);
       std::vector<FT> samples(size_[0] * planes);

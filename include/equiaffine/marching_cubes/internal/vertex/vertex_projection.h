@@ -78,7 +78,7 @@ private:
     const Point_3& operator[](std::size_t v) const { return points[v - first]; }
   };
 
-  /// What one thread has found out about the vertices at the nodes of a block.
+  /// A thread finds this out about the vertices at the nodes of a block.
   struct Part {
     std::size_t evaluations = 0;
     std::vector<std::size_t> poles;

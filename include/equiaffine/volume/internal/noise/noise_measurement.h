@@ -71,7 +71,7 @@ public:
   }
 
 private:
-  /// What is known of the nodes of a plane: whether values are finite, and whether they are below the isovalue.
+  /// The words of a plane say of its nodes whether values are finite, and whether they are below the isovalue.
   struct Plane {
     std::vector<Word> finite, below;
   };
@@ -126,7 +126,7 @@ std::vector<std::array<std::size_t, 3>> nodes_to_measure(const Volume_view_3<Ker
                                 if (j >= margin && j + margin < size[1]) visit(j, plane, row);
                               });
   };
-  constexpr std::size_t planes_at_once = 16; // of which one more is read
+  constexpr std::size_t planes_at_once = Volume_view_3<Kernel>::planes_at_once; // of which one more is read
   const std::size_t blocks = (size[2] - 2 * margin + planes_at_once - 1) / planes_at_once;
   parallel_for<ConcurrencyTag>(0, blocks, [&](std::size_t n) {
     const std::size_t k = margin + n * planes_at_once;

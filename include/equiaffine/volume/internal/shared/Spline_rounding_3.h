@@ -38,7 +38,7 @@ struct Sample_format {
 template <class ConcurrencyTag, class Kernel>
 Sample_format<typename Kernel::FT> sample_format(const Volume_view_3<Kernel>& volume) {
   using FT = typename Kernel::FT;
-  constexpr std::size_t planes_at_once = 16;
+  constexpr std::size_t planes_at_once = Volume_view_3<Kernel>::planes_at_once;
   const auto& size = volume.lattice().size();
   std::vector<Sample_format<FT>> of_planes((size[2] + planes_at_once - 1) / planes_at_once);
   parallel_for<ConcurrencyTag>(0, of_planes.size(), [&](std::size_t n) {
