@@ -17,7 +17,7 @@ enum class Mesh_method { MARCHING_CUBES, DELAUNAY, REMESH };
 /// The values of the options of all commands; each command takes its part. The defaults that the structs of requests do
 /// not have are here.
 struct Draft {
-  std::optional<std::size_t> threads;
+  std::optional<std::size_t> threads, memory;
   Source_options source;
   double isovalue = 0;
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;

@@ -82,6 +82,18 @@ std::size_t parse_count(const std::string& option, const std::string& word, std:
   return *number;
 }
 
+std::size_t parse_bytes(const Option_words& option) {
+  const std::string& word = option.word();
+  const char unit = word.empty() ? ' ' : word.back();
+  const auto number = parse_number<double>(word.substr(0, word.size() - (word.empty() ? 0 : 1)));
+  constexpr double most = 1e18;
+  const double bytes = number.value_or(0) * (unit == 'M' ? 1 << 20 : unit == 'G' ? 1 << 30 : 0);
+  if (!(bytes >= 1 && bytes <= most))
+    fail_option(option.name, "'" + word + "' is not an amount of memory",
+                "write it like 700M or 2G, where M stands for 2^20 and G for 2^30 bytes");
+  return std::size_t(bytes);
+}
+
 std::array<double, 3> parse_triple(const Option_words& option) {
   std::array<double, 3> result{};
   for (std::size_t a = 0; a < 3; ++a) result[a] = parse_finite_number(option.name, option.words[a]);

@@ -48,6 +48,9 @@ double parse_length(const Option_words& option);
 /// A whole number, at least `minimum`.
 std::size_t parse_count(const std::string& option, const std::string& word, std::size_t minimum);
 
+/// A number of bytes, such as 700M or 1.5G.
+std::size_t parse_bytes(const Option_words& option);
+
 /// One or three counts of nodes.
 std::array<std::size_t, 3> parse_resolution(const Option_words& option);
 

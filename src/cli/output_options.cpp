@@ -155,10 +155,8 @@ void read_output(const Option_words& option, Draft& draft) { draft.output = opti
 
 const std::vector<Option_row> rows_of_outputs = {
     {"-o,--output", MESH, OUTPUT, 1, "OUT",
-     "the mesh: .ply .off .obj .stl" + vtp +
-         ", or its vertices as .csv; - writes OFF to standard\n"
-         "output. Attributes are in .ply .csv" +
-         vtp + ", normals in .obj",
+     "the mesh: .ply .off .obj .stl .vtp, or its vertices as .csv; - writes OFF to standard\n"
+     "output. Attributes are in .ply .csv .vtp, normals in .obj",
      read_output},
     {"-o,--output", EVALUATE, OUTPUT, 1, "OUT",
      "the points with their attributes, .csv or .ply; - writes CSV to standard output", read_output},
@@ -166,15 +164,14 @@ const std::vector<Option_row> rows_of_outputs = {
     {"-o,--output", VIEW, OUTPUT, 1, "PAGE.html", "the page, needed unless there is --png; - writes to standard output",
      read_output},
     {"-o,--output", ANNOTATE, OUTPUT, 1, "OUT",
-     "the same vertices and faces with attributes: .ply" + vtp +
-         ", or the vertices as .csv; - writes\n"
-         "CSV to standard output",
+     "the same vertices and faces with attributes: .ply .vtp, or the vertices as .csv; - writes\n"
+     "CSV to standard output",
      read_output},
     {"-o,--output", REGISTER, OUTPUT, 1, "MAP.json", "the map, or that there is none; - writes to standard output",
      read_output},
     {"-o,--output", SYMMETRIES, OUTPUT, 1, "MAPS.json", "the maps; - writes to standard output", read_output},
     {"--moved", REGISTER, OUTPUT, 1, "OUT",
-     "also the moved source, as a mesh with distances from the target: .ply .off .obj .stl" + vtp + "\n.csv",
+     "also the moved source, as a mesh with distances from the target: .ply .off .obj .stl .vtp\n.csv",
      [](const Option_words& option, Draft& draft) { draft.moved = option.word(); }},
     {"--type", SAMPLE, OUTPUT, 1, "float|double", "the type of the samples, by default double",
      [](const Option_words& option, Draft& draft) {

@@ -206,9 +206,9 @@ Annotate_options read_annotate_options(Option_reader& reader) {
 Options parse_options(const std::vector<std::string>& arguments) {
   if (!arguments.empty() && arguments.front() == "register") return parse_register_options(arguments);
   const Command_line line = split_command_line(arguments);
-  if (line.information) return {Information{*line.information}, {}};
+  if (line.information) return {Information{*line.information}, {}, {}};
   Option_reader reader(line);
-  reader.read({"--threads"});
+  reader.read({"--threads", "--memory"});
   Options options;
   switch (line.command) {
   case MESH: options.command = read_mesh_options(reader); break;
@@ -220,6 +220,7 @@ Options parse_options(const std::vector<std::string>& arguments) {
   case REGISTER: break; // has a line for each source
   }
   options.threads = reader.draft().threads;
+  options.memory = reader.draft().memory;
   return options;
 }
 

@@ -94,16 +94,16 @@ Register_options make_register_options(Option_reader& reader, Option_reader& tar
 Options parse_register_options(const Words& arguments) {
   const auto to = find_to(arguments);
   Command_line line = split_command_line(Words(arguments.begin(), to));
-  if (line.information) return {Information{*line.information}, {}};
+  if (line.information) return {Information{*line.information}, {}, {}};
   if (to == arguments.end()) throw Input_error(std::string("the word 'to' between two sources is missing; ") + usage);
   Words rest = {arguments.front()};
   rest.insert(rest.end(), to + 1, arguments.end());
   Command_line target = split_command_line(rest);
-  if (target.information) return {Information{*target.information}, {}};
+  if (target.information) return {Information{*target.information}, {}, {}};
   move_common_options(target, line);
   Option_reader reader(line), target_reader(target);
   reader.read({"--threads"});
-  return {make_register_options(reader, target_reader), reader.draft().threads};
+  return {make_register_options(reader, target_reader), reader.draft().threads, {}};
 }
 
 Symmetries_options read_symmetries_options(Option_reader& reader) {

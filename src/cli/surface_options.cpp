@@ -123,6 +123,10 @@ const std::vector<Option_row> rows_of_surfaces = {
            parse_choice<Memory_use>(option, {{"true", Memory_use::ALL}, {"false", Memory_use::HALF}});
      }},
     {"--threads", MESH | EVALUATE | SAMPLE | ANNOTATE, SAMPLING, 1, "N", threads_help, read_threads},
+    {"--memory", MESH | EVALUATE | SAMPLE | ANNOTATE, SAMPLING, 1, "LIMIT",
+     "memory to have in use at once, such as 700M or 2G (2^20 and 2^30 bytes); what does not\n"
+     "fit is kept in a file beside the output; the result is always the same",
+     [](const Option_words& option, Draft& draft) { draft.memory = parse_bytes(option); }},
     {"--threads", registering, MAPS, 1, "N", threads_help, read_threads},
     {"--vertices", MESH, MARCHING_CUBES, 1, "projected|linear",
      "on the surface (projected, the default), or where linear interpolation along the\n"

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/commands.h"
 #include "commands/make_surface.h"
+#include "output/Part_writer.h"
 #include "output/fit_display.h"
 #include "output/statistics.h"
 #include "output/surface_output.h"
 #include "source/source.h"
 #include "system/Background_work.h"
 #include "system/atomic_file.h"
-#include <equiaffine/io/internal/shared/Ply_writer.h>
-#include <equiaffine/io/write_mesh.h>
 #include <equiaffine/mesh_topology.h>
 #include <equiaffine/parabolic_curves.h>
 
@@ -96,7 +95,7 @@ Outputs outputs_of(const Mesh_options& options) {
 
 /// Whether a single file of vertices is all that needs the attributes, so that nobody has to keep them.
 bool are_attributes_only_written(const Mesh_options& options) {
-  return mesh_format(options.output) == Mesh_format::PLY && options.source.kind != Source_kind::FIT &&
+  return is_written_in_parts(options.output) && options.source.kind != Source_kind::FIT &&
          !options.source.estimates_errors && !options.display.shows_something() && !options.curves;
 }
 
@@ -109,18 +108,17 @@ void write_computed_attributes(Output_file& file, const Source& source, const Me
   for (const Attribute& attribute : options.attributes.columns)
     layout.columns.push_back({std::string(attribute.name), {}});
   if (options.attributes.has_status) layout.status.emplace();
-  Ply_writer writer(file.stream(), points.size(), surface.mesh.triangles.size(), layout);
+  const auto writer = part_writer(file.path(), file.stream(), points.size(), surface.mesh.triangles.size(), layout);
   Background_work writing;
   for_each_attribute_block(
       source, options, surface, vertices_of_block, [&](std::size_t first, Vertex_attributes&& attributes) {
         writing.wait();
         const auto block = points.subspan(first, std::min(vertices_of_block, points.size() - first));
         writing.start(
-            [&writer, block, attributes = std::move(attributes)] { writer.write_vertices(block, attributes); });
+            [&writer, block, attributes = std::move(attributes)] { writer->write_vertices(block, attributes); });
       });
   writing.wait();
-  writer.write_faces(surface.mesh.triangles);
-  writer.flush();
+  writer->write_faces(surface.mesh.triangles);
 }
 
 } // namespace

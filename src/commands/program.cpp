@@ -5,20 +5,38 @@
 #include "commands/commands.h"
 #include "request/options.h"
 #include "system/limit_threads.h"
+#include "system/memory_limit.h"
 #include "system/progress.h"
+#include "system/scratch_memory.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/base/internal/shared/printable.h>
 
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <optional>
+#include <stdexcept>
 #include <variant>
 
 namespace equiaffine {
 
 namespace {
 
+/// The folder of the first output, or that for temporary files.
+std::filesystem::path folder_of_output(const Options& options) {
+  const std::string output = std::visit(
+      [](const auto& command) -> std::string {
+        if constexpr (requires { command.output; }) return command.output;
+        else return "-";
+      },
+      options.command);
+  if (output == "-") return std::filesystem::temp_directory_path();
+  const auto folder = std::filesystem::path(output).parent_path();
+  return folder.empty() ? "." : folder;
+}
+
 void run_command(const Options& options, const Streams& streams) {
+  if (options.memory) limit_resident_memory(*options.memory, folder_of_output(options));
   const auto limit = options.threads ? limit_threads(*options.threads) : nullptr;
   Progress progress(streams.error, streams.error_is_terminal);
   struct Runner {
@@ -78,8 +96,17 @@ int run(const std::vector<std::string>& arguments, const Streams& streams) {
     if (!error.excerpt().empty()) streams.error << error.excerpt() << (error.excerpt().ends_with('\n') ? "" : "\n");
     return error_of_user;
   } catch (const std::bad_alloc&) {
-    report(streams.error, "error",
-           "the memory of this computer is not enough; " + advice_on_memory(options.value_or(Options())));
+    const std::string folder = folder_without_room().string();
+    report(
+        streams.error, "error",
+        (folder.empty()
+             ? "the memory of this computer is not enough; "
+             : "--memory: the folder '" + folder +
+                   "' has no room for what does not fit, or files may not be that large (ulimit -f); make some, or ") +
+            advice_on_memory(options.value_or(Options())));
+    return error_of_user;
+  } catch (const std::length_error& error) {
+    report(streams.error, "error", error.what() + ("; " + advice_on_memory(options.value_or(Options()))));
     return error_of_user;
   } catch (const std::exception& error) {
     report(streams.error, "internal error", error.what());

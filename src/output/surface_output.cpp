@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/surface_output.h"
 
+#include "output/Part_writer.h"
+#include "output/decimate.h"
 #include "output/read_mappings.h"
 #include "output/write_VTP.h"
 #include "picture/natural_up.h"
@@ -21,23 +23,23 @@ namespace equiaffine {
 
 namespace {
 
+constexpr const char *surface_extensions = ".ply .off .obj .stl .vtp .csv", *vertices_extensions = ".ply .csv .vtp";
 #ifdef EQUIAFFINE_WITH_VTK
 constexpr bool has_vtk = true;
-constexpr const char *surface_extensions = ".ply .off .obj .stl .vtp .csv", *curves_extensions = ".obj .vtp",
-                     *vertices_extensions = ".ply .csv .vtp";
+constexpr const char* curves_extensions = ".obj .vtp";
 #else
 constexpr bool has_vtk = false;
-constexpr const char *surface_extensions = ".ply .off .obj .stl .csv", *curves_extensions = ".obj",
-                     *vertices_extensions = ".ply .csv";
+constexpr const char* curves_extensions = ".obj";
 #endif
+
+/// The most triangles that a page has: beyond, browsers are slow, or fail.
+constexpr std::size_t most_triangles_of_page = 2'000'000;
 
 bool is_VTP(const std::string& path) { return file_format(path) == File_format::VTP; }
 
 void check_output(const std::string& path, bool is_known, const std::string& known_extensions) {
-  if (path == "-" || is_known || (has_vtk && is_VTP(path))) return;
-  throw Input_error("cannot write '" + path +
-                    "': " + (is_VTP(path) ? "this equiaffine was built without VTK" : "its extension is not known") +
-                    "; use one of " + known_extensions);
+  if (path == "-" || is_known) return;
+  throw Input_error("cannot write '" + path + "': its extension is not known; use one of " + known_extensions);
 }
 
 /// Throws if the file has the extension of another format: what looks like a mesh is not to become a page.
@@ -58,29 +60,42 @@ std::map<std::string, Color_mapping> shared_mappings(const std::string& path, co
   return mappings;
 }
 
+/// Writes the page, of a coarser mesh if there are too many triangles, which it says then.
+void write_page(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
+                Html_options& page) {
+  if (mesh.triangles.size() <= most_triangles_of_page) return write_HTML(stream, mesh, attributes, page);
+  const Displayed_mesh shown = decimate(mesh, attributes, most_triangles_of_page);
+  page.description.emplace_back("Shown here", std::to_string(shown.mesh.triangles.size()) +
+                                                  " triangles between some of the vertices");
+  write_HTML(stream, shown.mesh, shown.attributes, page);
+}
+
 } // namespace
 
 void check_surface_output(const std::string& path) {
-  check_output(path, mesh_format(path).has_value(), surface_extensions);
+  check_output(path, mesh_format(path).has_value() || is_VTP(path), surface_extensions);
 }
 
 void check_curves_output(const std::string& path) {
-  check_output(path, file_format(path) == File_format::OBJ, curves_extensions);
+  if (is_VTP(path) && !has_vtk)
+    throw Input_error("cannot write '" + path + "': this equiaffine was built without VTK; use one of .obj");
+  check_output(path, file_format(path) == File_format::OBJ || is_VTP(path), curves_extensions);
 }
 
 void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh,
                    const Vertex_attributes& attributes) {
-#ifdef EQUIAFFINE_WITH_VTK
-  if (is_VTP(file.path())) return write_VTP(file.stream(), mesh, attributes);
-#endif
-  write_mesh(file.stream(), mesh_format(file.path()).value_or(Mesh_format::OFF), mesh, attributes);
+  if (!is_VTP(file.path()))
+    return write_mesh(file.stream(), mesh_format(file.path()).value_or(Mesh_format::OFF), mesh, attributes);
+  const auto writer = part_writer(file.path(), file.stream(), mesh.points.size(), mesh.triangles.size(), attributes);
+  writer->write_vertices(mesh.points, attributes);
+  writer->write_faces(mesh.triangles);
 }
 
 void check_vertices_output(const std::string& path) {
   const auto format = mesh_format(path);
   if (format && format != Mesh_format::PLY && format != Mesh_format::CSV)
     throw Input_error("cannot write '" + path + "': its format has no attributes; use one of " + vertices_extensions);
-  check_output(path, format.has_value(), vertices_extensions);
+  check_output(path, format.has_value() || is_VTP(path), vertices_extensions);
 }
 
 void write_vertices(Output_file& file, const Point_table_3<Kernel>& table, const Vertex_attributes& attributes) {
@@ -139,7 +154,7 @@ void write_displays(Outputs& outputs, const Indexed_triangle_mesh_3<Kernel>& mes
     page.mappings = mappings;
     page.label_suffix = texts.label_suffix;
     page.description = texts.description;
-    write_HTML(file->stream(), mesh, attributes, page);
+    write_page(file->stream(), mesh, attributes, page);
   }
 #ifdef EQUIAFFINE_WITH_VTK
   if (Output_file* const file = outputs.find(Output_kind::PICTURE)) {

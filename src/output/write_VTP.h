@@ -4,17 +4,13 @@
 
 #include "system/kernel.h"
 #include <equiaffine/parabolic_curves.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <ostream>
 
 namespace equiaffine {
 
-/// Writes a VTK polydata file: points in double precision, triangles, a double point array per column and, if there
-/// is a status, an unsigned char array `status`. Errors are in the state of the stream.
-void write_VTP(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes);
-
-/// The same for curves: a polyline for each, a closed one ends with the index of its first point.
+/// Writes a VTK polydata file of curves: points in double precision, and a polyline for each curve; a closed one ends
+/// with the index of its first point. Errors are in the state of the stream.
 void write_VTP(std::ostream& stream, const Parabolic_curves_3<Kernel>& curves);
 
 } // namespace equiaffine

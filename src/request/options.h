@@ -188,6 +188,7 @@ struct Options {
                Register_options, Symmetries_options>
       command;
   std::optional<std::size_t> threads;
+  std::optional<std::size_t> memory; ///< the bytes that may be resident
 };
 
 } // namespace equiaffine

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/Mapped_file.h"
 
+#include "system/reclaimable_memory.h"
+
 #include <fcntl.h>
 #include <fstream>
 #include <sys/mman.h>
@@ -20,6 +22,7 @@ Mapped_file::Mapped_file(const std::string& path) {
   if (place != MAP_FAILED) {
     data_ = static_cast<const std::byte*>(place);
     size_ = size;
+    add_reclaimable_memory(data_, size_);
   } else if (has_bytes) {
     read_.resize(size);
     std::ifstream file(path, std::ios::binary);
@@ -30,7 +33,9 @@ Mapped_file::Mapped_file(const std::string& path) {
 }
 
 Mapped_file::~Mapped_file() {
-  if (data_ && read_.empty()) ::munmap(const_cast<std::byte*>(data_), size_);
+  if (!data_ || !read_.empty()) return;
+  remove_reclaimable_memory(data_);
+  ::munmap(const_cast<std::byte*>(data_), size_);
 }
 
 } // namespace equiaffine

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/child_process.h"
 
+#include "system/memory_limit.h"
 #include "system/resources.h"
 #include "system/signals.h"
 #include <equiaffine/Input_error.h>
@@ -97,14 +98,17 @@ std::string answer_of(const std::function<void()>& task) {
   set_limit(RLIMIT_CORE, 0);
   set_limit(RLIMIT_CPU, std::ceil(limits.seconds));
   limit_memory(limits.memory);
-  write_all(answer, answer_of(task));
+  write_all(answer, answer_of([&] {
+              limit_resident_memory_of_child();
+              task();
+            }));
   ::_exit(0);
 }
 
 /// A child process, which is ended before this object is.
 class Child {
 public:
-  explicit Child(pid_t process) : process_(process) {}
+  explicit Child(pid_t process) : process_(process) { count_memory_of_child(process); }
   ~Child() {
     if (process_ == 0) return;
     ::kill(process_, SIGKILL);
@@ -119,6 +123,7 @@ public:
     while (::waitpid(process_, &status, 0) == -1 && errno == EINTR) {
     }
     process_ = 0;
+    count_memory_of_child(0);
     return status;
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/resources.h"
 
+#include "system/memory_limit.h"
+#include "system/scratch_memory.h"
 #include <equiaffine/Input_error.h>
 
 #include <algorithm>
@@ -25,6 +27,13 @@ std::string gigabytes(double bytes) {
 /// Throws if more memory is needed than may be used. `reason` is what needs it, and `purpose` what it is for.
 void check_memory(double needed, Memory_use use, const std::string& reason, const std::string& purpose,
                   const std::string& advice) {
+  if (is_resident_memory_limited()) {
+    const double room = room_for_scratch_memory();
+    if (needed <= room) return;
+    throw Input_error(reason + " need about " + gigabytes(needed) + " for " + purpose +
+                      ", and the folder of the output has room for " + gigabytes(room) + "; " + advice +
+                      ", or make room there");
+  }
   const double all = physical_memory();
   if (needed <= (use == Memory_use::ALL ? all : all / 2)) return;
   const std::string need = reason + " need about " + gigabytes(needed) + " of memory for " + purpose + ", and ";

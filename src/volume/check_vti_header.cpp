@@ -18,27 +18,9 @@ namespace equiaffine {
 
 namespace {
 
-/// The content of an attribute of an XML element, or nothing if the element has none of that name.
-std::optional<std::string_view> attribute_of(std::string_view element, std::string_view name) {
-  for (std::size_t at = 0; (at = element.find(name, at)) != std::string_view::npos; ++at) {
-    std::string_view rest = element.substr(at + name.size());
-    rest.remove_prefix(std::min(rest.find_first_not_of(" \t\r\n"), rest.size()));
-    if (at == 0 || std::string_view(" \t\r\n").find(element[at - 1]) == std::string_view::npos ||
-        !rest.starts_with('='))
-      continue;
-    rest.remove_prefix(1);
-    rest.remove_prefix(std::min(rest.find_first_of("\"'"), rest.size()));
-    if (rest.empty()) return std::nullopt;
-    const std::size_t end = rest.find(rest[0], 1);
-    if (end == std::string_view::npos) return std::nullopt;
-    return rest.substr(1, end - 1);
-  }
-  return std::nullopt;
-}
-
 Kernel::Vector_3 vector_in(const std::string& path, std::string_view element, const std::string& name,
                            double otherwise) {
-  const std::optional<std::string_view> content = attribute_of(element, name);
+  const std::optional<std::string_view> content = xml_attribute(element, name);
   if (!content) return {otherwise, otherwise, otherwise};
   const auto numbers = to_numbers(*content, 3);
   if (!numbers) fail_at_field(path, name, *content, "write 3 finite numbers");
@@ -46,7 +28,7 @@ Kernel::Vector_3 vector_in(const std::string& path, std::string_view element, co
 }
 
 Lattice_3<Kernel>::Size size_in(const std::string& path, std::string_view element) {
-  const std::string_view content = attribute_of(element, "WholeExtent").value_or("");
+  const std::string_view content = xml_attribute(element, "WholeExtent").value_or("");
   const std::vector<std::string_view> words = words_of(content);
   std::array<long long, 6> extent;
   for (std::size_t i = 0; i < extent.size(); ++i) {
@@ -70,7 +52,7 @@ void check_arrays(const std::string& path) {
   while (file.ignore(std::numeric_limits<std::streamsize>::max(), '<') && std::getline(file, element, '>')) {
     if (element.starts_with("AppendedData")) return;
     if (!element.starts_with("DataArray")) continue;
-    const std::string_view type = attribute_of(element, "type").value_or("");
+    const std::string_view type = xml_attribute(element, "type").value_or("");
     if (std::find(types.begin(), types.end(), type) == types.end())
       fail_at_field(path, "a DataArray of type", type, "convert it to Float32 or Float64");
   }
@@ -87,7 +69,7 @@ void check_vti_header(const std::string& path) {
   const std::string_view element = std::string_view(beginning).substr(begin, beginning.find('>', begin) - begin);
   const Kernel::Vector_3 spacing = vector_in(path, element, "Spacing", 1),
                          origin = vector_in(path, element, "Origin", 0);
-  if (const auto direction = attribute_of(element, "Direction"); direction && !to_numbers(*direction, 9))
+  if (const auto direction = xml_attribute(element, "Direction"); direction && !to_numbers(*direction, 9))
     fail_at_field(path, "Direction", *direction, "write 9 finite numbers");
   make_lattice(
       path, size_in(path, element), CGAL::ORIGIN + origin,

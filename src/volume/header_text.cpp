@@ -78,6 +78,23 @@ std::string_view take_line(std::string_view& text) {
   return line.substr(0, line.find_last_not_of(" \t\r") + 1);
 }
 
+std::optional<std::string_view> xml_attribute(std::string_view element, std::string_view name) {
+  for (std::size_t at = 0; (at = element.find(name, at)) != std::string_view::npos; ++at) {
+    std::string_view rest = element.substr(at + name.size());
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t\r\n"), rest.size()));
+    if (at == 0 || std::string_view(" \t\r\n").find(element[at - 1]) == std::string_view::npos ||
+        !rest.starts_with('='))
+      continue;
+    rest.remove_prefix(1);
+    rest.remove_prefix(std::min(rest.find_first_of("\"'"), rest.size()));
+    if (rest.empty()) return std::nullopt;
+    const std::size_t end = rest.find(rest[0], 1);
+    if (end == std::string_view::npos) return std::nullopt;
+    return rest.substr(1, end - 1);
+  }
+  return std::nullopt;
+}
+
 std::vector<std::string_view> words_of(std::string_view text) {
   std::vector<std::string_view> words;
   while (true) {

@@ -33,6 +33,9 @@ struct Meta_field {
 /// The field that a line of a MetaImage header holds, or nothing if it has no separator.
 std::optional<Meta_field> meta_field(std::string_view line);
 
+/// The content of an attribute of an XML element, or nothing if the element has none of that name.
+std::optional<std::string_view> xml_attribute(std::string_view element, std::string_view name);
+
 /// The words of a text, which spaces, tabs and ends of lines separate.
 std::vector<std::string_view> words_of(std::string_view text);
 

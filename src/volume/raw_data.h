@@ -11,9 +11,9 @@
 
 namespace equiaffine {
 
-/// Finds so many samples of a MetaImage, NRRD or NIfTI-1 file, if they are neither compressed nor in another byte order than
-/// that of this computer, nor to be scaled, and lie in one file. `type` is a position in raw_types. The header has been
-/// checked.
+/// Finds so many samples of a MetaImage, NRRD, NIfTI-1 or VTI file, if they are neither compressed nor in another byte
+/// order than that of this computer, nor to be scaled, and lie in one file. `type` is a position in raw_types. The
+/// header has been checked.
 std::optional<Raw_data> find_raw_data(const std::string& path, Volume_format format, std::size_t type,
                                       std::size_t count);
 

@@ -23,7 +23,7 @@ enum class Volume_format { NRRD, META, NIFTI, INR, VTI };
 void read_itk_volume(const std::string& path, Volume_format format, Samples_in where, Shared_volume& volume);
 void read_dicom_series(const std::string& folder, Shared_volume& volume);
 void read_inr_volume(const std::string& path, Shared_volume& volume);
-void read_vti_volume(const std::string& path, Shared_volume& volume);
+void read_vti_volume(const std::string& path, Samples_in where, Shared_volume& volume);
 
 void write_itk_volume(const std::string& path, Volume_format format, const Volume_3<Kernel>& volume, bool as_float);
 void write_vti_volume(std::ostream& stream, const Volume_3<Kernel>& volume, bool as_float);

@@ -96,6 +96,14 @@ Extension find_written_extension(const std::string& path) {
   return *extension;
 }
 
+/// The bytes that the files of a volume have, or 0 if that is not known.
+double bytes_in_files(const std::string& path) {
+  if (const std::optional<Extension> extension = find_extension(path)) return size_of_volume(path, extension->format);
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  return error ? 0 : double(size);
+}
+
 } // namespace
 
 void fail_to_read_volume(const std::string& path, const std::string& reason, const std::string& advice) {
@@ -120,7 +128,8 @@ void admit_nodes(const std::string& path, const Lattice_3<Kernel>::Size& size, s
   if (*std::min_element(size.begin(), size.end()) < 2)
     fail_to_read_volume(path, "it has " + size_text + " nodes",
                         "a volume needs at least 2 nodes along each of its axes");
-  if (double(bytes_of_sample) * nodes > physical_memory())
+  const double bytes = double(bytes_of_sample) * nodes;
+  if (bytes > physical_memory() && bytes > bytes_in_files(path)) // else they may stay in the file
     fail_to_read_volume(path, "it has " + size_text + " nodes and does not fit into memory",
                         "check its header or crop it");
   allow_memory(copies * sizeof(double) * nodes + for_small_volumes);
@@ -166,7 +175,7 @@ void read_here(const std::string& path, const Extension* extension, Samples_in w
   if constexpr (has_itk)
     if (!extension) return read_dicom_series(path, volume);
   if constexpr (has_vtk)
-    if (extension->format == Volume_format::VTI) return read_vti_volume(path, volume);
+    if (extension->format == Volume_format::VTI) return read_vti_volume(path, where, volume);
   if constexpr (has_itk)
     if (extension->format != Volume_format::INR) return read_itk_volume(path, extension->format, where, volume);
   read_inr_volume(path, volume);

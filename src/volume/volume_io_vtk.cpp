@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/write_vtk_xml.h"
 #include "volume/header_checks.h"
+#include "volume/raw_data.h"
 #include "volume/sample_type.h"
 #include "volume/volume_formats.h"
 
@@ -10,9 +11,11 @@
 #include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
+#include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLImageDataWriter.h>
 
@@ -98,6 +101,25 @@ Lattice_3<Kernel> lattice_of(const std::string& path, vtkImageData& image) {
   return make_lattice(path, size, origin, steps);
 }
 
+/// Says where in the file the samples are, if they are there as they are in memory.
+bool refer_to_samples(const std::string& path, vtkXMLImageDataReader& reader, Shared_volume& volume) {
+  vtkNew<vtkImageData> image;
+  {
+    const Captured_standard_error standard_error;
+    reader.UpdateInformation();
+  }
+  vtkInformation& information = *reader.GetOutputInformation(0);
+  image->CopyInformationFromPipeline(&information);
+  image->SetExtent(information.Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()));
+  const Lattice_3<Kernel> lattice = lattice_of(path, *image);
+  for (std::size_t type = 0; type < raw_types.size(); ++type)
+    if (const auto data = find_raw_data(path, Volume_format::VTI, type, lattice.number_of_nodes())) {
+      volume.refer_to(lattice, type, *data);
+      return true;
+    }
+  return false;
+}
+
 template <class Array>
 void set_scalars(vtkImageData& image, const std::vector<double>& values) {
   vtkNew<Array> array;
@@ -109,13 +131,14 @@ void set_scalars(vtkImageData& image, const std::vector<double>& values) {
 
 } // namespace
 
-void read_vti_volume(const std::string& path, Shared_volume& volume) {
+void read_vti_volume(const std::string& path, Samples_in where, Shared_volume& volume) {
   check_vti_header(path);
   vtkNew<vtkXMLImageDataReader> reader;
   const Error_flag errors(*reader);
+  reader->SetFileName(path.c_str());
+  if (where == Samples_in::FILE && refer_to_samples(path, *reader, volume)) return;
   {
     const Captured_standard_error standard_error;
-    reader->SetFileName(path.c_str());
     reader->Update();
   }
   vtkImageData& image = *reader->GetOutput();

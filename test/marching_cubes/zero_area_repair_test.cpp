@@ -34,7 +34,8 @@ Result repaired(Triangles triangles, Points points, int early_rounds = 0) {
       points[v][a] += 1e-7 * std::sin(round < early_rounds ? 1.0 : double(1 + 3 * v + a));
   };
   const std::span all(triangles);
-  const Isosurface_repairs repairs = internal::Zero_area_repair(all, suspects, at, nudge).run();
+  const auto is_at_cut = [](std::size_t) { return false; };
+  const Isosurface_repairs repairs = internal::Zero_area_repair(all, suspects, at, nudge, is_at_cut).run();
   std::erase_if(triangles, [](const auto& t) { return t[0] == t[1]; });
   std::map<std::uint32_t, std::uint32_t> number;
   for (auto& t : triangles)
@@ -111,6 +112,20 @@ TEST(Zero_area_repair, a_component_with_boundary_stays) {
   EXPECT_EQ(r.triangles, 1u);
   EXPECT_EQ(r.repairs.dropped_components, 0u);
   EXPECT_EQ(r.repairs.zero_area_left, 0u);
+}
+
+TEST(Zero_area_repair, a_part_without_area_that_is_cut_off_is_undecided) {
+  const Points points(4, {1, 2, 3});
+  const auto at = [&](std::size_t v) { return points[v]; };
+  const auto nudge = [](std::size_t, int) {};
+  for (const bool is_cut : {false, true}) {
+    Triangles triangles = {{0, 1, 2}, {2, 1, 3}};
+    const auto is_at_cut = [&](std::size_t) { return is_cut; };
+    const std::span all(triangles);
+    internal::Zero_area_repair repair(all, {0, 1}, at, nudge, is_at_cut);
+    repair.run();
+    EXPECT_EQ(repair.is_undecided(), is_cut);
+  }
 }
 
 // From the second flat triangle on, the search for a component meets triangles that it has seen before.

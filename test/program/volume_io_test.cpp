@@ -705,11 +705,60 @@ TEST_F(Program_volume_io, a_vti_file_has_its_extent_and_directions) {
   EXPECT_EQ(volume.lattice.point(1, 1, 2), Point_3(10 + 4 * 1.5, 20 + 2 * 0.5, 30 + 2));
 }
 
+/// A VTI file of 2 x 3 x 2 floats, appended as they are in memory, in which one text replaces another.
+std::string appended_vti(const std::string& old = {}, const std::string& replacement = {}) {
+  std::string text = R"(<?xml version="1.0"?>
+<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type="UInt64">
+<ImageData WholeExtent="1 2 3 5 -1 0" Origin="1 2 3" Spacing="2 1 4">
+<Piece Extent="1 2 3 5 -1 0">
+<PointData Scalars="f">
+<DataArray type="Float64" Name="g" format="appended" offset="56"/>
+<DataArray type="Float32" Name="f" format="appended" offset="0"/>
+</PointData>
+</Piece>
+</ImageData>
+<AppendedData encoding="raw">
+_)";
+  if (const auto place = text.find(old); !old.empty()) text.replace(place, old.size(), replacement);
+  const std::uint64_t length = 12 * sizeof(float);
+  text.append(reinterpret_cast<const char*>(&length), sizeof length);
+  for (int n = 1; n <= 12; ++n) {
+    const auto sample = float(n);
+    text.append(reinterpret_cast<const char*>(&sample), sizeof sample);
+  }
+  return text + std::string(200, '\1') + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+TEST_F(Program_volume_io, the_samples_of_a_vti_file_may_stay_there) {
+  constexpr std::size_t type_float = 8;
+  const auto place = [&](const std::string& text) {
+    write_file("a.vti", text);
+    const auto data = equiaffine::find_raw_data(path("a.vti"), equiaffine::Volume_format::VTI, type_float, 12);
+    return data ? data->first : 0;
+  };
+  EXPECT_EQ(place(appended_vti()), appended_vti().find("\n_") + 2 + sizeof(std::uint64_t));
+  const Volume volume = read_volume(path("a.vti")).to_volume();
+  EXPECT_EQ(volume.values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
+  EXPECT_EQ(volume.lattice.point(1, 2, 1), Point_3(1 + 2 * 2, 2 + 5, 3));
+  const std::array<std::array<const char*, 2>, 10> changes = {{{"LittleEndian", "BigEndian"},
+                                                               {"UInt64\"", "UInt64\" compressor=\"zlib\""},
+                                                               {"WholeExtent=\"1 2", "WholeExtent=\"0 2"},
+                                                               {"<Piece", "<Piece Extent=\"1 2 3 5 -1 0\"/><Piece"},
+                                                               {"Scalars=\"f\"", ""},
+                                                               {"Scalars=\"f\"", "Scalars=\"g\""},
+                                                               {"\"Float32\"", "\"Float32\" NumberOfComponents=\"3\""},
+                                                               {"\"0\"/>", "\"-8\"/>"},
+                                                               {"offset=\"0\"", "offset=\"99999\""},
+                                                               {"encoding=\"raw\"", "encoding=\"base64\""}}};
+  for (const auto& [old, replacement] : changes) EXPECT_EQ(place(appended_vti(old, replacement)), 0u) << replacement;
+}
+
 TEST_F(Program_volume_io, a_vti_file_may_decompress_to_what_its_header_says) {
   const Lattice lattice(compressible_size, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
   write_volume(path("zeros.vti"), {lattice, std::vector<double>(lattice.number_of_nodes())}, false);
   equiaffine::Shared_volume volume;
-  equiaffine::run_in_child([&] { equiaffine::read_vti_volume(path("zeros.vti"), volume); }, little_memory);
+  equiaffine::run_in_child(
+      [&] { equiaffine::read_vti_volume(path("zeros.vti"), equiaffine::Samples_in::MEMORY, volume); }, little_memory);
   EXPECT_EQ(volume.lattice().size(), compressible_size);
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #ifdef EQUIAFFINE_WITH_VTK
 
+#include "output/Vtp_writer.h"
 #include "output/write_VTP.h"
+#include "support/Scratch_file.h"
 
 #include <gtest/gtest.h>
 #include <vtkDataArray.h>
@@ -12,8 +14,10 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <sstream>
+#include <string>
 #include <vector>
 
 namespace {
@@ -25,20 +29,31 @@ using Point_3 = Kernel::Point_3;
 TEST(Program_write_VTP, vtk_reads_the_same_mesh_and_attributes) {
   const equiaffine::Indexed_triangle_mesh_3<Kernel> mesh = {
       {Point_3(0.1, -1. / 3, 0), Point_3(1e-300, 2. / 3, 1e22), Point_3(1, 0, 0.7)}, {{0, 1, 2}, {2, 1, 0}}};
+  const std::string name = "k1 <&\">"; // is escaped in XML
   const equiaffine::Vertex_attributes attributes = {
-      {{"k1", {0.1, std::numeric_limits<double>::quiet_NaN(), -1. / 3}}},
+      {{name, {0.1, std::numeric_limits<double>::quiet_NaN(), -1. / 3}}},
       {{Point_status::REGULAR, Point_status::SINGULAR, Point_status::UNCONVERGED}}};
-  std::ostringstream stream;
-  equiaffine::write_VTP(stream, mesh, attributes);
+  const equiaffine::test::Scratch_file file("mesh.vtp");
+  const std::string path = file.write("");
+  std::ofstream stream(path, std::ios::binary);
+  equiaffine::Vtp_writer writer(stream, 3, 2, attributes);
+  const auto write_one = [&](std::size_t v) {
+    writer.write_vertices({&mesh.points[v], 1},
+                          {{{name, {attributes.columns[0].values[v]}}}, {{attributes.status->at(v)}}});
+  };
+  write_one(0);
+  write_one(1);
+  write_one(2);
+  writer.write_faces(mesh.triangles);
+  stream.close();
 
   vtkNew<vtkXMLPolyDataReader> reader;
-  reader->ReadFromInputStringOn();
-  reader->SetInputString(stream.str());
+  reader->SetFileName(path.c_str());
   reader->Update();
   vtkPolyData& data = *reader->GetOutput();
   ASSERT_EQ(data.GetNumberOfPoints(), 3);
   ASSERT_EQ(data.GetNumberOfCells(), 2);
-  vtkDataArray* const k1 = data.GetPointData()->GetArray("k1");
+  vtkDataArray* const k1 = data.GetPointData()->GetArray(name.c_str());
   vtkDataArray* const status = data.GetPointData()->GetArray("status");
   ASSERT_TRUE(k1 && status);
   EXPECT_EQ(status->GetDataType(), VTK_UNSIGNED_CHAR);

@@ -63,8 +63,8 @@ Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
   return table;
 }
 
-/// Reads points in the format that the end of `extension` stands for, `.csv`, `.ply`, `.off` or `.xyz`. `name` stands for
-/// the file in messages. Throws `Input_error` for what is not a complete file of the format.
+/// Reads points in the format that the end of `extension` stands for, `.csv`, `.ply`, `.off` or `.xyz`. `name` stands
+/// for the file in messages. Throws `Input_error` for what is not a complete file of the format.
 template <class Kernel>
 Point_table_3<Kernel> read_points(std::istream& stream, const std::string& name, std::string_view extension) {
   if (has_extension(extension, ".csv")) return read_CSV<Kernel>(stream, name);
@@ -120,6 +120,7 @@ void write_CSV(std::ostream& stream, const Point_table_3<Kernel>& table, const V
     }
   };
   write_row(table.header, 0);
+  internal::write_CSV_names(out, attributes, table.separator);
   internal::write_CSV_rows(out, table.mesh.points.size(), attributes, table.separator,
                            [&](std::size_t row) { write_row(table.cells, row * table.header.size()); });
 }

@@ -57,6 +57,13 @@ public:
     return *this << std::string_view(digits.data(), std::size_t(end.ptr - digits.data()));
   }
 
+  /// Writes a large text, which the buffer does not delay.
+  void write_block(std::string_view text) {
+    if (!buffer_.empty()) flush();
+    Progress_observer::step();
+    stream_.write(text.data(), std::streamsize(text.size()));
+  }
+
   template <class Number>
   void write_binary(Number number) {
     auto bytes = bit_cast<std::array<char, sizeof(Number)>>(number);

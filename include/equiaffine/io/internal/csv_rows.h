@@ -11,15 +11,19 @@
 
 namespace equiaffine::internal {
 
-/// Writes the rest of the header line, then the rows: `write(row)` writes what comes first in a line; the numbers of
-/// `attributes` and the word for the status follow.
+/// Writes the rest of the header line.
+inline void write_CSV_names(Buffered_output& out, const Vertex_attributes& attributes, char separator) {
+  for (const auto& column : attributes.columns) out << separator << column.name;
+  if (attributes.status) out << separator << "status";
+  out << '\n';
+}
+
+/// Writes rows: `write(row)` writes what comes first in a line; the numbers of `attributes` and the word for the status
+/// follow.
 template <class WriteRow>
 void write_CSV_rows(Buffered_output& out, std::size_t number_of_rows, const Vertex_attributes& attributes,
                     char separator, const WriteRow& write) {
   CGAL_precondition(attributes.has_length(number_of_rows));
-  for (const auto& column : attributes.columns) out << separator << column.name;
-  if (attributes.status) out << separator << "status";
-  out << '\n';
   for (std::size_t row = 0; row < number_of_rows; ++row) {
     write(row);
     for (const auto& column : attributes.columns) out << separator << column.values[row];

@@ -23,7 +23,8 @@ Array_isosurface_3<FT> isosurface_of_array(const Array_grid<FT>& grid, const Cas
   const auto keep_none = [](std::size_t, const std::array<std::size_t, 3>&, const std::array<FT, 3>&) {};
   const Grid_rows suspects =
       place_linearly<ConcurrencyTag>(grid, plan, surface.points.data(), surface.triangles.data(), keep_none);
-  surface.repairs = repair_mesh(grid, plan, suspects, surface.triangles, surface.points);
+  Layer_bounds bounds(plan.numbering);
+  surface.repairs = repair_mesh(grid, plan, suspects, bounds, surface.triangles, surface.points);
   return surface;
 }
 

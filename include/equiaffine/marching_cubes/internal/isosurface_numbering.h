@@ -15,14 +15,15 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 namespace equiaffine::internal {
 
 /// The numbers of the vertices and triangles of a surface in a grid. The vertices of a row of nodes are those on its
 /// edges along i, then j, then k, each in the order of i: the number of a vertex is that of its row and kind plus the
-/// number of crossed edges before it, so no vertex is ever looked up. The inner vertices of cells come last, layer
-/// after layer. Triangles are ordered like their cells.
+/// number of crossed edges before it, so no vertex is ever looked up. After those of a plane of nodes come the inner
+/// vertices of the cells above it. Triangles are ordered like their cells.
 ///
 /// Rows and layers first hold counts, which `turn_counts_into_numbers` replaces. Memory: 16 bytes per row of nodes.
 class Isosurface_numbering {
@@ -38,6 +39,7 @@ public:
   /// The cells between two planes of nodes.
   struct Layer {
     std::size_t first_triangle = 0, first_inner_vertex = 0, inner_vertices = 0;
+    std::size_t inner_vertices_before = 0; ///< in all layers below
   };
 
   explicit Isosurface_numbering(const Node_signs& signs)
@@ -49,33 +51,40 @@ public:
 
   void turn_counts_into_numbers() {
     const std::size_t ny = signs_.size()[1];
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      if (r % ny == 0 && r / ny < layers_.size()) layers_[r / ny].first_triangle = number_of_triangles_;
-      for (Index& first : rows_[r].first) {
-        const Index count = first;
-        first = Index(number_of_vertices_);
-        number_of_vertices_ += count;
+    for (std::size_t k = 0; k < layers_.size(); ++k) {
+      Layer& layer = layers_[k];
+      layer.first_triangle = number_of_triangles_;
+      for (std::size_t j = 0; j < ny; ++j) {
+        number_vertices(row(j, k));
+        number_of_triangles_ += row(j, k).triangles;
       }
-      number_of_triangles_ += rows_[r].triangles;
-    }
-    for (Layer& layer : layers_) {
       layer.first_inner_vertex = number_of_vertices_;
+      layer.inner_vertices_before = number_of_inner_vertices_;
       number_of_vertices_ += layer.inner_vertices;
+      number_of_inner_vertices_ += layer.inner_vertices;
     }
-    CGAL_precondition(number_of_vertices_ <= std::numeric_limits<Index>::max());
+    number_vertices(rows_.back());
+    if (number_of_vertices_ > std::numeric_limits<Index>::max())
+      throw std::length_error("a mesh would have more than 2^32 vertices: make it in slabs, or use a coarser grid");
   }
 
   std::size_t number_of_planes() const { return layers_.size(); }
   std::size_t number_of_vertices() const { return number_of_vertices_; }
-  std::size_t number_of_edge_vertices() const { return layers_.front().first_inner_vertex; }
+  std::size_t number_of_inner_vertices() const { return number_of_inner_vertices_; }
   std::size_t number_of_triangles() const { return number_of_triangles_; }
 
   bool has_vertices(std::size_t j, std::size_t k) const {
     const Row* const r = &row(j, k);
     return r[0].first[0] != r[1].first[0];
   }
-  /// The vertices on edges that begin in a plane.
-  Index_range vertices_of_plane(std::size_t k) const { return {row(0, k).first[0], row(0, k + 1).first[0]}; }
+  /// The vertices on edges that begin in the planes from `first` to `end` - 1, and in the cells above these.
+  Index_range vertices_of_planes(std::size_t first, std::size_t end) const {
+    return {row(0, first).first[0], row(0, end).first[0]};
+  }
+  /// The place of an inner vertex of layer k among all inner vertices.
+  std::size_t place_of_inner(std::size_t vertex, std::size_t k) const {
+    return vertex - layers_[k].first_inner_vertex + layers_[k].inner_vertices_before;
+  }
   Index_range inner_vertices_of_layer(std::size_t k) const {
     const Layer& layer = layers_[k];
     return {layer.first_inner_vertex, layer.first_inner_vertex + layer.inner_vertices};
@@ -115,22 +124,28 @@ public:
     return result;
   }
 
-  /// Calls visit(range) for ranges of triangles that together contain all triangles with a vertex from `vertex` on.
-  template <class Visit>
-  void for_each_range_with_vertices_from(std::size_t vertex, const Visit& visit) const {
-    for (std::size_t k = 0; k + 1 < layers_.size(); ++k) {
-      const Index_range inner = inner_vertices_of_layer(k);
-      const bool has_inner = inner.first < inner.end && inner.end > vertex;
-      if (has_inner || vertices_of_plane(k + 1).end > vertex) visit(triangles_of_layer(k));
+  /// The place among all inner vertices; nothing for a vertex on an edge.
+  std::optional<std::size_t> place_of_inner(std::size_t vertex) const {
+    const std::size_t k = row_of(vertex) / signs_.size()[1];
+    return vertex < layers_[k].first_inner_vertex ? std::nullopt : std::optional(place_of_inner(vertex, k));
+  }
+
+  /// A number for the place of a vertex that is the same if the grid is a part of a larger one with the same rows, and
+  /// begins with its plane `first_plane`.
+  std::size_t place_in_grid(std::size_t vertex, std::size_t first_plane) const {
+    const auto& [nx, ny, nz] = signs_.size();
+    if (const auto edge = edge_of(vertex)) {
+      const auto& [i, j, k] = edge->node;
+      return 3 * (((first_plane + k) * ny + j) * nx + i) + edge->axis;
     }
+    const std::size_t k = row_of(vertex) / ny;
+    return 3 * (first_plane + k) * ny * nx + vertex - layers_[k].first_inner_vertex;
   }
 
   /// The edge on which a vertex lies; nothing for an inner vertex.
   std::optional<Grid_edge> edge_of(std::size_t vertex) const {
-    if (vertex >= number_of_edge_vertices()) return std::nullopt;
-    const auto after = std::upper_bound(rows_.begin(), rows_.end(), vertex,
-                                        [](std::size_t v, const Row& r) { return v < r.first[0]; });
-    const std::size_t r = std::size_t(after - rows_.begin()) - 1, j = r % signs_.size()[1], k = r / signs_.size()[1];
+    const std::size_t r = row_of(vertex), j = r % signs_.size()[1], k = r / signs_.size()[1];
+    if (vertex >= layers_[k].first_inner_vertex) return std::nullopt;
     const auto& first = rows_[r].first;
     const std::size_t axis = vertex >= first[2] ? 2 : vertex >= first[1] ? 1 : 0;
     return Grid_edge{{node_of_crossed_edge(vertex - first[axis], j, k, axis), j, k}, axis};
@@ -147,6 +162,21 @@ public:
   }
 
 private:
+  void number_vertices(Row& row) {
+    for (Index& first : row.first) {
+      const Index count = first;
+      first = Index(number_of_vertices_);
+      number_of_vertices_ += count;
+    }
+  }
+
+  /// The row of nodes at which a vertex lies, or the last one before an inner vertex.
+  std::size_t row_of(std::size_t vertex) const {
+    const auto after = std::upper_bound(rows_.begin(), rows_.end(), vertex,
+                                        [](std::size_t v, const Row& r) { return v < r.first[0]; });
+    return std::size_t(after - rows_.begin()) - 1;
+  }
+
   /// The i at which the n-th of the crossed edges along `axis` begins in a row of nodes, counted from 0.
   std::size_t node_of_crossed_edge(std::size_t n, std::size_t j, std::size_t k, std::size_t axis) const {
     const Node_signs::Edge_row<true> edges(signs_, j, k);
@@ -164,7 +194,7 @@ private:
   const Node_signs& signs_;
   std::vector<Row> rows_; // one more follows the last
   std::vector<Layer> layers_;
-  std::size_t number_of_vertices_ = 0, number_of_triangles_ = 0;
+  std::size_t number_of_vertices_ = 0, number_of_inner_vertices_ = 0, number_of_triangles_ = 0;
 };
 
 } // namespace equiaffine::internal

@@ -17,6 +17,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -32,25 +33,34 @@ std::size_t number_of_cells(const std::vector<Inner_vertex<FT>>& vertices) {
 
 /// Repairs the mesh, then removes the vertices at poles, which the repairs may renumber.
 template <class Function, class Kernel>
-Isosurface_repairs repair_and_remove_poles(const Function& function, const Isosurface_plan& plan,
-                                           const Grid_rows& suspects, const std::vector<std::size_t>& poles,
-                                           Isosurface_3<Kernel>& surface) {
+Repair_report repair_and_remove_poles(const Function& function, const Isosurface_plan& plan, const Grid_rows& suspects,
+                                      const std::vector<std::size_t>& poles, Layer_bounds& bounds,
+                                      Isosurface_3<Kernel>& surface) {
   auto& [points, triangles] = static_cast<Indexed_triangle_mesh_3<Kernel>&>(surface);
   auto& status = surface.vertex_status;
-  if (poles.empty()) return repair_mesh(function, plan, suspects, triangles, points, status);
+  if (poles.empty()) return repair_mesh(function, plan, suspects, bounds, triangles, points, status);
   std::vector<std::uint8_t> is_at_pole(points.size(), 0);
   for (const std::size_t v : poles) is_at_pole[v] = 1;
-  Isosurface_repairs repairs = repair_mesh(function, plan, suspects, triangles, points, status, is_at_pole);
-  remove_poles(surface, is_at_pole);
-  repairs.vertices_at_poles = poles.size();
-  return repairs;
+  Repair_report report = repair_mesh(function, plan, suspects, bounds, triangles, points, status, is_at_pole);
+  remove_poles(surface, is_at_pole, bounds);
+  report.vertices_at_poles = poles.size();
+  return report;
 }
 
-/// Computes the surface of a function on a lattice: first the topology from the signs and values at the nodes, then the
-/// vertices.
+/// A surface, with what is needed to take it apart. Where the lattice is cut, `is_undecided` says that a larger part of
+/// it has to be known.
+template <class Kernel>
+struct Isosurface_in_layers {
+  Isosurface_3<Kernel> surface;
+  Layer_bounds bounds;
+  bool is_undecided;
+};
+
+/// Computes the surface of a function on a lattice, or on planes of it: first the topology from the signs and values at
+/// the nodes, then the vertices.
 template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
-Isosurface_3<Kernel_of<Traits>> isosurface_on_lattice(const Lattice_function<Traits>& function,
-                                                      Vertex_position position) {
+Isosurface_in_layers<Kernel_of<Traits>> isosurface_on_lattice(const Lattice_function<Traits>& function,
+                                                              Vertex_position position) {
   using FT = typename Traits::FT;
   using Cell = std::array<std::size_t, 3>;
   CGAL::Real_timer timer;
@@ -58,15 +68,15 @@ Isosurface_3<Kernel_of<Traits>> isosurface_on_lattice(const Lattice_function<Tra
   const Sampled_signs sampled = sample_signs<ConcurrencyTag, SkipsEmptySpace>(function);
   const Isosurface_plan plan = plan_isosurface<ConcurrencyTag>(sampled.signs, function, Case_table::instance());
   const std::size_t vertices = plan.numbering.number_of_vertices();
-  const std::size_t edge_vertices = plan.numbering.number_of_edge_vertices();
+  const std::size_t inner = plan.numbering.number_of_inner_vertices(), edge_vertices = vertices - inner;
 
   Isosurface_3<Kernel_of<Traits>> surface;
   resize_with_large_pages(surface.points, vertices);
   surface.vertex_status.assign(vertices, Point_status::REGULAR);
   resize_with_large_pages(surface.triangles, plan.numbering.number_of_triangles());
-  std::vector<Inner_vertex<FT>> inner_vertices(vertices - edge_vertices);
+  std::vector<Inner_vertex<FT>> inner_vertices(inner);
   const auto keep_inner = [&](std::size_t v, const Cell& cell, const std::array<FT, 3>& offset) {
-    inner_vertices[v - edge_vertices] = {cell, offset};
+    inner_vertices[plan.numbering.place_of_inner(v, cell[2])] = {cell, offset};
   };
   Grid_rows suspects =
       place_linearly<ConcurrencyTag>(function, plan, surface.points.data(), surface.triangles.data(), keep_inner);
@@ -84,10 +94,12 @@ Isosurface_3<Kernel_of<Traits>> isosurface_on_lattice(const Lattice_function<Tra
     flips_undone = report.flips_undone;
     poles = report.poles;
   }
-  surface.repairs = repair_and_remove_poles(function, plan, suspects, poles, surface);
+  Layer_bounds bounds(plan.numbering);
+  const Repair_report report = repair_and_remove_poles(function, plan, suspects, poles, bounds, surface);
+  surface.repairs = report;
   surface.repairs.flips_undone = flips_undone;
   surface.projection_seconds = timer.time() - surface.sampling_seconds;
-  return surface;
+  return {std::move(surface), std::move(bounds), report.is_undecided};
 }
 
 } // namespace equiaffine::internal

@@ -9,13 +9,16 @@
 #include <equiaffine/marching_cubes/internal/cell/inner_vertex.h>
 #include <equiaffine/marching_cubes/internal/grid/grid_elements.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
+#include <equiaffine/marching_cubes/internal/vertex/remove_from_mesh.h>
 #include <equiaffine/marching_cubes/internal/vertex/zero_area_repair.h>
 #include <equiaffine/surface/Isosurface_repairs.h>
 #include <equiaffine/surface/internal/shared/split_fans.h>
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 namespace equiaffine::internal {
 
@@ -68,49 +71,62 @@ Grid_rows place_linearly(const Grid& grid, const Isosurface_plan& plan, typename
   return suspects;
 }
 
+/// What was repaired, and whether the part of the grid is too small to know what is to be.
+struct Repair_report : Isosurface_repairs {
+  bool is_undecided = false;
+};
+
 /// Removes triangles without area around the given rows. `properties` are arrays with an entry per vertex.
 template <class Grid, class Triangles, class Points, class... Properties>
-Isosurface_repairs repair_zero_areas(const Grid& grid, const Isosurface_numbering& numbering, const Grid_rows& suspects,
-                                     Triangles& triangles, Points& points, Properties&... properties) {
+Repair_report repair_zero_areas(const Grid& grid, const Isosurface_numbering& numbering, const Grid_rows& suspects,
+                                Layer_bounds& bounds, Triangles& triangles, Points& points, Properties&... properties) {
   const auto suspected_triangles = numbering.triangles_around(suspects);
   if (suspected_triangles.empty()) return {};
   const auto nudge = [&](std::size_t v, int round) {
     const auto edge = numbering.edge_of(v);
-    const std::size_t axis = edge ? edge->axis : (v + std::size_t(round)) % 3;
+    const std::size_t place = numbering.place_in_grid(v, grid.first_plane());
+    const std::size_t axis = edge ? edge->axis : (place + std::size_t(round)) % 3;
     const auto old = points[v];
     const bool is_backward = edge && grid.is_nearer_to_end(*edge, old);
-    points[v] = nudged(old, v, round, [&](double d) { return grid.moved(old, axis, is_backward ? -d : d); });
+    points[v] = nudged(old, place, round, [&](double d) { return grid.moved(old, axis, is_backward ? -d : d); });
   };
   const auto coordinates = [&](std::size_t v) -> decltype(auto) { return grid.coordinates(points[v]); };
+  const auto is_at_cut = [&](std::size_t v) {
+    const auto edge = numbering.edge_of(v);
+    return edge && edge->axis != 2 && grid.is_cut_at(edge->node[2]);
+  };
   const std::span all_triangles(triangles);
-  Zero_area_repair repair(all_triangles, suspected_triangles, coordinates, nudge);
+  Zero_area_repair repair(all_triangles, suspected_triangles, coordinates, nudge, is_at_cut);
   const Isosurface_repairs repairs = repair.run();
-  repair.remove(numbering, triangles, points, properties...);
-  return repairs;
+  repair.remove(bounds, triangles, points, properties...);
+  return {repairs, repair.is_undecided()};
 }
 
 /// Gives parts of a surface that touch in a vertex vertices of their own. `properties` are arrays with an entry per
 /// vertex.
 template <class Triangles, class Points, class... Properties>
-void split_parts(Triangles& triangles, Points& points, Properties&... properties) {
+void split_parts(Layer_bounds& bounds, Triangles& triangles, Points& points, Properties&... properties) {
   const auto append_copy = [](auto& array, std::size_t v) {
     const auto copy = array[v];
     array.push_back(copy);
   };
+  std::vector<std::uint32_t> originals;
   split_fans(triangles, points.size(), [&](std::size_t v) {
+    originals.push_back(std::uint32_t(v));
     append_copy(points, v);
     (append_copy(properties, v), ...);
   });
+  if (!originals.empty()) place_copies_behind_originals(originals, bounds, triangles, points, properties...);
 }
 
 /// Removes triangles without area around the given rows, then gives parts of the surface that touch beside nodes
 /// without a value vertices of their own. `properties` are arrays with an entry per vertex.
 template <class Grid, class Triangles, class Points, class... Properties>
-Isosurface_repairs repair_mesh(const Grid& grid, const Isosurface_plan& plan, const Grid_rows& suspects,
-                               Triangles& triangles, Points& points, Properties&... properties) {
-  const auto repairs = repair_zero_areas(grid, plan.numbering, suspects, triangles, points, properties...);
-  if (plan.has_undefined) split_parts(triangles, points, properties...);
-  return repairs;
+Repair_report repair_mesh(const Grid& grid, const Isosurface_plan& plan, const Grid_rows& suspects,
+                          Layer_bounds& bounds, Triangles& triangles, Points& points, Properties&... properties) {
+  const auto report = repair_zero_areas(grid, plan.numbering, suspects, bounds, triangles, points, properties...);
+  if (plan.has_undefined) split_parts(bounds, triangles, points, properties...);
+  return report;
 }
 
 } // namespace equiaffine::internal

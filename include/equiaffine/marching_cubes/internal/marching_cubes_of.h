@@ -21,9 +21,9 @@ constexpr void check_marching_cubes_parameters() {
                    Verbose_tag, OtherTags...>();
 }
 
-/// The function marching_cubes() with all its named parameters in one chain, which may have others.
-template <class ConcurrencyTag, class Traits, class Parameters>
-Isosurface_3<Kernel_of<Traits>> marching_cubes_of(const Traits& traits, const Parameters& parameters) {
+/// Returns run<SkipsEmptySpace>(function, position) for what the named parameters of marching_cubes() say.
+template <class Traits, class Parameters, class Run>
+auto with_marching_cubes_of(const Traits& traits, const Parameters& parameters, const Run& run) {
   constexpr std::array<std::size_t, 3> default_number_of_nodes = {64, 64, 64};
   constexpr bool skips_empty_space = has_parameter<Skip_empty_space_tag, Parameters>;
   const auto position = get_parameter<Vertex_position_tag>(parameters, Vertex_position::PROJECTED);
@@ -31,7 +31,16 @@ Isosurface_3<Kernel_of<Traits>> marching_cubes_of(const Traits& traits, const Pa
     if constexpr (LatticeImplicitFunctionTraits_3<Traits>) return traits.lattice();
     else return sampling_lattice(traits, get_parameter<Number_of_nodes_tag>(parameters, default_number_of_nodes));
   }();
-  return isosurface_on_lattice<ConcurrencyTag, skips_empty_space>(Lattice_function(traits, lattice), position);
+  return run.template operator()<skips_empty_space>(Lattice_function(traits, lattice), position);
+}
+
+/// The function marching_cubes() with all its named parameters in one chain, which may have others.
+template <class ConcurrencyTag, class Traits, class Parameters>
+Isosurface_3<Kernel_of<Traits>> marching_cubes_of(const Traits& traits, const Parameters& parameters) {
+  return with_marching_cubes_of(
+      traits, parameters, []<bool SkipsEmptySpace>(const auto& function, Vertex_position position) {
+        return isosurface_on_lattice<ConcurrencyTag, SkipsEmptySpace>(function, position).surface;
+      });
 }
 
 } // namespace equiaffine::internal

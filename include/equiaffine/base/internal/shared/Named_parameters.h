@@ -14,6 +14,7 @@ namespace equiaffine::internal {
 /// Tags: the types by which a function asks for its parameters.
 struct Number_of_nodes_tag {};
 struct Vertex_position_tag {};
+struct Planes_per_slab_tag {};
 struct Skip_empty_space_tag {};
 struct Estimator_tag {};
 struct Clip_tag {};

@@ -32,6 +32,11 @@
     return internal::add_parameter<internal::Skip_empty_space_tag>(std::true_type(), GIVEN);                           \
   }                                                                                                                    \
                                                                                                                        \
+  /** How many planes of nodes a slab has. */                                                                          \
+  inline auto planes_per_slab(std::size_t n) CONST {                                                                   \
+    return internal::add_parameter<internal::Planes_per_slab_tag>(n, GIVEN);                                           \
+  }                                                                                                                    \
+                                                                                                                       \
   /** The Estimator of co-normal, affine normal and affine curvatures. */                                              \
   template <class Way>                                                                                                 \
   auto estimator(Way way) CONST {                                                                                      \

@@ -25,8 +25,8 @@ namespace equiaffine {
 /// Writes binary PLY part by part: the header, then all vertices in any number of parts, then all faces.
 class Ply_writer {
 public:
-  /// Writes the header. `layout` has the names of the columns, whether there is a status, and the comments; what numbers
-  /// it has does not matter.
+  /// Writes the header. `layout` has the names of the columns, whether there is a status, and the comments; what
+  /// numbers it has does not matter.
   Ply_writer(std::ostream& stream, std::size_t vertices, std::size_t faces, const Vertex_attributes& layout)
       : out_(stream) {
     write_header(vertices, faces, layout);
@@ -50,7 +50,7 @@ public:
           store(attributes.columns[c].values[first + row], row * width + (3 + c) * number);
       for (std::size_t row = 0; row < rows && attributes.status; ++row)
         store(static_cast<std::uint8_t>((*attributes.status)[first + row]), (row + 1) * width - 1);
-      out_ << std::string_view(block_);
+      out_.write_block(block_);
     }
   }
 
@@ -70,14 +70,15 @@ public:
           place += sizeof v;
         }
       }
-      out_ << std::string_view(block_);
+      out_.write_block(block_);
     }
   }
 
   void flush() { out_.flush(); }
 
 private:
-  static constexpr std::size_t rows_at_once = 512;
+  /// So many rows with their attributes fit into the cache nearest to a processor.
+  static constexpr std::size_t rows_at_once = 256;
 
   void write_header(std::size_t vertices, std::size_t faces, const Vertex_attributes& layout) {
     out_ << "ply\nformat binary_little_endian 1.0\ncomment made by equiaffine";

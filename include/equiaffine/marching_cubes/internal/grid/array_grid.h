@@ -29,6 +29,8 @@ public:
   const Node& size() const { return size_; }
   FT isovalue() const { return isovalue_; }
   static bool is_left_handed() { return false; } // spacings are positive
+  static std::size_t first_plane() { return 0; }
+  static bool is_cut_at(std::size_t) { return false; }
   static const Point& coordinates(const Point& p) { return p; }
 
   /// The value at a node, followed by those at the next nodes along i.

@@ -36,12 +36,25 @@ public:
     bool ends_at(const Point_3& p) const { return coincide(p, ends[0]) || coincide(p, ends[1]); }
   };
 
-  Lattice_function(const Traits& traits, const Lattice_3<Kernel>& lattice) : traits_(traits), lattice_(lattice) {}
+  Lattice_function(const Traits& traits, const Lattice_3<Kernel>& lattice)
+      : Lattice_function(Batch_function_traits_3<Traits>(traits), lattice, 0, lattice.size()[2]) {}
+
+  /// The planes from `first` to `end` - 1 of this grid. Nodes have the numbers that they have in this part.
+  Lattice_function part(std::size_t first, std::size_t end) const {
+    return Lattice_function(traits_, lattice_, first_plane_ + first, end - first);
+  }
 
   /// The same function for a block of cells, which may take less memory there.
-  Lattice_function
-  restricted_to_cells(const Cell_block& cells) const requires CellwiseImplicitFunctionTraits_3<Traits> {
-    return Lattice_function(traits_.restricted_to_cells(cells), lattice_);
+  Lattice_function restricted_to_cells(Cell_block cells) const requires CellwiseImplicitFunctionTraits_3<Traits> {
+    cells.first[2] += first_plane_;
+    cells.end[2] += first_plane_;
+    return Lattice_function(traits_.restricted_to_cells(cells), lattice_, first_plane_, size_[2]);
+  }
+
+  const Node& size() const { return size_; } ///< the number of nodes along each axis
+  std::size_t first_plane() const { return first_plane_; }
+  bool is_cut_at(std::size_t k) const {
+    return (k == 0 && first_plane_ > 0) || (k + 1 == size_[2] && first_plane_ + size_[2] < lattice_.size()[2]);
   }
 
   const Batch_function_traits_3<Traits>& traits() const { return traits_; }
@@ -50,15 +63,21 @@ public:
   bool is_left_handed() const { return lattice_.determinant() < FT(0); }
   static std::array<FT, 3> coordinates(const Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
-  Point_3 point(const Node& n) const { return lattice_.point(number(n[0]), number(n[1]), number(n[2])); }
+  Point_3 point(const Node& n) const { return lattice_.point(number(n[0]), number(n[1]), number(first_plane_ + n[2])); }
   Point_3 point(const Node& cell, const Offset& offset) const {
-    return lattice_.point(number(cell[0]) + offset[0], number(cell[1]) + offset[1], number(cell[2]) + offset[2]);
+    return lattice_.point(number(cell[0]) + offset[0], number(cell[1]) + offset[1],
+                          number(first_plane_ + cell[2]) + offset[2]);
   }
 
   /// The value at a node, which lies at p.
   FT value(const Node& n, const Point_3& p) const {
-    if constexpr (has_samples) return traits_.sample(n[0], n[1], n[2]);
+    if constexpr (has_samples) return traits_.sample(n[0], n[1], first_plane_ + n[2]);
     else return traits_.value(p);
+  }
+
+  /// Copies the samples of a block of nodes, i fastest.
+  void copy_samples(const Node& first, const Node& size, std::span<FT> out) const requires has_samples {
+    samples(traits_, {first[0], first[1], first_plane_ + first[2]}, size, out);
   }
 
   Edge edge(const Grid_edge& e) const {
@@ -108,6 +127,11 @@ public:
   static constexpr std::size_t evaluations(std::size_t n) { return has_samples ? 0 : n; }
 
 private:
+  Lattice_function(const Batch_function_traits_3<Traits>& traits, const Lattice_3<Kernel>& lattice,
+                   std::size_t first_plane, std::size_t planes)
+      : traits_(traits), lattice_(lattice),
+        first_plane_(first_plane), size_{lattice.size()[0], lattice.size()[1], planes} {}
+
   static Node end_of(const Grid_edge& e) {
     const auto& [i, j, k] = e.node;
     return {i + (e.axis == 0), j + (e.axis == 1), k + (e.axis == 2)};
@@ -119,6 +143,8 @@ private:
 
   const Batch_function_traits_3<Traits> traits_;
   const Lattice_3<Kernel> lattice_;
+  const std::size_t first_plane_;
+  const Node size_;
 };
 
 } // namespace equiaffine::internal

@@ -19,8 +19,8 @@
 
 namespace equiaffine::internal {
 
-/// A box around the nodes of a block and one node around them. Rounding is monotone: no coordinate of a node, as
-/// computed, is outside of those at the corners.
+/// A box around the nodes of a block of the lattice and one node around them. Rounding is monotone: no coordinate of a
+/// node, as computed, is outside of those at the corners.
 template <class Kernel>
 CGAL::Bbox_3 box_around(const Lattice_3<Kernel>& lattice, const Node_block& block) {
   using FT = typename Kernel::FT;
@@ -72,7 +72,7 @@ private:
     for (std::size_t j = block[1].first; j < block[1].end; ++j)
       for (std::size_t i = block[0].first; i < block[0].end; i += batch) {
         const std::size_t n = std::min(batch, block[0].end - i);
-        samples(function_.traits(), {i, j, block[2].first}, {n, 1, planes}, std::span(values).first(n * planes));
+        function_.copy_samples({i, j, block[2].first}, {n, 1, planes}, std::span(values).first(n * planes));
         for (std::size_t k = 0; k < planes; ++k)
           signs_.set(i, j, block[2].first + k, sign_word(&values[k * n], n, FT(0)));
       }
@@ -80,7 +80,9 @@ private:
 
   /// Samples a block of which `traits` has the values: deep in the recursion it is a part of the function.
   void sample_part(const Batch_function_traits_3<Traits>& traits, const Node_block& block) {
-    const auto box = box_around(function_.lattice(), block);
+    const std::size_t first_plane = function_.first_plane();
+    const auto box = box_around(function_.lattice(),
+                                {{block[0], block[1], {first_plane + block[2].first, first_plane + block[2].end}}});
     const Interval bounds = traits.bounds(box);
     if (bounds.upper() < 0) return;
     if (bounds.lower() >= 0) return signs_.set_positive(block);
@@ -145,7 +147,7 @@ struct Sampled_signs {
 template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
 Sampled_signs sample_signs(const Lattice_function<Traits>& function) {
   constexpr std::size_t planes_per_slab = Lattice_function<Traits>::has_samples ? 16 : 8;
-  const auto& size = function.lattice().size();
+  const auto& size = function.size();
   Node_signs signs(size);
   std::vector<std::size_t> evaluations((size[2] + planes_per_slab - 1) / planes_per_slab); // per slab
   parallel_for<ConcurrencyTag>(0, evaluations.size(), [&](std::size_t s) {

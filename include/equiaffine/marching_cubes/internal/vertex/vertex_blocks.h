@@ -19,8 +19,8 @@
 
 namespace equiaffine::internal {
 
-/// The number of planes whose vertices are projected together. Where tiles are few, those of more planes are, for threads
-/// to have something to do.
+/// The number of planes whose vertices are projected together. Where tiles are few, those of more planes are, for
+/// threads to have something to do.
 template <class Traits>
 std::size_t planes_of_slab(const Node_signs::Size& size) {
   constexpr std::size_t planes = cells_of_tile[2], enough_tiles = 64;
@@ -47,24 +47,24 @@ std::vector<Node_block> blocks_of_slab(const Isosurface_plan& plan, const Index_
   return blocks;
 }
 
-/// Calls visit(v) for every vertex inside a cell that begins at a node of a block.
+/// Calls visit(v, inner_vertex) for every vertex inside a cell that begins at a node of a block.
 template <class FT, class Visit>
 void for_each_inner_vertex(const Isosurface_plan& plan, const std::vector<Inner_vertex<FT>>& inner_vertices,
                            const Node_block& block, const Visit& visit) {
   for (std::size_t k = block[2].first; k < block[2].end; ++k) {
     const Index_range numbers = plan.numbering.inner_vertices_of_layer(k); // ordered like their cells
     const auto of_layer =
-        std::span(inner_vertices).subspan(numbers.first - plan.numbering.number_of_edge_vertices(), numbers.size());
+        std::span(inner_vertices).subspan(plan.numbering.place_of_inner(numbers.first, k), numbers.size());
     auto vertex = std::partition_point(of_layer.begin(), of_layer.end(),
                                        [&](const auto& inner) { return inner.cell[1] < block[1].first; });
     for (; vertex != of_layer.end() && vertex->cell[1] < block[1].end; ++vertex)
       if (block[0].first <= vertex->cell[0] && vertex->cell[0] < block[0].end)
-        visit(numbers.first + std::size_t(vertex - of_layer.begin()));
+        visit(numbers.first + std::size_t(vertex - of_layer.begin()), *vertex);
   }
 }
 
-/// The cells around the vertices at the nodes of a block, if it has vertices. Rounding may move a vertex to another cell at
-/// its edge, or beyond an end of the edge.
+/// The cells around the vertices at the nodes of a block, if it has vertices. Rounding may move a vertex to another
+/// cell at its edge, or beyond an end of the edge.
 template <class FT>
 std::optional<Cell_block> cells_with_vertices(const Isosurface_plan& plan,
                                               const std::vector<Inner_vertex<FT>>& inner_vertices,
@@ -82,7 +82,7 @@ std::optional<Cell_block> cells_with_vertices(const Isosurface_plan& plan,
     add({i, j, k});
   });
   for_each_inner_vertex(plan, inner_vertices, block,
-                        [&](std::size_t v) { add(inner_vertices[v - plan.numbering.number_of_edge_vertices()].cell); });
+                        [&](std::size_t, const Inner_vertex<FT>& inner) { add(inner.cell); });
   return cells.end[0] > 0 ? std::optional(cells) : std::nullopt;
 }
 

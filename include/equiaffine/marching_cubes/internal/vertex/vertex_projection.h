@@ -85,19 +85,21 @@ private:
     std::vector<std::array<std::size_t, 2>> suspects; ///< j, k of rows of nodes
   };
 
-  /// The linear positions of the vertices on edges that begin in the planes `first` to `end` - 1, which are not yet
-  /// projected, and in the plane below them, which is projected already: its linear positions are in `below`.
+  /// The linear positions of the vertices on edges that begin in the planes `first` to `end` - 1 and in the cells
+  /// above, which are not yet projected, and in the plane below, which is projected already: its linear positions are
+  /// in `below`.
   Positions linear_positions(std::size_t first, std::size_t end, const Positions& below) const {
-    const auto vertices = [&](std::size_t k) { return numbering_.vertices_of_plane(k); };
-    const std::size_t first_kept = vertices(first > 0 ? first - 1 : 0).first;
+    const Index_range vertices = numbering_.vertices_of_planes(first, end);
+    const std::size_t first_kept = numbering_.vertices_of_planes(first > 0 ? first - 1 : 0, end).first;
     Positions linear{first_kept, {}};
-    if (first > 0) linear.points.assign(&below[first_kept], &below[first_kept] + (vertices(first).first - first_kept));
-    linear.points.insert(linear.points.end(), surface_.points.begin() + std::ptrdiff_t(vertices(first).first),
-                         surface_.points.begin() + std::ptrdiff_t(vertices(end - 1).end));
+    if (first > 0) linear.points.assign(&below[first_kept], &below[first_kept] + (vertices.first - first_kept));
+    linear.points.insert(linear.points.end(), surface_.points.begin() + std::ptrdiff_t(vertices.first),
+                         surface_.points.begin() + std::ptrdiff_t(vertices.end));
     return linear;
   }
 
-  /// Projects the vertices on the edges that begin in the planes `first` to `end` - 1, and those in the cells above them.
+  /// Projects the vertices on the edges that begin in the planes `first` to `end` - 1, and those in the cells above
+  /// them.
   void project_slab(std::size_t first, std::size_t end) {
     const std::vector<Node_block> blocks = blocks_of_slab<Traits>(plan_, {first, end});
     std::vector<Part> parts(blocks.size());
@@ -128,8 +130,8 @@ private:
           part.suspects.push_back({grid_edges[n].node[1], grid_edges[n].node[2]});
       }
     });
-    for_each_inner_vertex(plan_, inner_vertices_, block, [&](std::size_t v) {
-      set_projected(v, project_within_cell<Traits>(function, inner_vertex(v)), part);
+    for_each_inner_vertex(plan_, inner_vertices_, block, [&](std::size_t v, const Inner_vertex<FT>& inner) {
+      set_projected(v, project_within_cell<Traits>(function, inner), part);
     });
   }
 
@@ -142,10 +144,9 @@ private:
 
   /// Finds the triangles of layer k that projection has turned over.
   void find_flipped(std::size_t k, const Positions& linear) {
-    const auto linear_position = [&](std::size_t v) { return is_inner(v) ? point_of(inner_vertex(v)) : linear[v]; };
     const Index_range triangles = numbering_.triangles_of_layer(k);
     for (std::size_t t = triangles.first; t < triangles.end; ++t)
-      if (is_flipped(t, linear_position)) flipped_[k].push_back(t);
+      if (is_flipped(t, [&](std::size_t v) { return linear[v]; })) flipped_[k].push_back(t);
   }
 
   /// Whether projection has turned a triangle over or taken away its area. This is decided in lattice coordinates, so
@@ -209,7 +210,7 @@ private:
 
   /// Computes the linear position of a vertex again.
   Point_3 linear_position(std::size_t v) {
-    if (is_inner(v)) return point_of(inner_vertex(v));
+    if (const auto inner = numbering_.place_of_inner(v)) return point_of(inner_vertices_[*inner]);
     evaluations_ += Function::evaluations(2);
     return function_.edge(*numbering_.edge_of(v)).linear_intersection();
   }
@@ -234,17 +235,14 @@ private:
 
   /// Appends the numbers of the triangles that have v as a vertex.
   void append_triangles_around(std::size_t v, std::vector<std::size_t>& triangles) const {
-    const auto node = is_inner(v) ? inner_vertex(v).cell : numbering_.edge_of(v)->node;
+    const auto edge = numbering_.edge_of(v);
+    const auto node = edge ? edge->node : inner_vertices_[*numbering_.place_of_inner(v)].cell;
     numbering_.for_each_triangle_around(node[1], node[2], [&](std::size_t t) {
       const Triangle& triangle = surface_.triangles[t];
       if (std::find(triangle.begin(), triangle.end(), v) != triangle.end()) triangles.push_back(t);
     });
   }
 
-  bool is_inner(std::size_t v) const { return v >= numbering_.number_of_edge_vertices(); }
-  const Inner_vertex<FT>& inner_vertex(std::size_t v) const {
-    return inner_vertices_[v - numbering_.number_of_edge_vertices()];
-  }
   Point_3 point_of(const Inner_vertex<FT>& vertex) const { return function_.point(vertex.cell, vertex.offset); }
 
   const Function& function_;

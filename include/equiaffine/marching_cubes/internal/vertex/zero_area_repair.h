@@ -2,7 +2,6 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_VERTEX_ZERO_AREA_REPAIR_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_VERTEX_ZERO_AREA_REPAIR_H
 
-#include <equiaffine/marching_cubes/internal/isosurface_numbering.h>
 #include <equiaffine/marching_cubes/internal/vertex/remove_from_mesh.h>
 #include <equiaffine/surface/Isosurface_repairs.h>
 
@@ -47,9 +46,10 @@ bool any_zero_area(const Triangles& triangles, const Coordinates& coordinates) {
 /// without length are contracted while that leaves the topology as it is (link condition: Dey, Edelsbrunner, Guha,
 /// Nekhayev 1999), components without area are dropped, and what is left is given area by moving vertices a little.
 ///
-/// `coordinates(v)` are those of a vertex, `nudge(v, round)` moves it a little. `run` gives the triangles to remove
-/// three equal indices, and `remove` takes them out.
-template <class Coordinates, class Nudge>
+/// `coordinates(v)` are those of a vertex, `nudge(v, round)` moves it a little, and `is_at_cut(v)` says that the mesh
+/// goes on there beyond what is known of it. `run` gives the triangles to remove three equal indices, and `remove`
+/// takes them out.
+template <class Coordinates, class Nudge, class Is_at_cut>
 class Zero_area_repair {
 public:
   using Index = std::uint32_t;
@@ -58,8 +58,8 @@ public:
   /// `suspects` are the numbers of all triangles that may have no area, and of all triangles that have a vertex in
   /// common with one that has none.
   Zero_area_repair(std::span<Triangle> triangles, const std::vector<std::size_t>& suspects,
-                   const Coordinates& coordinates, const Nudge& nudge)
-      : triangles_(triangles), coordinates_(coordinates), nudge_(nudge) {
+                   const Coordinates& coordinates, const Nudge& nudge, const Is_at_cut& is_at_cut)
+      : triangles_(triangles), coordinates_(coordinates), nudge_(nudge), is_at_cut_(is_at_cut) {
     for (const std::size_t t : suspects)
       if (is_flat(t)) flat_.push_back(t);
     if (!flat_.empty()) find_stars(suspects);
@@ -74,28 +74,16 @@ public:
     return repairs_;
   }
 
+  /// Whether a closed part without area may go on beyond a cut, so that it is not known whether it is to be dropped.
+  bool is_undecided() const { return is_undecided_; }
+
   /// Removes the triangles that are gone, and the vertices that are in no triangle any more from `points...`, arrays
   /// with an entry per vertex.
   template <class Triangles, class... Points>
-  void remove(const Isosurface_numbering& numbering, Triangles& triangles, Points&... points) {
+  void remove(Layer_bounds& bounds, Triangles& triangles, Points&... points) {
     sort_and_unite(removed_vertices_);
     sort_and_unite(removed_triangles_);
-    const std::size_t n = std::max({points.size()...});
-    const std::size_t kept = n - removed_vertices_.size();
-    std::vector<Index> new_number(removed_vertices_.size()); // one for each vertex from `kept` on
-    const auto renumber = [&](std::size_t t) {
-      for (Index& v : triangles[t])
-        if (v >= kept) v = new_number[v - kept];
-    };
-    fill_holes(n, removed_vertices_, [&](std::size_t from, std::size_t to) { new_number[from - kept] = Index(to); });
-    numbering.for_each_range_with_vertices_from(kept, [&](const Index_range& range) {
-      for (std::size_t t = range.first; t < range.end; ++t) renumber(t);
-    });
-    for (std::size_t v = kept; v < n; ++v) // contraction has given these vertices triangles of other ranges
-      if (const auto star = stars_.find(Index(v)); star != stars_.end())
-        for (const std::size_t t : star->second) renumber(t);
-    (remove_from_array(removed_vertices_, points), ...);
-    remove_from_array(removed_triangles_, triangles);
+    remove_from_mesh(removed_vertices_, removed_triangles_, bounds, triangles, points...);
   }
 
 private:
@@ -202,16 +190,20 @@ private:
       if (!is_flat(first) || visited.contains(first)) continue;
       std::vector<std::size_t> component = {first}; // the flat triangles that are connected with the first
       visited.insert(first);
-      bool is_closed_and_flat = true;
+      bool is_closed_and_flat = true, meets_cut = false;
       for (std::size_t n = 0; n < component.size(); ++n)
         for (const Index v : triangles_[component[n]]) {
-          if (is_on_boundary(neighbors(v))) is_closed_and_flat = false;
+          if (is_on_boundary(neighbors(v))) {
+            if (is_at_cut_(v)) meets_cut = true;
+            else is_closed_and_flat = false;
+          }
           for (const std::size_t t : stars_[v]) {
             if (!is_flat(t)) is_closed_and_flat = false;
             else if (visited.insert(t).second) component.push_back(t);
           }
         }
-      if (is_closed_and_flat) drop(component);
+      if (is_closed_and_flat && meets_cut) is_undecided_ = true;
+      else if (is_closed_and_flat) drop(component);
     }
   }
 
@@ -247,19 +239,21 @@ private:
   std::span<Triangle> triangles_;
   const Coordinates& coordinates_;
   const Nudge& nudge_;
+  const Is_at_cut& is_at_cut_;
   std::vector<std::size_t> flat_;                             // triangles that may have no area
   std::unordered_map<Index, std::vector<std::size_t>> stars_; // the triangles around the vertices of those
   std::vector<Index> removed_vertices_;
   std::vector<std::size_t> removed_triangles_;
   Isosurface_repairs repairs_;
+  bool is_undecided_ = false;
 };
 
-/// A position near p, which is move(0): move(d) for a small d that depends on vertex and round. d is at most 2.5e-7
-/// where move(0.5e-7) differs from p, else a few roundings.
+/// A position near p, which is move(0): move(d) for a small d that depends on the place of the vertex and the round. d
+/// is at most 2.5e-7 where move(0.5e-7) differs from p, else a few roundings.
 template <class Point, class Move>
-Point nudged(const Point& p, std::size_t vertex, int round, const Move& move) {
+Point nudged(const Point& p, std::size_t place, int round, const Move& move) {
   // The square makes vertices that move alike in one round move differently in the next.
-  const double golden = 0.6180339887498949 * double(vertex) * (round + 1) * (round + 1);
+  const double golden = 0.6180339887498949 * double(place) * (round + 1) * (round + 1);
   double d = 0.5e-7;
   while (move(d) == p && d < 1) d *= 2;
   return move(d * (1 + 4 * (golden - std::floor(golden))));

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_MARCHING_CUBES_ISOSURFACE_SLAB_3_H
+#define EQUIAFFINE_MARCHING_CUBES_ISOSURFACE_SLAB_3_H
+
+#include <equiaffine/surface/Isosurface_3.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace equiaffine {
+
+/// The part of a mesh between planes of nodes: the vertices on edges that begin in the planes from `first_plane` to
+/// `end_plane` - 1, and in the cells above these, with the triangles of these cells. What a slab has follows in the
+/// whole mesh on what the slab before has.
+template <class Kernel>
+struct Isosurface_slab_3 {
+  std::size_t first_plane, end_plane;       ///< planes of nodes, numbered along k
+  std::size_t first_vertex, first_triangle; ///< the numbers in the whole mesh of the first ones
+  std::vector<typename Kernel::Point_3> points;
+  std::vector<Point_status> vertex_status; ///< one per point, as in Isosurface_3
+  /// The numbers in the whole mesh of three vertices each, which are of this slab, of the next one, or of earlier ones.
+  std::vector<std::array<std::size_t, 3>> triangles;
+};
+
+/// What a mesh has that was made slab by slab.
+struct Isosurface_totals {
+  std::size_t vertices = 0, triangles = 0;
+  std::size_t function_evaluations = 0; ///< of f, with or without derivatives; more than one for nodes near seams
+};
+
+} // namespace equiaffine
+
+#endif

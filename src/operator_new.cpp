@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All memory that C++ asks for in this executable comes from here, so that large arrays can be in scratch memory.
+#include "system/memory_limit.h"
+#include "system/scratch_memory.h"
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+void* operator new(std::size_t size) {
+  if (equiaffine::belongs_in_scratch_memory(size)) return equiaffine::allocate_scratch_memory(size);
+  while (true) {
+    if (void* const memory = std::malloc(size > 0 ? size : 1)) return memory;
+    const std::new_handler make_room = std::get_new_handler();
+    if (!make_room) throw std::bad_alloc();
+    make_room();
+  }
+}
+
+void operator delete(void* memory) noexcept {
+  if (equiaffine::is_scratch_memory(memory)) equiaffine::free_scratch_memory(memory);
+  else std::free(memory);
+}
+
+void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "system/memory_limit.h"
+
+#include "system/Temporary_folder.h"
+#include "system/reclaimable_memory.h"
+#include "system/scratch_memory.h"
+#include <equiaffine/Input_error.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fstream>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+namespace equiaffine {
+
+namespace {
+
+constexpr std::size_t large_array = std::size_t(1) << 22, mebibyte = std::size_t(1) << 20;
+
+std::atomic<std::size_t> limit = 0; ///< 0 if there is none
+std::atomic<pid_t> child_that_counts = 0;
+
+int statm = -1; ///< /proc/self/statm, open since the limit was set
+
+/// The bytes that are resident, as its second number says in pages; 0 if it cannot be read.
+std::size_t resident_memory_of_process() {
+  std::array<char, 128> text{};
+  if (::pread(statm, text.data(), text.size() - 1, 0) <= 0) return 0;
+  char* end = nullptr;
+  std::strtoull(text.data(), &end, 10);
+  return std::size_t(std::strtoull(end, nullptr, 10)) * std::size_t(::sysconf(_SC_PAGE_SIZE));
+}
+
+/// The sum of some lines of the status of a process, which are in kilobytes, in bytes; 0 if there is no such process.
+std::size_t memory_in_status(const std::string& process, std::initializer_list<std::string_view> names) {
+  std::ifstream file("/proc/" + process + "/status");
+  std::size_t kilobytes = 0;
+  for (std::string line; std::getline(file, line);)
+    for (const std::string_view name : names)
+      if (line.starts_with(name)) kilobytes += std::strtoull(line.c_str() + name.size(), nullptr, 10);
+  return 1024 * kilobytes;
+}
+
+/// The resident memory of this process and of the child that counts.
+std::size_t resident_memory() {
+  const pid_t child = child_that_counts;
+  return resident_memory_of_process() + (child == 0 ? 0 : memory_in_status(std::to_string(child), {"VmRSS:"}));
+}
+
+/// The part of it that has no file to come back from.
+std::size_t irreclaimable_memory() {
+  const std::initializer_list<std::string_view> names = {"RssAnon:", "RssShmem:"};
+  const pid_t child = child_that_counts;
+  return memory_in_status("self", names) + (child == 0 ? 0 : memory_in_status(std::to_string(child), names));
+}
+
+/// Looks at this process from now on, which may be a child, and has it do without large pages: see
+/// reclaimable_memory.cpp.
+void begin_to_look() {
+  if (statm != -1) ::close(statm);
+  statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+#ifdef __linux__
+  ::prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0);
+#endif
+}
+
+std::string in_mebibytes(std::size_t bytes) { return std::to_string((bytes + mebibyte - 1) / mebibyte) + "M"; }
+
+/// Ends the process as an error of the user does.
+[[noreturn]] void end_for_lack_of_memory(std::size_t used) {
+  const std::string report = "equiaffine: error: --memory: more than " + in_mebibytes(limit) +
+                             " are needed at once, since not everything can be kept in a file; give more, such as " +
+                             in_mebibytes(2 * used) + ", or leave it out\n";
+  remove_all_temporary_folders();
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, report.data(), report.size());
+  constexpr int error_of_user = 2;
+  ::_exit(error_of_user);
+}
+
+/// Keeps the resident memory below `bytes` by giving pages back, or ends the process if that cannot be and it
+/// `may_end`. It looks the more often the nearer the limit is.
+void watch(std::size_t bytes, bool may_end) {
+  constexpr std::size_t while_giving_back = 110 * mebibyte; // so much comes back meanwhile
+  const std::size_t high = std::max(bytes / 2, bytes - std::max(bytes / 20 * 3, std::min(bytes, while_giving_back)));
+  const std::size_t too_high = bytes / 20 * 21;
+  constexpr std::size_t bytes_per_microsecond = 40000; // mapped files fill memory as fast as this
+  while (true) {
+    std::size_t used = resident_memory();
+    if (used > high) {
+      give_back_reclaimable_memory();
+      used = resident_memory();
+      if (may_end && used > too_high)
+        if (const std::size_t rest = irreclaimable_memory(); rest > too_high) end_for_lack_of_memory(rest);
+    }
+    const std::size_t microseconds = ((used > high ? too_high : high) - std::min(used, high)) / bytes_per_microsecond;
+    std::this_thread::sleep_for(std::chrono::microseconds(std::clamp<std::size_t>(microseconds, 200, 20000)));
+  }
+}
+
+} // namespace
+
+void limit_resident_memory(std::size_t bytes, const std::filesystem::path& folder) {
+  begin_to_look();
+  const std::size_t used = resident_memory();
+  if (used == 0) throw Input_error("--memory: this system does not tell how much memory a process has; leave it out");
+  const std::size_t least = (used / mebibyte + 128) / 10 * 10 * mebibyte;
+  if (bytes < least)
+    throw Input_error("--memory: " + in_mebibytes(bytes) + " are too few, since the program itself takes " +
+                      in_mebibytes(used) + "; give at least " + in_mebibytes(least));
+  open_scratch_memory(folder, bytes / 8);
+  limit = bytes;
+  std::thread([bytes] { watch(bytes, true); }).detach();
+}
+
+bool is_resident_memory_limited() { return limit > 0; }
+
+void limit_resident_memory_of_child() {
+  if (limit == 0) return;
+  forget_reclaimable_memory();
+  reopen_scratch_memory();
+  begin_to_look();
+  child_that_counts = 0;
+  const std::size_t of_parent = memory_in_status(std::to_string(::getppid()), {"VmRSS:"});
+  limit = std::max(limit - std::min<std::size_t>(limit, of_parent), limit / 4);
+  std::thread([bytes = limit.load()] { watch(bytes, false); }).detach();
+}
+
+void count_memory_of_child(pid_t child) { child_that_counts = child; }
+
+bool belongs_in_scratch_memory(std::size_t size) {
+  return size >= large_array && has_scratch_memory() && resident_memory_of_process() + size > limit / 2;
+}
+
+} // namespace equiaffine

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "system/scratch_memory.h"
+
+#include "system/reclaimable_memory.h"
+#include <equiaffine/Input_error.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <fcntl.h>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <new>
+#include <string>
+#include <sys/mman.h>
+#include <sys/statfs.h>
+#include <system_error>
+#include <unistd.h>
+#ifdef __linux__
+#include <linux/magic.h>
+#endif
+
+namespace equiaffine {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t unit = std::size_t(1) << 16; ///< sizes are multiples of this, and so of a page
+constexpr std::size_t most_addresses = std::size_t(1) << 43;
+
+/// Part of the address space is set aside, and the memory at a place in it is what the file has at that place.
+struct Scratch {
+  fs::path folder;
+  std::size_t most_spare;
+  std::byte* first;      ///< of the part of the address space
+  int file;              ///< its descriptor
+  std::size_t inherited; ///< what lies before this place is in the file of a parent
+  std::size_t end;       ///< nothing was ever allocated from there on
+  std::mutex mutex = {};
+  std::map<std::size_t, std::size_t> size_at = {};            ///< of what is allocated
+  std::multimap<std::size_t, std::size_t> spare_of_size = {}; ///< the places of what is freed, and kept
+  std::size_t spare = 0;
+  bool has_no_room = false;
+};
+
+std::atomic<Scratch*> scratch = nullptr; ///< is never destroyed, since memory is freed until the process ends
+
+/// Opens a file without a name; -1 if that cannot be.
+int open_nameless_file_in(const fs::path& folder) {
+#ifdef O_TMPFILE
+  if (const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR); file != -1)
+    return file;
+#endif
+  std::string name = (folder / ".equiaffine-scratch-XXXXXX").string();
+  const int file = ::mkstemp(name.data());
+  if (file != -1) ::unlink(name.c_str());
+  return file;
+}
+
+/// Whether the file is in memory, where it would take what it is to spare.
+bool is_in_memory([[maybe_unused]] int file) {
+#ifdef __linux__
+  struct statfs facts;
+  return ::fstatfs(file, &facts) == 0 && (facts.f_type == TMPFS_MAGIC || facts.f_type == RAMFS_MAGIC);
+#else
+  return false;
+#endif
+}
+
+/// Makes room in the file, for a disk that is full to be met here, not by a signal at the first write.
+bool make_room([[maybe_unused]] const Scratch& s, [[maybe_unused]] std::size_t place,
+               [[maybe_unused]] std::size_t size) {
+#ifdef __linux__
+  if (::fallocate(s.file, 0, off_t(place), off_t(size)) == 0) return true;
+  if (errno != EOPNOTSUPP) return false;
+#endif
+  return ::posix_fallocate(s.file, off_t(place), off_t(size)) == 0;
+}
+
+/// Takes a part of the address space again, so that nothing else gets it.
+void set_aside(const Scratch& s, std::size_t place, std::size_t size) {
+  ::mmap(s.first + place, size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED, -1, 0);
+}
+
+/// Gives memory back to the file system.
+void release(const Scratch& s, std::size_t place, std::size_t size) {
+  remove_reclaimable_memory(s.first + place);
+  set_aside(s, place, size);
+#ifdef __linux__
+  if (place >= s.inherited) ::fallocate(s.file, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, off_t(place), off_t(size));
+#endif
+}
+
+/// Allocates at the end; null if there is no room.
+void* allocate_at_end(Scratch& s, std::size_t size) {
+  std::byte* const memory = s.first + s.end;
+  if (s.end + size > most_addresses || !make_room(s, s.end, size) ||
+      ::mmap(memory, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, s.file, off_t(s.end)) == MAP_FAILED)
+    return nullptr;
+  ::madvise(memory, size, MADV_RANDOM); // pages that nobody asks for take room from others
+  add_reclaimable_memory(memory, size);
+  s.size_at[s.end] = size;
+  s.end += size;
+  return memory;
+}
+
+void release_spare(Scratch& s) {
+  for (const auto& [size, place] : s.spare_of_size) release(s, place, size);
+  s.spare_of_size.clear();
+  s.spare = 0;
+}
+
+} // namespace
+
+void open_scratch_memory(const fs::path& folder, std::size_t spare) {
+  const auto fail = [&](const std::string& reason, const std::string& advice) {
+    throw Input_error("--memory: what does not fit is kept in a file in the folder '" + folder.string() + "', " +
+                      reason + "; " + advice);
+  };
+  const int file = open_nameless_file_in(folder);
+  if (file == -1)
+    fail("and none can be made there (" + std::generic_category().message(errno) + ")",
+         "choose another one for the output");
+  if (is_in_memory(file)) {
+    ::close(file);
+    fail("which is in memory itself",
+         "choose one on a disk for the output, or, for standard output, for temporary files by TMPDIR");
+  }
+  void* const first = ::mmap(nullptr, most_addresses, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (first == MAP_FAILED) {
+    ::close(file);
+    throw Input_error("--memory: the limit of the address space is too low; raise it with ulimit -v");
+  }
+  scratch = new Scratch{folder, spare, static_cast<std::byte*>(first), file, 0, 0};
+}
+
+void reopen_scratch_memory() {
+  const Scratch* const of_parent = scratch;
+  if (!of_parent) return;
+  const int file = open_nameless_file_in(of_parent->folder);
+  if (file == -1) throw std::bad_alloc();
+  scratch =
+      new Scratch{of_parent->folder, of_parent->most_spare, of_parent->first, file, of_parent->end, of_parent->end};
+}
+
+bool has_scratch_memory() { return scratch.load(std::memory_order_acquire) != nullptr; }
+
+double room_for_scratch_memory() {
+  std::error_code error;
+  const fs::space_info space = fs::space(scratch.load()->folder, error);
+  return error ? std::numeric_limits<double>::infinity() : double(space.available);
+}
+
+void* allocate_scratch_memory(std::size_t size) {
+  Scratch& s = *scratch;
+  size = (size + unit - 1) / unit * unit;
+  const std::lock_guard guard(s.mutex);
+  if (const auto spare = s.spare_of_size.find(size); spare != s.spare_of_size.end()) {
+    const std::size_t place = spare->second;
+    s.spare_of_size.erase(spare);
+    s.spare -= size;
+    s.size_at[place] = size;
+    return s.first + place;
+  }
+  void* memory = allocate_at_end(s, size);
+  if (!memory) {
+    release_spare(s);
+    memory = allocate_at_end(s, size);
+  }
+  if (!memory) {
+    s.has_no_room = true;
+    throw std::bad_alloc();
+  }
+  return memory;
+}
+
+bool is_scratch_memory(const void* memory) {
+  const Scratch* const s = scratch.load(std::memory_order_acquire);
+  return s && memory >= s->first && memory < s->first + most_addresses;
+}
+
+void free_scratch_memory(void* memory) {
+  Scratch& s = *scratch;
+  const std::lock_guard guard(s.mutex);
+  const auto place = std::size_t(static_cast<std::byte*>(memory) - s.first);
+  const auto found = s.size_at.find(place);
+  if (found == s.size_at.end()) return; // a parent has it
+  const std::size_t size = found->second;
+  s.size_at.erase(found);
+  if (s.spare + size > s.most_spare) return release(s, place, size);
+  s.spare_of_size.emplace(size, place);
+  s.spare += size;
+}
+
+fs::path folder_without_room() {
+  Scratch* const s = scratch;
+  if (!s) return {};
+  const std::lock_guard guard(s->mutex);
+  return s->has_no_room ? s->folder : fs::path();
+}
+
+} // namespace equiaffine

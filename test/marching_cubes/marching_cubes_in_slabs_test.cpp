@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/Expression_3.h>
+#include <equiaffine/Sampled_function_traits_3.h>
+#include <equiaffine/marching_cubes.h>
+#include <equiaffine/marching_cubes_in_slabs.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using Kernel = CGAL::Simple_cartesian<double>;
+
+/// Expects that slabs of that many planes follow on each other and together are the mesh.
+template <class Traits, class Parameters>
+void expect_same(const Traits& traits, const Isosurface_3<Kernel>& whole, std::size_t planes,
+                 const Parameters& parameters, const std::string& name) {
+  std::vector<Kernel::Point_3> points;
+  std::vector<Point_status> status;
+  std::vector<std::array<std::size_t, 3>> triangles, expected(whole.triangles.size());
+  std::size_t next_plane = 0;
+  const auto totals = marching_cubes_in_slabs(
+      traits,
+      [&](const Isosurface_slab_3<Kernel>& slab) {
+        EXPECT_EQ(slab.first_plane, next_plane);
+        EXPECT_EQ(slab.first_vertex, points.size());
+        EXPECT_EQ(slab.first_triangle, triangles.size());
+        next_plane = slab.end_plane;
+        points.insert(points.end(), slab.points.begin(), slab.points.end());
+        status.insert(status.end(), slab.vertex_status.begin(), slab.vertex_status.end());
+        triangles.insert(triangles.end(), slab.triangles.begin(), slab.triangles.end());
+      },
+      parameters.planes_per_slab(planes));
+  for (std::size_t t = 0; t < expected.size(); ++t)
+    expected[t] = {whole.triangles[t][0], whole.triangles[t][1], whole.triangles[t][2]};
+  EXPECT_EQ(points, whole.points) << name << ", " << planes << " planes per slab";
+  EXPECT_EQ(status, whole.vertex_status) << name << ", " << planes << " planes per slab";
+  EXPECT_EQ(triangles, expected) << name << ", " << planes << " planes per slab";
+  EXPECT_EQ(totals.vertices, whole.points.size());
+  EXPECT_EQ(totals.triangles, whole.triangles.size());
+}
+
+// Surfaces through nodes along lines and planes of the grid, ones that only touch zero there, so that parts without
+// area reach through all slabs, ends, poles, and cells with vertices inside.
+TEST(Marching_cubes_in_slabs, slabs_are_the_mesh_whatever_the_function_is) {
+  const std::array<const char*, 16> functions = {"x^2+y^2+z^2-1",
+                                                 "x^2+y^2+z^2-0.36",
+                                                 "x^2+y^2-1",
+                                                 "x^2-y^2",
+                                                 "y^2-z^2",
+                                                 "x*y*z",
+                                                 "x",
+                                                 "z",
+                                                 "-(x^2+y^2)",
+                                                 "-(x^2+y^2+max(0,z^2-0.25))",
+                                                 "-max(0,x^2+y^2+z^2-0.5)",
+                                                 "-abs(z)",
+                                                 "sqrt(0.5-x^2-y^2)-z",
+                                                 "z/x",
+                                                 "tan(x)-y",
+                                                 "sin(7*x)*cos(7*y)+sin(7*y)*cos(7*z)+sin(7*z)*cos(7*x)"};
+  for (const char* text : functions) {
+    const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+    const auto parameters = parameters::number_of_nodes({21, 21, 41});
+    const auto whole = marching_cubes(traits, parameters);
+    for (const std::size_t planes : {1, 2, 5, 16, 41, 100}) expect_same(traits, whole, planes, parameters, text);
+    expect_same(traits, marching_cubes(traits, parameters.skip_empty_space()), 7, parameters.skip_empty_space(), text);
+  }
+}
+
+TEST(Marching_cubes_in_slabs, slabs_are_the_mesh_of_random_samples) {
+  std::mt19937 random(17);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int n = 0; n < 12; ++n)
+    for (const auto& values : {std::vector{-0.7, -0.1, 0.2, 0.9}, std::vector{-1.0, -0.5, 0.0, 0.5, 1.0},
+                               std::vector{-1.0, 0.0, 0.0, 1.0, nan}}) {
+      Volume_3<Kernel> volume{Lattice_3<Kernel>({8, 7, 30}, CGAL::Bbox_3(0, 0, 0, 7, 6, 29)), {}};
+      for (std::size_t i = 0; i < volume.lattice.number_of_nodes(); ++i)
+        volume.values.push_back(values[random() % values.size()]);
+      const Sampled_function_traits_3<Kernel> traits(volume);
+      const std::string name = "volume " + std::to_string(n);
+      for (const std::size_t planes : {3, 10})
+        for (const auto position : {Vertex_position::LINEAR, Vertex_position::PROJECTED}) {
+          const auto parameters = parameters::vertex_position(position);
+          expect_same(traits, marching_cubes(traits, parameters), planes, parameters, name);
+        }
+    }
+}
+
+TEST(Marching_cubes_in_slabs, threads_change_nothing) {
+  const auto traits = make_analytic_traits<Kernel>(Expression_3("x^2+y^2+z^2-1"), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
+  std::vector<Kernel::Point_3> one, many;
+  const auto add_to = [](std::vector<Kernel::Point_3>& points) {
+    return [&points](const Isosurface_slab_3<Kernel>& slab) {
+      points.insert(points.end(), slab.points.begin(), slab.points.end());
+    };
+  };
+  marching_cubes_in_slabs<CGAL::Sequential_tag>(traits, add_to(one), parameters::planes_per_slab(9));
+  marching_cubes_in_slabs<CGAL::Parallel_if_available_tag>(traits, add_to(many));
+  EXPECT_FALSE(one.empty());
+  EXPECT_EQ(one, many);
+}
+
+TEST(Marching_cubes_in_slabs, a_visitor_may_stop_and_a_slab_needs_a_plane) {
+  const auto traits = make_analytic_traits<Kernel>(Expression_3("x^2+y^2+z^2-1"), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
+  struct Stop {};
+  const auto stop = [](const auto&) { throw Stop(); };
+  EXPECT_THROW(marching_cubes_in_slabs(traits, stop), Stop);
+  EXPECT_THROW(marching_cubes_in_slabs(traits, stop, parameters::planes_per_slab(0)), std::invalid_argument);
+}
+
+} // namespace

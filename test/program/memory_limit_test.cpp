@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifdef __linux__
+
+#include "support/run_program.h"
+#include "system/reclaimable_memory.h"
+#include "system/scratch_memory.h"
+#include <equiaffine/Input_error.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+#include <linux/magic.h>
+#include <new>
+#include <string>
+#include <sys/resource.h>
+#include <sys/statfs.h>
+#include <thread>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using Words = std::vector<std::string>;
+
+class Program_memory : public test::Program_test {
+protected:
+  /// Runs the program, which has to succeed, and returns the greatest size of its resident set in MiB.
+  double memory_of(const Words& arguments) const {
+    int status = -1;
+    struct rusage usage = {};
+    ::wait4(start(arguments), &status, 0, &usage);
+    EXPECT_EQ(status, 0) << test::read_file(root_ / "error");
+    return double(usage.ru_maxrss) / 1024;
+  }
+
+  Words with_limit(Words arguments, const std::string& limit, const std::string& output) const {
+    arguments.insert(arguments.end(), {"--memory", limit, "-o", output});
+    return arguments;
+  }
+
+  /// Expects that a command takes much more memory than the limit without it, and no more with it, for the same bytes.
+  void expect_same_with(int limit, const Words& arguments, const std::string& extension) const {
+    Words free = arguments;
+    free.insert(free.end(), {"-o", "free" + extension});
+    EXPECT_GT(memory_of(free), 1.2 * limit) << "the test shows nothing";
+    EXPECT_LE(memory_of(with_limit(arguments, std::to_string(limit) + "M", "limited" + extension)), 1.1 * limit);
+    EXPECT_EQ(file("free" + extension), file("limited" + extension));
+  }
+
+  const Words sphere = {"mesh", "--function", "x^2+y^2+z^2-1", "--box", "-1", "1", "-1", "1",
+                        "-1",   "1",          "--resolution"};
+};
+
+Words joined(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST_F(Program_memory, of_a_mesh_is_limited_for_the_same_bytes) {
+  const Words mesh = joined(sphere, {"640"});
+  expect_same_with(190, mesh, ".ply");
+  expect_same_with(190, joined(mesh, {"--attributes", "normal,k1,k2"}), ".vtp");
+  EXPECT_EQ(names(), (Words{"free.ply", "free.vtp", "limited.ply", "limited.vtp"}));
+}
+
+TEST_F(Program_memory, of_volumes_is_limited_and_mapped_files_count) {
+  run_well({"sample", "--function", "x^2+y^2+z^2-1", "--box", "-1.2", "1.2", "-1.2", "1.2", "-1.2", "1.2",
+            "--resolution", "300", "--type", "double", "--memory", "220M", "-o", "v.mha"});
+  expect_same_with(200, {"mesh", "--volume", "v.mha", "--attributes", "none"}, ".ply");
+  expect_same_with(220, {"mesh", "--volume", "v.mha", "--smoothing", "2", "--attributes", "none"}, ".csv");
+  test::write_file(folder_ / "points.csv", "x,y,z\n1,0,0\n0,0.5,0\n");
+  expect_same_with(220, {"evaluate", "--volume", "v.mha", "--smoothing", "2", "--points", "points.csv"}, ".csv");
+}
+
+TEST_F(Program_memory, that_cannot_do_is_refused_with_one_that_would) {
+  const test::Result refused = run(with_limit(joined(sphere, {"20"}), "10M", "s.ply"));
+  EXPECT_EQ(refused.status, 2);
+  const std::string advice = "give at least ";
+  ASSERT_NE(refused.error.find(advice), std::string::npos) << refused.error;
+  std::string least = refused.error.substr(refused.error.find(advice) + advice.size());
+  least.erase(least.find('\n'));
+  run_well(with_limit(joined(sphere, {"20"}), least, "s.ply"));
+}
+
+TEST_F(Program_memory, is_an_amount) {
+  for (const char* word : {"700", "M", "-1G", "0M", "1K", "700m", "nanG", "1e30G"}) {
+    const test::Result result = run(with_limit(joined(sphere, {"20"}), word, "s.ply"));
+    EXPECT_EQ(result.status, 2) << word;
+    EXPECT_NE(result.error.find("write it like 700M or 2G"), std::string::npos) << result.error;
+  }
+  run_well(with_limit(joined(sphere, {"20"}), "1.5G", "s.ply"));
+}
+
+TEST_F(Program_memory, is_not_kept_in_a_folder_that_is_itself_in_memory) {
+  struct statfs facts;
+  if (::statfs("/dev/shm", &facts) != 0 || facts.f_type != TMPFS_MAGIC) GTEST_SKIP() << "no such folder is known";
+  const test::Result result = run(with_limit(joined(sphere, {"20"}), "1G", "/dev/shm/equiaffine-test.ply"));
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.error.find("'/dev/shm', which is in memory itself; choose one on a disk"), std::string::npos)
+      << result.error;
+}
+
+TEST_F(Program_memory, leaves_nothing_behind_when_it_is_ended) {
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL})
+    for (const int milliseconds : {150, 400, 700}) {
+      const pid_t child = start(with_limit(joined(sphere, {"900"}), "200M", "s.ply"));
+      std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+      ::kill(child, signal);
+      const test::Result result = wait_for(child);
+      if (result.status == 0) {
+        std::filesystem::remove(folder_ / "s.ply");
+        continue;
+      }
+      EXPECT_EQ(result.status, signal == SIGKILL ? -1 : 128 + signal);
+      if (signal != SIGKILL) {
+        EXPECT_EQ(names(), Words());
+      }
+      EXPECT_FALSE(std::filesystem::exists(folder_ / "s.ply"));
+    }
+}
+
+/// A folder with scratch memory, in a process that is ended by std::_Exit.
+class Scratch_memory_DeathTest : public test::Program_test {
+protected:
+  static void end(bool is_right) { std::_Exit(is_right ? 0 : 1); }
+};
+
+TEST_F(Scratch_memory_DeathTest, keeps_what_is_in_it_when_its_pages_are_given_back) {
+  const auto check = [&] {
+    open_scratch_memory(folder_, 1 << 20);
+    constexpr std::size_t size = 300'000;
+    auto* const a = static_cast<unsigned char*>(allocate_scratch_memory(size));
+    auto* const b = static_cast<unsigned char*>(allocate_scratch_memory(size));
+    for (std::size_t i = 0; i < size; ++i) {
+      a[i] = static_cast<unsigned char>(i % 251);
+      b[i] = static_cast<unsigned char>(i % 13);
+    }
+    give_back_reclaimable_memory();
+    bool is_right = is_scratch_memory(a) && is_scratch_memory(b + size - 1) && !is_scratch_memory(&is_right);
+    for (std::size_t i = 0; i < size; ++i) is_right = is_right && a[i] == i % 251 && b[i] == i % 13;
+    free_scratch_memory(a);
+    is_right = is_right && allocate_scratch_memory(size) == a; // what is spare is used again
+    end(is_right && names().empty());
+  };
+  EXPECT_EXIT(check(), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(Scratch_memory_DeathTest, of_a_child_is_its_own) {
+  const auto check = [&] {
+    open_scratch_memory(folder_, 0);
+    constexpr std::size_t size = 300'000;
+    auto* const parents = static_cast<char*>(allocate_scratch_memory(size));
+    parents[0] = 'p';
+    const pid_t child = ::fork();
+    if (child == 0) {
+      forget_reclaimable_memory();
+      reopen_scratch_memory();
+      auto* const childs = static_cast<char*>(allocate_scratch_memory(size));
+      childs[0] = 'c';
+      free_scratch_memory(parents);
+      end(childs != parents);
+    }
+    int status = -1;
+    ::waitpid(child, &status, 0);
+    auto* const another = static_cast<char*>(allocate_scratch_memory(size)); // at the place of the child's
+    end(status == 0 && parents[0] == 'p' && another[0] != 'c');
+  };
+  EXPECT_EXIT(check(), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(Scratch_memory_DeathTest, says_which_folder_has_no_room) {
+  const auto check = [&] {
+    constexpr rlimit limit = {1'000'000, 1'000'000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, SIG_IGN);
+    open_scratch_memory(folder_, 0);
+    const bool had_room = folder_without_room().empty();
+    try {
+      allocate_scratch_memory(2'000'000);
+    } catch (const std::bad_alloc&) {
+      end(had_room && folder_without_room() == folder_);
+    }
+    end(false);
+  };
+  EXPECT_EXIT(check(), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(Scratch_memory_DeathTest, needs_a_folder) {
+  EXPECT_THROW(open_scratch_memory(folder_ / "none", 0), Input_error);
+}
+
+} // namespace
+
+#endif
