@@ -6,12 +6,14 @@
 #include "system/scratch_memory.h"
 #include <equiaffine/Input_error.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <linux/magic.h>
 #include <new>
+#include <set>
 #include <string>
 #include <sys/resource.h>
 #include <sys/statfs.h>
@@ -48,8 +50,22 @@ protected:
     EXPECT_EQ(file("free" + extension), file("limited" + extension));
   }
 
+  /// Waits until the program has made the folder of its output, or has ended.
+  void wait_for_temporary_folder(pid_t child) const {
+    const auto is_there = [&] {
+      const Words all = names();
+      return std::any_of(all.begin(), all.end(), [&](const std::string& name) { return !known_.contains(name); });
+    };
+    siginfo_t end = {};
+    while (!is_there() && end.si_pid == 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      ::waitid(P_PID, id_t(child), &end, WEXITED | WNOHANG | WNOWAIT);
+    }
+  }
+
   const Words sphere = {"mesh", "--function", "x^2+y^2+z^2-1", "--box", "-1", "1", "-1", "1",
                         "-1",   "1",          "--resolution"};
+  std::set<std::string> known_; ///< files that are there before the program is started
 };
 
 Words joined(Words words, const Words& more) {
@@ -103,8 +119,11 @@ TEST_F(Program_memory, is_not_kept_in_a_folder_that_is_itself_in_memory) {
 
 TEST_F(Program_memory, leaves_nothing_behind_when_it_is_ended) {
   for (const int signal : {SIGINT, SIGTERM, SIGKILL})
-    for (const int milliseconds : {150, 400, 700}) {
+    for (const int milliseconds : {0, 200, 500}) {
+      const Words before = names(); // those of a process that was killed
+      known_ = std::set<std::string>(before.begin(), before.end());
       const pid_t child = start(with_limit(joined(sphere, {"900"}), "200M", "s.ply"));
+      wait_for_temporary_folder(child);
       std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
       ::kill(child, signal);
       const test::Result result = wait_for(child);
