@@ -84,8 +84,8 @@ std::size_t parse_count(const std::string& option, const std::string& word, std:
 
 std::size_t parse_bytes(const Option_words& option) {
   const std::string& word = option.word();
-  const char unit = word.empty() ? ' ' : word.back();
-  const auto number = parse_number<double>(word.substr(0, word.size() - (word.empty() ? 0 : 1)));
+  const char unit = word.back(); // no word is empty
+  const auto number = parse_number<double>(word.substr(0, word.size() - 1));
   constexpr double most = 1e18;
   const double bytes = number.value_or(0) * (unit == 'M' ? 1 << 20 : unit == 'G' ? 1 << 30 : 0);
   if (!(bytes >= 1 && bytes <= most))

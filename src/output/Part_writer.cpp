@@ -41,19 +41,6 @@ private:
   Csv_writer writer_;
 };
 
-class Vtp_parts : public Part_writer {
-public:
-  Vtp_parts(std::ostream& stream, std::size_t vertices, std::size_t faces, const Vertex_attributes& layout)
-      : writer_(stream, vertices, faces, layout) {}
-  void write_vertices(std::span<const Kernel::Point_3> points, const Vertex_attributes& attributes) override {
-    writer_.write_vertices(points, attributes);
-  }
-  void write_faces(const std::vector<std::array<std::uint32_t, 3>>& faces) override { writer_.write_faces(faces); }
-
-private:
-  Vtp_writer writer_;
-};
-
 } // namespace
 
 bool is_written_in_parts(const std::string& path) {
@@ -63,7 +50,7 @@ bool is_written_in_parts(const std::string& path) {
 
 std::unique_ptr<Part_writer> part_writer(const std::string& path, std::ostream& stream, std::size_t vertices,
                                          std::size_t faces, const Vertex_attributes& layout) {
-  if (is_VTP_file(path)) return std::make_unique<Vtp_parts>(stream, vertices, faces, layout);
+  if (is_VTP_file(path)) return std::make_unique<Vtp_writer>(stream, vertices, faces, layout);
   if (mesh_format(path) == Mesh_format::CSV) return std::make_unique<Csv_parts>(stream, layout);
   return std::make_unique<Ply_parts>(stream, vertices, faces, layout);
 }

@@ -152,7 +152,7 @@ void Vtp_writer::write_faces_as(std::span<const std::array<std::uint32_t, 3>> fa
   append_numbers<Index>(arrays_.end()[-1], faces.size(), true, [&](std::size_t n) { return 3 * (n + 1); });
 }
 
-void Vtp_writer::write_faces(std::span<const std::array<std::uint32_t, 3>> faces) {
+void Vtp_writer::write_faces(const std::vector<std::array<std::uint32_t, 3>>& faces) {
   if (3 * faces.size() > std::size_t(std::numeric_limits<std::int32_t>::max())) write_faces_as<std::int64_t>(faces);
   else write_faces_as<std::int32_t>(faces);
 }

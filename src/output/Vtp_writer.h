@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_SRC_OUTPUT_VTP_WRITER_H
 #define EQUIAFFINE_SRC_OUTPUT_VTP_WRITER_H
 
+#include "output/Part_writer.h"
 #include "system/kernel.h"
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
@@ -21,13 +22,13 @@ namespace equiaffine {
 /// and, if there is a status, an unsigned char array `status`. Arrays are not compressed, so that each one has its
 /// place before its numbers are known, and stand inline as base64: readers with a recent expat lose appended ones.
 /// Errors are in the state of the stream, in which the writer moves forwards and back.
-class Vtp_writer {
+class Vtp_writer : public Part_writer {
 public:
   /// `layout` has the names of the columns, and whether there is a status; what numbers it has does not matter.
   Vtp_writer(std::ostream& stream, std::size_t vertices, std::size_t faces, const Vertex_attributes& layout);
 
-  void write_vertices(std::span<const Kernel::Point_3> points, const Vertex_attributes& attributes);
-  void write_faces(std::span<const std::array<std::uint32_t, 3>> faces);
+  void write_vertices(std::span<const Kernel::Point_3> points, const Vertex_attributes& attributes) override;
+  void write_faces(const std::vector<std::array<std::uint32_t, 3>>& faces) override;
 
 private:
   /// An array of the file, of which some bytes have been written.

@@ -34,10 +34,9 @@ constexpr std::size_t most_addresses = std::size_t(1) << 43;
 struct Scratch {
   fs::path folder;
   std::size_t most_spare;
-  std::byte* first;      ///< of the part of the address space
-  int file;              ///< its descriptor
-  std::size_t inherited; ///< what lies before this place is in the file of a parent
-  std::size_t end;       ///< nothing was ever allocated from there on
+  std::byte* first; ///< of the part of the address space
+  int file;         ///< its descriptor
+  std::size_t end;  ///< nothing was ever allocated from there on
   std::mutex mutex = {};
   std::map<std::size_t, std::size_t> size_at = {};            ///< of what is allocated
   std::multimap<std::size_t, std::size_t> spare_of_size = {}; ///< the places of what is freed, and kept
@@ -89,7 +88,7 @@ void release(const Scratch& s, std::size_t place, std::size_t size) {
   remove_reclaimable_memory(s.first + place);
   set_aside(s, place, size);
 #ifdef __linux__
-  if (place >= s.inherited) ::fallocate(s.file, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, off_t(place), off_t(size));
+  ::fallocate(s.file, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, off_t(place), off_t(size));
 #endif
 }
 
@@ -133,7 +132,7 @@ void open_scratch_memory(const fs::path& folder, std::size_t spare) {
     ::close(file);
     throw Input_error("--memory: the limit of the address space is too low; raise it with ulimit -v");
   }
-  scratch = new Scratch{folder, spare, static_cast<std::byte*>(first), file, 0, 0};
+  scratch = new Scratch{folder, spare, static_cast<std::byte*>(first), file, 0};
 }
 
 void reopen_scratch_memory() {
@@ -141,8 +140,7 @@ void reopen_scratch_memory() {
   if (!of_parent) return;
   const int file = open_nameless_file_in(of_parent->folder);
   if (file == -1) throw std::bad_alloc();
-  scratch =
-      new Scratch{of_parent->folder, of_parent->most_spare, of_parent->first, file, of_parent->end, of_parent->end};
+  scratch = new Scratch{of_parent->folder, of_parent->most_spare, of_parent->first, file, of_parent->end};
 }
 
 bool has_scratch_memory() { return scratch.load(std::memory_order_acquire) != nullptr; }

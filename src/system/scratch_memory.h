@@ -13,7 +13,7 @@ namespace equiaffine {
 /// such a file, or is in memory itself. Freed memory of up to `spare` bytes is kept for what has the same size.
 void open_scratch_memory(const std::filesystem::path& folder, std::size_t spare);
 
-/// In a child process, takes another file for what is allocated from now on.
+/// A child process calls this first: it takes another file for what it allocates, and leaves its parent's alone.
 void reopen_scratch_memory();
 
 bool has_scratch_memory();

@@ -23,7 +23,7 @@ struct Isosurface_slab_3 {
   std::vector<std::array<std::size_t, 3>> triangles;
 };
 
-/// What a mesh has that was made slab by slab.
+/// The numbers of a mesh that was made slab by slab are counted here.
 struct Isosurface_totals {
   std::size_t vertices = 0, triangles = 0;
   std::size_t function_evaluations = 0; ///< of f, with or without derivatives; more than one for nodes near seams

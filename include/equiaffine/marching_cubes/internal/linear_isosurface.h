@@ -71,7 +71,7 @@ Grid_rows place_linearly(const Grid& grid, const Isosurface_plan& plan, typename
   return suspects;
 }
 
-/// What was repaired, and whether the part of the grid is too small to know what is to be.
+/// A report says what was repaired, and whether a part of the grid is too small to know what is to be repaired.
 struct Repair_report : Isosurface_repairs {
   bool is_undecided = false;
 };
