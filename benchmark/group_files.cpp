@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: GPL-3.0-or-later Writing a mesh with 16 columns of attributes as binary PLY, beside CGAL's
-// writer of a Surface_mesh with the same property maps: in one process, on one thread, to a file that was removed
-// before; runs alternate, figures are medians. Usage: benchmark_files [folder] [runs]
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writing a mesh with 16 columns of attributes as binary PLY, beside CGAL's writer of a Surface_mesh with the same property
+// maps: in one process, on one thread, to a new file; runs alternate, figures are medians. To remove the file is not timed.
+// Usage: benchmark_files [folder] [runs]
 #include "measure.h"
 #include <equiaffine/io/write_mesh.h>
 
@@ -23,6 +24,17 @@ namespace {
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
+/// The seconds in which files were removed, during which writing_clock() stood still.
+double removing_seconds = 0;
+
+double writing_clock() { return wall_clock() - removing_seconds; }
+
+void remove_untimed(const std::filesystem::path& path) {
+  const double begin = wall_clock();
+  std::filesystem::remove(path);
+  removing_seconds += wall_clock() - begin;
+}
+
 constexpr std::uint32_t side = 1000;
 constexpr std::size_t columns = 16;
 
@@ -42,7 +54,8 @@ equiaffine::Indexed_triangle_mesh_3<Kernel> wavy_square() {
 equiaffine::Vertex_attributes attributes_of(const equiaffine::Indexed_triangle_mesh_3<Kernel>& mesh) {
   equiaffine::Vertex_attributes attributes;
   for (std::size_t c = 0; c < columns; ++c) {
-    attributes.columns.push_back({"a" + std::to_string(c), {}});
+    std::string name = "a";
+    attributes.columns.push_back({name += std::to_string(c), {}});
     for (const auto& p : mesh.points) attributes.columns.back().values.push_back(p.z() + double(c));
   }
   return attributes;
@@ -71,7 +84,7 @@ int main(int argc, char** argv) {
   double gigabytes = 0;
   const auto to_file = [&](const auto& write) {
     return [&, write] {
-      std::filesystem::remove(path);
+      remove_untimed(path);
       std::ofstream file(path, std::ios::binary);
       write(file);
       file.close();
@@ -83,7 +96,7 @@ int main(int argc, char** argv) {
     CGAL::IO::set_binary_mode(file);
     CGAL::IO::write_PLY(file, of_CGAL);
   });
-  const Comparison comparison = compare(wall_clock, runs, theirs, ours);
+  const Comparison comparison = compare(writing_clock, runs, theirs, ours);
   ours();
   std::printf("%.2f GB: equiaffine %.3f s, CGAL %.3f s\n", gigabytes, comparison.b, comparison.a);
   std::printf("figure files_ply %.2f GB/s target >=1\n", gigabytes / comparison.b);

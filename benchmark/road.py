@@ -40,7 +40,12 @@ writer.Write()
 
 
 def run_command(command):
-    """Returns processor seconds, wall seconds and the greatest resident set in GB of one command."""
+    """Returns processor seconds, wall seconds and the greatest resident set in GB of one command, which ends with its output.
+
+    An output that exists is removed first: to replace a large file, the file system writes the new one to the disk.
+    """
+    if os.path.exists(command[-1]):
+        os.remove(command[-1])
     began = time.monotonic()
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)
@@ -53,9 +58,9 @@ def mesh_of_formula(program, resolution, *options):
     return [program, "mesh", "--function", FORMULA, "--box", *["-1.2", "1.2"] * 3, "--resolution", str(resolution), *options]
 
 
-def sample_of_gyroid(program, nodes, output):
+def sample_of_gyroid(program, nodes, *options):
     return [program, "sample", "--function", GYROID, "--box", *["-6.283185307", "6.283185307"] * 3, "--resolution",
-            str(nodes), "--type", "float", "-o", output]
+            str(nodes), "--type", "float", *options]
 
 
 def run(program, resolution, threads, output):
@@ -74,7 +79,7 @@ def figure_of_limit(name, limit, gigabytes):
 def time_volume(options, folder, nodes, seconds, gigabytes, limit):
     volume = os.path.join(folder, "gyroid.mha")
     ours, theirs = os.path.join(folder, "ours.ply"), os.path.join(folder, "theirs.ply")
-    run_command(sample_of_gyroid(options.program, nodes, volume))
+    run_command(sample_of_gyroid(options.program, nodes, "-o", volume))
     mesh = ["mesh", "--volume", volume, "--threads"]
     flying_edges = ["/usr/bin/python3", "-c", FLYING_EDGES, volume, theirs]
     one, two, peer, before = [], [], [], []
@@ -105,7 +110,7 @@ def time_volume(options, folder, nodes, seconds, gigabytes, limit):
 def time_large(options, folder):
     volume, output = os.path.join(folder, "large.mha"), os.path.join(folder, "large.ply")
     memory = ["--memory", "1G", "-o", output]
-    run_command([*sample_of_gyroid(options.program, 1024, volume), "--memory", "1G"])
+    run_command(sample_of_gyroid(options.program, 1024, "--memory", "1G", "-o", volume))
     of_volume = run_command([options.program, "mesh", "--volume", volume, *memory])
     os.remove(volume)
     figure("volume_1024", of_volume[0], "s", "-")

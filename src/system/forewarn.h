@@ -5,6 +5,7 @@
 #include "system/progress.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <string>
 #include <utility>
@@ -17,9 +18,10 @@ inline constexpr double least_fineness_to_forewarn = 200;
 /// The seconds that a computation will take at a fineness n, such as the nodes of a grid along an axis. They are about
 /// c + a n^2 + b n^3, since some of it is done per cell, some per cell beside the surface, and some once. This follows from
 /// the last three of `seconds_of(k)` at k = 16, 32, 64, ..., until that takes some tenths of a second more than at first, or
-/// k is half of n. Returns 0 where 16 or 32 take so long that more of them would keep the user waiting.
+/// k is half of n. No finer k is tried once twice the time of growth by the highest power is below `of_interest`, from k = 64
+/// on; that bound is returned then. Returns 0 where 16 or 32 take so long that more of them would keep the user waiting.
 template <class Seconds>
-double expected_seconds(double n, bool is_cubic, const Seconds& seconds_of) {
+double expected_seconds(double n, bool is_cubic, double of_interest, const Seconds& seconds_of) {
   constexpr double enough = 0.2, too_long = 1, coarsest = 16;
   const auto calm_seconds_of = [&](double k) { // something else may have interrupted one of two runs
     const double seconds = seconds_of(k);
@@ -32,6 +34,7 @@ double expected_seconds(double n, bool is_cubic, const Seconds& seconds_of) {
   while (4 * k <= n && (k == 2 * coarsest || now - first < enough)) {
     k *= 2;
     twice_before = std::exchange(before, std::exchange(now, calm_seconds_of(k)));
+    if (const double bound = 2 * now * std::pow(n / k, is_cubic ? 3 : 2); bound < of_interest) return bound;
   }
   const double step = std::max(now - before, 0.), step_before = std::max(before - twice_before, 0.);
   const double cubic = is_cubic ? std::clamp((step - 4 * step_before) * 16 / 7, 0., step * 8 / 7) : 0,
@@ -48,7 +51,7 @@ void forewarn(const std::string& stage, const std::string& advice, double finene
   progress.begin(stage + " on coarser grids, to know how long it will take");
   double seconds = 0;
   try {
-    seconds = expected_seconds(fineness, is_cubic, [&](double coarse) {
+    seconds = expected_seconds(fineness, is_cubic, minute, [&](double coarse) {
       const Stopwatch stopwatch;
       run(coarse);
       return stopwatch.seconds();

@@ -29,9 +29,10 @@ TEST(Forewarn, the_time_of_cells_follows_from_coarser_ones) {
       asked.push_back(k);
       return time(k);
     };
-    EXPECT_NEAR(expected_seconds(n, true, seconds), time(n), 1e-6 * time(n)) << once << ' ' << square << ' ' << cubic;
+    EXPECT_NEAR(expected_seconds(n, true, 0, seconds), time(n), 1e-6 * time(n))
+        << once << ' ' << square << ' ' << cubic;
     if (cubic == 0) {
-      EXPECT_NEAR(expected_seconds(n, false, seconds), time(n), 1e-6 * time(n)) << once << ' ' << square;
+      EXPECT_NEAR(expected_seconds(n, false, 0, seconds), time(n), 1e-6 * time(n)) << once << ' ' << square;
     }
     for (const double k : asked) EXPECT_LE(k, n / 2) << "what is tried is coarse";
   }
@@ -40,7 +41,7 @@ TEST(Forewarn, the_time_of_cells_follows_from_coarser_ones) {
 TEST(Forewarn, an_interruption_is_not_taken_for_work) {
   bool is_first = true;
   const auto seconds = [&](double k) { return 1e-6 * k * k + (k == 64 && std::exchange(is_first, false) ? .5 : 0); };
-  EXPECT_NEAR(expected_seconds(1000, true, seconds), 1, .1);
+  EXPECT_NEAR(expected_seconds(1000, true, 0, seconds), 1, .1);
 }
 
 TEST(Forewarn, what_takes_long_on_a_coarse_grid_is_not_tried_on_a_finer_one) {
@@ -49,8 +50,22 @@ TEST(Forewarn, what_takes_long_on_a_coarse_grid_is_not_tried_on_a_finer_one) {
     asked.push_back(k);
     return 1e-4 * k * k * k;
   };
-  EXPECT_EQ(expected_seconds(1000, true, seconds), 0);
+  EXPECT_EQ(expected_seconds(1000, true, 0, seconds), 0);
   EXPECT_LE(asked.back(), 32);
+}
+
+TEST(Forewarn, a_short_time_is_known_from_a_coarse_grid_alone) {
+  std::vector<double> asked;
+  const auto seconds = [&](double k) {
+    asked.push_back(k);
+    return .001 + 1e-6 * k * k;
+  };
+  const double bound = expected_seconds(1024, true, 60, seconds);
+  EXPECT_GE(bound, seconds(1024));
+  EXPECT_LT(bound, 60);
+  EXPECT_EQ(asked, (std::vector<double>{16, 32, 64, 1024}));
+  EXPECT_NEAR(expected_seconds(16384, true, 60, seconds), seconds(16384), 1e-6 * seconds(16384))
+      << "that takes minutes";
 }
 
 TEST(Forewarn, it_is_announced_in_a_line_of_its_own_with_what_takes_less) {
