@@ -91,10 +91,10 @@ std::string in_mebibytes(std::size_t bytes) { return std::to_string((bytes + meb
 /// Keeps the resident memory below `bytes` by giving pages back, or ends the process if that cannot be and it
 /// `may_end`. It looks the more often the nearer the limit is.
 void watch(std::size_t bytes, bool may_end) {
-  constexpr std::size_t while_giving_back = 110 * mebibyte; // so much comes back meanwhile
+  constexpr std::size_t while_giving_back = 256 * mebibyte; // so much comes back meanwhile
   const std::size_t high = std::max(bytes / 2, bytes - std::max(bytes / 20 * 3, std::min(bytes, while_giving_back)));
   const std::size_t too_high = bytes / 20 * 21;
-  constexpr std::size_t bytes_per_microsecond = 40000; // mapped files fill memory as fast as this
+  constexpr std::size_t bytes_per_microsecond = 400000; // a read of one byte of a mapped file may bring 2 MB
   while (true) {
     std::size_t used = resident_memory();
     if (used > high) {
@@ -104,7 +104,7 @@ void watch(std::size_t bytes, bool may_end) {
         if (const std::size_t rest = irreclaimable_memory(); rest > too_high) end_for_lack_of_memory(rest);
     }
     const std::size_t microseconds = ((used > high ? too_high : high) - std::min(used, high)) / bytes_per_microsecond;
-    std::this_thread::sleep_for(std::chrono::microseconds(std::clamp<std::size_t>(microseconds, 200, 20000)));
+    std::this_thread::sleep_for(std::chrono::microseconds(std::clamp<std::size_t>(microseconds, 50, 20000)));
   }
 }
 

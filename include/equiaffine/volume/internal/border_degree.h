@@ -54,7 +54,7 @@ int border_degree(const Volume_view_3<Kernel>& volume, int degree, Spline_scheme
   std::ptrdiff_t votes = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     if (size[a] < f.size()) continue;
-    const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
+    const std::size_t b = a == 0 ? 1 : 0, c = a == 2 ? 1 : 2; // in the order of the memory where i is fastest
     std::array<std::size_t, 3> node;
     for (node[c] = 0; node[c] < size[c]; ++node[c])
       for (node[b] = 0; node[b] < size[b]; ++node[b]) {
