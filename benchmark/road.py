@@ -94,9 +94,10 @@ def time_volume(options, folder, nodes, seconds, gigabytes, limit):
     figure(f"volume_{nodes}", median(one, 0), "s", f"<={seconds}" if seconds else "-")
     figure(f"volume_{nodes}_memory", max(run[2] for run in one + two), "GB", f"<={gigabytes}")
     figure(f"volume_{nodes}_two_threads", max(a[1] / b[1] for a, b in zip(one, two)), "ratio", ">=1.7")
-    limited = run_command([options.program, *mesh, "2", "--memory", f"{limit}M", "-o", theirs])
+    of_limited = os.path.join(folder, "limited.ply")
+    limited = run_command([options.program, *mesh, "2", "--memory", f"{limit}M", "-o", of_limited])
     figure_of_limit(f"volume_{nodes}", limit, limited[2])
-    figure(f"volume_{nodes}_limited_same_bytes", filecmp.cmp(ours, theirs, shallow=False), "bool", ">=1")
+    figure(f"volume_{nodes}_limited_same_bytes", filecmp.cmp(ours, of_limited, shallow=False), "bool", ">=1")
     figure(f"volume_{nodes}_limited_over_free", limited[0] / median(two, 0), "ratio", "-")
     if peer:
         figure(f"volume_{nodes}_flying_edges", median(peer, 0), "s", "-")
