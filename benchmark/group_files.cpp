@@ -54,8 +54,7 @@ equiaffine::Indexed_triangle_mesh_3<Kernel> wavy_square() {
 equiaffine::Vertex_attributes attributes_of(const equiaffine::Indexed_triangle_mesh_3<Kernel>& mesh) {
   equiaffine::Vertex_attributes attributes;
   for (std::size_t c = 0; c < columns; ++c) {
-    std::string name = "a";
-    attributes.columns.push_back({name += std::to_string(c), {}});
+    attributes.columns.push_back({std::string(1, char('a' + c)), {}});
     for (const auto& p : mesh.points) attributes.columns.back().values.push_back(p.z() + double(c));
   }
   return attributes;

@@ -40,9 +40,10 @@ writer.Write()
 
 
 def run_command(command):
-    """Returns processor seconds, wall seconds and the greatest resident set in GB of one command, which ends with its output.
+    """Returns processor seconds, wall seconds and the greatest resident set in GB of one command.
 
-    An output that exists is removed first: to replace a large file, the file system writes the new one to the disk.
+    The last word is its output. One that exists is removed first: to replace a large file, the file system writes the
+    new one to the disk.
     """
     if os.path.exists(command[-1]):
         os.remove(command[-1])

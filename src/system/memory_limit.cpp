@@ -91,8 +91,8 @@ std::string in_mebibytes(std::size_t bytes) { return std::to_string((bytes + meb
 /// Keeps the resident memory below `bytes` by giving pages back, or ends the process if that cannot be and it
 /// `may_end`. It looks the more often the nearer the limit is.
 void watch(std::size_t bytes, bool may_end) {
-  constexpr std::size_t while_giving_back = 256 * mebibyte; // so much comes back meanwhile
-  const std::size_t high = std::max(bytes / 2, bytes - std::max(bytes / 20 * 3, std::min(bytes, while_giving_back)));
+  constexpr std::size_t while_giving_back = 256 * mebibyte; // so much may be read again until all pages are given back
+  const std::size_t high = bytes - std::min(bytes / 2, std::max(bytes / 20 * 3, while_giving_back));
   const std::size_t too_high = bytes / 20 * 21;
   constexpr std::size_t bytes_per_microsecond = 400000; // a read of one byte of a mapped file may bring 2 MB
   while (true) {
