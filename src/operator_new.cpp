@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All memory that C++ asks for in this executable comes from here, so that large arrays can be in scratch memory.
+// The `operator new` of this executable, which has large arrays in scratch memory where a limit says so.
 #include "system/memory_limit.h"
 #include "system/scratch_memory.h"
 

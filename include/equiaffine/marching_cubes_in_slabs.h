@@ -34,9 +34,10 @@ namespace equiaffine {
 ///
 /// Takes the memory of a slab with 8 planes more, and the time of marching_cubes() for as many planes. Where a closed
 /// part of the surface without area, such as a function that only touches zero has, goes on beyond these planes, the
-/// slab is made again with more of them. \throw std::invalid_argument unless a slab has a plane \throw
-/// std::runtime_error if the repairs beside a seam depend on what is far from it, which no function was seen to bring
-/// about
+/// slab is made again with more of them.
+/// \throw std::invalid_argument unless a slab has a plane
+/// \throw std::runtime_error if the repairs beside a seam depend on what is far from it, which no function was seen to
+/// bring about
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Visit,
           internal::Parameter_chain... Parameters>
 Isosurface_totals marching_cubes_in_slabs(const Traits& traits, const Visit& visit, const Parameters&... given) {

@@ -95,15 +95,13 @@ int run(const std::vector<std::string>& arguments, const Streams& streams) {
     report(streams.error, "error", error.what());
     if (!error.excerpt().empty()) streams.error << error.excerpt() << (error.excerpt().ends_with('\n') ? "" : "\n");
     return error_of_user;
+  } catch (const No_room_for_scratch_memory&) {
+    report(streams.error, "error",
+           no_room_for_scratch_memory() + ", or " + advice_on_memory(options.value_or(Options())));
+    return error_of_user;
   } catch (const std::bad_alloc&) {
-    const std::string folder = folder_without_room().string();
-    report(
-        streams.error, "error",
-        (folder.empty()
-             ? "the memory of this computer is not enough; "
-             : "--memory: the folder '" + folder +
-                   "' has no room for what does not fit, or files may not be that large (ulimit -f); make some, or ") +
-            advice_on_memory(options.value_or(Options())));
+    report(streams.error, "error",
+           "the memory of this computer is not enough; " + advice_on_memory(options.value_or(Options())));
     return error_of_user;
   } catch (const std::length_error& error) {
     report(streams.error, "error", error.what() + ("; " + advice_on_memory(options.value_or(Options()))));

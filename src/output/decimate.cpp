@@ -19,44 +19,73 @@ namespace {
 using Points = std::vector<Kernel::Point_3>;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// The coordinates of points where their box has its first corner at the origin and 1 as its longest side, so that no
-/// square of a length leaves the range of numbers.
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// Cells along an axis are numbered by so many bits.
+constexpr int bits = 21;
+constexpr double most_cells = (1 << bits) - 1;
+
+bool is_finite(const Kernel::Point_3& p) {
+  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+}
+
+/// The vertices of the triangles that have three finite corners, in order.
+std::vector<std::uint32_t> shown_vertices(const Indexed_triangle_mesh_3<Kernel>& mesh) {
+  std::vector<bool> is_shown(mesh.points.size());
+  for (const auto& [a, b, c] : mesh.triangles)
+    if (is_finite(mesh.points[a]) && is_finite(mesh.points[b]) && is_finite(mesh.points[c]))
+      is_shown[a] = is_shown[b] = is_shown[c] = true;
+  std::vector<std::uint32_t> vertices;
+  for (std::size_t v = 0; v < is_shown.size(); ++v)
+    if (is_shown[v]) vertices.push_back(std::uint32_t(v));
+  return vertices;
+}
+
+/// The coordinates of some points where their box has its first corner at the origin and 1 as its longest side, so that
+/// no square of a length leaves the range of numbers.
 class Unit_box {
 public:
-  explicit Unit_box(const Points& points) {
-    for (const auto& p : points) box_ += p.bbox();
-    side_ = std::max({box_.x_span(), box_.y_span(), box_.z_span()});
+  Unit_box(const Points& points, const std::vector<std::uint32_t>& some) {
+    for (const std::uint32_t v : some) box_ += points[v].bbox();
+    const Kernel::Vector_3 last = from_first_corner({box_.xmax(), box_.ymax(), box_.zmax()});
+    if (const double longest = std::max({last.x(), last.y(), last.z()}); longest > 0) side_ = longest;
   }
 
   Kernel::Vector_3 operator()(const Kernel::Point_3& p) const {
-    return {(p.x() - box_.xmin()) / side_, (p.y() - box_.ymin()) / side_, (p.z() - box_.zmin()) / side_};
+    const Kernel::Vector_3 v = from_first_corner(p);
+    return {v.x() / side_, v.y() / side_, v.z() / side_};
   }
 
 private:
+  /// A half of the vector, which is finite wherever its ends are.
+  Kernel::Vector_3 from_first_corner(const Kernel::Point_3& p) const {
+    return {p.x() / 2 - box_.xmin() / 2, p.y() / 2 - box_.ymin() / 2, p.z() / 2 - box_.zmin() / 2};
+  }
+
   CGAL::Bbox_3 box_;
-  double side_;
+  double side_ = 1;
 };
 
+/// The area of the triangles that have three finite corners.
 double area_of(const Indexed_triangle_mesh_3<Kernel>& mesh, const Unit_box& unit) {
   double area = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const Kernel::Vector_3 first = unit(mesh.points[a]);
     const auto normal = CGAL::cross_product(unit(mesh.points[b]) - first, unit(mesh.points[c]) - first);
-    area += std::sqrt(normal.squared_length()) / 2;
+    if (const double squared = normal.squared_length(); std::isfinite(squared)) area += std::sqrt(squared) / 2;
   }
   return area;
 }
 
 /// The cell of a point among those of a grid with so many cells along the longest side of the box, as one number.
 std::uint64_t cell_of(const Kernel::Vector_3& p, double cells) {
-  constexpr int bits = 21;
-  constexpr double last = (1 << bits) - 1;
   std::uint64_t cell = 0;
-  for (int axis = 0; axis < 3; ++axis) cell = cell << bits | std::uint64_t(std::clamp(p[axis] * cells, 0.0, last));
+  for (int axis = 0; axis < 3; ++axis)
+    cell = cell << bits | std::uint64_t(std::clamp(p[axis] * cells, 0.0, most_cells));
   return cell;
 }
 
-/// Vertices in clusters: which cluster each vertex is in, and the vertex that stands for each cluster.
+/// Vertices in clusters: the cluster that each vertex is in, or none, and the vertex that stands for each cluster.
 struct Clusters {
   std::vector<std::uint32_t> cluster_of, representative_of;
 };
@@ -72,12 +101,13 @@ std::uint32_t middle_one(const Points& points, const Unit_box& unit,
   return std::min_element(first, end, [&](const auto& v, const auto& w) { return distance(v) < distance(w); })->second;
 }
 
-Clusters clusters_of(const Points& points, const Unit_box& unit, double cells) {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> vertices(points.size());
-  for (std::size_t v = 0; v < points.size(); ++v) vertices[v] = {cell_of(unit(points[v]), cells), std::uint32_t(v)};
+Clusters clusters_of(const Points& points, const std::vector<std::uint32_t>& some, const Unit_box& unit, double cells) {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> vertices;
+  vertices.reserve(some.size());
+  for (const std::uint32_t v : some) vertices.emplace_back(cell_of(unit(points[v]), cells), v);
   std::sort(vertices.begin(), vertices.end());
   Clusters clusters;
-  clusters.cluster_of.resize(points.size());
+  clusters.cluster_of.assign(points.size(), none);
   for (auto first = vertices.begin(); first != vertices.end();) {
     auto end = first;
     for (; end != vertices.end() && end->first == first->first; ++end)
@@ -88,12 +118,13 @@ Clusters clusters_of(const Points& points, const Unit_box& unit, double cells) {
   return clusters;
 }
 
-/// The triangles between three clusters, each of them once.
+/// The triangles between three clusters, each of them once. One with a corner in none is between no three.
 Triangles triangles_between(const Clusters& clusters, const Triangles& triangles) {
   Triangles result;
   for (const auto& triangle : triangles) {
     std::array<std::uint32_t, 3> t;
     for (std::size_t corner = 0; corner < 3; ++corner) t[corner] = clusters.cluster_of[triangle[corner]];
+    if (std::find(t.begin(), t.end(), none) != t.end()) continue;
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     result.push_back(t);
@@ -106,7 +137,6 @@ Triangles triangles_between(const Clusters& clusters, const Triangles& triangles
 /// The clusters that have a triangle, with the numbers of their representatives.
 Displayed_mesh mesh_of(const Clusters& clusters, Triangles triangles, const Points& points,
                        const Vertex_attributes& attributes) {
-  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> number(clusters.representative_of.size(), none), kept;
   for (auto& triangle : triangles)
     for (auto& corner : triangle) {
@@ -135,15 +165,27 @@ Displayed_mesh mesh_of(const Clusters& clusters, Triangles triangles, const Poin
 
 Displayed_mesh decimate(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
                         std::size_t most_triangles) {
-  const Unit_box unit(mesh.points);
+  const std::vector<std::uint32_t> shown = shown_vertices(mesh);
+  const Unit_box unit(mesh.points, shown);
+  Clusters clusters;
+  Triangles triangles;
+  const auto cut = [&](double cells) {
+    clusters = clusters_of(mesh.points, shown, unit, cells);
+    triangles = triangles_between(clusters, mesh.triangles);
+  };
   // A plane meets up to 1.7 cells per square of their side, and a cluster has two triangles.
-  double cells = std::sqrt(double(most_triangles) / (3.0 * area_of(mesh, unit)));
-  while (true) {
-    const Clusters clusters = clusters_of(mesh.points, unit, cells);
-    Triangles triangles = triangles_between(clusters, mesh.triangles);
-    if (triangles.size() <= most_triangles) return mesh_of(clusters, std::move(triangles), mesh.points, attributes);
-    cells /= 1.1;
+  double cells = std::clamp(std::sqrt(double(most_triangles) / (3.0 * area_of(mesh, unit))), 1.0, most_cells);
+  cut(cells);
+  // Where large triangles have most of the area, the others need smaller cells.
+  while (triangles.size() < most_triangles / 3 && cells < most_cells) {
+    cells = std::min(2 * cells, most_cells);
+    cut(cells);
   }
+  while (triangles.size() > most_triangles) {
+    cells /= 1.1;
+    cut(cells);
+  }
+  return mesh_of(clusters, std::move(triangles), mesh.points, attributes);
 }
 
 } // namespace equiaffine

@@ -3,6 +3,7 @@
 
 #include "system/memory_limit.h"
 #include "system/resources.h"
+#include "system/scratch_memory.h"
 #include "system/signals.h"
 #include <equiaffine/Input_error.h>
 #include <equiaffine/Progress_observer.h>
@@ -55,7 +56,9 @@ double address_space() {
 
 /// Allows this process so many bytes beside what it has, but not more than this computer has.
 void limit_memory(double bytes) {
-  if (const double used = address_space(); used > 0) set_limit(RLIMIT_AS, used + std::min(bytes, physical_memory()));
+  bytes = std::min(bytes, physical_memory());
+  if (const double used = address_space(); used > 0) set_limit(RLIMIT_AS, used + bytes);
+  limit_scratch_memory(bytes);
 }
 
 void write_all(int descriptor, const std::string& text) {
@@ -72,6 +75,8 @@ std::string answer_of(const std::function<void()>& task) {
     return {done};
   } catch (const Input_error& error) {
     return input_error + std::string(error.what()) + '\0' + error.excerpt();
+  } catch (const No_room_for_scratch_memory&) {
+    return input_error + no_room_for_scratch_memory() + '\0';
   } catch (const std::bad_alloc&) {
     return {no_memory};
   } catch (const std::exception& error) {
@@ -97,9 +102,9 @@ std::string answer_of(const std::function<void()>& task) {
   const Progress_observer nobody([](const Progress_observer::Stage&) {}, std::chrono::hours(1 << 16));
   set_limit(RLIMIT_CORE, 0);
   set_limit(RLIMIT_CPU, std::ceil(limits.seconds));
-  limit_memory(limits.memory);
   write_all(answer, answer_of([&] {
               limit_resident_memory_of_child();
+              limit_memory(limits.memory);
               task();
             }));
   ::_exit(0);

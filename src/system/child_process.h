@@ -30,7 +30,7 @@ private:
 
 /// Runs `task` in a child process and waits for its end. The child has a copy of everything that its parent has, and
 /// nothing of what it changes comes back but `Shared_memory`. What it prints is lost. Where the task throws
-/// `Input_error` or `std::bad_alloc`, so does this function.
+/// `Input_error` or `std::bad_alloc`, so does this function; a full disk with its scratch memory is an `Input_error`.
 /// \throws Child_failure if the child crashed, exceeded its limits, or threw another exception
 void run_in_child(const std::function<void()>& task, const Child_limits& limits);
 

@@ -42,9 +42,10 @@ std::size_t resident_memory_of_process() {
   return std::size_t(std::strtoull(end, nullptr, 10)) * std::size_t(::sysconf(_SC_PAGE_SIZE));
 }
 
-/// The sum of some lines of the status of a process, which are in kilobytes, in bytes; 0 if there is no such process.
-std::size_t memory_in_status(const std::string& process, std::initializer_list<std::string_view> names) {
-  std::ifstream file("/proc/" + process + "/status");
+/// The sum of some lines of a file about a process, which are in kilobytes, in bytes; 0 if there is no such file.
+std::size_t memory_in(const char* name_of_file, const std::string& process,
+                      std::initializer_list<std::string_view> names) {
+  std::ifstream file("/proc/" + process + "/" + name_of_file);
   std::size_t kilobytes = 0;
   for (std::string line; std::getline(file, line);)
     for (const std::string_view name : names)
@@ -55,14 +56,16 @@ std::size_t memory_in_status(const std::string& process, std::initializer_list<s
 /// The resident memory of this process and of the child that counts.
 std::size_t resident_memory() {
   const pid_t child = child_that_counts;
-  return resident_memory_of_process() + (child == 0 ? 0 : memory_in_status(std::to_string(child), {"VmRSS:"}));
+  return resident_memory_of_process() + (child == 0 ? 0 : memory_in("status", std::to_string(child), {"VmRSS:"}));
 }
 
-/// The part of it that has no file to come back from.
+/// The part of it that has no file to come back from, where what both share counts once.
 std::size_t irreclaimable_memory() {
-  const std::initializer_list<std::string_view> names = {"RssAnon:", "RssShmem:"};
+  const auto of = [](const std::string& process) {
+    return memory_in("smaps_rollup", process, {"Pss_Anon:", "Pss_Shmem:"});
+  };
   const pid_t child = child_that_counts;
-  return memory_in_status("self", names) + (child == 0 ? 0 : memory_in_status(std::to_string(child), names));
+  return of("self") + (child == 0 ? 0 : of(std::to_string(child)));
 }
 
 /// Looks at this process from now on, which may be a child, and has it do without large pages: see
@@ -79,11 +82,12 @@ std::string in_mebibytes(std::size_t bytes) { return std::to_string((bytes + meb
 
 /// Ends the process as an error of the user does.
 [[noreturn]] void end_for_lack_of_memory(std::size_t used) {
-  const std::string report = "equiaffine: error: --memory: more than " + in_mebibytes(limit) +
+  const std::string end_of_progress = ::isatty(STDERR_FILENO) ? "\n" : "";
+  const std::string report = end_of_progress + "equiaffine: error: --memory: more than " + in_mebibytes(limit) +
                              " are needed at once, since not everything can be kept in a file; give more, such as " +
                              in_mebibytes(2 * used) + ", or leave it out\n";
-  remove_all_temporary_folders();
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, report.data(), report.size());
+  remove_all_temporary_folders();
   constexpr int error_of_user = 2;
   ::_exit(error_of_user);
 }
@@ -131,15 +135,16 @@ void limit_resident_memory_of_child() {
   reopen_scratch_memory();
   begin_to_look();
   child_that_counts = 0;
-  const std::size_t of_parent = memory_in_status(std::to_string(::getppid()), {"VmRSS:"});
-  limit = std::max(limit - std::min<std::size_t>(limit, of_parent), limit / 4);
+  const std::size_t of_parent = memory_in("status", std::to_string(::getppid()), {"VmRSS:"});
+  const std::size_t shared = memory_in("status", "self", {"RssAnon:"});
+  limit = std::max(limit - std::min<std::size_t>(limit, of_parent), limit / 4) + shared;
   std::thread([bytes = limit.load()] { watch(bytes, false); }).detach();
 }
 
 void count_memory_of_child(pid_t child) { child_that_counts = child; }
 
 bool belongs_in_scratch_memory(std::size_t size) {
-  return size >= large_array && has_scratch_memory() && resident_memory_of_process() + size > limit / 2;
+  return size >= large_array && has_scratch_memory() && resident_memory_of_process() + size > limit / 3;
 }
 
 } // namespace equiaffine

@@ -8,10 +8,10 @@
 
 namespace equiaffine {
 
-/// Bounds the resident memory of this process, together with that of its children, until it ends: large arrays are in
-/// scratch memory in the folder where they do not fit, and a thread gives pages of these and of mapped files back
-/// whenever the limit is near. Where that is not enough, the thread ends the process with a sentence. Throws
-/// `Input_error` if so few bytes cannot do for any command, or the folder cannot have scratch memory.
+/// Bounds the resident memory of this process, together with that of its children, until it ends. Large arrays that do
+/// not fit are in scratch memory, in a file in that folder. A thread gives the pages of these and of mapped files back
+/// whenever the limit is near; where that is not enough, it ends the process with a sentence. Throws `Input_error` if so
+/// few bytes cannot do for any command, or the folder cannot have scratch memory.
 void limit_resident_memory(std::size_t bytes, const std::filesystem::path& folder);
 
 bool is_resident_memory_limited();
@@ -19,7 +19,7 @@ bool is_resident_memory_limited();
 /// Bounds the resident memory of a child process, at its beginning, by what its parent leaves.
 void limit_resident_memory_of_child();
 
-/// Says that this child is the one whose memory counts, too; 0 if it has ended.
+/// From now on the memory of this child counts as well, until a call with 0.
 void count_memory_of_child(pid_t child);
 
 /// Whether an array of that size is to be in scratch memory.

@@ -41,7 +41,8 @@ struct Scratch {
   std::map<std::size_t, std::size_t> size_at = {};            ///< of what is allocated
   std::multimap<std::size_t, std::size_t> spare_of_size = {}; ///< the places of what is freed, and kept
   std::size_t spare = 0;
-  bool has_no_room = false;
+  std::size_t used = 0; ///< the bytes of what is allocated
+  double most_used = std::numeric_limits<double>::infinity();
 };
 
 std::atomic<Scratch*> scratch = nullptr; ///< is never destroyed, since memory is freed until the process ends
@@ -68,14 +69,14 @@ bool is_in_memory([[maybe_unused]] int file) {
 #endif
 }
 
-/// Makes room in the file, for a disk that is full to be met here, not by a signal at the first write.
-bool make_room([[maybe_unused]] const Scratch& s, [[maybe_unused]] std::size_t place,
-               [[maybe_unused]] std::size_t size) {
+/// Makes room in the file, for a disk that is full to be met here, not by a signal at the first write. Returns the
+/// number of the error, or 0.
+int make_room(const Scratch& s, std::size_t place, std::size_t size) {
 #ifdef __linux__
-  if (::fallocate(s.file, 0, off_t(place), off_t(size)) == 0) return true;
-  if (errno != EOPNOTSUPP) return false;
+  if (::fallocate(s.file, 0, off_t(place), off_t(size)) == 0) return 0;
+  if (errno != EOPNOTSUPP) return errno;
 #endif
-  return ::posix_fallocate(s.file, off_t(place), off_t(size)) == 0;
+  return ::posix_fallocate(s.file, off_t(place), off_t(size));
 }
 
 /// Takes a part of the address space again, so that nothing else gets it.
@@ -92,23 +93,30 @@ void release(const Scratch& s, std::size_t place, std::size_t size) {
 #endif
 }
 
-/// Allocates at the end; null if there is no room.
+void release_spare(Scratch& s) {
+  for (const auto& [size, place] : s.spare_of_size) release(s, place, size);
+  s.spare_of_size.clear();
+  s.spare = 0;
+}
+
+/// Allocates at the end.
 void* allocate_at_end(Scratch& s, std::size_t size) {
   std::byte* const memory = s.first + s.end;
-  if (s.end + size > most_addresses || !make_room(s, s.end, size) ||
+  if (s.end + size > most_addresses) throw std::bad_alloc();
+  int error = make_room(s, s.end, size);
+  if (error != 0 && !s.spare_of_size.empty()) {
+    release_spare(s);
+    error = make_room(s, s.end, size);
+  }
+  if (error == ENOSPC || error == EDQUOT || error == EFBIG) throw No_room_for_scratch_memory();
+  if (error != 0 ||
       ::mmap(memory, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, s.file, off_t(s.end)) == MAP_FAILED)
-    return nullptr;
+    throw std::bad_alloc();
   ::madvise(memory, size, MADV_RANDOM); // pages that nobody asks for take room from others
   add_reclaimable_memory(memory, size);
   s.size_at[s.end] = size;
   s.end += size;
   return memory;
-}
-
-void release_spare(Scratch& s) {
-  for (const auto& [size, place] : s.spare_of_size) release(s, place, size);
-  s.spare_of_size.clear();
-  s.spare = 0;
 }
 
 } // namespace
@@ -140,10 +148,25 @@ void reopen_scratch_memory() {
   if (!of_parent) return;
   const int file = open_nameless_file_in(of_parent->folder);
   if (file == -1) throw std::bad_alloc();
+  if (of_parent->end > 0)
+    ::mmap(of_parent->first, of_parent->end, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE | MAP_FIXED,
+           of_parent->file, 0);
   scratch = new Scratch{of_parent->folder, of_parent->most_spare, of_parent->first, file, of_parent->end};
 }
 
+std::string no_room_for_scratch_memory() {
+  return "--memory: the folder '" + scratch.load()->folder.string() +
+         "' has no room for what does not fit, or files may not be that large (ulimit -f); make some";
+}
+
 bool has_scratch_memory() { return scratch.load(std::memory_order_acquire) != nullptr; }
+
+void limit_scratch_memory(double bytes) {
+  Scratch* const s = scratch;
+  if (!s) return;
+  const std::lock_guard guard(s->mutex);
+  s->most_used = double(s->used) + bytes;
+}
 
 double room_for_scratch_memory() {
   std::error_code error;
@@ -155,22 +178,17 @@ void* allocate_scratch_memory(std::size_t size) {
   Scratch& s = *scratch;
   size = (size + unit - 1) / unit * unit;
   const std::lock_guard guard(s.mutex);
+  if (double(s.used + size) > s.most_used) throw std::bad_alloc();
   if (const auto spare = s.spare_of_size.find(size); spare != s.spare_of_size.end()) {
     const std::size_t place = spare->second;
     s.spare_of_size.erase(spare);
     s.spare -= size;
     s.size_at[place] = size;
+    s.used += size;
     return s.first + place;
   }
-  void* memory = allocate_at_end(s, size);
-  if (!memory) {
-    release_spare(s);
-    memory = allocate_at_end(s, size);
-  }
-  if (!memory) {
-    s.has_no_room = true;
-    throw std::bad_alloc();
-  }
+  void* const memory = allocate_at_end(s, size);
+  s.used += size;
   return memory;
 }
 
@@ -187,16 +205,10 @@ void free_scratch_memory(void* memory) {
   if (found == s.size_at.end()) return; // a parent has it
   const std::size_t size = found->second;
   s.size_at.erase(found);
+  s.used -= size;
   if (s.spare + size > s.most_spare) return release(s, place, size);
   s.spare_of_size.emplace(size, place);
   s.spare += size;
-}
-
-fs::path folder_without_room() {
-  Scratch* const s = scratch;
-  if (!s) return {};
-  const std::lock_guard guard(s->mutex);
-  return s->has_no_room ? s->folder : fs::path();
 }
 
 } // namespace equiaffine

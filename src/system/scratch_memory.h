@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <new>
+#include <string>
 
 namespace equiaffine {
 
@@ -13,24 +15,32 @@ namespace equiaffine {
 /// such a file, or is in memory itself. Freed memory of up to `spare` bytes is kept for what has the same size.
 void open_scratch_memory(const std::filesystem::path& folder, std::size_t spare);
 
-/// A child process calls this first: it takes another file for what it allocates, and leaves its parent's alone.
+/// A child process calls this first: it takes another file for what it allocates, and what it changes of its parent's
+/// memory stays its own.
 void reopen_scratch_memory();
+
+/// Allows so many bytes of scratch memory beside what is allocated; without a call nothing but the folder limits it.
+void limit_scratch_memory(double bytes);
 
 bool has_scratch_memory();
 
 /// The bytes that the folder of the scratch memory has room for.
 double room_for_scratch_memory();
 
-/// Returns memory that need not be zero. Throws `std::bad_alloc` if the folder has no room left.
+/// The folder has no room for the scratch memory that was to be allocated.
+class No_room_for_scratch_memory : public std::bad_alloc {};
+
+/// Says so in a sentence, to which other advice may be added.
+std::string no_room_for_scratch_memory();
+
+/// Returns memory that need not be zero. Throws `No_room_for_scratch_memory`, or `std::bad_alloc` where that much is
+/// not allowed.
 void* allocate_scratch_memory(std::size_t size);
 
 /// Whether it was allocated as scratch memory.
 bool is_scratch_memory(const void* memory);
 
 void free_scratch_memory(void* memory);
-
-/// The folder, if it had no room for what was to be allocated; else empty.
-std::filesystem::path folder_without_room();
 
 } // namespace equiaffine
 

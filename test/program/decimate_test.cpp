@@ -62,4 +62,62 @@ TEST(Program_decimate, a_coarse_mesh_has_some_of_the_vertices_with_their_numbers
   }
 }
 
+constexpr std::size_t most_triangles = 2000;
+
+/// The bounds of x, y and z of a mesh.
+CGAL::Bbox_3 box_of(const equiaffine::Indexed_triangle_mesh_3<Kernel>& mesh) {
+  CGAL::Bbox_3 box;
+  for (const auto& point : mesh.points) box += point.bbox();
+  return box;
+}
+
+TEST(Program_decimate, leaves_out_triangles_with_a_corner_that_is_not_finite) {
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    auto [mesh, attributes] = wavy_square(1);
+    const std::uint32_t v = side * side / 2 + side / 2;
+    mesh.points[v] = {mesh.points[v].x(), bad, mesh.points[v].z()};
+    const auto [coarse, numbers] = equiaffine::decimate(mesh, attributes, most_triangles);
+    EXPECT_LE(coarse.triangles.size(), most_triangles);
+    EXPECT_GE(coarse.triangles.size(), most_triangles / 3);
+    const CGAL::Bbox_3 box = box_of(coarse);
+    EXPECT_GT(box.y_span(), 90);
+    EXPECT_LT(box.y_span(), 100);
+    for (const double number : numbers.columns[0].values) EXPECT_NE(number, v);
+  }
+}
+
+TEST(Program_decimate, keeps_most_of_a_mesh_beside_a_vertex_far_away) {
+  const auto [square, numbers_of_square] = wavy_square(1);
+  for (const bool has_triangle : {false, true}) {
+    equiaffine::Displayed_mesh stray = {square, numbers_of_square};
+    stray.mesh.points.emplace_back(1e5, 1e5, 1e5);
+    stray.attributes.columns[0].values.push_back(-1);
+    stray.attributes.status->push_back(equiaffine::Point_status::REGULAR);
+    if (has_triangle) stray.mesh.triangles.push_back({0, side - 1, side * side});
+    const auto [coarse, numbers] = equiaffine::decimate(stray.mesh, stray.attributes, most_triangles);
+    EXPECT_LE(coarse.triangles.size(), most_triangles);
+    EXPECT_GE(coarse.triangles.size(), most_triangles / 3) << has_triangle;
+    EXPECT_EQ(box_of(coarse).x_span() > 1000, has_triangle);
+  }
+}
+
+TEST(Program_decimate, nothing_is_left_of_what_has_no_area_or_no_finite_corner) {
+  for (const double coordinate : {7.0, 1e308, std::nan("")}) {
+    equiaffine::Displayed_mesh point;
+    point.mesh.points.assign(3, {coordinate, -coordinate, 0});
+    point.mesh.triangles.assign(10, {0, 1, 2});
+    const auto [coarse, numbers] = equiaffine::decimate(point.mesh, point.attributes, 5);
+    EXPECT_TRUE(coarse.triangles.empty());
+    EXPECT_TRUE(coarse.points.empty());
+  }
+}
+
+TEST(Program_decimate, takes_coordinates_up_to_the_largest_numbers) {
+  const auto [mesh, attributes] = wavy_square(1);
+  equiaffine::Displayed_mesh huge = {mesh, attributes};
+  for (auto& p : huge.mesh.points) p = {(p.x() - 50) * 3e306, (p.y() - 50) * 3e306, p.z() * 3e306};
+  EXPECT_EQ(equiaffine::decimate(huge.mesh, huge.attributes, most_triangles).mesh.triangles,
+            equiaffine::decimate(mesh, attributes, most_triangles).mesh.triangles);
+}
+
 } // namespace

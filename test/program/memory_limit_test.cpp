@@ -2,6 +2,8 @@
 #ifdef __linux__
 
 #include "support/run_program.h"
+#include "system/child_process.h"
+#include "system/memory_limit.h"
 #include "system/reclaimable_memory.h"
 #include "system/scratch_memory.h"
 #include <equiaffine/Input_error.h>
@@ -99,6 +101,22 @@ TEST_F(Program_memory, that_cannot_do_is_refused_with_one_that_would) {
   run_well(with_limit(joined(sphere, {"20"}), least, "s.ply"));
 }
 
+TEST_F(Program_memory, of_a_library_in_a_child_counts_and_ends_the_command_with_a_limit_that_does) {
+  run_well({"sample", "--function", "x^2+y^2+z^2-1", "--box", "-1.2", "1.2", "-1.2", "1.2", "-1.2", "1.2",
+            "--resolution", "230", "-o", "v.vti"});
+  test::write_file(folder_ / "points.csv", "x,y,z\n1,0,0\n");
+  const Words evaluate = {"evaluate", "--volume", "v.vti", "--points", "points.csv"};
+  const test::Result ended = run(with_limit(evaluate, "180M", "e.csv"));
+  EXPECT_EQ(ended.status, 2);
+  const std::string begin = "equiaffine: error: --memory: more than 180M are needed at once", advice = "such as ";
+  EXPECT_TRUE(ended.error.starts_with(begin)) << ended.error;
+  EXPECT_EQ(names(), (Words{"points.csv", "v.vti"}));
+  ASSERT_NE(ended.error.find(advice), std::string::npos) << ended.error;
+  std::string enough = ended.error.substr(ended.error.find(advice) + advice.size());
+  enough.erase(enough.find(','));
+  run_well(with_limit(evaluate, enough, "e.csv"));
+}
+
 TEST_F(Program_memory, is_an_amount) {
   for (const char* word : {"700", "M", "-1G", "0M", "1K", "700m", "nanG", "1e30G"}) {
     const test::Result result = run(with_limit(joined(sphere, {"20"}), word, "s.ply"));
@@ -143,6 +161,13 @@ TEST_F(Program_memory, leaves_nothing_behind_when_it_is_ended) {
 class Scratch_memory_DeathTest : public test::Program_test {
 protected:
   static void end(bool is_right) { std::_Exit(is_right ? 0 : 1); }
+
+  /// Allows this process no file of more than a megabyte.
+  static void limit_size_of_files() {
+    constexpr rlimit limit = {1'000'000, 1'000'000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, SIG_IGN);
+  }
 };
 
 TEST_F(Scratch_memory_DeathTest, keeps_what_is_in_it_when_its_pages_are_given_back) {
@@ -165,6 +190,47 @@ TEST_F(Scratch_memory_DeathTest, keeps_what_is_in_it_when_its_pages_are_given_ba
   EXPECT_EXIT(check(), testing::ExitedWithCode(0), "");
 }
 
+TEST_F(Scratch_memory_DeathTest, limit_counts_what_a_child_shares_with_its_parent_once) {
+  const auto check = [&] {
+    constexpr std::size_t mebibyte = 1 << 20;
+    limit_resident_memory(300 * mebibyte, folder_);
+    const std::vector<std::vector<char>> small(100, std::vector<char>(2 * mebibyte, 1)); // too small for a file
+    run_in_child([] { std::this_thread::sleep_for(std::chrono::milliseconds(300)); }, {10, 1e9});
+    end(small.size() == 100);
+  };
+  EXPECT_EXIT(check(), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(Scratch_memory_DeathTest, of_a_child_is_limited_with_its_memory) {
+  const auto check = [&] {
+    limit_resident_memory(std::size_t(1) << 30, folder_);
+    const auto allocate = [] { allocate_scratch_memory(2'000'000); };
+    run_in_child(allocate, {10, 1e8});
+    try {
+      run_in_child(allocate, {10, 1e6});
+    } catch (const No_room_for_scratch_memory&) {
+    } catch (const std::bad_alloc&) {
+      end(true);
+    }
+    end(false);
+  };
+  EXPECT_EXIT(check(), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(Scratch_memory_DeathTest, of_a_child_without_room_is_an_error_that_says_so) {
+  const auto check = [&] {
+    limit_resident_memory(std::size_t(1) << 30, folder_);
+    limit_size_of_files();
+    try {
+      run_in_child([] { allocate_scratch_memory(2'000'000); }, {10, 1e8});
+    } catch (const Input_error& error) {
+      end(std::string(error.what()).starts_with("--memory: the folder '" + folder_.string() + "' has no room"));
+    }
+    end(false);
+  };
+  EXPECT_EXIT(check(), testing::ExitedWithCode(0), "");
+}
+
 TEST_F(Scratch_memory_DeathTest, of_a_child_is_its_own) {
   const auto check = [&] {
     open_scratch_memory(folder_, 0);
@@ -177,8 +243,10 @@ TEST_F(Scratch_memory_DeathTest, of_a_child_is_its_own) {
       reopen_scratch_memory();
       auto* const childs = static_cast<char*>(allocate_scratch_memory(size));
       childs[0] = 'c';
+      const bool is_right = parents[0] == 'p' && childs != parents;
+      parents[0] = 'x';
       free_scratch_memory(parents);
-      end(childs != parents);
+      end(is_right);
     }
     int status = -1;
     ::waitpid(child, &status, 0);
@@ -190,15 +258,12 @@ TEST_F(Scratch_memory_DeathTest, of_a_child_is_its_own) {
 
 TEST_F(Scratch_memory_DeathTest, says_which_folder_has_no_room) {
   const auto check = [&] {
-    constexpr rlimit limit = {1'000'000, 1'000'000};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-    std::signal(SIGXFSZ, SIG_IGN);
+    limit_size_of_files();
     open_scratch_memory(folder_, 0);
-    const bool had_room = folder_without_room().empty();
     try {
       allocate_scratch_memory(2'000'000);
-    } catch (const std::bad_alloc&) {
-      end(had_room && folder_without_room() == folder_);
+    } catch (const No_room_for_scratch_memory&) {
+      end(no_room_for_scratch_memory().starts_with("--memory: the folder '" + folder_.string() + "' has no room"));
     }
     end(false);
   };

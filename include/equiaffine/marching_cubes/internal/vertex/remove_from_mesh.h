@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: GPL-3.0-or-later Vertices and triangles are removed from a mesh, and copies of vertices are
-// added, so that all others keep their order: what a plane of nodes and a layer of cells have stays together.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Vertices and triangles are removed from a mesh, and copies of vertices are added, so that all others keep their order:
+// what a plane of nodes and a layer of cells have stays together.
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_VERTEX_REMOVE_FROM_MESH_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_VERTEX_REMOVE_FROM_MESH_H
 
