@@ -8,7 +8,8 @@ all of them alike. The figures of two threads are the best ratios of wall times.
 does the same on one thread, and the ratios are figures, too, as is whether its file has the bytes of ours from two. Memory is the
 greatest resident set of a command, mapped files included. The peer for volumes is VTK's vtkFlyingEdges3D, which reads the
 same file and writes a PLY file without attributes. Commands with --memory have to keep its limit, to a tenth, for the same
-bytes. With --large there are a volume of 1024^3 floats and a formula at 2048^3, which take ten minutes and 20 GB of disk.
+bytes. With --large there are a volume of 1024^3 floats, beside the peer without a limit, and a formula at 2048^3, which take ten
+minutes, 20 GB of disk and 8 GB of memory.
 """
 import argparse
 import filecmp
@@ -55,6 +56,10 @@ def run_command(command):
     return usage.ru_utime + usage.ru_stime, time.monotonic() - began, usage.ru_maxrss * 1024 / 1e9
 
 
+def run_flying_edges(volume, output):
+    return run_command(["/usr/bin/python3", "-c", FLYING_EDGES, volume, output])
+
+
 def mesh_of_formula(program, resolution, *options):
     return [program, "mesh", "--function", FORMULA, "--box", *["-1.2", "1.2"] * 3, "--resolution", str(resolution), *options]
 
@@ -82,13 +87,12 @@ def time_volume(options, folder, nodes, seconds, gigabytes, limit):
     ours, theirs = os.path.join(folder, "ours.ply"), os.path.join(folder, "theirs.ply")
     run_command(sample_of_gyroid(options.program, nodes, "-o", volume))
     mesh = ["mesh", "--volume", volume, "--threads"]
-    flying_edges = ["/usr/bin/python3", "-c", FLYING_EDGES, volume, theirs]
     one, two, peer, before = [], [], [], []
     for _ in range(options.repeats):
         one.append(run_command([options.program, *mesh, "1", "-o", ours]))
         two.append(run_command([options.program, *mesh, "2", "-o", ours]))
         if HAS_VTK:
-            peer.append(run_command(flying_edges))
+            peer.append(run_flying_edges(volume, theirs))
         if options.before:
             before.append(run_command([options.before, *mesh, "1", "-o", theirs]))
     median = lambda runs, column: statistics.median(run[column] for run in runs)
@@ -114,9 +118,15 @@ def time_large(options, folder):
     memory = ["--memory", "1G", "-o", output]
     run_command(sample_of_gyroid(options.program, 1024, "--memory", "1G", "-o", volume))
     of_volume = run_command([options.program, "mesh", "--volume", volume, *memory])
-    os.remove(volume)
     figure("volume_1024", of_volume[0], "s", "-")
+    figure("volume_1024_wall", of_volume[1], "s", "-")
     figure_of_limit("volume_1024", 1024, of_volume[2])
+    if HAS_VTK:
+        peer = run_flying_edges(volume, output)
+        figure("volume_1024_flying_edges", peer[0], "s", "-")
+        figure("volume_1024_flying_edges_wall", peer[1], "s", "-")
+        figure("volume_1024_flying_edges_memory", peer[2], "GB", "-")
+    os.remove(volume)
     of_formula = run_command([options.program, "mesh", "--function", GYROID, "--box", *["-6.283185307", "6.283185307"] * 3,
                               "--resolution", "2048", *memory])
     figure("2048", of_formula[0], "s", "-")

@@ -97,7 +97,7 @@ int run(const std::vector<std::string>& arguments, const Streams& streams) {
     return error_of_user;
   } catch (const No_room_for_scratch_memory&) {
     report(streams.error, "error",
-           no_room_for_scratch_memory() + ", or " + advice_on_memory(options.value_or(Options())));
+           lack_of_room_for_scratch_memory() + ", or " + advice_on_memory(options.value_or(Options())));
     return error_of_user;
   } catch (const std::bad_alloc&) {
     report(streams.error, "error",

@@ -170,6 +170,8 @@ Displayed_mesh decimate(const Indexed_triangle_mesh_3<Kernel>& mesh, const Verte
   Clusters clusters;
   Triangles triangles;
   const auto cut = [&](double cells) {
+    clusters = {};
+    triangles = {};
     clusters = clusters_of(mesh.points, shown, unit, cells);
     triangles = triangles_between(clusters, mesh.triangles);
   };
@@ -182,7 +184,7 @@ Displayed_mesh decimate(const Indexed_triangle_mesh_3<Kernel>& mesh, const Verte
     cut(cells);
   }
   while (triangles.size() > most_triangles) {
-    cells /= 1.1;
+    cells *= std::clamp(std::sqrt(0.9 * double(most_triangles) / double(triangles.size())), 0.25, 0.91);
     cut(cells);
   }
   return mesh_of(clusters, std::move(triangles), mesh.points, attributes);

@@ -56,9 +56,7 @@ double address_space() {
 
 /// Allows this process so many bytes beside what it has, but not more than this computer has.
 void limit_memory(double bytes) {
-  bytes = std::min(bytes, physical_memory());
-  if (const double used = address_space(); used > 0) set_limit(RLIMIT_AS, used + bytes);
-  limit_scratch_memory(bytes);
+  if (const double used = address_space(); used > 0) set_limit(RLIMIT_AS, used + std::min(bytes, physical_memory()));
 }
 
 void write_all(int descriptor, const std::string& text) {
@@ -69,14 +67,12 @@ void write_all(int descriptor, const std::string& text) {
   }
 }
 
-std::string answer_of(const std::function<void()>& task) {
+std::string answer_of_task(const std::function<void()>& task) {
   try {
     task();
     return {done};
   } catch (const Input_error& error) {
     return input_error + std::string(error.what()) + '\0' + error.excerpt();
-  } catch (const No_room_for_scratch_memory&) {
-    return input_error + no_room_for_scratch_memory() + '\0';
   } catch (const std::bad_alloc&) {
     return {no_memory};
   } catch (const std::exception& error) {
@@ -84,6 +80,12 @@ std::string answer_of(const std::function<void()>& task) {
   } catch (...) {
     return {other_exception};
   }
+}
+
+std::string answer_of(const std::function<void()>& task) {
+  const std::string answer = answer_of_task(task);
+  const std::string lack = lack_of_room_for_scratch_memory(); // other libraries make their own errors of it
+  return answer.starts_with(done) || lack.empty() ? answer : input_error + lack + '\0';
 }
 
 /// The life of the child. It leaves by _exit, so that nothing of its parent's is flushed, removed or waited for.
@@ -105,6 +107,7 @@ std::string answer_of(const std::function<void()>& task) {
   write_all(answer, answer_of([&] {
               limit_resident_memory_of_child();
               limit_memory(limits.memory);
+              allow_scratch_memory(limits.memory);
               task();
             }));
   ::_exit(0);
@@ -189,10 +192,11 @@ bool read_until_closed(int pipe, Clock::time_point deadline, std::string& text) 
 } // namespace
 
 void allow_memory(double bytes) {
+  if (!is_child) return;
+  allow_scratch_memory(bytes);
   struct rlimit limit;
   const double used = address_space();
-  if (is_child && used > 0 && ::getrlimit(RLIMIT_AS, &limit) == 0 && used + bytes > double(limit.rlim_cur))
-    limit_memory(bytes);
+  if (used > 0 && ::getrlimit(RLIMIT_AS, &limit) == 0 && used + bytes > double(limit.rlim_cur)) limit_memory(bytes);
 }
 
 void run_in_child(const std::function<void()>& task, const Child_limits& limits) {

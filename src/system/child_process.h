@@ -11,7 +11,7 @@ namespace equiaffine {
 /// What a child process may use before it is ended.
 struct Child_limits {
   double seconds; ///< of processor time; the child may sleep as long again
-  double memory;  ///< bytes beside what its parent has, at most those that this computer has
+  double memory;  ///< bytes beside what its parent has, at most those that this computer has; as many in scratch memory
 };
 
 /// A child process that read a file ended without an answer. what() continues a sentence: "crashed (Segmentation

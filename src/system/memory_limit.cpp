@@ -62,7 +62,8 @@ std::size_t resident_memory() {
 /// The part of it that has no file to come back from, where what both share counts once.
 std::size_t irreclaimable_memory() {
   const auto of = [](const std::string& process) {
-    return memory_in("smaps_rollup", process, {"Pss_Anon:", "Pss_Shmem:"});
+    const std::size_t proportional = memory_in("smaps_rollup", process, {"Pss_Anon:", "Pss_Shmem:"});
+    return proportional > 0 ? proportional : memory_in("status", process, {"RssAnon:", "RssShmem:"}); // older systems
   };
   const pid_t child = child_that_counts;
   return of("self") + (child == 0 ? 0 : of(std::to_string(child)));

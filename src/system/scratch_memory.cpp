@@ -4,6 +4,7 @@
 #include "system/reclaimable_memory.h"
 #include <equiaffine/Input_error.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
@@ -43,11 +44,16 @@ struct Scratch {
   std::size_t spare = 0;
   std::size_t used = 0; ///< the bytes of what is allocated
   double most_used = std::numeric_limits<double>::infinity();
+  int error = 0; ///< why there was no room when memory was to be allocated last, or 0
 };
 
 std::atomic<Scratch*> scratch = nullptr; ///< is never destroyed, since memory is freed until the process ends
 
-/// Opens a file without a name; -1 if that cannot be.
+[[noreturn]] void fail_to_open(const fs::path& folder, const std::string& reason, const std::string& advice) {
+  throw Input_error("--memory: what does not fit is kept in a file in the folder '" + folder.string() + "', " + reason +
+                    "; " + advice);
+}
+
 int open_nameless_file_in(const fs::path& folder) {
 #ifdef O_TMPFILE
   if (const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR); file != -1)
@@ -55,7 +61,10 @@ int open_nameless_file_in(const fs::path& folder) {
 #endif
   std::string name = (folder / ".equiaffine-scratch-XXXXXX").string();
   const int file = ::mkstemp(name.data());
-  if (file != -1) ::unlink(name.c_str());
+  if (file == -1)
+    fail_to_open(folder, "and none can be made there (" + std::generic_category().message(errno) + ")",
+                 "choose another one for the output");
+  ::unlink(name.c_str());
   return file;
 }
 
@@ -72,11 +81,12 @@ bool is_in_memory([[maybe_unused]] int file) {
 /// Makes room in the file, for a disk that is full to be met here, not by a signal at the first write. Returns the
 /// number of the error, or 0.
 int make_room(const Scratch& s, std::size_t place, std::size_t size) {
+  int error = EOPNOTSUPP;
 #ifdef __linux__
-  if (::fallocate(s.file, 0, off_t(place), off_t(size)) == 0) return 0;
-  if (errno != EOPNOTSUPP) return errno;
+  do error = ::fallocate(s.file, 0, off_t(place), off_t(size)) == 0 ? 0 : errno;
+  while (error == EINTR);
 #endif
-  return ::posix_fallocate(s.file, off_t(place), off_t(size));
+  return error == EOPNOTSUPP || error == ENOSYS ? ::posix_fallocate(s.file, off_t(place), off_t(size)) : error;
 }
 
 /// Takes a part of the address space again, so that nothing else gets it.
@@ -99,19 +109,15 @@ void release_spare(Scratch& s) {
   s.spare = 0;
 }
 
-/// Allocates at the end.
+/// Allocates at the end; null if there is no room.
 void* allocate_at_end(Scratch& s, std::size_t size) {
   std::byte* const memory = s.first + s.end;
-  if (s.end + size > most_addresses) throw std::bad_alloc();
-  int error = make_room(s, s.end, size);
-  if (error != 0 && !s.spare_of_size.empty()) {
-    release_spare(s);
-    error = make_room(s, s.end, size);
+  s.error = s.end + size > most_addresses ? ENOMEM : make_room(s, s.end, size);
+  if (s.error != 0) return nullptr;
+  if (::mmap(memory, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, s.file, off_t(s.end)) == MAP_FAILED) {
+    s.error = errno;
+    return nullptr;
   }
-  if (error == ENOSPC || error == EDQUOT || error == EFBIG) throw No_room_for_scratch_memory();
-  if (error != 0 ||
-      ::mmap(memory, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, s.file, off_t(s.end)) == MAP_FAILED)
-    throw std::bad_alloc();
   ::madvise(memory, size, MADV_RANDOM); // pages that nobody asks for take room from others
   add_reclaimable_memory(memory, size);
   s.size_at[s.end] = size;
@@ -122,18 +128,11 @@ void* allocate_at_end(Scratch& s, std::size_t size) {
 } // namespace
 
 void open_scratch_memory(const fs::path& folder, std::size_t spare) {
-  const auto fail = [&](const std::string& reason, const std::string& advice) {
-    throw Input_error("--memory: what does not fit is kept in a file in the folder '" + folder.string() + "', " +
-                      reason + "; " + advice);
-  };
   const int file = open_nameless_file_in(folder);
-  if (file == -1)
-    fail("and none can be made there (" + std::generic_category().message(errno) + ")",
-         "choose another one for the output");
   if (is_in_memory(file)) {
     ::close(file);
-    fail("which is in memory itself",
-         "choose one on a disk for the output, or, for standard output, for temporary files by TMPDIR");
+    fail_to_open(folder, "which is in memory itself",
+                 "choose one on a disk for the output, or, for standard output, for temporary files by TMPDIR");
   }
   void* const first = ::mmap(nullptr, most_addresses, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (first == MAP_FAILED) {
@@ -146,26 +145,30 @@ void open_scratch_memory(const fs::path& folder, std::size_t spare) {
 void reopen_scratch_memory() {
   const Scratch* const of_parent = scratch;
   if (!of_parent) return;
+  if (of_parent->end > 0 && ::mmap(of_parent->first, of_parent->end, PROT_READ | PROT_WRITE,
+                                   MAP_PRIVATE | MAP_NORESERVE | MAP_FIXED, of_parent->file, 0) == MAP_FAILED)
+    throw std::bad_alloc();
   const int file = open_nameless_file_in(of_parent->folder);
-  if (file == -1) throw std::bad_alloc();
-  if (of_parent->end > 0)
-    ::mmap(of_parent->first, of_parent->end, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE | MAP_FIXED,
-           of_parent->file, 0);
   scratch = new Scratch{of_parent->folder, of_parent->most_spare, of_parent->first, file, of_parent->end};
+  scratch.load()->most_used = 0;
 }
 
-std::string no_room_for_scratch_memory() {
-  return "--memory: the folder '" + scratch.load()->folder.string() +
-         "' has no room for what does not fit, or files may not be that large (ulimit -f); make some";
+std::string lack_of_room_for_scratch_memory() {
+  Scratch* const s = scratch;
+  if (!s) return {};
+  const std::lock_guard guard(s->mutex);
+  if (s->error == 0) return {};
+  return "--memory: the folder '" + s->folder.string() + "' has no room for what does not fit (" +
+         std::generic_category().message(s->error) + "), or files may not be that large (ulimit -f); make some";
 }
 
 bool has_scratch_memory() { return scratch.load(std::memory_order_acquire) != nullptr; }
 
-void limit_scratch_memory(double bytes) {
+void allow_scratch_memory(double bytes) {
   Scratch* const s = scratch;
   if (!s) return;
   const std::lock_guard guard(s->mutex);
-  s->most_used = double(s->used) + bytes;
+  s->most_used = std::max(s->most_used, double(s->used) + bytes);
 }
 
 double room_for_scratch_memory() {
@@ -187,7 +190,12 @@ void* allocate_scratch_memory(std::size_t size) {
     s.used += size;
     return s.first + place;
   }
-  void* const memory = allocate_at_end(s, size);
+  void* memory = allocate_at_end(s, size);
+  if (!memory) {
+    release_spare(s);
+    memory = allocate_at_end(s, size);
+  }
+  if (!memory) throw No_room_for_scratch_memory();
   s.used += size;
   return memory;
 }

@@ -16,11 +16,11 @@ namespace equiaffine {
 void open_scratch_memory(const std::filesystem::path& folder, std::size_t spare);
 
 /// A child process calls this first: it takes another file for what it allocates, and what it changes of its parent's
-/// memory stays its own.
+/// memory stays its own. It may allocate nothing until it is allowed. Throws like open_scratch_memory().
 void reopen_scratch_memory();
 
-/// Allows so many bytes of scratch memory beside what is allocated; without a call nothing but the folder limits it.
-void limit_scratch_memory(double bytes);
+/// Allows a child process so many bytes of scratch memory beside what it has, or what it was allowed if that is more.
+void allow_scratch_memory(double bytes);
 
 bool has_scratch_memory();
 
@@ -30,8 +30,9 @@ double room_for_scratch_memory();
 /// The folder has no room for the scratch memory that was to be allocated.
 class No_room_for_scratch_memory : public std::bad_alloc {};
 
-/// Says so in a sentence, to which other advice may be added.
-std::string no_room_for_scratch_memory();
+/// Says, in a sentence to which other advice may be added, that there was no room for what was to be allocated last; is
+/// empty if there was. It is for those who do not know what others made of the exception.
+std::string lack_of_room_for_scratch_memory();
 
 /// Returns memory that need not be zero. Throws `No_room_for_scratch_memory`, or `std::bad_alloc` where that much is
 /// not allowed.

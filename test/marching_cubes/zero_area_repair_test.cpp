@@ -133,4 +133,34 @@ TEST(Zero_area_repair, a_component_with_area_between_two_flat_triangles_stays) {
   expect_unchanged(repaired(antiprism, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 2, 1}}), 8, 2);
 }
 
+/// Triangles in a strip, without the vertices whose numbers have that remainder, which are removed.
+Triangles strip_without(std::uint32_t vertices, std::uint32_t modulus, std::uint32_t remainder) {
+  Triangles triangles;
+  for (std::uint32_t v = 0; v + 2 < vertices; ++v)
+    if (v % modulus != remainder && (v + 1) % modulus != remainder && (v + 2) % modulus != remainder)
+      triangles.push_back({v, v + 1, v + 2});
+  return triangles;
+}
+
+TEST(Remove_from_mesh, vertices_are_numbered_by_how_many_are_left_before) {
+  constexpr std::uint32_t vertices = 5000;
+  for (const std::uint32_t modulus : {7u, 64u, 1000u, vertices}) {
+    Triangles triangles = strip_without(vertices, modulus, modulus / 2);
+    triangles.push_back({0, vertices - 1, 1}); // its numbers are far from each other
+    std::vector<std::uint32_t> removed, left(vertices, 0);
+    for (std::uint32_t v = modulus / 2; v < vertices; v += modulus) removed.push_back(v);
+    for (std::uint32_t v = 1; v < vertices; ++v) left[v] = left[v - 1] + ((v - 1) % modulus != modulus / 2);
+    Triangles expected;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      if (t % 300 != 1) expected.push_back({left[triangles[t][0]], left[triangles[t][1]], left[triangles[t][2]]});
+    std::vector<std::size_t> removed_triangles;
+    for (std::size_t t = 1; t < triangles.size(); t += 300) removed_triangles.push_back(t);
+    const internal::Counts_below removed_before(removed, vertices);
+    internal::remove_from_array(removed_triangles, triangles, [&](auto first, auto end, auto to) {
+      return internal::write_renumbered(first, end, removed_before, to);
+    });
+    EXPECT_EQ(triangles, expected) << modulus;
+  }
+}
+
 } // namespace

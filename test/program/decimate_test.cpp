@@ -115,7 +115,7 @@ TEST(Program_decimate, nothing_is_left_of_what_has_no_area_or_no_finite_corner) 
 TEST(Program_decimate, takes_coordinates_up_to_the_largest_numbers) {
   const auto [mesh, attributes] = wavy_square(1);
   equiaffine::Displayed_mesh huge = {mesh, attributes};
-  for (auto& p : huge.mesh.points) p = {(p.x() - 50) * 3e306, (p.y() - 50) * 3e306, p.z() * 3e306};
+  for (auto& p : huge.mesh.points) p = {(p.x() - 50) * 0x1p1017, (p.y() - 50) * 0x1p1017, p.z() * 0x1p1017};
   EXPECT_EQ(equiaffine::decimate(huge.mesh, huge.attributes, most_triangles).mesh.triangles,
             equiaffine::decimate(mesh, attributes, most_triangles).mesh.triangles);
 }

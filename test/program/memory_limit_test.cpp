@@ -126,6 +126,19 @@ TEST_F(Program_memory, is_an_amount) {
   run_well(with_limit(joined(sphere, {"20"}), "1.5G", "s.ply"));
 }
 
+TEST_F(Program_memory, says_that_files_may_not_be_large_enough_to_keep_what_does_not_fit) {
+  rlimit before = {};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit limit = {20'000'000, before.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  const test::Result refused = run(with_limit(joined(sphere, {"640"}), "190M", "s.ply"));
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.error.find("has no room for what does not fit (File too large)"), std::string::npos)
+      << refused.error;
+  EXPECT_EQ(names(), Words());
+}
+
 TEST_F(Program_memory, is_not_kept_in_a_folder_that_is_itself_in_memory) {
   struct statfs facts;
   if (::statfs("/dev/shm", &facts) != 0 || facts.f_type != TMPFS_MAGIC) GTEST_SKIP() << "no such folder is known";
@@ -222,7 +235,14 @@ TEST_F(Scratch_memory_DeathTest, of_a_child_without_room_is_an_error_that_says_s
     limit_resident_memory(std::size_t(1) << 30, folder_);
     limit_size_of_files();
     try {
-      run_in_child([] { allocate_scratch_memory(2'000'000); }, {10, 1e8});
+      const auto task = [] { // does as libraries that make an error of their own of an exception
+        try {
+          allocate_scratch_memory(2'000'000);
+        } catch (const std::bad_alloc&) {
+          throw Input_error("it is damaged");
+        }
+      };
+      run_in_child(task, {10, 1e8});
     } catch (const Input_error& error) {
       end(std::string(error.what()).starts_with("--memory: the folder '" + folder_.string() + "' has no room"));
     }
@@ -241,6 +261,7 @@ TEST_F(Scratch_memory_DeathTest, of_a_child_is_its_own) {
     if (child == 0) {
       forget_reclaimable_memory();
       reopen_scratch_memory();
+      allow_scratch_memory(size + 100'000);
       auto* const childs = static_cast<char*>(allocate_scratch_memory(size));
       childs[0] = 'c';
       const bool is_right = parents[0] == 'p' && childs != parents;
@@ -263,7 +284,7 @@ TEST_F(Scratch_memory_DeathTest, says_which_folder_has_no_room) {
     try {
       allocate_scratch_memory(2'000'000);
     } catch (const No_room_for_scratch_memory&) {
-      end(no_room_for_scratch_memory().starts_with("--memory: the folder '" + folder_.string() + "' has no room"));
+      end(lack_of_room_for_scratch_memory().starts_with("--memory: the folder '" + folder_.string() + "' has no room"));
     }
     end(false);
   };

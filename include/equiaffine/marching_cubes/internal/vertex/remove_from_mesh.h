@@ -41,6 +41,7 @@ public:
   /// \pre number <= n
   Index operator()(std::size_t number) const {
     const std::uint64_t smaller = words_[number / 64] & ((std::uint64_t(1) << number % 64) - 1);
+    if (smaller == 0) return before_[number / 64]; // mostly; code for any processor counts bits by a call
     return before_[number / 64] + Index(std::popcount(smaller));
   }
 
@@ -49,16 +50,51 @@ private:
   std::vector<Index> before_;        // the count before each word
 };
 
-/// Removes entries from an array; `removed` is ascending, without repetition.
+/// Removes entries from an array, and calls `move(first, end, to)` to move those between to a place at or before theirs,
+/// which returns the end of it. `removed` is ascending, without repetition.
+template <class Index, class Array, class Move>
+void remove_from_array(const std::vector<Index>& removed, Array& array, const Move& move) {
+  auto first = array.begin(), to = first;
+  for (const Index n : removed) {
+    const auto entry = array.begin() + std::ptrdiff_t(n);
+    to = move(first, entry, to);
+    first = entry + 1;
+  }
+  array.erase(move(first, array.end(), to), array.end());
+}
+
 template <class Index, class Array>
 void remove_from_array(const std::vector<Index>& removed, Array& array) {
-  if (removed.empty()) return;
-  auto to = array.begin() + std::ptrdiff_t(removed.front());
-  for (std::size_t n = 0; n < removed.size(); ++n) {
-    const auto end = n + 1 < removed.size() ? array.begin() + std::ptrdiff_t(removed[n + 1]) : array.end();
-    to = std::move(array.begin() + std::ptrdiff_t(removed[n]) + 1, end, to);
+  remove_from_array(removed, array,
+                    [](auto first, auto end, auto to) { return first == to ? end : std::move(first, end, to); });
+}
+
+/// Writes triangles to a place at or before theirs, with the numbers that their vertices have when others are removed.
+/// Returns the end of that place. Mostly no removed vertex is among those of a block of triangles, whose numbers then all
+/// change by the same.
+template <class Iterator, class Index>
+Iterator write_renumbered(Iterator first, Iterator end, const Counts_below<Index>& removed_before, Iterator to) {
+  constexpr std::ptrdiff_t most = 256; // triangles in a block
+  while (first != end) {
+    const Iterator end_of_block = first + std::min(end - first, most);
+    Index least = (*first)[0], greatest = least;
+    for (Iterator t = first; t != end_of_block; ++t)
+      for (const Index v : *t) {
+        least = std::min(least, v);
+        greatest = std::max(greatest, v);
+      }
+    const Index change = removed_before(least);
+    if (change == removed_before(greatest)) {
+      for (; first != end_of_block; ++first, ++to)
+        *to = {(*first)[0] - change, (*first)[1] - change, (*first)[2] - change};
+    } else {
+      for (; first != end_of_block; ++first, ++to) {
+        *to = *first;
+        for (Index& v : *to) v -= removed_before(v);
+      }
+    }
   }
-  array.erase(to, array.end());
+  return to;
 }
 
 template <class Index>
@@ -73,12 +109,11 @@ template <class Triangles, class Points, class... Properties>
 void remove_from_mesh(const std::vector<std::uint32_t>& removed_vertices,
                       const std::vector<std::size_t>& removed_triangles, Layer_bounds& bounds, Triangles& triangles,
                       Points& points, Properties&... properties) {
-  remove_from_array(removed_triangles, triangles);
   remove_from_bounds(removed_triangles, bounds.triangles);
-  if (removed_vertices.empty()) return;
+  if (removed_vertices.empty()) return remove_from_array(removed_triangles, triangles);
   const Counts_below removed_before(removed_vertices, points.size());
-  for (auto& triangle : triangles)
-    for (auto& v : triangle) v -= removed_before(v);
+  remove_from_array(removed_triangles, triangles,
+                    [&](auto first, auto end, auto to) { return write_renumbered(first, end, removed_before, to); });
   remove_from_array(removed_vertices, points);
   (remove_from_array(removed_vertices, properties), ...);
   remove_from_bounds(removed_vertices, bounds.vertices);
