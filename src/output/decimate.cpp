@@ -118,7 +118,7 @@ Clusters clusters_of(const Points& points, const std::vector<std::uint32_t>& som
   return clusters;
 }
 
-/// The triangles between three clusters, each of them once. One with a corner in none is between no three.
+/// The triangles between three clusters, each of them once. Those with a corner in no cluster are left out.
 Triangles triangles_between(const Clusters& clusters, const Triangles& triangles) {
   Triangles result;
   for (const auto& triangle : triangles) {

@@ -66,8 +66,8 @@ void write_page(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mes
   if (mesh.triangles.size() <= most_triangles_of_page) return write_HTML(stream, mesh, attributes, page);
   const Displayed_mesh shown = decimate(mesh, attributes, most_triangles_of_page);
   page.description.emplace_back("Shown here", std::to_string(shown.mesh.triangles.size()) +
-                                                  " triangles between some of the vertices, which colors and "
-                                                  "statistics are of");
+                                                  " triangles between some of the vertices; colors and statistics "
+                                                  "are theirs");
   write_HTML(stream, shown.mesh, shown.attributes, page);
 }
 
