@@ -178,7 +178,7 @@ Displayed_mesh decimate(const Indexed_triangle_mesh_3<Kernel>& mesh, const Verte
   // A plane meets up to 1.7 cells per square of their side, and a cluster has two triangles.
   double cells = std::clamp(std::sqrt(double(most_triangles) / (3.0 * area_of(mesh, unit))), 1.0, most_cells);
   cut(cells);
-  // Where large triangles have most of the area, the others need smaller cells.
+  // This is too coarse where a few large triangles have most of the area.
   while (triangles.size() < most_triangles / 3 && cells < most_cells) {
     cells = std::min(2 * cells, most_cells);
     cut(cells);

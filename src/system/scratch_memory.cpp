@@ -44,7 +44,7 @@ struct Scratch {
   std::size_t spare = 0;
   std::size_t used = 0; ///< the bytes of what is allocated
   double most_used = std::numeric_limits<double>::infinity();
-  int error = 0; ///< why there was no room when memory was to be allocated last, or 0
+  int error = 0; ///< why there was no room when memory could not be allocated, or 0
 };
 
 std::atomic<Scratch*> scratch = nullptr; ///< is never destroyed, since memory is freed until the process ends
@@ -109,20 +109,18 @@ void release_spare(Scratch& s) {
   s.spare = 0;
 }
 
-/// Allocates at the end; null if there is no room.
-void* allocate_at_end(Scratch& s, std::size_t size) {
+/// Allocates the memory before the end, which it moves. Returns the number of the error, or 0.
+int allocate_at_end(Scratch& s, std::size_t size) {
+  if (s.end + size > most_addresses) return ENOMEM;
+  if (const int error = make_room(s, s.end, size); error != 0) return error;
   std::byte* const memory = s.first + s.end;
-  s.error = s.end + size > most_addresses ? ENOMEM : make_room(s, s.end, size);
-  if (s.error != 0) return nullptr;
-  if (::mmap(memory, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, s.file, off_t(s.end)) == MAP_FAILED) {
-    s.error = errno;
-    return nullptr;
-  }
+  if (::mmap(memory, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, s.file, off_t(s.end)) == MAP_FAILED)
+    return errno;
   ::madvise(memory, size, MADV_RANDOM); // pages that nobody asks for take room from others
   add_reclaimable_memory(memory, size);
   s.size_at[s.end] = size;
   s.end += size;
-  return memory;
+  return 0;
 }
 
 } // namespace
@@ -149,8 +147,9 @@ void reopen_scratch_memory() {
                                    MAP_PRIVATE | MAP_NORESERVE | MAP_FIXED, of_parent->file, 0) == MAP_FAILED)
     throw std::bad_alloc();
   const int file = open_nameless_file_in(of_parent->folder);
-  scratch = new Scratch{of_parent->folder, of_parent->most_spare, of_parent->first, file, of_parent->end};
-  scratch.load()->most_used = 0;
+  auto* const ours = new Scratch{of_parent->folder, of_parent->most_spare, of_parent->first, file, of_parent->end};
+  ours->most_used = 0;
+  scratch = ours;
 }
 
 std::string lack_of_room_for_scratch_memory() {
@@ -190,14 +189,17 @@ void* allocate_scratch_memory(std::size_t size) {
     s.used += size;
     return s.first + place;
   }
-  void* memory = allocate_at_end(s, size);
-  if (!memory) {
+  int error = allocate_at_end(s, size);
+  if (error != 0) {
     release_spare(s);
-    memory = allocate_at_end(s, size);
+    error = allocate_at_end(s, size);
   }
-  if (!memory) throw No_room_for_scratch_memory();
+  if (error != 0) {
+    s.error = error;
+    throw No_room_for_scratch_memory();
+  }
   s.used += size;
-  return memory;
+  return s.first + s.end - size;
 }
 
 bool is_scratch_memory(const void* memory) {

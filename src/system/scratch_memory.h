@@ -30,8 +30,8 @@ double room_for_scratch_memory();
 /// The folder has no room for the scratch memory that was to be allocated.
 class No_room_for_scratch_memory : public std::bad_alloc {};
 
-/// Says, in a sentence to which other advice may be added, that there was no room for what was to be allocated last; is
-/// empty if there was. It is for those who do not know what others made of the exception.
+/// Says, in a sentence to which other advice may be added, that there was no room for what was to be allocated; is empty
+/// if there always was. It is also for those who do not know what others made of the exception.
 std::string lack_of_room_for_scratch_memory();
 
 /// Returns memory that need not be zero. Throws `No_room_for_scratch_memory`, or `std::bad_alloc` where that much is
