@@ -103,12 +103,12 @@ TEST_F(Program_memory, that_cannot_do_is_refused_with_one_that_would) {
 
 TEST_F(Program_memory, of_a_library_in_a_child_counts_and_ends_the_command_with_a_limit_that_does) {
   run_well({"sample", "--function", "x^2+y^2+z^2-1", "--box", "-1.2", "1.2", "-1.2", "1.2", "-1.2", "1.2",
-            "--resolution", "230", "-o", "v.vti"});
+            "--resolution", "260", "-o", "v.vti"});
   test::write_file(folder_ / "points.csv", "x,y,z\n1,0,0\n");
   const Words evaluate = {"evaluate", "--volume", "v.vti", "--points", "points.csv"};
-  const test::Result ended = run(with_limit(evaluate, "180M", "e.csv"));
+  const test::Result ended = run(with_limit(evaluate, "200M", "e.csv"));
   EXPECT_EQ(ended.status, 2);
-  const std::string begin = "equiaffine: error: --memory: more than 180M are needed at once", advice = "such as ";
+  const std::string begin = "equiaffine: error: --memory: more than 200M are needed at once", advice = "such as ";
   EXPECT_TRUE(ended.error.starts_with(begin)) << ended.error;
   EXPECT_EQ(names(), (Words{"points.csv", "v.vti"}));
   ASSERT_NE(ended.error.find(advice), std::string::npos) << ended.error;
