@@ -6,6 +6,8 @@
 #include <equiaffine/concepts.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_function_3.h>
+#include <equiaffine/volume/Volume_survey.h>
+#include <equiaffine/volume/cells_to_know.h>
 #include <equiaffine/volume/internal/shared/Spline_rounding_3.h>
 #include <equiaffine/volume/smooth_volume.h>
 
@@ -39,11 +41,19 @@ public:
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Sampled_function_traits_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters = {},
                                      ConcurrencyTag tag = {})
-      : volume_(smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing))),
-        spline_(std::make_shared<const Spline_function_3<Kernel>>(
-            volume_, Spline_parameters{.degree = parameters.degree, .scheme = parameters.scheme}, tag)),
-        rounding_(std::make_shared<const Spline_rounding_3<Kernel>>(*spline_, FT(parameters.smoothing),
-                                                                    sample_format<ConcurrencyTag>(volume))) {}
+      : Sampled_function_traits_3(volume, parameters, Volume_part{volume.cells()}, tag) {}
+
+  /// Makes the same function, bit for bit, of a part of a volume: where all samples are known that it depends on, as
+  /// cells_to_know() says. \throw std::invalid_argument if that is nowhere, and for interpolation, which needs all samples
+  template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+  Sampled_function_traits_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters,
+                            const Volume_part& part, ConcurrencyTag tag = {})
+      : volume_(smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing))) {
+    Volume_survey survey = volume_survey<ConcurrencyTag>(volume, volume_, parameters, part.cells);
+    part.reduce(survey);
+    spline_ = std::make_shared<const Spline_function_3<Kernel>>(volume_, parameters, survey, tag);
+    rounding_ = std::make_shared<const Spline_rounding_3<Kernel>>(*spline_, FT(parameters.smoothing), survey);
+  }
 
   /// Values and coefficients of expansions are NaN outside the support of the spline.
   FT value(const Point_3& p) const { return spline_->value(p); }

@@ -6,7 +6,9 @@
 #include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/base/internal/shared/large_pages.h>
 #include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/volume/Cell_block.h>
 
+#include <CGAL/assertions.h>
 #include <CGAL/tags.h>
 
 #include <algorithm>
@@ -53,8 +55,23 @@ public:
   Volume_view_3(const Lattice& lattice, const Number* samples, const Strides& strides,
                 std::shared_ptr<const void> owner = nullptr)
       : lattice_(lattice), first_(reinterpret_cast<const std::byte*>(samples)), strides_(strides),
-        convert_(&convert<Number>), owner_(std::move(owner)) {
+        convert_(&convert<Number>), owner_(std::move(owner)), cells_(cells_of(lattice.size())) {
     static_assert(std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>); // a byte may be no bool
+  }
+
+  /// Views samples of a part of a volume: those at the nodes of some cells of the lattice, of which the first is at
+  /// `samples`. The others are not known, and nothing may be asked for there. \throw std::invalid_argument unless the
+  /// lattice has the cells
+  template <class Number>
+  static Volume_view_3 part(const Lattice& lattice, const Cell_block& cells, const Number* samples,
+                            const Strides& strides, std::shared_ptr<const void> owner = nullptr) {
+    for (std::size_t a = 0; a < 3; ++a)
+      check_argument(cells.first[a] < cells.end[a] && cells.end[a] < lattice.size()[a],
+                     "a part of a volume has no cells, or has some beyond its lattice: choose cells of the lattice");
+    Volume_view_3 view(lattice, samples, strides, std::move(owner));
+    view.cells_ = cells;
+    for (std::size_t a = 0; a < 3; ++a) view.to_first_ += std::ptrdiff_t(cells.first[a]) * strides[a];
+    return view;
   }
 
   /// Views the values of a volume, which must outlive the view. \throw std::invalid_argument unless there are as many of
@@ -71,6 +88,9 @@ public:
       : Volume_view_3(std::make_shared<const Volume_3<Kernel>>(std::move(volume))) {}
 
   const Lattice& lattice() const { return lattice_; } ///< where the samples are
+  const Cell_block& cells() const { return cells_; }  ///< the cells at whose nodes samples are known: see part()
+  /// Whether some samples are not known.
+  bool is_part() const { return cells_ != cells_of(lattice_.size()); }
 
   /// The sample at node (i, j, k).
   FT operator()(std::size_t i, std::size_t j, std::size_t k) const {
@@ -112,9 +132,10 @@ public:
       }
   }
 
-  /// Copies all samples.
+  /// Copies all samples. \pre no part of them is unknown
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   Volume_3<Kernel> to_volume() const {
+    CGAL_precondition(!is_part());
     Volume_3<Kernel> result{lattice_, {}};
     resize_with_large_pages(result.values, lattice_.number_of_nodes());
     const auto [nx, ny, nz] = lattice_.size();
@@ -162,8 +183,8 @@ private:
   }
 
   const std::byte* at(const Node& n) const {
-    return first_ + std::ptrdiff_t(n[0]) * strides_[0] + std::ptrdiff_t(n[1]) * strides_[1] +
-           std::ptrdiff_t(n[2]) * strides_[2];
+    return first_ + (std::ptrdiff_t(n[0]) * strides_[0] + std::ptrdiff_t(n[1]) * strides_[1] +
+                     std::ptrdiff_t(n[2]) * strides_[2] - to_first_);
   }
 
   Lattice lattice_;
@@ -171,6 +192,8 @@ private:
   Strides strides_;
   void (*convert_)(const std::byte*, std::ptrdiff_t, std::size_t, FT*); // knows the type of the numbers
   std::shared_ptr<const void> owner_;
+  Cell_block cells_;
+  std::ptrdiff_t to_first_ = 0; // from node (0, 0, 0), which may not be known, to the first one that is
 };
 
 } // namespace equiaffine

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_CELL_BLOCK_H
 #define EQUIAFFINE_VOLUME_CELL_BLOCK_H
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -18,7 +19,34 @@ struct Cell_block {
     return first[0] <= cell[0] && cell[0] < end[0] && first[1] <= cell[1] && cell[1] < end[1] && first[2] <= cell[2] &&
            cell[2] < end[2];
   }
+
+  bool operator==(const Cell_block&) const = default;
 };
+
+/// All cells of a lattice with so many nodes.
+inline Cell_block cells_of(const std::array<std::size_t, 3>& nodes) {
+  return {{0, 0, 0}, {nodes[0] - 1, nodes[1] - 1, nodes[2] - 1}};
+}
+
+/// The cells that a block has in common with `all`, or the nearest ones of these.
+inline Cell_block clamped(const Cell_block& block, const Cell_block& all) {
+  Cell_block cells;
+  for (std::size_t a = 0; a < 3; ++a) {
+    cells.first[a] = std::clamp(block.first[a], all.first[a], all.end[a] - 1);
+    cells.end[a] = std::clamp(block.end[a], cells.first[a] + 1, all.end[a]);
+  }
+  return cells;
+}
+
+/// The cells of a block with those around it, as far as `all` has them.
+inline Cell_block widened(const Cell_block& block, std::size_t margin, const Cell_block& all) {
+  Cell_block cells = block;
+  for (std::size_t a = 0; a < 3; ++a) {
+    cells.first[a] = std::max(block.first[a] - std::min(block.first[a], margin), all.first[a]);
+    cells.end[a] = std::min(block.end[a] + margin, all.end[a]);
+  }
+  return cells;
+}
 
 } // namespace equiaffine
 

@@ -9,6 +9,7 @@
 #include <equiaffine/number/internal/shared/Linear_substitution_3.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/Volume_survey.h>
 #include <equiaffine/volume/internal/Coefficient_source.h>
 #include <equiaffine/volume/internal/Spline_coefficients.h>
 #include <equiaffine/volume/internal/Spline_support_3.h>
@@ -22,6 +23,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -37,7 +39,7 @@ namespace equiaffine {
 /// polynomials of degree n, that of the spline, or of degree n + 2 if the samples are smooth enough
 /// (internal/border_degree.h). All numbers are NaN outside of the support, at every point whose samples include one
 /// that is not finite (all samples take part in interpolation), and everywhere if an axis has no more than `degree`
-/// nodes.
+/// nodes. Of a part of a volume (Volume_view_3::part) a cell has a value if all samples that it depends on are known.
 ///
 /// Derivatives are computed in lattice coordinates and mapped to space by the inverse of the lattice's matrix, so that
 /// the lattice may have any rotation, shear and handedness, and steps from 1e-70 to 1e70. The rounding error of a k-th
@@ -68,19 +70,14 @@ public:
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Spline_function_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters = {},
                              ConcurrencyTag tag = {})
-      : fit_{checked_degree(parameters.degree), parameters.scheme, parameters.degree}, support_(volume.lattice()),
-        substitution_(support_.to_lattice()) {
-    for (const auto& step : lattice().steps())
-      check_argument(shortest_step * shortest_step <= step.squared_length() &&
-                         step.squared_length() <= longest_step * longest_step,
-                     "a step of the lattice of a spline is not from 1e-70 to 1e70 long: choose another unit");
-    for (const std::size_t nodes : lattice().size())
-      if (nodes <= std::size_t(degree())) return;
-    Volume_view_3<Kernel> smooth = smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing));
-    fit_.border_degree = internal::border_degree(smooth, degree(), scheme());
-    source_ = std::make_shared<const internal::Coefficient_source<Kernel>>(std::move(smooth), fit_, tag);
-    if (scheme() == Spline_scheme::INTERPOLATION) source_->all(); // no part of them can be computed alone
-  }
+      : Spline_function_3(smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing)), parameters, std::nullopt,
+                          tag) {}
+
+  /// The same for samples that are smoothed already, and the survey of the volume, of which they may be a part.
+  template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+  Spline_function_3(const Volume_view_3<Kernel>& smooth, const Spline_parameters& parameters,
+                    const Volume_survey& survey, ConcurrencyTag tag = {})
+      : Spline_function_3(smooth, parameters, survey.border_votes, tag) {}
 
   const Lattice& lattice() const { return support_.lattice(); } ///< where the samples are
   int degree() const { return fit_.degree; }                    ///< 5, 7 or 9
@@ -90,14 +87,14 @@ public:
 
   /// The same function, bit for bit, with the coefficients of a block of cells only, which are computed at once and in
   /// this thread. It may be evaluated elsewhere, too, which costs some 10 microseconds a point. If the coefficients of all
-  /// cells exist already, or if the scheme is interpolation, they are used. \pre the block has cells, and the lattice all
-  /// of them
+  /// cells exist already, or if the scheme is interpolation, they are used. Of a part of a volume, those cells of the block
+  /// count that have a value. \pre the block has cells, and the lattice all of them
   Spline_function_3 restricted_to_cells(const Cell_block& cells) const {
     for (std::size_t a = 0; a < 3; ++a)
       CGAL_precondition(cells.first[a] < cells.end[a] && cells.end[a] < lattice().size()[a]);
     Spline_function_3 result = *this;
     if (source_ && scheme() != Spline_scheme::INTERPOLATION && !source_->all_if_computed())
-      result.part_ = std::make_shared<const Coefficients>(source_->of_cells(cells));
+      result.part_ = std::make_shared<const Coefficients>(source_->of_cells(clamped(cells, source_->cells())));
     return result;
   }
 
@@ -120,7 +117,7 @@ public:
   template <int Order = internal::maximal_order>
   Jet_3<FT, Order> taylor(const Point_3& p) const {
     const auto place = locate(p);
-    if (!place) {
+    if (!place || !source_->cells().contains(place->cell)) {
       Jet_3<FT, Order> jet;
       jet.coefficients().fill(std::numeric_limits<FT>::quiet_NaN());
       return jet;
@@ -160,7 +157,7 @@ public:
       const Coefficients& all = source_->all();
       if (common->is_whole_box) bounds = bounds_of(all).first_order(all.data(), common->box);
       else bounds[0] = bounds_of(all).value(all.data(), common->box);
-    } else {
+    } else if (!source_ || source_->cells() == cells_of(lattice().size())) {
       bounds[0] = internal::no_values();
     }
     Jet_3<Interval, 1> in_space(bounds[0]);
@@ -171,10 +168,22 @@ public:
   }
 
 private:
-  static int checked_degree(int degree) {
-    check_argument(degree == 5 || degree == 7 || degree == 9,
-                   "the degree of a spline is not 5, 7 or 9: choose one of these");
-    return degree;
+  /// The votes are counted here if nobody knows them.
+  template <class ConcurrencyTag>
+  Spline_function_3(const Volume_view_3<Kernel>& smooth, const Spline_parameters& parameters,
+                    std::optional<std::int64_t> border_votes, ConcurrencyTag tag)
+      : fit_{internal::checked_degree(parameters.degree), parameters.scheme, parameters.degree},
+        support_(smooth.lattice()), substitution_(support_.to_lattice()) {
+    for (const auto& step : lattice().steps())
+      check_argument(shortest_step * shortest_step <= step.squared_length() &&
+                         step.squared_length() <= longest_step * longest_step,
+                     "a step of the lattice of a spline is not from 1e-70 to 1e70 long: choose another unit");
+    for (const std::size_t nodes : lattice().size())
+      if (nodes <= std::size_t(degree())) return;
+    if (!border_votes) border_votes = internal::border_votes(smooth, degree(), scheme(), smooth.cells());
+    fit_.border_degree = internal::elected_border_degree(*border_votes, degree());
+    source_ = std::make_shared<const internal::Coefficient_source<Kernel>>(smooth, fit_, tag);
+    if (scheme() == Spline_scheme::INTERPOLATION) source_->all(); // no part of them can be computed alone
   }
 
   using Support = internal::Spline_support_3<Kernel>;
@@ -189,9 +198,15 @@ private:
     return support_.locate(p);
   }
 
+  /// The part of a box where there are values, in the cells of the source.
   std::optional<typename Support::Common_box> locate(const CGAL::Bbox_3& box) const {
     if (!source_) return std::nullopt;
     auto common = support_.locate(box);
+    for (std::size_t a = 0; common && a < 3; ++a) {
+      const std::size_t first = source_->cells().first[a], end = source_->cells().end[a];
+      if (common->box.first[a] < first || common->box.first[a] + common->box.cells[a] > end) return std::nullopt;
+      common->box.first[a] -= first;
+    }
     if (common && scheme() == Spline_scheme::PAPER) { // its values are means over the corners of a cell
       common->box.begin = {0, 0, 0};
       common->box.end = {1, 1, 1};

@@ -25,13 +25,17 @@ namespace equiaffine {
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_3<Kernel> smooth_volume(Volume_3<Kernel> volume, const typename Kernel::FT& scale) {
   const auto view = Volume_view_3<Kernel>::of(volume);
-  return internal::smooths(scale) ? internal::smoothed_samples<ConcurrencyTag>(view, scale) : std::move(volume);
+  if (internal::smooths(scale)) volume.values = internal::smoothed_samples<ConcurrencyTag>(view, scale);
+  return volume;
 }
 
-/// The same for samples of any type: the result has numbers of the kernel, or is the volume itself.
+/// The same for samples of any type: the result has numbers of the kernel, or is the volume itself. Of a part of a volume
+/// the nodes are kept whose windows are in it. \throw std::invalid_argument if there are none
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale) {
-  return internal::smooths(scale) ? internal::smoothed_samples<ConcurrencyTag>(volume, scale) : volume;
+  if (!internal::smooths(scale)) return volume;
+  if (volume.is_part()) return internal::smoothed_part<ConcurrencyTag>(volume, scale);
+  return Volume_3<Kernel>{volume.lattice(), internal::smoothed_samples<ConcurrencyTag>(volume, scale)};
 }
 
 } // namespace equiaffine

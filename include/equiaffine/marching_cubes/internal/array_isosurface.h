@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace equiaffine::internal {
 
@@ -20,11 +21,14 @@ Array_isosurface_3<FT> isosurface_of_array(const Array_grid<FT>& grid, const Cas
   Array_isosurface_3<FT> surface;
   surface.points.resize(plan.numbering.number_of_vertices());
   surface.triangles.resize(plan.numbering.number_of_triangles());
-  const auto keep_none = [](std::size_t, const std::array<std::size_t, 3>&, const std::array<FT, 3>&) {};
+  std::vector<Inner_vertex<FT>> inner_vertices(plan.numbering.number_of_inner_vertices());
+  const auto keep_inner = [&](std::size_t v, const std::array<std::size_t, 3>& cell, const std::array<FT, 3>& offset) {
+    inner_vertices[plan.numbering.place_of_inner(v, cell[2])] = {cell, offset};
+  };
   const Grid_rows suspects =
-      place_linearly<ConcurrencyTag>(grid, plan, surface.points.data(), surface.triangles.data(), keep_none);
+      place_linearly<ConcurrencyTag>(grid, plan, surface.points.data(), surface.triangles.data(), keep_inner);
   Layer_bounds bounds(plan.numbering);
-  surface.repairs = repair_mesh(grid, plan, suspects, bounds, surface.triangles, surface.points);
+  surface.repairs = repair_mesh(grid, plan, inner_vertices, suspects, bounds, surface.triangles, surface.points);
   return surface;
 }
 

@@ -53,9 +53,10 @@ private:
 
   Part part_around(std::size_t first, std::size_t end, std::size_t margin) {
     const std::size_t first_plane = first - std::min(first, margin);
-    const std::size_t end_plane = std::min(end + margin, function_.size()[2]);
+    const auto& [nx, ny, nz] = function_.size();
+    const std::size_t end_plane = std::min(end + margin, nz);
     Part part{first_plane, isosurface_on_lattice<ConcurrencyTag, SkipsEmptySpace>(
-                               function_.part(first_plane, end_plane), position_)};
+                               function_.part({0, 0, first_plane}, {nx, ny, end_plane}), position_)};
     totals_.function_evaluations += part.layers.surface.function_evaluations;
     return part;
   }

@@ -130,18 +130,6 @@ public:
     return vertex < layers_[k].first_inner_vertex ? std::nullopt : std::optional(place_of_inner(vertex, k));
   }
 
-  /// A number for the place of a vertex that is the same if the grid is a part of a larger one with the same rows, and
-  /// begins with its plane `first_plane`.
-  std::size_t place_in_grid(std::size_t vertex, std::size_t first_plane) const {
-    const auto& [nx, ny, nz] = signs_.size();
-    if (const auto edge = edge_of(vertex)) {
-      const auto& [i, j, k] = edge->node;
-      return 3 * (((first_plane + k) * ny + j) * nx + i) + edge->axis;
-    }
-    const std::size_t k = row_of(vertex) / ny;
-    return 3 * (first_plane + k) * ny * nx + vertex - layers_[k].first_inner_vertex;
-  }
-
   /// The edge on which a vertex lies; nothing for an inner vertex.
   std::optional<Grid_edge> edge_of(std::size_t vertex) const {
     const std::size_t r = row_of(vertex), j = r % signs_.size()[1], k = r / signs_.size()[1];

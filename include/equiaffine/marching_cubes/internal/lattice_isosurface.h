@@ -9,6 +9,7 @@
 #include <equiaffine/marching_cubes/internal/isosurface_plan.h>
 #include <equiaffine/marching_cubes/internal/linear_isosurface.h>
 #include <equiaffine/marching_cubes/internal/vertex/pole_removal.h>
+#include <equiaffine/marching_cubes/internal/vertex/vertex_place.h>
 #include <equiaffine/marching_cubes/internal/vertex/vertex_projection.h>
 #include <equiaffine/surface/Isosurface_3.h>
 
@@ -31,18 +32,22 @@ std::size_t number_of_cells(const std::vector<Inner_vertex<FT>>& vertices) {
   return cells;
 }
 
-/// Repairs the mesh, then removes the vertices at poles, which the repairs may renumber.
-template <class Function, class Kernel>
-Repair_report repair_and_remove_poles(const Function& function, const Isosurface_plan& plan, const Grid_rows& suspects,
+/// Repairs the mesh, then removes the vertices at poles, which the repairs may renumber. `properties` are arrays with an
+/// entry per vertex.
+template <class Function, class FT, class Kernel, class... Properties>
+Repair_report repair_and_remove_poles(const Function& function, const Isosurface_plan& plan,
+                                      const std::vector<Inner_vertex<FT>>& inner_vertices, const Grid_rows& suspects,
                                       const std::vector<std::size_t>& poles, Layer_bounds& bounds,
-                                      Isosurface_3<Kernel>& surface) {
+                                      Isosurface_3<Kernel>& surface, Properties&... properties) {
   auto& [points, triangles] = static_cast<Indexed_triangle_mesh_3<Kernel>&>(surface);
   auto& status = surface.vertex_status;
-  if (poles.empty()) return repair_mesh(function, plan, suspects, bounds, triangles, points, status);
+  if (poles.empty())
+    return repair_mesh(function, plan, inner_vertices, suspects, bounds, triangles, points, status, properties...);
   std::vector<std::uint8_t> is_at_pole(points.size(), 0);
   for (const std::size_t v : poles) is_at_pole[v] = 1;
-  Repair_report report = repair_mesh(function, plan, suspects, bounds, triangles, points, status, is_at_pole);
-  remove_poles(surface, is_at_pole, bounds);
+  Repair_report report = repair_mesh(function, plan, inner_vertices, suspects, bounds, triangles, points, status,
+                                     properties..., is_at_pole);
+  remove_poles(surface, is_at_pole, bounds, properties...);
   report.vertices_at_poles = poles.size();
   return report;
 }
@@ -54,11 +59,12 @@ struct Isosurface_in_layers {
   Isosurface_3<Kernel> surface;
   Layer_bounds bounds;
   bool is_undecided;
+  std::vector<Vertex_id> ids; ///< of the vertices, if they were asked for
 };
 
-/// Computes the surface of a function on a lattice, or on planes of it: first the topology from the signs and values at
+/// Computes the surface of a function on a lattice, or on a part of it: first the topology from the signs and values at
 /// the nodes, then the vertices.
-template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
+template <class ConcurrencyTag, bool SkipsEmptySpace, bool WithIds = false, class Traits>
 Isosurface_in_layers<Kernel_of<Traits>> isosurface_on_lattice(const Lattice_function<Traits>& function,
                                                               Vertex_position position) {
   using FT = typename Traits::FT;
@@ -95,11 +101,20 @@ Isosurface_in_layers<Kernel_of<Traits>> isosurface_on_lattice(const Lattice_func
     poles = report.poles;
   }
   Layer_bounds bounds(plan.numbering);
-  const Repair_report report = repair_and_remove_poles(function, plan, suspects, poles, bounds, surface);
+  std::vector<Vertex_id> ids;
+  const Repair_report report = [&] {
+    const auto repair = [&](auto&... properties) {
+      return repair_and_remove_poles(function, plan, inner_vertices, suspects, poles, bounds, surface, properties...);
+    };
+    if constexpr (!WithIds) return repair();
+    ids = vertex_ids<ConcurrencyTag>(function, plan, inner_vertices);
+    return repair(ids);
+  }();
+  tell_copies_apart(ids);
   surface.repairs = report;
   surface.repairs.flips_undone = flips_undone;
   surface.projection_seconds = timer.time() - surface.sampling_seconds;
-  return {std::move(surface), std::move(bounds), report.is_undecided};
+  return {std::move(surface), std::move(bounds), report.is_undecided, std::move(ids)};
 }
 
 } // namespace equiaffine::internal

@@ -10,6 +10,7 @@
 #include <equiaffine/marching_cubes/internal/grid/grid_elements.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
 #include <equiaffine/marching_cubes/internal/vertex/remove_from_mesh.h>
+#include <equiaffine/marching_cubes/internal/vertex/vertex_place.h>
 #include <equiaffine/marching_cubes/internal/vertex/zero_area_repair.h>
 #include <equiaffine/surface/Isosurface_repairs.h>
 #include <equiaffine/surface/internal/shared/split_fans.h>
@@ -78,13 +79,17 @@ struct Repair_report : Isosurface_repairs {
 
 /// Removes triangles without area around the given rows. `properties` are arrays with an entry per vertex.
 template <class Grid, class Triangles, class Points, class... Properties>
-Repair_report repair_zero_areas(const Grid& grid, const Isosurface_numbering& numbering, const Grid_rows& suspects,
-                                Layer_bounds& bounds, Triangles& triangles, Points& points, Properties&... properties) {
+Repair_report repair_zero_areas(const Grid& grid, const Isosurface_numbering& numbering,
+                                const std::vector<Inner_vertex<typename Grid::FT>>& inner_vertices,
+                                const Grid_rows& suspects, Layer_bounds& bounds, Triangles& triangles, Points& points,
+                                Properties&... properties) {
   const auto suspected_triangles = numbering.triangles_around(suspects);
   if (suspected_triangles.empty()) return {};
   const auto nudge = [&](std::size_t v, int round) {
     const auto edge = numbering.edge_of(v);
-    const std::size_t place = numbering.place_in_grid(v, grid.first_plane());
+    const Vertex_place at = edge ? Vertex_place{edge->node, edge->axis}
+                                 : place_of_inner_vertex(inner_vertices, *numbering.place_of_inner(v));
+    const std::size_t place = 3 * grid.index_in_whole(at.node) + at.slot;
     const std::size_t axis = edge ? edge->axis : (place + std::size_t(round)) % 3;
     const auto old = points[v];
     const bool is_backward = edge && grid.is_nearer_to_end(*edge, old);
@@ -93,7 +98,7 @@ Repair_report repair_zero_areas(const Grid& grid, const Isosurface_numbering& nu
   const auto coordinates = [&](std::size_t v) -> decltype(auto) { return grid.coordinates(points[v]); };
   const auto is_at_cut = [&](std::size_t v) {
     const auto edge = numbering.edge_of(v);
-    return edge && edge->axis != 2 && grid.is_cut_at(edge->node[2]);
+    return edge && grid.is_at_cut(*edge);
   };
   const std::span all_triangles(triangles);
   Zero_area_repair repair(all_triangles, suspected_triangles, coordinates, nudge, is_at_cut);
@@ -122,9 +127,11 @@ void split_parts(Layer_bounds& bounds, Triangles& triangles, Points& points, Pro
 /// Removes triangles without area around the given rows, then gives parts of the surface that touch beside nodes
 /// without a value vertices of their own. `properties` are arrays with an entry per vertex.
 template <class Grid, class Triangles, class Points, class... Properties>
-Repair_report repair_mesh(const Grid& grid, const Isosurface_plan& plan, const Grid_rows& suspects,
+Repair_report repair_mesh(const Grid& grid, const Isosurface_plan& plan,
+                          const std::vector<Inner_vertex<typename Grid::FT>>& inner_vertices, const Grid_rows& suspects,
                           Layer_bounds& bounds, Triangles& triangles, Points& points, Properties&... properties) {
-  const auto report = repair_zero_areas(grid, plan.numbering, suspects, bounds, triangles, points, properties...);
+  const auto report =
+      repair_zero_areas(grid, plan.numbering, inner_vertices, suspects, bounds, triangles, points, properties...);
   if (plan.has_undefined) split_parts(bounds, triangles, points, properties...);
   return report;
 }

@@ -3,11 +3,13 @@
 #define EQUIAFFINE_VOLUME_INTERNAL_SPLINE_COEFFICIENTS_H
 
 #include <equiaffine/Volume_view_3.h>
+#include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/base/internal/shared/large_pages.h>
 #include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_scheme.h>
+#include <equiaffine/volume/internal/Line_part.h>
 #include <equiaffine/volume/internal/bspline.h>
 #include <equiaffine/volume/internal/bspline_evaluation.h>
 #include <equiaffine/volume/internal/bspline_interpolation.h>
@@ -72,6 +74,33 @@ public:
     });
     result.remove_infinities(0, result.size_[0] * result.size_[1] * result.size_[2]);
     return result;
+  }
+
+  /// The cells whose coefficients depend on samples that are known alone: all, unless a part of the volume is not.
+  /// \throw std::invalid_argument if there are none
+  template <class Kernel>
+  static Cell_block computable_cells(const Volume_view_3<Kernel>& volume, const Spline_fit& fit) {
+    if (!volume.is_part()) return volume.cells();
+    check_argument(
+        fit.scheme != Spline_scheme::INTERPOLATION,
+        "spline interpolation needs all samples, and a part of them is not known: choose quasi-interpolation");
+    Cell_block cells = volume.cells();
+    fit.with_filter<FT>([&](const auto& line) {
+      if constexpr (requires { line.samples_of({}, 0); })
+        for (std::size_t a = 0; a < 3; ++a) {
+          const Line_part known = nodes_of(volume.cells(), a);
+          const auto is_computable = [&](std::size_t cell) {
+            const Line_part used =
+                line.samples_of({cell, cell + 1 + std::size_t(fit.degree)}, volume.lattice().size()[a]);
+            return known.first <= used.first && used.end <= known.end;
+          };
+          auto &first = cells.first[a], &end = cells.end[a];
+          while (first < end && !is_computable(first)) ++first;
+          while (first < end && !is_computable(end - 1)) --end;
+          check_argument(first < end, "less samples are known than a spline in a cell needs: let more be known");
+        }
+    });
+    return cells;
   }
 
   const Cell_block& cells() const { return cells_; }

@@ -3,7 +3,10 @@
 #define EQUIAFFINE_VOLUME_INTERNAL_BORDER_DEGREE_H
 
 #include <equiaffine/Volume_view_3.h>
+#include <equiaffine/base/internal/shared/check_argument.h>
+#include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_scheme.h>
+#include <equiaffine/volume/internal/Line_part.h>
 #include <equiaffine/volume/internal/bspline.h>
 
 #include <algorithm>
@@ -39,15 +42,24 @@ int vote_for_greater_degree(std::span<const FT> f, int lesser, int greater) {
   return of_greater < of_lesser ? 1 : -1;
 }
 
-/// The degree of the polynomials that extend a volume beyond the border for a spline of degree n (see Line_filter): n +
-/// 2, at most 9, if that degree predicts the sample at most ends of lines from its neighbors better than degree n does;
-/// else n. Degree n wins for noise and for edges in a scan, which the greater degree would magnify. Time: proportional to
-/// the number of samples in the n + 4 layers at the border.
+/// The degree of a spline. \throw std::invalid_argument unless it is 5, 7 or 9
+inline int checked_degree(int degree) {
+  check_argument(degree == 5 || degree == 7 || degree == 9,
+                 "the degree of a spline is not 5, 7 or 9: choose one of these");
+  return degree;
+}
+
+/// The greater degree that the polynomials may have that extend a volume beyond the border for a spline of degree n.
+inline int greater_border_degree(int degree) { return std::min(degree + 2, greatest_border_degree); }
+
+/// The sum of the votes of the ends of lines that belong to a block of cells. Time: proportional to the number of samples
+/// in the n + 4 layers at the border.
 template <class Kernel>
-int border_degree(const Volume_view_3<Kernel>& volume, int degree, Spline_scheme scheme) {
+std::ptrdiff_t border_votes(const Volume_view_3<Kernel>& volume, int degree, Spline_scheme scheme,
+                            const Cell_block& cells) {
   using FT = typename Kernel::FT;
-  const int greater = std::min(degree + 2, greatest_border_degree);
-  if (scheme != Spline_scheme::QUASI_INTERPOLATION || greater == degree) return degree;
+  const int greater = greater_border_degree(checked_degree(degree));
+  if (scheme != Spline_scheme::QUASI_INTERPOLATION || greater == degree) return 0;
   const std::array<std::size_t, 3>& size = volume.lattice().size();
   std::array<FT, std::size_t(greatest_border_degree) + 2> samples;
   const std::span f = std::span(samples).first(std::size_t(greater) + 2);
@@ -55,18 +67,37 @@ int border_degree(const Volume_view_3<Kernel>& volume, int degree, Spline_scheme
   for (std::size_t a = 0; a < 3; ++a) {
     if (size[a] < f.size()) continue;
     const std::size_t b = a == 0 ? 1 : 0, c = a == 2 ? 1 : 2; // in the order of the memory where i is fastest
+    const Line_part of_a = own_nodes_of(cells, a, size[a]), of_b = own_nodes_of(cells, b, size[b]),
+                    of_c = own_nodes_of(cells, c, size[c]);
     std::array<std::size_t, 3> node;
-    for (node[c] = 0; node[c] < size[c]; ++node[c])
-      for (node[b] = 0; node[b] < size[b]; ++node[b]) {
-        node[a] = 0;
-        volume.copy_line(node, a, f);
-        votes += vote_for_greater_degree<FT>(f, degree, greater);
-        node[a] = size[a] - 1;
-        volume.copy_line_backwards(node, a, f);
-        votes += vote_for_greater_degree<FT>(f, degree, greater);
+    for (node[c] = of_c.first; node[c] < of_c.end; ++node[c])
+      for (node[b] = of_b.first; node[b] < of_b.end; ++node[b]) {
+        if (of_a.first == 0) {
+          node[a] = 0;
+          volume.copy_line(node, a, f);
+          votes += vote_for_greater_degree<FT>(f, degree, greater);
+        }
+        if (of_a.end == size[a]) {
+          node[a] = size[a] - 1;
+          volume.copy_line_backwards(node, a, f);
+          votes += vote_for_greater_degree<FT>(f, degree, greater);
+        }
       }
   }
-  return votes > 0 ? greater : degree;
+  return votes;
+}
+
+/// The degree of the polynomials that extend a volume beyond the border for a spline of degree n (see Line_filter): n +
+/// 2, at most 9, if that degree predicts the sample at most ends of lines from its neighbors better than degree n does;
+/// else n. Degree n wins for noise and for edges in a scan, which the greater degree would magnify.
+inline int elected_border_degree(std::ptrdiff_t votes, int degree) {
+  return votes > 0 ? greater_border_degree(degree) : degree;
+}
+
+/// The border degree of a volume that is known.
+template <class Kernel>
+int border_degree(const Volume_view_3<Kernel>& volume, int degree, Spline_scheme scheme) {
+  return elected_border_degree(border_votes(volume, degree, scheme, volume.cells()), degree);
 }
 
 } // namespace equiaffine::internal

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_H
 #define EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_H
 
+#include <equiaffine/volume/internal/Line_part.h>
 #include <equiaffine/volume/internal/Spline_pack.h>
 
 #include <algorithm>
@@ -44,12 +45,6 @@ constexpr auto bspline_basis_polynomials() {
 
 /// The greatest degree of the polynomials that extend samples beyond a border.
 inline constexpr int greatest_border_degree = 9;
-
-/// The numbers of a line from `first` up to, but without, `end`.
-struct Line_part {
-  std::size_t first, end;
-  std::size_t size() const { return end - first; }
-};
 
 /// A local linear map from the samples f_0 .. f_{N-1} of a line to coefficients c_{-m} .. c_{N-1+m}, m = floor(n / 2).
 ///

@@ -2,9 +2,12 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_LOCAL_POLYNOMIAL_H
 #define EQUIAFFINE_VOLUME_INTERNAL_LOCAL_POLYNOMIAL_H
 
+#include <equiaffine/volume/internal/Line_part.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -56,24 +59,51 @@ public:
   static std::size_t radius_of(FT scale) { return scale > 1 ? std::size_t(std::ceil(reach_of(scale))) - 1 : 0; }
 
   /// Makes a filter for lines of `count` nodes, which limit its window. Precondition: scale > 1.
-  Smoothing_filter(FT scale, std::size_t count) : radius_(std::min(radius_of(scale), (count - 1) / 2)) {
+  Smoothing_filter(FT scale, std::size_t count) : Smoothing_filter(scale, count, {0, count}) {}
+
+  /// The same for lines of which only a part is known.
+  Smoothing_filter(FT scale, std::size_t count, const Line_part& known)
+      : count_(count), known_(known), radius_(std::min(radius_of(scale), (count - 1) / 2)) {
     const FT reach = reach_of(scale);
-    const std::size_t window = 2 * radius_ + 1;
     const FT excess = std::min(reach, FT(radius_ + 1)) - FT(radius_);
     for (std::size_t i = 0; i <= radius_; ++i)
-      weights_.push_back(
-          local_polynomial_weights(window, FT(i), FT(window - 1 - i) + excess, std::min(degree, int(window) - 1)));
+      weights_.push_back(local_polynomial_weights(window(), FT(i), FT(window() - 1 - i) + excess,
+                                                  std::min(degree, int(window()) - 1)));
   }
 
-  /// Filters a line whose elements are rows of `width` numbers, i = 0 .. count - 1: from `samples + i width` to
-  /// `result + i stride`.
+  /// The nodes in the windows of some nodes.
+  Line_part samples_of(const Line_part& nodes) const {
+    const auto first_of = [&](std::size_t i) { return std::min(i - std::min(i, radius_), count_ - window()); };
+    return {first_of(nodes.first), first_of(nodes.end - 1) + window()};
+  }
+
+  /// The nodes whose windows are known.
+  Line_part smoothed_nodes() const {
+    const auto has_known_window = [&](std::size_t i) {
+      const Line_part used = samples_of({i, i + 1});
+      return known_.first <= used.first && used.end <= known_.end;
+    };
+    Line_part nodes = known_; // windows move on with their nodes, so that those of the nodes between are known
+    while (nodes.first < nodes.end && !has_known_window(nodes.first)) ++nodes.first;
+    while (nodes.first < nodes.end && !has_known_window(nodes.end - 1)) --nodes.end;
+    return nodes;
+  }
+
+  /// Filters the known part of a line whose elements are rows of `width` numbers, i = 0 .. count - 1: from
+  /// `samples + i width` to `result + i stride`. Where a window is not known, the result is NaN.
   void apply(const FT* samples, std::size_t count, std::size_t width, FT* result, std::size_t stride) const {
-    for (std::size_t i = 0; i < count; ++i) {
-      FT* const row = result + i * stride;
+    const Line_part nodes = smoothed_nodes();
+    for (std::size_t n = 0; n < count; ++n) {
+      FT* const row = result + n * stride;
+      const std::size_t i = known_.first + n;
+      if (i < nodes.first || i >= nodes.end) {
+        std::fill_n(row, width, std::numeric_limits<FT>::quiet_NaN());
+        continue;
+      }
       std::fill_n(row, width, FT(0));
-      const bool is_near_end = i + radius_ >= count; // if true, samples are taken in reverse
-      const std::vector<FT>& weights = weights_[std::min({i, count - 1 - i, radius_})];
-      const std::size_t first = is_near_end ? count - 1 : i < radius_ ? 0 : i - radius_;
+      const bool is_near_end = i + radius_ >= count_; // if true, samples are taken in reverse
+      const std::vector<FT>& weights = weights_[std::min({i, count_ - 1 - i, radius_})];
+      const std::size_t first = (is_near_end ? count_ - 1 : i < radius_ ? 0 : i - radius_) - known_.first;
       for (std::size_t j = 0; j < weights.size(); ++j) {
         const FT* const from = samples + (is_near_end ? first - j : first + j) * width;
         for (std::size_t x = 0; x < width; ++x) row[x] += weights[j] * from[x];
@@ -84,6 +114,10 @@ public:
 private:
   static FT reach_of(FT scale) { return std::sqrt(FT(11)) * scale; } // the variance of (1 - u^2)^4 is 1 / 11
 
+  std::size_t window() const { return 2 * radius_ + 1; }
+
+  std::size_t count_;
+  Line_part known_;
   std::size_t radius_;
   std::vector<std::vector<FT>> weights_; // of node i < radius_, then of inner nodes
 };

@@ -12,7 +12,8 @@
 
 namespace equiaffine::internal {
 
-/// Applies a filter of lines along each axis of size[0] x size[1] x size[2] samples; Line_filter::apply is an example.
+/// Applies a filter of lines along each axis of size[0] x size[1] x size[2] samples, which are those of a volume that are
+/// known; Line_filter::apply is an example.
 /// The result, `to`, has `padding` more nodes at each end of each axis.
 template <class ConcurrencyTag, class Kernel, class Filter>
 class Separable_filter {
@@ -25,12 +26,13 @@ public:
 
   void operator()(const std::array<const Filter*, 3>& filters, const Volume_view_3<Kernel>& volume) const {
     const std::size_t ny = size_[1], nz = size_[2];
+    const auto& known = volume.cells().first;
     constexpr std::size_t planes_at_once = Volume_view_3<Kernel>::planes_at_once;
     parallel_for<ConcurrencyTag>(0, (nz + planes_at_once - 1) / planes_at_once, [&](std::size_t n) {
       const std::size_t first = n * planes_at_once, planes = std::min(planes_at_once, size_[2] - first);
       std::vector<FT> samples(size_[0] * planes);
       for (std::size_t j = 0; j < size_[1]; ++j) {
-        volume.copy_block({0, j, first}, {size_[0], 1, planes}, samples);
+        volume.copy_block({known[0], known[1] + j, known[2] + first}, {size_[0], 1, planes}, samples);
         for (std::size_t k = 0; k < planes; ++k)
           filters[0]->apply(&samples[k * size_[0]], size_[0], 1,
                             to_ + (first + k + padding_) * slab_ + (j + padding_) * row_, 1);

@@ -6,24 +6,58 @@
 #include <equiaffine/Volume_view_3.h>
 #include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/base/internal/shared/large_pages.h>
+#include <equiaffine/volume/Cell_block.h>
+#include <equiaffine/volume/internal/Line_part.h>
 #include <equiaffine/volume/internal/local_polynomial.h>
 #include <equiaffine/volume/internal/separable_filter.h>
 
 #include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
 
 namespace equiaffine::internal {
 
-/// The smoothed samples of a volume. \pre the scale is greater than 1
+/// The smoothed samples of a volume at the nodes that are known, i fastest. They are NaN where not all that they are made
+/// of is known. \pre the scale is greater than 1
 template <class ConcurrencyTag, class Kernel>
-Volume_3<Kernel> smoothed_samples(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale) {
+std::vector<typename Kernel::FT> smoothed_samples(const Volume_view_3<Kernel>& volume,
+                                                  const typename Kernel::FT& scale) {
   using Filter = Smoothing_filter<typename Kernel::FT>;
-  const auto& size = volume.lattice().size();
-  const std::array<Filter, 3> filters = {Filter(scale, size[0]), Filter(scale, size[1]), Filter(scale, size[2])};
-  Volume_3<Kernel> result{volume.lattice(), {}};
-  resize_with_large_pages(result.values, result.lattice.number_of_nodes());
-  Separable_filter<ConcurrencyTag, Kernel, Filter>(size, 0, result.values.data())(
-      {&filters[0], &filters[1], &filters[2]}, volume);
+  const auto filter = [&](std::size_t a) {
+    return Filter(scale, volume.lattice().size()[a], nodes_of(volume.cells(), a));
+  };
+  const std::array<Filter, 3> filters = {filter(0), filter(1), filter(2)};
+  std::array<std::size_t, 3> size;
+  for (std::size_t a = 0; a < 3; ++a) size[a] = nodes_of(volume.cells(), a).size();
+  std::vector<typename Kernel::FT> result;
+  resize_with_large_pages(result, size[0] * size[1] * size[2]);
+  Separable_filter<ConcurrencyTag, Kernel, Filter>(size, 0, result.data())({&filters[0], &filters[1], &filters[2]},
+                                                                           volume);
   return result;
+}
+
+/// The part of a volume that is known, smoothed. \pre the scale is greater than 1
+template <class ConcurrencyTag, class Kernel>
+Volume_view_3<Kernel> smoothed_part(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale) {
+  using FT = typename Kernel::FT;
+  const Cell_block& known = volume.cells();
+  const auto samples = std::make_shared<const std::vector<FT>>(smoothed_samples<ConcurrencyTag>(volume, scale));
+  const std::ptrdiff_t step = sizeof(FT), row = step * std::ptrdiff_t(nodes_of(known, 0).size()),
+                       slab = row * std::ptrdiff_t(nodes_of(known, 1).size());
+  Cell_block cells;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Line_part nodes =
+        Smoothing_filter<FT>(scale, volume.lattice().size()[a], nodes_of(known, a)).smoothed_nodes();
+    check_argument(nodes.size() >= 2, "less samples of a volume are known than its smoothing needs: let more be known");
+    cells.first[a] = nodes.first;
+    cells.end[a] = nodes.end - 1;
+  }
+  const std::ptrdiff_t offset = std::ptrdiff_t(cells.first[0] - known.first[0]) * step +
+                                std::ptrdiff_t(cells.first[1] - known.first[1]) * row +
+                                std::ptrdiff_t(cells.first[2] - known.first[2]) * slab;
+  return Volume_view_3<Kernel>::part(volume.lattice(), cells, samples->data() + offset / step, {step, row, slab},
+                                     samples);
 }
 
 /// Whether a scale changes a volume. \throw std::invalid_argument unless it is finite and not negative

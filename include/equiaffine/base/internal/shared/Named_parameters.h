@@ -15,6 +15,8 @@ namespace equiaffine::internal {
 struct Number_of_nodes_tag {};
 struct Vertex_position_tag {};
 struct Planes_per_slab_tag {};
+struct Cell_block_tag {};
+struct Known_cells_tag {};
 struct Skip_empty_space_tag {};
 struct Estimator_tag {};
 struct Clip_tag {};

@@ -37,6 +37,18 @@
     return internal::add_parameter<internal::Planes_per_slab_tag>(n, GIVEN);                                           \
   }                                                                                                                    \
                                                                                                                        \
+  /** A Cell_block, whose part of the mesh is wanted. */                                                               \
+  template <class Block>                                                                                               \
+  auto cell_block(const Block& cells) CONST {                                                                          \
+    return internal::add_parameter<internal::Cell_block_tag>(cells, GIVEN);                                            \
+  }                                                                                                                    \
+                                                                                                                       \
+  /** A Cell_block where the function is known. */                                                                     \
+  template <class Block>                                                                                               \
+  auto known_cells(const Block& cells) CONST {                                                                         \
+    return internal::add_parameter<internal::Known_cells_tag>(cells, GIVEN);                                           \
+  }                                                                                                                    \
+                                                                                                                       \
   /** The Estimator of co-normal, affine normal and affine curvatures. */                                              \
   template <class Way>                                                                                                 \
   auto estimator(Way way) CONST {                                                                                      \

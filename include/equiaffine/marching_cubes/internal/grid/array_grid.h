@@ -29,12 +29,12 @@ public:
   const Node& size() const { return size_; }
   FT isovalue() const { return isovalue_; }
   static bool is_left_handed() { return false; } // spacings are positive
-  static std::size_t first_plane() { return 0; }
-  static bool is_cut_at(std::size_t) { return false; }
+  std::size_t index_in_whole(const Node& n) const { return n[0] + size_[0] * (n[1] + size_[1] * n[2]); }
+  static bool is_at_cut(const Grid_edge&) { return false; }
   static const Point& coordinates(const Point& p) { return p; }
 
   /// The value at a node, followed by those at the next nodes along i.
-  const FT* values_from(const Node& n) const { return &values_[n[0] + size_[0] * (n[1] + size_[1] * n[2])]; }
+  const FT* values_from(const Node& n) const { return &values_[index_in_whole(n)]; }
 
   std::array<FT, 8> cell_values(const Node& cell) const {
     const FT* const first = values_from(cell);

@@ -11,8 +11,8 @@
 // is_left_handed()                whether the steps along i, j, k are a left-handed system
 // is_nearer_to_end(edge, point)   whether a point on an edge is nearer to the end of the edge than to its beginning
 // moved(point, axis, steps)       a point, moved along an axis by a fraction of a step
-// first_plane()                   the number of its first plane in the grid that it is a part of
-// is_cut_at(k)                    whether that grid goes on beyond plane k, where this one ends
+// index_in_whole({i, j, k})       the number of a node in the grid that this one is a part of
+// is_at_cut(edge)                 whether that grid goes on beyond a side on which an edge lies
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_GRID_GRID_ELEMENTS_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_GRID_GRID_ELEMENTS_H
 

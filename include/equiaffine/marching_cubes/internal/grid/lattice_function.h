@@ -37,24 +37,35 @@ public:
   };
 
   Lattice_function(const Traits& traits, const Lattice_3<Kernel>& lattice)
-      : Lattice_function(Batch_function_traits_3<Traits>(traits), lattice, 0, lattice.size()[2]) {}
+      : Lattice_function(Batch_function_traits_3<Traits>(traits), lattice, {0, 0, 0}, lattice.size()) {}
 
-  /// The planes from `first` to `end` - 1 of this grid. Nodes have the numbers that they have in this part.
-  Lattice_function part(std::size_t first, std::size_t end) const {
-    return Lattice_function(traits_, lattice_, first_plane_ + first, end - first);
+  /// The nodes from `first` up to, but without, `end` along each axis of the lattice. Nodes have the numbers that they
+  /// have in this part.
+  Lattice_function part(const Node& first, const Node& end) const {
+    return Lattice_function(traits_, lattice_, first, {end[0] - first[0], end[1] - first[1], end[2] - first[2]});
   }
 
   /// The same function for a block of cells, which may take less memory there.
-  Lattice_function restricted_to_cells(Cell_block cells) const requires CellwiseImplicitFunctionTraits_3<Traits> {
-    cells.first[2] += first_plane_;
-    cells.end[2] += first_plane_;
-    return Lattice_function(traits_.restricted_to_cells(cells), lattice_, first_plane_, size_[2]);
+  Lattice_function
+  restricted_to_cells(const Cell_block& cells) const requires CellwiseImplicitFunctionTraits_3<Traits> {
+    return Lattice_function(traits_.restricted_to_cells({in_whole(cells.first), in_whole(cells.end)}), lattice_, first_,
+                            size_);
   }
 
-  const Node& size() const { return size_; } ///< the number of nodes along each axis
-  std::size_t first_plane() const { return first_plane_; }
-  bool is_cut_at(std::size_t k) const {
-    return (k == 0 && first_plane_ > 0) || (k + 1 == size_[2] && first_plane_ + size_[2] < lattice_.size()[2]);
+  const Node& size() const { return size_; }   ///< the number of nodes along each axis
+  const Node& first() const { return first_; } ///< the node of the lattice that is the first of this part
+
+  std::size_t index_in_whole(const Node& n) const {
+    const Node node = in_whole(n);
+    return lattice_.index(node[0], node[1], node[2]);
+  }
+  bool is_at_cut(const Grid_edge& e) const {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (a == e.axis) continue;
+      if (e.node[a] == 0 && first_[a] > 0) return true;
+      if (e.node[a] + 1 == size_[a] && first_[a] + size_[a] < lattice_.size()[a]) return true;
+    }
+    return false;
   }
 
   const Batch_function_traits_3<Traits>& traits() const { return traits_; }
@@ -63,21 +74,23 @@ public:
   bool is_left_handed() const { return lattice_.determinant() < FT(0); }
   static std::array<FT, 3> coordinates(const Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
-  Point_3 point(const Node& n) const { return lattice_.point(number(n[0]), number(n[1]), number(first_plane_ + n[2])); }
+  Point_3 point(const Node& n) const {
+    return lattice_.point(number(first_[0] + n[0]), number(first_[1] + n[1]), number(first_[2] + n[2]));
+  }
   Point_3 point(const Node& cell, const Offset& offset) const {
-    return lattice_.point(number(cell[0]) + offset[0], number(cell[1]) + offset[1],
-                          number(first_plane_ + cell[2]) + offset[2]);
+    return lattice_.point(number(first_[0] + cell[0]) + offset[0], number(first_[1] + cell[1]) + offset[1],
+                          number(first_[2] + cell[2]) + offset[2]);
   }
 
   /// The value at a node, which lies at p.
   FT value(const Node& n, const Point_3& p) const {
-    if constexpr (has_samples) return traits_.sample(n[0], n[1], first_plane_ + n[2]);
+    if constexpr (has_samples) return traits_.sample(first_[0] + n[0], first_[1] + n[1], first_[2] + n[2]);
     else return traits_.value(p);
   }
 
   /// Copies the samples of a block of nodes, i fastest.
   void copy_samples(const Node& first, const Node& size, std::span<FT> out) const requires has_samples {
-    samples(traits_, {first[0], first[1], first_plane_ + first[2]}, size, out);
+    samples(traits_, in_whole(first), size, out);
   }
 
   Edge edge(const Grid_edge& e) const {
@@ -127,10 +140,11 @@ public:
   static constexpr std::size_t evaluations(std::size_t n) { return has_samples ? 0 : n; }
 
 private:
-  Lattice_function(const Batch_function_traits_3<Traits>& traits, const Lattice_3<Kernel>& lattice,
-                   std::size_t first_plane, std::size_t planes)
-      : traits_(traits), lattice_(lattice),
-        first_plane_(first_plane), size_{lattice.size()[0], lattice.size()[1], planes} {}
+  Lattice_function(const Batch_function_traits_3<Traits>& traits, const Lattice_3<Kernel>& lattice, const Node& first,
+                   const Node& size)
+      : traits_(traits), lattice_(lattice), first_(first), size_(size) {}
+
+  Node in_whole(const Node& n) const { return {first_[0] + n[0], first_[1] + n[1], first_[2] + n[2]}; }
 
   static Node end_of(const Grid_edge& e) {
     const auto& [i, j, k] = e.node;
@@ -143,8 +157,7 @@ private:
 
   const Batch_function_traits_3<Traits> traits_;
   const Lattice_3<Kernel> lattice_;
-  const std::size_t first_plane_;
-  const Node size_;
+  const Node first_, size_;
 };
 
 } // namespace equiaffine::internal

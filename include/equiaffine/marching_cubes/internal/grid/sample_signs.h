@@ -80,9 +80,12 @@ private:
 
   /// Samples a block of which `traits` has the values: deep in the recursion it is a part of the function.
   void sample_part(const Batch_function_traits_3<Traits>& traits, const Node_block& block) {
-    const std::size_t first_plane = function_.first_plane();
-    const auto box = box_around(function_.lattice(),
-                                {{block[0], block[1], {first_plane + block[2].first, first_plane + block[2].end}}});
+    Node_block in_whole = block;
+    for (std::size_t a = 0; a < 3; ++a) {
+      in_whole[a].first += function_.first()[a];
+      in_whole[a].end += function_.first()[a];
+    }
+    const auto box = box_around(function_.lattice(), in_whole);
     const Interval bounds = traits.bounds(box);
     if (bounds.upper() < 0) return;
     if (bounds.lower() >= 0) return signs_.set_positive(block);

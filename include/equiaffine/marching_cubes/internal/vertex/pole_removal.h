@@ -13,9 +13,10 @@
 namespace equiaffine::internal {
 
 /// Removes the vertices at poles, one mark per vertex, with the triangles around them. Parts of the surface that then
-/// touch in a vertex get vertices of their own.
-template <class Kernel>
-void remove_poles(Isosurface_3<Kernel>& surface, const std::vector<std::uint8_t>& is_at_pole, Layer_bounds& bounds) {
+/// touch in a vertex get vertices of their own. `properties` are arrays with an entry per vertex.
+template <class Kernel, class... Properties>
+void remove_poles(Isosurface_3<Kernel>& surface, const std::vector<std::uint8_t>& is_at_pole, Layer_bounds& bounds,
+                  Properties&... properties) {
   std::vector<std::size_t> removed_triangles;
   std::vector<bool> is_used(surface.points.size(), false);
   for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
@@ -27,8 +28,8 @@ void remove_poles(Isosurface_3<Kernel>& surface, const std::vector<std::uint8_t>
   for (std::size_t v = 0; v < is_used.size(); ++v)
     if (!is_used[v]) removed_vertices.push_back(std::uint32_t(v));
   remove_from_mesh(removed_vertices, removed_triangles, bounds, surface.triangles, surface.points,
-                   surface.vertex_status);
-  split_parts(bounds, surface.triangles, surface.points, surface.vertex_status);
+                   surface.vertex_status, properties...);
+  split_parts(bounds, surface.triangles, surface.points, surface.vertex_status, properties...);
 }
 
 } // namespace equiaffine::internal

@@ -4,8 +4,13 @@
 
 #include <equiaffine/Volume_view_3.h>
 #include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_function_3.h>
+#include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/Volume_survey.h>
 #include <equiaffine/volume/internal/Line_functionals.h>
+#include <equiaffine/volume/internal/Line_part.h>
+#include <equiaffine/volume/internal/border_degree.h>
 
 #include <algorithm>
 #include <array>
@@ -16,44 +21,35 @@
 
 namespace equiaffine {
 
-/// The size of samples and the type that they may have had: both decide how the samples have been rounded.
-template <class FT>
-struct Sample_format {
-  FT greatest = 0; ///< the greatest magnitude of a sample that is finite
-  bool are_floats = true;
-
-  void add(const FT& x) {
-    if (!std::isfinite(x)) return;
-    greatest = std::max(greatest, std::abs(x));
-    are_floats = are_floats && x == FT(float(x));
-  }
-
-  void add(const Sample_format& other) {
-    greatest = std::max(greatest, other.greatest);
-    are_floats = are_floats && other.are_floats;
-  }
-};
-
-/// The format of the samples of a volume.
+/// The survey of the samples that belong to a block of cells, of which those in `smooth` are smoothed. The spline has
+/// that degree and scheme.
 template <class ConcurrencyTag, class Kernel>
-Sample_format<typename Kernel::FT> sample_format(const Volume_view_3<Kernel>& volume) {
+Volume_survey volume_survey(const Volume_view_3<Kernel>& volume, const Volume_view_3<Kernel>& smooth,
+                            const Spline_parameters& parameters, const Cell_block& cells) {
   using FT = typename Kernel::FT;
   constexpr std::size_t planes_at_once = Volume_view_3<Kernel>::planes_at_once;
   const auto& size = volume.lattice().size();
-  std::vector<Sample_format<FT>> of_planes((size[2] + planes_at_once - 1) / planes_at_once);
+  const auto own = [&](std::size_t a) { return internal::own_nodes_of(cells, a, size[a]); };
+  const internal::Line_part i = own(0), j = own(1), k = own(2);
+  std::vector<Volume_survey> of_planes((k.size() + planes_at_once - 1) / planes_at_once);
   parallel_for<ConcurrencyTag>(0, of_planes.size(), [&](std::size_t n) {
-    const std::size_t k = n * planes_at_once, planes = std::min(planes_at_once, size[2] - k);
-    std::vector<FT> samples(size[0] * planes);
-    Sample_format<FT> format;
-    for (std::size_t j = 0; j < size[1]; ++j) {
-      volume.copy_block({0, j, k}, {size[0], 1, planes}, samples);
-      for (const FT& x : samples) format.add(x);
+    const std::size_t first = k.first + n * planes_at_once, planes = std::min(planes_at_once, k.end - first);
+    std::vector<FT> samples(i.size() * planes);
+    Volume_survey survey;
+    for (std::size_t row = j.first; row < j.end; ++row) {
+      volume.copy_block({i.first, row, first}, {i.size(), 1, planes}, samples);
+      for (const FT& x : samples) {
+        if (!std::isfinite(x)) continue;
+        survey.greatest = std::max(survey.greatest, double(std::abs(x)));
+        survey.are_floats = survey.are_floats && x == FT(float(x));
+      }
     }
-    of_planes[n] = format;
+    of_planes[n] = survey;
   });
-  Sample_format<FT> format;
-  for (const auto& of_some : of_planes) format.add(of_some);
-  return format;
+  Volume_survey survey;
+  for (const Volume_survey& of_some : of_planes) survey.add(of_some);
+  survey.border_votes = internal::border_votes(smooth, parameters.degree, parameters.scheme, cells);
+  return survey;
 }
 
 /// Estimates from above how far rounding may change the second derivatives of a spline, as if all samples were as large
@@ -65,11 +61,12 @@ public:
   using Spline = Spline_function_3<Kernel>;
   using Cell = std::array<std::size_t, 3>;
 
-  /// `smoothing` is the scale by which the samples of the spline have been smoothed, `samples` is what they were
+  /// `smoothing` is the scale by which the samples of the spline have been smoothed, `samples` says what they were
   /// before.
-  Spline_rounding_3(const Spline& spline, const FT& smoothing, const Sample_format<FT>& samples)
-      : to_lattice_(spline.to_lattice()), rounding_of_terms_(2 * std::numeric_limits<FT>::epsilon() * samples.greatest),
-        rounding_of_samples_(samples.are_floats ? FT(std::numeric_limits<float>::epsilon()) / 2 * samples.greatest
+  Spline_rounding_3(const Spline& spline, const FT& smoothing, const Volume_survey& samples)
+      : to_lattice_(spline.to_lattice()),
+        rounding_of_terms_(2 * std::numeric_limits<FT>::epsilon() * FT(samples.greatest)),
+        rounding_of_samples_(samples.are_floats ? FT(std::numeric_limits<float>::epsilon()) / 2 * FT(samples.greatest)
                                                 : FT(0)) {
     for (std::size_t a = 0; a < 3; ++a) {
       const std::size_t nodes = spline.lattice().size()[a];

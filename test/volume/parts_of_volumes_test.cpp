@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/Sampled_function_traits_3.h>
+#include <equiaffine/attributes.h>
+#include <equiaffine/marching_cubes_in_slabs.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <random>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point_3 = Kernel::Point_3;
+using Vector_3 = Kernel::Vector_3;
+using Traits = Sampled_function_traits_3<Kernel>;
+
+/// Waves on a sheared, left-handed lattice, with some noise, as floats.
+struct Samples {
+  Lattice_3<Kernel> lattice;
+  std::vector<float> values;
+
+  explicit Samples(const std::array<std::size_t, 3>& size)
+      : lattice(size, Point_3(0.1, -0.2, 0.3),
+                {Vector_3(0.1, 0.02, 0), Vector_3(0, -0.11, 0.01), Vector_3(0, 0, 0.09)}) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> noise(0, 1e-3);
+    for (std::size_t k = 0; k < size[2]; ++k)
+      for (std::size_t j = 0; j < size[1]; ++j)
+        for (std::size_t i = 0; i < size[0]; ++i) {
+          const Point_3 p = lattice.point(double(i), double(j), double(k));
+          values.push_back(
+              float(std::sin(2.3 * p.x()) + std::cos(2.1 * p.y()) * std::sin(1.9 * p.z()) + noise(random)));
+        }
+  }
+
+  Volume_view_3<Kernel> whole() const { return {lattice, values.data()}; }
+
+  /// A copy of the samples at the nodes of some cells, and of nothing else.
+  Volume_view_3<Kernel> part(const Cell_block& cells) const {
+    std::array<std::size_t, 3> n;
+    for (std::size_t a = 0; a < 3; ++a) n[a] = cells.end[a] + 1 - cells.first[a];
+    const auto copy = std::make_shared<std::vector<float>>();
+    for (std::size_t k = 0; k < n[2]; ++k)
+      for (std::size_t j = 0; j < n[1]; ++j)
+        for (std::size_t i = 0; i < n[0]; ++i)
+          copy->push_back(values[lattice.index(cells.first[0] + i, cells.first[1] + j, cells.first[2] + k)]);
+    const auto step = std::ptrdiff_t(sizeof(float)), row = step * std::ptrdiff_t(n[0]);
+    return Volume_view_3<Kernel>::part(lattice, cells, copy->data(), {step, row, row * std::ptrdiff_t(n[1])}, copy);
+  }
+};
+
+std::vector<Cell_block> blocks_of(const std::array<std::size_t, 3>& nodes,
+                                  const std::array<std::vector<std::size_t>, 3>& ends) {
+  std::vector<Cell_block> blocks;
+  for (std::size_t z = 0; z + 1 < ends[2].size(); ++z)
+    for (std::size_t y = 0; y + 1 < ends[1].size(); ++y)
+      for (std::size_t x = 0; x + 1 < ends[0].size(); ++x)
+        blocks.push_back({{ends[0][x], ends[1][y], ends[2][z]}, {ends[0][x + 1], ends[1][y + 1], ends[2][z + 1]}});
+  EXPECT_EQ(blocks.back().end, cells_of(nodes).end);
+  return blocks;
+}
+
+/// The attributes of a vertex, bit for bit.
+using Numbers = std::vector<std::uint64_t>;
+
+/// The mesh of a block with attributes: vertices by ids, and triangles.
+struct Mesh {
+  std::map<Vertex_id, Numbers> vertices;
+  std::vector<std::array<Vertex_id, 3>> triangles;
+
+  template <class Function>
+  void add(const Function& function, const Cell_block& block, const Cell_block& known,
+           const Attribute_selection& selection) {
+    std::vector<Vertex_id> ids;
+    marching_cubes_in_slabs(
+        function,
+        [&](const Isosurface_slab_3<Kernel>& slab) {
+          ids.insert(ids.end(), slab.vertex_ids.begin(), slab.vertex_ids.end());
+          const Vertex_attributes attributes =
+              compute_attributes(function, std::span<const Point_3>(slab.points), selection, slab.vertex_status);
+          for (std::size_t v = 0; v < slab.points.size(); ++v) {
+            Numbers numbers = {std::uint64_t((*attributes.status)[v])};
+            const auto add = [&](double x) { numbers.push_back(std::bit_cast<std::uint64_t>(x)); };
+            for (int c = 0; c < 3; ++c) add(slab.points[v][c]);
+            for (const auto& column : attributes.columns) add(column.values[v]);
+            const auto [place, is_new] = vertices.try_emplace(slab.vertex_ids[v], numbers);
+            EXPECT_TRUE(is_new || place->second == numbers);
+          }
+          for (const auto& [a, b, c] : slab.triangles) triangles.push_back({ids[a], ids[b], ids[c]});
+        },
+        parameters::cell_block(block).known_cells(known));
+  }
+
+  void sort() { std::sort(triangles.begin(), triangles.end()); }
+};
+
+constexpr std::array<std::size_t, 3> nodes = {27, 24, 30};
+
+/// Expects that the functions of parts of a volume together have the mesh and the attributes of the whole one.
+void expect_same(const Spline_parameters& parameters, const std::array<std::vector<std::size_t>, 3>& ends,
+                 const char* attributes, const std::string& name) {
+  const Attribute_selection selection = select_attributes(attributes);
+  const Samples samples(nodes);
+  constexpr double isovalue = 0.2;
+  const Traits whole(samples.whole(), parameters);
+  Mesh expected, mesh;
+  expected.add(Level_set_traits_3(whole, isovalue), cells_of(nodes), cells_of(nodes), selection);
+  ASSERT_FALSE(expected.triangles.empty());
+  const std::vector<Cell_block> blocks = blocks_of(nodes, ends);
+  std::vector<Volume_view_3<Kernel>> parts;
+  std::vector<Cell_block> known;
+  for (const Cell_block& block : blocks) {
+    known.push_back(widened(block, cells_around_block, cells_of(nodes)));
+    parts.push_back(samples.part(cells_to_know(known.back(), nodes, parameters)));
+  }
+  Volume_survey survey;
+  for (std::size_t n = 0; n < blocks.size(); ++n)
+    Traits(parts[n], parameters, Volume_part{blocks[n], [&](const Volume_survey& of_part) { survey.add(of_part); }});
+  for (std::size_t n = 0; n < blocks.size(); ++n) {
+    const Traits part(parts[n], parameters, Volume_part{blocks[n], [&](Volume_survey& s) { s = survey; }});
+    EXPECT_EQ(part.spline().border_degree(), whole.spline().border_degree()) << name;
+    mesh.add(Level_set_traits_3(part, isovalue), blocks[n], known[n], selection);
+  }
+  mesh.sort();
+  expected.sort();
+  EXPECT_TRUE(mesh.vertices == expected.vertices) << name;
+  EXPECT_TRUE(mesh.triangles == expected.triangles) << name;
+}
+
+TEST(Parts_of_volumes, have_the_mesh_and_the_attributes_of_the_whole_one) {
+  const auto [x, y, z] = nodes;
+  const std::array<std::vector<std::size_t>, 3> one_axis = {{{0, x - 1}, {0, y - 1}, {0, 12, z - 1}}},
+                                                two_axes = {{{0, 3, 14, x - 1}, {0, 11, y - 1}, {0, z - 1}}};
+  for (const int degree : {5, 7, 9})
+    for (const auto scheme : {Spline_scheme::CONVOLUTION, Spline_scheme::QUASI_INTERPOLATION})
+      expect_same({.degree = degree, .scheme = scheme}, degree == 7 ? one_axis : two_axes, "basic",
+                  "degree " + std::to_string(degree) + ", scheme " + std::to_string(int(scheme)));
+  expect_same({.scheme = Spline_scheme::PAPER}, two_axes, "normal", "the paper's scheme");
+  expect_same({.smoothing = 1.6}, two_axes, "all", "smoothed");
+  expect_same({}, {{{0, x - 1}, {0, 3, y - 1}, {0, z - 1}}}, "signature", "norms of gradients");
+}
+
+TEST(Parts_of_volumes, have_values_where_all_samples_are_known_and_only_there) {
+  const Samples samples(nodes);
+  const Spline_parameters parameters = {.smoothing = 1.5};
+  const Cell_block wanted = {{0, 9, 17}, {4, 14, nodes[2] - 1}};
+  const auto part_of = [&](const Cell_block& cells) {
+    return Traits(samples.part(cells), parameters,
+                  Volume_part{wanted, [](Volume_survey& s) { s = {.greatest = 3, .border_votes = 1}; }});
+  };
+  const Cell_block known = cells_to_know(wanted, nodes, parameters);
+  const Traits part = part_of(known);
+  const auto value = [](const Traits& traits, double i, double j, double k) {
+    const Point_3 p = traits.lattice().point(i, j, k);
+    EXPECT_EQ(std::isnan(traits.value(p)), std::isnan(traits.restricted_to_cells({{0, 0, 0}, {9, 9, 9}}).value(p)));
+    return traits.value(p);
+  };
+  EXPECT_TRUE(std::isfinite(value(part, 0.5, 9.5, 17.5)));
+  EXPECT_TRUE(std::isfinite(value(part, 3.5, 13.5, 28.5)));
+  EXPECT_TRUE(std::isnan(value(part, 3.5, 13.5, 1.5)));
+  EXPECT_FALSE(part.bounds(part.lattice().bbox()).upper() < 10) << "nothing is known of the rest";
+  for (std::size_t a = 0; a < 3; ++a) {
+    Cell_block less = known;
+    const bool is_at_end = less.first[a] == 0;
+    if (is_at_end) --less.end[a];
+    else ++less.first[a];
+    std::array<double, 3> place = {0.5, 9.5, 17.5};
+    if (is_at_end) place[a] = double(wanted.end[a]) - 0.5;
+    EXPECT_TRUE(std::isnan(value(part_of(less), place[0], place[1], place[2]))) << "axis " << a;
+  }
+  EXPECT_THROW(part_of({{3, 3, 3}, {8, 8, 8}}), std::invalid_argument);
+  EXPECT_THROW(Traits(samples.part(known), {.scheme = Spline_scheme::INTERPOLATION}, Volume_part{wanted}),
+               std::invalid_argument);
+  EXPECT_THROW(samples.part({{0, 0, 0}, {1, 1, nodes[2]}}), std::invalid_argument);
+}
+
+} // namespace
