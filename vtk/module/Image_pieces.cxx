@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Image_pieces.h"
+
+#include "exchange_ghost_levels.h"
+#include <equiaffine/marching_cubes_in_slabs.h>
+#include <equiaffine/volume/cells_to_know.h>
+
+#include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkExtentTranslator.h>
+#include <vtkImageData.h>
+#include <vtkMatrix3x3.h>
+#include <vtkNew.h>
+#include <vtkPartitionedDataSet.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace equiaffine {
+
+namespace {
+
+using Extent = std::array<int, 6>;
+
+bool is_empty(const Extent& e) { return e[0] >= e[1] || e[2] >= e[3] || e[4] >= e[5]; }
+
+Extent extent_of(vtkImageData* image) {
+  Extent extent;
+  image->GetExtent(extent.data());
+  return extent;
+}
+
+/// The extent of the cells of an image that are not marked as those of another piece.
+Extent own_extent(vtkImageData* image) {
+  const Extent extent = extent_of(image);
+  vtkUnsignedCharArray* const ghosts = image->GetCellGhostArray();
+  if (!ghosts) return extent;
+  constexpr int most = std::numeric_limits<int>::max();
+  Extent own = {most, -most, most, -most, most, -most};
+  vtkIdType cell = 0;
+  for (int k = extent[4]; k < extent[5]; ++k)
+    for (int j = extent[2]; j < extent[3]; ++j)
+      for (int i = extent[0]; i < extent[1]; ++i)
+        if (!(ghosts->GetValue(cell++) & vtkDataSetAttributes::DUPLICATECELL))
+          own = {std::min(own[0], i),     std::max(own[1], i + 1), std::min(own[2], j),
+                 std::max(own[3], j + 1), std::min(own[4], k),     std::max(own[5], k + 1)};
+  return own;
+}
+
+/// What the images of all processes have in common, as numbers that can be compared.
+std::vector<double> frame_of(vtkImageData* image) {
+  std::vector<double> frame(image->GetOrigin(), image->GetOrigin() + 3);
+  frame.insert(frame.end(), image->GetSpacing(), image->GetSpacing() + 3);
+  frame.insert(frame.end(), image->GetDirectionMatrix()->GetData(), image->GetDirectionMatrix()->GetData() + 9);
+  return frame;
+}
+
+/// The least and the greatest of numbers over all processes, each of which may have none.
+struct Range {
+  std::vector<double> least, greatest;
+  explicit Range(std::size_t size)
+      : least(size, std::numeric_limits<double>::infinity()), greatest(size, -std::numeric_limits<double>::infinity()) {
+  }
+  void add(const std::vector<double>& numbers) {
+    for (std::size_t n = 0; n < numbers.size(); ++n) {
+      least[n] = std::min(least[n], numbers[n]);
+      greatest[n] = std::max(greatest[n], numbers[n]);
+    }
+  }
+  void reduce(const Ranks& ranks) {
+    ranks.least(least);
+    ranks.greatest(greatest);
+  }
+};
+
+/// The extent that a source has for a piece; it is empty if there are more pieces than cells.
+Extent extent_of_piece(Extent whole, const Piece_request& request) {
+  Extent extent;
+  const vtkNew<vtkExtentTranslator> translator;
+  if (!translator->PieceToExtentThreadSafe(request.piece, request.pieces, 0, whole.data(), extent.data(),
+                                           vtkExtentTranslator::BLOCK_MODE, 0))
+    return {0, -1, 0, -1, 0, -1};
+  return extent;
+}
+
+Cell_block cells_between(const Extent& extent, const std::array<int, 3>& first) {
+  Cell_block cells;
+  for (std::size_t a = 0; a < 3; ++a) {
+    cells.first[a] = std::size_t(extent[2 * a] - first[a]);
+    cells.end[a] = std::size_t(extent[2 * a + 1] - first[a]);
+  }
+  return cells;
+}
+
+std::int64_t number_of(const Cell_block& cells) {
+  std::int64_t count = 1;
+  for (std::size_t a = 0; a < 3; ++a) count *= std::int64_t(cells.end[a] - cells.first[a]);
+  return count;
+}
+
+/// The lattice of an image with that frame.
+Lattice_3<Kernel> lattice_of(const std::vector<double>& frame, const Extent& whole, const Spline_parameters& spline) {
+  std::array<std::size_t, 3> size;
+  for (std::size_t a = 0; a < 3; ++a) {
+    size[a] = std::size_t(whole[2 * a + 1] - whole[2 * a]) + 1;
+    require(size[a] > std::size_t(spline.degree),
+            "the image has " + std::to_string(size[a]) + (size[a] == 1 ? " point" : " points") +
+                " along an axis, and a spline needs more than its degree of " + std::to_string(spline.degree) +
+                "; choose a smaller degree, or give a volume with more points");
+  }
+  std::array<double, 3> origin = {frame[0], frame[1], frame[2]};
+  std::array<Kernel::Vector_3, 3> steps;
+  for (std::size_t a = 0; a < 3; ++a) { // column a of the direction matrix, times the spacing
+    const std::array<double, 3> step = {frame[6 + a] * frame[3 + a], frame[9 + a] * frame[3 + a],
+                                        frame[12 + a] * frame[3 + a]};
+    steps[a] = Kernel::Vector_3(step[0], step[1], step[2]);
+    for (std::size_t c = 0; c < 3; ++c) origin[c] += whole[2 * a] * step[c];
+  }
+  return Lattice_3<Kernel>(size, Kernel::Point_3(origin[0], origin[1], origin[2]), steps);
+}
+
+bool contains(const Cell_block& cells, const Cell_block& others) {
+  for (std::size_t a = 0; a < 3; ++a)
+    if (others.first[a] < cells.first[a] || cells.end[a] < others.end[a]) return false;
+  return true;
+}
+
+/// Whether a piece of this process needs samples that its image does not have.
+bool lacks_samples(const Image_pieces& pieces, const Piece_request& request) {
+  const auto& lattice = *pieces.lattice;
+  return std::any_of(pieces.pieces.begin(), pieces.pieces.end(), [&](const Image_piece& piece) {
+    const Cell_block wanted =
+        widened(piece.cells, std::size_t(request.ghost_levels), equiaffine::cells_of(lattice.size()));
+    return !contains(cells_of(pieces, piece.image), needed_cells(wanted, lattice, request.spline));
+  });
+}
+
+/// Whether a piece of this process has less cells than that along an axis that is cut.
+bool has_thin_piece(const Image_pieces& pieces, int levels) {
+  return std::any_of(pieces.pieces.begin(), pieces.pieces.end(), [&](const Image_piece& piece) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::size_t cells = piece.cells.end[a] - piece.cells.first[a];
+      if (cells < std::size_t(levels) && cells + 1 < pieces.lattice->size()[a]) return true;
+    }
+    return false;
+  });
+}
+
+} // namespace
+
+std::vector<vtkSmartPointer<vtkImageData>> images_of(vtkDataObject* input) {
+  std::vector<vtkSmartPointer<vtkImageData>> images;
+  const auto add = [&](vtkDataObject* object) {
+    auto* const image = vtkImageData::SafeDownCast(object);
+    require(image || !object, "a part of the input is no image; resample it to one");
+    if (image && image->GetNumberOfPoints() > 0) images.emplace_back(image);
+  };
+  if (auto* const parts = vtkPartitionedDataSet::SafeDownCast(input))
+    for (unsigned n = 0; n < parts->GetNumberOfPartitions(); ++n) add(parts->GetPartitionAsDataObject(n));
+  else add(input);
+  return images;
+}
+
+Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, const std::array<int, 6>& whole_extent,
+                          const Piece_request& request, const Ranks& ranks, vtkMultiProcessController* controller) {
+  Range frames(15), extents(6), told(6);
+  for (const auto& image : images) {
+    frames.add(frame_of(image));
+    const Extent own = own_extent(image);
+    extents.add({own.begin(), own.end()});
+  }
+  told.add({whole_extent.begin(), whole_extent.end()});
+  for (Range* const range : {&frames, &extents, &told}) range->reduce(ranks);
+  Image_pieces result;
+  if (extents.least[0] > extents.greatest[1]) return result;
+
+  // A source that gives any part of an image tells the same whole extent everywhere. Else it is that of all images.
+  const bool is_told = told.least == told.greatest && !is_empty(whole_extent);
+  Extent whole = whole_extent;
+  for (std::size_t a = 0; a < 3 && !is_told; ++a) {
+    whole[2 * a] = int(extents.least[2 * a]);
+    whole[2 * a + 1] = int(extents.greatest[2 * a + 1]);
+  }
+  std::int64_t missing = 0;
+  together(ranks, [&] {
+    require(frames.least == frames.greatest,
+            "the pieces of the image differ in origin, spacing or direction; give pieces of one image");
+    result.lattice = lattice_of(frames.least, whole, request.spline);
+    result.first = {whole[0], whole[2], whole[4]};
+    const Extent of_piece = extent_of_piece(whole, request);
+    for (const auto& image : images) {
+      const Extent own = is_told ? of_piece : own_extent(image);
+      if (!is_empty(own)) result.pieces.push_back({image, cells_between(own, result.first)});
+    }
+    if (request.pieces == ranks.count() || !is_told)
+      for (const Image_piece& piece : result.pieces) missing -= number_of(piece.cells);
+    else missing -= ranks.number() == 0 ? number_of(equiaffine::cells_of(result.lattice->size())) : 0;
+    if (ranks.number() == 0) missing += number_of(equiaffine::cells_of(result.lattice->size()));
+  });
+  const int levels = needed_ghost_levels(request.spline) + request.ghost_levels;
+  std::array<std::int64_t, 3> sums = {missing, lacks_samples(result, request), has_thin_piece(result, levels)};
+  ranks.sum(sums);
+  together(ranks, [&] {
+    require(sums[0] == 0, "the pieces of the image overlap or leave cells out; give each cell to one piece");
+    require(sums[1] == 0 || sums[2] == 0, // only neighbors exchange points
+            "a piece of the image has fewer cells along an axis than the " + std::to_string(levels) +
+                " ghost levels that its neighbors need; use fewer pieces, or a smaller degree");
+  });
+  if (sums[1] == 0) return result;
+  std::vector<vtkSmartPointer<vtkImageData>> exchanged;
+  for (const Image_piece& piece : result.pieces) exchanged.push_back(piece.image);
+  exchange_ghost_levels(exchanged, levels, controller);
+  for (std::size_t n = 0; n < exchanged.size(); ++n) result.pieces[n].image = exchanged[n];
+  together(ranks, [&] {
+    require(!lacks_samples(result, request), "a piece of the image needs " + std::to_string(levels) +
+                                                 " ghost levels, which its neighbors do not have; use fewer pieces");
+  });
+  return result;
+}
+
+Cell_block cells_of(const Image_pieces& pieces, vtkImageData* image) {
+  return cells_between(extent_of(image), pieces.first);
+}
+
+Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& piece, vtkDataArray* array,
+                              int component) {
+  vtkSmartPointer<vtkDataArray> samples = array;
+  if (!array->HasStandardMemoryLayout()) {
+    samples.TakeReference(vtkDataArray::CreateDataArray(array->GetDataType()));
+    samples->DeepCopy(array);
+  }
+  const auto owner = std::make_shared<const vtkSmartPointer<vtkDataArray>>(samples);
+  const Extent extent = extent_of(piece.image);
+  const auto step = std::ptrdiff_t(samples->GetDataTypeSize()) * samples->GetNumberOfComponents(),
+             row = step * (extent[1] - extent[0] + 1), slab = row * (extent[3] - extent[2] + 1);
+  const Cell_block cells = cells_of(pieces, piece.image);
+  const auto view = [&](const auto* first) {
+    return Volume_view_3<Kernel>::part(*pieces.lattice, cells, first + component, {step, row, slab}, owner);
+  };
+  void* const memory = samples->GetVoidPointer(0);
+  switch (samples->GetDataType()) { vtkTemplateMacro(return view(static_cast<const VTK_TT*>(memory))); }
+  throw std::invalid_argument("the array of the image is of a type without numbers; choose another one");
+}
+
+Cell_block needed_cells(const Cell_block& block, const Lattice_3<Kernel>& lattice, const Spline_parameters& spline) {
+  const Cell_block all = equiaffine::cells_of(lattice.size());
+  if (spline.scheme == Spline_scheme::INTERPOLATION) return all;
+  return cells_to_know(widened(block, cells_around_block, all), lattice.size(), spline);
+}
+
+int needed_ghost_levels(const Spline_parameters& spline) {
+  if (spline.scheme == Spline_scheme::INTERPOLATION) return 0;
+  constexpr std::size_t far = 12; // beyond this the border of the lattice makes no difference without smoothing
+  const std::size_t reach = far + 4 * std::size_t(spline.smoothing + 1), n = 4 * reach;
+  const Lattice_3<Kernel> lattice({n, n, n}, CGAL::Bbox_3(0, 0, 0, 1, 1, 1));
+  std::size_t levels = 0;
+  for (std::size_t c = 0; c < 2 * reach; ++c) {
+    const Cell_block needed = needed_cells({{c, c, c}, {c + 1, c + 1, c + 1}}, lattice, spline);
+    levels = std::max({levels, c - needed.first[0], needed.end[0] - c - 1});
+  }
+  return int(levels);
+}
+
+} // namespace equiaffine

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_VTK_IMAGE_PIECES_H
+#define EQUIAFFINE_VTK_IMAGE_PIECES_H
+
+#include "Ranks.h"
+#include <equiaffine/Volume_view_3.h>
+#include <equiaffine/volume/Cell_block.h>
+#include <equiaffine/volume/Lattice_3.h>
+#include <equiaffine/volume/Spline_parameters.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+class vtkDataArray;
+class vtkDataObject;
+class vtkImageData;
+class vtkInformation;
+class vtkMultiProcessController;
+
+namespace equiaffine {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+
+/// A piece of an image. Cells are those of the lattice of the whole image.
+struct Image_piece {
+  vtkSmartPointer<vtkImageData> image;
+  Cell_block cells; ///< belong to this piece and to no other one
+};
+
+/// The pieces that this process has, and the whole image.
+struct Image_pieces {
+  std::optional<Lattice_3<Kernel>> lattice; ///< nothing if all pieces of all processes are empty
+  std::array<int, 3> first;                 ///< the indices in VTK's extents of the first node of the lattice
+  std::vector<Image_piece> pieces;
+};
+
+/// What is wanted of the image.
+struct Piece_request {
+  int piece = 0, pieces = 1; ///< which part of a source that gives any part of an image
+  int ghost_levels = 0;      ///< wanted beside the cells of a piece
+  Spline_parameters spline;
+};
+
+/// The images of an input, and the whole extent that a source has told, if there is one.
+std::vector<vtkSmartPointer<vtkImageData>> images_of(vtkDataObject* input);
+
+/// Finds out, with the other processes, which cells are whose, and has them exchange the ghost levels that are missing.
+/// \throw Failure if the images are no pieces of one image on which there is a spline
+Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, const std::array<int, 6>& whole_extent,
+                          const Piece_request& request, const Ranks& ranks, vtkMultiProcessController* controller);
+
+/// The cells of the lattice with samples in an image.
+Cell_block cells_of(const Image_pieces& pieces, vtkImageData* image);
+
+/// The samples of a piece: a component of an array, which is copied if its numbers do not lie one after the other.
+Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& piece, vtkDataArray* array, int component);
+
+/// So many ghost levels a piece of an image needs, wherever it is.
+int needed_ghost_levels(const Spline_parameters& spline);
+
+/// The cells at whose nodes samples must be known for the surface in a block.
+Cell_block needed_cells(const Cell_block& block, const Lattice_3<Kernel>& lattice, const Spline_parameters& spline);
+
+} // namespace equiaffine
+
+#endif

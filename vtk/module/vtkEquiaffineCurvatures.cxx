@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkEquiaffineCurvatures.h"
+
+#include "Surface_arrays.h"
+#include <equiaffine/Progress_observer.h>
+#include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/attributes/internal/shared/error_table.h>
+#include <equiaffine/fitted_structures.h>
+
+#include <CGAL/property_map.h>
+#include <CGAL/tags.h>
+
+#include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdList.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Triangle = std::array<std::size_t, 3>;
+using Structures = std::vector<Fitted_structure_3<double>>;
+
+std::vector<Kernel::Point_3> points_of(vtkPolyData& mesh) {
+  std::vector<Kernel::Point_3> points;
+  for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n) {
+    std::array<double, 3> p;
+    mesh.GetPoint(n, p.data());
+    points.emplace_back(p[0], p[1], p[2]);
+  }
+  return points;
+}
+
+/// The triangles of polygons, which are cut from their first corner, and of strips.
+std::vector<Triangle> triangles_of(vtkPolyData& mesh) {
+  std::vector<Triangle> triangles;
+  const auto add = [&](vtkIdType a, vtkIdType b, vtkIdType c) {
+    triangles.push_back({std::size_t(a), std::size_t(b), std::size_t(c)});
+  };
+  vtkIdType n;
+  const vtkIdType* corners;
+  for (mesh.GetPolys()->InitTraversal(); mesh.GetPolys()->GetNextCell(n, corners);)
+    for (vtkIdType c = 2; c < n; ++c) add(corners[0], corners[c - 1], corners[c]);
+  for (mesh.GetStrips()->InitTraversal(); mesh.GetStrips()->GetNextCell(n, corners);)
+    for (vtkIdType c = 2; c < n; ++c) add(corners[c - 2], corners[c - 1 + c % 2], corners[c - c % 2]);
+  return triangles;
+}
+
+using Point_with_normal = std::pair<Kernel::Point_3, Kernel::Vector_3>;
+
+/// The points with the active normals. It is empty unless each has one.
+std::vector<Point_with_normal> points_with_normals(vtkPolyData& mesh) {
+  vtkDataArray* const normals = mesh.GetPointData()->GetNormals();
+  std::vector<Point_with_normal> result;
+  if (!normals || normals->GetNumberOfTuples() != mesh.GetNumberOfPoints()) return result;
+  for (vtkIdType n = 0; const auto& p : points_of(mesh)) {
+    const double* const v = normals->GetTuple3(n++);
+    const double length = std::hypot(v[0], v[1], v[2]);
+    if (!std::isnormal(length)) return {};
+    result.emplace_back(p, Kernel::Vector_3(v[0] / length, v[1] / length, v[2] / length));
+  }
+  return result;
+}
+
+template <class Parameters>
+Structures structures_of(vtkPolyData& mesh, const Parameters& parameters, std::optional<double> feature_angle) {
+  using Tag = CGAL::Parallel_if_available_tag;
+  const std::vector<Triangle> triangles = triangles_of(mesh);
+  if (!triangles.empty())
+    return fitted_structures<Tag>(points_of(mesh), triangles, parameters.feature_angle(feature_angle));
+  const auto with_normals = points_with_normals(mesh);
+  if (with_normals.empty()) return fitted_structures<Tag>(points_of(mesh), parameters);
+  return fitted_structures<Tag>(with_normals,
+                                parameters.point_map(CGAL::First_of_pair_property_map<Point_with_normal>())
+                                    .normal_map(CGAL::Second_of_pair_property_map<Point_with_normal>()));
+}
+
+void add_columns(const Structures& structures, const Attribute_selection& selection, bool with_errors,
+                 vtkPointData& data) {
+  std::vector<std::vector<std::vector<double>>> columns;
+  for (const Attribute& attribute : selection.columns) {
+    auto& values = columns.emplace_back(1)[0];
+    for (const auto& s : structures) values.push_back(attribute.get(s.structure));
+  }
+  add_arrays(selection, std::move(columns), data);
+  for (const auto& row : error_table<double>) {
+    if (!with_errors) break;
+    const vtkNew<vtkDoubleArray> errors;
+    errors->SetName((std::string(row.attribute) + "_error").c_str());
+    for (const auto& s : structures) errors->InsertNextValue(row.get(s.error));
+    data.AddArray(errors);
+  }
+  if (!selection.has_status) return;
+  const vtkNew<vtkUnsignedCharArray> status;
+  status->SetName("status");
+  for (const auto& s : structures) status->InsertNextValue(static_cast<unsigned char>(s.structure.status));
+  data.AddArray(status);
+}
+
+} // namespace
+
+vtkStandardNewMacro(vtkEquiaffineCurvatures);
+
+vtkEquiaffineCurvatures::vtkEquiaffineCurvatures() { this->SetAttributes("all"); }
+vtkEquiaffineCurvatures::~vtkEquiaffineCurvatures() { this->SetAttributes(nullptr); }
+
+void vtkEquiaffineCurvatures::PrintSelf(ostream& os, vtkIndent indent) {
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Attributes: " << (this->Attributes ? this->Attributes : "(none)") << '\n'
+     << indent << "EstimateErrors: " << this->EstimateErrors << '\n'
+     << indent << "Scale: " << this->Scale << '\n'
+     << indent << "Degree: " << this->Degree << '\n'
+     << indent << "FeatureAngle: " << this->FeatureAngle << '\n'
+     << indent << "FlipNormals: " << this->FlipNormals << '\n';
+}
+
+int vtkEquiaffineCurvatures::RequestData(vtkInformation*, vtkInformationVector** inputs,
+                                         vtkInformationVector* outputs) {
+  vtkPolyData* const input = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* const output = vtkPolyData::GetData(outputs);
+  struct Aborted {};
+  try {
+    const Attribute_selection selection = select_attributes(this->Attributes ? this->Attributes : "none");
+    output->ShallowCopy(input);
+    if (input->GetNumberOfPoints() == 0) return 1;
+    const Progress_observer observer([&](const Progress_observer::Stage& stage) {
+      if (stage.total > 0) this->UpdateProgress(double(stage.done) / double(stage.total));
+      if (this->GetAbortExecute()) throw Aborted();
+    });
+    const auto parameters = parameters::scale(this->Scale < 0 ? std::nullopt : std::optional(this->Scale))
+                                .degree(this->Degree == 0 ? std::nullopt : std::optional(this->Degree))
+                                .orientation(this->FlipNormals ? Orientation_of_level_set::AGAINST_GRADIENT
+                                                               : Orientation_of_level_set::ALONG_GRADIENT);
+    const Structures structures =
+        structures_of(*input, parameters, this->FeatureAngle < 180 ? std::optional(this->FeatureAngle) : std::nullopt);
+    add_columns(structures, selection, this->EstimateErrors, *output->GetPointData());
+  } catch (const Aborted&) {
+    output->Initialize();
+  } catch (const std::bad_alloc&) {
+    output->Initialize();
+    vtkErrorMacro("there is not enough memory for the fits to the points of this mesh; give fewer points");
+  } catch (const std::exception& error) {
+    output->Initialize();
+    vtkErrorMacro(<< error.what());
+  }
+  return 1; // after an error, too: 0 would make the pipeline print more than the sentence
+}

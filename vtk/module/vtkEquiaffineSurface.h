@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkEquiaffineSurface_h
+#define vtkEquiaffineSurface_h
+
+#include "equiaffineVTKModule.h" // For the export macro
+
+#include <vtkPolyDataAlgorithm.h>
+
+class vtkMultiProcessController;
+
+#ifndef __VTK_WRAP__
+namespace equiaffine {
+struct Spline_parameters;
+}
+#endif
+
+/**
+ * @class vtkEquiaffineSurface
+ * @brief extracts an isosurface of an image, with its Euclidean and equi-affine structure
+ *
+ * The surface is that of the spline through the samples of a vtkImageData, or of the images of a vtkPartitionedDataSet,
+ * which are pieces of one image. Its topology is that of the trilinear interpolant; its points lie on the level set of the
+ * spline, whose derivatives up to order four give the structure there. An image has one of the numeric types of VTK, any
+ * direction matrix, left-handed ones included, and any extent. NaN marks a point without a value, at which the surface
+ * ends.
+ *
+ * The output is a vtkPolyData of triangles with, for n points:
+ *
+ * | point data | type | components | meaning |
+ * |---|---|---|---|
+ * | one array per attribute | double | 1, 3 or 6 | NaN where the quantity does not exist; see SetAttributes() |
+ * | `normal` | double | 3 | among the attributes, and the active normals |
+ * | `status` | unsigned char | 1 | 0 regular, 1 parabolic, 2 singular, 3 outside, 4 unconverged |
+ * | `vertex_id` | vtkIdType | 1 | global ids: equal in all pieces, of which equal ones are one vertex |
+ * | `vtkGhostType` | unsigned char | 1 | with several pieces: 1 for a point that belongs to another piece |
+ *
+ * | cell data | type | components | meaning |
+ * |---|---|---|---|
+ * | `vtkGhostType` | unsigned char | 1 | if ghost cells were asked for: 1 for a triangle of another piece |
+ *
+ * | field data | type | tuples x components | meaning |
+ * |---|---|---|---|
+ * | `vertices`, `triangles` | vtkIdType | 1 x 1 | of all pieces together, each counted once |
+ * | `status_counts` | vtkIdType | 1 x 5 | how many vertices have each status |
+ * | NAME`_range` | double | 1 x 2 | least and greatest value of a scalar attribute; NaN, NaN if it exists nowhere |
+ *
+ * In several processes every one meshes its piece, and all pieces together are the mesh of the whole image, bit for bit,
+ * as are the field data. The filter asks upstream for the ghost levels that it needs (GetNumberOfGhostLevels()), and gets
+ * them from the other processes if the source has none. Every process must update it.
+ *
+ * An error is reported in one sentence, and leaves an empty output.
+ */
+class EQUIAFFINEVTK_EXPORT vtkEquiaffineSurface : public vtkPolyDataAlgorithm {
+public:
+  static vtkEquiaffineSurface* New();
+  vtkTypeMacro(vtkEquiaffineSurface, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** The value of the level set; 0 by default. */
+  vtkSetMacro(Isovalue, double);
+  vtkGetMacro(Isovalue, double);
+  ///@}
+
+  ///@{
+  /** The degree of the spline: 5, 7 or 9; 7 by default. */
+  vtkSetMacro(Degree, int);
+  vtkGetMacro(Degree, int);
+  ///@}
+
+  enum { QUASI_INTERPOLATION = 0, CONVOLUTION = 1, INTERPOLATION = 2 };
+  ///@{
+  /**
+   * How samples become a spline: QUASI_INTERPOLATION by default. CONVOLUTION smooths, and needs two or three ghost levels
+   * less. INTERPOLATION needs the whole image in one process.
+   */
+  vtkSetClampMacro(Scheme, int, 0, 2);
+  vtkGetMacro(Scheme, int);
+  void SetSchemeToQuasiInterpolation() { this->SetScheme(QUASI_INTERPOLATION); }
+  void SetSchemeToConvolution() { this->SetScheme(CONVOLUTION); }
+  void SetSchemeToInterpolation() { this->SetScheme(INTERPOLATION); }
+  ///@}
+
+  ///@{
+  /** The scale in points by which samples are smoothed first, which scans need; 0, the default, and up to 1: not. */
+  vtkSetClampMacro(Smoothing, double, 0, 1000);
+  vtkGetMacro(Smoothing, double);
+  ///@}
+
+  ///@{
+  /**
+   * The attributes: `all` by default, `basic`, `none`, or names with commas between them. `signature`, the affine
+   * curvatures with the norms of their gradients, takes 40 times as long. The manual lists all names.
+   */
+  vtkSetStringMacro(Attributes);
+  vtkGetStringMacro(Attributes);
+  ///@}
+
+  ///@{
+  /** Whether normals point against the gradient of the image; off by default. */
+  vtkSetMacro(FlipNormals, bool);
+  vtkGetMacro(FlipNormals, bool);
+  vtkBooleanMacro(FlipNormals, bool);
+  ///@}
+
+  ///@{
+  /** Whether vertices lie on the level set of the spline, and not of the linear interpolant on edges; on by default. */
+  vtkSetMacro(ProjectVertices, bool);
+  vtkGetMacro(ProjectVertices, bool);
+  vtkBooleanMacro(ProjectVertices, bool);
+  ///@}
+
+  ///@{
+  /** The component of the scalars that is the function; 0 by default. */
+  vtkSetClampMacro(ArrayComponent, int, 0, VTK_INT_MAX);
+  vtkGetMacro(ArrayComponent, int);
+  ///@}
+
+  ///@{
+  /** The processes that have pieces of the image; the global controller by default. */
+  virtual void SetController(vtkMultiProcessController* controller);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+  /**
+   * The ghost levels of the image that a piece needs with these properties: 0 for INTERPOLATION, which has no pieces.
+   */
+  int GetNumberOfGhostLevels();
+
+protected:
+  vtkEquiaffineSurface();
+  ~vtkEquiaffineSurface() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+  double Isovalue = 0;
+  int Degree = 7;
+  int Scheme = QUASI_INTERPOLATION;
+  double Smoothing = 0;
+  char* Attributes = nullptr;
+  bool FlipNormals = false;
+  bool ProjectVertices = true;
+  int ArrayComponent = 0;
+  vtkMultiProcessController* Controller = nullptr;
+
+private:
+#ifndef __VTK_WRAP__
+  equiaffine::Spline_parameters GetSpline() const;
+#endif
+  bool IsAborted();
+
+  vtkEquiaffineSurface(const vtkEquiaffineSurface&) = delete;
+  void operator=(const vtkEquiaffineSurface&) = delete;
+};
+
+#endif

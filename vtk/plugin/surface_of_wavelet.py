@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# A picture of the affine mean curvature of a level set, and its numbers: a state of ParaView (File > Load State), and a
+# script for pvbatch in any number of processes, which writes them to a folder:
+#   mpirun -np 4 pvbatch surface_of_wavelet.py FOLDER
+import sys
+from pathlib import Path
+
+from paraview.simple import (ColorBy, EquiaffineSurface, GetActiveViewOrCreate, GetColorTransferFunction, Render,
+                             ResetCamera, SaveScreenshot, SaveState, Show, Wavelet)
+
+wavelet = Wavelet(WholeExtent=[-30, 30, -30, 30, -30, 30])
+surface = EquiaffineSurface(Input=wavelet, Isovalue=157, Attributes="all")
+
+view = GetActiveViewOrCreate("RenderView")
+display = Show(surface, view)
+ColorBy(display, ("POINTS", "mean_curvature"))
+GetColorTransferFunction("mean_curvature").RescaleTransferFunction(-0.5, 0.5)
+display.SetScalarBarVisibility(view, True)
+view.CameraPosition = [150, 110, 170]
+ResetCamera(view)
+Render(view)
+
+if len(sys.argv) > 1:
+    folder = Path(sys.argv[1])
+    SaveScreenshot(str(folder / "surface.png"), view, ImageResolution=[900, 700])
+    SaveState(str(folder / "surface.pvsm"))
