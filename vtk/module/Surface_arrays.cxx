@@ -15,71 +15,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace equiaffine {
 
 namespace {
 
-template <class T>
-std::size_t size_of(const std::vector<std::vector<T>>& blocks) {
-  std::size_t size = 0;
-  for (const auto& block : blocks) size += block.size();
-  return size;
-}
-
-/// Moves blocks of numbers into an array, and frees each of them.
-template <class Array, class T>
-void fill(Array& array, const char* name, std::vector<std::vector<T>>&& blocks) {
-  array.SetName(name);
-  auto* to = array.WritePointer(0, vtkIdType(size_of(blocks)));
-  for (auto& block : blocks) {
-    to = std::copy(block.begin(), block.end(), to);
-    block = {};
-  }
-}
-
-void add_numbers(vtkFieldData& data, const std::string& name, std::span<const std::int64_t> numbers) {
+void add_counts(vtkFieldData& data, const char* name, std::span<const std::int64_t> counts) {
   const vtkNew<vtkIdTypeArray> array;
-  array->SetName(name.c_str());
-  array->SetNumberOfComponents(int(numbers.size()));
-  array->InsertNextTuple(std::vector<double>(numbers.begin(), numbers.end()).data());
+  array->SetName(name);
+  array->SetNumberOfComponents(int(counts.size()));
+  for (const std::int64_t n : counts) array->InsertNextValue(n);
+  data.AddArray(array);
+}
+
+void add_marks(vtkDataSetAttributes& data, Growing_array<unsigned char>& marks) {
+  const vtkNew<vtkUnsignedCharArray> array;
+  array->SetName(vtkDataSetAttributes::GhostArrayName());
+  marks.move_to(*array);
   data.AddArray(array);
 }
 
 } // namespace
-
-void add_arrays(const Attribute_selection& selection, std::vector<std::vector<std::vector<double>>>&& blocks_of_columns,
-                vtkDataSetAttributes& data) {
-  const auto& columns = selection.columns;
-  for (std::size_t first = 0; first < columns.size();) {
-    std::size_t end = first + 1;
-    while (end < columns.size() && columns[end].row == columns[first].row) ++end;
-    const auto& row = attribute_table<double>[columns[first].row];
-    const bool is_whole = end - first == row.size(); // else a component was asked for by its own name
-    if (!is_whole) end = first + 1;
-    const vtkNew<vtkDoubleArray> array;
-    array->SetName(std::string(is_whole ? row.name : columns[first].name).c_str());
-    array->SetNumberOfComponents(int(end - first));
-    array->SetNumberOfTuples(vtkIdType(size_of(blocks_of_columns[first])));
-    for (std::size_t c = first; c < end; ++c) {
-      if (end - first > 1) array->SetComponentName(vtkIdType(c - first), std::string(columns[c].name).c_str());
-      double* to = array->GetPointer(vtkIdType(c - first));
-      for (auto& block : blocks_of_columns[c]) {
-        for (const double x : block) {
-          *to = x;
-          to += end - first;
-        }
-        block = {};
-      }
-    }
-    data.AddArray(array);
-    first = end;
-  }
-  if (data.HasArray("normal")) data.SetActiveNormals("normal");
-}
 
 bool Surface_arrays::is_own(Vertex_id least_id) const {
   const auto cell = cell_of(least_id, nodes_);
@@ -87,118 +46,115 @@ bool Surface_arrays::is_own(Vertex_id least_id) const {
 }
 
 void Surface_arrays::begin_piece() {
-  of_piece_.clear();
+  numbers_.clear();
   if (++pieces_ != 2) return;
   std::int32_t number = 0; // from now on vertices are looked up
-  for (const auto& block : ids_)
-    for (const vtkIdType id : block) number_of_.emplace(Vertex_id(id), number++);
+  for (const vtkIdType id : ids_.numbers()) number_of_.emplace(Vertex_id(id), number++);
 }
 
-void Surface_arrays::add(const Isosurface_slab_3<Kernel>& slab, Vertex_attributes&& attributes) {
-  const std::size_t n = slab.points.size();
-  if (vertices_ + n > std::size_t(std::numeric_limits<std::int32_t>::max()))
-    throw std::length_error("a piece of the surface has more than 2^31 vertices; use more processes");
-  std::vector<std::size_t> added; // the vertices that no piece before has
-  for (std::size_t v = 0; v < n; ++v) {
-    const Vertex_id id = slab.vertex_ids[v];
-    const auto next = std::int32_t(vertices_ + added.size());
-    const bool is_known = pieces_ > 1 && !number_of_.try_emplace(id, next).second;
-    of_piece_.push_back({id, is_known ? number_of_.at(id) : next});
-    if (!is_known) added.push_back(v);
-  }
-  const auto keep = [&](auto& blocks, auto&& values) {
-    if (added.size() < values.size()) {
-      for (std::size_t v = 0; v < added.size(); ++v) values[v] = values[added[v]];
-      values.resize(added.size());
+std::vector<std::size_t> Surface_arrays::new_vertices(const Isosurface_slab_3<Kernel>& slab) {
+  std::vector<std::size_t> places;
+  for (std::size_t v = 0; v < slab.points.size(); ++v) {
+    bool is_new = true;
+    if (pieces_ > 1) {
+      const auto next = std::int32_t(vertices_ + places.size());
+      const auto [found, is_inserted] = number_of_.try_emplace(slab.vertex_ids[v], next);
+      numbers_.push_back(found->second);
+      is_new = is_inserted;
     }
-    blocks.push_back(std::move(values));
-  };
-  std::vector<unsigned char> ghosts, status;
-  for (const Vertex_id id : slab.least_ids) ghosts.push_back(is_own(id) ? 0 : vtkDataSetAttributes::DUPLICATEPOINT);
-  if (attributes.status)
-    for (const Point_status s : *attributes.status) status.push_back(static_cast<unsigned char>(s));
-  keep(points_, std::vector(slab.points));
-  keep(ids_, std::vector<vtkIdType>(slab.vertex_ids.begin(), slab.vertex_ids.end()));
-  keep(ghost_points_, std::move(ghosts));
-  if (attributes.status) keep(status_, std::move(status));
-  for (std::size_t c = 0; c < columns_.size(); ++c) keep(columns_[c], std::move(attributes.columns[c].values));
-  vertices_ += added.size();
-
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<unsigned char> ghost_cells;
-  triangles.reserve(slab.triangles.size());
-  for (const auto& [a, b, c] : slab.triangles) {
-    const Vertex u = of_piece_[a], v = of_piece_[b], w = of_piece_[c];
-    triangles.push_back({u.number, v.number, w.number});
-    if (has_ghost_cells_)
-      ghost_cells.push_back(is_own(std::min({u.id, v.id, w.id})) ? 0 : vtkDataSetAttributes::DUPLICATECELL);
+    if (is_new) places.push_back(v);
   }
-  triangles_.push_back(std::move(triangles));
-  ghost_cells_.push_back(std::move(ghost_cells));
+  return places;
+}
+
+void Surface_arrays::add(const Isosurface_slab_3<Kernel>& slab, const Compute& compute) {
+  if (triangles_.numbers().size() + 3 * slab.triangles.size() > std::size_t(std::numeric_limits<std::int32_t>::max()))
+    throw std::length_error("a piece of the surface has more than 715 million triangles; use more processes");
+  const std::vector<std::size_t> places = new_vertices(slab);
+  constexpr std::size_t most = std::size_t(1) << 16; // the attributes of so many vertices are in memory twice
+  for (std::size_t first = 0; first < places.size(); first += most) {
+    const auto some = std::span(places).subspan(first, std::min(most, places.size() - first));
+    std::vector<Kernel::Point_3> points;
+    std::vector<Point_status> status;
+    std::vector<std::size_t> order;
+    const std::span<vtkIdType> ids = ids_.grow(some.size());
+    const std::span<unsigned char> ghosts = ghost_points_.grow(some.size());
+    const std::span<double> coordinates = points_.grow(3 * some.size());
+    for (std::size_t n = 0; n < some.size(); ++n) {
+      const std::size_t v = some[n];
+      points.push_back(slab.points[v]);
+      status.push_back(slab.vertex_status[v]);
+      order.push_back(n);
+      ids[n] = vtkIdType(slab.vertex_ids[v]);
+      ghosts[n] = is_own(slab.least_ids[v]) ? 0 : vtkDataSetAttributes::DUPLICATEPOINT;
+      for (int c = 0; c < 3; ++c) coordinates[3 * n + std::size_t(c)] = slab.points[v][c];
+    }
+    attributes_.add(compute(points, status), order);
+  }
+  vertices_ += places.size();
+
+  const std::span<std::int32_t> corners = triangles_.grow(3 * slab.triangles.size());
+  for (std::size_t t = 0; t < slab.triangles.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t v = slab.triangles[t][c];
+      corners[3 * t + c] = pieces_ > 1 ? numbers_[v] : std::int32_t(v);
+    }
+  if (!has_ghost_cells_) return;
+  const std::span<unsigned char> ghosts = ghost_cells_.grow(slab.triangles.size());
+  for (std::size_t t = 0; t < ghosts.size(); ++t) {
+    const auto id = [&](std::size_t c) { return Vertex_id(ids_.numbers()[std::size_t(corners[3 * t + c])]); };
+    ghosts[t] = is_own(std::min({id(0), id(1), id(2)})) ? 0 : vtkDataSetAttributes::DUPLICATECELL;
+  }
 }
 
 std::int64_t Surface_arrays::add_statistics(const Ranks& ranks, vtkFieldData& data) const {
-  constexpr std::size_t statuses = number_of_point_statuses;
-  std::array<std::int64_t, 2 + statuses> counts{}; // vertices, triangles, and of each status
-  std::vector<double> least(columns_.size(), std::numeric_limits<double>::infinity()), greatest = least;
+  std::array<std::int64_t, 2 + number_of_point_statuses> counts{}; // vertices, triangles, and of each status
+  const auto scalars = attributes_.scalars();
+  std::vector<double> least(scalars.size(), std::numeric_limits<double>::infinity()), greatest = least;
   for (double& x : greatest) x = -x;
-  for (std::size_t block = 0; block < points_.size(); ++block) {
-    const auto& is_ghost = ghost_points_[block];
-    for (std::size_t v = 0; v < is_ghost.size(); ++v) {
-      if (is_ghost[v]) continue;
-      ++counts[0];
-      if (!status_.empty()) ++counts[2 + status_[block][v]];
-      for (std::size_t c = 0; c < columns_.size(); ++c) {
-        const double x = columns_[c][block][v];
-        least[c] = std::fmin(least[c], x); // leaves NaN out
-        greatest[c] = std::fmax(greatest[c], x);
-      }
+  const auto ghosts = ghost_points_.numbers();
+  for (std::size_t v = 0; v < ghosts.size(); ++v) {
+    if (ghosts[v]) continue;
+    ++counts[0];
+    if (!attributes_.status().empty()) ++counts[2 + attributes_.status()[v]];
+    for (std::size_t s = 0; s < scalars.size(); ++s) {
+      least[s] = std::fmin(least[s], scalars[s].values[v]); // leaves NaN out
+      greatest[s] = std::fmax(greatest[s], scalars[s].values[v]);
     }
-    const auto& ghosts = ghost_cells_[block];
-    counts[1] +=
-        has_ghost_cells_ ? std::count(ghosts.begin(), ghosts.end(), 0) : std::int64_t(triangles_[block].size());
   }
+  const auto ghost_cells = ghost_cells_.numbers();
+  counts[1] = has_ghost_cells_ ? std::count(ghost_cells.begin(), ghost_cells.end(), 0)
+                               : std::int64_t(triangles_.numbers().size() / 3);
   ranks.sum(counts);
   ranks.least(least);
   ranks.greatest(greatest);
-  const std::span<const std::int64_t> numbers(counts);
-  add_numbers(data, "vertices", numbers.first(1));
-  add_numbers(data, "triangles", numbers.subspan(1, 1));
-  if (selection_.has_status) add_numbers(data, "status_counts", numbers.subspan(2));
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    if (!attribute_table<double>[selection_.columns[c].row].is_scalar()) continue;
-    const bool exists = least[c] <= greatest[c];
+  const std::span<const std::int64_t> all(counts);
+  add_counts(data, "vertices", all.first(1));
+  add_counts(data, "triangles", all.subspan(1, 1));
+  add_counts(data, "status_counts", all.subspan(2));
+  for (std::size_t s = 0; s < scalars.size(); ++s) {
+    const bool exists = least[s] <= greatest[s];
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const vtkNew<vtkDoubleArray> range;
-    range->SetName((std::string(selection_.columns[c].name) + "_range").c_str());
+    range->SetName((scalars[s].name + "_range").c_str());
     range->SetNumberOfComponents(2);
-    range->InsertNextTuple2(exists ? least[c] : nan, exists ? greatest[c] : nan);
+    range->InsertNextTuple2(exists ? least[s] : nan, exists ? greatest[s] : nan);
     data.AddArray(range);
   }
   return counts[0];
 }
 
-void Surface_arrays::move_to(vtkPolyData& output) && {
+void Surface_arrays::move_to(vtkPolyData& output) {
   const vtkNew<vtkDoubleArray> coordinates;
   coordinates->SetNumberOfComponents(3);
-  coordinates->SetNumberOfTuples(vtkIdType(vertices_));
-  double* to = coordinates->GetPointer(0);
-  for (auto& block : points_) {
-    for (const Kernel::Point_3& p : block)
-      for (int c = 0; c < 3; ++c) *to++ = p[c];
-    block = {};
-  }
+  points_.move_to(*coordinates);
   const vtkNew<vtkPoints> points;
   points->SetData(coordinates);
   output.SetPoints(points);
 
-  const auto triangles = vtkIdType(size_of(triangles_));
   const vtkNew<vtkTypeInt32Array> offsets, connectivity;
-  std::int32_t* vertex = connectivity->WritePointer(0, 3 * triangles);
-  for (auto& block : triangles_) {
-    for (const auto& triangle : block) vertex = std::copy(triangle.begin(), triangle.end(), vertex);
-    block = {};
-  }
+  const auto triangles = vtkIdType(triangles_.numbers().size() / 3);
+  triangles_.move_to(*connectivity);
   std::int32_t* const offset = offsets->WritePointer(0, triangles + 1);
   for (vtkIdType t = 0; t <= triangles; ++t) offset[t] = std::int32_t(3 * t);
   const vtkNew<vtkCellArray> cells;
@@ -207,17 +163,12 @@ void Surface_arrays::move_to(vtkPolyData& output) && {
 
   vtkPointData& data = *output.GetPointData();
   const vtkNew<vtkIdTypeArray> ids;
-  fill(*ids, "vertex_id", std::move(ids_));
+  ids->SetName("vertex_id");
+  ids_.move_to(*ids);
   data.SetGlobalIds(ids);
-  add_arrays(selection_, std::move(columns_), data);
-  const auto add_bytes = [](vtkDataSetAttributes& attributes, const char* name, auto&& blocks) {
-    const vtkNew<vtkUnsignedCharArray> array;
-    fill(*array, name, std::move(blocks));
-    attributes.AddArray(array);
-  };
-  if (selection_.has_status) add_bytes(data, "status", status_);
-  if (has_ghost_points_) add_bytes(data, vtkDataSetAttributes::GhostArrayName(), ghost_points_);
-  if (has_ghost_cells_) add_bytes(*output.GetCellData(), vtkDataSetAttributes::GhostArrayName(), ghost_cells_);
+  attributes_.move_to(data);
+  if (has_ghost_points_) add_marks(data, ghost_points_);
+  if (has_ghost_cells_) add_marks(*output.GetCellData(), ghost_cells_);
 }
 
 } // namespace equiaffine

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkEquiaffineCurvatures.h"
 
-#include "Surface_arrays.h"
+#include "Attribute_arrays.h"
 #include <equiaffine/Progress_observer.h>
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/attributes/internal/shared/error_table.h>
@@ -19,10 +19,10 @@
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -91,12 +91,18 @@ Structures structures_of(vtkPolyData& mesh, const Parameters& parameters, std::o
 
 void add_columns(const Structures& structures, const Attribute_selection& selection, bool with_errors,
                  vtkPointData& data) {
-  std::vector<std::vector<std::vector<double>>> columns;
+  Vertex_attributes attributes;
+  std::vector<std::size_t> all(structures.size());
+  std::iota(all.begin(), all.end(), std::size_t(0));
   for (const Attribute& attribute : selection.columns) {
-    auto& values = columns.emplace_back(1)[0];
-    for (const auto& s : structures) values.push_back(attribute.get(s.structure));
+    auto& column = attributes.columns.emplace_back(Vertex_attributes::Column{std::string(attribute.name), {}});
+    for (const auto& s : structures) column.values.push_back(attribute.get(s.structure));
   }
-  add_arrays(selection, std::move(columns), data);
+  attributes.status.emplace();
+  for (const auto& s : structures) attributes.status->push_back(s.structure.status);
+  Attribute_arrays arrays(selection);
+  arrays.add(attributes, all);
+  arrays.move_to(data);
   for (const auto& row : error_table<double>) {
     if (!with_errors) break;
     const vtkNew<vtkDoubleArray> errors;
@@ -104,11 +110,6 @@ void add_columns(const Structures& structures, const Attribute_selection& select
     for (const auto& s : structures) errors->InsertNextValue(row.get(s.error));
     data.AddArray(errors);
   }
-  if (!selection.has_status) return;
-  const vtkNew<vtkUnsignedCharArray> status;
-  status->SetName("status");
-  for (const auto& s : structures) status->InsertNextValue(static_cast<unsigned char>(s.structure.status));
-  data.AddArray(status);
 }
 
 } // namespace

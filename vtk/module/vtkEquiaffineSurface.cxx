@@ -150,13 +150,16 @@ void mesh_pieces(const std::vector<Traits>& functions, const Image_pieces& piece
     marching_cubes_in_slabs<Tag>(
         function,
         [&](const Isosurface_slab_3<equiaffine::Kernel>& slab) {
-          arrays.add(slab, compute_attributes<Tag>(function, std::span<const equiaffine::Kernel::Point_3>(slab.points),
-                                                   task.selection, slab.vertex_status));
+          arrays.add(slab,
+                     [&](std::span<const equiaffine::Kernel::Point_3> points, std::span<const Point_status> status) {
+                       return compute_attributes<Tag>(function, points, task.selection, status);
+                     });
           done = (double(n) + double(slab.end_plane - block.first[2]) / double(block.end[2] - block.first[2])) /
                  double(functions.size());
           advance(done);
         },
         parameters::cell_block(block)
+            .planes_per_slab(32)
             .known_cells(widened(block, cells_around_block, all))
             .vertex_position(task.position));
   }
@@ -301,7 +304,7 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
     ranks.sum(aborted);
     if (aborted[0] > 0) return 1;
     if (surface.add_statistics(ranks, *output->GetFieldData()) == 0) check_that_there_are_numbers(views, ranks);
-    together(ranks, [&] { std::move(surface).move_to(*output); });
+    together(ranks, [&] { surface.move_to(*output); });
   } catch (const Failure& error) {
     output->Initialize();
     vtkErrorMacro(<< error.what());

@@ -5,7 +5,7 @@
 import sys
 from pathlib import Path
 
-from paraview.simple import (ColorBy, EquiaffineSurface, GetActiveViewOrCreate, GetColorTransferFunction, Render,
+from paraview.simple import (ColorBy, EquiaffineSurface, GetActiveViewOrCreate, GetColorTransferFunction, GetScalarBar, Render,
                              ResetCamera, SaveScreenshot, SaveState, Show, Wavelet)
 
 wavelet = Wavelet(WholeExtent=[-30, 30, -30, 30, -30, 30])
@@ -16,6 +16,10 @@ display = Show(surface, view)
 ColorBy(display, ("POINTS", "mean_curvature"))
 GetColorTransferFunction("mean_curvature").RescaleTransferFunction(-0.5, 0.5)
 display.SetScalarBarVisibility(view, True)
+bar = GetScalarBar(GetColorTransferFunction("mean_curvature"), view)
+bar.Title = "Mean curvature"
+bar.TitleFontSize = bar.LabelFontSize = 8
+bar.WindowLocation = "Lower Right Corner"
 view.CameraPosition = [150, 110, 170]
 ResetCamera(view)
 Render(view)

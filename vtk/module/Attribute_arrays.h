@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_VTK_ATTRIBUTE_ARRAYS_H
+#define EQUIAFFINE_VTK_ATTRIBUTE_ARRAYS_H
+
+#include "Growing_array.h"
+#include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+class vtkDataSetAttributes;
+
+namespace equiaffine {
+
+/// Attributes of points, added a block of points at a time, as arrays for VTK: a vector or a form is one array, whose
+/// components have names.
+class Attribute_arrays {
+public:
+  explicit Attribute_arrays(const Attribute_selection& selection);
+
+  /// Adds those points of a block whose places in it are given.
+  void add(const Vertex_attributes& block, std::span<const std::size_t> places);
+
+  /// A scalar, by its name and its numbers.
+  struct Scalar {
+    std::string name;
+    std::span<const double> values;
+  };
+  std::vector<Scalar> scalars() const;
+
+  std::span<const unsigned char> status() const { return status_.numbers(); } ///< empty if it was not selected
+
+  /// Gives the arrays to VTK. Normals become the active ones.
+  void move_to(vtkDataSetAttributes& data);
+
+private:
+  struct Array {
+    std::string name;
+    bool is_scalar;
+    std::vector<std::size_t> columns; // of the selection, for the components
+    Growing_array<double> numbers;
+  };
+
+  const Attribute_selection selection_;
+  std::vector<Array> arrays_;
+  Growing_array<unsigned char> status_;
+};
+
+} // namespace equiaffine
+
+#endif
