@@ -38,7 +38,8 @@ namespace equiaffine {
 ///
 /// The meshes of blocks of cells, such as different machines make, are together the whole mesh: every triangle is in one
 /// of them, with the same points and ids, and vertices at the sides of blocks are in all that have triangles there. Known
-/// cells go `cells_around_block` beyond the block on every side, or to the end of the lattice.
+/// cells go `cells_around_block` beyond the block on every side, or to the end of the lattice. Where a closed part without
+/// area goes on beyond all known cells, blocks do not agree on whether to drop it: its triangles may be left in some.
 ///
 /// Takes the memory of a slab with 8 planes more, and the time of marching_cubes() for as many planes. Where a closed
 /// part of the surface without area, such as a function that only touches zero has, goes on beyond these planes, the

@@ -139,6 +139,37 @@ class Surface(unittest.TestCase):
             self.assertEqual(len(owned), whole.GetNumberOfPolys())
             self.assertEqual(set(owned), triangles_of(whole))
 
+    def test_pieces_of_one_process_are_those_of_the_whole_where_samples_are_the_isovalue(self):
+        k, j, i = np.mgrid[:49, :49, :49]
+        image = vtk.vtkImageData()
+        image.SetDimensions(49, 49, 49)
+        set_scalars(image, np.round(6 * np.sin(.35 * i) * np.cos(.3 * j) + 4 * np.sin(.33 * k)).astype(np.int16))
+        count = 0
+        for piece in range(16):
+            surface_filter = vtkEquiaffineSurface()
+            surface_filter.SetInputData(image)
+            surface_filter.SetAttributes("none")
+            surface_filter.UpdatePiece(piece, 16, 0)
+            count += surface_filter.GetOutput().GetNumberOfPolys()
+        self.assertEqual(count, surface(image, Attributes="none").GetNumberOfPolys())
+
+    def test_partitions_belong_to_the_first_piece(self):
+        image = ellipsoid()
+        parts = vtk.vtkPartitionedDataSet()
+        parts.SetPartition(0, image)
+        counts = []
+        for piece in range(3):
+            surface_filter = vtkEquiaffineSurface()
+            surface_filter.SetInputDataObject(parts)
+            surface_filter.UpdatePiece(piece, 3, 0)
+            counts.append(surface_filter.GetOutput().GetNumberOfPolys())
+        self.assertEqual(counts, [surface(image).GetNumberOfPolys(), 0, 0])
+
+    def test_smoothing_needs_more_ghost_levels(self):
+        wide = vtkEquiaffineSurface()
+        wide.SetSmoothing(4)
+        self.assertGreater(wide.GetNumberOfGhostLevels(), vtkEquiaffineSurface().GetNumberOfGhostLevels())
+
     def test_attributes_are_chosen(self):
         mesh = surface(ellipsoid(), Attributes="nx,mean_curvature")
         names = {mesh.GetPointData().GetArrayName(n) for n in range(mesh.GetPointData().GetNumberOfArrays())}

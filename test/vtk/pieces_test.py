@@ -32,6 +32,11 @@ def ball(i, j, k):
     return np.minimum((i - 8) ** 2 + (j - 1) ** 2 + (k - 15) ** 2, 30000).astype(np.int16)
 
 
+def steps(i, j, k):
+    """Integers of few values."""
+    return np.round(6 * np.sin(0.35 * i) * np.cos(0.3 * j) + 4 * np.sin(0.33 * k)).astype(np.int16)
+
+
 def with_holes(i, j, k):
     """Some points have no value."""
     values = waves(i, j, k)
@@ -163,6 +168,68 @@ def test_source():
     expect_same("a source that gives any piece", source, whole, options(Isovalue=157))
 
 
+def test_blocks():
+    """Blocks that other processes have are null."""
+    blocks = vtk.vtkMultiBlockDataSet()
+    for n, extent in enumerate(pieces((2, 1, RANKS))):
+        blocks.SetBlock(n, image_of(waves, extent) if n // 2 == RANK else None)
+    expect_same("blocks", blocks, image_of(waves, WHOLE))
+
+
+def test_samples_at_the_isovalue():
+    """Integers have the isovalue at many points."""
+    for isovalue in (0, 3, 5):
+        expect_same(f"steps at {isovalue}", image_of(steps, pieces((1, 1, RANKS))[RANK]), image_of(steps, WHOLE),
+                    options(Isovalue=isovalue, Attributes="normal"))
+
+
+def test_parts_that_are_not_those_of_the_source():
+    """A simulation tells the whole extent, and has cut it in its own way."""
+    source = vtk.vtkTrivialProducer()
+    source.SetOutput(image_of(waves, pieces((RANKS, 1, 1) if RANKS < 4 else (2, 2, 1))[RANKS - 1 - RANK]))
+    source.SetWholeExtent(WHOLE)
+    expect_same("parts of a simulation", source, image_of(waves, WHOLE), options(Degree=5))
+
+
+def test_update_without_a_piece():
+    """Every process makes its piece, also if nobody says so."""
+    source = vtk.vtkTrivialProducer()
+    source.SetOutput(image_of(ball, WHOLE))
+    source.SetWholeExtent(WHOLE)
+    surface_filter = vtkEquiaffineSurface()
+    surface_filter.SetInputConnection(source.GetOutputPort())
+    surface_filter.SetIsovalue(20)
+    surface_filter.Update()
+    assert surface_filter.GetOutput().GetFieldData().GetArray("vertices").GetValue(0) == 352
+
+
+def expect_errors(image, **properties):
+    """Expects one sentence and an empty surface in every process."""
+    messages = []
+    surface_filter = vtkEquiaffineSurface()
+    surface_filter.AddObserver("ErrorEvent", lambda *_: messages.append(1))
+    options(**properties)(surface_filter)
+    surface_filter.SetInputData(image)
+    surface_filter.UpdatePiece(RANK, RANKS, 0)
+    assert len(messages) == 1 and surface_filter.GetOutput().GetNumberOfPoints() == 0
+
+
+def test_processes_that_differ():
+    if RANKS == 1:
+        return
+    extent = pieces((1, 1, RANKS))[RANK]
+    expect_errors(image_of(waves, extent), Degree=5 if RANK else 7)
+    expect_errors(image_of(waves, extent), Attributes="all" if RANK else "normal")
+    expect_errors(image_of(waves if RANK else ball, extent))
+    moved = image_of(waves, extent)
+    moved.SetOrigin(0.1, 0.2, -3 + RANK)
+    expect_errors(moved)
+    short = image_of(waves, extent)
+    if RANK == 0:
+        short.GetPointData().GetScalars().SetNumberOfTuples(100)
+    expect_errors(short)
+
+
 def test_empty_processes():
     """All but two processes have nothing, and one of these has no surface."""
     parts = pieces((1, 1, min(RANKS, 2)))
@@ -175,24 +242,19 @@ def test_failure_of_one():
     image = image_of(waves, pieces((1, 1, RANKS))[RANK])
     if RANK == RANKS - 1:
         image.GetPointData().Initialize()
-    messages = []
-    surface_filter = vtkEquiaffineSurface()
-    surface_filter.AddObserver("ErrorEvent", lambda *_: messages.append(1))
-    surface_filter.SetInputData(image)
-    surface_filter.UpdatePiece(RANK, RANKS, 0)
-    assert len(messages) == 1 and surface_filter.GetOutput().GetNumberOfPoints() == 0
+    expect_errors(image)
 
 
 def test_thin_pieces():
-    """Only pieces beside each other exchange points. Where these are too few the sentence says so."""
-    parts = cuts(10, 18, RANKS)
+    """Only pieces beside each other exchange points. Where a piece needs those beyond, the sentence says so."""
+    parts = cuts(10, 26, RANKS)
     thin = image_of(waves, WHOLE[:4] + parts[RANK])
     messages = []
     surface_filter = vtkEquiaffineSurface()
     surface_filter.AddObserver("ErrorEvent", lambda *_: messages.append(1))
     surface_filter.SetInputData(thin)
     surface_filter.UpdatePiece(RANK, RANKS, 0)
-    assert len(messages) == (RANKS > 1) and (surface_filter.GetOutput().GetNumberOfPoints() > 0) == (RANKS == 1)
+    assert len(messages) == (RANKS > 2) and (surface_filter.GetOutput().GetNumberOfPoints() > 0) == (RANKS <= 2)
 
 
 def main():
@@ -200,7 +262,12 @@ def main():
     test_partitions()
     test_source()
     test_empty_processes()
+    test_blocks()
+    test_samples_at_the_isovalue()
+    test_parts_that_are_not_those_of_the_source()
+    test_update_without_a_piece()
     test_failure_of_one()
+    test_processes_that_differ()
     test_thin_pieces()
 
 

@@ -31,6 +31,7 @@ public:
   };
   std::vector<Scalar> scalars() const;
 
+  bool has_status() const { return selection_.has_status; }                   ///< whether it was selected
   std::span<const unsigned char> status() const { return status_.numbers(); } ///< empty if it was not selected
 
   /// Gives the arrays to VTK. Normals become the active ones.

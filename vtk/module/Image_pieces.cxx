@@ -5,16 +5,20 @@
 #include <equiaffine/marching_cubes_in_slabs.h>
 #include <equiaffine/volume/cells_to_know.h>
 
+#include <vtkCellData.h>
+#include <vtkCompositeDataIterator.h>
+#include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkExtentTranslator.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
-#include <vtkPartitionedDataSet.h>
+#include <vtkPointData.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -28,6 +32,12 @@ namespace {
 
 using Extent = std::array<int, 6>;
 
+bool contains_extent(const Extent& e, const Extent& other) {
+  for (std::size_t a = 0; a < 3; ++a)
+    if (other[2 * a] < e[2 * a] || e[2 * a + 1] < other[2 * a + 1]) return false;
+  return true;
+}
+
 bool is_empty(const Extent& e) { return e[0] >= e[1] || e[2] >= e[3] || e[4] >= e[5]; }
 
 Extent extent_of(vtkImageData* image) {
@@ -40,7 +50,7 @@ Extent extent_of(vtkImageData* image) {
 Extent own_extent(vtkImageData* image) {
   const Extent extent = extent_of(image);
   vtkUnsignedCharArray* const ghosts = image->GetCellGhostArray();
-  if (!ghosts) return extent;
+  if (!ghosts || is_empty(extent)) return extent;
   constexpr int most = std::numeric_limits<int>::max();
   Extent own = {most, -most, most, -most, most, -most};
   vtkIdType cell = 0;
@@ -58,6 +68,8 @@ std::vector<double> frame_of(vtkImageData* image) {
   std::vector<double> frame(image->GetOrigin(), image->GetOrigin() + 3);
   frame.insert(frame.end(), image->GetSpacing(), image->GetSpacing() + 3);
   frame.insert(frame.end(), image->GetDirectionMatrix()->GetData(), image->GetDirectionMatrix()->GetData() + 9);
+  vtkDataArray* const samples = image->GetPointData()->GetScalars();
+  frame.insert(frame.end(), {double(samples->GetDataType()), double(samples->GetNumberOfComponents())});
   return frame;
 }
 
@@ -141,86 +153,136 @@ bool lacks_samples(const Image_pieces& pieces, const Piece_request& request) {
   });
 }
 
-/// Whether a piece of this process has less cells than that along an axis that is cut.
-bool has_thin_piece(const Image_pieces& pieces, int levels) {
-  return std::any_of(pieces.pieces.begin(), pieces.pieces.end(), [&](const Image_piece& piece) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      const std::size_t cells = piece.cells.end[a] - piece.cells.first[a];
-      if (cells < std::size_t(levels) && cells + 1 < pieces.lattice->size()[a]) return true;
-    }
-    return false;
-  });
+/// The least number of cells of an image along an axis that is cut: no image gives more levels to its neighbors.
+double least_thickness(const Image_pieces& pieces) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Image_piece& piece : pieces.pieces) {
+    const Cell_block cells = cells_between(own_extent(piece.image), pieces.first);
+    for (std::size_t a = 0; a < 3; ++a)
+      if (const std::size_t n = cells.end[a] - cells.first[a]; n + 1 < pieces.lattice->size()[a])
+        least = std::min(least, double(n));
+  }
+  return least;
+}
+
+/// The same image with the array of samples and the marks of cells of other pieces only.
+vtkSmartPointer<vtkImageData> with_samples_only(vtkImageData* image, int component, const Find_array& find) {
+  vtkDataArray* const array = find(image);
+  require(array, "the image has no such point array of numbers; choose one of its point arrays");
+  const std::string name = array->GetName() ? " '" + std::string(array->GetName()) + "'" : "";
+  require(array->GetNumberOfTuples() == image->GetNumberOfPoints(),
+          "the array" + name +
+              " has no number for each point of the image; choose a point array, or convert cell data "
+              "to point data");
+  const int components = array->GetNumberOfComponents();
+  require(component < components, "the array" + name + " has " + std::to_string(components) +
+                                      (components == 1 ? " component" : " components") + ", of which number " +
+                                      std::to_string(component) + " is none; they count from 0");
+  const auto samples = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+  samples->ShallowCopy(array);
+  samples->SetName("samples");
+  vtkNew<vtkImageData> result;
+  result->CopyStructure(image);
+  result->GetPointData()->SetScalars(samples);
+  if (vtkUnsignedCharArray* const ghosts = image->GetCellGhostArray()) {
+    require(ghosts->GetNumberOfTuples() == image->GetNumberOfCells(),
+            "the array vtkGhostType has no mark for each cell of the image; remove it or repair it");
+    result->GetCellData()->AddArray(ghosts);
+  }
+  return result;
 }
 
 } // namespace
 
-std::vector<vtkSmartPointer<vtkImageData>> images_of(vtkDataObject* input) {
+std::vector<vtkSmartPointer<vtkImageData>> images_of(vtkDataObject* input, int component, const Find_array& find) {
   std::vector<vtkSmartPointer<vtkImageData>> images;
   const auto add = [&](vtkDataObject* object) {
     auto* const image = vtkImageData::SafeDownCast(object);
     require(image || !object, "a part of the input is no image; resample it to one");
-    if (image && image->GetNumberOfPoints() > 0) images.emplace_back(image);
+    if (image && image->GetNumberOfPoints() > 0) images.push_back(with_samples_only(image, component, find));
   };
-  if (auto* const parts = vtkPartitionedDataSet::SafeDownCast(input))
-    for (unsigned n = 0; n < parts->GetNumberOfPartitions(); ++n) add(parts->GetPartitionAsDataObject(n));
-  else add(input);
+  if (auto* const parts = vtkCompositeDataSet::SafeDownCast(input)) {
+    const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(parts->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+      add(iterator->GetCurrentDataObject());
+  } else {
+    add(input);
+  }
   return images;
 }
 
 Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, const std::array<int, 6>& whole_extent,
                           const Piece_request& request, const Ranks& ranks, vtkMultiProcessController* controller) {
-  Range frames(15), extents(6), told(6);
-  for (const auto& image : images) {
-    frames.add(frame_of(image));
-    const Extent own = own_extent(image);
-    extents.add({own.begin(), own.end()});
-  }
-  told.add({whole_extent.begin(), whole_extent.end()});
+  Range frames(17), extents(6), told(6);
+  std::int64_t other_parts = 0; // whether this process has another part than a source would give it
+  together(ranks, [&] {
+    const Extent of_piece =
+        is_empty(whole_extent) ? Extent{0, -1, 0, -1, 0, -1} : extent_of_piece(whole_extent, request);
+    for (const auto& image : images) {
+      for (const double x : frame_of(image))
+        require(std::isfinite(x), "the origin, the spacing or the direction of the image is not finite; correct it");
+      frames.add(frame_of(image));
+      const Extent own = own_extent(image);
+      extents.add({own.begin(), own.end()});
+      other_parts += !is_empty(of_piece) && !contains_extent(extent_of(image), of_piece);
+    }
+    other_parts += images.empty() && !is_empty(of_piece);
+    told.add({whole_extent.begin(), whole_extent.end()});
+  });
   for (Range* const range : {&frames, &extents, &told}) range->reduce(ranks);
+  ranks.sum(std::span(&other_parts, 1));
   Image_pieces result;
   if (extents.least[0] > extents.greatest[1]) return result;
 
   // A source that gives any part of an image tells the same whole extent everywhere. Else it is that of all images.
   const bool is_told = told.least == told.greatest && !is_empty(whole_extent);
+  const bool is_given_by_source = is_told && other_parts == 0;
   Extent whole = whole_extent;
   for (std::size_t a = 0; a < 3 && !is_told; ++a) {
     whole[2 * a] = int(extents.least[2 * a]);
     whole[2 * a + 1] = int(extents.greatest[2 * a + 1]);
   }
-  std::int64_t missing = 0;
+  std::int64_t missing = 0, lacks = 0;
   together(ranks, [&] {
-    require(frames.least == frames.greatest,
-            "the pieces of the image differ in origin, spacing or direction; give pieces of one image");
+    require(frames.least == frames.greatest, "the pieces of the image differ in origin, spacing, direction or type of "
+                                             "numbers; give pieces of one image");
     result.lattice = lattice_of(frames.least, whole, request.spline);
     result.first = {whole[0], whole[2], whole[4]};
-    const Extent of_piece = extent_of_piece(whole, request);
+    const std::int64_t cells = number_of(equiaffine::cells_of(result.lattice->size()));
+    const bool makes_all_pieces = request.pieces != ranks.count(); // one after the other
     for (const auto& image : images) {
-      const Extent own = is_told ? of_piece : own_extent(image);
-      if (!is_empty(own)) result.pieces.push_back({image, cells_between(own, result.first)});
+      const Extent own = is_given_by_source ? extent_of_piece(whole, request) : own_extent(image);
+      if (is_empty(own)) continue;
+      const Cell_block block = cells_between(own, result.first);
+      const bool knows_all = makes_all_pieces && is_given_by_source;
+      result.pieces.push_back({image, block, knows_all ? cells_of(result, image) : block});
+      missing -= knows_all ? 0 : number_of(block);
     }
-    if (request.pieces == ranks.count() || !is_told)
-      for (const Image_piece& piece : result.pieces) missing -= number_of(piece.cells);
-    else missing -= ranks.number() == 0 ? number_of(equiaffine::cells_of(result.lattice->size())) : 0;
-    if (ranks.number() == 0) missing += number_of(equiaffine::cells_of(result.lattice->size()));
+    if (makes_all_pieces && is_given_by_source) missing = 0;
+    else missing += ranks.number() == 0 ? cells : 0;
+    lacks = lacks_samples(result, request);
   });
-  const int levels = needed_ghost_levels(request.spline) + request.ghost_levels;
-  std::array<std::int64_t, 3> sums = {missing, lacks_samples(result, request), has_thin_piece(result, levels)};
+  std::array<std::int64_t, 2> sums = {missing, lacks};
   ranks.sum(sums);
   together(ranks, [&] {
     require(sums[0] == 0, "the pieces of the image overlap or leave cells out; give each cell to one piece");
-    require(sums[1] == 0 || sums[2] == 0, // only neighbors exchange points
-            "a piece of the image has fewer cells along an axis than the " + std::to_string(levels) +
-                " ghost levels that its neighbors need; use fewer pieces, or a smaller degree");
   });
-  if (sums[1] == 0) return result;
-  std::vector<vtkSmartPointer<vtkImageData>> exchanged;
-  for (const Image_piece& piece : result.pieces) exchanged.push_back(piece.image);
-  exchange_ghost_levels(exchanged, levels, controller);
-  for (std::size_t n = 0; n < exchanged.size(); ++n) result.pieces[n].image = exchanged[n];
-  together(ranks, [&] {
-    require(!lacks_samples(result, request), "a piece of the image needs " + std::to_string(levels) +
-                                                 " ghost levels, which its neighbors do not have; use fewer pieces");
-  });
+  if (sums[1] > 0) {
+    const int levels = needed_ghost_levels(request.spline) + request.ghost_levels;
+    std::array<double, 1> thickness = {least_thickness(result)};
+    ranks.least(thickness);
+    std::vector<vtkSmartPointer<vtkImageData>> exchanged;
+    for (const Image_piece& piece : result.pieces) exchanged.push_back(piece.image);
+    exchange_ghost_levels(exchanged, int(std::min(double(levels), thickness[0])), controller);
+    for (std::size_t n = 0; n < exchanged.size(); ++n) result.pieces[n].image = exchanged[n];
+    together(ranks, [&] {
+      require(!lacks_samples(result, request), "a piece of the image needs " + std::to_string(levels) +
+                                                   " ghost levels, and the pieces beside it have fewer; use fewer "
+                                                   "pieces, less smoothing or a smaller degree");
+    });
+  }
+  if (!is_given_by_source && request.pieces != ranks.count() && request.piece > 0)
+    result.pieces.clear(); // the first has all
   return result;
 }
 
@@ -228,8 +290,8 @@ Cell_block cells_of(const Image_pieces& pieces, vtkImageData* image) {
   return cells_between(extent_of(image), pieces.first);
 }
 
-Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& piece, vtkDataArray* array,
-                              int component) {
+Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& piece, int component) {
+  vtkDataArray* const array = piece.image->GetPointData()->GetScalars();
   vtkSmartPointer<vtkDataArray> samples = array;
   if (!array->HasStandardMemoryLayout()) {
     samples.TakeReference(vtkDataArray::CreateDataArray(array->GetDataType()));
@@ -256,11 +318,10 @@ Cell_block needed_cells(const Cell_block& block, const Lattice_3<Kernel>& lattic
 
 int needed_ghost_levels(const Spline_parameters& spline) {
   if (spline.scheme == Spline_scheme::INTERPOLATION) return 0;
-  constexpr std::size_t far = 12; // beyond this the border of the lattice makes no difference without smoothing
-  const std::size_t reach = far + 4 * std::size_t(spline.smoothing + 1), n = 4 * reach;
+  const std::size_t n = 64 + 16 * std::size_t(spline.smoothing + 1); // room for both borders and what is between
   const Lattice_3<Kernel> lattice({n, n, n}, CGAL::Bbox_3(0, 0, 0, 1, 1, 1));
   std::size_t levels = 0;
-  for (std::size_t c = 0; c < 2 * reach; ++c) {
+  for (const std::size_t c : {std::size_t(0), n / 2}) { // the cell at the border looks farthest inwards
     const Cell_block needed = needed_cells({{c, c, c}, {c + 1, c + 1, c + 1}}, lattice, spline);
     levels = std::max({levels, c - needed.first[0], needed.end[0] - c - 1});
   }

@@ -30,7 +30,8 @@ using Kernel = CGAL::Simple_cartesian<double>;
 /// A piece of an image. Cells are those of the lattice of the whole image.
 struct Image_piece {
   vtkSmartPointer<vtkImageData> image;
-  Cell_block cells; ///< belong to this piece and to no other one
+  Cell_block cells;    ///< belong to this piece and to no other one
+  Cell_block surveyed; ///< the cells that this process knows of all that a spline asks about: these, or all
 };
 
 /// The pieces that this process has, and the whole image.
@@ -40,15 +41,19 @@ struct Image_pieces {
   std::vector<Image_piece> pieces;
 };
 
-/// What is wanted of the image.
+/// What is wanted of the image. Pieces are those of the processes, or all are made by one, one after the other.
 struct Piece_request {
   int piece = 0, pieces = 1; ///< which part of a source that gives any part of an image
   int ghost_levels = 0;      ///< wanted beside the cells of a piece
   Spline_parameters spline;
 };
 
-/// The images of an input, and the whole extent that a source has told, if there is one.
-std::vector<vtkSmartPointer<vtkImageData>> images_of(vtkDataObject* input);
+/// Finds the array of an image that is the function, and null if there is none.
+using Find_array = std::function<vtkDataArray*(vtkImageData*)>;
+
+/// The images of an input that are not empty, each with the array that is found, as its scalars, and with nothing else but
+/// marks of the cells of other pieces.
+std::vector<vtkSmartPointer<vtkImageData>> images_of(vtkDataObject* input, int component, const Find_array& find);
 
 /// Finds out, with the other processes, which cells are whose, and has them exchange the ghost levels that are missing.
 /// \throw Failure if the images are no pieces of one image on which there is a spline
@@ -58,8 +63,8 @@ Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, con
 /// The cells of the lattice with samples in an image.
 Cell_block cells_of(const Image_pieces& pieces, vtkImageData* image);
 
-/// The samples of a piece: a component of an array, which is copied if its numbers do not lie one after the other.
-Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& piece, vtkDataArray* array, int component);
+/// The samples of a piece: a component of its scalars, which are copied if their numbers do not lie one after the other.
+Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& piece, int component);
 
 /// So many ghost levels a piece of an image needs, wherever it is.
 int needed_ghost_levels(const Spline_parameters& spline);

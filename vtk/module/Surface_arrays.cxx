@@ -131,7 +131,7 @@ std::int64_t Surface_arrays::add_statistics(const Ranks& ranks, vtkFieldData& da
   const std::span<const std::int64_t> all(counts);
   add_counts(data, "vertices", all.first(1));
   add_counts(data, "triangles", all.subspan(1, 1));
-  add_counts(data, "status_counts", all.subspan(2));
+  if (attributes_.has_status()) add_counts(data, "status_counts", all.subspan(2));
   for (std::size_t s = 0; s < scalars.size(); ++s) {
     const bool exists = least[s] <= greatest[s];
     const double nan = std::numeric_limits<double>::quiet_NaN();

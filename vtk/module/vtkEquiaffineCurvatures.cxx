@@ -19,7 +19,9 @@
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkVersionMacros.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -104,7 +106,10 @@ void add_columns(const Structures& structures, const Attribute_selection& select
   arrays.add(attributes, all);
   arrays.move_to(data);
   for (const auto& row : error_table<double>) {
-    if (!with_errors) break;
+    const bool is_selected = std::any_of(selection.columns.begin(), selection.columns.end(), [&](const Attribute& a) {
+      return attribute_table<double>[a.row].name == row.attribute;
+    });
+    if (!with_errors || !is_selected) continue;
     const vtkNew<vtkDoubleArray> errors;
     errors->SetName((std::string(row.attribute) + "_error").c_str());
     for (const auto& s : structures) errors->InsertNextValue(row.get(s.error));
@@ -140,7 +145,7 @@ int vtkEquiaffineCurvatures::RequestData(vtkInformation*, vtkInformationVector**
     if (input->GetNumberOfPoints() == 0) return 1;
     const Progress_observer observer([&](const Progress_observer::Stage& stage) {
       if (stage.total > 0) this->UpdateProgress(double(stage.done) / double(stage.total));
-      if (this->GetAbortExecute()) throw Aborted();
+      if (this->IsAborted()) throw Aborted();
     });
     const auto parameters = parameters::scale(this->Scale < 0 ? std::nullopt : std::optional(this->Scale))
                                 .degree(this->Degree == 0 ? std::nullopt : std::optional(this->Degree))
@@ -159,4 +164,12 @@ int vtkEquiaffineCurvatures::RequestData(vtkInformation*, vtkInformationVector**
     vtkErrorMacro(<< error.what());
   }
   return 1; // after an error, too: 0 would make the pipeline print more than the sentence
+}
+
+bool vtkEquiaffineCurvatures::IsAborted() {
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
+  return this->CheckAbort();
+#else
+  return this->GetAbortExecute() != 0;
+#endif
 }

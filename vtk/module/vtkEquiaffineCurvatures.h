@@ -20,7 +20,7 @@
  * | array | type | components | meaning |
  * |---|---|---|---|
  * | one array per attribute | double | 1, 3 or 6 | NaN where the quantity does not exist; see SetAttributes() |
- * | NAME`_error` | double | 1 | the estimated error of an attribute, infinity if nothing is known; angles in degrees |
+ * | NAME`_error` | double | 1 | the estimated error of a selected attribute, infinity if nothing is known; angles in degrees |
  * | `status` | unsigned char | 1 | 0 regular, 1 parabolic, 2 singular, 3 outside: no fit |
  *
  * In several processes each fits the points of its piece, so that numbers beside the edge of a piece have larger errors.
@@ -86,6 +86,8 @@ protected:
   bool FlipNormals = false;
 
 private:
+  bool IsAborted();
+
   vtkEquiaffineCurvatures(const vtkEquiaffineCurvatures&) = delete;
   void operator=(const vtkEquiaffineCurvatures&) = delete;
 };

@@ -9,6 +9,7 @@
 #include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/attributes.h>
 #include <equiaffine/marching_cubes_in_slabs.h>
+#include <equiaffine/volume/cells_to_know.h>
 
 #include <CGAL/tags.h>
 
@@ -21,7 +22,6 @@
 #include <vtkInformationVector.h>
 #include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
-#include <vtkPartitionedDataSet.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
@@ -31,6 +31,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -58,9 +59,6 @@ struct Task {
 /// The functions of the pieces of this process. All processes add up what they know of the whole image.
 std::vector<Traits> functions_of(const std::vector<Volume_view_3<equiaffine::Kernel>>& views,
                                  const Image_pieces& pieces, const Task& task, const Ranks& ranks) {
-  const auto cells_of_survey = [&](const Image_piece& piece) {
-    return task.request.pieces == ranks.count() ? piece.cells : cells_of(pieces, piece.image); // else it has the image
-  };
   std::optional<Volume_survey> survey; // of all pieces
   const auto reduce = [&](Volume_survey own) {
     ranks.check("");
@@ -74,14 +72,14 @@ std::vector<Traits> functions_of(const std::vector<Volume_view_3<equiaffine::Ker
         Volume_survey own;
         for (std::size_t n = 0; n < views.size(); ++n)
           Traits(views[n], task.request.spline,
-                 Volume_part{cells_of_survey(pieces.pieces[n]), [&](Volume_survey& s) { own.add(s); }}, Tag());
+                 Volume_part{pieces.pieces[n].surveyed, [&](Volume_survey& s) { own.add(s); }}, Tag());
         reduce(own);
       } else if (views.empty()) {
         reduce({});
       }
       for (std::size_t n = 0; n < views.size(); ++n)
         functions.emplace_back(views[n], task.request.spline,
-                               Volume_part{cells_of_survey(pieces.pieces[n]),
+                               Volume_part{pieces.pieces[n].surveyed,
                                            [&](Volume_survey& s) {
                                              if (!survey) reduce(s);
                                              s = *survey;
@@ -97,32 +95,29 @@ std::vector<Traits> functions_of(const std::vector<Volume_view_3<equiaffine::Ker
   return functions;
 }
 
-/// The arrays of the pieces of an image, as find(image, association) finds them.
-template <class Find>
-std::vector<vtkDataArray*> arrays_of(const Image_pieces& pieces, int component, const Find& find) {
-  std::vector<vtkDataArray*> arrays;
-  for (const Image_piece& piece : pieces.pieces) {
-    int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-    vtkDataArray* const array = find(piece.image, association);
-    const std::string name = array && array->GetName() ? " '" + std::string(array->GetName()) + "'" : "";
-    require(array, "the image has no such point array of numbers; choose one of its point arrays");
-    require(association == vtkDataObject::FIELD_ASSOCIATION_POINTS &&
-                array->GetNumberOfTuples() == piece.image->GetNumberOfPoints(),
-            "the array" + name +
-                " has no number for each point of the image; choose a point array, or convert "
-                "cell data to point data");
-    require(component < array->GetNumberOfComponents(),
-            "the array" + name + " has " + std::to_string(array->GetNumberOfComponents()) +
-                (array->GetNumberOfComponents() == 1 ? " component" : " components") + ", of which number " +
-                std::to_string(component) + " is none; they count from 0");
-    arrays.push_back(array);
-  }
-  return arrays;
+/// Throws unless the properties of the filter are the same in all processes.
+void check_that_properties_agree(const Task& task, int component, const Ranks& ranks) {
+  std::string names;
+  for (const Attribute& attribute : task.selection.columns) names.append(attribute.name).append(",");
+  std::array<double, 9> least = {double(task.request.spline.degree),
+                                 double(task.request.spline.scheme),
+                                 task.request.spline.smoothing,
+                                 task.isovalue,
+                                 double(task.orientation),
+                                 double(task.position),
+                                 double(component),
+                                 double(task.request.ghost_levels),
+                                 double(std::hash<std::string>()(names))},
+                        greatest = least;
+  ranks.least(least);
+  ranks.greatest(greatest);
+  ranks.check(least == greatest ? ""
+                                : "the properties of the filter differ between processes; set the same everywhere");
 }
 
 /// Throws if there is no number at all, so that the surface is empty whatever the isovalue is.
 void check_that_there_are_numbers(const std::vector<Volume_view_3<equiaffine::Kernel>>& views, const Ranks& ranks) {
-  std::array<std::int64_t, 1> rows = {0}; // those with a number
+  std::array<std::int64_t, 2> rows = {0, std::int64_t(views.size())}; // those with a number, and pieces
   for (const auto& view : views) {
     const auto& [first, end] = view.cells();
     std::vector<double> row(end[0] + 1 - first[0]);
@@ -133,7 +128,30 @@ void check_that_there_are_numbers(const std::vector<Volume_view_3<equiaffine::Ke
       }
   }
   ranks.sum(rows);
-  ranks.check(rows[0] == 0 ? "no point of the image has a finite number; choose another array" : "");
+  ranks.check(rows[0] == 0 && rows[1] > 0 ? "no point of the image has a finite number; choose another array" : "");
+}
+
+/// The cells around a block where the function is known, some of them at least.
+Cell_block known_cells(const Cell_block& block, const Image_piece& piece, const Image_pieces& pieces,
+                       const Spline_parameters& spline) {
+  const Cell_block all = cells_of(pieces.lattice->size()), have = cells_of(pieces, piece.image);
+  if (have == all) return all;
+  Cell_block known = widened(block, cells_around_block, all);
+  for (std::size_t margin = 2 * cells_around_block;; margin *= 2) {
+    const Cell_block more = widened(block, margin, all);
+    if (more == known || clamped(cells_to_know(more, pieces.lattice->size(), spline), have) !=
+                             cells_to_know(more, pieces.lattice->size(), spline))
+      return known;
+    known = more;
+  }
+}
+
+/// So many layers of a block are made at once that little is made twice, with whole tiles of the lattice, and that a
+/// quarter of the block is in memory twice.
+std::size_t layers_of_slab(const Cell_block& block) {
+  constexpr std::size_t tile = 32, around = 2 * cells_around_block;
+  const std::size_t layers = block.end[2] - block.first[2];
+  return tile * std::max<std::size_t>(1, (layers / 4 + around) / tile) - around;
 }
 
 /// Meshes the pieces, and calls advance(part) with the part of the work that is done, from 0 to 1.
@@ -146,6 +164,7 @@ void mesh_pieces(const std::vector<Traits>& functions, const Image_pieces& piece
     const Level_set_traits_3<Traits> function(functions[n], task.isovalue, task.orientation);
     const Cell_block all = cells_of(lattice.size()), own = pieces.pieces[n].cells,
                      block = widened(own, std::size_t(task.request.ghost_levels), all);
+    const Cell_block known = known_cells(block, pieces.pieces[n], pieces, task.request.spline);
     arrays.begin_piece();
     marching_cubes_in_slabs<Tag>(
         function,
@@ -159,8 +178,8 @@ void mesh_pieces(const std::vector<Traits>& functions, const Image_pieces& piece
           advance(done);
         },
         parameters::cell_block(block)
-            .planes_per_slab(32)
-            .known_cells(widened(block, cells_around_block, all))
+            .planes_per_slab(layers_of_slab(block))
+            .known_cells(known)
             .vertex_position(task.position));
   }
 }
@@ -197,7 +216,7 @@ void vtkEquiaffineSurface::PrintSelf(ostream& os, vtkIndent indent) {
 int vtkEquiaffineSurface::FillInputPortInformation(int, vtkInformation* info) {
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet"); // else its parts come one by one
   return 1;
 }
 
@@ -223,7 +242,15 @@ int vtkEquiaffineSurface::RequestUpdateExtent(vtkInformation*, vtkInformationVec
   vtkInformation* const input = inputs[0]->GetInformationObject(0);
   vtkInformation* const output = outputs->GetInformationObject(0);
   const int ghosts = output->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS());
-  if (output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == Ranks(this->Controller).count()) {
+  const Ranks ranks(this->Controller);
+  const int pieces = std::max(1, output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()));
+  if (pieces == 1 && ranks.count() > 1) { // nothing was said of pieces
+    input->Set(Pipeline::UPDATE_PIECE_NUMBER(), ranks.number());
+    input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), ranks.count());
+  }
+  if (ranks.count() == 1 && pieces == 1) {
+    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  } else if (pieces == 1 || pieces == ranks.count()) {
     const bool is_degree = this->Degree == 5 || this->Degree == 7 || this->Degree == 9; // else RequestData() says so
     input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), ghosts + (is_degree ? this->GetNumberOfGhostLevels() : 0));
   } else {
@@ -242,8 +269,10 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
   vtkPolyData* const output = vtkPolyData::GetData(info);
   const Ranks ranks(this->Controller);
   try {
-    Task task = {{.piece = info->Get(Pipeline::UPDATE_PIECE_NUMBER()),
-                  .pieces = std::max(1, info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES())),
+    const int pieces_wanted = std::max(1, info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()));
+    const bool is_of_process = pieces_wanted == 1; // every process makes its piece, also if nothing was said
+    Task task = {{.piece = is_of_process ? ranks.number() : info->Get(Pipeline::UPDATE_PIECE_NUMBER()),
+                  .pieces = is_of_process ? ranks.count() : pieces_wanted,
                   .ghost_levels = info->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()),
                   .spline = this->GetSpline()},
                  this->Isovalue,
@@ -257,29 +286,32 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
     std::array<int, 6> whole_extent = {0, -1, 0, -1, 0, -1};
     together(ranks, [&] {
       require(std::isfinite(this->Isovalue), "the isovalue is not finite; choose a number");
-      task.selection = select_attributes(this->Attributes ? this->Attributes : "none");
-      static_cast<void>(needed_ghost_levels(task.request.spline)); // checks the degree
+      const bool has_attributes = this->Attributes && *this->Attributes != '\0';
+      task.selection = select_attributes(has_attributes ? this->Attributes : "none");
+      require(this->Degree == 5 || this->Degree == 7 || this->Degree == 9,
+              "the degree of a spline is not 5, 7 or 9: choose one of these");
       require(task.request.spline.scheme != Spline_scheme::INTERPOLATION || ranks.count() == 1,
               "spline interpolation needs the whole image in one process; choose quasi-interpolation");
-      images = images_of(data);
+      images = images_of(data, this->ArrayComponent, [this](vtkImageData* image) -> vtkDataArray* {
+        const char* const name = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
+        if (name && *name == '\0') return image->GetPointData()->GetScalars(); // as a script that names none
+        int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+        vtkDataArray* const array = this->GetInputArrayToProcess(0, image, association);
+        return association == vtkDataObject::FIELD_ASSOCIATION_POINTS ? array : nullptr;
+      });
       if (vtkImageData::SafeDownCast(data) && input->Has(Pipeline::WHOLE_EXTENT()))
         input->Get(Pipeline::WHOLE_EXTENT(), whole_extent.data());
     });
+    check_that_properties_agree(task, this->ArrayComponent, ranks);
     const Image_pieces pieces = image_pieces(images, whole_extent, task.request, ranks, this->Controller);
     if (!pieces.lattice) return 1;
     if (pieces.pieces.size() > 1) task.request.ghost_levels = 0;
     std::vector<Volume_view_3<equiaffine::Kernel>> views;
     std::vector<Cell_block> own;
     together(ranks, [&] {
-      const std::vector<vtkDataArray*> arrays =
-          arrays_of(pieces, this->ArrayComponent, [this](vtkImageData* image, int& association) {
-            const char* const name = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
-            if (name && *name == '\0') return image->GetPointData()->GetScalars(); // as a script that names none
-            return this->GetInputArrayToProcess(0, image, association);
-          });
-      for (std::size_t n = 0; n < arrays.size(); ++n) {
-        views.push_back(view_of(pieces, pieces.pieces[n], arrays[n], this->ArrayComponent));
-        own.push_back(pieces.pieces[n].cells);
+      for (const Image_piece& piece : pieces.pieces) {
+        views.push_back(view_of(pieces, piece, this->ArrayComponent));
+        own.push_back(piece.cells);
       }
     });
     const std::vector<Traits> functions = functions_of(views, pieces, task, ranks);
@@ -306,6 +338,9 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
     if (surface.add_statistics(ranks, *output->GetFieldData()) == 0) check_that_there_are_numbers(views, ranks);
     together(ranks, [&] { surface.move_to(*output); });
   } catch (const Failure& error) {
+    output->Initialize();
+    vtkErrorMacro(<< error.what());
+  } catch (const std::exception& error) { // not in all processes
     output->Initialize();
     vtkErrorMacro(<< error.what());
   }

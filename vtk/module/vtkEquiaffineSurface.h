@@ -18,8 +18,8 @@ struct Spline_parameters;
  * @class vtkEquiaffineSurface
  * @brief extracts an isosurface of an image, with its Euclidean and equi-affine structure
  *
- * The surface is that of the spline through the samples of a vtkImageData, or of the images of a vtkPartitionedDataSet,
- * which are pieces of one image. Its topology is that of the trilinear interpolant; its points lie on the level set of the
+ * The surface is that of the spline through the samples of a vtkImageData, or of the images of a composite data set such as
+ * a vtkPartitionedDataSet, which are pieces of one image. Its topology is that of the trilinear interpolant; its points lie on the level set of the
  * spline, whose derivatives up to order four give the structure there. An image has one of the numeric types of VTK, any
  * direction matrix, left-handed ones included, and any extent. NaN marks a point without a value, at which the surface
  * ends.
@@ -46,7 +46,12 @@ struct Spline_parameters;
  *
  * In several processes every one meshes its piece, and all pieces together are the mesh of the whole image, bit for bit,
  * as are the field data. The filter asks upstream for the ghost levels that it needs (GetNumberOfGhostLevels()), and gets
- * them from the other processes if the source has none. Every process must update it.
+ * them from the pieces beside if the source has none. It must execute in all processes, with the same properties. One
+ * process may make the pieces one after the other: it then asks for the whole image, and field data are of a piece. Pieces
+ * may differ where the image has the isovalue at more than four points in a row and is less around them: such parts without
+ * area are dropped if they are known whole, and else have triangles of less than 1e-6 of the spacing.
+ *
+ * Hidden points count as others. The status_counts are there with the status.
  *
  * An error is reported in one sentence, and leaves an empty output.
  */
@@ -71,7 +76,7 @@ public:
   enum { QUASI_INTERPOLATION = 0, CONVOLUTION = 1, INTERPOLATION = 2 };
   ///@{
   /**
-   * How samples become a spline: QUASI_INTERPOLATION by default. CONVOLUTION smooths, and needs two or three ghost levels
+   * How samples become a spline: QUASI_INTERPOLATION by default. CONVOLUTION smooths, and needs up to three ghost levels
    * less. INTERPOLATION needs the whole image in one process.
    */
   vtkSetClampMacro(Scheme, int, 0, 2);
@@ -83,7 +88,7 @@ public:
 
   ///@{
   /** The scale in points by which samples are smoothed first, which scans need; 0, the default, and up to 1: not. */
-  vtkSetClampMacro(Smoothing, double, 0, 1000);
+  vtkSetClampMacro(Smoothing, double, 0, 100);
   vtkGetMacro(Smoothing, double);
   ///@}
 
