@@ -146,12 +146,11 @@ Cell_block known_cells(const Cell_block& block, const Image_piece& piece, const 
   }
 }
 
-/// So many layers of a block are made at once that little is made twice, with whole tiles of the lattice, and that a
-/// quarter of the block is in memory twice.
+/// So many layers of a block are made at once that a quarter of its surface is in memory twice. Fewer would take longer, as
+/// some layers around them are made again.
 std::size_t layers_of_slab(const Cell_block& block) {
-  constexpr std::size_t tile = 32, around = 2 * cells_around_block;
-  const std::size_t layers = block.end[2] - block.first[2];
-  return tile * std::max<std::size_t>(1, (layers / 4 + around) / tile) - around;
+  constexpr std::size_t least = 32;
+  return std::max(least, (block.end[2] - block.first[2] + 3) / 4);
 }
 
 /// Meshes the pieces, and calls advance(part) with the part of the work that is done, from 0 to 1.
