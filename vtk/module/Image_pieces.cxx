@@ -219,9 +219,10 @@ Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, con
     const Extent of_piece =
         is_empty(whole_extent) ? Extent{0, -1, 0, -1, 0, -1} : extent_of_piece(whole_extent, request);
     for (const auto& image : images) {
-      for (const double x : frame_of(image))
+      const std::vector<double> frame = frame_of(image);
+      for (const double x : frame)
         require(std::isfinite(x), "the origin, the spacing or the direction of the image is not finite; correct it");
-      frames.add(frame_of(image));
+      frames.add(frame);
       const Extent own = own_extent(image);
       extents.add({own.begin(), own.end()});
       other_parts += !is_empty(of_piece) && !contains_extent(extent_of(image), of_piece);
@@ -249,17 +250,16 @@ Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, con
     result.lattice = lattice_of(frames.least, whole, request.spline);
     result.first = {whole[0], whole[2], whole[4]};
     const std::int64_t cells = number_of(equiaffine::cells_of(result.lattice->size()));
-    const bool makes_all_pieces = request.pieces != ranks.count(); // one after the other
+    // One process that makes all pieces one after the other has the whole image.
+    const bool knows_all = is_given_by_source && request.pieces != ranks.count();
     for (const auto& image : images) {
       const Extent own = is_given_by_source ? extent_of_piece(whole, request) : own_extent(image);
       if (is_empty(own)) continue;
       const Cell_block block = cells_between(own, result.first);
-      const bool knows_all = makes_all_pieces && is_given_by_source;
       result.pieces.push_back({image, block, knows_all ? cells_of(result, image) : block});
-      missing -= knows_all ? 0 : number_of(block);
+      if (!knows_all) missing -= number_of(block);
     }
-    if (makes_all_pieces && is_given_by_source) missing = 0;
-    else missing += ranks.number() == 0 ? cells : 0;
+    if (!knows_all && ranks.number() == 0) missing += cells;
     lacks = lacks_samples(result, request);
   });
   std::array<std::int64_t, 2> sums = {missing, lacks};

@@ -2,6 +2,7 @@
 #include "vtkEquiaffineCurvatures.h"
 
 #include "Attribute_arrays.h"
+#include "is_aborted.h"
 #include <equiaffine/Progress_observer.h>
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/attributes/internal/shared/error_table.h>
@@ -19,7 +20,6 @@
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkVersionMacros.h>
 
 #include <algorithm>
 #include <array>
@@ -145,7 +145,7 @@ int vtkEquiaffineCurvatures::RequestData(vtkInformation*, vtkInformationVector**
     if (input->GetNumberOfPoints() == 0) return 1;
     const Progress_observer observer([&](const Progress_observer::Stage& stage) {
       if (stage.total > 0) this->UpdateProgress(double(stage.done) / double(stage.total));
-      if (this->IsAborted()) throw Aborted();
+      if (is_aborted(*this)) throw Aborted();
     });
     const auto parameters = parameters::scale(this->Scale < 0 ? std::nullopt : std::optional(this->Scale))
                                 .degree(this->Degree == 0 ? std::nullopt : std::optional(this->Degree))
@@ -164,12 +164,4 @@ int vtkEquiaffineCurvatures::RequestData(vtkInformation*, vtkInformationVector**
     vtkErrorMacro(<< error.what());
   }
   return 1; // after an error, too: 0 would make the pipeline print more than the sentence
-}
-
-bool vtkEquiaffineCurvatures::IsAborted() {
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
-  return this->CheckAbort();
-#else
-  return this->GetAbortExecute() != 0;
-#endif
 }

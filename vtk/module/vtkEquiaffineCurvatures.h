@@ -86,8 +86,6 @@ protected:
   bool FlipNormals = false;
 
 private:
-  bool IsAborted();
-
   vtkEquiaffineCurvatures(const vtkEquiaffineCurvatures&) = delete;
   void operator=(const vtkEquiaffineCurvatures&) = delete;
 };

@@ -4,6 +4,7 @@
 #include "Image_pieces.h"
 #include "Ranks.h"
 #include "Surface_arrays.h"
+#include "is_aborted.h"
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/Progress_observer.h>
 #include <equiaffine/Sampled_function_traits_3.h>
@@ -13,7 +14,6 @@
 
 #include <CGAL/tags.h>
 
-#include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -25,7 +25,6 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
-#include <vtkVersionMacros.h>
 
 #include <algorithm>
 #include <array>
@@ -139,9 +138,8 @@ Cell_block known_cells(const Cell_block& block, const Image_piece& piece, const 
   Cell_block known = widened(block, cells_around_block, all);
   for (std::size_t margin = 2 * cells_around_block;; margin *= 2) {
     const Cell_block more = widened(block, margin, all);
-    if (more == known || clamped(cells_to_know(more, pieces.lattice->size(), spline), have) !=
-                             cells_to_know(more, pieces.lattice->size(), spline))
-      return known;
+    const Cell_block needed = cells_to_know(more, pieces.lattice->size(), spline);
+    if (more == known || clamped(needed, have) != needed) return known;
     known = more;
   }
 }
@@ -158,7 +156,6 @@ template <class Advance>
 void mesh_pieces(const std::vector<Traits>& functions, const Image_pieces& pieces, const Task& task,
                  Surface_arrays& arrays, const Advance& advance) {
   const Lattice_3<equiaffine::Kernel>& lattice = *pieces.lattice;
-  double done = 0;
   for (std::size_t n = 0; n < functions.size(); ++n) {
     const Level_set_traits_3<Traits> function(functions[n], task.isovalue, task.orientation);
     const Cell_block all = cells_of(lattice.size()), own = pieces.pieces[n].cells,
@@ -172,9 +169,8 @@ void mesh_pieces(const std::vector<Traits>& functions, const Image_pieces& piece
                      [&](std::span<const equiaffine::Kernel::Point_3> points, std::span<const Point_status> status) {
                        return compute_attributes<Tag>(function, points, task.selection, status);
                      });
-          done = (double(n) + double(slab.end_plane - block.first[2]) / double(block.end[2] - block.first[2])) /
-                 double(functions.size());
-          advance(done);
+          const double of_piece = double(slab.end_plane - block.first[2]) / double(block.end[2] - block.first[2]);
+          advance((double(n) + of_piece) / double(functions.size()));
         },
         parameters::cell_block(block)
             .planes_per_slab(layers_of_slab(block))
@@ -316,10 +312,10 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
     const std::vector<Traits> functions = functions_of(views, pieces, task, ranks);
     Surface_arrays surface(task.selection, own, pieces.lattice->size(), task.request.pieces > 1 || ranks.count() > 1,
                            task.request.ghost_levels > 0);
-    bool is_aborted = false;
+    bool is_stopped = false;
     together(ranks, [&] {
       const auto stop_if_wanted = [&] {
-        if (this->IsAborted()) throw Aborted();
+        if (is_aborted(*this)) throw Aborted();
       };
       const Progress_observer observer([&](const Progress_observer::Stage&) { stop_if_wanted(); });
       try {
@@ -328,12 +324,12 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
           stop_if_wanted();
         });
       } catch (const Aborted&) {
-        is_aborted = true;
+        is_stopped = true;
       }
     });
-    std::array<std::int64_t, 1> aborted = {is_aborted};
-    ranks.sum(aborted);
-    if (aborted[0] > 0) return 1;
+    std::array<std::int64_t, 1> stopped = {is_stopped};
+    ranks.sum(stopped);
+    if (stopped[0] > 0) return 1;
     if (surface.add_statistics(ranks, *output->GetFieldData()) == 0) check_that_there_are_numbers(views, ranks);
     together(ranks, [&] { surface.move_to(*output); });
   } catch (const Failure& error) {
@@ -344,12 +340,4 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
     vtkErrorMacro(<< error.what());
   }
   return 1; // after an error, too: 0 would make the pipeline print more than the sentence
-}
-
-bool vtkEquiaffineSurface::IsAborted() {
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
-  return this->CheckAbort();
-#else
-  return this->GetAbortExecute() != 0;
-#endif
 }

@@ -154,8 +154,6 @@ private:
 #ifndef __VTK_WRAP__
   equiaffine::Spline_parameters GetSpline() const;
 #endif
-  bool IsAborted();
-
   vtkEquiaffineSurface(const vtkEquiaffineSurface&) = delete;
   void operator=(const vtkEquiaffineSurface&) = delete;
 };

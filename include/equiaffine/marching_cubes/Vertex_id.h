@@ -19,7 +19,7 @@ using Vertex_id = std::uint64_t;
 inline constexpr Vertex_id ids_per_node = 256;
 
 /// The cell that begins at the node of an id, or the last one before that node at an end of a lattice with so many nodes.
-/// A vertex belongs to this cell, and a triangle belongs to that of its least id.
+/// A triangle belongs to the cell of its least id, and a vertex to that of the least id in its triangles.
 inline std::array<std::size_t, 3> cell_of(Vertex_id id, const std::array<std::size_t, 3>& nodes) {
   const auto node = std::size_t(id / ids_per_node), row = node / nodes[0];
   return {std::min(node % nodes[0], nodes[0] - 2), std::min(row % nodes[1], nodes[1] - 2),
