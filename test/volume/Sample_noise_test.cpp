@@ -127,6 +127,21 @@ TEST(Sample_noise, noise_is_smoothed_away_though_that_moves_the_surface) {
   EXPECT_GE(choose_smoothing(volume, estimate_noise(volume, 0.), 7, scheme, {0.}), 6);
 }
 
+TEST(Sample_noise, a_scale_whose_windows_reach_beyond_a_mask_is_not_chosen) {
+  Volume volume = sample(64, 0.01);
+  const double smoothing_of_all = choose_smoothing(volume, estimate_noise(volume, 0.), 7, scheme, {0.});
+  EXPECT_GE(smoothing_of_all, 5);
+  for (double& value : volume.values)
+    if (value > 2) value = std::numeric_limits<double>::quiet_NaN(); // some 10 nodes from the surface
+  const double smoothing = choose_smoothing(volume, estimate_noise(volume, 0.), 7, scheme, {0.});
+  EXPECT_LT(smoothing, smoothing_of_all);
+  const Spline_function_3<Kernel> spline(volume, {.smoothing = smoothing});
+  for (const double x : {-1., 1.}) EXPECT_TRUE(std::isfinite(spline.value(Kernel::Point_3(x, 0, 0))));
+  for (double& value : volume.values)
+    if (std::abs(value) > 0.05) value = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(choose_smoothing(volume, Sample_noise{0.01, 0}, 7, scheme, {0.}), 0) << "there is no spline at all";
+}
+
 TEST(Sample_noise, nodes_beside_the_level_set_are_those_with_a_neighbor_on_the_other_side) {
   const Lattice_3<Kernel> lattice({131, 17, 18}, CGAL::Bbox_3(-1.25, -1.1, -1, 1.25, 1.1, 1));
   Volume volume = sample_volume(lattice, ellipsoid, 0.3);
@@ -135,20 +150,39 @@ TEST(Sample_noise, nodes_beside_the_level_set_are_those_with_a_neighbor_on_the_o
   for (std::size_t n = 0; n < volume.values.size(); n += 89) volume.values[n] = std::numeric_limits<double>::infinity();
   const double level = 0.1;
   const auto is_below = [&](std::size_t i, std::size_t j, std::size_t k) { return volume(i, j, k) < level; };
-  for (const std::size_t margin : {std::size_t(0), std::size_t(1), std::size_t(6)})
-    for (const std::size_t most : {std::size_t(50), std::size_t(1000000)}) {
-      std::vector<std::array<std::size_t, 3>> nodes, chosen;
-      for (std::size_t k = margin; k + margin < 18; ++k)
-        for (std::size_t j = margin; j + margin < 17; ++j)
-          for (std::size_t i = margin; i + margin < 131; ++i)
-            if (std::isfinite(volume(i, j, k)) && ((i + 1 < 131 && is_below(i + 1, j, k) != is_below(i, j, k)) ||
-                                                   (j + 1 < 17 && is_below(i, j + 1, k) != is_below(i, j, k)) ||
-                                                   (k + 1 < 18 && is_below(i, j, k + 1) != is_below(i, j, k))))
-              nodes.push_back({i, j, k});
-      const std::size_t step = nodes.size() / most + 1;
-      for (std::size_t n = step / 2; n < nodes.size(); n += step) chosen.push_back(nodes[n]);
-      const auto view = Volume_view_3<Kernel>::of(volume);
-      EXPECT_EQ(internal::nodes_to_measure<CGAL::Parallel_if_available_tag>(view, std::optional(level), margin, most),
-                chosen);
+  for (const std::size_t margin : {std::size_t(1), std::size_t(6)}) {
+    std::vector<std::array<std::size_t, 3>> nodes;
+    for (std::size_t k = margin; k + margin < 18; ++k)
+      for (std::size_t j = margin; j + margin < 17; ++j)
+        for (std::size_t i = margin; i + margin < 131; ++i)
+          if (std::isfinite(volume(i, j, k)) &&
+              (is_below(i + 1, j, k) != is_below(i, j, k) || is_below(i, j + 1, k) != is_below(i, j, k) ||
+               is_below(i, j, k + 1) != is_below(i, j, k)))
+            nodes.push_back({i, j, k});
+    const auto whole = Volume_parts_3<Kernel>::of(Volume_view_3<Kernel>::of(volume));
+    const auto chosen = [&](const Volume_parts_3<Kernel>& parts, std::size_t most) {
+      std::vector<std::array<std::size_t, 3>> all;
+      for (const auto& part :
+           internal::nodes_to_measure<CGAL::Parallel_if_available_tag>(parts, std::optional(level), margin, most))
+        all.insert(all.end(), part.begin(), part.end());
+      return all;
+    };
+    EXPECT_EQ(chosen(whole, 1000000), nodes);
+    // A tenth is chosen at random, the same nodes whatever the cuts.
+    auto some = chosen(whole, nodes.size() / 10);
+    EXPECT_NEAR(double(some.size()), double(nodes.size()) / 10, 3 * std::sqrt(double(nodes.size()) / 10));
+    EXPECT_TRUE(std::includes(nodes.begin(), nodes.end(), some.begin(), some.end(), [](const auto& p, const auto& q) {
+      return std::array{p[2], p[1], p[0]} < std::array{q[2], q[1], q[0]};
+    }));
+    Volume_parts_3<Kernel> parts{lattice, {}};
+    const auto view = Volume_view_3<Kernel>::of(volume);
+    for (const auto& [first, end] : {std::array<std::size_t, 2>{0, 3}, {3, 64}, {64, 130}}) {
+      parts.parts.push_back({view, {{first, 0, 0}, {end, 5, 17}}});
+      parts.parts.push_back({view, {{first, 5, 0}, {end, 16, 17}}});
     }
+    auto of_parts = chosen(parts, nodes.size() / 10);
+    std::sort(some.begin(), some.end());
+    std::sort(of_parts.begin(), of_parts.end());
+    EXPECT_EQ(of_parts, some);
+  }
 }

@@ -3,6 +3,7 @@
 #include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/attributes.h>
 #include <equiaffine/marching_cubes_in_slabs.h>
+#include <equiaffine/volume/Sample_noise.h>
 
 #include <CGAL/Simple_cartesian.h>
 
@@ -10,16 +11,20 @@
 
 #include <algorithm>
 #include <array>
+#include <barrier>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <random>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -36,17 +41,17 @@ struct Samples {
   Lattice_3<Kernel> lattice;
   std::vector<float> values;
 
-  explicit Samples(const std::array<std::size_t, 3>& size)
+  explicit Samples(const std::array<std::size_t, 3>& size, double deviation = 1e-3)
       : lattice(size, Point_3(0.1, -0.2, 0.3),
                 {Vector_3(0.1, 0.02, 0), Vector_3(0, -0.11, 0.01), Vector_3(0, 0, 0.09)}) {
     std::mt19937 random(3);
-    std::normal_distribution<double> noise(0, 1e-3);
+    std::normal_distribution<double> noise(0, 1);
     for (std::size_t k = 0; k < size[2]; ++k)
       for (std::size_t j = 0; j < size[1]; ++j)
         for (std::size_t i = 0; i < size[0]; ++i) {
           const Point_3 p = lattice.point(double(i), double(j), double(k));
           values.push_back(
-              float(std::sin(2.3 * p.x()) + std::cos(2.1 * p.y()) * std::sin(1.9 * p.z()) + noise(random)));
+              float(std::sin(2.3 * p.x()) + std::cos(2.1 * p.y()) * std::sin(1.9 * p.z()) + deviation * noise(random)));
         }
   }
 
@@ -191,4 +196,76 @@ TEST(Parts_of_volumes, have_values_where_all_samples_are_known_and_only_there) {
   EXPECT_THROW(samples.part({{0, 0, 0}, {1, 1, nodes[2]}}), std::invalid_argument);
 }
 
+/// Calls work(machine, gather) on so many machines at once, which are threads, where gather() waits for all of them.
+template <class Work>
+void on_machines(std::size_t count, const Work& work) {
+  std::vector<std::vector<double>> told(count);
+  std::barrier barrier(std::ptrdiff_t(count), [] {});
+  std::vector<std::thread> machines;
+  for (std::size_t n = 0; n < count; ++n)
+    machines.emplace_back([&, n] {
+      work(n, [&, n](std::vector<double> own) {
+        told[n] = std::move(own);
+        barrier.arrive_and_wait();
+        std::vector<double> all;
+        for (const std::vector<double>& numbers : told) all.insert(all.end(), numbers.begin(), numbers.end());
+        barrier.arrive_and_wait(); // nobody tells anything new before all have read
+        return all;
+      });
+    });
+  for (std::thread& machine : machines) machine.join();
+}
+
 } // namespace
+
+TEST(Parts_of_volumes, find_the_noise_and_the_smoothing_of_the_whole_one) {
+  constexpr std::array<std::size_t, 3> size = {70, 67, 75};
+  const std::vector<Cell_block> blocks = blocks_of(size, {{{0, 33, 69}, {0, 66}, {0, 1, 40, 74}}});
+  struct Case {
+    double deviation;
+    std::optional<double> isovalue;
+    Spline_scheme scheme;
+    bool has_integers = false; // and nodes without a value
+  };
+  for (const auto& [deviation, isovalue, scheme, has_integers] :
+       {Case{0, 0.2, Spline_scheme::CONVOLUTION},
+        {1e-4, 77., Spline_scheme::QUASI_INTERPOLATION}, // is nowhere
+        {0.03, 0.2, Spline_scheme::QUASI_INTERPOLATION},
+        {0.03, 20., Spline_scheme::QUASI_INTERPOLATION, true}}) {
+    Samples samples(size, deviation);
+    for (std::size_t n = 0; has_integers && n < samples.values.size(); ++n)
+      samples.values[n] =
+          n % 200003 == 100000 ? std::numeric_limits<float>::quiet_NaN() : std::round(100 * samples.values[n]);
+    const Sample_noise noise = estimate_noise(samples.whole(), isovalue);
+    const double smoothing = choose_smoothing(samples.whole(), noise, 7, scheme, isovalue);
+    EXPECT_EQ(smoothing > 1, deviation > 0);
+    constexpr std::size_t machines = 4; // of which the last one has no part
+    std::array<Sample_noise, machines> noises;
+    std::array<double, machines> smoothings;
+    on_machines(machines, [&, isovalue = isovalue, scheme = scheme](std::size_t machine, const auto& gather) {
+      Volume_parts_3<Kernel> volume{samples.lattice, {}, gather};
+      const Spline_parameters greatest = {.scheme = scheme, .smoothing = greatest_scale_to_choose};
+      for (std::size_t n = machine; machine < machines - 1 && n < blocks.size(); n += machines - 1)
+        volume.parts.push_back({samples.part(cells_to_know(blocks[n], size, greatest)), blocks[n]});
+      noises[machine] = estimate_noise(volume, isovalue);
+      smoothings[machine] = choose_smoothing(volume, noises[machine], 7, scheme, isovalue);
+    });
+    for (std::size_t machine = 0; machine < machines; ++machine) {
+      EXPECT_EQ(noises[machine].deviation, noise.deviation);
+      EXPECT_EQ(noises[machine].quantum, noise.quantum);
+      EXPECT_EQ(smoothings[machine], smoothing);
+    }
+  }
+}
+
+TEST(Parts_of_volumes, must_know_the_samples_with_which_noise_is_measured) {
+  constexpr std::array<std::size_t, 3> size = {70, 67, 75};
+  const Samples samples(size);
+  const Cell_block cells = {{20, 0, 0}, {69, 66, 74}};
+  const auto parts = [&](std::size_t margin) {
+    return Volume_parts_3<Kernel>{samples.lattice, {{samples.part(widened(cells, margin, cells_of(size))), cells}}};
+  };
+  EXPECT_THROW(estimate_noise(parts(5)), std::invalid_argument);
+  const Sample_noise noise = estimate_noise(parts(6));
+  EXPECT_THROW(choose_smoothing(parts(6), noise, 7, Spline_scheme::INTERPOLATION), std::invalid_argument);
+}

@@ -66,6 +66,49 @@ class Surface(unittest.TestCase):
         self.assertEqual(field.GetArray("triangles").GetValue(0), mesh.GetNumberOfPolys())
         self.assertAlmostEqual(field.GetArray("affine_gaussian_curvature_range").GetComponent(0, 1), curvature ** 2)
 
+    def test_smoothing_is_chosen_so_that_a_mask_does_not_take_the_surface_away(self):
+        image = ellipsoid(60)
+        k, j, i = np.mgrid[:60, :60, :60] - 29.5
+        values = np.sqrt(i ** 2 + j ** 2 + k ** 2) - 12 + np.random.default_rng(1).normal(0, 0.1, (60, 60, 60))
+        values[values > 20] = np.nan
+        set_scalars(image, values)
+        mesh = surface(image, AutomaticSmoothing=True, Attributes="normal")
+        self.assertGreater(mesh.GetFieldData().GetArray("smoothing").GetValue(0), 1)
+        self.assertGreater(mesh.GetNumberOfPoints(), 2000)
+
+    def test_pieces_that_are_made_one_after_the_other_are_smoothed_alike(self):
+        whole = ellipsoid(48)
+        set_scalars(whole, vtk_to_numpy(whole.GetPointData().GetScalars()) + np.random.default_rng(1).normal(0, 9, 48 ** 3))
+        parts = vtk.vtkPartitionedDataSet()
+        parts.SetPartition(0, whole)
+        scales = []
+        for data in (whole, parts):
+            for piece in range(2):
+                surface_filter = vtkEquiaffineSurface()
+                surface_filter.SetInputDataObject(data)
+                surface_filter.SetAutomaticSmoothing(True)
+                surface_filter.UpdatePiece(piece, 2, 0)
+                scales.append(surface_filter.GetOutput().GetFieldData().GetArray("smoothing").GetValue(0))
+        self.assertGreater(scales[0], 1)
+        self.assertEqual(scales, [scales[0]] * 4)
+
+    def test_smoothing_is_chosen_from_the_noise(self):
+        image = ellipsoid(64)
+        k, j, i = np.mgrid[:64, :64, :64]
+        waves = image.NewInstance()
+        waves.CopyStructure(image)
+        set_scalars(waves, np.sin(0.4 * i) + np.sin(0.5 * j) + np.sin(0.6 * k))
+        smooth = surface(waves, AutomaticSmoothing=True, Attributes="none")
+        self.assertEqual(smooth.GetFieldData().GetArray("smoothing").GetValue(0), 0)
+        random = np.random.default_rng(1)
+        set_scalars(image, vtk_to_numpy(image.GetPointData().GetScalars()) + random.normal(0, 3, 64 ** 3))
+        chosen = surface(image, AutomaticSmoothing=True)
+        scale = chosen.GetFieldData().GetArray("smoothing").GetValue(0)
+        self.assertGreaterEqual(scale, 1.5)
+        same = surface(image, Smoothing=scale)
+        np.testing.assert_array_equal(points(chosen), points(same))
+        np.testing.assert_array_equal(array(chosen, "pick_invariant"), array(same, "pick_invariant"))
+
     def test_triangles_are_turned_to_the_side_of_normals_on_grids_of_both_hands(self):
         for matrix in ((1, 0, 0, 0, 1, 0, 0, 0, 1), (-1, 0, 0, 0, 1, 0, 0, 0, 1), (0, 1, 0, 0.6, 0, 0.8, -0.8, 0, 0.6)):
             for against in (False, True):

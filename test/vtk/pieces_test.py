@@ -191,6 +191,40 @@ def test_parts_that_are_not_those_of_the_source():
     expect_same("parts of a simulation", source, image_of(waves, WHOLE), options(Degree=5))
 
 
+def noisy(i, j, k):
+    """Waves with much noise."""
+    noise = ((i * 7919 + j * 104729 + k * 1299709) % 1009) / 1009 - 0.5
+    return (np.sin(0.12 * i) + np.cos(0.11 * j) * np.sin(0.1 * k) + 0.05 * noise).astype(np.float32)
+
+
+def test_automatic_smoothing():
+    """All processes together choose the scale that one chooses."""
+    source = vtk.vtkTrivialProducer()  # which gives as many ghost levels as are wanted
+    source.SetOutput(image_of(noisy, WHOLE))
+    source.SetWholeExtent(WHOLE)
+    prepare = options(AutomaticSmoothing=True, Degree=5, Attributes="affine_mean_curvature")
+    expect_same("automatic smoothing", source, image_of(noisy, WHOLE), prepare)
+    chosen = smoothing_of(surface(source, prepare, CONTROLLER))
+    assert chosen >= 1.5, chosen
+    if RANKS <= 2:  # others are too thin
+        expect_same("automatic smoothing of images", image_of(noisy, pieces((1, 1, RANKS))[RANK]), image_of(noisy, WHOLE),
+                    prepare)
+    if RANKS == 2:
+        empty = vtk.vtkImageData()
+        expect_same("automatic smoothing beside an empty process", empty if RANK else image_of(noisy, WHOLE),
+                    image_of(noisy, WHOLE), prepare)
+    for piece in range(2 * RANK, 2 * RANK + 2):  # more pieces than processes
+        surface_filter = vtkEquiaffineSurface()
+        prepare(surface_filter)
+        surface_filter.SetInputConnection(source.GetOutputPort())
+        surface_filter.UpdatePiece(piece, 2 * RANKS, 0)
+        assert smoothing_of(surface_filter.GetOutput()) == chosen
+
+
+def smoothing_of(mesh):
+    return mesh.GetFieldData().GetArray("smoothing").GetValue(0)
+
+
 def test_update_without_a_piece():
     """Every process makes its piece, also if nobody says so."""
     source = vtk.vtkTrivialProducer()
@@ -214,11 +248,24 @@ def expect_errors(image, **properties):
     assert len(messages) == 1 and surface_filter.GetOutput().GetNumberOfPoints() == 0
 
 
+def test_more_pieces_than_processes():
+    """An image in memory is one piece of its process. More are asked for in vain."""
+    if RANKS == 1:
+        return
+    messages = []
+    surface_filter = vtkEquiaffineSurface()
+    surface_filter.AddObserver("ErrorEvent", lambda *_: messages.append(1))
+    surface_filter.SetInputData(image_of(waves, pieces((1, 1, RANKS))[RANK]))
+    surface_filter.UpdatePiece(2 * RANK, 2 * RANKS, 0)
+    assert len(messages) == 1 and surface_filter.GetOutput().GetNumberOfPoints() == 0
+
+
 def test_processes_that_differ():
     if RANKS == 1:
         return
     extent = pieces((1, 1, RANKS))[RANK]
     expect_errors(image_of(waves, extent), Degree=5 if RANK else 7)
+    expect_errors(image_of(waves, extent), AutomaticSmoothing=RANK > 0)
     expect_errors(image_of(waves, extent), Attributes="all" if RANK else "normal")
     expect_errors(image_of(waves if RANK else ball, extent))
     moved = image_of(waves, extent)
@@ -265,8 +312,10 @@ def main():
     test_blocks()
     test_samples_at_the_isovalue()
     test_parts_that_are_not_those_of_the_source()
+    test_automatic_smoothing()
     test_update_without_a_piece()
     test_failure_of_one()
+    test_more_pieces_than_processes()
     test_processes_that_differ()
     test_thin_pieces()
 

@@ -251,15 +251,18 @@ Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, con
     result.first = {whole[0], whole[2], whole[4]};
     const std::int64_t cells = number_of(equiaffine::cells_of(result.lattice->size()));
     // One process that makes all pieces one after the other has the whole image.
-    const bool knows_all = is_given_by_source && request.pieces != ranks.count();
+    result.are_whole = is_given_by_source && request.pieces != ranks.count();
+    require(
+        is_given_by_source || ranks.count() == 1 || request.pieces == ranks.count(),
+        "a process has one piece of images in memory, and not several; ask for as many pieces as there are processes");
     for (const auto& image : images) {
       const Extent own = is_given_by_source ? extent_of_piece(whole, request) : own_extent(image);
       if (is_empty(own)) continue;
       const Cell_block block = cells_between(own, result.first);
-      result.pieces.push_back({image, block, knows_all ? cells_of(result, image) : block});
-      if (!knows_all) missing -= number_of(block);
+      result.pieces.push_back({image, block, result.are_whole ? cells_of(result, image) : block});
+      if (!result.are_whole) missing -= number_of(block);
     }
-    if (!knows_all && ranks.number() == 0) missing += cells;
+    if (!result.are_whole && ranks.number() == 0) missing += cells;
     lacks = lacks_samples(result, request);
   });
   std::array<std::int64_t, 2> sums = {missing, lacks};
@@ -276,13 +279,13 @@ Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, con
     exchange_ghost_levels(exchanged, int(std::min(double(levels), thickness[0])), controller);
     for (std::size_t n = 0; n < exchanged.size(); ++n) result.pieces[n].image = exchanged[n];
     together(ranks, [&] {
-      require(!lacks_samples(result, request), "a piece of the image needs " + std::to_string(levels) +
-                                                   " ghost levels, and the pieces beside it have fewer; use fewer "
-                                                   "pieces, less smoothing or a smaller degree");
+      require(!lacks_samples(result, request),
+              "a piece of the image needs " + std::to_string(levels) +
+                  " ghost levels, and the pieces beside it have fewer; use fewer pieces, " +
+                  (request.chooses_smoothing ? "or set the smoothing" : "less smoothing or a smaller degree"));
     });
   }
-  if (!is_given_by_source && request.pieces != ranks.count() && request.piece > 0)
-    result.pieces.clear(); // the first has all
+  result.are_wanted = is_given_by_source || request.pieces == ranks.count() || request.piece == 0;
   return result;
 }
 
@@ -290,7 +293,8 @@ Cell_block cells_of(const Image_pieces& pieces, vtkImageData* image) {
   return cells_between(extent_of(image), pieces.first);
 }
 
-Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& piece, int component) {
+Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& piece, int component,
+                              const Cell_block& cells) {
   vtkDataArray* const array = piece.image->GetPointData()->GetScalars();
   vtkSmartPointer<vtkDataArray> samples = array;
   if (!array->HasStandardMemoryLayout()) {
@@ -301,9 +305,13 @@ Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& pie
   const Extent extent = extent_of(piece.image);
   const auto step = std::ptrdiff_t(samples->GetDataTypeSize()) * samples->GetNumberOfComponents(),
              row = step * (extent[1] - extent[0] + 1), slab = row * (extent[3] - extent[2] + 1);
-  const Cell_block cells = cells_of(pieces, piece.image);
-  const auto view = [&](const auto* first) {
-    return Volume_view_3<Kernel>::part(*pieces.lattice, cells, first + component, {step, row, slab}, owner);
+  const Cell_block have = cells_of(pieces, piece.image);
+  vtkIdType first = component; // the place of the first number
+  for (std::size_t a = 0; a < 3; ++a)
+    first += vtkIdType(cells.first[a] - have.first[a]) *
+             vtkIdType(std::array{step, row, slab}[a] / samples->GetDataTypeSize());
+  const auto view = [&](const auto* numbers) {
+    return Volume_view_3<Kernel>::part(*pieces.lattice, cells, numbers + first, {step, row, slab}, owner);
   };
   void* const memory = samples->GetVoidPointer(0);
   switch (samples->GetDataType()) { vtkTemplateMacro(return view(static_cast<const VTK_TT*>(memory))); }

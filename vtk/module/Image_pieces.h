@@ -39,13 +39,17 @@ struct Image_pieces {
   std::optional<Lattice_3<Kernel>> lattice; ///< nothing if all pieces of all processes are empty
   std::array<int, 3> first;                 ///< the indices in VTK's extents of the first node of the lattice
   std::vector<Image_piece> pieces;
+  bool are_whole = false; ///< whether every process has the whole image, and not some of its cells
+  /// Whether the surface of the pieces is wanted: one process that makes several pieces has all images in the first one.
+  bool are_wanted = true;
 };
 
 /// What is wanted of the image. Pieces are those of the processes, or all are made by one, one after the other.
 struct Piece_request {
   int piece = 0, pieces = 1; ///< which part of a source that gives any part of an image
   int ghost_levels = 0;      ///< wanted beside the cells of a piece
-  Spline_parameters spline;
+  Spline_parameters spline;  ///< with the greatest scale of smoothing that may be chosen, if it is chosen
+  bool chooses_smoothing = false;
 };
 
 /// Finds the array of an image that is the function, and null if there is none.
@@ -63,8 +67,10 @@ Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, con
 /// The cells of the lattice with samples in an image.
 Cell_block cells_of(const Image_pieces& pieces, vtkImageData* image);
 
-/// The samples of a piece: a component of its scalars, which are copied if their numbers do not lie one after the other.
-Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& piece, int component);
+/// The samples of a piece in some cells that its image has: a component of its scalars, which are copied if their numbers do
+/// not lie one after the other.
+Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& piece, int component,
+                              const Cell_block& cells);
 
 /// So many ghost levels a piece of an image needs, wherever it is.
 int needed_ghost_levels(const Spline_parameters& spline);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <vector>
 
 namespace equiaffine {
@@ -28,11 +29,12 @@ Ranks::Ranks(vtkMultiProcessController* controller)
   count_ = controller_->GetNumberOfProcesses();
 }
 
-void Ranks::check(const std::string& error) const {
-  std::array<std::int64_t, 1> failed = {error.empty() ? 0 : 1};
-  sum(failed);
+void Ranks::check(const std::string& error, bool is_stopped) const {
+  std::array<std::int64_t, 2> processes = {error.empty() ? 0 : 1, is_stopped ? 1 : 0}; // that failed, that are stopped
+  sum(processes);
   if (!error.empty()) throw Failure(error);
-  if (failed[0] > 0) throw Failure("another process has failed; its error says why");
+  if (processes[0] > 0) throw Failure("another process has failed; its error says why");
+  if (processes[1] > 0) throw Stopped_together();
 }
 
 void Ranks::sum(std::span<std::int64_t> numbers) const {
@@ -51,6 +53,19 @@ void Ranks::add(Volume_survey& survey) const {
   std::array<std::int64_t, 2> counts = {survey.border_votes, survey.are_floats ? 0 : 1};
   sum(counts);
   survey = {sizes[0], counts[1] == 0, counts[0]};
+}
+
+std::vector<double> Ranks::gather(const std::vector<double>& numbers) const {
+  const auto own = vtkIdType(numbers.size());
+  std::vector<vtkIdType> sizes(std::size_t(count_), own), offsets(std::size_t(count_), 0);
+  check("");
+  if (!controller_) return numbers;
+  controller_->AllGather(&own, sizes.data(), 1);
+  std::exclusive_scan(sizes.begin(), sizes.end(), offsets.begin(), vtkIdType(0));
+  std::vector<double> all;
+  together(*this, [&] { all.resize(std::size_t(offsets.back() + sizes.back())); });
+  controller_->AllGatherV(numbers.data(), all.data(), own, sizes.data(), offsets.data());
+  return all;
 }
 
 } // namespace equiaffine

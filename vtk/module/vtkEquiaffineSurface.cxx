@@ -10,6 +10,7 @@
 #include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/attributes.h>
 #include <equiaffine/marching_cubes_in_slabs.h>
+#include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/cells_to_know.h>
 
 #include <CGAL/tags.h>
@@ -17,10 +18,13 @@
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMultiProcessController.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -43,17 +47,40 @@ using namespace equiaffine;
 using Tag = CGAL::Parallel_if_available_tag;
 using Traits = Sampled_function_traits_3<equiaffine::Kernel>;
 
-/// Is thrown where the user ends the work.
-struct Aborted {};
-
 /// The properties of the filter that say what is computed.
 struct Task {
   Piece_request request;
+  Spline_parameters spline;
   double isovalue;
   Orientation_of_level_set orientation;
   Vertex_position position;
   Attribute_selection selection;
 };
+
+/// The scale of smoothing with the least estimated error. All processes tell each other what they measure.
+double chosen_smoothing(const std::vector<Volume_view_3<equiaffine::Kernel>>& views, const Image_pieces& pieces,
+                        const Task& task, const Ranks& ranks) {
+  double smoothing = 0;
+  together(ranks, [&] {
+    Volume_parts_3<equiaffine::Kernel> volume{
+        *pieces.lattice, {}, [&](const std::vector<double>& numbers) { return ranks.gather(numbers); }};
+    const bool is_measured_elsewhere = pieces.are_whole && ranks.number() > 0;
+    for (std::size_t n = 0; n < views.size() && !is_measured_elsewhere; ++n)
+      volume.parts.push_back({views[n], pieces.pieces[n].surveyed});
+    const Sample_noise noise = estimate_noise<Tag>(volume, task.isovalue);
+    smoothing = choose_smoothing<Tag>(volume, noise, task.spline.degree, task.spline.scheme, task.isovalue);
+  });
+  return smoothing;
+}
+
+/// The cells of a piece's image whose samples are used. Around a piece these are fewer than there are if the scale of
+/// smoothing that was chosen is not the greatest one.
+Cell_block used_cells(const Image_piece& piece, const Image_pieces& pieces, const Task& task) {
+  if (pieces.are_whole) return cells_of(pieces, piece.image);
+  const Cell_block all = cells_of(pieces.lattice->size()),
+                   block = widened(piece.cells, std::size_t(task.request.ghost_levels), all);
+  return clamped(needed_cells(block, *pieces.lattice, task.spline), cells_of(pieces, piece.image));
+}
 
 /// The functions of the pieces of this process. All processes add up what they know of the whole image.
 std::vector<Traits> functions_of(const std::vector<Volume_view_3<equiaffine::Kernel>>& views,
@@ -66,30 +93,23 @@ std::vector<Traits> functions_of(const std::vector<Volume_view_3<equiaffine::Ker
   };
   std::vector<Traits> functions;
   together(ranks, [&] {
-    try {
-      if (views.size() > 1) { // the pieces of this process are surveyed first
-        Volume_survey own;
-        for (std::size_t n = 0; n < views.size(); ++n)
-          Traits(views[n], task.request.spline,
-                 Volume_part{pieces.pieces[n].surveyed, [&](Volume_survey& s) { own.add(s); }}, Tag());
-        reduce(own);
-      } else if (views.empty()) {
-        reduce({});
-      }
+    if (views.size() > 1) { // the pieces of this process are surveyed first
+      Volume_survey own;
       for (std::size_t n = 0; n < views.size(); ++n)
-        functions.emplace_back(views[n], task.request.spline,
-                               Volume_part{pieces.pieces[n].surveyed,
-                                           [&](Volume_survey& s) {
-                                             if (!survey) reduce(s);
-                                             s = *survey;
-                                           }},
-                               Tag());
-    } catch (const Failure&) {
-      throw;
-    } catch (const std::exception& error) {
-      if (!survey) ranks.check(error.what()); // the others are waiting for the survey
-      throw;
+        Traits(views[n], task.spline, Volume_part{pieces.pieces[n].surveyed, [&](Volume_survey& s) { own.add(s); }},
+               Tag());
+      reduce(own);
+    } else if (views.empty()) {
+      reduce({});
     }
+    for (std::size_t n = 0; n < views.size(); ++n)
+      functions.emplace_back(views[n], task.spline,
+                             Volume_part{pieces.pieces[n].surveyed,
+                                         [&](Volume_survey& s) {
+                                           if (!survey) reduce(s);
+                                           s = *survey;
+                                         }},
+                             Tag());
   });
   return functions;
 }
@@ -98,16 +118,17 @@ std::vector<Traits> functions_of(const std::vector<Volume_view_3<equiaffine::Ker
 void check_that_properties_agree(const Task& task, int component, const Ranks& ranks) {
   std::string names;
   for (const Attribute& attribute : task.selection.columns) names.append(attribute.name).append(",");
-  std::array<double, 9> least = {double(task.request.spline.degree),
-                                 double(task.request.spline.scheme),
-                                 task.request.spline.smoothing,
-                                 task.isovalue,
-                                 double(task.orientation),
-                                 double(task.position),
-                                 double(component),
-                                 double(task.request.ghost_levels),
-                                 double(std::hash<std::string>()(names))},
-                        greatest = least;
+  std::array<double, 10> least = {double(task.request.spline.degree),
+                                  double(task.request.spline.scheme),
+                                  task.request.spline.smoothing,
+                                  double(task.request.chooses_smoothing),
+                                  task.isovalue,
+                                  double(task.orientation),
+                                  double(task.position),
+                                  double(component),
+                                  double(task.request.ghost_levels),
+                                  double(std::hash<std::string>()(names))},
+                         greatest = least;
   ranks.least(least);
   ranks.greatest(greatest);
   ranks.check(least == greatest ? ""
@@ -130,10 +151,11 @@ void check_that_there_are_numbers(const std::vector<Volume_view_3<equiaffine::Ke
   ranks.check(rows[0] == 0 && rows[1] > 0 ? "no point of the image has a finite number; choose another array" : "");
 }
 
-/// The cells around a block where the function is known, some of them at least.
-Cell_block known_cells(const Cell_block& block, const Image_piece& piece, const Image_pieces& pieces,
+/// The cells around a block where the function is known, some of them at least, if there are samples at the nodes of the
+/// cells `have`.
+Cell_block known_cells(const Cell_block& block, const Cell_block& have, const Image_pieces& pieces,
                        const Spline_parameters& spline) {
-  const Cell_block all = cells_of(pieces.lattice->size()), have = cells_of(pieces, piece.image);
+  const Cell_block all = cells_of(pieces.lattice->size());
   if (have == all) return all;
   Cell_block known = widened(block, cells_around_block, all);
   for (std::size_t margin = 2 * cells_around_block;; margin *= 2) {
@@ -153,14 +175,14 @@ std::size_t layers_of_slab(const Cell_block& block) {
 
 /// Meshes the pieces, and calls advance(part) with the part of the work that is done, from 0 to 1.
 template <class Advance>
-void mesh_pieces(const std::vector<Traits>& functions, const Image_pieces& pieces, const Task& task,
-                 Surface_arrays& arrays, const Advance& advance) {
+void mesh_pieces(const std::vector<Traits>& functions, const std::vector<Volume_view_3<equiaffine::Kernel>>& views,
+                 const Image_pieces& pieces, const Task& task, Surface_arrays& arrays, const Advance& advance) {
   const Lattice_3<equiaffine::Kernel>& lattice = *pieces.lattice;
   for (std::size_t n = 0; n < functions.size(); ++n) {
     const Level_set_traits_3<Traits> function(functions[n], task.isovalue, task.orientation);
     const Cell_block all = cells_of(lattice.size()), own = pieces.pieces[n].cells,
                      block = widened(own, std::size_t(task.request.ghost_levels), all);
-    const Cell_block known = known_cells(block, pieces.pieces[n], pieces, task.request.spline);
+    const Cell_block known = known_cells(block, views[n].cells(), pieces, task.spline);
     arrays.begin_piece();
     marching_cubes_in_slabs<Tag>(
         function,
@@ -201,6 +223,7 @@ void vtkEquiaffineSurface::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "Degree: " << this->Degree << '\n'
      << indent << "Scheme: " << this->Scheme << '\n'
      << indent << "Smoothing: " << this->Smoothing << '\n'
+     << indent << "AutomaticSmoothing: " << this->AutomaticSmoothing << '\n'
      << indent << "Attributes: " << (this->Attributes ? this->Attributes : "(none)") << '\n'
      << indent << "FlipNormals: " << this->FlipNormals << '\n'
      << indent << "ProjectVertices: " << this->ProjectVertices << '\n'
@@ -227,7 +250,9 @@ int vtkEquiaffineSurface::GetNumberOfGhostLevels() {
 equiaffine::Spline_parameters vtkEquiaffineSurface::GetSpline() const {
   constexpr std::array schemes = {Spline_scheme::QUASI_INTERPOLATION, Spline_scheme::CONVOLUTION,
                                   Spline_scheme::INTERPOLATION};
-  return {.degree = this->Degree, .scheme = schemes[std::size_t(this->Scheme)], .smoothing = this->Smoothing};
+  return {.degree = this->Degree,
+          .scheme = schemes[std::size_t(this->Scheme)],
+          .smoothing = this->AutomaticSmoothing ? greatest_scale_to_choose : this->Smoothing};
 }
 
 // A piece of an image is asked for with its ghost levels where every process has its piece, else the whole image.
@@ -269,7 +294,9 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
     Task task = {{.piece = is_of_process ? ranks.number() : info->Get(Pipeline::UPDATE_PIECE_NUMBER()),
                   .pieces = is_of_process ? ranks.count() : pieces_wanted,
                   .ghost_levels = info->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()),
-                  .spline = this->GetSpline()},
+                  .spline = this->GetSpline(),
+                  .chooses_smoothing = this->AutomaticSmoothing},
+                 this->GetSpline(),
                  this->Isovalue,
                  this->FlipNormals ? Orientation_of_level_set::AGAINST_GRADIENT
                                    : Orientation_of_level_set::ALONG_GRADIENT,
@@ -298,40 +325,40 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
         input->Get(Pipeline::WHOLE_EXTENT(), whole_extent.data());
     });
     check_that_properties_agree(task, this->ArrayComponent, ranks);
-    const Image_pieces pieces = image_pieces(images, whole_extent, task.request, ranks, this->Controller);
+    Image_pieces pieces = image_pieces(images, whole_extent, task.request, ranks, this->Controller);
     if (!pieces.lattice) return 1;
     if (pieces.pieces.size() > 1) task.request.ghost_levels = 0;
+    const auto advance = [this](double part) {
+      this->UpdateProgress(part);
+      if (is_aborted(*this)) throw Stopped();
+    };
+    const Progress_observer observer([&](const Progress_observer::Stage&) { advance(this->GetProgress()); });
     std::vector<Volume_view_3<equiaffine::Kernel>> views;
-    std::vector<Cell_block> own;
-    together(ranks, [&] {
-      for (const Image_piece& piece : pieces.pieces) {
-        views.push_back(view_of(pieces, piece, this->ArrayComponent));
-        own.push_back(piece.cells);
-      }
-    });
+    const auto view_pieces = [&](const auto& cells_of_piece) {
+      together(ranks, [&] {
+        views.clear();
+        for (const Image_piece& piece : pieces.pieces)
+          views.push_back(view_of(pieces, piece, this->ArrayComponent, cells_of_piece(piece)));
+      });
+    };
+    view_pieces([&](const Image_piece& piece) { return cells_of(pieces, piece.image); });
+    if (this->AutomaticSmoothing) task.spline.smoothing = chosen_smoothing(views, pieces, task, ranks);
+    if (!pieces.are_wanted) pieces.pieces.clear();
+    view_pieces([&](const Image_piece& piece) { return used_cells(piece, pieces, task); });
     const std::vector<Traits> functions = functions_of(views, pieces, task, ranks);
+    std::vector<Cell_block> own;
+    for (const Image_piece& piece : pieces.pieces) own.push_back(piece.cells);
     Surface_arrays surface(task.selection, own, pieces.lattice->size(), task.request.pieces > 1 || ranks.count() > 1,
                            task.request.ghost_levels > 0);
-    bool is_stopped = false;
-    together(ranks, [&] {
-      const auto stop_if_wanted = [&] {
-        if (is_aborted(*this)) throw Aborted();
-      };
-      const Progress_observer observer([&](const Progress_observer::Stage&) { stop_if_wanted(); });
-      try {
-        mesh_pieces(functions, pieces, task, surface, [&](double part) {
-          this->UpdateProgress(part);
-          stop_if_wanted();
-        });
-      } catch (const Aborted&) {
-        is_stopped = true;
-      }
-    });
-    std::array<std::int64_t, 1> stopped = {is_stopped};
-    ranks.sum(stopped);
-    if (stopped[0] > 0) return 1;
+    together(ranks, [&] { mesh_pieces(functions, views, pieces, task, surface, advance); });
+    const vtkNew<vtkDoubleArray> smoothing;
+    smoothing->SetName("smoothing");
+    smoothing->InsertNextValue(task.spline.smoothing);
+    output->GetFieldData()->AddArray(smoothing);
     if (surface.add_statistics(ranks, *output->GetFieldData()) == 0) check_that_there_are_numbers(views, ranks);
     together(ranks, [&] { surface.move_to(*output); });
+  } catch (const Stopped&) {
+    output->Initialize();
   } catch (const Failure& error) {
     output->Initialize();
     vtkErrorMacro(<< error.what());

@@ -41,6 +41,7 @@ struct Spline_parameters;
  * | field data | type | tuples x components | meaning |
  * |---|---|---|---|
  * | `vertices`, `triangles` | vtkIdType | 1 x 1 | of all pieces together, each counted once |
+ * | `smoothing` | double | 1 x 1 | the scale by which samples were smoothed, which is set or chosen |
  * | `status_counts` | vtkIdType | 1 x 5 | how many vertices have each status |
  * | NAME`_range` | double | 1 x 2 | least and greatest value of a scalar attribute; NaN, NaN if it exists nowhere |
  *
@@ -90,6 +91,17 @@ public:
   /** The scale in points by which samples are smoothed first, which scans need; 0, the default, and up to 1: not. */
   vtkSetClampMacro(Smoothing, double, 0, 100);
   vtkGetMacro(Smoothing, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the scale of smoothing is chosen, whatever SetSmoothing() says: the one with the least estimated error of
+   * fourth derivatives that leaves the surface where it is, from the noise beside it; 0 for none. Off by default, since
+   * pieces need 51 ghost levels for it. All processes choose the scale that one process chooses.
+   */
+  vtkSetMacro(AutomaticSmoothing, bool);
+  vtkGetMacro(AutomaticSmoothing, bool);
+  vtkBooleanMacro(AutomaticSmoothing, bool);
   ///@}
 
   ///@{
@@ -144,6 +156,7 @@ protected:
   int Degree = 7;
   int Scheme = QUASI_INTERPOLATION;
   double Smoothing = 0;
+  bool AutomaticSmoothing = false;
   char* Attributes = nullptr;
   bool FlipNormals = false;
   bool ProjectVertices = true;

@@ -5,7 +5,10 @@
 
 #include <equiaffine/Volume_3.h>
 #include <equiaffine/Volume_view_3.h>
+#include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Spline_scheme.h>
+#include <equiaffine/volume/Volume_parts_3.h>
+#include <equiaffine/volume/cells_to_know.h>
 #include <equiaffine/volume/internal/border_degree.h>
 #include <equiaffine/volume/internal/noise/Smoothing_trial.h>
 #include <equiaffine/volume/internal/noise/noise_measurement.h>
@@ -25,6 +28,9 @@ struct Sample_noise {
   double quantum;   ///< the step of their type: 1 for integers, for floats the step at the median size, else 0
 };
 
+/// The greatest scale that choose_smoothing() may choose.
+inline constexpr double greatest_scale_to_choose = internal::scales_to_try.back();
+
 /// Estimates the noise beside the level set f = isovalue, or everywhere if there is none, from differences of order 12
 /// along the axes, which are next to nothing for a smooth function: their median, in units of the median for white
 /// noise of deviation 1. Details of the function with a wavelength of a few samples count as noise, too. Integers have
@@ -33,8 +39,19 @@ struct Sample_noise {
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Sample_noise estimate_noise(const Volume_view_3<Kernel>& volume,
                             std::optional<typename Kernel::FT> isovalue = std::nullopt) {
-  const double deviation =
-      internal::white_noise_deviation(volume, internal::nodes_to_measure<ConcurrencyTag>(volume, isovalue, 6, 40000));
+  return estimate_noise<ConcurrencyTag>(Volume_parts_3<Kernel>::of(volume), isovalue);
+}
+
+/// The same for a volume in parts, of which samples are known up to 6 nodes beyond their cells. \throw
+/// std::invalid_argument unless they are
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
+Sample_noise estimate_noise(const Volume_parts_3<Kernel>& volume,
+                            std::optional<typename Kernel::FT> isovalue = std::nullopt) {
+  constexpr std::size_t reach = 6;
+  for (const auto& [part, cells] : volume.parts)
+    internal::check_known_cells(part, widened(cells, reach, cells_of(volume.lattice.size())));
+  const double deviation = internal::white_noise_deviation(
+      volume, internal::nodes_to_measure<ConcurrencyTag>(volume, isovalue, reach, 40000));
   const double quantum = internal::quantum_of(volume);
   return {std::max(deviation, quantum == 1 ? 1 / std::sqrt(12.0) : 0), quantum};
 }
@@ -61,11 +78,23 @@ Sample_noise estimate_noise(const Volume_3<Kernel>& volume,
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 typename Kernel::FT choose_smoothing(const Volume_view_3<Kernel>& volume, const Sample_noise& noise, int degree,
                                      Spline_scheme scheme, std::optional<typename Kernel::FT> isovalue = std::nullopt) {
+  return choose_smoothing<ConcurrencyTag>(Volume_parts_3<Kernel>::of(volume), noise, degree, scheme, isovalue);
+}
+
+/// The same for a volume in parts, of which those samples are known that cells_to_know() names for a part's cells and the
+/// greatest scale; for INTERPOLATION those for QUASI_INTERPOLATION. \throw std::invalid_argument unless they are
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
+typename Kernel::FT choose_smoothing(const Volume_parts_3<Kernel>& volume, const Sample_noise& noise, int degree,
+                                     Spline_scheme scheme, std::optional<typename Kernel::FT> isovalue = std::nullopt) {
   if (scheme == Spline_scheme::INTERPOLATION) scheme = Spline_scheme::QUASI_INTERPOLATION; // the same but for its reach
-  const auto& size = volume.lattice().size();
-  const internal::Smoothing_test_site<Kernel> site = {
-      volume, internal::nodes_to_measure<ConcurrencyTag>(volume, isovalue, 1, 300), noise.deviation};
-  if (*std::min_element(size.begin(), size.end()) <= std::size_t(degree) || site.cells.empty()) return 0;
+  const auto& size = volume.lattice.size();
+  if (*std::min_element(size.begin(), size.end()) <= std::size_t(degree)) return 0;
+  const Spline_parameters greatest = {.degree = degree, .scheme = scheme, .smoothing = greatest_scale_to_choose};
+  for (const auto& [part, cells] : volume.parts)
+    internal::check_known_cells(part, cells_to_know(cells, size, greatest));
+  const internal::Smoothing_test_site<Kernel> site(
+      volume, internal::nodes_to_measure<ConcurrencyTag>(volume, isovalue, 1, 300), noise.deviation);
+  if (site.cells().empty()) return 0;
   const int border_degree = internal::border_degree(volume, degree, scheme);
   return internal::least_risky_scale(site, {degree, scheme, border_degree, 0});
 }

@@ -6,6 +6,7 @@
 #include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_scheme.h>
+#include <equiaffine/volume/Volume_parts_3.h>
 #include <equiaffine/volume/internal/Line_part.h>
 #include <equiaffine/volume/internal/bspline.h>
 
@@ -14,7 +15,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <vector>
 
 namespace equiaffine::internal {
 
@@ -94,10 +97,13 @@ inline int elected_border_degree(std::ptrdiff_t votes, int degree) {
   return votes > 0 ? greater_border_degree(degree) : degree;
 }
 
-/// The border degree of a volume that is known.
+/// The border degree of a volume in parts.
 template <class Kernel>
-int border_degree(const Volume_view_3<Kernel>& volume, int degree, Spline_scheme scheme) {
-  return elected_border_degree(border_votes(volume, degree, scheme, volume.cells()), degree);
+int border_degree(const Volume_parts_3<Kernel>& volume, int degree, Spline_scheme scheme) {
+  double votes = 0;
+  for (const auto& [part, cells] : volume.parts) votes += double(border_votes(part, degree, scheme, cells));
+  const std::vector<double> gathered = volume.gather({votes});
+  return elected_border_degree(std::ptrdiff_t(std::accumulate(gathered.begin(), gathered.end(), 0.0)), degree);
 }
 
 } // namespace equiaffine::internal
