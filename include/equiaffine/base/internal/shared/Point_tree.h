@@ -3,8 +3,12 @@
 #define EQUIAFFINE_BASE_INTERNAL_SHARED_POINT_TREE_H
 
 #include <Eigen/Core>
-#include <boost/geometry.hpp>
+#include <boost/geometry/algorithms/distance.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <boost/geometry/strategies/cartesian/distance_pythagoras_box_box.hpp>
+#include <boost/geometry/strategies/cartesian/distance_pythagoras_point_box.hpp>
 
 #include <cstddef>
 #include <utility>

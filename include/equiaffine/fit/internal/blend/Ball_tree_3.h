@@ -5,8 +5,11 @@
 #include <equiaffine/fit/internal/data/Data_points_3.h>
 
 #include <Eigen/Core>
-#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <boost/geometry/strategies/cartesian/distance_pythagoras_box_box.hpp>
+#include <boost/geometry/strategies/cartesian/distance_pythagoras_point_box.hpp>
 
 #include <cstddef>
 #include <utility>

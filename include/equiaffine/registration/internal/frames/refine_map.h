@@ -75,7 +75,8 @@ public:
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
     decomposition.setThreshold(threshold);
     decomposition.compute(matrix);
-    return basis_ * decomposition.solve(values);
+    const Eigen::VectorXd solution = decomposition.solve(values);
+    return basis_ * solution;
   }
 
   /// Returns the map with these coefficients.

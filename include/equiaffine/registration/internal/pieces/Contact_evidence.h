@@ -72,8 +72,8 @@ inline Eigen::VectorXd rigidities(const Mapped_samples& samples, Map_kind kind) 
     row.tail<3>() = s->normal;
     squares += row * row.transpose() / double(touching.size());
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(maps.transpose() * squares * maps,
-                                                              Eigen::EigenvaluesOnly);
+  const Eigen::MatrixXd of_maps = maps.transpose() * squares * maps;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(of_maps, Eigen::EigenvaluesOnly);
   return solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
 }
 
