@@ -118,4 +118,21 @@ TEST(Certified_seeding, an_image_in_a_mirror_is_decided_as_well) {
   }
 }
 
+// Where f is undefined no subdivision helps: a half of the box in cells smaller than facets took minutes and gigabytes.
+TEST(Certified_seeding, no_effort_is_made_where_the_function_is_undefined) {
+  const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
+  for (const char* formula : {"z-sqrt(0.3*x+0.7*y-0.2*z-0.1)", "z-(0.3*x+0.7*y-0.2*z-0.1)^1.5",
+                              "z-exp(1.5*log(0.3*x+0.7*y-0.2*z+0.7))", "y-asin(2*x+0.1*z)"})
+    for (const double size : {0.05, 0.02}) {
+      const Expression_3 f(formula);
+      const auto traits = make_analytic_traits<Kernel>(f, box);
+      const auto uniform = [=](const Point_3&) { return size; };
+      const auto seeding = certified_seeding(traits, Clip_domain_3(box), uniform, size);
+      EXPECT_FALSE(seeding.undecided_boxes.empty()) << formula;
+      const double area = 4, density = 0.77 / (packing * packing * size * size), boxes_per_facet = 12;
+      EXPECT_LT(double(seeding.undecided_boxes.size()), boxes_per_facet * area * density) << formula;
+      EXPECT_LT(double(seeding.seeds.size()), 2.5 * area * density) << formula;
+    }
+}
+
 } // namespace

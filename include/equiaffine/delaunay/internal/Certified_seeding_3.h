@@ -72,7 +72,10 @@ private:
       if (domain_.excludes(box)) continue;
       if (prover_.is_empty(cell, box, h, is_urgent)) {
         if (h >= 4 * largest_size_) empty_boxes_.push_back(box);
-      } else if (!cell.is_decided && is_last) {
+      } else if (!cell.is_decided && is_undefined(box, h)) {
+        report(box, h);
+        undefined_volume_ += volume(box);
+      } else if (!cell.is_decided && (is_last || (8 * h < largest_size_ && prover_.count_undefined(box) > 0))) {
         give_up(cell.position);
       } else if (!cell.is_decided && 2 * h < largest_size_ && prover_.is_unbounded(box)) {
         report(box, h);
@@ -87,17 +90,25 @@ private:
     return next;
   }
 
-  /// Whether there are too many undecided cells of side h, smaller than facets, to subdivide them once more. A singular
-  /// point leaves few undecided cells at each level, a singular curve twice as many at each level as before.
-  bool is_hopeless(double undecided, double h) const {
-    constexpr double largest_fraction = 0.125; // undecided cells may fill this part of the box
-    constexpr double maximal_undecided_cells = 200'000;
-    const CGAL::Bbox_3& box = octree_.box();
-    const bool fills_box =
-        2 * h < largest_size_ && undecided * h * h * h > largest_fraction * box.x_span() * box.y_span() * box.z_span();
-    return fills_box || (8 * h < largest_size_ && undecided > maximal_undecided_cells);
+  /// Whether f seems to be undefined in all of a cell of side h, which is not much larger than facets: it has no value at any
+  /// of some points, and not two bounds.
+  bool is_undefined(const CGAL::Bbox_3& box, double h) const {
+    return h < 4 * largest_size_ && prover_.knows_gradients() && !prover_.has_value(center(box)) &&
+           prover_.lacks_a_bound(box) && prover_.count_undefined(box) == 27;
   }
 
+  /// Whether there are too many undecided cells of side h to subdivide them once more. A singular point leaves few undecided
+  /// cells at each level, a singular curve twice as many at each level as before. Cells smaller than facets may be less.
+  bool is_hopeless(double undecided, double h) const {
+    constexpr double largest_fraction = 0.125; // of the box that cells may fill which are undecided, or have no f
+    constexpr double maximal_undecided_cells = 200'000;
+    const bool fills_box =
+        2 * h < largest_size_ && undecided * h * h * h + undefined_volume_ > largest_fraction * volume(octree_.box());
+    return fills_box || undecided > 10 * maximal_undecided_cells ||
+           (8 * h < largest_size_ && undecided > maximal_undecided_cells);
+  }
+
+  static double volume(const CGAL::Bbox_3& b) { return b.x_span() * b.y_span() * b.z_span(); }
   static Point_3 center(const CGAL::Bbox_3& b) { return Cell_prover_3<Traits>::center(b); }
 
   /// Reports and seeds an undecided cell. If it is smaller than a sixteenth of a facet, a cell of about that size takes
@@ -159,6 +170,7 @@ private:
   std::vector<CGAL::Bbox_3> empty_boxes_; // much larger than facets
   std::set<Octree_3::Position> given_up_; // all on the same level
   double given_up_side_ = 0;
+  double undefined_volume_ = 0; // of the cells in which f is undefined
   Seeding_3<Point_3> result_;
 };
 

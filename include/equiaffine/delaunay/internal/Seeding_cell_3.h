@@ -65,6 +65,29 @@ public:
     else return false;
   }
 
+  bool has_value(const Point_3& p) const { return !std::isnan(CGAL::to_double(FT(traits_.value(p)))); }
+
+  /// How many of 27 points of a box, its corners among them, f has no value at.
+  int count_undefined(const CGAL::Bbox_3& box) const {
+    const auto at = [](double lower, double upper, int n) { return FT(lower + 0.5 * n * (upper - lower)); };
+    int count = 0;
+    for (int n = 0; n < 27; ++n) {
+      count += !has_value(Point_3(at(box.xmin(), box.xmax(), n % 3), at(box.ymin(), box.ymax(), n / 3 % 3),
+                                  at(box.zmin(), box.zmax(), n / 9)));
+    }
+    return count;
+  }
+
+  /// Whether f may have values of any size in a box.
+  bool lacks_a_bound(const CGAL::Bbox_3& box) const {
+    if constexpr (BoundedImplicitFunctionTraits_3<Traits>) {
+      const Interval bounds = traits_.bounds(box);
+      return !std::isfinite(bounds.lower()) || !std::isfinite(bounds.upper());
+    } else {
+      return false;
+    }
+  }
+
   static Point_3 center(const CGAL::Bbox_3& b) {
     const auto c = center_of(b);
     return Point_3(FT(c[0]), FT(c[1]), FT(c[2]));
