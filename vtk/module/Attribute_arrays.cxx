@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Attribute_arrays.h"
 
+#include <equiaffine/base/internal/shared/parallel_for.h>
+
+#include <CGAL/tags.h>
+
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
@@ -23,14 +27,15 @@ Attribute_arrays::Attribute_arrays(const Attribute_selection& selection) : selec
 }
 
 void Attribute_arrays::add(const Vertex_attributes& block, std::span<const std::size_t> places) {
-  for (Array& array : arrays_) {
+  parallel_for<CGAL::Parallel_if_available_tag>(0, arrays_.size(), [&](std::size_t a) {
+    Array& array = arrays_[a];
     const std::size_t components = array.columns.size();
     const std::span<double> numbers = array.numbers.grow(components * places.size());
     for (std::size_t c = 0; c < components; ++c) {
       const std::vector<double>& values = block.columns[array.columns[c]].values;
       for (std::size_t n = 0; n < places.size(); ++n) numbers[n * components + c] = values[places[n]];
     }
-  }
+  });
   if (!selection_.has_status) return;
   const std::span<unsigned char> status = status_.grow(places.size());
   for (std::size_t n = 0; n < places.size(); ++n) status[n] = static_cast<unsigned char>((*block.status)[places[n]]);
