@@ -119,7 +119,7 @@ private:
         slab.vertex_ids.push_back(part.ids[v]);
         slab.least_ids.push_back(least_ids[v]);
       }
-      if (cell_of(part.ids[v], nodes)[2] >= layers.end[2]) shared.try_emplace(part.ids[v], number[v], p);
+      if (cell_of(part.ids[v], nodes)[2] >= layers.end[2]) shared.try_emplace(part.ids[v], Shared_vertex{number[v], p});
     }
     for (auto& triangle : slab.triangles)
       for (std::size_t& v : triangle) v = number[v];
