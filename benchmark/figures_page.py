@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 FIGURE = re.compile(r"^figure (?P<name>\S+) (?P<value>\S+) (?P<unit>.*?)(?: target (?P<target>.*))?$")
-BOUND = re.compile(r"^(?P<side>[<>]=?|=)\s*(?P<bound>[-+\d.eE]+)\s*(?P<rest>.*)$")
+BOUND = re.compile(r"^(?P<side>[<>]=?|=)\s*(?P<bound>[-+\d.eE]+)")
 STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 64rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
 table { border-collapse: collapse; width: 100%; margin-bottom: 1rem; }

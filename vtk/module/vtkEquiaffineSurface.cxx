@@ -341,8 +341,10 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
           views.push_back(view_of(pieces, piece, this->ArrayComponent, cells_of_piece(piece)));
       });
     };
-    view_pieces([&](const Image_piece& piece) { return cells_of(pieces, piece.image); });
-    if (this->AutomaticSmoothing) task.spline.smoothing = chosen_smoothing(views, pieces, task, ranks);
+    if (this->AutomaticSmoothing) {
+      view_pieces([&](const Image_piece& piece) { return cells_of(pieces, piece.image); });
+      task.spline.smoothing = chosen_smoothing(views, pieces, task, ranks);
+    }
     if (!pieces.are_wanted) pieces.pieces.clear();
     view_pieces([&](const Image_piece& piece) { return used_cells(piece, pieces, task); });
     const std::vector<Traits> functions = functions_of(views, pieces, task, ranks);

@@ -94,7 +94,7 @@ private:
   /// of some points, and not two bounds.
   bool is_undefined(const CGAL::Bbox_3& box, double h) const {
     return h < 4 * largest_size_ && prover_.knows_gradients() && !prover_.has_value(center(box)) &&
-           prover_.lacks_a_bound(box) && prover_.count_undefined(box) == 27;
+           prover_.lacks_a_bound(box) && prover_.count_undefined(box) == prover_.points_of_box;
   }
 
   /// Whether there are too many undecided cells of side h to subdivide them once more. A singular point leaves few undecided

@@ -65,16 +65,17 @@ public:
     else return false;
   }
 
+  static constexpr int points_of_box = 27; ///< where f is looked at to know whether it is defined in a box
+
   bool has_value(const Point_3& p) const { return !std::isnan(CGAL::to_double(FT(traits_.value(p)))); }
 
-  /// How many of 27 points of a box, its corners among them, f has no value at.
+  /// At how many of these points of a box, its corners and its center among them, f has no value.
   int count_undefined(const CGAL::Bbox_3& box) const {
     const auto at = [](double lower, double upper, int n) { return FT(lower + 0.5 * n * (upper - lower)); };
     int count = 0;
-    for (int n = 0; n < 27; ++n) {
+    for (int n = 0; n < points_of_box; ++n)
       count += !has_value(Point_3(at(box.xmin(), box.xmax(), n % 3), at(box.ymin(), box.ymax(), n / 3 % 3),
                                   at(box.zmin(), box.zmax(), n / 9)));
-    }
     return count;
   }
 

@@ -49,7 +49,7 @@ public:
   const std::vector<double>& slopes() const { return slopes_; } ///< of the samples in each cell, per step
   double deviation() const { return deviation_; }
 
-  /// What measure_cell(samples, cell) returns for each cell.
+  /// Returns the numbers that measure_cell(samples, cell) finds, for all cells in their order.
   template <class Measure_cell>
   std::vector<Numbers> measure(const Measure_cell& measure_cell) const {
     std::vector<double> own;
