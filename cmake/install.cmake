@@ -17,14 +17,28 @@ install(
     message(FATAL_ERROR \"\${file} is not built: run cmake --build first, or install the headers alone with \"
                         \"-DEQUIAFFINE_BUILD_MESHER=OFF -DEQUIAFFINE_BUILD_PROGRAM=OFF\")
   endif()
-endforeach()")
+endforeach()" COMPONENT development)
 
 set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/equiaffine)
 install(TARGETS equiaffine EXPORT equiaffineTargets
-        FILE_SET porch FILE_SET doors FILE_SET shared FILE_SET internal FILE_SET generated)
-install(EXPORT equiaffineTargets NAMESPACE equiaffine:: DESTINATION ${package_dir})
+        FILE_SET porch COMPONENT development FILE_SET doors COMPONENT development FILE_SET shared COMPONENT development
+        FILE_SET internal COMPONENT development FILE_SET generated COMPONENT development)
+install(EXPORT equiaffineTargets NAMESPACE equiaffine:: DESTINATION ${package_dir} COMPONENT development)
 
 configure_package_config_file(cmake/equiaffineConfig.cmake.in equiaffineConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(equiaffineConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/equiaffineConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/equiaffineConfigVersion.cmake
-        DESTINATION ${package_dir})
+        DESTINATION ${package_dir} COMPONENT development)
+
+# For builds without CMake. equiaffine-mesher is the part that is compiled.
+file(RELATIVE_PATH EQUIAFFINE_PREFIX_OF_PKGCONFIG /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+if(EQUIAFFINE_WITH_TBB)
+  set(EQUIAFFINE_TBB_FOR_PKGCONFIG ", tbb")
+  set(EQUIAFFINE_FLAGS_FOR_PKGCONFIG " -DCGAL_LINKED_WITH_TBB")
+endif()
+foreach(name IN ITEMS equiaffine equiaffine-mesher)
+  if(name STREQUAL equiaffine OR EQUIAFFINE_BUILD_MESHER)
+    configure_file(cmake/${name}.pc.in ${name}.pc @ONLY)
+    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+  endif()
+endforeach()

@@ -13,7 +13,7 @@
 /// class does nothing.
 template <>
 struct CGAL::Dump_c3t3<equiaffine::internal::Surface_complex, true> {
-  void dump_c3t3(const equiaffine::internal::Surface_complex&, const std::string&) const {}
+  void dump_c3t3(const equiaffine::internal::Surface_complex&, const std::string&, bool = false) const {}
 };
 
 namespace equiaffine::internal {
@@ -21,14 +21,19 @@ namespace equiaffine::internal {
 /// The topology that the facets must have.
 enum class Manifoldness { ANY, MANIFOLD, MANIFOLD_WITH_BOUNDARY };
 
-/// Refines the facets, and nothing else, from the points that are in the triangulation. The calls of CGAL 5 and CGAL 6
+/// Refines the facets, and nothing else, from the points that are in the triangulation. The calls of CGAL 5, 6.0 and 6.1
 /// differ.
 template <class C3t3, class Domain, class Criteria>
 void refine_facets(C3t3& c3t3, const Domain& domain, const Criteria& criteria, Manifoldness manifoldness) {
   namespace parameters = CGAL::parameters;
   const auto refine = [&](auto topology) {
 #if CGAL_VERSION_NR >= 1060000000
-    CGAL::refine_mesh_3(c3t3, domain, criteria, topology.no_perturb().no_exude().surface_only());
+    const auto options = topology.no_perturb().no_exude();
+    if constexpr (requires { options.surface_only(); }) {
+      CGAL::refine_mesh_3(c3t3, domain, criteria, options.surface_only());
+    } else {
+      CGAL::refine_mesh_3(c3t3, domain, criteria, options);
+    }
 #else
     CGAL::refine_mesh_3(c3t3, domain, criteria, parameters::no_reset_c3t3(), parameters::no_perturb(),
                         parameters::no_exude(), topology);

@@ -32,7 +32,7 @@ inline double lower_quantile(std::vector<double> values, double part) {
 /// What a row of runs is to reach.
 struct Targets {
   const char *right = ">=1", *median_error = "none", *greatest_error = "<=1e-12", *hypotheses = "none",
-             *search = "none";
+             *search = "none", *median_hypotheses = "none";
 };
 
 /// What came of the runs of a row. A run is right if the error of the matrix is at most `greatest_error`.
@@ -85,6 +85,7 @@ public:
     figure(name_ + "_runs", runs(), "runs", "none");
     figure(name_ + "_right", double(errors_.size()) / runs(), "of runs", targets.right);
     figure(name_ + "_hypotheses_99_percent", lower_quantile(hypotheses_, 0.99), "hypotheses", targets.hypotheses);
+    figure(name_ + "_hypotheses_median", lower_quantile(hypotheses_, 0.5), "hypotheses", targets.median_hypotheses);
     figure(name_ + "_median_error", lower_quantile(errors_, 0.5), "of A", targets.median_error);
     figure(name_ + "_greatest_error", lower_quantile(errors_, 1), "of A", targets.greatest_error);
     figure(name_ + "_search", median(seconds_), "s", targets.search);

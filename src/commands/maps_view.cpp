@@ -6,9 +6,7 @@
 #include "output/symmetry_marks.h"
 #include <equiaffine/base/internal/shared/parallel_for.h>
 
-#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Bbox_3.h>
 #include <CGAL/tags.h>
 
@@ -22,6 +20,15 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+// CGAL 6 has new names for these.
+#if __has_include(<CGAL/AABB_traits_3.h>)
+#include <CGAL/AABB_traits_3.h>
+#include <CGAL/AABB_triangle_primitive_3.h>
+#else
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#endif
 
 namespace equiaffine {
 
@@ -133,11 +140,17 @@ Distances_of_points distances_from(const Any_function_3& surface, const Map& bac
   return [&surface, back](const std::vector<Point>& points) { return distances(points, surface, back); };
 }
 
+using Triangles = std::vector<Kernel::Triangle_3>;
+#if __has_include(<CGAL/AABB_traits_3.h>)
+using Triangle_traits = CGAL::AABB_traits_3<Kernel, CGAL::AABB_triangle_primitive_3<Kernel, Triangles::const_iterator>>;
+#else
+using Triangle_traits = CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>;
+#endif
+
 Distances_of_points distances_from(const Mesh& mesh) {
-  using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
   struct Tree {
-    std::vector<Kernel::Triangle_3> triangles;
-    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree;
+    Triangles triangles;
+    CGAL::AABB_tree<Triangle_traits> tree;
   };
   const auto shared = std::make_shared<Tree>();
   for (const auto& [a, b, c] : mesh.triangles)

@@ -9,6 +9,7 @@
 #include <boost/geometry/index/rtree.hpp>
 #include <boost/geometry/strategies/cartesian/distance_pythagoras_box_box.hpp>
 #include <boost/geometry/strategies/cartesian/distance_pythagoras_point_box.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
 
 #include <cstddef>
 #include <utility>
@@ -59,7 +60,8 @@ public:
   void for_each_in_cube(const Vector& center, double half_width, F f) const {
     const Vector half = Vector::Constant(half_width);
     const boost::geometry::model::box<Point> cube(tree_point(center - half), tree_point(center + half));
-    for (auto it = tree_.qbegin(boost::geometry::index::intersects(cube)); it != tree_.qend(); ++it) f(it->second);
+    tree_.query(boost::geometry::index::intersects(cube),
+                boost::make_function_output_iterator([&](const Value& value) { f(value.second); }));
   }
 
 private:

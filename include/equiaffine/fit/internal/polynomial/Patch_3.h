@@ -67,7 +67,7 @@ inline void expand_at(double t, double* c, int degree, int count) {
 template <int Order>
 auto expand_height(const Patch_3& patch, double u, double v) {
   constexpr std::size_t most = 13, orders = std::size_t(Order) + 1;
-  std::array<std::array<double, most>, orders> rows; // row i: the coefficients of the powers of v beside du^i
+  std::array<std::array<double, most>, orders> rows = {}; // row i: the coefficients of the powers of v beside du^i
   const double* c = patch.coefficients.data();
   for (int j = 0; j <= patch.degree; ++j) {
     const int degree = patch.degree - j, count = std::min(degree, Order) + 1;
@@ -116,7 +116,7 @@ Jet_3<double, Order> space_taylor(const Patch_3& patch, const Eigen::Vector3d& l
   std::array<std::array<std::array<double, most>, orders>, orders> planes;
   const double* c = patch.coefficients.data();
   for (int i = 0; i <= d; ++i) {
-    std::array<std::array<double, most>, orders> rows; // rows[k] has those of the powers of y beside x^i dz^k
+    std::array<std::array<double, most>, orders> rows = {}; // rows[k] has those of the powers of y beside x^i dz^k
     for (int j = 0; i + j <= d; ++j) {
       const int degree = d - i - j, count = std::min(degree, Order) + 1;
       std::array<double, most> line{};

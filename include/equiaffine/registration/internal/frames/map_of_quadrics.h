@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 namespace equiaffine::internal {
@@ -79,7 +80,9 @@ inline std::optional<Normal_quadric_3> normal_form(const Quadric_3& quadric) {
     unit = values[order[0]] + values[order[1]] > 0 ? 1 : -1;
   }
   if (std::abs(unit) <= rounding * largest) return std::nullopt;
-  std::sort(order.begin(), order.begin() + squares, [&](int a, int b) { return values[a] / unit > values[b] / unit; });
+  Eigen::Vector3d rank = values / unit; // by which the squares are sorted
+  if (!is_central) rank[order[2]] = -std::numeric_limits<double>::infinity();
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return rank[a] > rank[b]; });
   Normal_quadric_3 result{{}, 0, 0};
   for (int k = 0; k < 3; ++k) {
     const double scaled = values[order[k]] / unit;

@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes the manual page of the program, and completions for bash, zsh and fish, from what the program itself says with
+--help: command_files.py PROGRAM FOLDER"""
+import argparse
+import dataclasses
+import gzip
+import pathlib
+import re
+import subprocess
+import sys
+
+HEADING = re.compile(r"^\S.*:$")
+OPTION = re.compile(r"^  (?P<names>-[^ ]+)(?: (?P<words>\S.*?))?(?:(?: {2,}|$)(?P<text>.*))?$")
+COMMAND = re.compile(r"^  (?P<name>[a-z]+) {2,}(?P<text>.*)$")
+WORD = re.compile(r"^  (?P<name>[A-Za-z][\w.|]*) {2,}(?P<text>.*)$")  # a command, or what stands for a file
+KEYWORD = re.compile(r"^[a-z0-9-]+$")
+
+
+@dataclasses.dataclass
+class Option:
+    names: list
+    words: str  # what follows the name
+    text: str
+
+    @property
+    def choices(self):
+        """The words among the alternatives, such as auto of S|auto."""
+        alternatives = self.words.split("|")
+        return [word for word in alternatives if KEYWORD.match(word)] if len(alternatives) > 1 else []
+
+    @property
+    def summary(self):
+        """The help up to the first point that ends a part of it."""
+        return re.split(r" \(|[;:] |, by default|\. ", self.text)[0]
+
+
+def help_of(program, *command):
+    return subprocess.run([program, *command, "--help"], check=True, capture_output=True, text=True).stdout.splitlines()
+
+
+def options_of(lines):
+    """The options of a help. A text goes on in lines that are indented as far as it."""
+    options = []
+    for line in lines:
+        if found := OPTION.match(line):
+            options.append(Option(found["names"].split(","), found["words"] or "", found["text"] or ""))
+        elif options and line.startswith(" " * 30):
+            options[-1].text = (options[-1].text + " " + line.strip()).strip()
+        elif HEADING.match(line) and not line.startswith(("Options", "Positionals")) and "xample" in line:
+            break
+    return options
+
+
+def roff(text):
+    text = text.replace("\\", "\\e").replace("-", "\\-")
+    return re.sub(r"^([.'])", r"\\&\1", text)
+
+
+def manual_page(version, program_lines, commands):
+    """The help of the program and of each command, with the options as tagged paragraphs."""
+    usage, = (line for line in program_lines if line.startswith("Usage: "))
+    page = [f'.TH EQUIAFFINE 1 "" "equiaffine {version}" "User Commands"', ".SH NAME", roff(program_lines[0]), ".SH SYNOPSIS"]
+    for line in re.split(" {2,}", usage.removeprefix("Usage: ")):
+        page += [roff(line), ".br"]
+    page += [".SH DESCRIPTION", *body([line for line in program_lines[1:] if line != usage])]
+    for name, lines in commands.items():
+        page += [f'.SH "EQUIAFFINE {name.upper()}"', *body(lines)]
+    return "\n".join(page) + "\n"
+
+
+def body(lines):
+    page, is_verbatim, is_listing = [], False, False
+    for line in lines:
+        found = OPTION.match(line) or (WORD.match(line) if not is_verbatim else None)
+        if is_verbatim and line and not line.startswith(" "):
+            is_verbatim = False
+            page.append(".fi")
+        if is_verbatim:
+            page.append(roff(line))
+        elif line.startswith("Example"):
+            page += [".PP", roff(line), ".nf"]
+            is_verbatim = True
+        elif found and "names" in found.groupdict():
+            tag = ", ".join(rf"\fB{roff(name)}\fR" for name in found["names"].split(","))
+            page += [".TP", tag + (" " + rf"\fI{roff(found['words'])}\fR" if found["words"] else "")]
+            page += [roff(found["text"])] if found["text"] else []
+            is_listing = True
+        elif found:
+            page += [".TP", rf"\fB{roff(found['name'])}\fR", roff(found["text"])]
+            is_listing = True
+        elif HEADING.match(line) and not line.startswith("Usage"):
+            page += [f'.SS "{roff(line[:-1])}"']
+        elif not line:
+            page.append(".PP" if not is_listing else "")
+            is_listing = False
+        else:
+            page.append(roff(line.strip()))
+    if is_verbatim:
+        page.append(".fi")
+    return [line for line in page if line]
+
+
+def quoted(text):
+    return "'" + text.replace("'", r"'\''") + "'"
+
+
+def bash_completion(commands):
+    cases = []
+    for name, options in commands.items():
+        names = " ".join(word for option in options for word in option.names)
+        cases.append(f"    {name}) options={quoted(names)} ;;")
+    choices = [f"    {quoted(f'{command} {name}')}) COMPREPLY=($(compgen -W {quoted(' '.join(option.choices))} -- \"$word\")); return ;;"
+               for command, options in commands.items() for option in options if option.choices for name in option.names]
+    return "\n".join(
+        ["# Completion of equiaffine for bash.", "_equiaffine() {", "  local word=${COMP_WORDS[COMP_CWORD]} options=",
+         "  if ((COMP_CWORD == 1)); then",
+         f"    COMPREPLY=($(compgen -W {quoted(' '.join([*commands, '--help', '--version']))} -- \"$word\"))", "    return", "  fi",
+         "  case \"${COMP_WORDS[1]} ${COMP_WORDS[COMP_CWORD - 1]}\" in", *choices, "  esac", "  case ${COMP_WORDS[1]} in", *cases, "  esac",
+         "  [[ $word != -* ]] || COMPREPLY=($(compgen -W \"$options\" -- \"$word\"))", "}",
+         "complete -o default -F _equiaffine equiaffine", ""])
+
+
+def zsh_completion(commands, summaries):
+    def argument(option):
+        words = re.sub(r"[:\[\]]", " ", option.words)
+        action = f"({' '.join(option.choices)})" if option.choices else "_files"
+        value = f":{words}:{action}" if words else ""
+        text = re.sub(r"[\[\]]", "", option.summary).replace(":", "\\:")
+        return [quoted(f"*{name}[{text}]{value}") for name in option.names]
+
+    listed = " ".join(quoted(f"{name}:{text}") for name, text in summaries.items())
+    lines = ["#compdef equiaffine", "", "_equiaffine() {", f"  local -a commands=({listed})",
+             "  if ((CURRENT == 2)); then", "    _describe command commands", "    return", "  fi", "  case $words[2] in"]
+    for name, options in commands.items():
+        lines.append(f"    {name})")
+        lines.append("      _arguments \\")
+        lines += [f"        {entry} \\" for option in options for entry in argument(option)]
+        lines += ["        '*:file:_files' ;;"]
+    return "\n".join([*lines, "  esac", "}", "", '_equiaffine "$@"', ""])
+
+
+def fish_completion(commands, summaries):
+    lines = ["# Completion of equiaffine for fish."]
+    for name, text in summaries.items():
+        lines.append(f"complete -c equiaffine -f -n __fish_use_subcommand -a {name} -d {quoted(text)}")
+    for command, options in commands.items():
+        for option in options:
+            names = " ".join(f"-l {name[2:]}" if name.startswith("--") else f"-s {name[1:]}" for name in option.names)
+            values = f" -x -a {quoted(' '.join(option.choices))}" if option.choices else " -r" if option.words else ""
+            lines.append(f"complete -c equiaffine -n '__fish_seen_subcommand_from {command}' {names}{values} "
+                         f"-d {quoted(option.summary)}")
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("folder", type=pathlib.Path)
+    options = parser.parse_args()
+    program = options.program.resolve()
+    lines = help_of(program)
+    summaries = {found["name"]: found["text"] for line in lines if (found := COMMAND.match(line))}
+    if not summaries:
+        sys.exit(f"command_files: {program} --help shows no commands")
+    helps = {name: help_of(program, name) for name in summaries}
+    commands = {name: options_of(text) for name, text in helps.items()}
+    version = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout.split()[-1]
+    options.folder.mkdir(parents=True, exist_ok=True)
+    (options.folder / "equiaffine.1.gz").write_bytes(gzip.compress(manual_page(version, lines, helps).encode(), mtime=0))
+    (options.folder / "equiaffine.bash").write_text(bash_completion(commands))
+    (options.folder / "_equiaffine").write_text(zsh_completion(commands, summaries))
+    (options.folder / "equiaffine.fish").write_text(fish_completion(commands, summaries))
+
+
+if __name__ == "__main__":
+    main()

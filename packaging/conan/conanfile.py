@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A Conan 2 recipe for the headers and the mesher, not tried here: conan create packaging/conan"""
+import os
+
+from conan import ConanFile
+from conan.tools.build import check_min_cppstd
+from conan.tools.cmake import CMake, CMakeDeps, CMakeToolchain, cmake_layout
+from conan.tools.files import copy
+
+
+class Equiaffine(ConanFile):
+    name = "equiaffine"
+    version = "1.0.0"
+    license = "GPL-3.0-or-later"
+    description = "Euclidean and equi-affine curvatures of implicit surfaces, in the style of CGAL"
+    package_type = "static-library"
+    settings = "os", "arch", "compiler", "build_type"
+
+    def export_sources(self):
+        root = os.path.join(self.recipe_folder, "..", "..")
+        for part in ("CMakeLists.txt", "LICENSE", "CHANGELOG.md", "cmake/*", "include/*", "mesher/*", "packaging/*", "viewer/*"):
+            copy(self, part, root, self.export_sources_folder)
+
+    def requirements(self):
+        for package in ("cgal/[>=5.5 <7]", "eigen/[>=3.4 <6]", "boost/[>=1.74]", "onetbb/[>=2021.8]"):
+            self.requires(package, transitive_headers=True)
+
+    def validate(self):
+        check_min_cppstd(self, 20)
+
+    def layout(self):
+        cmake_layout(self)
+
+    def generate(self):
+        CMakeDeps(self).generate()
+        toolchain = CMakeToolchain(self)
+        toolchain.cache_variables.update({"EQUIAFFINE_BUILD_PROGRAM": "OFF", "EQUIAFFINE_BUILD_REPRODUCE": "OFF",
+                                          "EQUIAFFINE_WARNINGS_AS_ERRORS": "OFF", "BUILD_TESTING": "OFF"})
+        toolchain.generate()
+
+    def build(self):
+        cmake = CMake(self)
+        cmake.configure()
+        cmake.build()
+
+    def package(self):
+        CMake(self).install()
+        copy(self, "LICENSE", self.source_folder, os.path.join(self.package_folder, "licenses"))
+
+    def package_info(self):
+        self.cpp_info.set_property("cmake_file_name", "equiaffine")
+        headers, mesher = self.cpp_info.components["headers"], self.cpp_info.components["mesher"]
+        headers.set_property("cmake_target_name", "equiaffine::equiaffine")
+        headers.requires = ["cgal::cgal", "eigen::eigen", "boost::headers", "onetbb::libtbb"]
+        headers.defines = ["CGAL_LINKED_WITH_TBB"]
+        mesher.set_property("cmake_target_name", "equiaffine::mesher")
+        mesher.libs = ["equiaffine_mesher"]
+        mesher.requires = ["headers"]
