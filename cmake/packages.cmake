@@ -15,35 +15,41 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+# Packages for another release of Debian are other packages: 1.0.0-1~debian12.
+cmake_host_system_information(RESULT system QUERY DISTRIB_INFO)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1~${system_ID}${system_VERSION_ID})
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 
-set(what "Equi-affine curvatures do not change under affine maps of determinant 1.
+set(EQUIAFFINE_IN_SHORT "Equi-affine curvatures do not change under affine maps of determinant 1.
 equiaffine meshes level sets of formulas, volumes, distances to meshes and fits
 to scans, and computes their Euclidean and equi-affine curvatures.")
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME equiaffine)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
-set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, program\n${what}
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, program\n${EQUIAFFINE_IN_SHORT}
 .
 This package has the program.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libequiaffine-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libcgal-dev (>= 5.5), libeigen3-dev (>= 3.4), libboost-dev, libtbb-dev")
+# The mesher has code of the CGAL that it was compiled with.
+math(EXPR next_minor "${CGAL_MINOR_VERSION} + 1")
+string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+    "libcgal-dev (>= ${CGAL_MAJOR_VERSION}.${CGAL_MINOR_VERSION}), libcgal-dev (<< ${CGAL_MAJOR_VERSION}.${next_minor}), "
+    "libeigen3-dev (>= 3.4), libboost-dev, libtbb-dev, libgmp-dev, libmpfr-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "equiaffine-doc")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, headers\n${what}
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, headers\n${EQUIAFFINE_IN_SHORT}
 .
 This package has the C++ headers, the compiled mesher, and the files for CMake
 and pkg-config.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-equiaffine)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_COMPONENT_PYTHON_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, Python module\n${what}
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, Python module\n${EQUIAFFINE_IN_SHORT}
 .
 This package has the module for Python.")
 
@@ -51,7 +57,7 @@ set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME equiaffine-doc)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SHLIBDEPS OFF)
-set(CPACK_COMPONENT_DOCUMENTATION_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, manual\n${what}
+set(CPACK_COMPONENT_DOCUMENTATION_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, manual\n${EQUIAFFINE_IN_SHORT}
 .
 This package has the user manual and the reference of the C++ library, for a
 browser.")
@@ -62,6 +68,7 @@ if(TARGET equiaffine_executable)
 endif()
 if(TARGET equiaffine_python)
   # Debian's Python of one minor version finds only modules that were compiled for it.
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
   math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
@@ -80,7 +87,7 @@ if(EQUIAFFINE_DOCUMENTATION)
   list(APPEND CPACK_COMPONENTS_ALL documentation)
 endif()
 
-# What Debian wants each package to have: its copyright, what changed, and where lintian is wrong.
+# Each package has its copyright, its changes, and the warnings of lintian that do not apply.
 find_program(EQUIAFFINE_GZIP gzip)
 if(EQUIAFFINE_GZIP)
   set(debian ${CMAKE_CURRENT_BINARY_DIR}/debian)

@@ -31,6 +31,7 @@ SHOWN = (
     (r"\binternal::(?:expression::Ordered|Property_map) (?=\w)", "class "),
     (r"\binternal::Output_allocator<(?:[^<>]|<[^<>]*>)*>", "Unspecified"),
     (r"\binternal::maximal_order\b", "4"),
+    (r"\binternal::scales_to_try\.back\(\)", "8"),
     (r"\binternal::(?=(?:all_monomials|contains)\()", ""),
 )
 FUNCTION = re.compile(r"^(?!using|return|static_assert|friend)(?:[\w:][\w:<>,.&* ]* )?[&*]?([a-z]\w*)\((?!.*;$)", re.MULTILINE)

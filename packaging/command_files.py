@@ -11,8 +11,10 @@ import subprocess
 import sys
 
 HEADING = re.compile(r"^\S.*:$")
-OPTION = re.compile(r"^  (?P<names>-[^ ]+)(?: (?P<words>\S.*?))?(?:(?: {2,}|$)(?P<text>.*))?$")
+COLUMN = 30  # where the text of an option begins, on the line of its name if there is a space before
+OPTION = re.compile(r"^  (?P<names>-[^ ]+)(?: (?P<words>\S.*?))? *$")
 COMMAND = re.compile(r"^  (?P<name>[a-z]+) {2,}(?P<text>.*)$")
+EXAMPLE = re.compile(r"^(Examples?:) *(.*)$")
 WORD = re.compile(r"^  (?P<name>[A-Za-z][\w.|]*) {2,}(?P<text>.*)$")  # a command, or what stands for a file
 KEYWORD = re.compile(r"^[a-z0-9-]+$")
 
@@ -31,21 +33,30 @@ class Option:
 
     @property
     def summary(self):
-        """The help up to the first point that ends a part of it."""
-        return re.split(r" \(|[;:] |, by default|\. ", self.text)[0]
+        """The first part of the help."""
+        return re.split(r"[;:] |\. ", self.text)[0]
 
 
 def help_of(program, *command):
     return subprocess.run([program, *command, "--help"], check=True, capture_output=True, text=True).stdout.splitlines()
 
 
+def option_of(line):
+    """The option that begins in a line, with that part of its text; None if there is none."""
+    head, text = line, ""
+    if len(line) > COLUMN and line[COLUMN - 1] == " " and not line[COLUMN].isspace():
+        head, text = line[:COLUMN], line[COLUMN:]
+    found = OPTION.match(head)
+    return Option(found["names"].split(","), found["words"] or "", text) if found else None
+
+
 def options_of(lines):
     """The options of a help. A text goes on in lines that are indented as far as it."""
     options = []
     for line in lines:
-        if found := OPTION.match(line):
-            options.append(Option(found["names"].split(","), found["words"] or "", found["text"] or ""))
-        elif options and line.startswith(" " * 30):
+        if found := option_of(line):
+            options.append(found)
+        elif options and line.startswith(" " * COLUMN):
             options[-1].text = (options[-1].text + " " + line.strip()).strip()
         elif HEADING.match(line) and not line.startswith(("Options", "Positionals")) and "xample" in line:
             break
@@ -70,33 +81,29 @@ def manual_page(version, program_lines, commands):
 
 
 def body(lines):
-    page, is_verbatim, is_listing = [], False, False
+    """The lines of a help between headings: paragraphs, options and commands with their texts, and examples as they are."""
+    page, is_example = [], False
     for line in lines:
-        found = OPTION.match(line) or (WORD.match(line) if not is_verbatim else None)
-        if is_verbatim and line and not line.startswith(" "):
-            is_verbatim = False
-            page.append(".fi")
-        if is_verbatim:
+        option, word = option_of(line), WORD.match(line)
+        if is_example and line.startswith(" "):
             page.append(roff(line))
-        elif line.startswith("Example"):
-            page += [".PP", roff(line), ".nf"]
-            is_verbatim = True
-        elif found and "names" in found.groupdict():
-            tag = ", ".join(rf"\fB{roff(name)}\fR" for name in found["names"].split(","))
-            page += [".TP", tag + (" " + rf"\fI{roff(found['words'])}\fR" if found["words"] else "")]
-            page += [roff(found["text"])] if found["text"] else []
-            is_listing = True
-        elif found:
-            page += [".TP", rf"\fB{roff(found['name'])}\fR", roff(found["text"])]
-            is_listing = True
+            continue
+        if is_example:
+            page.append(".fi")
+            is_example = False
+        if found := EXAMPLE.match(line):
+            page += [".PP", found[1], ".PP", ".nf"] + ([roff(found[2])] if found[2] else [])
+            is_example = True
+        elif option:
+            tag = ", ".join(rf"\fB{roff(name)}\fR" for name in option.names)
+            page += [".TP", tag + (rf" \fI{roff(option.words)}\fR" if option.words else ""), roff(option.text)]
+        elif word:
+            page += [".TP", rf"\fB{roff(word['name'])}\fR", roff(word["text"])]
         elif HEADING.match(line) and not line.startswith("Usage"):
-            page += [f'.SS "{roff(line[:-1])}"']
-        elif not line:
-            page.append(".PP" if not is_listing else "")
-            is_listing = False
+            page.append(f'.SS "{roff(line[:-1])}"')
         else:
-            page.append(roff(line.strip()))
-    if is_verbatim:
+            page.append(roff(line.strip()) if line else ".PP")
+    if is_example:
         page.append(".fi")
     return [line for line in page if line]
 

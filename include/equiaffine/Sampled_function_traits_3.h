@@ -103,8 +103,11 @@ static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Sampled_function_traits_
 static_assert(FirstOrderImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
 static_assert(CellwiseImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
 
+/// The kernel is that of the volume.
 template <class Kernel>
 Sampled_function_traits_3(Volume_3<Kernel>, const Spline_parameters& = {}) -> Sampled_function_traits_3<Kernel>;
+
+/// The kernel is that of the volume.
 template <class Kernel, class ConcurrencyTag>
 Sampled_function_traits_3(Volume_3<Kernel>, const Spline_parameters&, ConcurrencyTag)
     -> Sampled_function_traits_3<Kernel>;

@@ -45,6 +45,12 @@ class CommandFiles(unittest.TestCase):
             for word in help_of(command).split():
                 self.assertIn(word.rstrip(":"), plain)
 
+    def test_an_example_stays_as_it_is(self):
+        page = gzip.decompress((self.folder / "equiaffine.1.gz").read_bytes()).decode().replace("\\-", "-").replace("\\e", "\\")
+        self.assertIn(".nf\nequiaffine mesh --function", page)
+        self.assertIn('''\n      --box -3 3 -3 3 -1 1 --resolution 128 -o torus.ply --html torus.html\n''', page)
+        self.assertEqual(page.count(".nf\n"), page.count(".fi\n"))
+
     def test_bash_completes_commands(self):
         self.assertEqual(self.completed(""), [*COMMANDS, "--help", "--version"])
         self.assertEqual(self.completed("sy"), ["symmetries"])
@@ -59,6 +65,10 @@ class CommandFiles(unittest.TestCase):
         self.assertEqual(self.completed("mesh", "--method", ""), ["marching-cubes", "delaunay", "remesh"])
         self.assertEqual(self.completed("annotate", "--scale", "a"), ["auto"])
         self.assertEqual(self.completed("sample", "--type", "f"), ["float"])
+        for command in COMMANDS:
+            for names, words in re.findall(r"^  (-\S+) (\S+\|\S+)", help_of(command), re.MULTILINE):
+                choices = [word for word in words.split("|") if re.fullmatch("[a-z0-9-]+", word)]
+                self.assertEqual(self.completed(command, names.split(",")[0], ""), choices)
         self.assertEqual(self.completed("mesh", "--volume", ""), [])  # files, which bash proposes where we do not
 
     def test_the_shells_can_read_the_others(self):

@@ -19,10 +19,12 @@ namespace equiaffine {
 /// are those that belong to them, and the vertices are those of these triangles that no slab before has.
 template <class Kernel>
 struct Isosurface_slab_3 {
-  std::size_t first_plane, end_plane;       ///< planes of nodes, numbered along k
-  std::size_t first_vertex, first_triangle; ///< the numbers in the whole mesh of the first ones
-  std::vector<typename Kernel::Point_3> points;
-  std::vector<Point_status> vertex_status; ///< one per point, as in Isosurface_3
+  std::size_t first_plane;                      ///< the first plane of nodes, numbered along k
+  std::size_t end_plane;                        ///< the plane of nodes behind the last one
+  std::size_t first_vertex;                     ///< the number in the whole mesh of the first vertex
+  std::size_t first_triangle;                   ///< the number in the whole mesh of the first triangle
+  std::vector<typename Kernel::Point_3> points; ///< of the vertices
+  std::vector<Point_status> vertex_status;      ///< one per point, as in Isosurface_3
   /// The numbers in the whole mesh of three vertices each, which are of this slab, of the next one, or of earlier ones.
   std::vector<std::array<std::size_t, 3>> triangles;
   /// One per point, where the mesh of a block of cells was asked for.
@@ -34,7 +36,8 @@ struct Isosurface_slab_3 {
 
 /// The numbers of a mesh that was made slab by slab are counted here.
 struct Isosurface_totals {
-  std::size_t vertices = 0, triangles = 0;
+  std::size_t vertices = 0;             ///< of the whole mesh
+  std::size_t triangles = 0;            ///< of the whole mesh
   std::size_t function_evaluations = 0; ///< of f, with or without derivatives; more than one for nodes near seams
 };
 

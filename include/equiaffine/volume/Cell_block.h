@@ -20,6 +20,7 @@ struct Cell_block {
            cell[2] < end[2];
   }
 
+  /// Whether both have the same cells.
   bool operator==(const Cell_block&) const = default;
 };
 

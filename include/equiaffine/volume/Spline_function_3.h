@@ -222,8 +222,11 @@ private:
   std::shared_ptr<const Coefficients> part_; // of a block of cells, if the function is restricted
 };
 
+/// The kernel is that of the volume.
 template <class Kernel>
 Spline_function_3(const Volume_3<Kernel>&, const Spline_parameters& = {}) -> Spline_function_3<Kernel>;
+
+/// The kernel is that of the volume.
 template <class Kernel, class ConcurrencyTag>
 Spline_function_3(const Volume_3<Kernel>&, const Spline_parameters&, ConcurrencyTag) -> Spline_function_3<Kernel>;
 
