@@ -20,6 +20,7 @@ body { font: 15px/1.5 system-ui, sans-serif; max-width: 64rem; margin: 2rem auto
 table { border-collapse: collapse; width: 100%; margin-bottom: 1rem; }
 td, th { padding: 0.15rem 0.6rem; text-align: left; border-bottom: 1px solid #ddd; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; }
+td { white-space: nowrap; }
 .met { color: #17692b; } .missed { color: #a4161a; font-weight: 600; }
 svg { vertical-align: middle; } svg .met { fill: #7fb98d; } svg .missed { fill: #d9777a; }
 """

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Curvatures of meshes and points by fits: accuracy, noise, coverage of the error estimates, cost, scans, and what other
-// libraries estimate from the same data. Argument: the folder of scripts/example-data (build/data), for the scans.
+// libraries estimate from the same data.
+// Usage: benchmark_fit [part] [folder of data], where part is all, accuracy, peers, cost or scans.
 #include "fit_samples.h"
 #include "measure.h"
 #include "peers/curvature_peers.h"
 #include <equiaffine/Fitted_function_traits_3.h>
 
 #include <CGAL/Monge_via_jet_fitting.h>
+#include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh/IO/OFF.h>
 
@@ -226,11 +228,15 @@ void scan(const Scan& scan, const std::string& folder) {
 } // namespace
 
 int main(int argc, char** argv) {
-  accuracy();
-  beside_jet_fitting();
-  beside_euclidean_peers();
-  cost();
-  const std::string folder = argc > 1 ? argv[1] : "build/data";
+  const std::string part = argc > 1 ? argv[1] : "all", folder = argc > 2 ? argv[2] : "build/data";
+  const auto is_asked_for = [&](const char* name) { return part == "all" || part == name; };
+  if (is_asked_for("accuracy")) accuracy();
+  if (is_asked_for("peers")) {
+    beside_jet_fitting();
+    beside_euclidean_peers();
+  }
+  if (is_asked_for("cost")) cost();
+  if (!is_asked_for("scans")) return 0;
   scan({"bunny00", "<=120", ">=0.5", "<=0.15", ">=0.95"}, folder);
   for (const char* name : {"elephant", "armadillo", "femur"}) scan({name, "none", "none", "none", "none"}, folder);
 }
