@@ -58,7 +58,7 @@ def options_of(lines):
             options.append(found)
         elif options and line.startswith(" " * COLUMN):
             options[-1].text = (options[-1].text + " " + line.strip()).strip()
-        elif HEADING.match(line) and not line.startswith(("Options", "Positionals")) and "xample" in line:
+        elif EXAMPLE.match(line):
             break
     return options
 
