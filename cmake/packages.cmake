@@ -72,6 +72,8 @@ if(TARGET equiaffine_python)
   math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_SOURCE_DIR}/packaging/debian/python3/postinst
+                                                ${CMAKE_CURRENT_SOURCE_DIR}/packaging/debian/python3/prerm)
   list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
 set(EQUIAFFINE_DOCUMENTATION "" CACHE PATH "The site that scripts/documentation has built, for the package equiaffine-doc")
