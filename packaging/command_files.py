@@ -13,7 +13,6 @@ import sys
 HEADING = re.compile(r"^\S.*:$")
 COLUMN = 30  # where the text of an option begins, on the line of its name if there is a space before
 OPTION = re.compile(r"^  (?P<names>-[^ ]+)(?: (?P<words>\S.*?))? *$")
-COMMAND = re.compile(r"^  (?P<name>[a-z]+) {2,}(?P<text>.*)$")
 EXAMPLE = re.compile(r"^(Examples?:) *(.*)$")
 WORD = re.compile(r"^  (?P<name>[A-Za-z][\w.|]*) {2,}(?P<text>.*)$")  # a command, or what stands for a file
 KEYWORD = re.compile(r"^[a-z0-9-]+$")
@@ -167,7 +166,7 @@ def main():
     options = parser.parse_args()
     program = options.program.resolve()
     lines = help_of(program)
-    summaries = {found["name"]: found["text"] for line in lines if (found := COMMAND.match(line))}
+    summaries = {found["name"]: found["text"] for line in lines if (found := WORD.match(line))}
     if not summaries:
         sys.exit(f"command_files: {program} --help shows no commands")
     helps = {name: help_of(program, name) for name in summaries}

@@ -69,7 +69,7 @@ public:
 
   bool has_value(const Point_3& p) const { return !std::isnan(CGAL::to_double(FT(traits_.value(p)))); }
 
-  /// At how many of these points of a box, its corners and its center among them, f has no value.
+  /// Counts those of these points of a box, its corners and its center among them, at which f has no value.
   int count_undefined(const CGAL::Bbox_3& box) const {
     const auto at = [](double lower, double upper, int n) { return FT(lower + 0.5 * n * (upper - lower)); };
     int count = 0;
