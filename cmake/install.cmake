@@ -6,7 +6,7 @@ include(GNUInstallDirs)
 # Without this check an installation would fail half way and leave a prefix that find_package takes for a package.
 set(built_files)
 if(EQUIAFFINE_BUILD_MESHER)
-  list(APPEND built_files $<TARGET_FILE:equiaffine_mesher>)
+  list(APPEND built_files $<TARGET_FILE:equiaffine_mesher> $<TARGET_FILE:equiaffine_compiled>)
 endif()
 if(EQUIAFFINE_BUILD_PROGRAM)
   list(APPEND built_files $<TARGET_FILE:equiaffine_executable>)
@@ -30,14 +30,14 @@ write_basic_package_version_file(equiaffineConfigVersion.cmake COMPATIBILITY Sam
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/equiaffineConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/equiaffineConfigVersion.cmake
         DESTINATION ${package_dir} COMPONENT development)
 
-# For builds without CMake. equiaffine-mesher is the part that is compiled.
+# For builds without CMake. equiaffine-mesher and equiaffine-compiled are the parts that are compiled.
 file(RELATIVE_PATH EQUIAFFINE_PREFIX_OF_PKGCONFIG /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 string(REGEX REPLACE "/$" "" EQUIAFFINE_PREFIX_OF_PKGCONFIG "${EQUIAFFINE_PREFIX_OF_PKGCONFIG}")
 if(EQUIAFFINE_WITH_TBB)
   set(EQUIAFFINE_TBB_FOR_PKGCONFIG ", tbb")
   set(EQUIAFFINE_FLAGS_FOR_PKGCONFIG " -DCGAL_LINKED_WITH_TBB")
 endif()
-foreach(name IN ITEMS equiaffine equiaffine-mesher)
+foreach(name IN ITEMS equiaffine equiaffine-mesher equiaffine-compiled)
   if(name STREQUAL equiaffine OR EQUIAFFINE_BUILD_MESHER)
     configure_file(cmake/${name}.pc.in ${name}.pc @ONLY)
     install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)

@@ -8,6 +8,8 @@
 #include "support/registration_cases.h"
 #include <equiaffine/base/internal/shared/quantile.h>
 #include <equiaffine/register_surfaces.h>
+#include <equiaffine/registration/internal/registration.h>
+#include <equiaffine/registration/internal/vectors_of.h>
 
 #include <CGAL/tags.h>
 
@@ -69,7 +71,7 @@ public:
     const auto framed_target =
         internal::framed_surface<Tag>(target, refined_target, internal::vectors_of(target_points), request.kind);
     const double begin = processor_clock();
-    const auto result = internal::registration_of_framed<Tag, Kernel>(framed, framed_target, request).result;
+    const auto result = internal::registration_of_framed<Tag>(framed, framed_target, request).result;
     seconds_.push_back(processor_clock() - begin);
     found_ += result.found();
     const double error = result.found() ? error_of(result.best().map, right) : 1;

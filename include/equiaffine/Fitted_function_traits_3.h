@@ -2,31 +2,28 @@
 #ifndef EQUIAFFINE_FITTED_FUNCTION_TRAITS_3_H
 #define EQUIAFFINE_FITTED_FUNCTION_TRAITS_3_H
 
+#include <equiaffine/base/named_parameters.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/fit/internal/Fitted_data_3.h>
-#include <equiaffine/fit/internal/blend/Blend_3.h>
 #include <equiaffine/fit/internal/certainty_of_fit.h>
-#include <equiaffine/fit/internal/data/feature_angle.h>
-#include <equiaffine/fit/internal/data/fit_input.h>
-#include <equiaffine/fit/internal/data/fit_input_of_soup.h>
-#include <equiaffine/fit/internal/distances_of_sheets.h>
+#include <equiaffine/fit/internal/data/fit_data_of.h>
+#include <equiaffine/fit/internal/fits.h>
 #include <equiaffine/fit/internal/shared/Fit_request.h>
-#include <equiaffine/fit/internal/structures_of_fit.h>
 #include <equiaffine/number/Interval.h>
+#include <equiaffine/number/Jet_3.h>
 #include <equiaffine/surface/internal/shared/Face_graph.h>
+#include <equiaffine/surface/internal/shared/indexed_polygons.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>
 #include <CGAL/tags.h>
+#include <Eigen/Core>
 
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <ranges>
-#include <utility>
 #include <vector>
 
 namespace equiaffine {
@@ -80,7 +77,7 @@ public:
   explicit Fitted_function_traits_3(const Graph& mesh, const Parameters& given = {}, ConcurrencyTag tag = {}) {
     internal::check_mesh_fit_parameters<internal::Joined_parameters<Parameters>>();
     const auto parameters = internal::joined_parameters(given);
-    make(internal::fit_input_of_graph(mesh, parameters), parameters, tag);
+    make(internal::fit_data_of_graph(mesh, parameters), parameters, tag);
   }
 
   /// From points. In the place of `vertex_point_map`, `vertex_normal_map` and `feature_angle` there are
@@ -98,7 +95,7 @@ public:
                                     ConcurrencyTag tag = {}) requires(!Face_graph<Points>) {
     internal::check_point_fit_parameters<internal::Joined_parameters<Parameters>>();
     const auto parameters = internal::joined_parameters(given);
-    make(internal::fit_input_of_points<ConcurrencyTag>(points, parameters).data, parameters, tag);
+    make(internal::fit_data_of_points(points, parameters), parameters, tag);
   }
 
   /// From points with polygons between them, ranges of positions of points, which need not be a mesh. The named
@@ -111,7 +108,7 @@ public:
                            ConcurrencyTag tag = {}) {
     internal::check_fit_parameters<internal::Joined_parameters<Parameters>, internal::Feature_angle_tag>();
     const auto parameters = internal::joined_parameters(given);
-    make(internal::fit_input_of_soup(points, polygons, internal::feature_angle(parameters)).data, parameters, tag);
+    make(internal::fit_data_of_soup(points, polygons, parameters), parameters, tag);
   }
 
   /// The same function, to be sampled in another box.
@@ -126,68 +123,48 @@ public:
   /// height is the diagonal of a cell.
   Fitted_function_traits_3 in_band(const FT& height) const {
     Fitted_function_traits_3 copy = *this;
-    const double least = state_->fit.normalization().least_stretch(),
-                 greatest = state_->fit.normalization().greatest_stretch();
-    copy.margin_ = {CGAL::to_double(height) * greatest, 0.5 * least / greatest};
+    copy.margin_ = function_->margin(CGAL::to_double(height));
     return copy;
   }
 
   /// The value; not a number outside of the band.
-  FT value(const Point_3& p) const {
-    return FT(state_->blend.value(normal(p), margin_) / state_->fit.normalization().scale());
-  }
+  FT value(const Point_3& p) const { return FT(function_->value(coordinates_of(p), margin_)); }
+
   /// The value and the gradient, which is a diffuse derivative where polynomials are blended.
-  Jet_3<FT, 1> first_order(const Point_3& p) const { return expansion<1>(p); }
+  Jet_3<FT, 1> first_order(const Point_3& p) const { return converted(function_->first_order(coordinates_of(p))); }
 
   /// The expansion where the value is that of polynomials; not a number elsewhere.
-  Jet_3<FT> taylor(const Point_3& p) const { return expansion<4>(p); }
+  Jet_3<FT> taylor(const Point_3& p) const { return converted(function_->taylor(coordinates_of(p))); }
 
   /// The whole line for a box that meets the band, as far as boxes around the data tell, and 1 for one where the
   /// function has no value, so that Marching Cubes with `skip_empty_space` visits the band alone.
   Interval bounds(const CGAL::Bbox_3& box) const {
-    const Eigen::Matrix3d& matrix = state_->fit.normalization().matrix;
-    const Eigen::Vector3d lower(box.xmin(), box.ymin(), box.zmin()), upper(box.xmax(), box.ymax(), box.zmax());
-    const Eigen::Vector3d center = state_->fit.normalization()((lower + upper) / 2);
-    const Eigen::Vector3d half = matrix.cwiseAbs() * ((upper - lower) / 2);
-    return state_->blend.band().may_meet(center - half, center + half, margin_) ? Interval::whole() : Interval(1);
+    return function_->may_meet(box, margin_) ? Interval::whole() : Interval(1);
   }
 
   /// The errors of second derivatives at a point that roundings of the data make; infinity where K_e is zero within its
   /// estimated error.
-  FT rounding(const Point_3& p) const {
-    const Eigen::Vector3d place = normal(p);
-    const auto jet = state_->blend.template taylor<4>(place);
-    if (!std::isfinite(jet.value())) return FT(jet.value());
-    return FT(internal::rounding_of(jet, state_->fit, state_->blend.accuracy(place, jet)));
-  }
+  FT rounding(const Point_3& p) const { return FT(function_->rounding(coordinates_of(p))); }
 
   /// The structure of the level set through a point, with estimates of the errors as `fitted_structures` has them for
   /// the data, the geometric means of those of the polynomials that are blended there. OUTSIDE where the function has
   /// no derivatives.
-  Fitted_structure_3<double> structure(const Point_3& p) const {
-    const Eigen::Vector3d place = normal(p);
-    const auto jet = state_->blend.template taylor<4>(place);
-    if (!std::isfinite(jet.value())) return internal::structure_without_fit();
-    return internal::structure_of(jet, state_->fit, state_->blend.accuracy(place, jet),
-                                  Orientation_of_level_set::ALONG_GRADIENT);
-  }
+  Fitted_structure_3<double> structure(const Point_3& p) const { return function_->structure(coordinates_of(p)); }
 
   /// How far the affine curvatures there can be trusted, by their estimated errors: see `equiaffine::certainty`.
   double certainty(const Point_3& p) const { return internal::certainty_of_fit(structure(p)); }
 
   /// The scale of the curvatures, in the unit of the points; nothing if they are the surface's own.
-  std::optional<double> scale() const { return state_->fit.scale(); }
+  std::optional<double> scale() const { return function_->scale(); }
 
   /// The distance of the points around the one whose foot is nearest to p, in their unit of length.
-  FT spacing(const Point_3& p) const {
-    return FT(state_->blend.band().spacing(normal(p)) / state_->fit.normalization().scale());
-  }
+  FT spacing(const Point_3& p) const { return FT(function_->spacing(coordinates_of(p))); }
 
   /// The point of the tangent plane of the zero set at the nearest foot of a datum that is under or above p there, in
   /// the coordinates in which data have no preferred direction, or p itself if the fit has no polynomials. The function
   /// has derivatives there more often than at p.
   Point_3 on_tangent_plane(const Point_3& p) const {
-    const Eigen::Vector3d q = state_->fit.normalization().inverse(state_->blend.band().on_tangent_plane(normal(p)));
+    const Eigen::Vector3d q = function_->on_tangent_plane(coordinates_of(p));
     return Point_3(FT(q[0]), FT(q[1]), FT(q[2]));
   }
 
@@ -196,7 +173,7 @@ public:
   /// that are farther from each other than the steps of its grid.
   template <class ConcurrencyTag = CGAL::Sequential_tag>
   std::vector<FT> distances_of_sheets(const FT& distance) const {
-    const auto found = internal::distances_of_sheets<ConcurrencyTag>(state_->fit, CGAL::to_double(distance));
+    const auto found = internal::distances_of_sheets<ConcurrencyTag>(function_->data(), CGAL::to_double(distance));
     return {found.begin(), found.end()};
   }
 
@@ -204,37 +181,25 @@ public:
   CGAL::Bbox_3 bbox() const { return box_; }
 
   /// The box of the band, whatever `in_box` was given.
-  CGAL::Bbox_3 band_box() const { return state_->blend.band().box(state_->fit.normalization()); }
+  CGAL::Bbox_3 band_box() const { return function_->box(); }
 
 private:
-  struct State {
-    template <class ConcurrencyTag>
-    State(internal::Normalized_data data, const internal::Fit_request& request, ConcurrencyTag tag)
-        : fit(std::move(data), request, tag), blend(fit.data(), fit.choices(), tag) {}
-
-    internal::Fitted_data_3 fit;
-    internal::Blend_3 blend;
-  };
-
   template <class Parameters, class ConcurrencyTag>
-  void make(internal::Normalized_data data, const Parameters& parameters, ConcurrencyTag tag) {
-    state_ = std::make_shared<const State>(std::move(data), internal::fit_request(parameters), tag);
+  void make(const internal::Fit_data_3& data, const Parameters& parameters, ConcurrencyTag) {
+    function_ = internal::fitted_function<ConcurrencyTag>(data, internal::fit_request(parameters));
     box_ = band_box();
   }
 
-  Eigen::Vector3d normal(const Point_3& p) const { return state_->fit.normalization()(coordinates_of(p)); }
-
   template <int Order>
-  Jet_3<FT, Order> expansion(const Point_3& p) const {
-    const auto jet = state_->fit.to_space(state_->blend.template taylor<Order>(normal(p)));
+  static Jet_3<FT, Order> converted(const Jet_3<double, Order>& jet) {
     Jet_3<FT, Order> result;
     for (std::size_t n = 0; n < jet.size; ++n) result.coefficients()[n] = FT(jet.coefficients()[n]);
     return result;
   }
 
-  std::shared_ptr<const State> state_;
+  std::shared_ptr<const internal::Fitted_function_3> function_;
   CGAL::Bbox_3 box_;
-  internal::Band_3::Margin margin_; ///< in normal coordinates
+  internal::Band_margin margin_; ///< in normal coordinates
 };
 
 } // namespace equiaffine

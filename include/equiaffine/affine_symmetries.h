@@ -6,8 +6,12 @@
 #include <equiaffine/concepts.h>
 #include <equiaffine/registration/Affine_symmetries_3.h>
 #include <equiaffine/registration/Map_kind.h>
+#include <equiaffine/registration/internal/Symmetry_request.h>
+#include <equiaffine/registration/internal/in_kernel.h>
 #include <equiaffine/registration/internal/samples/triangles_of.h>
-#include <equiaffine/registration/internal/symmetries.h>
+#include <equiaffine/registration/internal/searches.h>
+#include <equiaffine/registration/internal/vectors_of.h>
+#include <equiaffine/surface/Any_function_3.h>
 #include <equiaffine/surface/internal/shared/Face_graph.h>
 #include <equiaffine/surface/internal/shared/indexed_polygons.h>
 
@@ -52,8 +56,8 @@ Affine_symmetries_3<Kernel_of<Traits>> affine_symmetries(const Traits& traits, c
                                                          const Parameters&... given) {
   internal::check_map_parameters<internal::Joined_parameters<Parameters...>, internal::Complete_tag>();
   const auto parameters = internal::joined_parameters(given...);
-  return internal::symmetries_of<ConcurrencyTag, Kernel_of<Traits>>(
-      Any_function_3::make(traits), internal::vectors_of(points), internal::symmetry_request(parameters));
+  return internal::in_kernel<Kernel_of<Traits>>(internal::symmetries_of_function<ConcurrencyTag>(
+      Any_function_3::make(traits), internal::vectors_of(points), internal::symmetry_request(parameters)));
 }
 
 /// The same for the triangles of a mesh, by all rotations; other faces are cut into triangles. Without a
@@ -76,8 +80,8 @@ auto affine_symmetries(const Graph& mesh, const Parameters&... given) {
   const auto parameters = internal::joined_parameters(given...);
   using Point = Point_of_vertices<const Graph, internal::Joined_parameters<Parameters...>>;
   using Kernel_of_points = typename CGAL::Kernel_traits<Point>::Kernel;
-  return internal::symmetries_of_triangles<ConcurrencyTag, Kernel_of_points>(
-      internal::triangles_of_graph(mesh, parameters), parameters);
+  return internal::in_kernel<Kernel_of_points>(internal::symmetries_of_triangles<ConcurrencyTag>(
+      internal::triangles_of_graph(mesh, parameters), internal::map_request(parameters)));
 }
 
 /// The same for points with polygons between them, each a range of positions of points. Equal points count once. There
@@ -90,8 +94,8 @@ auto affine_symmetries(const Points& points, const Polygons& polygons,
   internal::check_map_parameters<internal::Joined_parameters<Parameters...>>();
   const auto parameters = internal::joined_parameters(given...);
   using Kernel_of_points = typename CGAL::Kernel_traits<std::ranges::range_value_t<Points>>::Kernel;
-  return internal::symmetries_of_triangles<ConcurrencyTag, Kernel_of_points>(
-      internal::triangles_of_soup(points, polygons), parameters);
+  return internal::in_kernel<Kernel_of_points>(internal::symmetries_of_triangles<ConcurrencyTag>(
+      internal::triangles_of_soup(points, polygons), internal::map_request(parameters)));
 }
 
 } // namespace equiaffine

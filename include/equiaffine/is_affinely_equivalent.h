@@ -4,8 +4,10 @@
 
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/concepts.h>
-#include <equiaffine/registration/internal/registration.h>
-#include <equiaffine/registration/internal/wholes/differ_as_wholes.h>
+#include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/registration_of.h>
+#include <equiaffine/registration/internal/searches.h>
+#include <equiaffine/surface/Any_function_3.h>
 
 #include <CGAL/Uncertain.h>
 #include <CGAL/tags.h>

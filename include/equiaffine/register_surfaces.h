@@ -8,9 +8,10 @@
 #include <equiaffine/registration/Map_kind.h>
 #include <equiaffine/registration/Surface_registration_3.h>
 #include <equiaffine/registration/internal/Registration_request.h>
-#include <equiaffine/registration/internal/registration.h>
-#include <equiaffine/registration/internal/registration_of_triangles.h>
+#include <equiaffine/registration/internal/in_kernel.h>
+#include <equiaffine/registration/internal/registration_of.h>
 #include <equiaffine/registration/internal/samples/triangles_of.h>
+#include <equiaffine/registration/internal/searches.h>
 #include <equiaffine/surface/internal/shared/Face_graph.h>
 #include <equiaffine/surface/internal/shared/indexed_polygons.h>
 
@@ -63,7 +64,8 @@ Surface_registration_3<Kernel_of<Target>> register_surfaces(const Source& source
   internal::check_registration_parameters<internal::Joined_parameters<Parameters...>,
                                           internal::Refined_functions_tag>();
   const auto parameters = internal::joined_parameters(given...);
-  return internal::registration_of<ConcurrencyTag>(source, source_points, target, target_points, parameters).result;
+  return internal::in_kernel<Kernel_of<Target>>(
+      internal::registration_of<ConcurrencyTag>(source, source_points, target, target_points, parameters).result);
 }
 
 /// The same for the triangles of two meshes, without any curvature: boxes and other CAD parts have none to go by.
@@ -105,9 +107,9 @@ auto register_surfaces(const Source& source, const Target& target, const Paramet
   const auto target_parameters = internal::joined_parameters(given_of_target);
   using Point = Point_of_vertices<const Target, internal::Joined_parameters<Target_parameters>>;
   using Kernel_of_points = typename CGAL::Kernel_traits<Point>::Kernel;
-  return internal::registration_of_triangles<ConcurrencyTag, Kernel_of_points>(
+  return internal::in_kernel<Kernel_of_points>(internal::registration_of_triangles<ConcurrencyTag>(
       internal::triangles_of_graph(source, parameters), internal::triangles_of_graph(target, target_parameters),
-      internal::registration_request(parameters));
+      internal::registration_request(parameters)));
 }
 
 /// The same for points with polygons between them, each a range of positions of points. Equal points count once.
@@ -120,9 +122,9 @@ auto register_surfaces(const Points& points, const Polygons& polygons, const Tar
   internal::check_registration_parameters<internal::Joined_parameters<Parameters...>>();
   const auto parameters = internal::joined_parameters(given...);
   using Kernel_of_points = typename CGAL::Kernel_traits<std::ranges::range_value_t<Target_points>>::Kernel;
-  return internal::registration_of_triangles<ConcurrencyTag, Kernel_of_points>(
+  return internal::in_kernel<Kernel_of_points>(internal::registration_of_triangles<ConcurrencyTag>(
       internal::triangles_of_soup(points, polygons), internal::triangles_of_soup(target_points, target_polygons),
-      internal::registration_request(parameters));
+      internal::registration_request(parameters)));
 }
 
 /// \cond

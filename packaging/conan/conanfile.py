@@ -18,7 +18,7 @@ class Equiaffine(ConanFile):
 
     def export_sources(self):
         root = os.path.join(self.recipe_folder, "..", "..")
-        for part in ("CMakeLists.txt", "LICENSE", "CHANGELOG.md", "cmake/*", "include/*", "mesher/*", "packaging/*", "viewer/*"):
+        for part in ("CMakeLists.txt", "LICENSE", "CHANGELOG.md", "cmake/*", "include/*", "mesher/*", "compiled/*", "packaging/*", "viewer/*"):
             copy(self, part, root, self.export_sources_folder)
 
     def requirements(self):
@@ -49,10 +49,13 @@ class Equiaffine(ConanFile):
 
     def package_info(self):
         self.cpp_info.set_property("cmake_file_name", "equiaffine")
-        headers, mesher = self.cpp_info.components["headers"], self.cpp_info.components["mesher"]
+        headers = self.cpp_info.components["headers"]
         headers.set_property("cmake_target_name", "equiaffine::equiaffine")
         headers.requires = ["cgal::cgal", "eigen::eigen", "boost::headers", "onetbb::libtbb"]
         headers.defines = ["CGAL_LINKED_WITH_TBB"]
-        mesher.set_property("cmake_target_name", "equiaffine::mesher")
-        mesher.libs = ["equiaffine_mesher"]
-        mesher.requires = ["headers"]
+        for name in ("mesher", "compiled"):
+            part = self.cpp_info.components[name]
+            part.set_property("cmake_target_name", f"equiaffine::{name}")
+            part.libs = [f"equiaffine_{name}"]
+            part.requires = ["headers"]
+        self.cpp_info.components["compiled"].defines = ["EQUIAFFINE_COMPILED"]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Expects that BUILD, a project with equiaffine as a subdirectory, built and installs only what is its own.
-file(GLOB_RECURSE libraries ${BUILD}/*equiaffine_mesher.*)
+file(GLOB_RECURSE libraries ${BUILD}/*equiaffine_mesher.* ${BUILD}/*equiaffine_compiled.*)
 if(libraries)
   message(FATAL_ERROR "nothing links to the mesher, and yet it was built: ${libraries}")
 endif()

@@ -2,12 +2,14 @@
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/annotate.h>
 #include <equiaffine/delaunay_surface.h>
+#include <equiaffine/fitted_structures.h>
 #include <equiaffine/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
 
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 struct Ellipsoid {
   auto operator()(const auto& x, const auto& y, const auto& z) const { return x * x / 4.0 + y * y + z * z - 1.0; }
@@ -25,6 +27,9 @@ int main() {
     if (!(std::abs(curvature[v] - 0.5) < 1e-12)) return EXIT_FAILURE;
 #ifndef HEADERS_ALONE
   if (!equiaffine::delaunay_surface(traits).is_certified) return EXIT_FAILURE;
+  std::vector<Kernel::Point_3> points;
+  for (int i = 0; i < 144; ++i) points.emplace_back(i % 12, i / 12, 0.01 * (i % 12) * (i / 12));
+  if (equiaffine::fitted_structures(points).size() != points.size()) return EXIT_FAILURE;
 #endif
   return mesh.number_of_vertices() > 1000 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -2,6 +2,8 @@
 // What fits do with data that they were not made for: a status or an exception, and no number out of nowhere.
 #include "support/fit_data.h"
 #include <equiaffine/Fitted_function_traits_3.h>
+#include <equiaffine/fit/internal/data/fit_data_of.h>
+#include <equiaffine/fit/internal/data/fit_input.h>
 #include <equiaffine/fitted_structures.h>
 
 #include <gtest/gtest.h>
@@ -87,8 +89,12 @@ TEST(Fit_input, normals_of_vertices_that_agree_with_the_faces_are_those_of_the_d
     normals[v] = Fit_kernel::Vector_3(-2 * p.x() - 0.2 * p.x() * p.y(), -p.y() - 0.1 * p.x() * p.x(), 1);
   }
   normals[Vertex(3)] = -normals[Vertex(3)];
-  const auto by_faces = internal::fit_input_of_graph(mesh, parameters::default_values());
-  const auto given = internal::fit_input_of_graph(mesh, parameters::vertex_normal_map(normals));
+  const auto by_faces =
+      internal::fit_input_of_mesh(internal::fit_data_of_graph(mesh, internal::joined_parameters())).data;
+  const auto given =
+      internal::fit_input_of_mesh(
+          internal::fit_data_of_graph(mesh, internal::joined_parameters(parameters::vertex_normal_map(normals))))
+          .data;
   for (const Vertex v : mesh.vertices()) {
     const auto& n = normals[v];
     const Eigen::Matrix3d inverse = given.normalization.matrix.inverse();

@@ -130,7 +130,7 @@ def faults_of_places(root, porch_lines, library):
     for name in sorted({name for name in names if names.count(name) > 1}):
         yield f"cmake/rooms.txt: {name}.h belongs to two rooms"
     used = set()
-    for folder in (LIBRARY, "src", "mesher", "test", "benchmark", "reproduce"):
+    for folder in (LIBRARY, "src", "mesher", "compiled", "test", "benchmark", "reproduce"):
         for path, text in read_files(root / folder).items():
             for included, _ in INCLUDE.findall(text):
                 if included and not (folder == LIBRARY and is_own(path) and room_of(path) == room_of(included)):
@@ -157,7 +157,7 @@ def is_home(path, room):
 
 def faults_of_looker(path, text, lookers, rooms_of_name):
     """What a file outside of the library looks at inside of a room that is not its own."""
-    if OPENED.search(text) and not path.startswith("mesher/"):
+    if OPENED.search(text) and not path.startswith(("mesher/", "compiled/")):
         yield f"{path} opens the namespace internal: write internal::NAME"
     for _, quoted in INCLUDE.findall(text):
         if "include/equiaffine/" in quoted:
@@ -213,7 +213,7 @@ def find_faults(root):
     rooms_of_name = functools.cache(lambda name: rooms_that_define(name, library))
     for path, text in library.items():
         faults += faults_of_names(rooms_of_name, room_of(path, porch), path, text)
-    for folder in ("src", "mesher", "examples", "reproduce", "test", "benchmark"):
+    for folder in ("src", "mesher", "compiled", "examples", "reproduce", "test", "benchmark"):
         for path, text in read_files(root / folder).items():
             faults += faults_of_looker(f"{folder}/{path}", text, lookers, rooms_of_name)
     return faults

@@ -8,6 +8,7 @@
 #include <equiaffine/attributes/internal/shared/error_table.h>
 #include <equiaffine/fitted_structures.h>
 
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/property_map.h>
 #include <CGAL/tags.h>
 

@@ -5,6 +5,7 @@
 #include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/fit/internal/Fitted_data_3.h>
 #include <equiaffine/fit/internal/data/Point_tree_3.h>
+#include <equiaffine/fit/internal/declared_fits.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -27,10 +28,6 @@ inline bool are_beside_crease(const Data_points_3& data, Data_points_3::Index i,
          charts.relation(charts.of(i), charts.of(j)) != Charts_3::Relation::NONE;
 }
 
-/// The distances along the normals, in the coordinates of the data, between points and the next ones that are within a
-/// spacing of them across and on another sheet, where these are less than `greatest` and about ten spacings. Points that
-/// are not connected nearby are on different sheets, and points whose normals are opposed, as on both sides of a thin
-/// plate or tube.
 template <class ConcurrencyTag>
 std::vector<double> distances_of_sheets(const Fitted_data_3& fit, double greatest) {
   using Index = Data_points_3::Index;

@@ -6,11 +6,11 @@
 #include <equiaffine/Local_structure_3.h>
 #include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/base/internal/shared/parallel_for.h>
-#include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
 #include <equiaffine/fit/internal/Fitted_data_3.h>
 #include <equiaffine/fit/internal/blend/Patch_cover_3.h>
-#include <equiaffine/fit/internal/polynomial/check_scale.h>
+#include <equiaffine/fit/internal/data/fit_input.h>
+#include <equiaffine/fit/internal/declared_fits.h>
 #include <equiaffine/fit/internal/shared/Extent_of_fit.h>
 #include <equiaffine/surface/internal/shared/foot_on_surface.h>
 
@@ -19,6 +19,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -110,15 +111,10 @@ inline Fitted_structure_3<double> structure_at_point(const Fitted_data_3& fit, D
   return structure_of(curvature->patch.taylor(*foot), fit, curvature->accuracy, orientation);
 }
 
-template <class Parameters>
-Orientation_of_level_set orientation_of(const Parameters& parameters) {
-  return get_parameter<Orientation_tag>(parameters, Orientation_of_level_set::ALONG_GRADIENT);
-}
-
-template <class ConcurrencyTag, class Parameters>
-std::vector<Fitted_structure_3<double>> structures_of_fit(const Fitted_data_3& fit, const Parameters& parameters) {
+template <class ConcurrencyTag>
+std::vector<Fitted_structure_3<double>> structures_of_fit(const Fitted_data_3& fit,
+                                                          Orientation_of_level_set orientation) {
   check_extent(fit);
-  const Orientation_of_level_set orientation = orientation_of(parameters);
   const Data_points_3& data = fit.data();
   const double distance = fit.choices().scale() ? distance_of_direct_fits_at_scale : distance_of_direct_fits;
   const Patch_cover_3 cover = patch_cover(data, fit.choices(), Fit_use::NUMBERS, distance, ConcurrencyTag());
@@ -134,6 +130,21 @@ std::vector<Fitted_structure_3<double>> structures_of_fit(const Fitted_data_3& f
       },
       64);
   return structures;
+}
+
+template <class ConcurrencyTag>
+std::vector<Fitted_structure_3<double>> structures_of_data(const Fit_data_3& given, const Fit_request& request,
+                                                           Orientation_of_level_set orientation) {
+  auto input = fit_input<ConcurrencyTag>(given);
+  const Fitted_data_3 fit(std::move(input.data), request, ConcurrencyTag());
+  return elements_at(structures_of_fit<ConcurrencyTag>(fit, orientation), input.positions);
+}
+
+template <class ConcurrencyTag>
+Fitted_structure_3<double> structure_of_vertex(const Fit_data_3& given, const Fit_request& request,
+                                               Orientation_of_level_set orientation, std::size_t i) {
+  const Fitted_data_3 fit(fit_input<ConcurrencyTag>(given).data, request, ConcurrencyTag());
+  return structure_at_point(fit, Data_points_3::Index(i), orientation);
 }
 
 } // namespace equiaffine::internal

@@ -3,15 +3,13 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_H
 
 #include <equiaffine/base/internal/shared/check_argument.h>
-#include <equiaffine/registration/Surface_registration_3.h>
-#include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/declared_searches.h>
 #include <equiaffine/registration/internal/frames/Framed_surface_3.h>
 #include <equiaffine/registration/internal/frames/Registration_search.h>
 #include <equiaffine/registration/internal/frames/map_of_quadrics.h>
 #include <equiaffine/registration/internal/frames/part_on_surface.h>
 #include <equiaffine/registration/internal/frames/slippage.h>
 #include <equiaffine/registration/internal/registration_of_wholes.h>
-#include <equiaffine/registration/internal/vectors_of.h>
 #include <equiaffine/registration/internal/wholes/Centered_surface_3.h>
 
 #include <Eigen/Core>
@@ -25,32 +23,24 @@
 
 namespace equiaffine::internal {
 
-template <class Kernel>
-Registered_map_3<Kernel> registered_map(const Judged_map& m) {
-  Registered_map_3<Kernel> result{m.map.to_CGAL<typename Kernel::Aff_transformation_3>(),
-                                  m.evidence.log10_false_alarms,
-                                  m.evidence.inliers,
-                                  m.evidence.rms,
-                                  {}};
+inline Registered_map_3<Kernel_of_searches> registered_map(const Judged_map& m) {
+  Registered_map_3<Kernel_of_searches> result{m.map.to_CGAL<Kernel_of_searches::Aff_transformation_3>(),
+                                              m.evidence.log10_false_alarms,
+                                              m.evidence.inliers,
+                                              m.evidence.rms,
+                                              {}};
   if (!m.pair) return result;
   result.pair.emplace();
   for (std::size_t side = 0; side < 2; ++side) {
     const Framed_point_3& framed = (*m.pair)[side];
     const Eigen::Vector3d& p = framed.point;
     const Eigen::Matrix3d& basis = framed.basis;
-    result.pair->points[side] = typename Kernel::Point_3(p[0], p[1], p[2]);
+    result.pair->points[side] = Kernel_of_searches::Point_3(p[0], p[1], p[2]);
     for (int k = 0; k < 3; ++k)
-      result.pair->frames[side][std::size_t(k)] = typename Kernel::Vector_3(basis(0, k), basis(1, k), basis(2, k));
+      result.pair->frames[side][std::size_t(k)] = Kernel_of_searches::Vector_3(basis(0, k), basis(1, k), basis(2, k));
   }
   return result;
 }
-
-/// The result of register_surfaces(), and whether the best map moves all of each surface onto the other.
-template <class Kernel>
-struct Registration_of_framed_3 {
-  Surface_registration_3<Kernel> result;
-  bool is_equivalence = false;
-};
 
 template <class ConcurrencyTag>
 bool is_equivalence(const Framed_surface_3& source, const Framed_surface_3& target, const Affine_map_3& map,
@@ -74,11 +64,11 @@ inline bool is_in_plane(const Framed_surface_3& surface, double tolerance) {
   return !(variance > std::pow(tolerance * surface.size, 2));
 }
 
-template <class ConcurrencyTag, class Kernel>
-Registration_of_framed_3<Kernel> registration_of_framed(const Framed_surface_3& source, const Framed_surface_3& target,
-                                                        const Registration_request& request) {
-  Registration_of_framed_3<Kernel> registration;
-  Surface_registration_3<Kernel>& result = registration.result;
+template <class ConcurrencyTag>
+Registration_of_functions_3 registration_of_framed(const Framed_surface_3& source, const Framed_surface_3& target,
+                                                   const Registration_request& request) {
+  Registration_of_functions_3 registration;
+  Surface_registration_3<Kernel_of_searches>& result = registration.result;
   result.size = target.size;
   result.slippage = slippage_of(source, request.kind, slippage_tolerance);
   Registration_search<ConcurrencyTag> search(source, target, request);
@@ -89,7 +79,7 @@ Registration_of_framed_3<Kernel> registration_of_framed(const Framed_surface_3& 
   result.hypotheses = search.hypotheses();
   const auto accepted = search.accepted();
   for (std::size_t n = 0; n < std::min(accepted.size(), request.number_of_maps); ++n)
-    result.maps.push_back(registered_map<Kernel>(accepted[n]));
+    result.maps.push_back(registered_map(accepted[n]));
   const std::size_t next = result.found() ? 1 : 0;
   if (search.refined().size() > next) result.next_best_rms = search.refined()[next].evidence.rms;
   registration.is_equivalence =
@@ -100,18 +90,10 @@ Registration_of_framed_3<Kernel> registration_of_framed(const Framed_surface_3& 
 /// So many points, at least, tell of a whole surface that it is meant.
 constexpr std::size_t fewest_points_of_whole = 16;
 
-/// A surface as register_surfaces() is given it: a function, points near its zero set, and a function with the same zero
-/// set on which maps are refined.
-struct Surface_with_points_3 {
-  Any_function_3 function, refined;
-  std::vector<Eigen::Vector3d> points;
-};
-
-/// Whole surfaces of exact functions whose frames give no map are tried without frames.
-template <class ConcurrencyTag, class Kernel>
-Registration_of_framed_3<Kernel> registration_of_functions(const Surface_with_points_3& source,
-                                                           const Surface_with_points_3& target,
-                                                           const Registration_request& request) {
+template <class ConcurrencyTag>
+Registration_of_functions_3 registration_of_functions(const Surface_with_points_3& source,
+                                                      const Surface_with_points_3& target,
+                                                      const Registration_request& request) {
   check_argument(!source.points.empty(), "a surface to be registered has no points: give points of the source");
   check_argument(!target.points.empty(), "a surface to register with has no points: give points of the target");
   const Framed_function_3 function(source.function), target_function(target.function);
@@ -119,32 +101,18 @@ Registration_of_framed_3<Kernel> registration_of_functions(const Surface_with_po
   const auto framed = framed_surface<ConcurrencyTag>(function, refinement, source.points, request.kind);
   const auto framed_target =
       framed_surface<ConcurrencyTag>(target_function, target_refinement, target.points, request.kind);
-  auto registration = registration_of_framed<ConcurrencyTag, Kernel>(framed, framed_target, request);
+  auto registration = registration_of_framed<ConcurrencyTag>(framed, framed_target, request);
   const bool has_points = std::min(framed.probes.size(), framed_target.probes.size()) >= fewest_points_of_whole;
   const bool is_exact = has_exact_frames(framed) && has_exact_frames(framed_target);
   if (registration.result.found() || !has_points || !is_exact) return registration;
-  auto wholes = registration_of_wholes<ConcurrencyTag, Kernel>(
-      centered_surface<ConcurrencyTag>(source.refined, request.kind),
-      centered_surface<ConcurrencyTag>(target.refined, request.kind), request);
+  auto wholes =
+      registration_of_wholes<ConcurrencyTag>(centered_surface<ConcurrencyTag>(source.refined, request.kind),
+                                             centered_surface<ConcurrencyTag>(target.refined, request.kind), request);
   registration.is_equivalence = wholes.found();
   const std::size_t hypotheses = registration.result.hypotheses + wholes.hypotheses;
   if (wholes.found()) registration.result = std::move(wholes);
   registration.result.hypotheses = hypotheses;
   return registration;
-}
-
-template <class ConcurrencyTag, class Source, class Points, class Target, class Target_points, class Parameters>
-auto registration_of(const Source& source, const Points& source_points, const Target& target,
-                     const Target_points& target_points, const Parameters& parameters) {
-  const auto function = Any_function_3::make(source), target_function = Any_function_3::make(target);
-  Surface_with_points_3 from = {function, function, vectors_of(source_points)};
-  Surface_with_points_3 to = {target_function, target_function, vectors_of(target_points)};
-  if constexpr (has_parameter<Refined_functions_tag, Parameters>) {
-    const auto& [refined_source, refined_target] = given_parameter<Refined_functions_tag>(parameters);
-    from.refined = Any_function_3::make(refined_source);
-    to.refined = Any_function_3::make(refined_target);
-  }
-  return registration_of_functions<ConcurrencyTag, Kernel_of<Target>>(from, to, registration_request(parameters));
 }
 
 } // namespace equiaffine::internal

@@ -3,9 +3,8 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_OF_TRIANGLES_H
 
 #include <equiaffine/base/internal/shared/check_argument.h>
-#include <equiaffine/registration/Surface_registration_3.h>
-#include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/Shape_matches.h>
+#include <equiaffine/registration/internal/declared_searches.h>
 #include <equiaffine/registration/internal/pieces/register_pieces.h>
 #include <equiaffine/registration/internal/registration_of_wholes.h>
 #include <equiaffine/registration/internal/samples/mesh_samples.h>
@@ -16,17 +15,17 @@
 
 namespace equiaffine::internal {
 
-template <class ConcurrencyTag, class Kernel>
-Surface_registration_3<Kernel> registration_of_triangles(const Triangles_3& source, const Triangles_3& target,
-                                                         const Registration_request& request) {
+template <class ConcurrencyTag>
+Surface_registration_3<Kernel_of_searches>
+registration_of_triangles(const Triangles_3& source, const Triangles_3& target, const Registration_request& request) {
   check_argument(!source.triangles.empty(), "a mesh to be registered has no faces: give faces of the source");
   check_argument(!target.triangles.empty(), "a mesh to register with has no faces: give faces of the target");
   Shape_matches wholes = register_wholes<ConcurrencyTag>(centered_surface(source, request.kind),
                                                          centered_surface(target, request.kind), request);
-  if (!wholes.maps.empty()) return to_CGAL<Kernel>(std::move(wholes), request);
+  if (!wholes.maps.empty()) return to_CGAL(std::move(wholes), request);
   Shape_matches pieces = register_pieces<ConcurrencyTag>(source, target, request);
   pieces.hypotheses += wholes.hypotheses;
-  return to_CGAL<Kernel>(std::move(pieces), request);
+  return to_CGAL(std::move(pieces), request);
 }
 
 } // namespace equiaffine::internal

@@ -2,9 +2,8 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_OF_WHOLES_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_OF_WHOLES_H
 
-#include <equiaffine/registration/Surface_registration_3.h>
-#include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/Shape_matches.h>
+#include <equiaffine/registration/internal/declared_searches.h>
 #include <equiaffine/registration/internal/wholes/Centered_surface_3.h>
 #include <equiaffine/registration/internal/wholes/register_wholes.h>
 
@@ -15,13 +14,12 @@
 namespace equiaffine::internal {
 
 /// Converts what was found to the types of CGAL. One map stands for all of a continuous family.
-template <class Kernel>
-Surface_registration_3<Kernel> to_CGAL(Shape_matches found, const Registration_request& request) {
-  Surface_registration_3<Kernel> result;
+inline Surface_registration_3<Kernel_of_searches> to_CGAL(Shape_matches found, const Registration_request& request) {
+  Surface_registration_3<Kernel_of_searches> result;
   const bool slips = found.slippage.dimension() > 0;
   for (std::size_t n = 0; n < std::min(slips ? 1 : request.number_of_maps, found.maps.size()); ++n) {
     const Shape_match& m = found.maps[n];
-    result.maps.push_back({m.map.to_CGAL<typename Kernel::Aff_transformation_3>(),
+    result.maps.push_back({m.map.to_CGAL<Kernel_of_searches::Aff_transformation_3>(),
                            m.log10_false_alarms,
                            m.inliers,
                            m.rms,
@@ -37,11 +35,11 @@ Surface_registration_3<Kernel> to_CGAL(Shape_matches found, const Registration_r
 }
 
 /// The maps between whole surfaces.
-template <class ConcurrencyTag, class Kernel>
-Surface_registration_3<Kernel> registration_of_wholes(const Centered_surface_3& source,
-                                                      const Centered_surface_3& target,
-                                                      const Registration_request& request) {
-  return to_CGAL<Kernel>(register_wholes<ConcurrencyTag>(source, target, request), request);
+template <class ConcurrencyTag>
+Surface_registration_3<Kernel_of_searches> registration_of_wholes(const Centered_surface_3& source,
+                                                                  const Centered_surface_3& target,
+                                                                  const Registration_request& request) {
+  return to_CGAL(register_wholes<ConcurrencyTag>(source, target, request), request);
 }
 
 } // namespace equiaffine::internal

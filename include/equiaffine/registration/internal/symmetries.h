@@ -3,13 +3,11 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_SYMMETRIES_H
 
 #include <equiaffine/base/internal/shared/check_argument.h>
-#include <equiaffine/base/named_parameters.h>
 #include <equiaffine/registration/Affine_symmetries_3.h>
-#include <equiaffine/registration/internal/Map_request.h>
+#include <equiaffine/registration/internal/declared_searches.h>
 #include <equiaffine/registration/internal/frames/Framed_surface_3.h>
 #include <equiaffine/registration/internal/frames/Symmetry_search.h>
 #include <equiaffine/registration/internal/frames/slippage.h>
-#include <equiaffine/registration/internal/vectors_of.h>
 #include <equiaffine/registration/internal/wholes/Centered_symmetry_search.h>
 
 #include <algorithm>
@@ -23,20 +21,15 @@
 
 namespace equiaffine::internal {
 
-/// Distances from the zero set of a function below this part of its size are zero by default.
-constexpr double default_tolerance = 1e-8;
-
-template <class Kernel>
-Affine_symmetry_3<Kernel> symmetry(const Affine_map_3& map, double rms) {
-  return {map.to_CGAL<typename Kernel::Aff_transformation_3>(), rms};
+inline Affine_symmetry_3<Kernel_of_searches> symmetry(const Affine_map_3& map, double rms) {
+  return {map.to_CGAL<Kernel_of_searches::Aff_transformation_3>(), rms};
 }
 
 /// Sets the maps to within the tolerance: those of the last level that is, or without a tolerance, of the first level
 /// that a verdict stands for. They are all there are unless another map is within the tolerance, too.
-template <class Kernel>
-void choose_maps(Affine_symmetries_3<Kernel>& result, std::optional<double> tolerance,
-                 const Centered_symmetries& found) {
-  result.maps = {symmetry<Kernel>({}, 0)};
+inline void choose_maps(Affine_symmetries_3<Kernel_of_searches>& result, std::optional<double> tolerance,
+                        const Centered_symmetries& found) {
+  result.maps = {symmetry({}, 0)};
   result.is_decided = result.verdict != Symmetry_verdict::UNDECIDED;
   if (result.continuous.dimension() > 0) return;
   if (!tolerance && result.is_decided && !result.levels.empty()) result.maps = result.levels.front().maps;
@@ -51,14 +44,14 @@ void choose_maps(Affine_symmetries_3<Kernel>& result, std::optional<double> tole
 }
 
 /// Converts what was found to the types of CGAL. Distances of maps are in the unit of the surface.
-template <class Kernel>
-Affine_symmetries_3<Kernel> to_CGAL(const Centered_symmetries& found, const Centered_surface_3& surface) {
+inline Affine_symmetries_3<Kernel_of_searches> to_CGAL(const Centered_symmetries& found,
+                                                       const Centered_surface_3& surface) {
   const double unit = 1 / std::cbrt(std::abs(surface.map.matrix.determinant()));
-  Affine_symmetries_3<Kernel> result{found.verdict, found.reason};
+  Affine_symmetries_3<Kernel_of_searches> result{found.verdict, found.reason};
   for (const Symmetry_level& level : found.levels) {
     auto& copy = result.levels.emplace_back();
     copy.rms = level.rms;
-    for (const Centered_map& map : level.maps) copy.maps.push_back(symmetry<Kernel>(map.map, unit * map.rms));
+    for (const Centered_map& map : level.maps) copy.maps.push_back(symmetry(map.map, unit * map.rms));
   }
   result.continuous = found.continuous;
   if (found.complete_to > 0) result.complete_to = found.complete_to;
@@ -67,16 +60,16 @@ Affine_symmetries_3<Kernel> to_CGAL(const Centered_symmetries& found, const Cent
 
 /// The group that affine frames of points give, which are all symmetries to within the tolerance of at least 98 % of
 /// the points. The identity alone is a result only where frames are exact and some good ones were matched.
-template <class ConcurrencyTag, class Kernel>
-Affine_symmetries_3<Kernel> symmetries_by_frames(const Framed_surface_3& surface, const Map_request& request,
-                                                 bool is_exact) {
+template <class ConcurrencyTag>
+Affine_symmetries_3<Kernel_of_searches> symmetries_by_frames(const Framed_surface_3& surface,
+                                                             const Map_request& request, bool is_exact) {
   Symmetry_search<ConcurrencyTag> search(surface, request.kind, *request.tolerance);
-  Affine_symmetries_3<Kernel> result;
-  Symmetry_level_3<Kernel> level = {{}, 0};
+  Affine_symmetries_3<Kernel_of_searches> result;
+  Symmetry_level_3<Kernel_of_searches> level = {{}, 0};
   for (const Affine_map_3& map : search.run()) {
     if (!request.allows_reflections && map.matrix.determinant() < 0) continue;
     const double rms = search.rms(map);
-    level.maps.push_back(symmetry<Kernel>(map, rms));
+    level.maps.push_back(symmetry(map, rms));
     level.rms = std::max(level.rms, rms / surface.size);
   }
   constexpr std::size_t fewest_points = 4;
@@ -99,8 +92,8 @@ Affine_symmetries_3<Kernel> symmetries_by_frames(const Framed_surface_3& surface
 constexpr double greatest_tolerance_of_frames = 1e-6;
 
 /// Says of a group that frames gave how far a search of all rotations went, and whether it found the same group.
-template <class Kernel>
-void check_by_rotations(const Affine_symmetries_3<Kernel>& all, Affine_symmetries_3<Kernel>& by_frames) {
+inline void check_by_rotations(const Affine_symmetries_3<Kernel_of_searches>& all,
+                               Affine_symmetries_3<Kernel_of_searches>& by_frames) {
   std::size_t order = 1;
   for (const auto& level : all.levels)
     if (level.rms <= greatest_tolerance_of_frames) order = level.order();
@@ -112,38 +105,28 @@ void check_by_rotations(const Affine_symmetries_3<Kernel>& all, Affine_symmetrie
                      " maps, and all rotations give " + std::to_string(order);
 }
 
-/// The named parameters of affine_symmetries() of a function.
-struct Symmetry_request : Map_request {
-  bool is_complete = false; ///< whether all rotations are searched where frames have decided, too
-};
-
-template <class Parameters>
-Symmetry_request symmetry_request(const Parameters& parameters) {
-  Symmetry_request request{map_request(parameters), get_parameter<Complete_tag>(parameters, false)};
-  request.tolerance = request.tolerance.value_or(default_tolerance);
-  return request;
-}
-
 /// The symmetries among all rotations about the centroid.
-template <class ConcurrencyTag, class Kernel>
-Affine_symmetries_3<Kernel> symmetries_by_rotations(const Any_function_3& function, const Map_request& request) {
+template <class ConcurrencyTag>
+Affine_symmetries_3<Kernel_of_searches> symmetries_by_rotations(const Any_function_3& function,
+                                                                const Map_request& request) {
   const auto centered = centered_surface<ConcurrencyTag>(function, request.kind);
   Centered_symmetry_search<ConcurrencyTag> search(centered, request.kind, request.allows_reflections,
                                                   *request.tolerance);
   const Centered_symmetries found = search.run();
-  auto result = to_CGAL<Kernel>(found, centered);
+  auto result = to_CGAL(found, centered);
   choose_maps(result, request.tolerance, found);
   return result;
 }
 
-template <class ConcurrencyTag, class Kernel>
-Affine_symmetries_3<Kernel> symmetries_of(const Any_function_3& function, const std::vector<Eigen::Vector3d>& points,
-                                          const Symmetry_request& request) {
+template <class ConcurrencyTag>
+Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(const Any_function_3& function,
+                                                               const std::vector<Eigen::Vector3d>& points,
+                                                               const Symmetry_request& request) {
   check_argument(!points.empty(), "a surface whose symmetries are sought has no points: give points on it");
   const Framed_function_3 framed(function);
   const Framed_surface_3 surface = framed_surface<ConcurrencyTag>(framed, framed, points, request.kind);
-  Affine_symmetries_3<Kernel> result;
-  result.maps = {symmetry<Kernel>({}, surface.probes.empty() ? std::numeric_limits<double>::infinity() : 0)};
+  Affine_symmetries_3<Kernel_of_searches> result;
+  result.maps = {symmetry({}, surface.probes.empty() ? std::numeric_limits<double>::infinity() : 0)};
   result.reason = "the surface is beside all of the points";
   if (surface.probes.empty()) return result;
   result.continuous = slippage_of(surface, request.kind, std::max(*request.tolerance, slippage_tolerance));
@@ -155,26 +138,25 @@ Affine_symmetries_3<Kernel> symmetries_of(const Any_function_3& function, const 
   const bool is_exact = has_exact_frames(surface);
   const bool is_strict = *request.tolerance <= greatest_tolerance_of_frames;
   if (is_strict || !is_exact) {
-    auto by_frames = symmetries_by_frames<ConcurrencyTag, Kernel>(surface, request, is_exact);
+    auto by_frames = symmetries_by_frames<ConcurrencyTag>(surface, request, is_exact);
     if (by_frames.is_decided && is_exact && request.is_complete)
-      check_by_rotations(symmetries_by_rotations<ConcurrencyTag, Kernel>(function, request), by_frames);
+      check_by_rotations(symmetries_by_rotations<ConcurrencyTag>(function, request), by_frames);
     if (by_frames.is_decided || !is_exact) return by_frames;
   }
-  result = symmetries_by_rotations<ConcurrencyTag, Kernel>(function, request);
+  result = symmetries_by_rotations<ConcurrencyTag>(function, request);
   if (result.is_decided || is_strict) return result;
-  auto by_frames = symmetries_by_frames<ConcurrencyTag, Kernel>(surface, request, is_exact);
+  auto by_frames = symmetries_by_frames<ConcurrencyTag>(surface, request, is_exact);
   return by_frames.is_decided ? by_frames : result;
 }
 
-template <class ConcurrencyTag, class Kernel, class Parameters>
-Affine_symmetries_3<Kernel> symmetries_of_triangles(const Triangles_3& mesh, const Parameters& parameters) {
-  const Map_request request = map_request(parameters);
+template <class ConcurrencyTag>
+Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles(const Triangles_3& mesh, const Map_request& request) {
   check_argument(!mesh.triangles.empty(), "a mesh whose symmetries are sought has no faces: give faces");
   const Centered_surface_3 surface = centered_surface(mesh, request.kind);
   Centered_symmetry_search<ConcurrencyTag> search(surface, request.kind, request.allows_reflections,
                                                   request.tolerance.value_or(0));
   const Centered_symmetries found = search.run();
-  auto result = to_CGAL<Kernel>(found, surface);
+  auto result = to_CGAL(found, surface);
   choose_maps(result, request.tolerance, found);
   return result;
 }

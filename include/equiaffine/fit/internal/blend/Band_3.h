@@ -3,6 +3,7 @@
 #define EQUIAFFINE_FIT_INTERNAL_BLEND_BAND_3_H
 
 #include <equiaffine/fit/internal/blend/Ball_tree_3.h>
+#include <equiaffine/fit/internal/blend/Band_margin.h>
 #include <equiaffine/fit/internal/data/Border_gap_3.h>
 #include <equiaffine/fit/internal/data/Charts_3.h>
 #include <equiaffine/fit/internal/data/Normalization_3.h>
@@ -48,11 +49,6 @@ public:
     double remoteness = 0;            ///< from 0 for the part of the nearest point to 1 where none of its points counts
   };
 
-  /// The margin holds points up to a height, and lets them be farther across the higher they are, as above a crease.
-  struct Margin {
-    double height = 0, slope = 0;
-  };
-
   /// Makes the band of a surface of which at most `most_at_point` smooth parts meet at a point.
   explicit Band_3(std::vector<Band_point_3> points, std::size_t most_at_point = 1)
       : points_(std::move(points)), count_(std::clamp<std::size_t>(2 * most_at_point, 9, 64)) {
@@ -67,7 +63,7 @@ public:
   }
 
   /// Whether a point is in the band with its margin.
-  bool contains(const Vector& p, const Margin& margin) const {
+  bool contains(const Vector& p, const Band_margin& margin) const {
     const auto nearest = tree_.nearest(p, 1);
     if (nearest.empty()) return false;
     if (contains(p, points_[nearest.front()], border, margin)) return true;
@@ -120,7 +116,7 @@ public:
   double spacing(const Vector& p) const { return points_[tree_.nearest(p, 1).front()].spacing; }
 
   /// Returns whether some point of a box, given by its corners, may be in the band.
-  bool may_meet(const Vector& lower, const Vector& upper, const Margin& margin) const {
+  bool may_meet(const Vector& lower, const Vector& upper, const Band_margin& margin) const {
     const Vector half = Vector::Constant(std::hypot(1, margin.slope) * margin.height);
     return balls_.meets(lower - half, upper + half);
   }
@@ -143,7 +139,7 @@ public:
 
 private:
   /// Whether a point is near a foot: up to a distance across, in spacings, and not beyond the border.
-  static bool contains(const Vector& p, const Band_point_3& foot, double across, const Margin& margin) {
+  static bool contains(const Vector& p, const Band_point_3& foot, double across, const Band_margin& margin) {
     const Vector difference = p - foot.point;
     const double height = difference.dot(foot.normal), size = std::abs(height), spacing = foot.spacing;
     const Vector tangential = difference - height * foot.normal;

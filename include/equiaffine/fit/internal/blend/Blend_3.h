@@ -35,7 +35,7 @@ public:
 
   const Band_3& band() const { return band_; }
 
-  double value(const Vector& p, const Band_3::Margin& margin) const {
+  double value(const Vector& p, const Band_margin& margin) const {
     if (!band_.contains(p, margin)) return std::numeric_limits<double>::quiet_NaN();
     const auto heights = band_.heights(p);
     return heights.size() == 1 ? value_of_part(p, heights.front()) : choice(p, heights).value;

@@ -2,48 +2,39 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_DATA_FIT_INPUT_H
 #define EQUIAFFINE_FIT_INTERNAL_DATA_FIT_INPUT_H
 
-#include <equiaffine/base/named_parameters.h>
-#include <equiaffine/fit/Normal_orientation.h>
+#include <equiaffine/fit/internal/data/Fit_data_3.h>
 #include <equiaffine/fit/internal/data/data_of_mesh.h>
 #include <equiaffine/fit/internal/data/data_of_points.h>
-#include <equiaffine/fit/internal/data/feature_angle.h>
-#include <equiaffine/surface/internal/shared/Face_graph.h>
 #include <equiaffine/surface/internal/shared/indexed_polygons.h>
-#include <equiaffine/surface/internal/shared/points_of_range.h>
 
-#include <CGAL/property_map.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <CGAL/Simple_cartesian.h>
 #include <Eigen/Core>
 
 #include <cstddef>
 #include <cstdint>
-#include <ranges>
-#include <type_traits>
-#include <utility>
+#include <map>
+#include <numeric>
 #include <vector>
 
-// Meshes and points of CGAL become arrays of data points.
 namespace equiaffine::internal {
 
-/// The data points are the vertices in their order, and behind them others at creases.
-template <Face_graph Graph, class Parameters>
-Normalized_data fit_input_of_graph(const Graph& graph, const Parameters& parameters) {
-  check_coordinates<Point_of_vertices<const Graph, Parameters>>();
-  const Indexed_polygons mesh = indexed_polygons_of_graph(graph, parameters);
-  Normalized_data result = data_of_mesh(mesh.points, mesh.polygons, feature_angle(parameters));
-  if constexpr (has_parameter<Vertex_normal_tag, Parameters>) {
-    std::vector<Eigen::Vector3d> normals;
-    for (const auto v : vertices_of(graph))
-      normals.push_back(coordinates_of(get(given_parameter<Vertex_normal_tag>(parameters), v)));
-    improve_normals(result, normals);
-  }
-  return result;
-}
-
-/// The data points of a range without those that come again, and which of them each element of the range is.
-struct Fit_input_of_points {
+/// The data points, and which of them each given point is. Those of a mesh are the vertices in their order, and behind
+/// them others at creases.
+struct Fit_input_3 {
   Normalized_data data;
   std::vector<std::uint32_t> positions;
 };
+
+inline Fit_input_3 fit_input_of_mesh(const Fit_data_3& given) {
+  Fit_input_3 result;
+  result.data = data_of_mesh(given.points, given.polygons, given.feature_angle);
+  improve_normals(result.data, given.normals);
+  result.positions.resize(given.points.size());
+  std::iota(result.positions.begin(), result.positions.end(), std::uint32_t(0));
+  return result;
+}
 
 /// Equal points become one: returns which one each point is, and keeps the first of each kind in `points`.
 inline std::vector<std::uint32_t> merge_equal_points(std::vector<Eigen::Vector3d>& points,
@@ -65,22 +56,56 @@ inline std::vector<std::uint32_t> merge_equal_points(std::vector<Eigen::Vector3d
   return positions;
 }
 
-template <class ConcurrencyTag, std::ranges::input_range Points, class Parameters>
-Fit_input_of_points fit_input_of_points(Points&& range, const Parameters& parameters) {
-  std::vector<Eigen::Vector3d> points, normals;
-  const auto point_of = point_of_element(range, parameters);
-  check_coordinates<std::decay_t<decltype(point_of(*std::ranges::begin(range)))>>();
-  for (const auto& element : range) {
-    points.push_back(coordinates_of(point_of(element)));
-    if constexpr (has_parameter<Normal_tag, Parameters>)
-      normals.push_back(coordinates_of(get(given_parameter<Normal_tag>(parameters), element)));
-  }
-  check_points(points);
-  Fit_input_of_points result;
+template <class ConcurrencyTag>
+Fit_input_3 fit_input_of_points(const Fit_data_3& given) {
+  std::vector<Eigen::Vector3d> points = given.points, normals = given.normals;
+  Fit_input_3 result;
   result.positions = merge_equal_points(points, normals);
-  const auto orientation = get_parameter<Normal_orientation_tag>(parameters, Normal_orientation::ORIENTED);
-  result.data = data_of_points<ConcurrencyTag>(points, normals, orientation);
+  result.data = data_of_points<ConcurrencyTag>(points, normals, given.orientation);
   return result;
+}
+
+using Soup_point = CGAL::Simple_cartesian<double>::Point_3;
+
+/// Returns which point of `repaired` each point is. One that is in no polygon any more is appended.
+inline std::vector<std::uint32_t> positions_after_repair(const std::vector<Soup_point>& points,
+                                                         std::vector<Soup_point>& repaired) {
+  std::map<Soup_point, std::uint32_t> position;
+  for (std::size_t i = 0; i < repaired.size(); ++i) position.emplace(repaired[i], std::uint32_t(i));
+  std::vector<std::uint32_t> result;
+  for (const Soup_point& p : points) {
+    const auto [place, is_new] = position.emplace(p, std::uint32_t(repaired.size()));
+    if (is_new) repaired.push_back(p);
+    result.push_back(place->second);
+  }
+  return result;
+}
+
+/// The data points are the points without those that come again, in any order; a point where sheets meet is data of
+/// each of them, and gets what the first says, or at a crease the largest one.
+inline Fit_input_3 fit_input_of_soup(const Fit_data_3& given) {
+  std::vector<Soup_point> points;
+  for (const auto& p : given.points) points.emplace_back(p[0], p[1], p[2]);
+  std::vector<Soup_point> repaired = points;
+  std::vector<std::vector<std::size_t>> polygons;
+  for (const auto& polygon : given.polygons) polygons.emplace_back(polygon.begin(), polygon.end());
+  CGAL::Polygon_mesh_processing::repair_polygon_soup(repaired, polygons);
+  CGAL::Polygon_mesh_processing::orient_polygon_soup(repaired, polygons);
+
+  Fit_input_3 result;
+  result.positions = positions_after_repair(points, repaired);
+  std::vector<Eigen::Vector3d> vertices;
+  for (const auto& p : repaired) vertices.push_back(coordinates_of(p));
+  std::vector<std::vector<std::uint32_t>> faces;
+  for (const auto& polygon : polygons) faces.emplace_back(polygon.begin(), polygon.end());
+  result.data = data_of_mesh(vertices, faces, given.feature_angle);
+  return result;
+}
+
+template <class ConcurrencyTag>
+Fit_input_3 fit_input(const Fit_data_3& given) {
+  if (given.kind == Fit_data_3::Kind::MESH) return fit_input_of_mesh(given);
+  return given.kind == Fit_data_3::Kind::SOUP ? fit_input_of_soup(given) : fit_input_of_points<ConcurrencyTag>(given);
 }
 
 } // namespace equiaffine::internal

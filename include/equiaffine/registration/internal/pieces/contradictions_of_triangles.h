@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_PIECES_CONTRADICTIONS_OF_TRIANGLES_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_PIECES_CONTRADICTIONS_OF_TRIANGLES_H
 
-#include <equiaffine/registration/Mesh_contradictions.h>
+#include <equiaffine/registration/internal/declared_searches.h>
 #include <equiaffine/registration/internal/pieces/Contact_evidence.h>
 #include <equiaffine/registration/internal/pieces/Piece_of_surface_3.h>
 #include <equiaffine/registration/internal/pieces/contacts.h>
@@ -15,9 +15,8 @@
 
 namespace equiaffine::internal {
 
-/// Returns the contradictions with the side of the source by which more points are in contact. Meshes without an area
-/// have none.
-inline Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 target, double distance) {
+template <class ConcurrencyTag>
+Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 target, double distance) {
   Mesh_contradictions result;
   if (source.triangles.empty() || target.triangles.empty()) return result;
   const Moments_3 area = area_moments(target);

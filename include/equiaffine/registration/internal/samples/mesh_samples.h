@@ -3,6 +3,7 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_SAMPLES_MESH_SAMPLES_H
 
 #include <equiaffine/registration/internal/samples/Area_samples_3.h>
+#include <equiaffine/registration/internal/samples/Triangles_3.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -17,17 +18,6 @@
 #include <vector>
 
 namespace equiaffine::internal {
-
-/// A triangle mesh in doubles.
-struct Triangles_3 {
-  std::vector<Eigen::Vector3d> points;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-
-  const Eigen::Vector3d& corner(std::size_t t, std::size_t k) const { return points[triangles[t][k % 3]]; }
-  Eigen::Vector3d double_area(std::size_t t) const {
-    return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
-  }
-};
 
 inline Triangles_3 turned_inside_out(Triangles_3 mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);

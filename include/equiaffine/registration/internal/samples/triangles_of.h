@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_SAMPLES_TRIANGLES_OF_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_SAMPLES_TRIANGLES_OF_H
 
-#include <equiaffine/registration/internal/samples/mesh_samples.h>
+#include <equiaffine/registration/internal/samples/Triangles_3.h>
 #include <equiaffine/surface/internal/shared/indexed_polygons.h>
 #include <equiaffine/surface/internal/shared/triangles_of_polygon.h>
 

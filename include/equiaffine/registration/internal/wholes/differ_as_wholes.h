@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_DIFFER_AS_WHOLES_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_DIFFER_AS_WHOLES_H
 
+#include <equiaffine/registration/internal/declared_searches.h>
 #include <equiaffine/registration/internal/wholes/Centered_surface_3.h>
 #include <equiaffine/registration/internal/wholes/candidate_rotations.h>
 
@@ -11,10 +12,6 @@
 
 namespace equiaffine::internal {
 
-/// Whether it was verified that no map of a kind moves one whole surface onto another. Such a map would keep the
-/// centroid of the area, and affine ones the moments of the solid inside, so that all rotations and reflections about
-/// the centroid are tried in the coordinates of the search for symmetries: each moves points of the first away from the
-/// second.
 template <class ConcurrencyTag>
 bool differ_as_wholes(const Any_function_3& source, const Any_function_3& target, Map_kind kind,
                       bool allows_reflections) {

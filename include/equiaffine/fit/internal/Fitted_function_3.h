@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FIT_INTERNAL_FITTED_FUNCTION_3_H
+#define EQUIAFFINE_FIT_INTERNAL_FITTED_FUNCTION_3_H
+
+#include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/fit/internal/blend/Band_margin.h>
+#include <equiaffine/number/Jet_3.h>
+
+#include <CGAL/Bbox_3.h>
+#include <Eigen/Core>
+
+#include <optional>
+
+namespace equiaffine::internal {
+
+class Fitted_data_3;
+
+/// What Fitted_function_traits_3 asks for, in the coordinates of the data.
+class Fitted_function_3 {
+public:
+  using Vector = Eigen::Vector3d;
+
+  virtual ~Fitted_function_3() = default;
+
+  virtual double value(const Vector& p, const Band_margin& margin) const = 0;
+  virtual Jet_3<double, 1> first_order(const Vector& p) const = 0;
+  virtual Jet_3<double> taylor(const Vector& p) const = 0;
+  virtual double rounding(const Vector& p) const = 0;
+  virtual Fitted_structure_3<double> structure(const Vector& p) const = 0;
+  virtual double spacing(const Vector& p) const = 0;
+  virtual Vector on_tangent_plane(const Vector& p) const = 0;
+  virtual std::optional<double> scale() const = 0;
+  virtual CGAL::Bbox_3 box() const = 0;
+
+  /// Returns the margin up to a height over the surface.
+  virtual Band_margin margin(double height) const = 0;
+
+  /// Returns whether some point of a box may be in the band.
+  virtual bool may_meet(const CGAL::Bbox_3& box, const Band_margin& margin) const = 0;
+
+  virtual const Fitted_data_3& data() const = 0;
+};
+
+} // namespace equiaffine::internal
+
+#endif

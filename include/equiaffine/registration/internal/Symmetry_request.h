@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_SYMMETRY_REQUEST_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_SYMMETRY_REQUEST_H
+
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/registration/internal/Map_request.h>
+
+namespace equiaffine::internal {
+
+/// Distances from the zero set of a function below this part of its size are zero by default.
+constexpr double default_tolerance = 1e-8;
+
+/// The named parameters of affine_symmetries() of a function.
+struct Symmetry_request : Map_request {
+  bool is_complete = false; ///< whether all rotations are searched where frames have decided, too
+};
+
+template <class Parameters>
+Symmetry_request symmetry_request(const Parameters& parameters) {
+  Symmetry_request request{map_request(parameters), get_parameter<Complete_tag>(parameters, false)};
+  request.tolerance = request.tolerance.value_or(default_tolerance);
+  return request;
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_DECLARED_SEARCHES_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_DECLARED_SEARCHES_H
+
+#include <equiaffine/registration/Affine_symmetries_3.h>
+#include <equiaffine/registration/Mesh_contradictions.h>
+#include <equiaffine/registration/Surface_registration_3.h>
+#include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/Symmetry_request.h>
+#include <equiaffine/registration/internal/samples/Triangles_3.h>
+#include <equiaffine/surface/Any_function_3.h>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+// The work of searches for maps, which depends on no type of a user. ConcurrencyTag is one of CGAL's.
+namespace equiaffine::internal {
+
+using Kernel_of_searches = Any_function_3::Kernel;
+
+/// A surface as register_surfaces() is given it: a function, points near its zero set, and a function with the same zero
+/// set on which maps are refined.
+struct Surface_with_points_3 {
+  Any_function_3 function, refined;
+  std::vector<Eigen::Vector3d> points;
+};
+
+/// The result of register_surfaces(), and whether the best map moves all of each surface onto the other.
+struct Registration_of_functions_3 {
+  Surface_registration_3<Kernel_of_searches> result;
+  bool is_equivalence = false;
+};
+
+/// Whole surfaces of exact functions whose frames give no map are tried without frames.
+template <class ConcurrencyTag>
+Registration_of_functions_3 registration_of_functions(const Surface_with_points_3& source,
+                                                      const Surface_with_points_3& target,
+                                                      const Registration_request& request);
+
+template <class ConcurrencyTag>
+Surface_registration_3<Kernel_of_searches>
+registration_of_triangles(const Triangles_3& source, const Triangles_3& target, const Registration_request& request);
+
+/// Whether it was verified that no map of a kind moves one whole surface onto another. Such a map would keep the
+/// centroid of the area, and affine ones the moments of the solid inside, so that all rotations and reflections about
+/// the centroid are tried in the coordinates of the search for symmetries: each moves points of the first away from the
+/// second.
+template <class ConcurrencyTag>
+bool differ_as_wholes(const Any_function_3& source, const Any_function_3& target, Map_kind kind,
+                      bool allows_reflections);
+
+template <class ConcurrencyTag>
+Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(const Any_function_3& function,
+                                                               const std::vector<Eigen::Vector3d>& points,
+                                                               const Symmetry_request& request);
+
+template <class ConcurrencyTag>
+Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles(const Triangles_3& mesh, const Map_request& request);
+
+/// Returns the contradictions with the side of the source by which more points are in contact. Meshes without an area
+/// have none.
+template <class ConcurrencyTag>
+Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 target, double distance);
+
+} // namespace equiaffine::internal
+
+#endif

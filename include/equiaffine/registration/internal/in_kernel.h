@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_IN_KERNEL_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_IN_KERNEL_H
+
+#include <equiaffine/registration/Affine_symmetries_3.h>
+#include <equiaffine/registration/Surface_registration_3.h>
+#include <equiaffine/registration/internal/declared_searches.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+// Results of searches become those of another kernel.
+namespace equiaffine::internal {
+
+template <class Kernel>
+typename Kernel::Aff_transformation_3 in_kernel(const Kernel_of_searches::Aff_transformation_3& map) {
+  return {map.m(0, 0), map.m(0, 1), map.m(0, 2), map.m(0, 3), map.m(1, 0), map.m(1, 1),
+          map.m(1, 2), map.m(1, 3), map.m(2, 0), map.m(2, 1), map.m(2, 2), map.m(2, 3)};
+}
+
+template <class Kernel>
+Pair_of_frames_3<Kernel> in_kernel(const Pair_of_frames_3<Kernel_of_searches>& pair) {
+  Pair_of_frames_3<Kernel> result;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto& p = pair.points[side];
+    result.points[side] = typename Kernel::Point_3(p.x(), p.y(), p.z());
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& v = pair.frames[side][k];
+      result.frames[side][k] = typename Kernel::Vector_3(v.x(), v.y(), v.z());
+    }
+  }
+  return result;
+}
+
+template <class Kernel>
+Surface_registration_3<Kernel> in_kernel(Surface_registration_3<Kernel_of_searches> found) {
+  Surface_registration_3<Kernel> result;
+  for (const auto& m : found.maps) {
+    auto& copy = result.maps.emplace_back();
+    copy = {in_kernel<Kernel>(m.map), m.log10_false_alarms, m.inliers, m.rms, {}, m.contradictions};
+    if (m.pair) copy.pair = in_kernel<Kernel>(*m.pair);
+  }
+  result.hypotheses = found.hypotheses;
+  result.size = found.size;
+  result.next_best_rms = found.next_best_rms;
+  result.slippage = std::move(found.slippage);
+  result.reason = std::move(found.reason);
+  return result;
+}
+
+template <class Kernel>
+std::vector<Affine_symmetry_3<Kernel>> in_kernel(const std::vector<Affine_symmetry_3<Kernel_of_searches>>& maps) {
+  std::vector<Affine_symmetry_3<Kernel>> result;
+  for (const auto& m : maps) result.push_back({in_kernel<Kernel>(m.map), m.rms});
+  return result;
+}
+
+template <class Kernel>
+Affine_symmetries_3<Kernel> in_kernel(Affine_symmetries_3<Kernel_of_searches> found) {
+  Affine_symmetries_3<Kernel> result{found.verdict, std::move(found.reason)};
+  for (const auto& level : found.levels) result.levels.push_back({in_kernel<Kernel>(level.maps), level.rms});
+  result.maps = in_kernel<Kernel>(found.maps);
+  result.continuous = std::move(found.continuous);
+  result.is_decided = found.is_decided;
+  result.complete_to = found.complete_to;
+  return result;
+}
+
+} // namespace equiaffine::internal
+
+#endif

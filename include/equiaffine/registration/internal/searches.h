@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_SEARCHES_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_SEARCHES_H
+
+#include <equiaffine/registration/internal/declared_searches.h>
+
+// The target equiaffine::compiled has the definitions, compiled once.
+#ifndef EQUIAFFINE_COMPILED
+#include <equiaffine/registration/internal/pieces/contradictions_of_triangles.h>
+#include <equiaffine/registration/internal/registration.h>
+#include <equiaffine/registration/internal/registration_of_triangles.h>
+#include <equiaffine/registration/internal/symmetries.h>
+#include <equiaffine/registration/internal/wholes/differ_as_wholes.h>
+#endif
+
+#endif
