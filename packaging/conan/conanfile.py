@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Conan 2 recipe for the headers and the mesher, not tried here: conan create packaging/conan"""
+"""A Conan 2 recipe for the headers and the compiled parts, not tried here: conan create packaging/conan"""
 import os
 
 from conan import ConanFile

@@ -145,7 +145,7 @@ def rooms_that_define(name, library):
     definition = re.compile(rf"\b(class|struct|concept|using|enum class) {name}\b|^[\w\[][^=;/(]*[ &*>]{name}\(|"
                             rf"^(inline )?constexpr [^=;(]*\b{name}\b", re.MULTILINE)
     exported = {header for text in library.values() for header in EXPORT.findall(text)}
-    defining = [path for path, text in library.items() if "/internal/" in path and definition.search(text)]
+    defining = [path for path, text in library.items() if "/internal/" in path and name in text and definition.search(text)]
     is_everybodys = any(not is_own(path) or path in exported for path in defining)
     return set() if is_everybodys else {room_of(path) for path in defining}
 
