@@ -35,6 +35,7 @@ file(RELATIVE_PATH EQUIAFFINE_PREFIX_OF_PKGCONFIG /prefix/${CMAKE_INSTALL_LIBDIR
 string(REGEX REPLACE "/$" "" EQUIAFFINE_PREFIX_OF_PKGCONFIG "${EQUIAFFINE_PREFIX_OF_PKGCONFIG}")
 if(EQUIAFFINE_WITH_TBB)
   set(EQUIAFFINE_TBB_FOR_PKGCONFIG ", tbb")
+  set(EQUIAFFINE_LIBS_FOR_PKGCONFIG " -ltbbmalloc") # CGAL 6 uses it, and it has no file for pkg-config
   set(EQUIAFFINE_FLAGS_FOR_PKGCONFIG " -DCGAL_LINKED_WITH_TBB")
 endif()
 foreach(name IN ITEMS equiaffine equiaffine-mesher equiaffine-compiled)
