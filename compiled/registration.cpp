@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/registration/internal/searches.h>
+#include <equiaffine/registration/internal/declared_searches.h>
+#include <equiaffine/registration/internal/pieces/contradictions_of_triangles.h>
+#include <equiaffine/registration/internal/registration.h>
+#include <equiaffine/registration/internal/registration_of_triangles.h>
+#include <equiaffine/registration/internal/symmetries.h>
+#include <equiaffine/registration/internal/wholes/differ_as_wholes.h>
 
 #include <CGAL/tags.h>
+#include <Eigen/Core>
+
+#include <vector>
 
 namespace equiaffine::internal {
 
@@ -13,11 +21,12 @@ namespace equiaffine::internal {
   template bool differ_as_wholes<Tag>(const Any_function_3&, const Any_function_3&, Map_kind, bool);                   \
   template Affine_symmetries_3<Kernel_of_searches> symmetries_of_function<Tag>(                                        \
       const Any_function_3&, const std::vector<Eigen::Vector3d>&, const Symmetry_request&);                            \
-  template Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles<Tag>(const Triangles_3&,                    \
-                                                                                const Map_request&);                   \
-  template Mesh_contradictions contradictions_of_triangles<Tag>(Triangles_3, Triangles_3, double);
+  template Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles<Tag>(const Triangles_3&, const Map_request&);
 
 EQUIAFFINE_INSTANTIATE(CGAL::Sequential_tag)
 EQUIAFFINE_INSTANTIATE(CGAL::Parallel_tag)
+#undef EQUIAFFINE_INSTANTIATE
+
+template Mesh_contradictions contradictions_of_triangles<CGAL::Sequential_tag>(Triangles_3, Triangles_3, double);
 
 } // namespace equiaffine::internal

@@ -5,7 +5,10 @@
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/fit/internal/Fitted_function_3.h>
+#include <equiaffine/fit/internal/blend/Band_margin.h>
 #include <equiaffine/fit/internal/certainty_of_fit.h>
+#include <equiaffine/fit/internal/data/Fit_data_3.h>
 #include <equiaffine/fit/internal/data/fit_data_of.h>
 #include <equiaffine/fit/internal/fits.h>
 #include <equiaffine/fit/internal/shared/Fit_request.h>
@@ -24,6 +27,7 @@
 #include <memory>
 #include <optional>
 #include <ranges>
+#include <utility>
 #include <vector>
 
 namespace equiaffine {
@@ -185,8 +189,8 @@ public:
 
 private:
   template <class Parameters, class ConcurrencyTag>
-  void make(const internal::Fit_data_3& data, const Parameters& parameters, ConcurrencyTag) {
-    function_ = internal::fitted_function<ConcurrencyTag>(data, internal::fit_request(parameters));
+  void make(internal::Fit_data_3 data, const Parameters& parameters, ConcurrencyTag) {
+    function_ = internal::fitted_function<ConcurrencyTag>(std::move(data), internal::fit_request(parameters));
     box_ = band_box();
   }
 

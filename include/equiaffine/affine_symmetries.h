@@ -80,8 +80,9 @@ auto affine_symmetries(const Graph& mesh, const Parameters&... given) {
   const auto parameters = internal::joined_parameters(given...);
   using Point = Point_of_vertices<const Graph, internal::Joined_parameters<Parameters...>>;
   using Kernel_of_points = typename CGAL::Kernel_traits<Point>::Kernel;
-  return internal::in_kernel<Kernel_of_points>(internal::symmetries_of_triangles<ConcurrencyTag>(
-      internal::triangles_of_graph(mesh, parameters), internal::map_request(parameters)));
+  const internal::Triangles_3 triangles = internal::triangles_of_graph(mesh, parameters);
+  return internal::in_kernel<Kernel_of_points>(
+      internal::symmetries_of_triangles<ConcurrencyTag>(triangles, internal::map_request(parameters)));
 }
 
 /// The same for points with polygons between them, each a range of positions of points. Equal points count once. There
@@ -94,8 +95,9 @@ auto affine_symmetries(const Points& points, const Polygons& polygons,
   internal::check_map_parameters<internal::Joined_parameters<Parameters...>>();
   const auto parameters = internal::joined_parameters(given...);
   using Kernel_of_points = typename CGAL::Kernel_traits<std::ranges::range_value_t<Points>>::Kernel;
-  return internal::in_kernel<Kernel_of_points>(internal::symmetries_of_triangles<ConcurrencyTag>(
-      internal::triangles_of_soup(points, polygons), internal::map_request(parameters)));
+  const internal::Triangles_3 triangles = internal::triangles_of_soup(points, polygons);
+  return internal::in_kernel<Kernel_of_points>(
+      internal::symmetries_of_triangles<ConcurrencyTag>(triangles, internal::map_request(parameters)));
 }
 
 } // namespace equiaffine

@@ -18,8 +18,7 @@ namespace equiaffine {
 template <class>
 class Fitted_function_traits_3;
 
-/// A Fitted_function_traits_3 whose members are compiled once: its headers take five times as long to read as those of the
-/// other models. Copies share the fit.
+/// A Fitted_function_traits_3 whose members are compiled once, so that few units read its header. Copies share the fit.
 class Fit_traits {
 public:
   using FT = double;

@@ -22,10 +22,12 @@ execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} O
 file(WRITE ${BUILD}/use/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
 project(use LANGUAGES CXX)
 find_package(equiaffine 1.0 REQUIRED)
-find_package(equiaffine 1.0 QUIET COMPONENTS mesher)
-if(NOT TARGET equiaffine::equiaffine OR equiaffine_FOUND)
-  message(FATAL_ERROR \"the headers are there, and the mesher is not\")
-endif()
+foreach(component IN ITEMS mesher compiled)
+  find_package(equiaffine 1.0 QUIET COMPONENTS \${component})
+  if(NOT TARGET equiaffine::equiaffine OR equiaffine_FOUND)
+    message(FATAL_ERROR \"the headers are there, and \${component} is not\")
+  endif()
+endforeach()
 ")
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${BUILD}/use -B ${BUILD}/use/build -G ${GENERATOR}
                         -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${prefix} OUTPUT_QUIET

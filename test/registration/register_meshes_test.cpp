@@ -4,10 +4,14 @@
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
 #include "support/solids.h"
+#include <equiaffine/affine_symmetries.h>
 #include <equiaffine/is_affinely_equivalent.h>
 #include <equiaffine/register_surfaces.h>
 #include <equiaffine/registration/contradictions_of_meshes.h>
+#include <equiaffine/registration/internal/in_kernel.h>
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/generators.h>
 #include <CGAL/tags.h>
@@ -70,6 +74,71 @@ TEST(Register_meshes, a_whole_without_curvature_is_found_by_every_kind_of_map) {
     EXPECT_LT(least, 1e-9) << int(kind);
     EXPECT_EQ(found.slippage.dimension(), 0u);
   }
+}
+
+template <class Kernel_of_points>
+class Register_meshes_of_kernels : public testing::Test {};
+using Kernels = testing::Types<CGAL::Exact_predicates_inexact_constructions_kernel, CGAL::Simple_cartesian<float>>;
+TYPED_TEST_SUITE(Register_meshes_of_kernels, Kernels);
+
+TYPED_TEST(Register_meshes_of_kernels, results_are_of_the_kernel_of_the_points) {
+  using FT = typename TypeParam::FT;
+  const Solid solid = cube_without_corner(.75); // whose coordinates are floats
+  std::vector<typename TypeParam::Point_3> points;
+  for (const Point_3& p : solid.points) points.emplace_back(FT(p.x()), FT(p.y()), FT(p.z()));
+  const auto parameters = parameters::map_kind(Map_kind::RIGID).number_of_maps(3);
+
+  const Surface_registration_3<TypeParam> found =
+      register_surfaces(points, solid.polygons, points, solid.polygons, parameters);
+  const auto expected = registered<CGAL::Sequential_tag>(solid, solid, parameters);
+  ASSERT_EQ(found.maps.size(), expected.maps.size());
+  ASSERT_EQ(found.maps.size(), 3);
+  for (std::size_t n = 0; n < 3; ++n) {
+    const auto &a = found.maps[n], &b = expected.maps[n];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 4; ++j) EXPECT_EQ(a.map.m(i, j), FT(b.map.m(i, j)));
+    EXPECT_EQ(a.log10_false_alarms, b.log10_false_alarms);
+    EXPECT_EQ(a.inliers, b.inliers);
+    EXPECT_EQ(a.rms, b.rms);
+    EXPECT_EQ(a.contradictions, b.contradictions);
+    EXPECT_FALSE(a.pair);
+  }
+  EXPECT_EQ(found.hypotheses, expected.hypotheses);
+  EXPECT_EQ(found.size, expected.size);
+  EXPECT_EQ(found.next_best_rms, expected.next_best_rms);
+
+  const Affine_symmetries_3<TypeParam> symmetries = affine_symmetries(points, solid.polygons);
+  const auto all = affine_symmetries(solid.points, solid.polygons);
+  EXPECT_EQ(symmetries.verdict, all.verdict);
+  EXPECT_EQ(symmetries.order(), all.order());
+  EXPECT_EQ(symmetries.complete_to, all.complete_to);
+  ASSERT_EQ(symmetries.levels.size(), all.levels.size());
+  ASSERT_FALSE(all.levels.empty());
+  for (std::size_t n = 0; n < all.levels.size(); ++n) {
+    EXPECT_EQ(symmetries.levels[n].rms, all.levels[n].rms);
+    ASSERT_EQ(symmetries.levels[n].order(), all.levels[n].order());
+    for (std::size_t k = 0; k < all.levels[n].order(); ++k) {
+      EXPECT_EQ(symmetries.levels[n].maps[k].rms, all.levels[n].maps[k].rms);
+      EXPECT_EQ(symmetries.levels[n].maps[k].map.m(1, 2), FT(all.levels[n].maps[k].map.m(1, 2)));
+    }
+  }
+}
+
+TYPED_TEST(Register_meshes_of_kernels, frames_and_slippage_are_those_that_were_found) {
+  using FT = typename TypeParam::FT;
+  Surface_registration_3<Kernel> found;
+  auto& m = found.maps.emplace_back(Registered_map_3<Kernel>{Map(), -9, {0.5, 0.25}, 0.125, {}, {}});
+  m.pair.emplace();
+  m.pair->points = {Point_3(1, 2, 3), Point_3(4, 5, 6)};
+  m.pair->frames[1][2] = Vector_3(7, 8, 9);
+  found.slippage.generators.emplace_back();
+  found.reason = "a reason";
+  const auto copy = internal::in_kernel<TypeParam>(found);
+  ASSERT_TRUE(copy.maps.at(0).pair);
+  EXPECT_EQ(copy.maps[0].pair->points[1], typename TypeParam::Point_3(FT(4), FT(5), FT(6)));
+  EXPECT_EQ(copy.maps[0].pair->frames[1][2], typename TypeParam::Vector_3(FT(7), FT(8), FT(9)));
+  EXPECT_EQ(copy.slippage.generators.size(), 1);
+  EXPECT_EQ(copy.reason, "a reason");
 }
 
 TEST(Register_meshes, another_triangulation_is_the_same_surface) {

@@ -22,8 +22,10 @@ public:
 
   virtual ~Fitted_function_3() = default;
 
+  /// The value; not a number outside of the band.
   virtual double value(const Vector& p, const Band_margin& margin) const = 0;
   virtual Jet_3<double, 1> first_order(const Vector& p) const = 0;
+  /// The expansion; not a number where the value is not that of polynomials alone.
   virtual Jet_3<double> taylor(const Vector& p) const = 0;
   virtual double rounding(const Vector& p) const = 0;
   virtual Fitted_structure_3<double> structure(const Vector& p) const = 0;
@@ -38,6 +40,7 @@ public:
   /// Returns whether some point of a box may be in the band.
   virtual bool may_meet(const CGAL::Bbox_3& box, const Band_margin& margin) const = 0;
 
+  /// The data with the way to fit them.
   virtual const Fitted_data_3& data() const = 0;
 };
 

@@ -2,12 +2,18 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_BLENDED_FUNCTION_H
 #define EQUIAFFINE_FIT_INTERNAL_BLENDED_FUNCTION_H
 
+#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/fit/Fitted_structure_3.h>
 #include <equiaffine/fit/internal/Fitted_data_3.h>
+#include <equiaffine/fit/internal/blend/Band_margin.h>
 #include <equiaffine/fit/internal/blend/Blend_3.h>
 #include <equiaffine/fit/internal/data/fit_input.h>
 #include <equiaffine/fit/internal/declared_fits.h>
+#include <equiaffine/fit/internal/shared/Fit_request.h>
 #include <equiaffine/fit/internal/structures_of_fit.h>
+#include <equiaffine/number/Jet_3.h>
 
+#include <CGAL/Bbox_3.h>
 #include <Eigen/Core>
 
 #include <cmath>
@@ -77,8 +83,9 @@ private:
 };
 
 template <class ConcurrencyTag>
-std::shared_ptr<const Fitted_function_3> fitted_function(const Fit_data_3& given, const Fit_request& request) {
-  return std::make_shared<const Blended_function_3>(fit_input<ConcurrencyTag>(given).data, request, ConcurrencyTag());
+std::shared_ptr<const Fitted_function_3> fitted_function(Fit_data_3 given, const Fit_request& request) {
+  return std::make_shared<const Blended_function_3>(fit_input<ConcurrencyTag>(std::move(given)).data, request,
+                                                    ConcurrencyTag());
 }
 
 } // namespace equiaffine::internal

@@ -133,17 +133,22 @@ std::vector<Fitted_structure_3<double>> structures_of_fit(const Fitted_data_3& f
 }
 
 template <class ConcurrencyTag>
-std::vector<Fitted_structure_3<double>> structures_of_data(const Fit_data_3& given, const Fit_request& request,
+std::vector<Fitted_structure_3<double>> structures_of_data(Fit_data_3 given, const Fit_request& request,
                                                            Orientation_of_level_set orientation) {
-  auto input = fit_input<ConcurrencyTag>(given);
+  const std::size_t count = given.points.size();
+  const bool is_mesh = given.kind == Fit_data_3::Kind::MESH;
+  Fit_input_3 input = fit_input<ConcurrencyTag>(std::move(given));
   const Fitted_data_3 fit(std::move(input.data), request, ConcurrencyTag());
-  return elements_at(structures_of_fit<ConcurrencyTag>(fit, orientation), input.positions);
+  auto structures = structures_of_fit<ConcurrencyTag>(fit, orientation);
+  if (!is_mesh) return elements_at(structures, input.positions);
+  structures.resize(count); // without points of creases
+  return structures;
 }
 
 template <class ConcurrencyTag>
-Fitted_structure_3<double> structure_of_vertex(const Fit_data_3& given, const Fit_request& request,
+Fitted_structure_3<double> structure_of_vertex(Fit_data_3 given, const Fit_request& request,
                                                Orientation_of_level_set orientation, std::size_t i) {
-  const Fitted_data_3 fit(fit_input<ConcurrencyTag>(given).data, request, ConcurrencyTag());
+  const Fitted_data_3 fit(fit_input<ConcurrencyTag>(std::move(given)).data, request, ConcurrencyTag());
   return structure_at_point(fit, Data_points_3::Index(i), orientation);
 }
 

@@ -3,8 +3,10 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_DECLARED_SEARCHES_H
 
 #include <equiaffine/registration/Affine_symmetries_3.h>
+#include <equiaffine/registration/Map_kind.h>
 #include <equiaffine/registration/Mesh_contradictions.h>
 #include <equiaffine/registration/Surface_registration_3.h>
+#include <equiaffine/registration/internal/Map_request.h>
 #include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/Symmetry_request.h>
 #include <equiaffine/registration/internal/samples/Triangles_3.h>
@@ -14,7 +16,8 @@
 
 #include <vector>
 
-// The work of searches for maps, which depends on no type of a user. ConcurrencyTag is one of CGAL's.
+// The work of searches for maps, which depends on no type of a user. ConcurrencyTag is CGAL::Sequential_tag or
+// CGAL::Parallel_tag.
 namespace equiaffine::internal {
 
 using Kernel_of_searches = Any_function_3::Kernel;
@@ -38,6 +41,7 @@ Registration_of_functions_3 registration_of_functions(const Surface_with_points_
                                                       const Surface_with_points_3& target,
                                                       const Registration_request& request);
 
+/// Meshes are tried as wholes, and then as pieces.
 template <class ConcurrencyTag>
 Surface_registration_3<Kernel_of_searches>
 registration_of_triangles(const Triangles_3& source, const Triangles_3& target, const Registration_request& request);
@@ -50,16 +54,18 @@ template <class ConcurrencyTag>
 bool differ_as_wholes(const Any_function_3& source, const Any_function_3& target, Map_kind kind,
                       bool allows_reflections);
 
+/// The symmetries of the zero set of a function, by affine frames at points near it, and by rotations of the whole.
 template <class ConcurrencyTag>
 Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(const Any_function_3& function,
                                                                const std::vector<Eigen::Vector3d>& points,
                                                                const Symmetry_request& request);
 
+/// The symmetries of a mesh, by rotations of the whole.
 template <class ConcurrencyTag>
 Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles(const Triangles_3& mesh, const Map_request& request);
 
 /// Returns the contradictions with the side of the source by which more points are in contact. Meshes without an area
-/// have none.
+/// have none. Nothing runs in threads: the tag makes it a template, which is declared and defined as the others are.
 template <class ConcurrencyTag>
 Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 target, double distance);
 

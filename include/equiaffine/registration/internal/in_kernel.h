@@ -15,19 +15,20 @@ namespace equiaffine::internal {
 
 template <class Kernel>
 typename Kernel::Aff_transformation_3 in_kernel(const Kernel_of_searches::Aff_transformation_3& map) {
-  return {map.m(0, 0), map.m(0, 1), map.m(0, 2), map.m(0, 3), map.m(1, 0), map.m(1, 1),
-          map.m(1, 2), map.m(1, 3), map.m(2, 0), map.m(2, 1), map.m(2, 2), map.m(2, 3)};
+  const auto m = [&](int i, int j) { return typename Kernel::FT(map.m(i, j)); };
+  return {m(0, 0), m(0, 1), m(0, 2), m(0, 3), m(1, 0), m(1, 1), m(1, 2), m(1, 3), m(2, 0), m(2, 1), m(2, 2), m(2, 3)};
 }
 
 template <class Kernel>
 Pair_of_frames_3<Kernel> in_kernel(const Pair_of_frames_3<Kernel_of_searches>& pair) {
+  using FT = typename Kernel::FT;
   Pair_of_frames_3<Kernel> result;
   for (std::size_t side = 0; side < 2; ++side) {
     const auto& p = pair.points[side];
-    result.points[side] = typename Kernel::Point_3(p.x(), p.y(), p.z());
+    result.points[side] = typename Kernel::Point_3(FT(p.x()), FT(p.y()), FT(p.z()));
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& v = pair.frames[side][k];
-      result.frames[side][k] = typename Kernel::Vector_3(v.x(), v.y(), v.z());
+      result.frames[side][k] = typename Kernel::Vector_3(FT(v.x()), FT(v.y()), FT(v.z()));
     }
   }
   return result;

@@ -14,7 +14,11 @@ namespace equiaffine::internal {
 
 /// What fits are made of, as a user gave it.
 struct Fit_data_3 {
-  enum class Kind { POINTS, MESH, SOUP };
+  enum class Kind {
+    POINTS, ///< without polygons
+    MESH,   ///< vertices and faces of a manifold
+    SOUP    ///< polygons that may be anything
+  };
 
   Kind kind;
   std::vector<Eigen::Vector3d> points = {};

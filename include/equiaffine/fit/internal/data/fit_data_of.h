@@ -48,9 +48,11 @@ Fit_data_3 fit_data_of_points(Points&& range, const Parameters& parameters) {
 
 template <std::ranges::input_range Points, std::ranges::input_range Polygons, class Parameters>
 Fit_data_3 fit_data_of_soup(const Points& points, const Polygons& polygons, const Parameters& parameters) {
-  Indexed_polygons soup = indexed_polygons_of_soup(points, polygons);
-  Fit_data_3 data = {Fit_data_3::Kind::SOUP, std::move(soup.points), std::move(soup.polygons)};
+  Fit_data_3 data = {Fit_data_3::Kind::SOUP};
   data.feature_angle = feature_angle(parameters);
+  Indexed_polygons soup = indexed_polygons_of_soup(points, polygons);
+  data.points = std::move(soup.points);
+  data.polygons = std::move(soup.polygons);
   return data;
 }
 

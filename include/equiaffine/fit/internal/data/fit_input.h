@@ -15,13 +15,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <numeric>
+#include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
 
-/// The data points, and which of them each given point is. Those of a mesh are the vertices in their order, and behind
-/// them others at creases.
+/// The data points, and which of them each given point is: none for a mesh, whose vertices come first, in their order,
+/// and behind them others at creases.
 struct Fit_input_3 {
   Normalized_data data;
   std::vector<std::uint32_t> positions;
@@ -31,8 +31,6 @@ inline Fit_input_3 fit_input_of_mesh(const Fit_data_3& given) {
   Fit_input_3 result;
   result.data = data_of_mesh(given.points, given.polygons, given.feature_angle);
   improve_normals(result.data, given.normals);
-  result.positions.resize(given.points.size());
-  std::iota(result.positions.begin(), result.positions.end(), std::uint32_t(0));
   return result;
 }
 
@@ -57,11 +55,10 @@ inline std::vector<std::uint32_t> merge_equal_points(std::vector<Eigen::Vector3d
 }
 
 template <class ConcurrencyTag>
-Fit_input_3 fit_input_of_points(const Fit_data_3& given) {
-  std::vector<Eigen::Vector3d> points = given.points, normals = given.normals;
+Fit_input_3 fit_input_of_points(Fit_data_3 given) {
   Fit_input_3 result;
-  result.positions = merge_equal_points(points, normals);
-  result.data = data_of_points<ConcurrencyTag>(points, normals, given.orientation);
+  result.positions = merge_equal_points(given.points, given.normals);
+  result.data = data_of_points<ConcurrencyTag>(given.points, given.normals, given.orientation);
   return result;
 }
 
@@ -103,9 +100,10 @@ inline Fit_input_3 fit_input_of_soup(const Fit_data_3& given) {
 }
 
 template <class ConcurrencyTag>
-Fit_input_3 fit_input(const Fit_data_3& given) {
+Fit_input_3 fit_input(Fit_data_3 given) {
   if (given.kind == Fit_data_3::Kind::MESH) return fit_input_of_mesh(given);
-  return given.kind == Fit_data_3::Kind::SOUP ? fit_input_of_soup(given) : fit_input_of_points<ConcurrencyTag>(given);
+  if (given.kind == Fit_data_3::Kind::SOUP) return fit_input_of_soup(given);
+  return fit_input_of_points<ConcurrencyTag>(std::move(given));
 }
 
 } // namespace equiaffine::internal

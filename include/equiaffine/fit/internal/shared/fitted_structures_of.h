@@ -5,9 +5,11 @@
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/fit/internal/data/Fit_data_3.h>
 #include <equiaffine/fit/internal/data/fit_data_of.h>
 #include <equiaffine/fit/internal/fits.h>
 #include <equiaffine/fit/internal/shared/Fit_request.h>
+#include <equiaffine/surface/internal/shared/Face_graph.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/tags.h>
@@ -15,15 +17,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 // The functions of fitted_structures.h with all their named parameters in one chain, which may have others.
 namespace equiaffine::internal {
 
 template <class ConcurrencyTag, class Parameters>
-std::vector<Fitted_structure_3<double>> structures_by_request(const Fit_data_3& data, const Parameters& parameters) {
+std::vector<Fitted_structure_3<double>> structures_by_request(Fit_data_3 data, const Parameters& parameters) {
   const auto orientation = get_parameter<Orientation_tag>(parameters, Orientation_of_level_set::ALONG_GRADIENT);
-  return structures_of_data<ConcurrencyTag>(data, fit_request(parameters), orientation);
+  return structures_of_data<ConcurrencyTag>(std::move(data), fit_request(parameters), orientation);
 }
 
 template <class ConcurrencyTag, class Graph, class Parameters>

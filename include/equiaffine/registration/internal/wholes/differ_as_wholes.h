@@ -2,9 +2,11 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_DIFFER_AS_WHOLES_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_DIFFER_AS_WHOLES_H
 
+#include <equiaffine/registration/Map_kind.h>
 #include <equiaffine/registration/internal/declared_searches.h>
 #include <equiaffine/registration/internal/wholes/Centered_surface_3.h>
 #include <equiaffine/registration/internal/wholes/candidate_rotations.h>
+#include <equiaffine/surface/Any_function_3.h>
 
 #include <Eigen/LU>
 
