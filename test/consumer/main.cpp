@@ -33,7 +33,7 @@ int main() {
   if (equiaffine::affine_symmetries(corners, faces).order() != 24) return EXIT_FAILURE;
 #endif
   std::vector<Kernel::Point_3> points;
-  for (int i = 0; i < 144; ++i) points.emplace_back(i % 12, i / 12, 0.01 * (i % 12) * (i / 12));
+  for (int i = 0; i < 64; ++i) points.emplace_back(i % 8, i / 8, 0.01 * (i % 8) * (i / 8));
   if (equiaffine::fitted_structures(points).size() != points.size()) return EXIT_FAILURE;
   return mesh.number_of_vertices() > 1000 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
