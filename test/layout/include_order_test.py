@@ -204,6 +204,10 @@ class IncludeOrder(unittest.TestCase):
     def test_the_mesher_reaching_into_a_room(self):
         self.assert_fault("mesher/mesh.cpp includes", mesher__mesh_cpp="#include <equiaffine/low/internal/b.h>\n")
 
+    def test_what_is_compiled_reaching_into_a_room_that_does_not_let_it_look_inside(self):
+        self.assert_fault("compiled/work.cpp uses low/internal/b.h",
+                          compiled__work_cpp="#include <equiaffine/low/internal/b.h>\nnamespace equiaffine::internal {}\n")
+
 
 if __name__ == "__main__":
     unittest.main()
