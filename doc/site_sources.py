@@ -55,7 +55,7 @@ def group_of(header):
 @functools.cache
 def concept_pages():
     """A pattern of the names of concepts that have a page."""
-    names = sorted((path.stem for path in pathlib.Path("doc/concepts").glob("[A-Z]*.md")), key=len, reverse=True)
+    names = sorted((path.stem for path in pathlib.Path("doc/concepts").glob("[A-Z]*.md")), key=lambda each: (-len(each), each))
     return re.compile(rf"(?<![\w`:#])(?:{'|'.join(names)})(?![\w`.])")
 
 
@@ -87,7 +87,7 @@ def in_group(text, group):
 def public_headers():
     """(path below include/equiaffine, text without what is internal) of each header, by names."""
     root = pathlib.Path(LIBRARY)
-    names = [path.relative_to(root).as_posix() for path in sorted(root.rglob("*.h"), key=lambda p: p.name.lower())]
+    names = [path.relative_to(root).as_posix() for path in sorted(root.rglob("*.h"), key=lambda p: (p.name.lower(), p))]
     texts = {name: (root / name).read_text() for name in names if "/internal/" not in name or name in PASSED_ON}
     return [(name, re.sub(r"^namespace internal \{.*?^\} // namespace internal", "", text, flags=re.M | re.S))
             for name, text in texts.items()]
@@ -204,7 +204,7 @@ def reference(text):
         lists[group_of(header)].update(names_in(code))
 
     def names(match):
-        links = [f'\\ref equiaffine::{name} "{name}"' for name in sorted(lists[match[1]], key=str.lower)]
+        links = [f'\\ref equiaffine::{name} "{name}"' for name in sorted(lists[match[1]], key=lambda each: (each.lower(), each))]
         return f"<b>\\ref {match[1]}</b>: " + ", ".join(links) + "."
 
     return re.sub(r"\\classified (\w+)", names, text)

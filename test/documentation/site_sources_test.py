@@ -2,6 +2,7 @@
 """What doc/site_sources.py makes of a small checkout."""
 import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -73,6 +74,15 @@ class SiteSources(unittest.TestCase):
                       header)
         self.assertIn("template <class T, class... NamedParameters>\n", header)
         self.assertIn("const NamedParameters&... given", header)
+
+    def test_names_that_differ_in_case_alone_have_one_order_for_every_seed_of_hashes(self):
+        names = "Box", "box", "BOx", "bOx", "boX"
+        pathlib.Path("include/equiaffine/box.h").write_text("".join(f"class {name} {{\n}};\n" for name in names))
+        for seed in range(5):
+            subprocess.run([sys.executable, "-B", site_sources.__file__, f"site{seed}"], check=True,
+                           env=os.environ | {"PYTHONHASHSEED": str(seed)})
+        written = {pathlib.Path(f"site{seed}/doc/reference.dox").read_text() for seed in range(5)}
+        self.assertEqual(1, len(written), written)
 
     def test_signatures_show_what_a_user_understands(self):
         for code, shown in (
