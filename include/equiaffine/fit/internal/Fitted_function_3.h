@@ -15,7 +15,7 @@ namespace equiaffine::internal {
 
 class Fitted_data_3;
 
-/// What Fitted_function_traits_3 asks for, in the coordinates of the data.
+/// The interface through which Fitted_function_traits_3 evaluates a fit, in the coordinates of the data.
 class Fitted_function_3 {
 public:
   using Vector = Eigen::Vector3d;

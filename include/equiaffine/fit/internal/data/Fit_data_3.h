@@ -12,7 +12,7 @@
 
 namespace equiaffine::internal {
 
-/// What fits are made of, as a user gave it.
+/// The data of a fit, as a user gave them.
 struct Fit_data_3 {
   enum class Kind {
     POINTS, ///< without polygons

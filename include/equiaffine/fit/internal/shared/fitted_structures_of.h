@@ -23,10 +23,14 @@
 // The functions of fitted_structures.h with all their named parameters in one chain, which may have others.
 namespace equiaffine::internal {
 
+template <class Parameters>
+Orientation_of_level_set orientation_of(const Parameters& parameters) {
+  return get_parameter<Orientation_tag>(parameters, Orientation_of_level_set::ALONG_GRADIENT);
+}
+
 template <class ConcurrencyTag, class Parameters>
 std::vector<Fitted_structure_3<double>> structures_by_request(Fit_data_3 data, const Parameters& parameters) {
-  const auto orientation = get_parameter<Orientation_tag>(parameters, Orientation_of_level_set::ALONG_GRADIENT);
-  return structures_of_data<ConcurrencyTag>(std::move(data), fit_request(parameters), orientation);
+  return structures_of_data<ConcurrencyTag>(std::move(data), fit_request(parameters), orientation_of(parameters));
 }
 
 template <class ConcurrencyTag, class Graph, class Parameters>
@@ -41,9 +45,8 @@ Fitted_structure_3<double> fitted_structure_of_vertex(const Vertex& v, const Gra
   const auto place = std::find(std::begin(all), std::end(all), v);
   CGAL_precondition_msg(place != std::end(all), "the vertex is none of the mesh");
   const auto i = std::size_t(std::distance(std::begin(all), place));
-  const auto orientation = get_parameter<Orientation_tag>(parameters, Orientation_of_level_set::ALONG_GRADIENT);
   return structure_of_vertex<CGAL::Sequential_tag>(fit_data_of_graph(mesh, parameters), fit_request(parameters),
-                                                   orientation, i);
+                                                   orientation_of(parameters), i);
 }
 
 template <class ConcurrencyTag, class Points, class Parameters>
