@@ -17,7 +17,7 @@ class CMakeBuild(build_ext):
         build = pathlib.Path(self.build_temp).resolve()
         subprocess.run(["cmake", "-S", str(ROOT), "-B", str(build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                         "-DEQUIAFFINE_BUILD_PYTHON=ON", "-DBUILD_TESTING=OFF", "-DEQUIAFFINE_BUILD_REPRODUCE=OFF",
-                        "-DEQUIAFFINE_WARNINGS_AS_ERRORS=OFF", "-DEQUIAFFINE_UNITY_BUILD=ON", "-DEQUIAFFINE_INSTALL=OFF",
+                        "-DEQUIAFFINE_UNITY_BUILD=ON", "-DEQUIAFFINE_INSTALL=OFF",
                         f"-DPython3_EXECUTABLE={sys.executable}",
                         *os.environ.get("CMAKE_ARGS", "").split()], check=True)
         subprocess.run(["cmake", "--build", str(build), "--target", "equiaffine_python"], check=True)

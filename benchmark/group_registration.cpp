@@ -2,7 +2,7 @@
 // Registration: how often it is right, with how many hypotheses and how exactly, and how long the search takes once the
 // points have their frames; symmetry groups and slippage; false maps.
 // Usage: benchmark_registration [repeats] [part] [folder of data], where part is all, formulas, symmetries, unrelated,
-// volumes, meshes, bunny, peers or thresholds.
+// volumes, meshes, bunny, peers or thresholds; or `surfaces`, which only writes the twelve formulas with their boxes.
 // 84 repeats are the full size: 3000 runs with formulas.
 #include "registration/Disturbed_structure.h"
 #include "registration/runs.h"
@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -232,6 +233,12 @@ void slippage() {
 int main(int argc, char** argv) {
   const int repeats = argc > 1 ? std::atoi(argv[1]) : 84;
   const std::string part = argc > 2 ? argv[2] : "all";
+  if (part == "surfaces")
+    for (const Surface& s : generic_surfaces()) {
+      std::cout << s.name;
+      for (int k = 0; k < 3; ++k) std::cout << '\t' << s.box.min(k) << '\t' << s.box.max(k);
+      std::cout << '\t' << s.formula << '\n';
+    }
   const auto is_asked_for = [&](const char* name) { return part == "all" || part == name; };
   if (is_asked_for("symmetries")) {
     symmetries();

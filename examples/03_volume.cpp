@@ -31,7 +31,7 @@ equiaffine::Volume_3<Kernel> sample(std::size_t n) {
 //! [volume]
 
 int main() {
-  for (const std::size_t n : {32, 64}) {
+  for (const std::size_t n : {32u, 64u}) {
     const Traits traits(sample(n));
     const auto surface = equiaffine::marching_cubes(traits);
     const auto attributes = equiaffine::compute_attributes(traits, surface.points,

@@ -35,7 +35,7 @@ class Equiaffine(ConanFile):
         CMakeDeps(self).generate()
         toolchain = CMakeToolchain(self)
         toolchain.cache_variables.update({"EQUIAFFINE_BUILD_PROGRAM": "OFF", "EQUIAFFINE_BUILD_REPRODUCE": "OFF",
-                                          "EQUIAFFINE_WARNINGS_AS_ERRORS": "OFF", "BUILD_TESTING": "OFF"})
+                                          "BUILD_TESTING": "OFF"})
         toolchain.generate()
 
     def build(self):

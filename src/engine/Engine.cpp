@@ -21,10 +21,10 @@ std::vector<Instruction_set> instruction_sets() {
 
 const Vectorized_engines& vectorized_engines([[maybe_unused]] Instruction_set set) {
 #ifdef EQUIAFFINE_WITH_INSTRUCTION_SETS
-  if (set == Instruction_set::AVX512) return equiaffine_engines_avx512();
-  if (set == Instruction_set::AVX2) return equiaffine_engines_avx2();
+  if (set == Instruction_set::AVX512) return *equiaffine_engines_avx512();
+  if (set == Instruction_set::AVX2) return *equiaffine_engines_avx2();
 #endif
-  return equiaffine_engines_baseline();
+  return *equiaffine_engines_baseline();
 }
 
 const Engine<Fit_function>& fit_engine() {

@@ -7,9 +7,9 @@
 #include "engine/Engine.h"
 
 extern "C" {
-const equiaffine::Vectorized_engines& equiaffine_engines_baseline();
-const equiaffine::Vectorized_engines& equiaffine_engines_avx2();
-const equiaffine::Vectorized_engines& equiaffine_engines_avx512();
+const equiaffine::Vectorized_engines* equiaffine_engines_baseline();
+const equiaffine::Vectorized_engines* equiaffine_engines_avx2();
+const equiaffine::Vectorized_engines* equiaffine_engines_avx512();
 }
 
 #endif

@@ -4,8 +4,8 @@
 
 #include <type_traits>
 
-const equiaffine::Vectorized_engines& EQUIAFFINE_ENTRY() {
+const equiaffine::Vectorized_engines* EQUIAFFINE_ENTRY() {
   static constexpr equiaffine::Vectorized_engines engines =
       equiaffine::engines_with_library(std::type_identity<equiaffine::Vectorized_function>());
-  return engines;
+  return &engines;
 }

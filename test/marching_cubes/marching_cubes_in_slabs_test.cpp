@@ -74,7 +74,7 @@ TEST(Marching_cubes_in_slabs, slabs_are_the_mesh_whatever_the_function_is) {
     const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
     const auto parameters = parameters::number_of_nodes({21, 21, 41});
     const auto whole = marching_cubes(traits, parameters);
-    for (const std::size_t planes : {1, 2, 5, 16, 41, 100}) expect_same(traits, whole, planes, parameters, text);
+    for (const std::size_t planes : {1u, 2u, 5u, 16u, 41u, 100u}) expect_same(traits, whole, planes, parameters, text);
     expect_same(traits, marching_cubes(traits, parameters.skip_empty_space()), 7, parameters.skip_empty_space(), text);
   }
 }
@@ -90,7 +90,7 @@ TEST(Marching_cubes_in_slabs, slabs_are_the_mesh_of_random_samples) {
         volume.values.push_back(values[random() % values.size()]);
       const Sampled_function_traits_3<Kernel> traits(volume);
       const std::string name = "volume " + std::to_string(n);
-      for (const std::size_t planes : {3, 10})
+      for (const std::size_t planes : {3u, 10u})
         for (const auto position : {Vertex_position::LINEAR, Vertex_position::PROJECTED}) {
           const auto parameters = parameters::vertex_position(position);
           expect_same(traits, marching_cubes(traits, parameters), planes, parameters, name);

@@ -79,7 +79,7 @@ TEST(Marching_cubes, threads_change_nothing) {
 
 TEST(Marching_cubes, skipping_empty_space_changes_nothing_but_the_number_of_evaluations) {
   for (const Surface& s : surfaces)
-    for (const std::size_t n : {20, 65, 100}) {
+    for (const std::size_t n : {20u, 65u, 100u}) {
       const auto nodes = parameters::number_of_nodes(n).vertex_position(Vertex_position::LINEAR);
       const auto all = marching_cubes(traits_of(s), nodes),
                  some = marching_cubes(traits_of(s), nodes.skip_empty_space());
@@ -107,7 +107,7 @@ TEST(Marching_cubes, skipping_empty_space_does_not_take_the_end_of_the_domain_fo
                            // Here it becomes undefined just above the surface, where blocks of nodes begin.
                            "(x-0.3)*(1+0.01*sqrt(0.33-x+0.2*y))", "(y-0.3)*(1+0.01*sqrt(0.33-y+0.2*z))",
                            "(z-0.3)*(1+0.01*sqrt(0.33-z+0.2*x))"})
-    for (const std::size_t n : {37, 40}) {
+    for (const std::size_t n : {37u, 40u}) {
       const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
       const auto nodes = parameters::number_of_nodes(n).vertex_position(Vertex_position::LINEAR);
       const auto all = marching_cubes(traits, nodes), some = marching_cubes(traits, nodes.skip_empty_space());
@@ -286,7 +286,7 @@ TEST(Marching_cubes, vertices_at_a_jump_are_unconverged) {
 TEST(Marching_cubes, arguments_without_a_result_are_refused_in_every_build) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto sphere = traits_of(surfaces[0]);
-  for (const std::size_t n : {0, 1})
+  for (const std::size_t n : {0u, 1u})
     EXPECT_THROW(marching_cubes(sphere, parameters::number_of_nodes(n)), std::invalid_argument);
   const CGAL::Bbox_3 space(-infinity, -infinity, -infinity, infinity, infinity, infinity);
   EXPECT_THROW(marching_cubes(make_analytic_traits<Kernel>(Expression_3("x"), space)), std::invalid_argument);

@@ -302,10 +302,10 @@ TEST_F(Program_command_line, evaluate_writes_PLY_from_CSV_and_back) {
 }
 
 TEST_F(Program_command_line, a_transform_may_have_a_translation) {
-  const Arguments sphere = {"--function", "x^2 + y^2 + z^2"},
+  const Arguments square = {"--function", "x^2 + y^2 + z^2"},
                   map = {"--transform", "1", "0", "0", "0", "1", "0", "0", "0", "2", "-.5", "-1e1", "-.25"};
-  const auto at_origin = evaluate(sphere + Arguments(map.begin(), map.begin() + 10), ".5,1,1.5"),
-             translated = evaluate(map + sphere, "0,-9,1.25");
+  const auto at_origin = evaluate(square + Arguments(map.begin(), map.begin() + 10), ".5,1,1.5"),
+             translated = evaluate(map + square, "0,-9,1.25");
   EXPECT_EQ(translated.at("status"), "regular");
   for (const char* name : {"gaussian_curvature", "affine_mean_curvature", "nx", "ny", "nz"})
     EXPECT_NEAR(std::stod(at_origin.at(name)), std::stod(translated.at(name)), 1e-13) << name;
@@ -523,7 +523,7 @@ TEST_F(Program_command_line, a_Delaunay_mesh_of_a_singular_surface_has_undecided
   ASSERT_GT(stats["undecided_boxes"].size(), 0U);
   for (const Json& box : stats["undecided_boxes"]) { // in the order of --box
     ASSERT_EQ(box.size(), 6U);
-    for (const std::size_t a : {0, 2, 4}) {
+    for (const std::size_t a : {0u, 2u, 4u}) {
       EXPECT_LT(box.at(a), box.at(a + 1));
       EXPECT_LT(std::abs(box.at(a).get<double>()), 0.05) << "far from the apex";
     }
@@ -751,9 +751,9 @@ TEST_F(Program_command_line, constants_are_arithmetic_and_formulas_may_come_from
     return run_well({"mesh", "--function", function, "--set", "r=" + radius, "--box", "-2", "2", "-2", "2", "-2", "2",
                      "--resolution", "9", "-o", "-"});
   };
-  const std::string sphere = mesh("x^2 + y^2 + z^2 = r^2", "1.5");
-  EXPECT_EQ(sphere, mesh("@formula", "1.5"));
-  EXPECT_EQ(sphere, mesh("@formula", "3*cos(0*pi)/2"));
+  const std::string typed = mesh("x^2 + y^2 + z^2 = r^2", "1.5");
+  EXPECT_EQ(typed, mesh("@formula", "1.5"));
+  EXPECT_EQ(typed, mesh("@formula", "3*cos(0*pi)/2"));
 }
 
 TEST_F(Program_command_line, names_of_files_that_could_upset_a_terminal_are_shown_as_codes) {

@@ -75,7 +75,8 @@ protected:
   /// The error of K over the vertices.
   double median_error(const Arguments& arguments) {
     std::vector<double> errors;
-    for (const double k : mesh(arguments)["affine_gaussian_curvature"]) errors.push_back(std::abs(k - gaussian));
+    auto vertices = mesh(arguments);
+    for (const double k : vertices["affine_gaussian_curvature"]) errors.push_back(std::abs(k - gaussian));
     return median(errors);
   }
 

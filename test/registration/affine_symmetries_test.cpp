@@ -57,7 +57,7 @@ TEST(Affine_symmetries, finite_groups_are_complete_for_originals_and_affine_imag
 }
 
 TEST(Affine_symmetries, a_group_is_complete_where_the_box_cuts_off_images_of_generic_points) {
-  for (const std::size_t nodes : {36, 40, 46})
+  for (const std::size_t nodes : {36u, 40u, 46u})
     EXPECT_EQ(symmetries({icosahedral, cube(1.6), 120}, std::nullopt, nodes).order(), 120u) << nodes << " nodes";
 }
 

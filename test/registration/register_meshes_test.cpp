@@ -94,7 +94,8 @@ TYPED_TEST(Register_meshes_of_kernels, results_are_of_the_kernel_of_the_points) 
   ASSERT_EQ(found.maps.size(), expected.maps.size());
   ASSERT_EQ(found.maps.size(), 3);
   for (std::size_t n = 0; n < 3; ++n) {
-    const auto &a = found.maps[n], &b = expected.maps[n];
+    const auto& a = found.maps[n];
+    const auto& b = expected.maps[n];
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 4; ++j) EXPECT_EQ(a.map.m(i, j), FT(b.map.m(i, j)));
     EXPECT_EQ(a.log10_false_alarms, b.log10_false_alarms);

@@ -29,10 +29,10 @@ struct Array_lanes {
       return generate_mask([&](std::size_t i) { return !values_[i]; });
     }
     friend Mask operator&&(const Mask& a, const Mask& b) {
-      return generate_mask([&](std::size_t i) { return bool(a[i] & b[i]); });
+      return generate_mask([&](std::size_t i) { return bool(int(a[i]) & int(b[i])); });
     }
     friend Mask operator||(const Mask& a, const Mask& b) {
-      return generate_mask([&](std::size_t i) { return bool(a[i] | b[i]); });
+      return generate_mask([&](std::size_t i) { return bool(int(a[i]) | int(b[i])); });
     }
 
   private:

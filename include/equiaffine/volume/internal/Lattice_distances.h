@@ -126,7 +126,7 @@ private:
     };
     std::array<double, 2> distances = {distance_to(children[0]), distance_to(children[1])};
     if (distances[1] < distances[0]) std::swap(distances[0], distances[1]), std::swap(children[0], children[1]);
-    for (const std::size_t n : {0, 1})
+    for (std::size_t n = 0; n < 2; ++n)
       if (distances[n] <= nearest.squared_distance) improve(nearest, p, children[n], project);
   }
 

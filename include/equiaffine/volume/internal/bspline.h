@@ -25,7 +25,7 @@ constexpr int spline_padding(int degree) { return degree / 2; }
 template <class FT, int Degree, int Width>
 constexpr auto bspline_basis_polynomials() {
   static_assert(Degree % 2 == 1 && Degree <= 9 && Width > Degree);
-  std::array<std::array<long long, Degree + 1>, Degree + 1> pieces{}; // [piece q on [q, q + 1]][power of 2s]
+  long long pieces[Degree + 1][Degree + 1] = {}; // [piece q on [q, q + 1]][power of 2s]
   pieces[0][0] = 1;
   long long denominator = 1; // 2^n n!
   for (int n = 1; n <= Degree; ++n) {
@@ -38,8 +38,8 @@ constexpr auto bspline_basis_polynomials() {
       }
   }
   std::array<std::array<FT, Width>, Degree + 1> basis{};
-  for (int p = 0; p <= Degree; ++p)
-    for (int r = 0; r <= Degree; ++r) basis[p][r] = FT(pieces[Degree - r][p]) * FT(1LL << p) / FT(denominator);
+  for (std::size_t p = 0; p <= Degree; ++p)
+    for (std::size_t r = 0; r <= Degree; ++r) basis[p][r] = FT(pieces[Degree - r][p]) * FT(1LL << p) / FT(denominator);
   return basis;
 }
 
@@ -135,12 +135,12 @@ private:
   static constexpr Weights inverse_of_smoothing() {
     Weights series{FT(1)};
     Weights arcsinh{FT(1)};
-    for (int k = 1; k <= padding; ++k) // arcsinh(x)/x = sum_k a_k x^2k, a_k / a_{k-1} = -(2k-1)^2 / (2k (2k+1))
-      arcsinh[k] = arcsinh[k - 1] * FT(-(2 * k - 1) * (2 * k - 1)) / FT(4 * 2 * k * (2 * k + 1));
+    for (std::size_t k = 1; k <= padding; ++k) // arcsinh(x)/x = sum_k a_k x^2k, a_k / a_{k-1} = -(2k-1)^2 / (2k (2k+1))
+      arcsinh[k] = -arcsinh[k - 1] * FT((2 * k - 1) * (2 * k - 1)) / FT(4 * 2 * k * (2 * k + 1));
     for (int power = 0; power <= Degree; ++power)
-      for (int k = padding; k >= 0; --k) {
+      for (std::size_t k = padding + 1; k-- > 0;) {
         FT sum = 0;
-        for (int l = 0; l <= k; ++l) sum += arcsinh[l] * series[k - l];
+        for (std::size_t l = 0; l <= k; ++l) sum += arcsinh[l] * series[k - l];
         series[k] = sum;
       }
     return series;
@@ -150,10 +150,10 @@ private:
   static constexpr Weights weights_of_differences(const Weights& series) {
     Weights weights{};
     std::array<FT, padding + 2> difference{FT(1)}; // the right half of delta^2k, which is symmetric
-    for (int k = 0; k <= padding; ++k) {
-      for (int s = 0; s <= k; ++s) weights[s] += series[k] * difference[s];
+    for (std::size_t k = 0; k <= padding; ++k) {
+      for (std::size_t s = 0; s <= k; ++s) weights[s] += series[k] * difference[s];
       FT left = difference[1]; // the left neighbor of the entry at s = 0, by symmetry
-      for (int s = 0; s <= k + 1 && s <= padding; ++s) {
+      for (std::size_t s = 0; s <= k + 1 && s <= padding; ++s) {
         const FT center = difference[s];
         difference[s] = left - 2 * center + difference[s + 1];
         left = center;
@@ -230,8 +230,8 @@ private:
     for (int i = -padding; i < radius; ++i)
       for (int j = 0; j <= d; ++j) {
         FT sum = 0;
-        for (int s = -radius; s <= radius; ++s) sum += weights[s < 0 ? -s : s] * lagrange(d, j, i + s);
-        result[padding + i][j] = sum;
+        for (int s = -radius; s <= radius; ++s) sum += weights[std::size_t(s < 0 ? -s : s)] * lagrange(d, j, i + s);
+        result[std::size_t(padding + i)][std::size_t(j)] = sum;
       }
     return result;
   }

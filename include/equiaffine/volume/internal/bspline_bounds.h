@@ -26,7 +26,7 @@ template <int Degree, class FT>
 constexpr FT relative_error_of_value() {
   constexpr auto basis = bspline_basis_polynomials<FT, Degree, Degree + 1>();
   FT sum = 0;
-  for (int p = 0; p <= Degree; ++p)
+  for (std::size_t p = 0; p <= Degree; ++p)
     for (const FT b : basis[p]) sum += (b < 0 ? -b : b) / FT(1LL << p);
   return FT(3 * (5 * Degree + 3)) * std::numeric_limits<FT>::epsilon() * sum * sum * sum;
 }

@@ -31,10 +31,10 @@ struct Bspline_taylor {
     const FT s = t - FT(0.5);
     for (int r = 0; r < width; r += Spline_pack<FT>::lanes) {
       typename Spline_pack<FT>::type b[Order + 1] = {};
-      b[0] = Spline_pack<FT>::load(&basis[Degree][r]);
+      b[0] = Spline_pack<FT>::load(basis[Degree].data() + r);
       unrolled<Degree>([&](auto step) {
         unrolled<Order>([&](auto e) { b[Order - e] = b[Order - e] * s + b[Order - e - 1]; });
-        b[0] = b[0] * s + Spline_pack<FT>::load(&basis[Degree - 1 - step][r]);
+        b[0] = b[0] * s + Spline_pack<FT>::load(basis[Degree - 1 - step].data() + r);
       });
       unrolled<Order + 1>([&](auto d) { Spline_pack<FT>::store(b[d], rows[d] + r); });
     }

@@ -21,7 +21,10 @@ inline std::string printable(std::string_view text) {
     if (bytes == 1 && (code == '\n' || code == '\r' || code == '\t')) result += ' ';
     else if (bytes > 0 && internal::is_harmless(code)) result += text.substr(0, bytes);
     else
-      for (const unsigned char c : text.substr(0, taken)) result += {'\\', 'x', digits[c / 16], digits[c % 16]};
+      for (const char c : text.substr(0, taken)) {
+        const auto byte = static_cast<unsigned char>(c);
+        result += {'\\', 'x', digits[byte / 16], digits[byte % 16]};
+      }
     text.remove_prefix(taken);
   }
   return result;

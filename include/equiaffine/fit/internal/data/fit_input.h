@@ -8,7 +8,6 @@
 #include <equiaffine/surface/internal/shared/indexed_polygons.h>
 
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <CGAL/Simple_cartesian.h>
 #include <Eigen/Core>
 
@@ -17,6 +16,17 @@
 #include <map>
 #include <utility>
 #include <vector>
+
+// GCC 14 takes a copy of a vector in this header for one beyond its memory.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Warray-bounds"
+#pragma GCC diagnostic ignored "-Wstringop-overflow"
+#endif
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 namespace equiaffine::internal {
 
@@ -84,8 +94,7 @@ inline Fit_input_3 fit_input_of_soup(const Fit_data_3& given) {
   std::vector<Soup_point> points;
   for (const auto& p : given.points) points.emplace_back(p[0], p[1], p[2]);
   std::vector<Soup_point> repaired = points;
-  std::vector<std::vector<std::size_t>> polygons;
-  for (const auto& polygon : given.polygons) polygons.emplace_back(polygon.begin(), polygon.end());
+  std::vector<std::vector<std::uint32_t>> polygons = given.polygons;
   CGAL::Polygon_mesh_processing::repair_polygon_soup(repaired, polygons);
   CGAL::Polygon_mesh_processing::orient_polygon_soup(repaired, polygons);
 
@@ -93,9 +102,7 @@ inline Fit_input_3 fit_input_of_soup(const Fit_data_3& given) {
   result.positions = positions_after_repair(points, repaired);
   std::vector<Eigen::Vector3d> vertices;
   for (const auto& p : repaired) vertices.push_back(coordinates_of(p));
-  std::vector<std::vector<std::uint32_t>> faces;
-  for (const auto& polygon : polygons) faces.emplace_back(polygon.begin(), polygon.end());
-  result.data = data_of_mesh(vertices, faces, given.feature_angle);
+  result.data = data_of_mesh(vertices, polygons, given.feature_angle);
   return result;
 }
 

@@ -26,7 +26,7 @@ public:
       : points_(std::move(points)), triangles_(std::move(triangles)), begin_(points_.size() + 1) {
     std::vector<std::array<std::uint32_t, 2>> edges;
     for (const auto& t : triangles_)
-      for (int k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < 3; ++k) {
         edges.push_back({t[k], t[(k + 1) % 3]});
         edges.push_back({t[(k + 1) % 3], t[k]});
       }

@@ -82,7 +82,7 @@ public:
     const Edge_map is_kept = kept_edges();
     for (const auto e : mesh_.edges())
       if (is_kept[e] && !mesh_.is_border(e))
-        for (int k = 0; k < 2; ++k) result[mesh_.vertex(e, k)] = 1;
+        for (unsigned k = 0; k < 2; ++k) result[mesh_.vertex(e, k)] = 1;
     return result;
   }
 

@@ -13,7 +13,6 @@
 #include <Eigen/SVD>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -61,7 +60,7 @@ inline std::optional<Normal_quadric_3> normal_form(const Quadric_3& quadric) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(quadric.form);
   const Eigen::Vector3d values = solver.eigenvalues(), linear = solver.eigenvectors().transpose() * quadric.linear;
   const double largest = values.cwiseAbs().maxCoeff();
-  std::array<int, 3> order = {0, 1, 2}; // squares with a coefficient first
+  Eigen::Vector3i order(0, 1, 2); // squares with a coefficient first
   std::sort(order.begin(), order.end(), [&](int a, int b) { return std::abs(values[a]) > std::abs(values[b]); });
   const bool is_central = std::abs(values[order[2]]) > rounding * largest;
   const int squares = is_central ? 3 : 2;
