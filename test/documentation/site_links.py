@@ -4,6 +4,7 @@
 Every page is read once. LinkChecker reads a page again for each anchor that a link has, ten times as much in sum."""
 import html.parser
 import pathlib
+import re
 import sys
 import urllib.parse
 
@@ -22,9 +23,16 @@ class Page(html.parser.HTMLParser):
             values[key] for key in ("href", "src", "data") if values.get(key))
 
 
+class Menu:
+    """The links of the menu that Doxygen's pages show, which a script has."""
+    def __init__(self, path):
+        self.links, self.loads = set(re.findall(r'url:"([^"]*)"', path.read_text())), set()
+
+
 def find_faults(site):
     pages = {path: Page(path) for path in sorted(site.rglob("*.html"))}
-    for path, page in pages.items():
+    menus = {path: Menu(path) for path in site.glob("menudata.js")}
+    for path, page in (pages | menus).items():
         name = path.relative_to(site).as_posix()
         for link in sorted(page.links | page.loads):
             url = urllib.parse.urlsplit(link)

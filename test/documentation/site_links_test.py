@@ -8,13 +8,14 @@ from site_links import find_faults
 
 
 class SiteLinks(unittest.TestCase):
-    def faults(self, index):
+    def faults(self, index, menu=""):
         """Of a site with this page and another one in a folder."""
         with tempfile.TemporaryDirectory() as folder:
             site = pathlib.Path(folder)
             (site / "sub").mkdir()
             (site / "sub/a b.html").write_text('<a name="x"/><h2 id="y(z)">text</h2><a href="../index.html">up</a>')
             (site / "style.css").write_text("")
+            (site / "menudata.js").write_text(menu)
             (site / "index.html").write_text(index)
             return list(find_faults(site))
 
@@ -36,6 +37,11 @@ class SiteLinks(unittest.TestCase):
                           "index.html: https://example.org/a.js is loaded from elsewhere"],
                          self.faults('<script src="https://example.org/a.js"></script>'
                                      '<link href="//example.org/b.css"/>'))
+
+    def test_dead_links_of_the_menu_are_found(self):
+        self.assertEqual(["menudata.js: the link gone.html leads to no file", "menudata.js: the link index.html#no leads to no anchor"],
+                         self.faults("", 'var menudata={children:[{text:"A",url:"gone.html"},{text:"B",url:"index.html"},'
+                                         '{text:"C",url:"index.html#no"}]}'))
 
 
 if __name__ == "__main__":

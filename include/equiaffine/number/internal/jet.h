@@ -33,7 +33,8 @@ class Jet_3 {
   static_assert((Support & ~internal::all_monomials(Order)) == 0);
 
 public:
-  using Number_type = T;                                                   ///< the type of the coefficients
+  /// The type of the coefficients.
+  using Number_type = T;
   static constexpr int order = Order;                                      ///< the total order of the truncation
   static constexpr Monomial_set support = Support;                         ///< one bit per monomial
   static constexpr std::size_t size = std::size_t(std::popcount(Support)); ///< the number of coefficients
