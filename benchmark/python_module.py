@@ -20,6 +20,7 @@ BLOBBY = "(3*x)^4 + (3*y)^4 + (3*z)^4 - 45*x^2 - 45*y^2 - 45*z^2 + 6"
 
 
 def figure(name, value, unit, target=None):
+    name = name.replace(", ", "_").replace(" ", "_")
     print(f"figure {name} {value:.3g} {unit}" + (f" target <={target}" if target is not None else ""), flush=True)
 
 
