@@ -24,7 +24,7 @@ class Page(html.parser.HTMLParser):
 
 
 class Menu:
-    """The links of the menu that Doxygen's pages show, which a script has."""
+    """The links of the menu, which Doxygen writes into a script."""
     def __init__(self, path):
         self.links, self.loads = set(re.findall(r'url:"([^"]*)"', path.read_text())), set()
 

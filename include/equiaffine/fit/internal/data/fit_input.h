@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-// GCC 14 takes a copy of a vector in this header for one beyond its memory.
+// GCC 14 warns that a copy of a vector in this header of CGAL leaves its memory, which it does not.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Warray-bounds"
