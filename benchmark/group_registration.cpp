@@ -235,9 +235,8 @@ int main(int argc, char** argv) {
   const std::string part = argc > 2 ? argv[2] : "all";
   if (part == "surfaces")
     for (const Surface& s : generic_surfaces()) {
-      std::cout << s.name;
-      for (int k = 0; k < 3; ++k) std::cout << '\t' << s.box.min(k) << '\t' << s.box.max(k);
-      std::cout << '\t' << s.formula << '\n';
+      for (int k = 0; k < 3; ++k) std::cout << s.box.min(k) << '\t' << s.box.max(k) << '\t';
+      std::cout << s.formula << '\n';
     }
   const auto is_asked_for = [&](const char* name) { return part == "all" || part == name; };
   if (is_asked_for("symmetries")) {

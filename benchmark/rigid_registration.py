@@ -4,7 +4,9 @@
 rigid_registration.py BENCHMARK, with the module on the path, where BENCHMARK is benchmark_registration, which knows the twelve
 surfaces. The source is a mesh of each, the target one of another grid, moved by a random proper motion, whole or cut to a half by
 a random plane. Open3D does what its tutorial of global registration does: histograms of features, RANSAC, and iterated closest
-points, with normals of the meshes and four sizes of voxels. Every line `figure NAME VALUE UNIT [target >=X]` is one measured figure."""
+points, with normals of the meshes and four sizes of voxels.
+
+Every line `figure NAME VALUE UNIT [target >=X]` is one measured figure."""
 import statistics
 import subprocess
 import sys
@@ -26,8 +28,8 @@ def figure(name, value, unit, target=None):
 def surfaces(benchmark):
     lines = subprocess.run([benchmark, "1", "surfaces"], check=True, capture_output=True, text=True).stdout.splitlines()
     for line in lines:
-        name, *box, formula = line.split("\t")
-        yield name, [float(x) for x in box], formula
+        *box, formula = line.split("\t")
+        yield [float(x) for x in box], formula
 
 
 def random_rotation(random):
@@ -91,7 +93,7 @@ def measure(name, cases, register):
 def main():
     open3d.utility.random.seed(0)
     whole, halves = [], []
-    for n, (_, box, formula) in enumerate(surfaces(sys.argv[1])):
+    for n, (box, formula) in enumerate(surfaces(sys.argv[1])):
         source = ea.mesh(formula, box=box, resolution=48)
         other = ea.mesh(formula, box=box, resolution=53)
         for motion in range(MOTIONS):
