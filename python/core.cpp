@@ -49,11 +49,12 @@ using Formula = std::pair<std::string, std::map<std::string, double>>;
 /// What a source is made of.
 using Given = std::variant<Formula, Volume_array, std::shared_ptr<const Fit>>;
 
-/// The command in the words, which is of that type, and the number of threads that it may use.
-template <class Command_options>
-std::pair<Command_options, std::optional<std::size_t>> parsed(const Words& words) {
+/// Parses a command, which is of that type, and calls `compute(options, progress)` as observed() does.
+template <class Command_options, class Compute>
+auto run(const Words& words, const py::object& progress_function, const Compute& compute) {
   Options options = parse_options(words);
-  return {std::get<Command_options>(std::move(options.command)), options.threads};
+  return observed(progress_function, options.threads,
+                  [&](Progress& progress) { return compute(std::get<Command_options>(options.command), progress); });
 }
 
 Source make_given_source(Source_options& options, const Given& given, Progress& progress, double radius) {
@@ -65,8 +66,7 @@ Source make_given_source(Source_options& options, const Given& given, Progress& 
 }
 
 py::object mesh(const Words& words, const Given& given, const py::object& progress_function) {
-  auto [options, threads] = parsed<Mesh_options>(words);
-  return observed(progress_function, threads, [&, &options = options](Progress& progress) {
+  return run<Mesh_options>(words, progress_function, [&](Mesh_options& options, Progress& progress) {
     check_memory(options);
     const auto* const delaunay = std::get_if<Delaunay_options>(&options.method);
     const Source source = make_given_source(options.source, given, progress, delaunay ? delaunay->radius : 0);
@@ -88,8 +88,7 @@ py::object mesh(const Words& words, const Given& given, const py::object& progre
 }
 
 py::object annotate(const Words& words, Mesh data, const py::object& progress_function) {
-  auto [options, threads] = parsed<Annotate_options>(words);
-  return observed(progress_function, threads, [&, &options = options](Progress& progress) {
+  return run<Annotate_options>(words, progress_function, [&](Annotate_options& options, Progress& progress) {
     check_vertices(data.mesh.points, options.mesh);
     const auto structures = fit_vertices(data, options.fit, options.orientation);
     const Estimates estimates = estimates_of(structures);
@@ -106,8 +105,7 @@ py::object annotate(const Words& words, Mesh data, const py::object& progress_fu
 }
 
 py::object evaluate(const Words& words, const Given& given, const Mesh& at, const py::object& progress_function) {
-  auto [options, threads] = parsed<Evaluate_options>(words);
-  return observed(progress_function, threads, [&, &options = options](Progress& progress) {
+  return run<Evaluate_options>(words, progress_function, [&](Evaluate_options& options, Progress& progress) {
     const Source source = make_given_source(options.source, given, progress, 0);
     const auto& points = at.mesh.points;
     std::vector<double> values(points.size());
@@ -124,8 +122,7 @@ py::object evaluate(const Words& words, const Given& given, const Mesh& at, cons
 }
 
 std::shared_ptr<Fit> fit(const Words& words, Mesh data, const py::object& progress_function) {
-  auto [options, threads] = parsed<Annotate_options>(words);
-  return observed(progress_function, threads, [&, &options = options](Progress& progress) {
+  return run<Annotate_options>(words, progress_function, [&](Annotate_options& options, Progress& progress) {
     check_vertices(data.mesh.points, options.mesh);
     const auto traits = blend_vertices(data, options.fit);
     if (traits.bbox() == CGAL::Bbox_3())
@@ -142,10 +139,9 @@ void give(Surface_options& surface, const std::optional<Mesh>& data) {
 
 py::tuple register_(const Words& words, const std::optional<Mesh>& source, const std::optional<Mesh>& target,
                     const py::object& progress_function) {
-  auto [options, threads] = parsed<Register_options>(words);
-  give(options.source, source);
-  give(options.target, target);
-  return observed(progress_function, threads, [&, &options = options](Progress& progress) {
+  return run<Register_options>(words, progress_function, [&](Register_options& options, Progress& progress) {
+    give(options.source, source);
+    give(options.target, target);
     return [report = report_of(options, find_map(options, progress))] {
       return py::make_tuple(to_JSON(report), summary(report));
     };
@@ -153,9 +149,8 @@ py::tuple register_(const Words& words, const std::optional<Mesh>& source, const
 }
 
 py::tuple symmetries(const Words& words, const std::optional<Mesh>& surface, const py::object& progress_function) {
-  auto [options, threads] = parsed<Symmetries_options>(words);
-  give(options.surface, surface);
-  return observed(progress_function, threads, [&, &options = options](Progress& progress) {
+  return run<Symmetries_options>(words, progress_function, [&](Symmetries_options& options, Progress& progress) {
+    give(options.surface, surface);
     return [report = report_of(options, find_symmetries(options, progress))] {
       return py::make_tuple(to_JSON(report), summary(report));
     };
@@ -196,8 +191,7 @@ void write_samples(const std::string& path, const Volume_array& samples) {
 }
 
 void show_surface(const Words& words, const Mesh& surface) {
-  auto [options, threads] = parsed<View_options>(words);
-  observed(py::none(), threads, [&, &options = options](Progress&) {
+  run<View_options>(words, py::none(), [&](View_options& options, Progress&) {
     show(surface, "the surface", options);
     return [] { return py::none(); };
   });

@@ -138,12 +138,11 @@ public:
     CGAL_precondition(!is_part());
     Volume_3<Kernel> result{lattice_, {}};
     resize_with_large_pages(result.values, lattice_.number_of_nodes());
-    const auto [nx, ny, nz] = lattice_.size();
-    parallel_for<ConcurrencyTag>(
-        0, (nz + planes_at_once - 1) / planes_at_once, [&, nx = nx, ny = ny, nz = nz](std::size_t n) {
-          const std::size_t k = n * planes_at_once, planes = std::min(planes_at_once, nz - k);
-          copy_block({0, 0, k}, {nx, ny, planes}, std::span(result.values).subspan(k * nx * ny, planes * nx * ny));
-        });
+    const std::size_t nx = lattice_.size()[0], ny = lattice_.size()[1], nz = lattice_.size()[2];
+    parallel_for<ConcurrencyTag>(0, (nz + planes_at_once - 1) / planes_at_once, [&](std::size_t n) {
+      const std::size_t k = n * planes_at_once, planes = std::min(planes_at_once, nz - k);
+      copy_block({0, 0, k}, {nx, ny, planes}, std::span(result.values).subspan(k * nx * ny, planes * nx * ny));
+    });
     return result;
   }
 

@@ -13,26 +13,54 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace equiaffine {
 
 namespace {
 
-/// Help as CLI11 makes it, but with our own usage lines (they are part of the descriptions), and in the list of
-/// commands only what each one does.
-class Help_formatter : public CLI::Formatter {
+/// Writes help with our own usage lines, which are part of the descriptions, and with the lines of texts as they are: the
+/// formatters of CLI11 break them, and differ from version to version.
+class Help_formatter : public CLI::FormatterBase {
 public:
-  Help_formatter() { column_width(30); }
-  std::string make_usage(const CLI::App*, std::string) const override { return {}; }
-  std::string make_option_opts(const CLI::Option* option) const override {
-    return option->get_type_name().empty() ? "" : " " + option->get_type_name();
+  std::string make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const override {
+    std::string help = app->get_description();
+    add_section(help, "Positionals", app->get_options([](const CLI::Option* o) { return o->get_positional(); }));
+    for (const std::string& group : app->get_groups())
+      add_section(help, group, app->get_options([&](const CLI::Option* o) {
+        return o->nonpositional() && o->get_group() == group;
+      }));
+    if (const auto commands = app->get_subcommands({}); !commands.empty()) {
+      help += "\nCommands:\n";
+      for (const CLI::App* command : commands) {
+        const std::string description = command->get_description();
+        help += padded("  " + command->get_name(), 14) + description.substr(0, description.find('\n')) + '\n';
+      }
+    }
+    return help + '\n' + app->get_footer() + '\n';
   }
-  std::string make_subcommand(const CLI::App* command) const override {
-    std::string name = "  " + command->get_name();
-    name.resize(14, ' ');
-    const std::string description = command->get_description();
-    return name + description.substr(0, description.find('\n')) + '\n';
+
+private:
+  static void add_section(std::string& help, const std::string& title, const std::vector<const CLI::Option*>& options) {
+    if (!options.empty()) help += '\n' + title + ":\n";
+    for (const CLI::Option* option : options) {
+      const std::string type = option->get_type_name();
+      std::string line = "  " + option->get_name(option->get_positional(), true) + (type.empty() ? "" : ' ' + type);
+      if (line.size() >= text_column) line += '\n' + std::string(text_column, ' ');
+      help += padded(line, text_column);
+      for (const char c : option->get_description())
+        help += c == '\n' ? '\n' + std::string(text_column, ' ') : std::string(1, c);
+      help += '\n';
+    }
   }
+
+  static std::string padded(std::string text, std::size_t width) {
+    text.resize(std::max(text.size(), width), ' ');
+    return text;
+  }
+
+  static constexpr std::size_t text_column = 30;
 };
 
 struct Command_text {
@@ -76,9 +104,8 @@ class Grammar {
 public:
   Grammar() : app_(program_description, "equiaffine") {
     app_.formatter(std::make_shared<Help_formatter>());
-    app_.get_formatter()->label("Subcommands", "Commands");
-    app_.set_help_flag("-h,--help", "show this help");
-    app_.set_version_flag("--version", "equiaffine " EQUIAFFINE_VERSION, "show the version");
+    add_help_flag(app_);
+    app_.set_version_flag("--version", "equiaffine " EQUIAFFINE_VERSION, "show the version")->group(title_of_flags);
     app_.footer(program_footer);
     app_.require_subcommand(0, 1);
     app_.allow_extras();
@@ -94,7 +121,7 @@ public:
     try {
       app_.parse(arguments);
     } catch (const CLI::CallForHelp&) {
-      result_.information = CLI::detail::find_and_replace(app_.help(), "\n\n\n", "\n\n");
+      result_.information = app_.help();
       return result_;
     } catch (const CLI::CallForVersion& version) {
       result_.information = std::string(version.what()) + '\n';
@@ -114,11 +141,13 @@ public:
 private:
   CLI::App& add_command(const Command_text& text) {
     CLI::App& command = *app_.add_subcommand(text.name, text.description);
-    command.group("Commands");
+    add_help_flag(command);
     command.footer(text.footer);
     command.allow_extras();
     return command;
   }
+
+  static void add_help_flag(CLI::App& app) { app.set_help_flag("-h,--help", "show this help")->group(title_of_flags); }
 
   void add(CLI::App& command, const Option_row& row, const std::string& title) {
     const auto keep = [this, name = row.name()](const CLI::results_t& words) {
@@ -210,6 +239,7 @@ private:
     int least;
   };
 
+  static constexpr const char* title_of_flags = "Options"; // CLI11's own name for it differs from version to version
   CLI::App app_;
   std::vector<Number_list> number_lists_;
   Command_line result_;

@@ -124,10 +124,10 @@ std::string tori() {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, .03);
   add(60, 30, [&](int i, int j) { return point_of_noisy_torus(i, j, noise(random)); });
-  for (const auto& [x, y] : {std::pair(2.5, 0.), {0., 2.5}, {-2.5, 0.}, {0., -2.5}})
-    add(64, 12, [&, x = x, y = y](int i, int j) {
+  for (const auto& center : {std::pair(2.5, 0.), {0., 2.5}, {-2.5, 0.}, {0., -2.5}})
+    add(64, 12, [&](int i, int j) {
       const auto [a, b, c] = point_of_wavy_torus(i, j);
-      return std::array{a + x, b + y, c};
+      return std::array{a + center.first, b + center.second, c};
     });
   return "OFF\n" + std::to_string(count) + ' ' + std::to_string(2 * count) + " 0\n" + points.str() + triangles.str();
 }

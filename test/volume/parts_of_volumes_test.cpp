@@ -227,28 +227,27 @@ TEST(Parts_of_volumes, find_the_noise_and_the_smoothing_of_the_whole_one) {
     Spline_scheme scheme;
     bool has_integers = false; // and nodes without a value
   };
-  for (const auto& [deviation, isovalue, scheme, has_integers] :
-       {Case{0, 0.2, Spline_scheme::CONVOLUTION},
-        {1e-4, 77., Spline_scheme::QUASI_INTERPOLATION}, // is nowhere
-        {0.03, 0.2, Spline_scheme::QUASI_INTERPOLATION},
-        {0.03, 20., Spline_scheme::QUASI_INTERPOLATION, true}}) {
-    Samples samples(size, deviation);
-    for (std::size_t n = 0; has_integers && n < samples.values.size(); ++n)
+  for (const Case& given : {Case{0, 0.2, Spline_scheme::CONVOLUTION},
+                            {1e-4, 77., Spline_scheme::QUASI_INTERPOLATION}, // is nowhere
+                            {0.03, 0.2, Spline_scheme::QUASI_INTERPOLATION},
+                            {0.03, 20., Spline_scheme::QUASI_INTERPOLATION, true}}) {
+    Samples samples(size, given.deviation);
+    for (std::size_t n = 0; given.has_integers && n < samples.values.size(); ++n)
       samples.values[n] =
           n % 200003 == 100000 ? std::numeric_limits<float>::quiet_NaN() : std::round(100 * samples.values[n]);
-    const Sample_noise noise = estimate_noise(samples.whole(), isovalue);
-    const double smoothing = choose_smoothing(samples.whole(), noise, 7, scheme, isovalue);
-    EXPECT_EQ(smoothing > 1, deviation > 0);
+    const Sample_noise noise = estimate_noise(samples.whole(), given.isovalue);
+    const double smoothing = choose_smoothing(samples.whole(), noise, 7, given.scheme, given.isovalue);
+    EXPECT_EQ(smoothing > 1, given.deviation > 0);
     constexpr std::size_t machines = 4; // of which the last one has no part
     std::array<Sample_noise, machines> noises;
     std::array<double, machines> smoothings;
-    on_machines(machines, [&, isovalue = isovalue, scheme = scheme](std::size_t machine, const auto& gather) {
+    on_machines(machines, [&](std::size_t machine, const auto& gather) {
       Volume_parts_3<Kernel> volume{samples.lattice, {}, gather};
-      const Spline_parameters greatest = {.scheme = scheme, .smoothing = greatest_scale_to_choose};
+      const Spline_parameters greatest = {.scheme = given.scheme, .smoothing = greatest_scale_to_choose};
       for (std::size_t n = machine; machine < machines - 1 && n < blocks.size(); n += machines - 1)
         volume.parts.push_back({samples.part(cells_to_know(blocks[n], size, greatest)), blocks[n]});
-      noises[machine] = estimate_noise(volume, isovalue);
-      smoothings[machine] = choose_smoothing(volume, noises[machine], 7, scheme, isovalue);
+      noises[machine] = estimate_noise(volume, given.isovalue);
+      smoothings[machine] = choose_smoothing(volume, noises[machine], 7, given.scheme, given.isovalue);
     });
     for (std::size_t machine = 0; machine < machines; ++machine) {
       EXPECT_EQ(noises[machine].deviation, noise.deviation);

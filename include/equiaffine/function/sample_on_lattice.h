@@ -22,9 +22,9 @@ Volume_3<Kernel_of<Traits>> sample_on_lattice(const Traits& traits, const Lattic
                                               const Progress& on_progress) {
   using FT = typename Traits::FT;
   const Batch_function_traits_3<Traits> batch(traits);
-  const auto [nx, ny, nz] = lattice.size();
+  const std::size_t nx = lattice.size()[0], ny = lattice.size()[1], nz = lattice.size()[2];
   Volume_3<Kernel_of<Traits>> volume{lattice, std::vector<FT>(lattice.number_of_nodes())};
-  parallel_for<ConcurrencyTag>(0, ny * nz, [&, nx = nx, ny = ny](std::size_t row) {
+  parallel_for<ConcurrencyTag>(0, ny * nz, [&](std::size_t row) {
     std::vector<typename Traits::Point_3> points;
     points.reserve(nx);
     for (std::size_t i = 0; i < nx; ++i)
@@ -48,9 +48,9 @@ Volume_3<Kernel> sample_on_lattice(const Function& f, const Lattice_3<Kernel>& l
     !ImplicitFunctionTraits_3<Function> &&
     std::is_invocable_r_v<typename Kernel::FT, const Function&, const typename Kernel::Point_3&>) {
   using FT = typename Kernel::FT;
-  const auto [nx, ny, nz] = lattice.size();
+  const std::size_t nx = lattice.size()[0], ny = lattice.size()[1], nz = lattice.size()[2];
   Volume_3<Kernel> volume{lattice, std::vector<FT>(lattice.number_of_nodes())};
-  parallel_for<ConcurrencyTag>(0, ny * nz, [&, nx = nx, ny = ny](std::size_t row) {
+  parallel_for<ConcurrencyTag>(0, ny * nz, [&](std::size_t row) {
     for (std::size_t i = 0; i < nx; ++i)
       volume.values[row * nx + i] = f(lattice.point(FT(double(i)), FT(double(row % ny)), FT(double(row / ny))));
   });

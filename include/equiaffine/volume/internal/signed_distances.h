@@ -72,9 +72,9 @@ std::vector<typename Kernel::FT> signed_distances(const Distance_mesh& mesh, con
   Side::AABB_tree side_tree(faces(mesh).first, faces(mesh).second, mesh);
   side_tree.build(); // otherwise the first query builds it, and several threads may be first
   const Side side(side_tree);
-  const auto [nx, ny, nz] = lattice.size();
+  const std::size_t nx = lattice.size()[0], ny = lattice.size()[1], nz = lattice.size()[2];
   const double step = std::sqrt(CGAL::to_double(lattice.steps()[0].squared_length()));
-  parallel_for<ConcurrencyTag>(0, ny * nz, [&, nx = nx, ny = ny](std::size_t row) {
+  parallel_for<ConcurrencyTag>(0, ny * nz, [&](std::size_t row) {
     sign_row(measured.distances().begin() + std::ptrdiff_t(row * nx), nx, step, band, [&](std::size_t i) {
       const auto p = lattice.point(FT(i), FT(row % ny), FT(row / ny));
       return side(Side_kernel::Point_3(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())));

@@ -93,9 +93,9 @@ void fetch_ahead([[maybe_unused]] const FT* values) {
 
 template <class ConcurrencyTag, class FT>
 Node_signs node_signs(const Array_grid<FT>& grid) {
-  const auto [nx, ny, nz] = grid.size();
+  const std::size_t nx = grid.size()[0], ny = grid.size()[1], nz = grid.size()[2];
   Node_signs signs(grid.size());
-  parallel_for<ConcurrencyTag>(0, nz, [&, nx = nx, ny = ny](std::size_t k) {
+  parallel_for<ConcurrencyTag>(0, nz, [&](std::size_t k) {
     for (std::size_t j = 0; j < ny; ++j)
       for (std::size_t i = 0; i < nx; i += 64) {
         const FT* const values = grid.values_from({i, j, k});
