@@ -15,9 +15,12 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-# Packages for another release of Debian are other packages: 1.0.0-1~debian12.
+# Packages for another release of Debian are other packages, 1.0.0-1~debian12, and unstable, which has no number, has the newest.
 cmake_host_system_information(RESULT system QUERY DISTRIB_INFO)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 1~${system_ID}${system_VERSION_ID})
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+if(system_VERSION_ID)
+  string(APPEND CPACK_DEBIAN_PACKAGE_RELEASE ~${system_ID}${system_VERSION_ID})
+endif()
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)

@@ -111,7 +111,8 @@ def quoted(text):
     return "'" + text.replace("'", r"'\''") + "'"
 
 
-def bash_completion(commands):
+def bash_completion(commands, own_options):
+    first = [*commands, *(name for option in own_options for name in option.names)]
     cases = []
     for name, options in commands.items():
         names = " ".join(word for option in options for word in option.names)
@@ -121,13 +122,13 @@ def bash_completion(commands):
     return "\n".join(
         ["# Completion of equiaffine for bash.", "_equiaffine() {", "  local word=${COMP_WORDS[COMP_CWORD]} options=",
          "  if ((COMP_CWORD == 1)); then",
-         f"    COMPREPLY=($(compgen -W {quoted(' '.join([*commands, '--help', '--version']))} -- \"$word\"))", "    return", "  fi",
+         f"    COMPREPLY=($(compgen -W {quoted(' '.join(first))} -- \"$word\"))", "    return", "  fi",
          "  case \"${COMP_WORDS[1]} ${COMP_WORDS[COMP_CWORD - 1]}\" in", *choices, "  esac", "  case ${COMP_WORDS[1]} in", *cases, "  esac",
          "  [[ $word != -* ]] || COMPREPLY=($(compgen -W \"$options\" -- \"$word\"))", "}",
          "complete -o default -F _equiaffine equiaffine", ""])
 
 
-def zsh_completion(commands, summaries):
+def zsh_completion(commands, own_options, summaries):
     def argument(option):
         words = re.sub(r"[:\[\]]", " ", option.words)
         action = f"({' '.join(option.choices)})" if option.choices else "_files"
@@ -136,8 +137,9 @@ def zsh_completion(commands, summaries):
         return [quoted(f"*{name}[{text}]{value}") for name in option.names]
 
     listed = " ".join(quoted(f"{name}:{text}") for name, text in summaries.items())
-    lines = ["#compdef equiaffine", "", "_equiaffine() {", f"  local -a commands=({listed})",
-             "  if ((CURRENT == 2)); then", "    _describe command commands", "    return", "  fi", "  case $words[2] in"]
+    flags = " ".join(quoted(f"{name}:{option.text}") for option in own_options for name in option.names)
+    lines = ["#compdef equiaffine", "", "_equiaffine() {", f"  local -a commands=({listed}) flags=({flags})",
+             "  if ((CURRENT == 2)); then", "    _describe command commands -- flags", "    return", "  fi", "  case $words[2] in"]
     for name, options in commands.items():
         lines.append(f"    {name})")
         lines.append("      _arguments \\")
@@ -146,15 +148,19 @@ def zsh_completion(commands, summaries):
     return "\n".join([*lines, "  esac", "}", "", '_equiaffine "$@"', ""])
 
 
-def fish_completion(commands, summaries):
+def fish_completion(commands, own_options, summaries):
+    def names_of(option):
+        return " ".join(f"-l {name[2:]}" if name.startswith("--") else f"-s {name[1:]}" for name in option.names)
+
     lines = ["# Completion of equiaffine for fish."]
+    for option in own_options:
+        lines.append(f"complete -c equiaffine -n __fish_use_subcommand {names_of(option)} -d {quoted(option.summary)}")
     for name, text in summaries.items():
         lines.append(f"complete -c equiaffine -f -n __fish_use_subcommand -a {name} -d {quoted(text)}")
     for command, options in commands.items():
         for option in options:
-            names = " ".join(f"-l {name[2:]}" if name.startswith("--") else f"-s {name[1:]}" for name in option.names)
             values = f" -x -a {quoted(' '.join(option.choices))}" if option.choices else " -r" if option.words else ""
-            lines.append(f"complete -c equiaffine -n '__fish_seen_subcommand_from {command}' {names}{values} "
+            lines.append(f"complete -c equiaffine -n '__fish_seen_subcommand_from {command}' {names_of(option)}{values} "
                          f"-d {quoted(option.summary)}")
     return "\n".join(lines) + "\n"
 
@@ -167,16 +173,17 @@ def main():
     program = options.program.resolve()
     lines = help_of(program)
     summaries = {found["name"]: found["text"] for line in lines if (found := WORD.match(line))}
-    if not summaries:
-        sys.exit(f"command_files: {program} --help shows no commands")
     helps = {name: help_of(program, name) for name in summaries}
     commands = {name: options_of(text) for name, text in helps.items()}
+    own_options = options_of(lines)
+    if not own_options or not commands or not all(commands.values()):
+        sys.exit(f"command_files: {program} --help shows no commands, or none of the options of some")
     version = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout.split()[-1]
     options.folder.mkdir(parents=True, exist_ok=True)
     (options.folder / "equiaffine.1.gz").write_bytes(gzip.compress(manual_page(version, lines, helps).encode(), mtime=0))
-    (options.folder / "equiaffine.bash").write_text(bash_completion(commands))
-    (options.folder / "_equiaffine").write_text(zsh_completion(commands, summaries))
-    (options.folder / "equiaffine.fish").write_text(fish_completion(commands, summaries))
+    (options.folder / "equiaffine.bash").write_text(bash_completion(commands, own_options))
+    (options.folder / "_equiaffine").write_text(zsh_completion(commands, own_options, summaries))
+    (options.folder / "equiaffine.fish").write_text(fish_completion(commands, own_options, summaries))
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Conan 2 recipe for the headers and the compiled parts, not tried here: conan create packaging/conan"""
+"""A Conan 2 recipe for the headers and the compiled parts, not tried here:
+conan create packaging/conan -s compiler.cppstd=20 --build=missing"""
 import os
 
 from conan import ConanFile
@@ -15,6 +16,7 @@ class Equiaffine(ConanFile):
     description = "Euclidean and equi-affine curvatures of implicit surfaces, in the style of CGAL"
     package_type = "static-library"
     settings = "os", "arch", "compiler", "build_type"
+    default_options = {"onetbb/*:tbbmalloc": True}  # CGAL's target for TBB has it
 
     def export_sources(self):
         root = os.path.join(self.recipe_folder, "..", "..")
@@ -22,8 +24,10 @@ class Equiaffine(ConanFile):
             copy(self, part, root, self.export_sources_folder)
 
     def requirements(self):
-        for package in ("cgal/[>=5.5 <7]", "eigen/[>=3.4 <6]", "boost/[>=1.74]", "onetbb/[>=2021.8]"):
+        for package in ("cgal/[>=5.5 <7]", "onetbb/[>=2021.8]"):
             self.requires(package, transitive_headers=True)
+        for package in ("eigen/[>=3.4 <6]", "boost/[>=1.74]"):
+            self.requires(package, transitive_headers=True, force=True)  # the recipe of cgal names a single version
 
     def validate(self):
         check_min_cppstd(self, 20)
@@ -51,7 +55,7 @@ class Equiaffine(ConanFile):
         self.cpp_info.set_property("cmake_file_name", "equiaffine")
         headers = self.cpp_info.components["headers"]
         headers.set_property("cmake_target_name", "equiaffine::equiaffine")
-        headers.requires = ["cgal::cgal", "eigen::eigen", "boost::headers", "onetbb::libtbb"]
+        headers.requires = ["cgal::cgal", "eigen::eigen", "boost::headers", "onetbb::libtbb", "onetbb::tbbmalloc"]
         headers.defines = ["CGAL_LINKED_WITH_TBB"]
         for name in ("mesher", "compiled"):
             part = self.cpp_info.components[name]

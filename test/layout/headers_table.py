@@ -11,8 +11,8 @@ from rooms import read_porch, read_rooms
 LIBRARY = "include/equiaffine"
 BEGINNING = """# Headers
 
-These headers are the interface of the library: documented, tested, and changed with a line in the
-[changelog](../CHANGELOG.md). What is in a folder `internal` may change at any time.
+These headers are the interface of the library: documented, tested, and kept as [versions.md](versions.md) promises. What is in a
+folder `internal` may change at any time.
 
 What people begin with is directly in the folder; the others have types of its arguments and results, and functions for
 special purposes. A header brings the types that it needs.

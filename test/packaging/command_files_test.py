@@ -52,7 +52,7 @@ class CommandFiles(unittest.TestCase):
         self.assertEqual(page.count(".nf\n"), page.count(".fi\n"))
 
     def test_bash_completes_commands(self):
-        self.assertEqual(self.completed(""), [*COMMANDS, "--help", "--version"])
+        self.assertEqual(self.completed(""), [*COMMANDS, "-h", "--help", "--version"])
         self.assertEqual(self.completed("sy"), ["symmetries"])
 
     def test_bash_completes_every_option_of_a_command(self):
@@ -77,7 +77,10 @@ class CommandFiles(unittest.TestCase):
                 subprocess.run([shell, "-n", self.folder / name], check=True)
         fish = (self.folder / "equiaffine.fish").read_text()
         self.assertIn("-l method -x -a 'marching-cubes delaunay remesh'", fish)
-        self.assertIn("'*--method[", (self.folder / "_equiaffine").read_text())
+        self.assertIn("-n __fish_use_subcommand -l version", fish)
+        zsh = (self.folder / "_equiaffine").read_text()
+        self.assertIn("'*--method[", zsh)
+        self.assertIn("'--version:show the version'", zsh)
 
 
 if __name__ == "__main__":
