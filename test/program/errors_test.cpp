@@ -4,6 +4,8 @@
 #include "system/child_process.h"
 #include <equiaffine/Input_error.h>
 
+#include <CGAL/version.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
@@ -441,12 +443,14 @@ TEST_F(Program_errors, a_face_has_vertices_that_exist) {
   }
 }
 
-TEST_F(Program_errors, a_face_can_be_cut_into_triangles) {
+TEST_F(Program_errors, a_mesh_whose_faces_cannot_be_cut_into_triangles_is_refused) {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 2 1\nv 0 1 1\n";
   for (const char* faces : {"f 4 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n", // a diagonal of the first is an edge of the second
                             "f 2 3 7 6\nf 3 4 1 2 6 5\nf 3 4 8 7\nf 4 1 5 6\n"}) {
     add_input("bad.obj", points + faces);
-    expect_error({"mesh", "--distance-to", "bad.obj", "-o", "out.ply"}, {"'bad.obj'", "cut into triangles"});
+    // CGAL 6 cuts what CGAL 5 does not, and leaves it open.
+    const char* const reason = CGAL_VERSION_MAJOR < 6 ? "cut into triangles" : "the mesh is not closed";
+    expect_error({"mesh", "--distance-to", "bad.obj", "-o", "out.ply"}, {"'bad.obj'", reason});
   }
 }
 
