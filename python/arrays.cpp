@@ -109,7 +109,8 @@ Annotated_mesh_3<Kernel> mesh_of(const Points_array& points, const Faces_array& 
 }
 
 Volume_array::Volume_array(py::array samples, const py::array_t<double>& origin, const py::array_t<double>& steps)
-    : samples_(std::move(samples)), view_(view_of(samples_, lattice_of(samples_, origin, steps))) {}
+    : samples_(std::move(samples)), is_float_(samples_.dtype().char_() == 'f'),
+      view_(view_of(samples_, lattice_of(samples_, origin, steps))) {}
 
 py::dict columns_of(Vertex_attributes&& attributes) {
   py::dict columns;

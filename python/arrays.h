@@ -39,10 +39,12 @@ public:
   /// The samples, where they are; needs no lock of the interpreter.
   const Volume_view_3<Kernel>& view() const { return view_; }
 
-  bool is_float() const { return samples_.dtype().char_() == 'f'; } ///< whether they are of single precision
+  /// Whether they are of single precision; needs no lock either.
+  bool is_float() const { return is_float_; }
 
 private:
   py::array samples_;
+  bool is_float_;
   Volume_view_3<Kernel> view_;
 };
 
