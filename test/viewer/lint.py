@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 # No such property of a type, and values of another type than was guessed.
-TYPES = {"TS2322", "TS2339", "TS2345", "TS2365"}
+TYPES = {"TS2322", "TS2339", "TS2345", "TS2365", "TS2550"}
 OPTIONS = ("--allowJs --checkJs --strict false --noEmit --target es2022 --lib es2022,dom,dom.iterable --noUnusedLocals "
            "--noUnusedParameters").split()
 PROGRAM = re.compile(r"const (\w+(Vertex|Fragment)) = (placing \+ )?`(.*?)`;", re.DOTALL)

@@ -38,11 +38,14 @@ function faultOfDeclaration(node) {
   return error ? `${node.property}: ${csstree.generate(node.value)}: ${error.rawMessage || error.message}` : "";
 }
 
+const faultOfFeature = node => FEATURES.has(node.name) ? "" : `there is no media feature ${node.name}`;
+
 const CHECKS = {
   Declaration: faultOfDeclaration,
   PseudoClassSelector: node => PSEUDO_CLASSES.has(node.name) ? "" : `there is no pseudo-class ${node.name}`,
   PseudoElementSelector: node => PSEUDO_ELEMENTS.has(node.name) ? "" : `there is no pseudo-element ${node.name}`,
-  MediaFeature: node => FEATURES.has(node.name) ? "" : `there is no media feature ${node.name}`,
+  MediaFeature: faultOfFeature,
+  Feature: faultOfFeature, // its name in CSSTree 3
 };
 
 /** The faults of a style sheet in which custom properties have been replaced by values. */
