@@ -234,7 +234,8 @@ TEST_F(Program_volume_io, a_file_that_ends_early_is_refused) {
     const std::string bytes = read_file(name);
     for (const std::size_t missing :
          {std::size_t(2), std::size_t(8), std::size_t(200), bytes.size() - 60, bytes.size()}) {
-      if (extension == ".nii.gz" && missing <= 8) continue; // only its check sum is missing, which zlib 1.3.2 lets pass
+      // Only the check sum is missing then, which zlib 1.3.2 lets pass.
+      if (ZLIB_VERNUM >= 0x1320 && extension == ".nii.gz" && missing <= 8) continue;
       write_file(name, bytes.substr(0, bytes.size() - missing));
       reading_error("whole" + extension);
       EXPECT_THROW(read_volume(path("whole" + extension)), Input_error) << missing;
