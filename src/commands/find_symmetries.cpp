@@ -12,16 +12,20 @@
 #include <CGAL/tags.h>
 
 #include <cmath>
+#include <optional>
 
 namespace equiaffine {
 
 namespace {
 
-/// How far symmetries may move points from the surface, beside its size: formulas are exact, and splines and fits know
-/// the surface to within their errors only.
-double default_tolerance(const Source_options& source) {
+/// How far symmetries may move points from the surface, a part of its size: splines and fits know the surface to within
+/// their errors only.
+std::optional<double> tolerance_of(const Symmetries_options& options) {
+  const Source_options& source = options.surface.source;
+  if (options.tolerance) return options.tolerance;
   if (source.kind == Source_kind::FIT) return 1e-3;
-  return source.derivatives == Derivatives::SPLINE ? 1e-5 : 1e-8;
+  if (source.derivatives == Derivatives::SPLINE) return 1e-5;
+  return std::nullopt;
 }
 
 /// The triangles of the file that the source names, none if it has no faces.
@@ -35,6 +39,14 @@ Indexed_triangle_mesh_3<Kernel> read_triangles(const Source_options& source, Pro
 
 auto parameters_of(const Symmetries_options& options) {
   return parameters::map_kind(options.maps.kind).reflections(options.maps.allows_reflections);
+}
+
+Symmetries symmetries_of_function(const Surface_to_register& surface, const Symmetries_options& options) {
+  const auto parameters = parameters_of(options).complete(options.is_complete);
+  const auto tolerance = tolerance_of(options);
+  const auto& points = surface.mesh.points;
+  if (!tolerance) return affine_symmetries<CGAL::Parallel_if_available_tag>(surface.function, points, parameters);
+  return affine_symmetries<CGAL::Parallel_if_available_tag>(surface.function, points, parameters.tolerance(*tolerance));
 }
 
 Symmetries symmetries_of_mesh(const Indexed_triangle_mesh_3<Kernel>& mesh, const Symmetries_options& options) {
@@ -72,20 +84,17 @@ Found_symmetries find_symmetries(const Symmetries_options& options, Progress& pr
   found.level_set = make_surface_to_register(options.surface, is_fit || options.display.shows_something(), progress);
   const Surface_to_register& surface = *found.level_set;
   const bool has_points_only = is_fit && surface.mesh.triangles.empty() && !surface.extracted.triangles.empty();
-  const double tolerance = options.tolerance.value_or(default_tolerance(source));
   progress.begin("looking for symmetries");
-  const Symmetries by_function = has_points_only
-                                     ? symmetries_of_mesh(surface.shown(), options)
-                                     : affine_symmetries<CGAL::Parallel_if_available_tag>(
-                                           surface.function, surface.mesh.points,
-                                           parameters_of(options).tolerance(tolerance).complete(options.is_complete));
+  const Symmetries by_function =
+      has_points_only ? symmetries_of_mesh(surface.shown(), options) : symmetries_of_function(surface, options);
   if (!is_undecided(by_function) || found.mesh.triangles.empty()) found.symmetries = by_function;
   found.mesh = surface.shown();
   return found;
 }
 
 Symmetries_report report_of(const Symmetries_options& options, const Found_symmetries& found) {
-  Symmetries_report report = {found.name(options.surface.source), found.symmetries, options.is_complete, {}};
+  Symmetries_report report = {found.name(options.surface.source), found.symmetries, options.is_complete,
+                              keeps_angles(found.symmetries.kind) && !keeps_angles(options.maps.kind), {}};
   if (!std::isfinite(report.symmetries.maps.front().rms))
     throw Input_error("nothing is known of the symmetries of " + report.source +
                       ": it has a surface beside none of its points; give more points");

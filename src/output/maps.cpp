@@ -63,11 +63,11 @@ std::size_t reflections_of(const Symmetries& symmetries) {
                                    [](const auto& symmetry) { return determinant_of(symmetry.map) < 0; }));
 }
 
-/// The rms of the level whose maps are the symmetries, a part of the size.
-double rms_of(const Symmetries& symmetries) {
+/// The level whose maps are the symmetries, if there is one.
+const Symmetry_level_3<Kernel>* level_of_maps(const Symmetries& symmetries) {
   for (const auto& level : symmetries.levels)
-    if (level.order() == symmetries.maps.size()) return level.rms;
-  return 0;
+    if (level.order() == symmetries.maps.size()) return &level;
+  return nullptr;
 }
 
 std::string verdict_text(Symmetry_verdict verdict) {
@@ -80,12 +80,22 @@ std::string verdict_text(Symmetry_verdict verdict) {
   return "undecided";
 }
 
-/// " to within 0.097 % of the size"; nothing for what is exact to rounding.
-std::string within_text(double rms) {
-  constexpr double rounding = 1e-7;
+/// "0.097 % of the size"
+std::string part_text(double part) {
   std::ostringstream text;
   text.precision(2);
-  if (rms > rounding) text << " to within " << 100 * rms << " % of the size";
+  text << 100 * part << " % of the size";
+  return text.str();
+}
+
+/// " to within 0.097 % of the size (0.6 % at most)"; nothing for what holds to rounding.
+std::string within_text(double rms, double greatest) {
+  constexpr double rounding = 1e-10;
+  if (!(rms > rounding)) return "";
+  std::ostringstream text;
+  text.precision(2);
+  text << " to within " << part_text(rms);
+  if (greatest > 0) text << " (" << 100 * greatest << " % at most)";
   return text.str();
 }
 
@@ -94,16 +104,13 @@ std::string greater_levels(const Symmetries& symmetries) {
   std::string text;
   for (const auto& level : symmetries.levels)
     if (level.order() > symmetries.maps.size())
-      text += std::to_string(level.order()) + " symmetries" + within_text(level.rms) + '\n';
+      text += std::to_string(level.order()) + " symmetries" + within_text(level.rms, level.greatest) + '\n';
   return text;
 }
 
 std::string completeness_text(const Symmetries& symmetries) {
   if (!symmetries.complete_to) return "not all rotations could be tried\n";
-  std::ostringstream text;
-  text.precision(2);
-  text << "all rotations were tried that may move it to within " << 100 * *symmetries.complete_to << " % of the size\n";
-  return text.str();
+  return "all rotations were tried that may move it to within " + part_text(*symmetries.complete_to) + '\n';
 }
 
 std::string ways(std::size_t number) { return std::to_string(number) + (number == 1 ? " way" : " ways"); }
@@ -172,10 +179,27 @@ std::string determinants_text(const Symmetries& symmetries) {
          std::to_string(reflections);
 }
 
+std::vector<std::string> limits_of(const Symmetries& symmetries) {
+  std::vector<std::string> limits;
+  const std::size_t dimension = symmetries.continuous.dimension();
+  if (dimension > 0 && !symmetries.levels.empty())
+    limits.push_back("it turns about " + std::string(dimension == 1 ? "an axis" : "any axis") + within_text(symmetries.continuous_rms, 0) +
+                     ", as the surface would that its facets stand for");
+  if (symmetries.order_in_box) {
+    std::string text = "the surface goes on beyond the box, where nothing was tried";
+    if (const auto order = symmetries.order(); order && *symmetries.order_in_box < *order)
+      text += "; " + std::to_string(*symmetries.order_in_box) + " of them move" + (*symmetries.order_in_box == 1 ? "s" : "") + " its piece in the box onto itself";
+    limits.push_back(text);
+  }
+  if (symmetries.spacing && symmetries.order() && symmetries.maps.size() > 1)
+    limits.push_back("tried at points " + part_text(*symmetries.spacing) + " apart, between which a narrower detail may hide");
+  return limits;
+}
+
 std::string levels_text(const Symmetries& symmetries) {
   std::string text;
   for (const auto& level : symmetries.levels) {
-    const std::string within = within_text(level.rms);
+    const std::string within = within_text(level.rms, level.greatest);
     text += (text.empty() ? "" : ", ") + std::to_string(level.order()) + (within.empty() ? " exactly" : within);
   }
   return text;
@@ -210,15 +234,22 @@ std::string to_JSON(const Symmetries_report& report) {
   if (is_undecided(symmetries)) json["undecided"] = reason_for_undecided(symmetries);
   json["complete_to"] = nullptr;
   if (symmetries.complete_to) json["complete_to"] = *symmetries.complete_to;
+  json["kind"] = keeps_angles(symmetries.kind) ? "rigid" : "affine";
+  json["spacing"] = nullptr;
+  if (symmetries.spacing) json["spacing"] = *symmetries.spacing;
+  json["order_in_box"] = nullptr;
+  if (symmetries.order_in_box) json["order_in_box"] = *symmetries.order_in_box;
   json["levels"] = Json::array();
-  for (const auto& level : symmetries.levels) json["levels"].push_back({{"order", level.order()}, {"rms", level.rms}});
+  for (const auto& level : symmetries.levels) json["levels"].push_back({{"order", level.order()}, {"rms", level.rms}, {"greatest", level.greatest}});
   json["maps"] = Json::array();
   for (const auto& symmetry : symmetries.maps) {
     Json& map = json["maps"].emplace_back();
     add(symmetry.map, map);
     map["rms"] = symmetry.rms;
+    map["greatest"] = symmetry.greatest;
   }
   json["continuous"] = to_JSON(symmetries.continuous);
+  json["continuous"]["rms"] = symmetries.continuous_rms;
   return text_of(json);
 }
 
@@ -249,18 +280,27 @@ std::string summary(const Registration_report& report) {
 
 std::string summary(const Symmetries_report& report) {
   const auto& symmetries = report.symmetries;
-  const std::string complete = report.is_complete ? completeness_text(symmetries) : "";
   const std::size_t dimension = symmetries.continuous.dimension();
-  if (dimension > 0) return "infinitely many symmetries: the surface slips over itself in " + ways(dimension) + '\n';
-  if (is_undecided(symmetries))
-    return "undecided: " + reason_for_undecided(symmetries) + advice_text(report.advice) + '\n' +
-           greater_levels(symmetries) + complete;
-  if (symmetries.maps.size() == 1)
-    return "1 symmetry, the identity" + advice_text(report.advice) + '\n' + greater_levels(symmetries) + complete;
-  const std::size_t reflections = reflections_of(symmetries);
-  return std::to_string(symmetries.maps.size()) + " symmetries" + within_text(rms_of(symmetries)) + ", " +
-         std::to_string(reflections) + " of them change" + (reflections == 1 ? "s" : "") + " left and right\n" +
-         greater_levels(symmetries) + complete;
+  std::string text, rest = greater_levels(symmetries);
+  for (const std::string& limit : limits_of(symmetries)) rest += limit + '\n';
+  if (report.is_complete) rest += completeness_text(symmetries);
+  if (report.has_rigid_maps_only)
+    text = "rigid ones only, since the mesh bounds no solid, by whose moments affine ones are found:\n";
+  if (is_undecided(symmetries)) {
+    text += "undecided: " + reason_for_undecided(symmetries) + advice_text(report.advice) + '\n';
+  } else if (dimension > 0 && symmetries.levels.empty()) {
+    text += "infinitely many symmetries" + within_text(symmetries.continuous_rms, 0) +
+            ": the surface slides over itself in " + ways(dimension) + '\n';
+  } else if (symmetries.maps.size() == 1) {
+    text += "1 symmetry, the identity" + advice_text(report.advice) + '\n';
+  } else {
+    const std::size_t reflections = reflections_of(symmetries);
+    const auto* const level = level_of_maps(symmetries);
+    text += std::to_string(symmetries.maps.size()) + " symmetries" +
+            (level ? within_text(level->rms, level->greatest) : "") + ", " + std::to_string(reflections) +
+            " of them change" + (reflections == 1 ? "s" : "") + " left and right\n";
+  }
+  return text + rest;
 }
 
 } // namespace equiaffine

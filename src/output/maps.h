@@ -30,6 +30,7 @@ struct Symmetries_report {
   std::string source;
   Symmetries symmetries;
   bool is_complete = false;        ///< whether a search of all rotations was asked for
+  bool has_rigid_maps_only = false; ///< whether affine maps were asked for and could not be sought
   std::vector<std::string> advice; ///< what to try if nothing is decided
 };
 
@@ -62,6 +63,9 @@ std::string determinants_text(const Symmetries& symmetries);
 
 /// "6 exactly, 48 to within 2.9 % of the size"
 std::string levels_text(const Symmetries& symmetries);
+
+/// What else is known of the symmetries, and where that ends: a sentence each.
+std::vector<std::string> limits_of(const Symmetries& symmetries);
 
 /// One object, see the section on maps of doc/program.md.
 std::string to_JSON(const Registration_report& report);

@@ -123,6 +123,8 @@ Description description_of(const Symmetries_report& report, const Display_option
   if (symmetries.continuous.dimension() > 0)
     description.emplace_back("Generators", std::to_string(symmetries.continuous.dimension()));
   if (order) description.emplace_back("Determinants", determinants_text(symmetries));
+  if (report.has_rigid_maps_only) description.emplace_back("Kind", "rigid ones only, since the mesh bounds no solid");
+  for (const std::string& limit : limits_of(symmetries)) description.emplace_back("Limit", limit);
   for (const std::string& advice : report.advice) description.emplace_back("To find more, try", advice);
   description.emplace_back("surface", numbers_text(shown_surfaces(symmetries), shows_surfaces(options)));
   return description;

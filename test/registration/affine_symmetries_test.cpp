@@ -148,6 +148,48 @@ TEST(Affine_symmetries, a_slightly_disturbed_surface_has_those_within_the_tolera
   EXPECT_EQ(affine_symmetries(formula, points_on_surface(formula, 30), parameters::tolerance(1e-3)).order(), 48u);
 }
 
+Affine_symmetries_3<Kernel> rigid_symmetries(const Expected& e) {
+  const Formula formula = Surface{"", e.formula, e.box}.traits();
+  return affine_symmetries<CGAL::Parallel_if_available_tag>(formula, points_on_surface(formula, 31),
+                                                            parameters::map_kind(Map_kind::RIGID));
+}
+
+TEST(Affine_symmetries, a_small_bump_leaves_those_that_keep_it) {
+  for (const std::string height : {"1e-6", "1e-7"}) {
+    const auto result =
+        rigid_symmetries({"x^8+y^8+z^8-1+" + height + "*exp(-30*((x-1)^2+y^2+z^2))", cube(2), 8});
+    EXPECT_EQ(result.order(), 8u) << height;
+    EXPECT_EQ(result.verdict, Symmetry_verdict::EXACT) << height;
+    ASSERT_EQ(result.levels.size(), 2u) << height;
+    EXPECT_EQ(result.levels[1].order(), 48u) << height;
+    EXPECT_NEAR(result.levels[1].greatest, std::stod(height) / 10, std::stod(height) / 50);
+  }
+}
+
+TEST(Affine_symmetries, groups_with_many_rotations_are_complete) {
+  EXPECT_EQ(rigid_symmetries({"x^2+y^2+z^2-1+.2*cos(17*atan2(y,x))*(x^2+y^2)^8", cube(2), 68}).order(), 68u);
+  EXPECT_EQ(rigid_symmetries({"x^2+y^2+z^2-1+.005*cos(60*atan2(y,x))*(x^2+y^2)^8", cube(1.25), 240}).order(), 240u);
+}
+
+TEST(Affine_symmetries, a_surface_that_its_box_cuts_has_those_of_its_piece) {
+  const std::string gyroid = "sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x)";
+  for (const double half : {3.2, 6.4}) {
+    const auto result = rigid_symmetries({gyroid, cube(half), 6});
+    EXPECT_EQ(result.order(), 6u) << half;
+    EXPECT_EQ(result.order_in_box, 6u) << half;
+  }
+  const auto monkey_saddle = rigid_symmetries({"z-x^3+3*x*y^2", cube(1), 12});
+  EXPECT_EQ(monkey_saddle.order(), 12u) << "a group, whose images in the box are on the surface";
+  EXPECT_EQ(monkey_saddle.order_in_box, 4u);
+  EXPECT_EQ(rigid_symmetries({"x^4+y^4+z^4-1", cube(1.2), 48}).order_in_box, std::nullopt);
+}
+
+TEST(Affine_symmetries, a_nearly_round_surface_slides_in_fewer_ways) {
+  const auto result = rigid_symmetries({"x^2+y^2+1.000000001*z^2-1", cube(2), 1});
+  EXPECT_EQ(result.continuous.dimension(), 1u);
+  EXPECT_EQ(result.verdict, Symmetry_verdict::EXACT);
+}
+
 TEST(Affine_symmetries, what_makes_no_sense_is_refused) {
   const Formula surface = generic_surfaces()[0].traits();
   EXPECT_THROW(affine_symmetries(surface, std::vector<Point_3>()), std::invalid_argument);

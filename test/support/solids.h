@@ -39,6 +39,24 @@ inline Solid prism(const std::vector<std::array<double, 2>>& base, double height
   return solid;
 }
 
+/// A prism whose upper polygon is turned by a `part` of the angle of a side: an antiprism for 1/2.
+inline Solid twisted_prism(const std::vector<std::array<double, 2>>& base, double height, double part) {
+  const std::size_t n = base.size();
+  const double turn = 2 * std::numbers::pi * part / double(n), c = std::cos(turn), s = std::sin(turn);
+  Solid solid = prism(base, height);
+  for (std::size_t i = n; i < 2 * n; ++i) {
+    const Point_3 p = solid.points[i];
+    solid.points[i] = Point_3(c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z());
+  }
+  std::erase_if(solid.polygons, [=](const auto& polygon) { return polygon.size() == 4 && n != 4; });
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    solid.polygons.push_back({i, j, n + i});
+    solid.polygons.push_back({j, n + j, n + i});
+  }
+  return solid;
+}
+
 inline std::vector<std::array<double, 2>> regular(std::size_t corners) {
   std::vector<std::array<double, 2>> polygon;
   for (std::size_t k = 0; k < corners; ++k) {

@@ -7,7 +7,7 @@
 
 namespace equiaffine::internal {
 
-/// Distances from the zero set of a function below this part of its size are zero by default.
+/// The default tolerance of symmetries of a function, a part of its size.
 constexpr double default_tolerance = 1e-8;
 
 /// The named parameters of affine_symmetries() of a function.
@@ -17,9 +17,7 @@ struct Symmetry_request : Map_request {
 
 template <class Parameters>
 Symmetry_request symmetry_request(const Parameters& parameters) {
-  Symmetry_request request{map_request(parameters), get_parameter<Complete_tag>(parameters, false)};
-  request.tolerance = request.tolerance.value_or(default_tolerance);
-  return request;
+  return {map_request(parameters), get_parameter<Complete_tag>(parameters, false)};
 }
 
 } // namespace equiaffine::internal

@@ -53,18 +53,22 @@ Surface_registration_3<Kernel> in_kernel(Surface_registration_3<Kernel_of_search
 template <class Kernel>
 std::vector<Affine_symmetry_3<Kernel>> in_kernel(const std::vector<Affine_symmetry_3<Kernel_of_searches>>& maps) {
   std::vector<Affine_symmetry_3<Kernel>> result;
-  for (const auto& m : maps) result.push_back({in_kernel<Kernel>(m.map), m.rms});
+  for (const auto& m : maps) result.push_back({in_kernel<Kernel>(m.map), m.rms, m.greatest});
   return result;
 }
 
 template <class Kernel>
 Affine_symmetries_3<Kernel> in_kernel(Affine_symmetries_3<Kernel_of_searches> found) {
   Affine_symmetries_3<Kernel> result{found.verdict, std::move(found.reason)};
-  for (const auto& level : found.levels) result.levels.push_back({in_kernel<Kernel>(level.maps), level.rms});
+  for (const auto& level : found.levels) result.levels.push_back({in_kernel<Kernel>(level.maps), level.rms, level.greatest});
   result.maps = in_kernel<Kernel>(found.maps);
   result.continuous = std::move(found.continuous);
+  result.continuous_rms = found.continuous_rms;
   result.is_decided = found.is_decided;
+  result.kind = found.kind;
   result.complete_to = found.complete_to;
+  result.spacing = found.spacing;
+  result.order_in_box = found.order_in_box;
   return result;
 }
 

@@ -70,7 +70,7 @@ Registration_of_functions_3 registration_of_framed(const Framed_surface_3& sourc
   Registration_of_functions_3 registration;
   Surface_registration_3<Kernel_of_searches>& result = registration.result;
   result.size = target.size;
-  result.slippage = slippage_of(source, request.kind, slippage_tolerance);
+  result.slippage = slippage_of(source, request.kind, slippage_tolerance).algebra;
   Registration_search<ConcurrencyTag> search(source, target, request);
   if (is_in_plane(source, search.tolerance()) || is_in_plane(target, search.tolerance())) return registration;
   if (result.slippage.dimension() > 0)

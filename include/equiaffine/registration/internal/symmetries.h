@@ -6,11 +6,15 @@
 #include <equiaffine/registration/Affine_symmetries_3.h>
 #include <equiaffine/registration/internal/declared_searches.h>
 #include <equiaffine/registration/internal/frames/Framed_surface_3.h>
+#include <equiaffine/registration/internal/frames/Symmetry_check.h>
 #include <equiaffine/registration/internal/frames/Symmetry_search.h>
+#include <equiaffine/registration/internal/frames/Whitening.h>
 #include <equiaffine/registration/internal/frames/slippage.h>
 #include <equiaffine/registration/internal/wholes/Centered_symmetry_search.h>
+#include <equiaffine/registration/internal/wholes/Finite_group.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -21,18 +25,24 @@
 
 namespace equiaffine::internal {
 
-inline Affine_symmetry_3<Kernel_of_searches> symmetry(const Affine_map_3& map, double rms) {
-  return {map.to_CGAL<Kernel_of_searches::Aff_transformation_3>(), rms};
+inline Affine_symmetry_3<Kernel_of_searches> symmetry(const Affine_map_3& map, double rms, double greatest) {
+  return {map.to_CGAL<Kernel_of_searches::Aff_transformation_3>(), rms, greatest};
+}
+
+inline bool has_finite_group(const Affine_symmetries_3<Kernel_of_searches>& result) {
+  return result.continuous.dimension() == 0 || !result.levels.empty();
 }
 
 /// Sets the maps to within the tolerance: those of the last level that is, or without a tolerance, of the first level
 /// that a verdict stands for. They are all there are unless another map is within the tolerance, too.
 inline void choose_maps(Affine_symmetries_3<Kernel_of_searches>& result, std::optional<double> tolerance,
                         const Centered_symmetries& found) {
-  result.maps = {symmetry({}, 0)};
+  result.maps = {symmetry({}, 0, 0)};
   result.is_decided = result.verdict != Symmetry_verdict::UNDECIDED;
-  if (result.continuous.dimension() > 0) return;
-  if (!tolerance && result.is_decided && !result.levels.empty()) result.maps = result.levels.front().maps;
+  if (!has_finite_group(result)) return;
+  const bool is_first_meant =
+      result.verdict == Symmetry_verdict::EXACT || result.verdict == Symmetry_verdict::APPROXIMATE;
+  if (!tolerance && is_first_meant && !result.levels.empty()) result.maps = result.levels.front().maps;
   if (!tolerance) return;
   double next_rms = found.least_rms;
   for (std::size_t n = 0; n < result.levels.size(); ++n)
@@ -47,62 +57,190 @@ inline void choose_maps(Affine_symmetries_3<Kernel_of_searches>& result, std::op
 inline Affine_symmetries_3<Kernel_of_searches> to_CGAL(const Centered_symmetries& found,
                                                        const Centered_surface_3& surface) {
   const double unit = 1 / std::cbrt(std::abs(surface.map.matrix.determinant()));
+  const Affine_map_3 back = surface.map.inverse();
   Affine_symmetries_3<Kernel_of_searches> result{found.verdict, found.reason};
   for (const Symmetry_level& level : found.levels) {
     auto& copy = result.levels.emplace_back();
     copy.rms = level.rms;
-    for (const Centered_map& map : level.maps) copy.maps.push_back(symmetry(map.map, unit * map.rms));
+    copy.greatest = level.greatest;
+    copy.maps.push_back(symmetry({}, 0, 0));
+    for (std::size_t i = 1; i < level.maps.size(); ++i) {
+      const auto& [map, rms, greatest] = level.maps[i];
+      copy.maps.push_back(symmetry(back * map * surface.map, unit * rms, unit * greatest));
+    }
   }
   result.continuous = found.continuous;
+  result.continuous_rms = found.continuous_rms;
   if (found.complete_to > 0) result.complete_to = found.complete_to;
   return result;
 }
 
-/// The group that affine frames of points give, which are all symmetries to within the tolerance of at least 98 % of
-/// the points. The identity alone is a result only where frames are exact and some good ones were matched.
-template <class ConcurrencyTag>
-Affine_symmetries_3<Kernel_of_searches> symmetries_by_frames(const Framed_surface_3& surface,
-                                                             const Map_request& request, bool is_exact) {
-  Symmetry_search<ConcurrencyTag> search(surface, request.kind, *request.tolerance);
-  Affine_symmetries_3<Kernel_of_searches> result;
-  Symmetry_level_3<Kernel_of_searches> level = {{}, 0};
-  for (const Affine_map_3& map : search.run()) {
-    if (!request.allows_reflections && map.matrix.determinant() < 0) continue;
-    const double rms = search.rms(map);
-    level.maps.push_back(symmetry(map, rms));
-    level.rms = std::max(level.rms, rms / surface.size);
+/// Maps are tried by the first of these numbers of points, and a group by all points.
+constexpr std::size_t few_points = 3000, most_points_of_check = std::numeric_limits<std::size_t>::max();
+
+/// A map that was checked.
+struct Checked_symmetry {
+  Affine_map_3 map;
+  Checked_map check;
+};
+
+/// Returns the group that maps generate, if each of its elements `holds`; nothing if one does not, or there are too
+/// many. Sums of errors are made right in coordinates in which the points of the surface have covariance 1.
+template <class ConcurrencyTag, class Holds>
+std::optional<std::vector<Checked_symmetry>> group_of(const std::vector<Affine_map_3>& generators,
+                                                      const Symmetry_check& check, const Holds& holds) {
+  constexpr std::size_t largest_group = 1000;
+  constexpr double same = 1e-4, rounding = 1e-6;
+  const Whitening whitening(check.points());
+  const Affine_map_3 to = {whitening.matrix, -(whitening.matrix * whitening.mean)},
+                     from = {whitening.inverse, whitening.mean};
+  std::vector<Affine_map_3> maps(1);
+  const auto is_known = [&](const Affine_map_3& map) {
+    return std::any_of(maps.begin(), maps.end(), [&](const Affine_map_3& other) {
+      return difference(map.matrix, other.matrix) < same && (map.translation - other.translation).norm() < same;
+    });
+  };
+  const auto add = [&](const Affine_map_3& map) {
+    if (is_known(map)) return true;
+    if (maps.size() == largest_group || !holds(check.check<ConcurrencyTag>(from * map * to, few_points))) return false;
+    maps.push_back(map);
+    return true;
+  };
+  for (const Affine_map_3& map : generators)
+    if (const Affine_map_3 moved = to * map * from; !is_known(moved)) maps.push_back(moved);
+  for (std::size_t i = 1; i < maps.size(); ++i)
+    for (std::size_t j = 1; j <= i; ++j)
+      if (!add(maps[i] * maps[j]) || !add(maps[j] * maps[i])) return std::nullopt;
+  auto group = as_group(maps, rounding);
+  if (!group || !make_exact(*group)) return std::nullopt;
+  std::vector<Checked_symmetry> result = {{{}, {0, 0, 1, true}}};
+  for (std::size_t i = 1; i < group->maps.size(); ++i) {
+    const Affine_map_3 map = from * group->maps[i] * to;
+    result.push_back({map, check.check<ConcurrencyTag>(map)});
+    if (!holds(result.back().check)) return std::nullopt;
   }
-  constexpr std::size_t fewest_points = 4;
-  result.maps = level.maps;
-  if (level.maps.size() > 1) {
-    result.verdict = is_exact ? Symmetry_verdict::EXACT : Symmetry_verdict::APPROXIMATE;
-    result.levels.push_back(std::move(level));
-  } else if (is_exact && search.good_points_matched() >= fewest_points) {
-    result.verdict = Symmetry_verdict::NONE;
-  } else {
-    result.reason = is_exact ? "too few points of the surface have an affine frame"
-                             : "the curvatures of the fit are too uncertain for their frames to find all symmetries";
-  }
-  result.is_decided = result.verdict != Symmetry_verdict::UNDECIDED;
   return result;
+}
+
+/// The maps of a group with their distances.
+inline Symmetry_level_3<Kernel_of_searches> level_of(const std::vector<Checked_symmetry>& group, double size) {
+  Symmetry_level_3<Kernel_of_searches> level = {{}, 0, 0};
+  for (const auto& [map, check] : group) {
+    level.maps.push_back(symmetry(map, check.rms, check.greatest));
+    level.rms = std::max(level.rms, check.rms / size);
+    level.greatest = std::max(level.greatest, check.greatest / size);
+  }
+  return level;
 }
 
 /// Up to this tolerance, the frames of a smooth surface decide alone: they take a hundredth of the time of a search of
 /// all rotations, and say nothing of what holds approximately.
 constexpr double greatest_tolerance_of_frames = 1e-6;
 
+/// Returns the group of the maps that hold, as far as the box shows; of those that keep its center if they are none
+/// since the surface goes on beyond it, such as translations.
+template <class ConcurrencyTag, class Holds>
+std::optional<std::vector<Checked_symmetry>> group_that_holds(const std::vector<Affine_map_3>& maps,
+                                                              const Symmetry_check& check, const Holds& holds) {
+  constexpr double same = 1e-6;
+  std::vector<Affine_map_3> kept;
+  const auto keep = [&](std::size_t points) {
+    std::erase_if(kept, [&](const Affine_map_3& map) { return !holds(check.check<ConcurrencyTag>(map, points)); });
+    return group_of<ConcurrencyTag>(kept, check, holds);
+  };
+  kept = maps;
+  if (const auto group = keep(few_points)) return group;
+  if (const auto group = keep(most_points_of_check)) return group;
+  if (!check.is_cut()) return std::nullopt;
+  std::erase_if(kept, [&](const Affine_map_3& map) {
+    return (map(check.center()) - check.center()).norm() > same * check.size();
+  });
+  return group_of<ConcurrencyTag>(kept, check, holds);
+}
+
+/// The groups that affine frames of points of a smooth surface give: that of the maps which hold to rounding at every
+/// point, and a larger one to within the tolerance.
+template <class ConcurrencyTag>
+Affine_symmetries_3<Kernel_of_searches> symmetries_by_exact_frames(const Framed_surface_3& surface,
+                                                                   const Symmetry_check& check,
+                                                                   const Map_request& request) {
+  constexpr std::size_t fewest_points = 4, fewest_inner_points = 2;
+  constexpr double least_inside = 0.05; // of the images of points, in the box
+  const double tolerance = request.tolerance.value_or(greatest_tolerance_of_frames);
+  Symmetry_search<ConcurrencyTag> search(surface, request.kind, std::max(tolerance, greatest_tolerance_of_frames));
+  std::vector<Affine_map_3> maps = search.run();
+  if (!request.allows_reflections)
+    std::erase_if(maps, [](const Affine_map_3& map) { return map.matrix.determinant() < 0; });
+  const auto is_exact = [](const Checked_map& map) { return map.is_exact && map.inside > least_inside; };
+  const auto is_near = [&](const Checked_map& map) {
+    return map.rms <= tolerance * check.size() && map.inside > least_inside;
+  };
+
+  Affine_symmetries_3<Kernel_of_searches> result;
+  result.kind = request.kind;
+  result.spacing = check.spacing();
+  result.maps = {symmetry({}, 0, 0)};
+  if (check.is_cut()) result.order_in_box = 1;
+  if (search.good_points_matched() < fewest_points ||
+      (check.is_cut() && search.good_inner_points_matched() < fewest_inner_points)) {
+    result.reason = "too few points of the surface have an affine frame that can be compared";
+    return result;
+  }
+  const auto group = group_that_holds<ConcurrencyTag>(maps, check, is_exact);
+  if (!group) {
+    result.reason = "maps that move the surface onto itself to rounding are no group";
+    return result;
+  }
+  if (check.is_cut())
+    result.order_in_box = std::size_t(
+        std::count_if(group->begin(), group->end(), [](const Checked_symmetry& s) { return s.check.inside == 1; }));
+  if (group->size() > 1) result.levels.push_back(level_of(*group, check.size()));
+  if (maps.size() > group->size())
+    if (const auto larger = group_that_holds<ConcurrencyTag>(maps, check, is_near);
+        larger && larger->size() > group->size())
+      result.levels.push_back(level_of(*larger, check.size()));
+  result.is_decided = true;
+  result.verdict = group->size() > 1        ? Symmetry_verdict::EXACT
+                   : result.levels.empty() ? Symmetry_verdict::NONE
+                                           : Symmetry_verdict::APPROXIMATE;
+  if (!result.levels.empty()) result.maps = (request.tolerance ? result.levels.back() : result.levels.front()).maps;
+  return result;
+}
+
+/// The group that frames of a fit give, which are symmetries to within the tolerance of at least 98 % of the points. A
+/// fit has errors, so that the identity alone is no result.
+template <class ConcurrencyTag>
+Affine_symmetries_3<Kernel_of_searches> symmetries_by_frames(const Framed_surface_3& surface,
+                                                             const Map_request& request, double tolerance) {
+  Symmetry_search<ConcurrencyTag> search(surface, request.kind, tolerance);
+  Affine_symmetries_3<Kernel_of_searches> result;
+  result.kind = request.kind;
+  std::vector<Checked_symmetry> maps;
+  for (const Affine_map_3& map : search.run()) {
+    if (!request.allows_reflections && map.matrix.determinant() < 0) continue;
+    maps.push_back({map, search.distances(map)});
+  }
+  auto level = level_of(maps, surface.size);
+  result.maps = level.maps;
+  if (level.maps.size() > 1) {
+    result.verdict = Symmetry_verdict::APPROXIMATE;
+    result.levels.push_back(std::move(level));
+  } else {
+    result.reason = "the curvatures of the fit are too uncertain for their frames to find all symmetries";
+  }
+  result.is_decided = result.verdict != Symmetry_verdict::UNDECIDED;
+  return result;
+}
+
 /// Says of a group that frames gave how far a search of all rotations went, and whether it found the same group.
 inline void check_by_rotations(const Affine_symmetries_3<Kernel_of_searches>& all,
                                Affine_symmetries_3<Kernel_of_searches>& by_frames) {
-  std::size_t order = 1;
-  for (const auto& level : all.levels)
-    if (level.rms <= greatest_tolerance_of_frames) order = level.order();
   by_frames.complete_to = all.complete_to;
-  if (!all.complete_to || order == by_frames.maps.size()) return;
+  if (!all.is_decided || all.maps.size() == by_frames.maps.size()) return;
   by_frames.is_decided = false;
   by_frames.verdict = Symmetry_verdict::UNDECIDED;
   by_frames.reason = "frames of curvature give " + std::to_string(by_frames.maps.size()) +
-                     " maps, and all rotations give " + std::to_string(order);
+                     " maps, and all rotations give " + std::to_string(all.maps.size());
 }
 
 /// The symmetries among all rotations about the centroid.
@@ -111,10 +249,53 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_by_rotations(const Any_functi
                                                                 const Map_request& request) {
   const auto centered = centered_surface<ConcurrencyTag>(function, request.kind);
   Centered_symmetry_search<ConcurrencyTag> search(centered, request.kind, request.allows_reflections,
-                                                  *request.tolerance);
+                                                  request.tolerance.value_or(0));
   const Centered_symmetries found = search.run();
   auto result = to_CGAL(found, centered);
-  choose_maps(result, request.tolerance, found);
+  result.kind = request.kind;
+  if (result.reason.empty()) result.spacing = centered.samples.spacing();
+  const bool is_exact = result.verdict == Symmetry_verdict::EXACT;
+  choose_maps(result, is_exact ? request.tolerance : request.tolerance.value_or(default_tolerance), found);
+  return result;
+}
+
+/// The continuous symmetries, to rounding if there are some, else to within the tolerance.
+inline void find_continuous(const Framed_surface_3& surface, const Symmetry_request& request, bool is_exact,
+                            Affine_symmetries_3<Kernel_of_searches>& result) {
+  const double tolerance = std::max(request.tolerance.value_or(0), slippage_tolerance);
+  Slippage slippage = slippage_of(surface, request.kind, is_exact ? exact_slippage : tolerance);
+  const bool is_to_rounding = is_exact && slippage.algebra.dimension() > 0;
+  if (is_exact && !is_to_rounding) slippage = slippage_of(surface, request.kind, tolerance);
+  result.continuous = std::move(slippage.algebra);
+  if (result.continuous.dimension() == 0) return;
+  result.continuous_rms = is_to_rounding ? 0 : slippage.rms;
+  result.verdict = is_to_rounding ? Symmetry_verdict::EXACT : Symmetry_verdict::APPROXIMATE;
+  result.is_decided = true;
+  result.reason.clear();
+}
+
+/// The first points, and others after them, up to a number.
+inline std::vector<Eigen::Vector3d> filled_up(std::vector<Eigen::Vector3d> points,
+                                              const std::vector<Eigen::Vector3d>& others, std::size_t count) {
+  if (points.size() < count)
+    points.insert(points.end(), others.begin(),
+                  others.begin() + std::ptrdiff_t(std::min(others.size(), count - points.size())));
+  return points;
+}
+
+/// By exact frames at some points, and at many where curvatures vary too fast between these.
+template <class ConcurrencyTag>
+Affine_symmetries_3<Kernel_of_searches>
+symmetries_by_exact_frames(const Framed_function_3& function, const std::vector<Eigen::Vector3d>& points,
+                           const Symmetry_check& check, const Map_request& request) {
+  constexpr std::array<std::size_t, 2> counts = {most_framed_points, 5 * most_framed_points};
+  Affine_symmetries_3<Kernel_of_searches> result;
+  for (const std::size_t count : counts) {
+    const auto surface = framed_surface<ConcurrencyTag>(function, function, filled_up(points, check.points(), count),
+                                                        request.kind, count);
+    result = symmetries_by_exact_frames<ConcurrencyTag>(surface, check, request);
+    if (result.is_decided) break;
+  }
   return result;
 }
 
@@ -125,38 +306,49 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(const Any_functio
   check_argument(!points.empty(), "a surface whose symmetries are sought has no points: give points on it");
   const Framed_function_3 framed(function);
   const Framed_surface_3 surface = framed_surface<ConcurrencyTag>(framed, framed, points, request.kind);
+  const double infinity = std::numeric_limits<double>::infinity(), distance = surface.probes.empty() ? infinity : 0;
   Affine_symmetries_3<Kernel_of_searches> result;
-  result.maps = {symmetry({}, surface.probes.empty() ? std::numeric_limits<double>::infinity() : 0)};
+  result.maps = {symmetry({}, distance, distance)};
+  result.kind = request.kind;
   result.reason = "the surface is beside all of the points";
   if (surface.probes.empty()) return result;
-  result.continuous = slippage_of(surface, request.kind, std::max(*request.tolerance, slippage_tolerance));
-  if (result.continuous.dimension() > 0) {
-    result.verdict = Symmetry_verdict::EXACT;
-    result.reason.clear();
-    return result;
-  }
   const bool is_exact = has_exact_frames(surface);
-  const bool is_strict = *request.tolerance <= greatest_tolerance_of_frames;
-  if (is_strict || !is_exact) {
-    auto by_frames = symmetries_by_frames<ConcurrencyTag>(surface, request, is_exact);
-    if (by_frames.is_decided && is_exact && request.is_complete)
+  const double tolerance = request.tolerance.value_or(default_tolerance);
+  find_continuous(surface, request, is_exact, result);
+  if (!is_exact)
+    return result.is_decided ? result : symmetries_by_frames<ConcurrencyTag>(surface, request, tolerance);
+  const auto check = Symmetry_check::of<ConcurrencyTag>(function);
+  if (check.is_cut()) result.order_in_box = 1;
+  if (result.is_decided) return result;
+  const bool is_strict = tolerance <= greatest_tolerance_of_frames;
+  Affine_symmetries_3<Kernel_of_searches> by_frames;
+  if (is_strict) {
+    by_frames = symmetries_by_exact_frames<ConcurrencyTag>(framed, points, check, request);
+    if (by_frames.is_decided && request.is_complete)
       check_by_rotations(symmetries_by_rotations<ConcurrencyTag>(function, request), by_frames);
-    if (by_frames.is_decided || !is_exact) return by_frames;
+    if (by_frames.is_decided || check.is_cut()) return by_frames;
   }
   result = symmetries_by_rotations<ConcurrencyTag>(function, request);
   if (result.is_decided || is_strict) return result;
-  auto by_frames = symmetries_by_frames<ConcurrencyTag>(surface, request, is_exact);
+  by_frames = symmetries_by_frames<ConcurrencyTag>(surface, request, tolerance);
   return by_frames.is_decided ? by_frames : result;
 }
 
+/// The symmetries of a mesh; the rigid ones if affine ones cannot be found.
 template <class ConcurrencyTag>
 Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles(const Triangles_3& mesh, const Map_request& request) {
   check_argument(!mesh.triangles.empty(), "a mesh whose symmetries are sought has no faces: give faces");
-  const Centered_surface_3 surface = centered_surface(mesh, request.kind);
-  Centered_symmetry_search<ConcurrencyTag> search(surface, request.kind, request.allows_reflections,
+  Centered_surface_3 surface = centered_surface(mesh, request.kind);
+  Map_kind kind = request.kind;
+  if (!surface.reason_against.empty() && !keeps_angles(kind)) {
+    kind = Map_kind::RIGID;
+    surface = centered_surface(mesh, kind);
+  }
+  Centered_symmetry_search<ConcurrencyTag> search(surface, kind, request.allows_reflections,
                                                   request.tolerance.value_or(0));
   const Centered_symmetries found = search.run();
   auto result = to_CGAL(found, surface);
+  result.kind = kind;
   choose_maps(result, request.tolerance, found);
   return result;
 }

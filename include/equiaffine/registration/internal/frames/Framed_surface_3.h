@@ -148,9 +148,10 @@ inline void build_trees(Framed_surface_3& surface, Map_kind kind) {
 /// Computes the frames of the points, of a random subset if there are very many.
 template <class ConcurrencyTag>
 Framed_surface_3 framed_surface(const Framed_function_3& function, const Framed_function_3& refinement,
-                                const std::vector<Eigen::Vector3d>& given, Map_kind kind) {
+                                const std::vector<Eigen::Vector3d>& given, Map_kind kind,
+                                std::size_t most_points = most_framed_points) {
   Framed_surface_3 result{.function = function, .refinement = refinement};
-  const auto points = moved_to_surface<ConcurrencyTag>(function, random_elements(given, most_framed_points, 1));
+  const auto points = moved_to_surface<ConcurrencyTag>(function, random_elements(given, most_points, 1));
   result.size = size_of_points(points);
   result.probes = moved_to_surface<ConcurrencyTag>(refinement, random_elements(points, most_probes, 2));
   result.points.resize(points.size());

@@ -6,6 +6,7 @@
 #include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/frames/Frame_thresholds.h>
 #include <equiaffine/registration/internal/frames/Framed_surface_3.h>
+#include <equiaffine/registration/internal/frames/Symmetry_check.h>
 #include <equiaffine/registration/internal/frames/Whitening.h>
 #include <equiaffine/registration/internal/frames/candidate_pairs.h>
 #include <equiaffine/registration/internal/frames/counterpart.h>
@@ -35,8 +36,12 @@ public:
   std::vector<Affine_map_3> run() {
     group_.assign(1, Affine_map_3());
     const std::vector<std::size_t> points = points_to_match();
-    good_points_matched_ = std::size_t(std::count_if(
-        points.begin(), points.end(), [&](std::size_t i) { return surface_.points[i].quality > least_quality; }));
+    const auto good_of = [&](auto begin, auto end) {
+      return std::size_t(
+          std::count_if(begin, end, [&](std::size_t i) { return surface_.points[i].quality > least_quality; }));
+    };
+    good_points_matched_ = good_of(points.begin(), points.end());
+    good_inner_points_matched_ = good_of(points.begin(), points.begin() + std::ptrdiff_t(inner_points_chosen_));
     for (const std::size_t point : points) {
       const std::size_t known = group_.size();
       match(point);
@@ -49,31 +54,40 @@ public:
   /// The number of points with good frames that run() matched with all their possible images.
   std::size_t good_points_matched() const { return good_points_matched_; }
 
-  /// The root of the mean squared distance of moved points from the surface, in the unit of space.
-  double rms(const Affine_map_3& map) const {
+  /// The number of those in the inner half of the surface, whose images are seldom out of the box.
+  std::size_t good_inner_points_matched() const { return good_inner_points_matched_; }
+
+  /// The distances of moved points from the surface.
+  Checked_map distances(const Affine_map_3& map) const {
     double sum = 0, count = 0;
+    Checked_map result;
     for (const Mapped_point& p : moved_source<ConcurrencyTag>(surface_, surface_, map, most_probes))
-      if (const double d = p.to_other.distance; !std::isnan(d)) {
+      if (const double d = std::abs(p.to_other.distance); !std::isnan(d)) {
         sum += d * d;
         ++count;
+        result.greatest = std::max(result.greatest, d);
       }
-    return count > 0 ? std::sqrt(sum / count) : std::numeric_limits<double>::infinity();
+    result.rms = count > 0 ? std::sqrt(sum / count) : std::numeric_limits<double>::infinity();
+    return result;
   }
 
 private:
-  static constexpr std::size_t inner_points = 4, most_neighbors = 3000, most_images = 600, largest_group = 1000;
+  static constexpr std::size_t inner_points = 4, most_neighbors = 3000, most_images = 600, most_points = 3000,
+                               largest_group = 1000;
   static constexpr double least_difference = 0.01; ///< between maps, a part of their norm and of the size
 
   /// Returns points with different invariants, since images of each other have the same images: some of the inner half
   /// of the surface, then some of all. A symmetry keeps the distance from the center in coordinates where the points
-  /// have covariance 1, so that it seldom moves a point of the inner half out of the box.
-  std::vector<std::size_t> points_to_match() const {
+  /// have covariance 1, so that it seldom moves a point of the inner half out of the box. Points are chosen that are
+  /// found from the points around them, as their images will have to be.
+  std::vector<std::size_t> points_to_match() {
     const Whitening whitening(surface_.probes);
     std::vector<double> distances;
     for (const Eigen::Vector3d& p : surface_.probes) distances.push_back(whitening(p).norm());
-    const auto points = points_to_try<ConcurrencyTag>(surface_, kind_, 200);
+    const auto points = points_to_try<ConcurrencyTag>(surface_, kind_, most_points);
     std::vector<std::size_t> chosen;
     add_different(points, inner_points, median_of(distances), whitening, chosen);
+    inner_points_chosen_ = chosen.size();
     add_different(points, 2 * inner_points, std::numeric_limits<double>::infinity(), whitening, chosen);
     return chosen;
   }
@@ -86,9 +100,23 @@ private:
       const Invariants invariants = kept_invariants(surface_.points[i], kind_);
       if (std::none_of(chosen.begin(), chosen.end(), [&](std::size_t j) {
             return (kept_invariants(surface_.points[j], kind_) - invariants).norm() < 1e-3;
-          }))
+          }) &&
+          is_found_from_neighbors(i))
         chosen.push_back(i);
     }
+  }
+
+  /// Whether the search for a counterpart leads to the point from most of its neighbors.
+  bool is_found_from_neighbors(std::size_t i) const {
+    constexpr std::size_t neighbors = 6, fewest = 5;
+    const Eigen::Vector3d& p = surface_.points[i].point;
+    std::size_t found = 0;
+    for (const auto& [j, distance] : surface_.tree.neighbors(p, neighbors + 1)) {
+      if (j == i || surface_.points[j].is_elliptic != surface_.points[i].is_elliptic) continue;
+      const Counterpart c = find_counterpart(surface_, surface_, {i, j, 0}, kind_);
+      found += (c.target.point - p).norm() < 1e-6 * surface_.size;
+    }
+    return found >= fewest;
   }
 
   /// Adds the symmetries that move the point to another one with its invariants.
@@ -151,7 +179,7 @@ private:
   const Framed_surface_3& surface_;
   Map_kind kind_;
   double tolerance_;
-  std::size_t good_points_matched_ = 0;
+  std::size_t good_points_matched_ = 0, good_inner_points_matched_ = 0, inner_points_chosen_ = 0;
   std::vector<Affine_map_3> group_;
 };
 

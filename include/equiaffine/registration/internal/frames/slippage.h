@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <Eigen/SVD>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -20,12 +21,21 @@ namespace equiaffine::internal {
 /// roundings, and those of an ellipsoid that is disturbed by a part of 1e-4 are 1e-5.
 constexpr double slippage_tolerance = 1e-8;
 
+/// Those of a formula that slips.
+constexpr double exact_slippage = 3e-13;
+
+/// A Lie algebra of maps along which a surface slips to within an rms, the part of their velocity that is not tangent.
+struct Slippage {
+  Affine_slippage_3 algebra;
+  double rms = 0;
+};
+
 /// The maps of a kind, in coordinates of the surface, whose velocity at all points is tangent: null vectors of the
 /// matrix with a row normal . (M p + c) per point (Gelfand, Guibas: Shape segmentation using local slippage analysis,
 /// 2004, for rigid maps).
-inline Affine_slippage_3 slippage_of(const Framed_surface_3& surface, Map_kind kind, double tolerance) {
+inline Slippage slippage_of(const Framed_surface_3& surface, Map_kind kind, double tolerance) {
   const auto& points = surface.probes;
-  Affine_slippage_3 result;
+  Slippage result;
   if (points.size() < 16) return result;
   const Whitening whitening(points);
   if (!whitening.matrix.allFinite()) return result;
@@ -44,11 +54,12 @@ inline Affine_slippage_3 slippage_of(const Framed_surface_3& surface, Map_kind k
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows * maps, Eigen::ComputeThinV);
   const auto& values = svd.singularValues();
   for (Eigen::Index k = values.size() - 1; k >= 0 && values[k] < tolerance * values[0]; --k) {
+    result.rms = std::max(result.rms, values[k] / values[0]);
     const Eigen::Matrix<double, 12, 1> v = maps * svd.matrixV().col(k);
     Eigen::Matrix3d m;
     for (int i = 0; i < 3; ++i) m.row(i) = v.segment<3>(3 * i).transpose();
     const Eigen::Matrix3d matrix = from * m * to;
-    result.generators.push_back({matrix, from * v.tail<3>() - matrix * whitening.mean});
+    result.algebra.generators.push_back({matrix, from * v.tail<3>() - matrix * whitening.mean});
   }
   return result;
 }

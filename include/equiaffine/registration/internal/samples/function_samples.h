@@ -144,7 +144,8 @@ Area_samples_3 function_samples(const Mapped_function_3& function, std::size_t c
   constexpr double margin = 1.25;
   const Ball_3 all = {function.center(), function.radius()};
   const auto first = function_samples<ConcurrencyTag>(function, all, count / 4);
-  if (first.is_cut || first.points.empty()) return first;
+  if (first.points.empty()) return first;
+  if (first.is_cut) return function_samples<ConcurrencyTag>(function, all, count);
   Ball_3 ball = {first.area.centroid, 0};
   for (const Eigen::Vector3d& p : first.points) ball.radius = std::max(ball.radius, margin * (p - ball.center).norm());
   return function_samples<ConcurrencyTag>(function, ball, count);

@@ -21,6 +21,7 @@ namespace equiaffine::internal {
 struct Centered_map {
   Affine_map_3 map = {};
   double rms = std::numeric_limits<double>::infinity();
+  double greatest = 0; ///< the largest of the distances, where a map was verified
 };
 
 inline double difference(const Centered_map& a, const Centered_map& b) {

@@ -6,6 +6,7 @@
 #include <equiaffine/registration/internal/samples/Surface_distances.h>
 #include <equiaffine/registration/internal/samples/function_samples.h>
 #include <equiaffine/registration/internal/samples/mesh_samples.h>
+#include <equiaffine/registration/internal/wholes/corner_symmetries.h>
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
@@ -26,6 +27,9 @@ struct Centered_surface_3 {
   Area_samples_3 samples = {};
   std::unique_ptr<Surface_distances> distances = {};
   Affine_map_3 map = {};           ///< from the coordinates of the surface to these
+  std::vector<Corner> corners = {};             ///< of a mesh
+  std::vector<Eigen::Vector3d> checked = {};    ///< more points: each vertex and each triangle of a mesh has one
+  double rounding = 1e-12;         ///< of points on the surface
   bool is_exact = false;           ///< whether points are on a surface up to rounding, as those of a formula
   std::string reason_against = {}; ///< why its symmetries cannot be found, if they cannot
 
@@ -48,6 +52,19 @@ inline Centered_surface_3 surface_without_symmetries(std::string reason) {
   return result;
 }
 
+/// The corners of all triangles, and their centroids.
+inline std::vector<Eigen::Vector3d> points_of_facets(const Triangles_3& mesh) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<bool> is_used(mesh.points.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    points.push_back((mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3);
+    for (const auto v : mesh.triangles[t]) is_used[v] = true;
+  }
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (is_used[v]) points.push_back(mesh.points[v]);
+  return points;
+}
+
 inline Centered_surface_3 centered_surface(const Triangles_3& mesh, Map_kind kind) {
   const Moments_3 area = area_moments(mesh);
   if (!(area.measure > 0)) return surface_without_symmetries("the mesh has no area");
@@ -63,6 +80,9 @@ inline Centered_surface_3 centered_surface(const Triangles_3& mesh, Map_kind kin
   const Triangles_3 centered = transformed(mesh, result.map);
   result.samples = mesh_samples(centered, edges, samples_of_mesh);
   result.distances = std::make_unique<Mesh_distances>(centered);
+  result.rounding = std::max(result.rounding, coordinate_rounding(mesh.points) * result.map.matrix.norm());
+  result.corners = corners_of(centered, result.rounding);
+  result.checked = points_of_facets(centered);
   return result;
 }
 

@@ -25,29 +25,42 @@ namespace equiaffine::internal {
 
 /// Thresholds of distances, parts of the size.
 struct Symmetry_thresholds {
-  double rounding = 0, exact = 0, exact_turn = 0, turn = 0, approximate = 0.01, none = 0.03;
+  double exact = 0, facets = 0, turn = 0, approximate = 0.01, none = 0.03;
 
-  /// Triangles that stand for a smooth surface are exact to within their own error, up to 0.1 %, and turn to within more
-  /// of it. Thin surfaces have less than their thickness allows. With a `tolerance` above 0, maps up to it are sought,
-  /// and a surface turns to within it.
+  /// A symmetry is exact if it holds to rounding at every point. Triangles that stand for a smooth surface turn to within
+  /// their own error. Thin surfaces have less than their thickness allows. With a `tolerance` above 0, maps up to it are
+  /// sought, and a surface turns to within it.
   Symmetry_thresholds(const Centered_surface_3& surface, double tolerance) {
     const double thickness = surface.thickness(), facet_error = surface.samples.facet_error;
-    rounding = surface.is_exact ? 1e-7 : 2e-5;
+    exact = 6 * surface.rounding + 1e-11;
     approximate = std::min(approximate, 0.03 * thickness);
-    exact = std::min(rounding + std::min(1e-3, facet_error), approximate / 3);
-    exact_turn = rounding + std::min(1.2 * facet_error, approximate);
-    turn = tolerance > 0 ? std::max(rounding, tolerance) : exact_turn;
+    facets = exact + std::min(1.2 * facet_error, approximate);
+    turn = tolerance > 0 ? std::max(exact, tolerance) : facets;
     none = std::max({0.03 * thickness, 1.2 * approximate, 1.2 * tolerance});
   }
 };
 
-/// The mean squared distance of the first `count` points of a surface that a map moves.
-inline double mean_square_of_moved(const Centered_surface_3& surface, const Affine_map_3& map, std::size_t count) {
-  count = std::min(count, surface.samples.points.size());
-  double sum = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    sum += std::pow((*surface.distances)(map(surface.samples.points[i])).distance, 2);
-  return sum / double(count);
+/// The distances of points that a map moves from the surface.
+struct Distances_of_moved {
+  double mean_square, greatest;
+};
+
+/// Moves the first samples, and the points that are to be checked, at most `count` of each.
+inline Distances_of_moved distances_of_moved(const Centered_surface_3& surface, const Affine_map_3& map,
+                                             std::size_t count) {
+  const auto& samples = surface.samples.points;
+  const std::size_t sampled = std::min(count, samples.size()), checked = std::min(count, surface.checked.size());
+  Distances_of_moved result = {0, 0};
+  for (std::size_t i = 0; i < sampled; ++i) {
+    const double distance = std::abs((*surface.distances)(map(samples[i])).distance);
+    result.mean_square += distance * distance / double(sampled);
+    result.greatest = std::max(result.greatest, distance);
+  }
+  for (std::size_t i = 0; i < checked; ++i) {
+    const Eigen::Vector3d& p = surface.checked[i * surface.checked.size() / checked];
+    result.greatest = std::max(result.greatest, std::abs((*surface.distances)(map(p)).distance));
+  }
+  return result;
 }
 
 /// The search for the symmetries of a whole surface. They keep the centroid of its area, so that all rotations about it
@@ -60,22 +73,21 @@ public:
   Centered_symmetry_search(const Centered_surface_3& surface, Map_kind kind, bool allows_reflections,
                            double tolerance = 0)
       : surface_(surface), kind_(keeps_angles(kind) ? Map_kind::RIGID : Map_kind::EQUIAFFINE),
-        allows_reflections_(allows_reflections), thresholds_(surface, tolerance) {}
+        allows_reflections_(allows_reflections), tolerance_(tolerance), thresholds_(surface, tolerance) {}
 
   Centered_symmetries run() {
     Centered_symmetries result;
     result.reason = surface_.reason_against;
     if (!result.reason.empty()) return result;
+    if (!surface_.corners.empty()) find_maps_of_corners();
+    result.levels = levels();
     const auto rotations = slipping_rotations<ConcurrencyTag>(surface_, kind_);
     if (add_continuous(rotations, result)) return result;
-    find_maps();
+    if (!turns_about(rotations, result)) find_maps_of_rotations();
     result.complete_to = complete_to_;
     result.least_rms = std::min(thresholds_.none, found_rms());
     result.levels = levels();
     decide(rotations.front().rms, result);
-    for (Symmetry_level& level : result.levels)
-      for (std::size_t i = 1; i < level.maps.size(); ++i) // the identity comes first
-        level.maps[i].map = surface_.map.inverse() * level.maps[i].map * surface_.map;
     return result;
   }
 
@@ -83,25 +95,54 @@ public:
   const std::vector<Centered_map>& found() const { return found_; }
 
 private:
-  static constexpr std::size_t largest_group = 240;
-  static constexpr std::size_t points_verified = 6000, points_verified_exactly = 2000; ///< of a mesh, and of a function
+  static constexpr std::size_t largest_group = 1000;
+  static constexpr std::size_t fewest_verified = 6000, most_verified = 4000000; ///< points of a map, and of all of them
   static constexpr double tolerance_of_products = 0.1;
 
+  /// Adds rotations of any angle, if the surface keeps to itself by them. A finite group to rounding says more, if there
+  /// is one, unless turns up to a tolerance were asked for.
   bool add_continuous(const std::vector<Slipping_rotation>& rotations, Centered_symmetries& result) const {
     result.continuous = continuous_symmetries(surface_, rotations, thresholds_.turn);
     const std::size_t dimension = result.continuous.dimension();
     if (dimension == 0) return false;
-    const bool is_exact = rotations[dimension - 1].rms < thresholds_.exact_turn;
+    result.continuous_rms = rotations[dimension - 1].rms;
+    const bool is_group = !result.levels.empty() && result.levels.front().greatest <= thresholds_.exact;
+    const bool is_exact = is_group || result.continuous_rms < thresholds_.exact;
+    if (result.continuous_rms < thresholds_.exact || tolerance_ > 0) result.levels.clear();
     result.verdict = is_exact ? Symmetry_verdict::EXACT : Symmetry_verdict::APPROXIMATE;
     return true;
   }
 
-  void find_maps() {
+  /// Whether the surface turns about an axis to within less than what matters, and has a group of corners, so that a
+  /// search would find rotations of any angle.
+  bool turns_about(const std::vector<Slipping_rotation>& rotations, const Centered_symmetries& result) const {
+    return tolerance_ == 0 && !result.levels.empty() && rotations.front().rms < thresholds_.none;
+  }
+
+  void find_maps_of_corners() {
+    const Corner_symmetry_search search(surface_.corners, thresholds_.exact);
+    const auto maps = search.run<ConcurrencyTag>(allows_reflections_);
+    if (!maps) return;
+    for (const Affine_map_3& map : *maps) {
+      const auto [mean_square, greatest] = distances_of_moved(surface_, map, fewest_verified / 10);
+      if (greatest < 4 * thresholds_.exact) found_.push_back({map, std::sqrt(mean_square), greatest});
+    }
+  }
+
+  void find_maps_of_rotations() {
     const Rotation_candidates candidates =
         candidate_rotations<ConcurrencyTag>(surface_, surface_, 1.25 * thresholds_.none, allows_reflections_);
     complete_to_ = candidates.complete_to;
-    found_ = refined_candidates<ConcurrencyTag>(Centered_pair(surface_), candidates.rotations, 1, kind_, gate());
-    std::erase_if(found_, [](const Centered_map& map) { return difference(map, Centered_map{}) < same_map; });
+    auto [maps, least_left_out] =
+        refined_candidates<ConcurrencyTag>(Centered_pair(surface_), candidates.rotations, 1, kind_, gate());
+    complete_to_ = std::min(complete_to_, least_left_out / 2);
+    std::erase_if(maps, [this](const Centered_map& map) {
+      const auto is_same = [&](const Centered_map& other) { return difference(map, other) < same_map; };
+      return is_same(Centered_map{}) || std::any_of(found_.begin(), found_.end(), is_same);
+    });
+    found_.insert(found_.end(), maps.begin(), maps.end());
+    std::stable_sort(found_.begin(), found_.end(),
+                     [](const Centered_map& a, const Centered_map& b) { return a.rms < b.rms; });
   }
 
   /// Maps that are worse after their refinement are given up.
@@ -116,7 +157,7 @@ private:
     for (std::size_t k = 1; k <= std::min(found_.size(), largest_group); ++k) {
       const double rms = found_[k - 1].rms;
       if (!(rms < thresholds_.none)) break;
-      if (k < found_.size() && found_[k].rms < jump * std::max(rms, thresholds_.rounding)) continue;
+      if (k < found_.size() && found_[k].rms < jump * std::max(rms, thresholds_.exact)) continue;
       auto level = level_of(k);
       if (!level || (!result.empty() && level->maps.size() <= result.back().maps.size())) continue;
       while (!result.empty() && result.back().rms >= level->rms) result.pop_back();
@@ -137,7 +178,10 @@ private:
     level.maps = verified(*group);
     std::stable_sort(level.maps.begin() + 1, level.maps.end(),
                      [](const Centered_map& a, const Centered_map& b) { return a.rms < b.rms; });
-    for (const Centered_map& map : level.maps) level.rms = std::max(level.rms, map.rms);
+    for (const Centered_map& map : level.maps) {
+      level.rms = std::max(level.rms, map.rms);
+      level.greatest = std::max(level.greatest, map.greatest);
+    }
     for (const Centered_map& map : found_)
       if (std::none_of(level.maps.begin(), level.maps.end(),
                        [&](const Centered_map& other) { return difference(map, other) < 2 * same_map; }))
@@ -148,21 +192,26 @@ private:
 
   /// The maps of a group with their rms, both ways: the points that one way moves are those that the inverse map moves.
   std::vector<Centered_map> verified(const Finite_group& group) const {
-    std::vector<double> squares(group.maps.size());
-    const std::size_t points = surface_.is_exact ? points_verified_exactly : points_verified;
-    parallel_for<ConcurrencyTag>(
-        1, squares.size(), [&](std::size_t i) { squares[i] = mean_square_of_moved(surface_, group.maps[i], points); });
+    const std::size_t points = std::max(fewest_verified, most_verified / group.maps.size());
+    std::vector<Distances_of_moved> distances(group.maps.size(), {0, 0});
+    parallel_for<ConcurrencyTag>(1, distances.size(), [&](std::size_t i) {
+      distances[i] = distances_of_moved(surface_, group.maps[i], points);
+    });
     std::vector<Centered_map> result;
-    for (std::size_t i = 0; i < squares.size(); ++i) {
+    for (std::size_t i = 0; i < distances.size(); ++i) {
       const auto& row = group.products[i];
-      const auto inverse = std::size_t(std::find(row.begin(), row.end(), 0U) - row.begin());
-      result.push_back({group.maps[i], std::sqrt((squares[i] + squares[inverse]) / 2)});
+      const Distances_of_moved &there = distances[i],
+                               &back = distances[std::size_t(std::find(row.begin(), row.end(), 0U) - row.begin())];
+      result.push_back({group.maps[i], std::sqrt((there.mean_square + back.mean_square) / 2),
+                        std::max(there.greatest, back.greatest)});
     }
     return result;
   }
 
-  /// Adds products, refined, until there is no new one. Returns false if one of them is bad, or there are too many.
+  /// Adds products, refined, until there is no new one. Returns false if one of them is bad, or there are too many: a
+  /// group of as many maps again would have been found.
   bool add_products(std::vector<Affine_map_3>& maps) const {
+    const std::size_t most = std::min(largest_group, 4 * maps.size() + 8);
     for (std::size_t i = 1; i < maps.size(); ++i)
       for (std::size_t j = 1; j <= i; ++j)
         for (const bool is_reversed : {false, true}) {
@@ -170,7 +219,7 @@ private:
           if (nearest_map(maps, product.matrix).difference < same_map) continue;
           const Centered_map map = refined_and_judged(Centered_pair(surface_), product, kind_);
           if (nearest_map(maps, map.map.matrix).difference < same_map) continue;
-          if (!(map.rms < thresholds_.none) || maps.size() >= largest_group) return false;
+          if (!(map.rms < thresholds_.none) || maps.size() >= most) return false;
           maps.push_back(map.map);
         }
     return true;
@@ -182,35 +231,41 @@ private:
     return text.str();
   }
 
+  /// A verdict says what is known of maps to within `approximate`. A group whose next map is many times as bad is one
+  /// however near other maps come.
   void decide(double slipping_rms, Centered_symmetries& result) const {
+    constexpr double gap = 100;
     const double best = found_rms();
-    const double finite_rms = result.levels.empty() ? best : result.levels.front().rms;
-    if (found_.size() > largest_group && found_[largest_group].rms < thresholds_.approximate) {
-      result.reason = "more than " + std::to_string(largest_group) + " maps move the surface onto itself to within " +
-                      percent(found_[largest_group].rms) + ", too many to be verified";
+    const Symmetry_level* const first = result.levels.empty() ? nullptr : &result.levels.front();
+    const bool is_group = first && first->rms < thresholds_.approximate;
+    const bool is_apart = is_group && std::min(complete_to_, first->next_rms) > gap * std::max(first->rms, 1e-9) &&
+                          slipping_rms > gap * first->rms;
+    const double finite_rms = first ? first->rms : best;
+    if (is_group && first->greatest <= thresholds_.exact) {
+      result.verdict = Symmetry_verdict::EXACT;
+    } else if (is_apart) {
+      result.verdict = Symmetry_verdict::APPROXIMATE;
     } else if (slipping_rms < thresholds_.approximate && finite_rms > slipping_rms / 3) {
       result.reason = "rotations about an axis move the surface onto itself to within " + percent(slipping_rms) +
                       ", which is more than its facets explain";
     } else if (best > thresholds_.none && surface_.thickness() < 0.05) {
       result.reason = "the surface is so thin that it is near to its images";
-    } else if (!result.levels.empty() && result.levels.front().rms < thresholds_.approximate) {
-      const bool is_exact = result.levels.front().rms < thresholds_.exact;
-      result.verdict = is_exact ? Symmetry_verdict::EXACT : Symmetry_verdict::APPROXIMATE;
-    } else if (best > thresholds_.none && complete_to_ > thresholds_.none) {
+    } else if (is_group) {
+      result.verdict = Symmetry_verdict::APPROXIMATE;
+    } else if (best > thresholds_.approximate && complete_to_ > thresholds_.approximate) {
       result.verdict = Symmetry_verdict::NONE;
-    } else if (best > thresholds_.none) {
+    } else if (best > thresholds_.approximate) {
       result.reason = "too many rotations move the surface nearly onto itself for all to be tried";
-    } else if (result.levels.empty()) {
+    } else {
       result.reason =
           "a map moves the surface onto itself to within " + percent(best) + ", but maps like it are no group";
-    } else {
-      result.reason = "a group moves the surface onto itself only to within " + percent(result.levels.front().rms);
     }
   }
 
   const Centered_surface_3& surface_;
   Map_kind kind_;
   bool allows_reflections_;
+  double tolerance_;
   double complete_to_ = 0;
   Symmetry_thresholds thresholds_;
   std::vector<Centered_map> found_;

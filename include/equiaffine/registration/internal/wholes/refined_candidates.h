@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -35,13 +36,27 @@ inline Centered_map refined_and_judged(const Centered_pair& surfaces, const Affi
   return judged(surfaces, refined(surfaces, map, {kind}), points_of_rms);
 }
 
-/// Returns what rotations, times a `scale`, become by refinement: the different maps below an rms, by their rms. A few
-/// steps with a few points decide which of them are worth more.
+/// Maps that were refined.
+struct Refined_maps {
+  std::vector<Centered_map> maps; ///< the different ones, by their rms
+  /// The least rms of a map that was given up since there were too many: about the rms that it would have.
+  double least_left_out = std::numeric_limits<double>::infinity();
+
+  void keep(std::size_t most) {
+    if (maps.size() <= most) return;
+    least_left_out = std::min(least_left_out, maps[most].rms);
+    maps.resize(most);
+  }
+};
+
+/// Returns what rotations, times a `scale`, become by refinement, below an rms. A few steps with a few points decide
+/// which of them are worth more.
 template <class ConcurrencyTag>
-std::vector<Centered_map> refined_candidates(const Centered_pair& surfaces,
-                                             const std::vector<Rotation_candidate>& rotations, double scale,
-                                             Map_kind kind, double greatest_rms) {
-  std::vector<Centered_map> maps;
+Refined_maps refined_candidates(const Centered_pair& surfaces, const std::vector<Rotation_candidate>& rotations,
+                                double scale, Map_kind kind, double greatest_rms) {
+  constexpr std::size_t most_after_first = 800, most_after_second = 300;
+  Refined_maps result;
+  auto& maps = result.maps;
   for (const Rotation_candidate& rotation : rotations) maps.push_back({{scale * rotation.matrix}});
   const auto refine = [&](int steps, std::size_t points, double gate) {
     parallel_for<ConcurrencyTag>(0, maps.size(), [&](std::size_t i) {
@@ -50,10 +65,13 @@ std::vector<Centered_map> refined_candidates(const Centered_pair& surfaces,
     maps = different(std::move(maps), gate);
   };
   refine(3, 40, 2 * greatest_rms);
+  result.keep(most_after_first);
   refine(6, 100, greatest_rms);
+  result.keep(most_after_second);
   parallel_for<ConcurrencyTag>(0, maps.size(),
                                [&](std::size_t i) { maps[i] = refined_and_judged(surfaces, maps[i].map, kind); });
-  return different(std::move(maps), greatest_rms);
+  maps = different(std::move(maps), greatest_rms);
+  return result;
 }
 
 } // namespace equiaffine::internal

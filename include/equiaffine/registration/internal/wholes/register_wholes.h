@@ -87,7 +87,7 @@ Shape_matches register_wholes(const Centered_surface_3& source, const Centered_s
                          double(std::max<std::size_t>(result.hypotheses, 1)), probes};
   const double touching =
       tolerance_of_contact(std::max(source.samples.facet_error, target.samples.facet_error), request);
-  const auto maps = refined_candidates<ConcurrencyTag>(surfaces, rotations, scale, request.kind, gate);
+  const auto maps = refined_candidates<ConcurrencyTag>(surfaces, rotations, scale, request.kind, gate).maps;
   for (const Centered_map& map : maps)
     if (map.rms < tolerances.equal) result.maps.push_back(match_of(surfaces, map.map, touching, how));
   if (result.maps.empty() && is_one_alone(maps, tolerances.alone)) {
