@@ -30,22 +30,26 @@ namespace equiaffine {
 /// derivatives; products complete the group. Where there are too few such frames, as on planes, cylinders and spheres,
 /// with `complete`, or with a `tolerance` above 1e-6, all rotations and reflections about the centroid of the area,
 /// which every symmetry of a whole surface keeps, are searched by branch and bound, for affine maps in coordinates in
-/// which the solid inside is round, with points by random lines (Crofton). Maps are refined by least squares, and every
-/// element is verified by thousands of points. A surface that leaves the box of the function has no centroid to go by:
-/// points that leave the box do not count, so that an unbounded surface in a box has the symmetries of the whole one.
+/// which the solid inside is round, with points by random lines (Crofton). Maps are refined by least squares.
 ///
-/// The order counts the maps to within `tolerance`, a part of the size, 1e-8 by default. A greater tolerance never
-/// finds fewer. Where the surface has continuous symmetries of the kind, the result has their generators, and no others
-/// are sought: an ellipsoid has infinitely many affine symmetries, but 8 rigid ones if its axes differ.
+/// What is stated is a group, and EXACT means that the images of some 30,000 points by each of its maps are on the
+/// surface to rounding; `spacing` says how far these points are apart. A surface that leaves the box of the function has
+/// the symmetries that keep its piece in the box, and others if they are a group, which were verified where images are
+/// in the box; see `order_in_box`.
 ///
-/// Takes some 0.1 s for a smooth formula, else 1 to 10 s on one core. The result is the same for CGAL::Sequential_tag
+/// The order counts the maps that are exact, and those to within `tolerance`, a part of the size, if it is given or none
+/// is exact; it is 1e-8 then by default. A larger tolerance never finds fewer. Where the surface has continuous
+/// symmetries of the kind, the result has their generators, and no others are sought: an ellipsoid has infinitely many
+/// affine symmetries, but 8 rigid ones if its axes differ.
+///
+/// Takes some 0.5 s for a smooth formula, else 1 to 10 s on one core. The result is the same for CGAL::Sequential_tag
 /// and CGAL::Parallel_tag.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
 /// | `map_kind` | Map_kind | AFFINE | the kind of maps that are sought |
 /// | `reflections` | `bool` | `true` | whether maps may have a negative determinant |
-/// | `tolerance` | `double` | 1e-8 | rms distance by which maps may move points off, a part of the size |
+/// | `tolerance` | `double` | see above | rms distance by which maps may move points off, a part of the size |
 /// | `complete` | `bool` | `false` | whether all rotations are searched where frames decide, too |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
@@ -60,10 +64,13 @@ Affine_symmetries_3<Kernel_of<Traits>> affine_symmetries(const Traits& traits, c
       Any_function_3::make(traits), internal::vectors_of(points), internal::symmetry_request(parameters)));
 }
 
-/// The same for the triangles of a mesh, by all rotations; other faces are cut into triangles. Without a
-/// `tolerance` the order is that of the first level within 1 % of the size, less for thin surfaces; the verdict is
-/// EXACT to within the distance between the triangles and the smooth surface that they stand for. Affine maps of a mesh
-/// that bounds no solid are undecided.
+/// The same for the triangles of a mesh; other faces are cut into triangles. Two corners, at which the angles of the faces
+/// do not add up to that of a plane, determine a map together with their images, so that all exact symmetries are found,
+/// however many there are; others come from all rotations. Each map is verified at each vertex and facet. EXACT means to
+/// the rounding of the coordinates, as they were written; a mesh that also turns about an axis to within the distance
+/// between its facets and a smooth surface has `continuous` with a `continuous_rms`. Without a `tolerance` the order is
+/// that of the first level within 1 % of the size, less for thin surfaces. Small holes are closed for the moments by
+/// which affine maps are found; if a mesh bounds no solid, its rigid symmetries are the result, see `kind`.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|

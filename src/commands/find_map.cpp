@@ -154,17 +154,21 @@ bool are_meshes(const Register_options& options, const Found_map& found) {
          !found.target.mesh.triangles.empty();
 }
 
-/// Leaves out maps between closed meshes by which a large part of one is off the other: frames along one edge make many
-/// points agree.
+/// Leaves out maps between closed meshes by which a large part of one is off the other, since frames along one edge make
+/// many points agree, and maps between solids, whose corners a fit makes round. Distances become those of the triangles.
 void judge_by_triangles(Found_map& found) {
   constexpr double most_contradictions = 0.1, deviations = 3;
   const auto &source = found.source.mesh, &target = found.target.mesh;
   std::erase_if(found.registration.maps, [&](auto& map) {
     const auto there = moved(source, map.map);
-    const auto [parts, are_closed] =
+    const Mesh_contradictions found_here =
         contradictions_of_meshes(there.points, there.triangles, target.points, target.triangles, deviations * map.rms);
+    const auto& parts = found_here.parts;
     map.contradictions = parts;
-    const bool is_left_out = are_closed && *std::max_element(parts.begin(), parts.end()) > most_contradictions;
+    map.rms = std::max(map.rms, found_here.rms);
+    const bool is_contradicted =
+        found_here.are_closed && *std::max_element(parts.begin(), parts.end()) > most_contradictions;
+    const bool is_left_out = is_contradicted || found_here.are_exact_solids;
     found.maps_left_out += is_left_out;
     return is_left_out;
   });

@@ -93,8 +93,11 @@ Found_symmetries find_symmetries(const Symmetries_options& options, Progress& pr
 }
 
 Symmetries_report report_of(const Symmetries_options& options, const Found_symmetries& found) {
-  Symmetries_report report = {found.name(options.surface.source), found.symmetries, options.is_complete,
-                              keeps_angles(found.symmetries.kind) && !keeps_angles(options.maps.kind), {}};
+  Symmetries_report report = {found.name(options.surface.source),
+                              found.symmetries,
+                              options.is_complete,
+                              keeps_angles(found.symmetries.kind) && !keeps_angles(options.maps.kind),
+                              {}};
   if (!std::isfinite(report.symmetries.maps.front().rms))
     throw Input_error("nothing is known of the symmetries of " + report.source +
                       ": it has a surface beside none of its points; give more points");

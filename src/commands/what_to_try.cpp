@@ -82,7 +82,7 @@ std::vector<std::string> what_to_try(const Symmetries_options& options, const Sy
     return advice;
   }
   add_for_derivatives({&options.surface}, advice);
-  if (!keeps_angles(options.maps.kind)) advice.emplace_back("--kind rigid, whose maps need no solid");
+  if (!keeps_angles(found.kind)) advice.emplace_back("--kind rigid, whose maps need no solid");
   if (!options.tolerance) advice.emplace_back("--tolerance PART for another distance to which maps may move points");
   return advice;
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/maps.h"
 
-#include "output/json_text.h"
-
 #include <CGAL/determinant.h>
 
 #include <algorithm>
@@ -13,37 +11,6 @@
 namespace equiaffine {
 
 namespace {
-
-/// Adds `matrix`, by its rows, and `translation`.
-void add(const CGAL::Aff_transformation_3<Kernel>& map, Json& json) {
-  for (int row = 0; row < 3; ++row) {
-    json["matrix"].push_back({map.m(row, 0), map.m(row, 1), map.m(row, 2)});
-    json["translation"].push_back(map.m(row, 3));
-  }
-}
-
-void add(const Registered_map_3<Kernel>& map, Json& json) {
-  add(map.map, json);
-  json["determinant"] = determinant_of(map.map);
-  json["log10_false_alarms"] = map.log10_false_alarms;
-  json["inliers"] = map.inliers;
-  json["rms"] = map.rms;
-  json["contradictions"] = nullptr;
-  if (map.contradictions) json["contradictions"] = *map.contradictions;
-}
-
-Json to_JSON(const Affine_slippage_3& slippage) {
-  Json json = {{"dimension", slippage.dimension()}, {"generators", Json::array()}};
-  for (const auto& [matrix, translation] : slippage.generators) {
-    Json generator;
-    for (int row = 0; row < 3; ++row) {
-      generator["matrix"].push_back({matrix(row, 0), matrix(row, 1), matrix(row, 2)});
-      generator["translation"].push_back(translation[row]);
-    }
-    json["generators"].push_back(generator);
-  }
-  return json;
-}
 
 /// A power of ten such as "10^-151", but none that only says how many points there are.
 std::string power_of_ten(double logarithm) {
@@ -70,14 +37,10 @@ const Symmetry_level_3<Kernel>* level_of_maps(const Symmetries& symmetries) {
   return nullptr;
 }
 
-std::string verdict_text(Symmetry_verdict verdict) {
-  switch (verdict) {
-  case Symmetry_verdict::EXACT: return "exact";
-  case Symmetry_verdict::APPROXIMATE: return "approximate";
-  case Symmetry_verdict::NONE: return "none";
-  case Symmetry_verdict::UNDECIDED: break;
-  }
-  return "undecided";
+/// Whether the symmetries are those of the first level, and hold to rounding.
+bool is_exact(const Symmetries& symmetries) {
+  return symmetries.verdict == Symmetry_verdict::EXACT && !symmetries.levels.empty() &&
+         symmetries.maps.size() == symmetries.levels.front().order();
 }
 
 /// "0.097 % of the size"
@@ -111,6 +74,32 @@ std::string greater_levels(const Symmetries& symmetries) {
 std::string completeness_text(const Symmetries& symmetries) {
   if (!symmetries.complete_to) return "not all rotations could be tried\n";
   return "all rotations were tried that may move it to within " + part_text(*symmetries.complete_to) + '\n';
+}
+
+/// ", along and about (0, 0, 1)": the axis of one or two rigid motions; nothing for other ones. `size` is that of the
+/// surface.
+std::string axis_text(const Affine_slippage_3& slippage, double size) {
+  constexpr double least = 0.05; // of a rotation or a translation beside the other, as fits have errors
+  const std::size_t dimension = slippage.dimension();
+  if (dimension == 0 || dimension > 2) return "";
+  std::vector<Eigen::Vector3d> turns, shifts;
+  for (const auto& [m, t] : slippage.generators) {
+    if ((m + m.transpose()).norm() > least * m.norm()) return "";
+    turns.emplace_back(size * Eigen::Vector3d(m(2, 1), m(0, 2), m(1, 0)));
+    shifts.push_back(t);
+  }
+  const auto text_of = [](const std::string& how, const Eigen::Vector3d& v) {
+    std::ostringstream text;
+    text.precision(3);
+    const Eigen::Array3d unit = (1000 * v.normalized().array()).round() / 1000 + 0.0; // no -0
+    text << ", " << how << " (" << unit[0] << ", " << unit[1] << ", " << unit[2] << ')';
+    return text.str();
+  };
+  if (dimension == 1)
+    return turns[0].norm() > least * shifts[0].norm() ? text_of("about", turns[0]) : text_of("along", shifts[0]);
+  const Eigen::Vector3d& axis = turns[turns[0].norm() < turns[1].norm() ? 1 : 0];
+  const bool is_cylinder = axis.norm() > 0 && turns[0].cross(turns[1]).norm() < least * axis.squaredNorm();
+  return is_cylinder ? text_of("along and about", axis) : "";
 }
 
 std::string ways(std::size_t number) { return std::to_string(number) + (number == 1 ? " way" : " ways"); }
@@ -183,74 +172,30 @@ std::vector<std::string> limits_of(const Symmetries& symmetries) {
   std::vector<std::string> limits;
   const std::size_t dimension = symmetries.continuous.dimension();
   if (dimension > 0 && !symmetries.levels.empty())
-    limits.push_back("it turns about " + std::string(dimension == 1 ? "an axis" : "any axis") + within_text(symmetries.continuous_rms, 0) +
-                     ", as the surface would that its facets stand for");
+    limits.push_back("it turns about " + std::string(dimension == 1 ? "an axis" : "any axis") +
+                     within_text(symmetries.continuous_rms, 0) + ", as the surface would that its facets stand for");
   if (symmetries.order_in_box) {
     std::string text = "the surface goes on beyond the box, where nothing was tried";
     if (const auto order = symmetries.order(); order && *symmetries.order_in_box < *order)
-      text += "; " + std::to_string(*symmetries.order_in_box) + " of them move" + (*symmetries.order_in_box == 1 ? "s" : "") + " its piece in the box onto itself";
+      text += "; " + std::to_string(*symmetries.order_in_box) + " of them move" +
+              (*symmetries.order_in_box == 1 ? "s" : "") + " its piece in the box onto itself";
     limits.push_back(text);
   }
   if (symmetries.spacing && symmetries.order() && symmetries.maps.size() > 1)
-    limits.push_back("tried at points " + part_text(*symmetries.spacing) + " apart, between which a narrower detail may hide");
+    limits.push_back("tried at points " + part_text(*symmetries.spacing) +
+                     " apart, between which a narrower detail may hide");
   return limits;
 }
 
 std::string levels_text(const Symmetries& symmetries) {
   std::string text;
   for (const auto& level : symmetries.levels) {
-    const std::string within = within_text(level.rms, level.greatest);
+    const bool is_first = &level == &symmetries.levels.front();
+    const std::string within =
+        is_first && symmetries.verdict == Symmetry_verdict::EXACT ? "" : within_text(level.rms, level.greatest);
     text += (text.empty() ? "" : ", ") + std::to_string(level.order()) + (within.empty() ? " exactly" : within);
   }
   return text;
-}
-
-std::string to_JSON(const Registration_report& report) {
-  const auto& registration = report.registration;
-  Json json = begin_JSON(report.source);
-  json["target"] = report.target;
-  json["found"] = registration.found();
-  if (!report.scales.empty()) json["scales"] = report.scales;
-  if (!registration.found()) return text_of(json);
-  json["matched_by"] = report.is_by_triangles ? "triangles" : "frames";
-  add(registration.best(), json);
-  json["hypotheses"] = registration.hypotheses;
-  json["size"] = registration.size;
-  json["next_best_rms"] = nullptr;
-  if (registration.next_best_rms) json["next_best_rms"] = *registration.next_best_rms;
-  json["slippage"] = to_JSON(registration.slippage);
-  if (!report.has_all_maps) return text_of(json);
-  for (const auto& map : registration.maps) add(map, json["maps"].emplace_back());
-  return text_of(json);
-}
-
-std::string to_JSON(const Symmetries_report& report) {
-  const auto& symmetries = report.symmetries;
-  Json json = begin_JSON(report.source);
-  json["order"] = nullptr;
-  if (const auto order = symmetries.order()) json["order"] = *order;
-  json["verdict"] = verdict_text(symmetries.verdict);
-  json["undecided"] = nullptr;
-  if (is_undecided(symmetries)) json["undecided"] = reason_for_undecided(symmetries);
-  json["complete_to"] = nullptr;
-  if (symmetries.complete_to) json["complete_to"] = *symmetries.complete_to;
-  json["kind"] = keeps_angles(symmetries.kind) ? "rigid" : "affine";
-  json["spacing"] = nullptr;
-  if (symmetries.spacing) json["spacing"] = *symmetries.spacing;
-  json["order_in_box"] = nullptr;
-  if (symmetries.order_in_box) json["order_in_box"] = *symmetries.order_in_box;
-  json["levels"] = Json::array();
-  for (const auto& level : symmetries.levels) json["levels"].push_back({{"order", level.order()}, {"rms", level.rms}, {"greatest", level.greatest}});
-  json["maps"] = Json::array();
-  for (const auto& symmetry : symmetries.maps) {
-    Json& map = json["maps"].emplace_back();
-    add(symmetry.map, map);
-    map["rms"] = symmetry.rms;
-    map["greatest"] = symmetry.greatest;
-  }
-  json["continuous"] = to_JSON(symmetries.continuous);
-  json["continuous"]["rms"] = symmetries.continuous_rms;
-  return text_of(json);
 }
 
 std::string summary(const Registration_report& report) {
@@ -272,8 +217,13 @@ std::string summary(const Registration_report& report) {
     text << '\n';
     if (report.has_all_maps) text << registration.maps.size() << (registration.maps.size() == 1 ? " map\n" : " maps\n");
   }
+  if (registration.found() && registration.equally_good > 0)
+    text << "at least " << registration.equally_good
+         << (registration.equally_good == 1 ? " other map fits" : " other maps fit") << " as well"
+         << (report.has_all_maps ? "\n" : ": --all writes them\n");
   if (dimension > 0)
-    text << "the source slips over itself in " << ways(dimension)
+    text << "the source slides over itself in " << ways(dimension)
+         << axis_text(registration.slippage, registration.size)
          << (registration.found() ? ": the map is one of a continuous family\n" : "\n");
   return text.str();
 }
@@ -297,8 +247,8 @@ std::string summary(const Symmetries_report& report) {
     const std::size_t reflections = reflections_of(symmetries);
     const auto* const level = level_of_maps(symmetries);
     text += std::to_string(symmetries.maps.size()) + " symmetries" +
-            (level ? within_text(level->rms, level->greatest) : "") + ", " + std::to_string(reflections) +
-            " of them change" + (reflections == 1 ? "s" : "") + " left and right\n";
+            (level && !is_exact(symmetries) ? within_text(level->rms, level->greatest) : "") + ", " +
+            std::to_string(reflections) + " of them change" + (reflections == 1 ? "s" : "") + " left and right\n";
   }
   return text + rest;
 }

@@ -29,9 +29,9 @@ using Symmetries = Affine_symmetries_3<Kernel>;
 struct Symmetries_report {
   std::string source;
   Symmetries symmetries;
-  bool is_complete = false;        ///< whether a search of all rotations was asked for
+  bool is_complete = false;         ///< whether a search of all rotations was asked for
   bool has_rigid_maps_only = false; ///< whether affine maps were asked for and could not be sought
-  std::vector<std::string> advice; ///< what to try if nothing is decided
+  std::vector<std::string> advice;  ///< what to try if nothing is decided
 };
 
 double determinant_of(const CGAL::Aff_transformation_3<Kernel>& map);

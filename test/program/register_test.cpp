@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -422,15 +423,71 @@ TEST_F(Program_register, a_mesh_with_flat_faces_has_its_symmetries_with_planes_a
 }
 
 TEST_F(Program_register, what_is_not_known_of_symmetries_is_undecided_with_a_reason) {
-  write_file(folder_ / "open.off", box_mesh(true));
-  const std::string out = run_well({"symmetries", "open.off", "-o", "maps.json"});
-  EXPECT_TRUE(out.starts_with("undecided: the mesh bounds no solid")) << out;
-  EXPECT_NE(out.find("--kind rigid"), std::string::npos) << out;
+  write_file(folder_ / "triangle.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  const std::string out = run_well({"symmetries", "triangle.off", "--kind", "rigid", "-o", "maps.json"});
+  EXPECT_TRUE(out.starts_with("undecided: ")) << out;
   const Json found = Json::parse(file("maps.json"));
   EXPECT_TRUE(found["order"].is_null());
   EXPECT_EQ(found["verdict"], "undecided");
-  EXPECT_TRUE(std::string(found["undecided"]).starts_with("the mesh bounds no solid"));
+  EXPECT_FALSE(std::string(found["undecided"]).empty());
+}
+
+TEST_F(Program_register, rigid_symmetries_are_sought_where_affine_ones_cannot_be) {
+  write_file(folder_ / "open.off", box_mesh(true));
+  const std::string out = run_well({"symmetries", "open.off", "-o", "maps.json"});
+  EXPECT_TRUE(out.starts_with("rigid ones only, since the mesh bounds no solid")) << out;
+  const Json found = Json::parse(file("maps.json"));
+  EXPECT_EQ(found["kind"], "rigid");
+  EXPECT_EQ(found["order"], 4);
   EXPECT_EQ(symmetries({"open.off", "--kind", "rigid"})["order"], 4);
+}
+
+TEST_F(Program_register, symmetries_of_a_piece_say_that_the_surface_goes_on) {
+  const std::string out = run_well({"symmetries", "--function", "cos(x)+cos(y)+cos(z)", "--box", "-3.2", "3.2", "-3.2",
+                                    "3.2", "-3.2", "3.2", "--kind", "rigid", "-o", "maps.json"});
+  EXPECT_TRUE(out.starts_with("48 symmetries, 24 of them change left and right\n")) << out;
+  EXPECT_NE(out.find("the surface goes on beyond the box"), std::string::npos) << out;
+  EXPECT_EQ(Json::parse(file("maps.json"))["order_in_box"], 48);
+}
+
+/// A prism over a regular polygon, its upper one turned by a part of the angle of a side.
+std::string prism_mesh(int sides, double part = 0) {
+  std::ostringstream points, faces, top, bottom;
+  points.precision(17);
+  const double unit = 2 * std::acos(-1.) / sides;
+  for (const double z : {0., 1.})
+    for (int k = 0; k < sides; ++k)
+      points << std::cos(unit * (k + z * part)) << ' ' << std::sin(unit * (k + z * part)) << ' ' << z << '\n';
+  for (int k = 0; k < sides; ++k) {
+    const int next = (k + 1) % sides;
+    faces << "3 " << k << ' ' << next << ' ' << sides + k << "\n3 " << next << ' ' << sides + next << ' ' << sides + k
+          << '\n';
+    top << ' ' << sides + k;
+    bottom << ' ' << sides - 1 - k;
+  }
+  faces << sides << top.str() << '\n' << sides << bottom.str() << '\n';
+  return "OFF\n" + std::to_string(2 * sides) + ' ' + std::to_string(2 * sides + 2) + " 0\n" + points.str() +
+         faces.str();
+}
+
+TEST_F(Program_register, solids_with_other_numbers_of_sides_are_not_equal) {
+  write_file(folder_ / "17.off", prism_mesh(17));
+  write_file(folder_ / "18.off", prism_mesh(18));
+  write_file(folder_ / "left.off", prism_mesh(17, .3));
+  write_file(folder_ / "right.off", prism_mesh(17, -.3));
+  const Arguments rigid = {"--kind", "rigid"};
+  EXPECT_EQ(registered({"17.off"}, {"18.off"}, rigid)["found"], false);
+  EXPECT_EQ(registered({"left.off"}, {"right.off"}, rigid + Arguments{"--no-reflection"})["found"], false);
+  const Json mirrored = registered({"left.off"}, {"right.off"}, rigid);
+  ASSERT_EQ(mirrored["found"], true);
+  EXPECT_EQ(mirrored["equally_good"], 33) << "it has 34 symmetries";
+}
+
+TEST_F(Program_register, contact_along_a_curve_is_no_overlap) {
+  const Arguments nodes = {"--box", "-2", "2", "-2", "2", "-2", "2", "--resolution", "31"};
+  EXPECT_EQ(registered(Arguments{"--function", "x^2+2*y^2+3*z^2=1"} + nodes,
+                       Arguments{"--function", "x^2+2*y^2+3.01*z^2=1"} + nodes, {"--kind", "rigid"})["found"],
+            false);
 }
 
 } // namespace

@@ -156,8 +156,7 @@ Affine_symmetries_3<Kernel> rigid_symmetries(const Expected& e) {
 
 TEST(Affine_symmetries, a_small_bump_leaves_those_that_keep_it) {
   for (const std::string height : {"1e-6", "1e-7"}) {
-    const auto result =
-        rigid_symmetries({"x^8+y^8+z^8-1+" + height + "*exp(-30*((x-1)^2+y^2+z^2))", cube(2), 8});
+    const auto result = rigid_symmetries({"x^8+y^8+z^8-1+" + height + "*exp(-30*((x-1)^2+y^2+z^2))", cube(2), 8});
     EXPECT_EQ(result.order(), 8u) << height;
     EXPECT_EQ(result.verdict, Symmetry_verdict::EXACT) << height;
     ASSERT_EQ(result.levels.size(), 2u) << height;

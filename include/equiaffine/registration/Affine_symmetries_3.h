@@ -19,8 +19,8 @@ namespace equiaffine {
 template <class Kernel>
 struct Affine_symmetry_3 {
   typename Kernel::Aff_transformation_3 map; ///< the map
-  double rms;      ///< the root of the mean squared distance of moved points from the surface
-  double greatest; ///< the largest of these distances
+  double rms;                                ///< the root of the mean squared distance of moved points from the surface
+  double greatest;                           ///< the largest of these distances
 };
 
 /// A finite group of maps, each of which moves a surface onto itself to within an rms distance. All products are in the
@@ -54,9 +54,9 @@ struct Affine_symmetries_3 {
   /// those of the first level. The identity alone, if there are no others, infinitely many, or they are not known.
   std::vector<Affine_symmetry_3<Kernel>> maps = {};
   Affine_slippage_3 continuous = {}; ///< the Lie algebra of the continuous group
-  double continuous_rms = 0; ///< by which maps of that group move points off the surface, a part of the size
-  bool is_decided = false;   ///< whether `maps` are all symmetries to within the tolerance
-  Map_kind kind = Map_kind::AFFINE; ///< of the maps: RIGID for affine maps of a mesh that bounds no solid
+  double continuous_rms = 0;         ///< by which maps of that group move points off the surface, a part of the size
+  bool is_decided = false;           ///< whether `maps` are all symmetries to within the tolerance
+  Map_kind kind = Map_kind::AFFINE;  ///< of the maps: RIGID for affine maps of a mesh that bounds no solid
   /// All rotations and reflections about the centroid were tried that move the surface onto itself to within this rms
   /// distance, a part of its size. None if they were not searched, for example because exact frames decide.
   std::optional<double> complete_to = {};

@@ -43,6 +43,7 @@ Surface_registration_3<Kernel> in_kernel(Surface_registration_3<Kernel_of_search
     if (m.pair) copy.pair = in_kernel<Kernel>(*m.pair);
   }
   result.hypotheses = found.hypotheses;
+  result.equally_good = found.equally_good;
   result.size = found.size;
   result.next_best_rms = found.next_best_rms;
   result.slippage = std::move(found.slippage);
@@ -60,7 +61,8 @@ std::vector<Affine_symmetry_3<Kernel>> in_kernel(const std::vector<Affine_symmet
 template <class Kernel>
 Affine_symmetries_3<Kernel> in_kernel(Affine_symmetries_3<Kernel_of_searches> found) {
   Affine_symmetries_3<Kernel> result{found.verdict, std::move(found.reason)};
-  for (const auto& level : found.levels) result.levels.push_back({in_kernel<Kernel>(level.maps), level.rms, level.greatest});
+  for (const auto& level : found.levels)
+    result.levels.push_back({in_kernel<Kernel>(level.maps), level.rms, level.greatest});
   result.maps = in_kernel<Kernel>(found.maps);
   result.continuous = std::move(found.continuous);
   result.continuous_rms = found.continuous_rms;

@@ -70,14 +70,17 @@ Registration_of_functions_3 registration_of_framed(const Framed_surface_3& sourc
   Registration_of_functions_3 registration;
   Surface_registration_3<Kernel_of_searches>& result = registration.result;
   result.size = target.size;
-  result.slippage = slippage_of(source, request.kind, slippage_tolerance).algebra;
+  const bool is_exact = has_exact_frames(source);
+  result.slippage = slippage_of(source, request.kind, is_exact ? slippage_tolerance : slippage_of_fits).algebra;
   Registration_search<ConcurrencyTag> search(source, target, request);
   if (is_in_plane(source, search.tolerance()) || is_in_plane(target, search.tolerance())) return registration;
   if (result.slippage.dimension() > 0)
     if (const auto map = map_of_quadrics(source, target, request)) search.try_map(*map);
   if (search.accepted().empty()) search.run();
+  if (result.slippage.dimension() == 0) search.find_equally_good();
   result.hypotheses = search.hypotheses();
   const auto accepted = search.accepted();
+  result.equally_good = search.equally_good();
   for (std::size_t n = 0; n < std::min(accepted.size(), request.number_of_maps); ++n)
     result.maps.push_back(registered_map(accepted[n]));
   const std::size_t next = result.found() ? 1 : 0;

@@ -18,12 +18,15 @@ namespace equiaffine::internal {
 template <class ConcurrencyTag>
 Surface_registration_3<Kernel_of_searches>
 registration_of_triangles(const Triangles_3& source, const Triangles_3& target, const Registration_request& request) {
+  // Facets of solids with corners are their faces, and explain no distance.
   check_argument(!source.triangles.empty(), "a mesh to be registered has no faces: give faces of the source");
   check_argument(!target.triangles.empty(), "a mesh to register with has no faces: give faces of the target");
-  Shape_matches wholes = register_wholes<ConcurrencyTag>(centered_surface(source, request.kind),
-                                                         centered_surface(target, request.kind), request);
+  Centered_surface_3 from = centered_surface(source, request.kind), to = centered_surface(target, request.kind);
+  const bool are_solids = has_group_of_corners<ConcurrencyTag>(source) && has_group_of_corners<ConcurrencyTag>(target);
+  if (are_solids) from.samples.facet_error = to.samples.facet_error = 0;
+  Shape_matches wholes = register_wholes<ConcurrencyTag>(from, to, request);
   if (!wholes.maps.empty()) return to_CGAL(std::move(wholes), request);
-  Shape_matches pieces = register_pieces<ConcurrencyTag>(source, target, request);
+  Shape_matches pieces = register_pieces<ConcurrencyTag>(source, target, request, are_solids);
   pieces.hypotheses += wholes.hypotheses;
   return to_CGAL(std::move(pieces), request);
 }

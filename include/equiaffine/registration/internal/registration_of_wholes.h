@@ -13,6 +13,18 @@
 
 namespace equiaffine::internal {
 
+/// The number of maps beside the first that move as much of the surfaces onto each other, as near.
+inline std::size_t equally_good(const Shape_matches& found) {
+  constexpr double part = 0.98, factor = 3, rounding = 1e-9;
+  const auto least_inliers = [](const Shape_match& m) { return std::min(m.inliers[0], m.inliers[1]); };
+  const auto greatest_inliers = [](const Shape_match& m) { return std::max(m.inliers[0], m.inliers[1]); };
+  const Shape_match& best = found.maps.front();
+  return std::size_t(std::count_if(found.maps.begin() + 1, found.maps.end(), [&](const Shape_match& m) {
+    return m.rms <= factor * best.rms + rounding * found.size && least_inliers(m) >= part * least_inliers(best) &&
+           greatest_inliers(m) >= part * greatest_inliers(best);
+  }));
+}
+
 /// Converts what was found to the types of CGAL. One map stands for all of a continuous family.
 inline Surface_registration_3<Kernel_of_searches> to_CGAL(Shape_matches found, const Registration_request& request) {
   Surface_registration_3<Kernel_of_searches> result;
@@ -26,7 +38,10 @@ inline Surface_registration_3<Kernel_of_searches> to_CGAL(Shape_matches found, c
                            {},
                            m.contradictions});
   }
-  if (!slips && found.maps.size() > 1) result.next_best_rms = found.maps[1].rms;
+  if (!slips && found.maps.size() > 1) {
+    result.next_best_rms = found.maps[1].rms;
+    result.equally_good = equally_good(found);
+  }
   result.hypotheses = found.hypotheses;
   result.size = found.size;
   result.reason = std::move(found.reason);

@@ -38,7 +38,7 @@ struct Tolerances_of_wholes {
 inline Tolerances_of_wholes tolerances_of_wholes(const Centered_pair& surfaces, const Registration_request& request) {
   constexpr double least = 3e-3, greatest = 0.01, alike = 0.015;
   const double facet_error = surfaces.source.samples.facet_error + surfaces.target.samples.facet_error;
-  const double thickness = std::min(1.0, 3 * std::min(surfaces.source.thickness(), surfaces.target.thickness()));
+  const double thickness = std::min(surfaces.source.thickness(), surfaces.target.thickness());
   const double usual = std::clamp(1.2 * facet_error, least, greatest) * thickness;
   if (request.tolerance) return {*request.tolerance, 0, std::max(*request.tolerance, least * thickness)};
   const double equal = tolerance_of_facets(facet_error, usual);

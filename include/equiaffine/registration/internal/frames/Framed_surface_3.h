@@ -71,9 +71,10 @@ inline Gradient_of_invariants kept_gradient(const Framed_point_3& p, Map_kind ki
 
 /// The points that are in the domain, on the surface.
 template <class ConcurrencyTag>
-std::vector<Eigen::Vector3d> moved_to_surface(const Framed_function_3& surface, std::vector<Eigen::Vector3d> points) {
+std::vector<Eigen::Vector3d> moved_to_surface(const Framed_function_3& surface, std::vector<Eigen::Vector3d> points,
+                                              int steps = 3) {
   parallel_for<ConcurrencyTag>(
-      0, points.size(), [&](std::size_t i) { points[i] = surface.moved_to_surface(points[i], 3); }, 32);
+      0, points.size(), [&](std::size_t i) { points[i] = surface.moved_to_surface(points[i], steps); }, 32);
   std::erase_if(points, [](const Eigen::Vector3d& p) { return !p.allFinite(); });
   return points;
 }
@@ -145,6 +146,23 @@ inline void build_trees(Framed_surface_3& surface, Map_kind kind) {
         Point_tree<5>(surface.usable[k], [&](std::size_t i) { return kept_invariants(surface.points[i], kind); });
 }
 
+/// Moves points along a surface by random steps, and drops those that leave its domain. Points on the nodes or edges of
+/// a lattice may lie on curves: where another surface meets this one in such a curve, many of them would be on it.
+template <class ConcurrencyTag>
+std::vector<Eigen::Vector3d> spread_over_surface(const Framed_function_3& surface, std::vector<Eigen::Vector3d> points,
+                                                 double longest_step) {
+  constexpr int steps = 8;
+  std::minstd_rand random(4);
+  const auto uniform = [&] { return 2 * double(random()) / double(random.max()) - 1; };
+  for (Eigen::Vector3d& p : points) {
+    const Eigen::Vector3d step(uniform(), uniform(), uniform());
+    const Eigen::Vector3d normal = surface.distance(p).normal;
+    const Eigen::Vector3d moved = p + longest_step * (step - step.dot(normal) * normal);
+    if (std::isfinite(surface.first_order(moved).value())) p = moved;
+  }
+  return moved_to_surface<ConcurrencyTag>(surface, std::move(points), steps);
+}
+
 /// Computes the frames of the points, of a random subset if there are very many.
 template <class ConcurrencyTag>
 Framed_surface_3 framed_surface(const Framed_function_3& function, const Framed_function_3& refinement,
@@ -153,7 +171,6 @@ Framed_surface_3 framed_surface(const Framed_function_3& function, const Framed_
   Framed_surface_3 result{.function = function, .refinement = refinement};
   const auto points = moved_to_surface<ConcurrencyTag>(function, random_elements(given, most_points, 1));
   result.size = size_of_points(points);
-  result.probes = moved_to_surface<ConcurrencyTag>(refinement, random_elements(points, most_probes, 2));
   result.points.resize(points.size());
   parallel_for<ConcurrencyTag>(
       0, points.size(),
@@ -164,6 +181,8 @@ Framed_surface_3 framed_surface(const Framed_function_3& function, const Framed_
       16);
   build_trees(result, kind);
   result.spacing = typical_spacing(result);
+  result.probes =
+      spread_over_surface<ConcurrencyTag>(refinement, random_elements(points, most_probes, 2), result.spacing / 2);
   if (result.probes.empty()) return result;
   result.chance = chance_of_nearness<ConcurrencyTag>(result);
   result.noise = median_distance<ConcurrencyTag>(refinement, random_elements(given, most_probes, 5)) / result.size;

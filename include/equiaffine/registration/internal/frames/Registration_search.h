@@ -10,6 +10,7 @@
 #include <equiaffine/registration/internal/frames/map_evidence.h>
 #include <equiaffine/registration/internal/frames/order_of_points.h>
 #include <equiaffine/registration/internal/frames/refine_map.h>
+#include <equiaffine/registration/internal/without_near.h>
 
 #include <Eigen/Core>
 
@@ -68,6 +69,42 @@ public:
     if (refined && !is_known(*refined, 1e-4)) keep({*refined, evidence(*refined), pair});
   }
 
+  /// Tries all other images of the point that gave the best map: where the target has symmetries, others fit as well.
+  void find_equally_good() {
+    const auto best = accepted();
+    if (best.empty() || !best.front().pair) return;
+    const Framed_point_3 point = (*best.front().pair)[0];
+    const auto source = std::find_if(source_.points.begin(), source_.points.end(),
+                                     [&](const Framed_point_3& p) { return p.point == point.point; });
+    const auto index = std::size_t(source - source_.points.begin());
+    const Candidate_limits limits = {3000, 3000, thresholds_.usual.greatest_mismatch};
+    auto pairs = pairs_of_point(source_, target_, index, request_.kind, limits, thresholds_);
+    pairs = without_near(pairs, most_images, [&](const Candidate_pair& a, const Candidate_pair& b) {
+      return (target_.points[a.target].point - target_.points[b.target].point).norm() < 1.5 * target_.spacing;
+    });
+    std::vector<Counterpart> found(pairs.size());
+    parallel_for<ConcurrencyTag>(0, pairs.size(), [&](std::size_t n) {
+      found[n] = find_counterpart(source_, target_, pairs[n], request_.kind, thresholds_);
+    });
+    const std::size_t hypotheses = hypotheses_;
+    for (const Counterpart& c : found)
+      if (c.cost < 1) try_counterpart(c);
+    hypotheses_ = hypotheses; // by which the best map was found
+  }
+
+  /// The number of maps beside the best that move as many points onto the other surface, as near.
+  std::size_t equally_good() const {
+    constexpr double part = 0.98, factor = 3;
+    const auto maps = accepted();
+    if (maps.empty()) return 0;
+    const Map_evidence& best = maps.front().evidence;
+    return std::size_t(std::count_if(maps.begin() + 1, maps.end(), [&](const Judged_map& m) {
+      const double limit = factor * best.rms + thresholds_.rounding * target_.size;
+      return m.evidence.rms <= limit && m.evidence.inliers[0] >= part * best.inliers[0] &&
+             m.evidence.inliers[1] >= part * best.inliers[1];
+    }));
+  }
+
   std::size_t hypotheses() const { return hypotheses_; }
   double tolerance() const { return tolerance_; } ///< in the unit of distances
 
@@ -83,6 +120,8 @@ public:
   const std::vector<Judged_map>& refined() const { return maps_; }
 
 private:
+  static constexpr std::size_t most_images = 200;
+
   bool is_accepted(const Judged_map& m) const { return m.evidence.log10_false_alarms < thresholds_.accepted_log10; }
 
   bool is_done() const {

@@ -98,9 +98,9 @@ private:
       if (chosen.size() == most) return;
       if (!(whitening(surface_.points[i].point).norm() <= greatest_distance)) continue;
       const Invariants invariants = kept_invariants(surface_.points[i], kind_);
-      if (std::none_of(chosen.begin(), chosen.end(), [&](std::size_t j) {
-            return (kept_invariants(surface_.points[j], kind_) - invariants).norm() < 1e-3;
-          }) &&
+      if (std::none_of(
+              chosen.begin(), chosen.end(),
+              [&](std::size_t j) { return (kept_invariants(surface_.points[j], kind_) - invariants).norm() < 1e-3; }) &&
           is_found_from_neighbors(i))
         chosen.push_back(i);
     }

@@ -10,10 +10,20 @@
 #include <equiaffine/registration/internal/tolerances_of_meshes.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
 namespace equiaffine::internal {
+
+/// The root of the mean squared distance of the samples in contact.
+inline double rms_of_contacts(const Mapped_samples& samples) {
+  double sum = 0, count = 0;
+  for (const auto& side : samples)
+    for (const Mapped_sample& s : side)
+      if (s.contact == Contact::TOUCHING) sum += (s.point - s.nearest).squaredNorm(), count += 1;
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
 
 template <class ConcurrencyTag>
 Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 target, double distance) {
@@ -24,6 +34,8 @@ Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 
   const Affine_map_3 map = centering_map(area);
   source = transformed(std::move(source), map);
   target = transformed(std::move(target), map);
+  result.are_exact_solids =
+      has_group_of_corners<ConcurrencyTag>(source) && has_group_of_corners<ConcurrencyTag>(target);
   const auto edges = sorted_edges(target);
   const double error = std::max(facet_error(source, sorted_edges(source)), facet_error(target, edges));
   const double touching = std::max(distance / area.size(), tolerance_of_contact(error, {}));
@@ -36,7 +48,9 @@ Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 
     const std::size_t in_contact = count_of(contacts[0], Contact::TOUCHING) + count_of(contacts[1], Contact::TOUCHING);
     if (in_contact < most) continue;
     most = in_contact;
-    result = {contradictions_of(contacts), moved.is_closed() && piece.is_closed()};
+    result.parts = contradictions_of(contacts);
+    result.rms = area.size() * rms_of_contacts(contacts);
+    result.are_closed = moved.is_closed() && piece.is_closed();
   }
   return result;
 }

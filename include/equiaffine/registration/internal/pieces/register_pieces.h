@@ -54,7 +54,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t few_samples = 120, more_samples = 400, most_judged = 40;
+  static constexpr std::size_t few_samples = 120, more_samples = 400, most_judged = 64;
   static constexpr double accepted_log10 = -6, most_contradictions = 0.02, least_part = 0.05;
   static constexpr double least_rigidity = 20; ///< beside the tolerance
 
@@ -214,10 +214,10 @@ inline std::string reason_against_pieces(const Moments_3& source, const Moments_
 
 /// Finds rigid maps or similarities that move a mesh, or a part of it, onto another one, without curvature: pieces of
 /// planes and cylinders will do. Accepts those that the area in contact proves, and that no other points contradict. The
-/// source may be inside out, as meshes are that somebody mirrored.
+/// source may be inside out, as meshes are that somebody mirrored. Facets of solids stand for nothing smooth.
 template <class ConcurrencyTag>
-Shape_matches register_pieces(const Triangles_3& source, const Triangles_3& target,
-                              const Registration_request& request) {
+Shape_matches register_pieces(const Triangles_3& source, const Triangles_3& target, const Registration_request& request,
+                              bool are_solids = false) {
   const Moments_3 areas[] = {area_moments(source), area_moments(target)};
   Shape_matches result;
   result.reason = reason_against_pieces(areas[0], areas[1], request.kind);
@@ -227,7 +227,8 @@ Shape_matches register_pieces(const Triangles_3& source, const Triangles_3& targ
   if (request.kind == Map_kind::RIGID) to_source = {to_target.matrix, -(to_target.matrix * areas[0].centroid)};
   const Triangles_3 a = transformed(source, to_source), b = transformed(target, to_target);
   const auto edges_a = sorted_edges(a), edges_b = sorted_edges(b);
-  const double tolerance = tolerance_of_contact(std::max(facet_error(a, edges_a), facet_error(b, edges_b)), request);
+  const double error_of_facets = are_solids ? 0 : std::max(facet_error(a, edges_a), facet_error(b, edges_b));
+  const double tolerance = tolerance_of_contact(error_of_facets, request);
   const auto piece = [=](const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges) {
     return Piece_of_surface_3(mesh, edges, samples_of_piece, 2 * tolerance);
   };

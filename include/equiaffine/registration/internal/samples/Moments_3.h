@@ -47,6 +47,15 @@ public:
     add(x.dot(y.cross(z)) / 6, sum / 4, (squares(x, y, z) + sum * sum.transpose()) / 20);
   }
 
+  /// Adds the sums of another measure about the same origin, or subtracts them.
+  void add(const Moment_sums_3& other, double sign) {
+    measure_ += sign * other.measure_;
+    first_ += sign * other.first_;
+    second_ += sign * other.second_;
+  }
+
+  double measure() const { return measure_; }
+
   Moments_3 moments() const {
     const Eigen::Vector3d mean = first_ / measure_;
     return {measure_, origin_ + mean, second_ / measure_ - mean * mean.transpose()};

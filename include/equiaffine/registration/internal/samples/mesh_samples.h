@@ -65,16 +65,6 @@ inline std::vector<Edge_of_triangle> sorted_edges(const Triangles_3& mesh) {
   return edges;
 }
 
-/// Whether all edges but one in a thousand have two triangles with the same orientation.
-inline bool bounds_solid(const std::vector<Edge_of_triangle>& edges) {
-  std::size_t doubled = 0;
-  for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
-    while (next < edges.size() && edges[next].ends == edges[i].ends) ++next;
-    if (next - i == 2 && edges[i].is_forward != edges[i + 1].is_forward) doubled += 2;
-  }
-  return 1000 * doubled >= 999 * edges.size();
-}
-
 /// The rms, over the area, of the distance between a smooth surface and triangles that touch it at their vertices: the
 /// width of two triangles times the angle between them, over 8. Edges that bend by 50 degrees or more are edges of the
 /// surface itself.

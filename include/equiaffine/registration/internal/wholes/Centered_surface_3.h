@@ -6,12 +6,14 @@
 #include <equiaffine/registration/internal/samples/Surface_distances.h>
 #include <equiaffine/registration/internal/samples/function_samples.h>
 #include <equiaffine/registration/internal/samples/mesh_samples.h>
+#include <equiaffine/registration/internal/samples/solid_moments.h>
 #include <equiaffine/registration/internal/wholes/corner_symmetries.h>
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -21,15 +23,18 @@
 
 namespace equiaffine::internal {
 
+/// Distances below this are zero, if coordinates have this rounding, both a part of the size.
+inline double exact_distance(double rounding) { return 6 * rounding + 1e-11; }
+
 /// A surface whose symmetries are sought, in coordinates in which its area has centroid 0 and size 1. For affine maps
 /// the solid has, before that, covariance 1, and the area is the one there.
 struct Centered_surface_3 {
   Area_samples_3 samples = {};
   std::unique_ptr<Surface_distances> distances = {};
-  Affine_map_3 map = {};           ///< from the coordinates of the surface to these
-  std::vector<Corner> corners = {};             ///< of a mesh
-  std::vector<Eigen::Vector3d> checked = {};    ///< more points: each vertex and each triangle of a mesh has one
-  double rounding = 1e-12;         ///< of points on the surface
+  Affine_map_3 map = {};                           ///< from the coordinates of the surface to these
+  std::array<std::vector<Corner>, 2> corners = {}; ///< of a mesh, to its rounding and to that of few digits
+  std::vector<Eigen::Vector3d> checked = {};       ///< more points: each vertex and each triangle of a mesh has one
+  double rounding = 1e-12;                         ///< of points on the surface
   bool is_exact = false;           ///< whether points are on a surface up to rounding, as those of a formula
   std::string reason_against = {}; ///< why its symmetries cannot be found, if they cannot
 
@@ -41,8 +46,25 @@ struct Centered_surface_3 {
 
   /// 1 for surfaces as thick as they are wide, less for thin ones, whose distances are to be small beside their
   /// thickness.
-  double thickness() const { return std::min(1.0, std::sqrt(3.0) * extents()[0]); }
+  double thickness() const { return std::min(1.0, 3 * std::sqrt(3.0) * extents()[0]); }
 };
+
+/// Whether a mesh has rigid symmetries to rounding, by its corners. Then it is a solid with these corners, and no sampling
+/// of a smooth surface, which has none.
+template <class ConcurrencyTag>
+bool has_group_of_corners(const Triangles_3& mesh) {
+  const Affine_map_3 map = centering_map(area_moments(mesh));
+  const double rounding = coordinate_rounding(mesh.points) * map.matrix.norm();
+  const Corner_symmetry_search search(corners_of(transformed(mesh, map), rounding), exact_distance(rounding));
+  const auto maps = search.run<ConcurrencyTag>(true);
+  return maps && !maps->empty();
+}
+
+/// The error of coordinates that have been written with four decimals, a part of the size.
+constexpr double rounding_of_few_digits = 5e-5;
+
+/// Holes of a mesh are closed for the moments of its solid if that changes these by less.
+constexpr double greatest_change_by_holes = 0.01;
 
 constexpr std::size_t samples_of_mesh = 24000, samples_of_function = 12000;
 
@@ -71,17 +93,17 @@ inline Centered_surface_3 centered_surface(const Triangles_3& mesh, Map_kind kin
   const auto edges = sorted_edges(mesh);
   Centered_surface_3 result;
   if (!keeps_angles(kind)) {
-    const Moments_3 volume = volume_moments(mesh, area.centroid);
-    if (!bounds_solid(edges) || volume.covariance.llt().info() != Eigen::Success)
-      return surface_without_symmetries("the mesh bounds no solid, by whose moments affine maps are found");
-    result.map = whitening_map(volume);
+    const auto volume = Solid_moments(mesh, edges).moments(area.centroid, greatest_change_by_holes);
+    if (!volume) return surface_without_symmetries("the mesh bounds no solid, by whose moments affine maps are found");
+    result.map = whitening_map(*volume);
   }
   result.map = centering_map(area_moments(transformed(mesh, result.map))) * result.map;
   const Triangles_3 centered = transformed(mesh, result.map);
   result.samples = mesh_samples(centered, edges, samples_of_mesh);
   result.distances = std::make_unique<Mesh_distances>(centered);
   result.rounding = std::max(result.rounding, coordinate_rounding(mesh.points) * result.map.matrix.norm());
-  result.corners = corners_of(centered, result.rounding);
+  result.corners = {corners_of(centered, result.rounding),
+                    corners_of(centered, std::max(result.rounding, rounding_of_few_digits))};
   result.checked = points_of_facets(centered);
   return result;
 }

@@ -32,7 +32,7 @@ struct Symmetry_thresholds {
   /// sought, and a surface turns to within it.
   Symmetry_thresholds(const Centered_surface_3& surface, double tolerance) {
     const double thickness = surface.thickness(), facet_error = surface.samples.facet_error;
-    exact = 6 * surface.rounding + 1e-11;
+    exact = exact_distance(surface.rounding);
     approximate = std::min(approximate, 0.03 * thickness);
     facets = exact + std::min(1.2 * facet_error, approximate);
     turn = tolerance > 0 ? std::max(exact, tolerance) : facets;
@@ -79,7 +79,8 @@ public:
     Centered_symmetries result;
     result.reason = surface_.reason_against;
     if (!result.reason.empty()) return result;
-    if (!surface_.corners.empty()) find_maps_of_corners();
+    find_maps_of_corners(surface_.corners[0], surface_.rounding);
+    find_maps_of_corners(surface_.corners[1], std::max(surface_.rounding, rounding_of_few_digits));
     result.levels = levels();
     const auto rotations = slipping_rotations<ConcurrencyTag>(surface_, kind_);
     if (add_continuous(rotations, result)) return result;
@@ -119,23 +120,22 @@ private:
     return tolerance_ == 0 && !result.levels.empty() && rotations.front().rms < thresholds_.none;
   }
 
-  void find_maps_of_corners() {
-    const Corner_symmetry_search search(surface_.corners, thresholds_.exact);
+  /// Finds all maps that move corners onto each other to within the rounding of their coordinates.
+  void find_maps_of_corners(const std::vector<Corner>& corners, double rounding) {
+    const Corner_symmetry_search search(corners, exact_distance(rounding));
     const auto maps = search.run<ConcurrencyTag>(allows_reflections_);
     if (!maps) return;
-    for (const Affine_map_3& map : *maps) {
-      const auto [mean_square, greatest] = distances_of_moved(surface_, map, fewest_verified / 10);
-      if (greatest < 4 * thresholds_.exact) found_.push_back({map, std::sqrt(mean_square), greatest});
-    }
+    std::vector<Centered_map> found(maps->size());
+    parallel_for<ConcurrencyTag>(0, found.size(), [&](std::size_t i) {
+      const auto [mean_square, greatest] = distances_of_moved(surface_, (*maps)[i], fewest_verified / 10);
+      found[i] = {(*maps)[i], std::sqrt(mean_square), greatest};
+    });
+    std::erase_if(found, [&](const Centered_map& map) { return !(map.greatest < 4 * exact_distance(rounding)); });
+    add(std::move(found));
   }
 
-  void find_maps_of_rotations() {
-    const Rotation_candidates candidates =
-        candidate_rotations<ConcurrencyTag>(surface_, surface_, 1.25 * thresholds_.none, allows_reflections_);
-    complete_to_ = candidates.complete_to;
-    auto [maps, least_left_out] =
-        refined_candidates<ConcurrencyTag>(Centered_pair(surface_), candidates.rotations, 1, kind_, gate());
-    complete_to_ = std::min(complete_to_, least_left_out / 2);
+  /// Adds maps that are not the same as others.
+  void add(std::vector<Centered_map> maps) {
     std::erase_if(maps, [this](const Centered_map& map) {
       const auto is_same = [&](const Centered_map& other) { return difference(map, other) < same_map; };
       return is_same(Centered_map{}) || std::any_of(found_.begin(), found_.end(), is_same);
@@ -143,6 +143,16 @@ private:
     found_.insert(found_.end(), maps.begin(), maps.end());
     std::stable_sort(found_.begin(), found_.end(),
                      [](const Centered_map& a, const Centered_map& b) { return a.rms < b.rms; });
+  }
+
+  void find_maps_of_rotations() {
+    const Rotation_candidates candidates =
+        candidate_rotations<ConcurrencyTag>(surface_, surface_, 1.25 * thresholds_.none, allows_reflections_);
+    complete_to_ = candidates.complete_to;
+    auto [maps, least_left_out] = refined_candidates<ConcurrencyTag>(Centered_pair(surface_), candidates.rotations, 1,
+                                                                     kind_, gate(), tolerance_ > 0);
+    complete_to_ = std::min(complete_to_, least_left_out / 2);
+    add(std::move(maps));
   }
 
   /// Maps that are worse after their refinement are given up.
@@ -248,7 +258,7 @@ private:
     } else if (slipping_rms < thresholds_.approximate && finite_rms > slipping_rms / 3) {
       result.reason = "rotations about an axis move the surface onto itself to within " + percent(slipping_rms) +
                       ", which is more than its facets explain";
-    } else if (best > thresholds_.none && surface_.thickness() < 0.05) {
+    } else if (best > thresholds_.none && surface_.thickness() < 0.15) {
       result.reason = "the surface is so thin that it is near to its images";
     } else if (is_group) {
       result.verdict = Symmetry_verdict::APPROXIMATE;

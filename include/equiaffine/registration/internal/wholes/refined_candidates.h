@@ -33,7 +33,7 @@ inline std::vector<Centered_map> different(std::vector<Centered_map> maps, doubl
 
 /// A map refined by least squares, judged by many points.
 inline Centered_map refined_and_judged(const Centered_pair& surfaces, const Affine_map_3& map, Map_kind kind) {
-  return judged(surfaces, refined(surfaces, map, {kind}), points_of_rms);
+  return judged(surfaces, refined(surfaces, map, {kind, 10, 300}), points_of_rms);
 }
 
 /// Maps that were refined.
@@ -50,11 +50,11 @@ struct Refined_maps {
 };
 
 /// Returns what rotations, times a `scale`, become by refinement, below an rms. A few steps with a few points decide
-/// which of them are worth more.
+/// which of them are worth more, the best few hundreds of them unless all are asked for.
 template <class ConcurrencyTag>
 Refined_maps refined_candidates(const Centered_pair& surfaces, const std::vector<Rotation_candidate>& rotations,
-                                double scale, Map_kind kind, double greatest_rms) {
-  constexpr std::size_t most_after_first = 800, most_after_second = 300;
+                                double scale, Map_kind kind, double greatest_rms, bool are_all_asked_for = false) {
+  constexpr std::size_t most_after_first = 600, most_after_second = 250;
   Refined_maps result;
   auto& maps = result.maps;
   for (const Rotation_candidate& rotation : rotations) maps.push_back({{scale * rotation.matrix}});
@@ -65,9 +65,9 @@ Refined_maps refined_candidates(const Centered_pair& surfaces, const std::vector
     maps = different(std::move(maps), gate);
   };
   refine(3, 40, 2 * greatest_rms);
-  result.keep(most_after_first);
+  if (!are_all_asked_for) result.keep(most_after_first);
   refine(6, 100, greatest_rms);
-  result.keep(most_after_second);
+  if (!are_all_asked_for) result.keep(most_after_second);
   parallel_for<ConcurrencyTag>(0, maps.size(),
                                [&](std::size_t i) { maps[i] = refined_and_judged(surfaces, maps[i].map, kind); });
   maps = different(std::move(maps), greatest_rms);
