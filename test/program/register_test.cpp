@@ -186,7 +186,7 @@ TEST_F(Program_register, a_quadric_has_one_map_of_many_with_generators) {
   EXPECT_EQ(found["slippage"]["generators"][0]["matrix"].size(), 3U);
   EXPECT_EQ(found["slippage"]["generators"][0]["translation"].size(), 3U);
   EXPECT_NE(run(Arguments{"register"} + ellipsoid + Arguments{"to"} + ellipsoid + Arguments{"-o", "m.json"})
-                .out.find("slips over itself in 3 ways"),
+                .out.find("slides over itself in 3 ways"),
             std::string::npos);
 }
 
@@ -450,14 +450,15 @@ TEST_F(Program_register, symmetries_of_a_piece_say_that_the_surface_goes_on) {
   EXPECT_EQ(Json::parse(file("maps.json"))["order_in_box"], 48);
 }
 
-/// A prism over a regular polygon, its upper one turned by a part of the angle of a side.
-std::string prism_mesh(int sides, double part = 0) {
+/// A prism over a regular polygon, its upper one turned by a part of the angle of a side, or its mirror image.
+std::string prism_mesh(int sides, double part = 0, bool is_mirrored = false) {
   std::ostringstream points, faces, top, bottom;
   points.precision(17);
   const double unit = 2 * std::acos(-1.) / sides;
   for (const double z : {0., 1.})
     for (int k = 0; k < sides; ++k)
-      points << std::cos(unit * (k + z * part)) << ' ' << std::sin(unit * (k + z * part)) << ' ' << z << '\n';
+      points << std::cos(unit * (k + z * part)) << ' ' << (is_mirrored ? -1 : 1) * std::sin(unit * (k + z * part))
+             << ' ' << z << '\n';
   for (int k = 0; k < sides; ++k) {
     const int next = (k + 1) % sides;
     faces << "3 " << k << ' ' << next << ' ' << sides + k << "\n3 " << next << ' ' << sides + next << ' ' << sides + k
@@ -474,7 +475,7 @@ TEST_F(Program_register, solids_with_other_numbers_of_sides_are_not_equal) {
   write_file(folder_ / "17.off", prism_mesh(17));
   write_file(folder_ / "18.off", prism_mesh(18));
   write_file(folder_ / "left.off", prism_mesh(17, .3));
-  write_file(folder_ / "right.off", prism_mesh(17, -.3));
+  write_file(folder_ / "right.off", prism_mesh(17, .3, true));
   const Arguments rigid = {"--kind", "rigid"};
   EXPECT_EQ(registered({"17.off"}, {"18.off"}, rigid)["found"], false);
   EXPECT_EQ(registered({"left.off"}, {"right.off"}, rigid + Arguments{"--no-reflection"})["found"], false);

@@ -108,13 +108,13 @@ private:
 
   /// Whether the search for a counterpart leads to the point from most of its neighbors.
   bool is_found_from_neighbors(std::size_t i) const {
-    constexpr std::size_t neighbors = 6, fewest = 5;
+    constexpr std::size_t neighbors = 6, fewest = 4;
     const Eigen::Vector3d& p = surface_.points[i].point;
     std::size_t found = 0;
     for (const auto& [j, distance] : surface_.tree.neighbors(p, neighbors + 1)) {
       if (j == i || surface_.points[j].is_elliptic != surface_.points[i].is_elliptic) continue;
       const Counterpart c = find_counterpart(surface_, surface_, {i, j, 0}, kind_);
-      found += (c.target.point - p).norm() < 1e-6 * surface_.size;
+      found += (c.target.point - p).norm() < 1e-3 * surface_.spacing;
     }
     return found >= fewest;
   }
