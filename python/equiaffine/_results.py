@@ -295,7 +295,7 @@ class Symmetries(_Findings):
     matrices : numpy.ndarray or None
         (k, 4, 4), the identity first; None if it is not decided.
     dimension : int
-        In how many ways the surface slips over itself. If it is not 0, `matrices` has a map of each continuous family.
+        In how many ways the surface slides over itself. If it is not 0 and the order is None, `matrices` has the identity alone.
     summary : str
         What the program says, and why it is not decided.
     report : dict

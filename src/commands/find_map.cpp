@@ -168,10 +168,11 @@ void judge_by_triangles(Found_map& found) {
     map.rms = std::max(map.rms, found_here.rms);
     const bool is_contradicted =
         found_here.are_closed && *std::max_element(parts.begin(), parts.end()) > most_contradictions;
-    const bool is_left_out = is_contradicted || found_here.are_exact_solids;
+    const bool is_left_out = is_contradicted || (found_here.are_closed && found_here.are_exact_solids);
     found.maps_left_out += is_left_out;
     return is_left_out;
   });
+  if (!found.registration.found()) found.registration.equally_good = 0;
 }
 
 /// Leaves out maps between fits at scales by which too few parts agree, and those that do not carry one scale to the

@@ -95,8 +95,11 @@ std::string axis_text(const Affine_slippage_3& slippage, double size) {
     text << ", " << how << " (" << unit[0] << ", " << unit[1] << ", " << unit[2] << ')';
     return text.str();
   };
-  if (dimension == 1)
-    return turns[0].norm() > least * shifts[0].norm() ? text_of("about", turns[0]) : text_of("along", shifts[0]);
+  // A rotation about an axis far away moves the origin at a right angle to the axis.
+  const bool is_turn =
+      turns[0].norm() > least * shifts[0].norm() ||
+      (turns[0].norm() > 0 && std::abs(turns[0].normalized().dot(shifts[0])) < least * shifts[0].norm());
+  if (dimension == 1) return is_turn ? text_of("about", turns[0]) : text_of("along", shifts[0]);
   const Eigen::Vector3d& axis = turns[turns[0].norm() < turns[1].norm() ? 1 : 0];
   const bool is_cylinder = axis.norm() > 0 && turns[0].cross(turns[1]).norm() < least * axis.squaredNorm();
   return is_cylinder ? text_of("along and about", axis) : "";

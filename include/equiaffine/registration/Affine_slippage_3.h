@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The infinitesimal motions along which a surface slips over itself, as a result of searches for maps.
+// The infinitesimal motions along which a surface slides over itself, as a result of searches for maps.
 #ifndef EQUIAFFINE_REGISTRATION_AFFINE_SLIPPAGE_3_H
 #define EQUIAFFINE_REGISTRATION_AFFINE_SLIPPAGE_3_H
 
@@ -16,12 +16,12 @@ struct Infinitesimal_map_3 {
   Eigen::Vector3d translation; ///< the other part
 };
 
-/// The infinitesimal maps along which a surface slips over itself: the Lie algebra of the continuous group of its
+/// The infinitesimal maps along which a surface slides over itself: the Lie algebra of the continuous group of its
 /// symmetries. The generators are a basis, orthonormal in the coordinates in which the points have covariance 1.
 struct Affine_slippage_3 {
   std::vector<Infinitesimal_map_3> generators; ///< a basis
 
-  std::size_t dimension() const { return generators.size(); } ///< of the group; 0 if the surface does not slip
+  std::size_t dimension() const { return generators.size(); } ///< of the group; 0 if the surface does not slide
 };
 
 } // namespace equiaffine

@@ -38,7 +38,7 @@ struct Symmetry_level_3 {
 enum class Symmetry_verdict {
   EXACT,       ///< the first level, or else the continuous group, holds to rounding at every point that was tried
   APPROXIMATE, ///< the first level, or else the continuous group, holds to within its rms, 1 % of the size at most
-  NONE,        ///< no map but the identity moves the surface onto itself to within 1 % of the size
+  NONE,        ///< no map but the identity holds to within 1 % of the size, or to the tolerance for a function
   UNDECIDED    ///< none of these was verified, for the reason given
 };
 

@@ -46,7 +46,7 @@ struct Surface_registration_3 {
   double size = 0;                            ///< of the target: the rms distance of its points from their centroid
   std::size_t equally_good = 0;               ///< how many other maps, at least, fit as well as the first of `maps`
   std::optional<double> next_best_rms;        ///< of the best map that is not the first one of `maps`, if there was one
-  /// How the source slips over itself by maps of the kind. If the dimension is not 0, each of `maps` represents a
+  /// How the source slides over itself by maps of the kind. If the dimension is not 0, each of `maps` represents a
   /// continuous family.
   Affine_slippage_3 slippage;
   std::string reason = {}; ///< why the maps between meshes that were tried are not accepted, if that is known

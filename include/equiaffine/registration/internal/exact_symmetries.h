@@ -3,6 +3,7 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_EXACT_SYMMETRIES_H
 
 #include <equiaffine/registration/Affine_symmetries_3.h>
+#include <equiaffine/registration/internal/Symmetry_request.h>
 #include <equiaffine/registration/internal/declared_searches.h>
 #include <equiaffine/registration/internal/frames/Framed_surface_3.h>
 #include <equiaffine/registration/internal/frames/Symmetry_check.h>
@@ -116,7 +117,7 @@ Affine_symmetries_3<Kernel_of_searches>
 symmetries_by_exact_frames(const Framed_surface_3& surface, const Symmetry_check& check, const Map_request& request) {
   constexpr std::size_t fewest_points = 4, fewest_inner_points = 2;
   constexpr double least_inside = 0.05; // of the images of points, in the box
-  const double tolerance = request.tolerance.value_or(greatest_tolerance_of_frames);
+  const double tolerance = request.tolerance.value_or(default_tolerance);
   Symmetry_search<ConcurrencyTag> search(surface, request.kind, std::max(tolerance, greatest_tolerance_of_frames));
   std::vector<Affine_map_3> maps = search.run();
   if (!request.allows_reflections)

@@ -80,7 +80,7 @@ Registration_of_functions_3 registration_of_framed(const Framed_surface_3& sourc
   if (result.slippage.dimension() == 0) search.find_equally_good();
   result.hypotheses = search.hypotheses();
   const auto accepted = search.accepted();
-  result.equally_good = search.equally_good();
+  if (result.slippage.dimension() == 0) result.equally_good = search.equally_good();
   for (std::size_t n = 0; n < std::min(accepted.size(), request.number_of_maps); ++n)
     result.maps.push_back(registered_map(accepted[n]));
   const std::size_t next = result.found() ? 1 : 0;

@@ -18,11 +18,12 @@ namespace equiaffine::internal {
 template <class ConcurrencyTag>
 Surface_registration_3<Kernel_of_searches>
 registration_of_triangles(const Triangles_3& source, const Triangles_3& target, const Registration_request& request) {
-  // Facets of solids with corners are their faces, and explain no distance.
   check_argument(!source.triangles.empty(), "a mesh to be registered has no faces: give faces of the source");
   check_argument(!target.triangles.empty(), "a mesh to register with has no faces: give faces of the target");
   Centered_surface_3 from = centered_surface(source, request.kind), to = centered_surface(target, request.kind);
-  const bool are_solids = has_group_of_corners<ConcurrencyTag>(source) && has_group_of_corners<ConcurrencyTag>(target);
+  // Facets of solids with corners are their faces, and explain no distance.
+  const bool are_solids = has_group_of_corners<ConcurrencyTag>(source, coordinate_rounding(source.points)) &&
+                          has_group_of_corners<ConcurrencyTag>(target, coordinate_rounding(target.points));
   if (are_solids) from.samples.facet_error = to.samples.facet_error = 0;
   Shape_matches wholes = register_wholes<ConcurrencyTag>(from, to, request);
   if (!wholes.maps.empty()) return to_CGAL(std::move(wholes), request);

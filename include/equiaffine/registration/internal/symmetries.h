@@ -98,7 +98,7 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_by_frames(const Framed_surfac
 inline void check_by_rotations(const Affine_symmetries_3<Kernel_of_searches>& all,
                                Affine_symmetries_3<Kernel_of_searches>& by_frames) {
   by_frames.complete_to = all.complete_to;
-  if (!all.is_decided || all.maps.size() == by_frames.maps.size()) return;
+  if (!all.is_decided || !all.complete_to || all.maps.size() == by_frames.maps.size()) return;
   by_frames.is_decided = false;
   by_frames.verdict = Symmetry_verdict::UNDECIDED;
   by_frames.reason = "frames of curvature give " + std::to_string(by_frames.maps.size()) +

@@ -146,7 +146,7 @@ inline void build_trees(Framed_surface_3& surface, Map_kind kind) {
         Point_tree<5>(surface.usable[k], [&](std::size_t i) { return kept_invariants(surface.points[i], kind); });
 }
 
-/// Moves points along a surface by random steps, and drops those that leave its domain. Points on the nodes or edges of
+/// Moves points along a surface by random steps, unless these leave its domain. Points on the nodes or edges of
 /// a lattice may lie on curves: where another surface meets this one in such a curve, many of them would be on it.
 template <class ConcurrencyTag>
 std::vector<Eigen::Vector3d> spread_over_surface(const Framed_function_3& surface, std::vector<Eigen::Vector3d> points,
@@ -155,7 +155,8 @@ std::vector<Eigen::Vector3d> spread_over_surface(const Framed_function_3& surfac
   std::minstd_rand random(4);
   const auto uniform = [&] { return 2 * double(random()) / double(random.max()) - 1; };
   for (Eigen::Vector3d& p : points) {
-    const Eigen::Vector3d step(uniform(), uniform(), uniform());
+    Eigen::Vector3d step;
+    for (double& coordinate : step) coordinate = uniform();
     const Eigen::Vector3d normal = surface.distance(p).normal;
     const Eigen::Vector3d moved = p + longest_step * (step - step.dot(normal) * normal);
     if (std::isfinite(surface.first_order(moved).value())) p = moved;

@@ -89,19 +89,19 @@ public:
     const std::size_t hypotheses = hypotheses_;
     for (const Counterpart& c : found)
       if (c.cost < 1) try_counterpart(c);
-    hypotheses_ = hypotheses; // by which the best map was found
+    hypotheses_ = hypotheses; // of the search for a map
   }
 
   /// The number of maps beside the best that move as many points onto the other surface, as near.
   std::size_t equally_good() const {
-    constexpr double part = 0.98, factor = 3;
+    constexpr double part = 0.98, factor = 3, same = 0.02;
     const auto maps = accepted();
     if (maps.empty()) return 0;
     const Map_evidence& best = maps.front().evidence;
     return std::size_t(std::count_if(maps.begin() + 1, maps.end(), [&](const Judged_map& m) {
       const double limit = factor * best.rms + thresholds_.rounding * target_.size;
       return m.evidence.rms <= limit && m.evidence.inliers[0] >= part * best.inliers[0] &&
-             m.evidence.inliers[1] >= part * best.inliers[1];
+             m.evidence.inliers[1] >= part * best.inliers[1] && difference_of(m.map, maps.front().map) > same;
     }));
   }
 

@@ -99,12 +99,13 @@ private:
     return p;
   }
 
-  /// Whether there is a zero within a distance along the gradient, or along an axis where there is no gradient.
+  /// Whether there is a zero within a distance along an axis, which needs no gradient.
   bool changes_sign(const Eigen::Vector3d& p, double distance) const {
     const auto value = [&](const Eigen::Vector3d& q) { return function_.first_order(in_box(q)).value(); };
     for (int a = 0; a < 3; ++a) {
       const Eigen::Vector3d step = distance * Eigen::Vector3d::Unit(a);
-      if (value(p - step) * value(p + step) <= 0) return true;
+      const double before = value(p - step), after = value(p + step);
+      if ((before <= 0 && after >= 0) || (before >= 0 && after <= 0)) return true;
     }
     return false;
   }

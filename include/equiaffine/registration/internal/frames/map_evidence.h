@@ -102,9 +102,10 @@ inline Map_evidence evidence_of_distances(const std::vector<Mapped_point>& moved
   const double more = std::log10(2 * most_tolerances * how.tests);
   evidence.log10_false_alarms = std::min(0.0, evidence.log10_false_alarms + more);
   evidence.log10_by_volume = std::min(0.0, evidence.log10_by_volume + more);
+  constexpr double rounding = 2e-6; // of coordinates with six digits: points that are nearer lie on the other surface
   double sum = 0, count = 0;
   for (std::size_t way = 0; way < 2; ++way) {
-    const double hits = sorted[way].within(evidence.tolerance);
+    const double hits = sorted[way].within(std::max(evidence.tolerance, rounding));
     evidence.inliers[way] = sorted[way].probes > 0 ? hits / double(sorted[way].probes) : 0;
     for (std::size_t i = 0; i < std::size_t(hits); ++i) sum += sorted[way].distances[i] * sorted[way].distances[i];
     count += hits;

@@ -31,11 +31,12 @@ Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 
   if (source.triangles.empty() || target.triangles.empty()) return result;
   const Moments_3 area = area_moments(target);
   if (!(area.measure > 0) || !(area_moments(source).measure > 0)) return result;
+  const double rounding = coordinate_rounding(target.points); // of the source, too, which a map has moved
+  result.are_exact_solids =
+      has_group_of_corners<ConcurrencyTag>(source, rounding) && has_group_of_corners<ConcurrencyTag>(target, rounding);
   const Affine_map_3 map = centering_map(area);
   source = transformed(std::move(source), map);
   target = transformed(std::move(target), map);
-  result.are_exact_solids =
-      has_group_of_corners<ConcurrencyTag>(source) && has_group_of_corners<ConcurrencyTag>(target);
   const auto edges = sorted_edges(target);
   const double error = std::max(facet_error(source, sorted_edges(source)), facet_error(target, edges));
   const double touching = std::max(distance / area.size(), tolerance_of_contact(error, {}));

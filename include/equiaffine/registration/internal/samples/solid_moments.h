@@ -103,13 +103,18 @@ private:
   /// Adds a fan from the centroid of each connected border of a component to its edges.
   void add_fans(std::vector<Moment_sums_3>& parts) const {
     std::map<std::array<std::uint32_t, 3>, int> excess; // of a directed edge of a component over the reverse one
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (is_degenerate(t)) continue;
-      const auto corners = oriented(t);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto a = corners[k], b = corners[(k + 1) % 3];
-        excess[{component_[t], std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
-      }
+    const auto is_forward = [&](const Edge_of_triangle& e) { return e.is_forward != is_turned_[e.triangle]; };
+    for (std::size_t i = 0, next = 0; i < edges_.size(); i = next) {
+      while (next < edges_.size() && edges_[next].ends == edges_[i].ends) ++next;
+      const Edge_of_triangle &e = edges_[i], &f = edges_[next - 1];
+      const bool is_matched = next - i == 2 && component_[e.triangle] == component_[f.triangle] &&
+                              is_forward(e) != is_forward(f) && !is_degenerate(e.triangle) &&
+                              !is_degenerate(f.triangle);
+      if (is_matched) continue;
+      for (std::size_t k = i; k < next; ++k)
+        if (!is_degenerate(edges_[k].triangle))
+          excess[{component_[edges_[k].triangle], edges_[k].ends[0], edges_[k].ends[1]}] +=
+              is_forward(edges_[k]) ? 1 : -1;
     }
     Disjoint_sets<std::uint32_t> loops(mesh_.points.size());
     for (const auto& [edge, count] : excess)

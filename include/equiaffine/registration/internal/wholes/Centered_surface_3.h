@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,13 +50,17 @@ struct Centered_surface_3 {
   double thickness() const { return std::min(1.0, 3 * std::sqrt(3.0) * extents()[0]); }
 };
 
-/// Whether a mesh has rigid symmetries to rounding, by its corners. Then it is a solid with these corners, and no sampling
-/// of a smooth surface, which has none.
+/// Whether a mesh, whose coordinates have a rounding error, has rigid symmetries to rounding by its corners. Then it is a
+/// solid with these corners: a scan has no such symmetries, and the corners of a fine sampling of a smooth surface are
+/// flatter.
 template <class ConcurrencyTag>
-bool has_group_of_corners(const Triangles_3& mesh) {
+bool has_group_of_corners(const Triangles_3& mesh, double rounding) {
+  constexpr double least_defect = 0.05; // a prism with 100 sides has .063
   const Affine_map_3 map = centering_map(area_moments(mesh));
-  const double rounding = coordinate_rounding(mesh.points) * map.matrix.norm();
-  const Corner_symmetry_search search(corners_of(transformed(mesh, map), rounding), exact_distance(rounding));
+  rounding *= map.matrix.norm();
+  std::vector<Corner> corners = corners_of(transformed(mesh, map), sorted_edges(mesh), rounding);
+  std::erase_if(corners, [](const Corner& c) { return std::abs(c.angle - 2 * std::numbers::pi) < least_defect; });
+  const Corner_symmetry_search search(std::move(corners), exact_distance(rounding));
   const auto maps = search.run<ConcurrencyTag>(true);
   return maps && !maps->empty();
 }
@@ -102,8 +107,8 @@ inline Centered_surface_3 centered_surface(const Triangles_3& mesh, Map_kind kin
   result.samples = mesh_samples(centered, edges, samples_of_mesh);
   result.distances = std::make_unique<Mesh_distances>(centered);
   result.rounding = std::max(result.rounding, coordinate_rounding(mesh.points) * result.map.matrix.norm());
-  result.corners = {corners_of(centered, result.rounding),
-                    corners_of(centered, std::max(result.rounding, rounding_of_few_digits))};
+  result.corners = {corners_of(centered, edges, result.rounding),
+                    corners_of(centered, edges, std::max(result.rounding, rounding_of_few_digits))};
   result.checked = points_of_facets(centered);
   return result;
 }

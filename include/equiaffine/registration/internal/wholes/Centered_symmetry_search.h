@@ -84,10 +84,12 @@ public:
     result.levels = levels();
     const auto rotations = slipping_rotations<ConcurrencyTag>(surface_, kind_);
     if (add_continuous(rotations, result)) return result;
-    if (!turns_about(rotations, result)) find_maps_of_rotations();
+    if (!turns_about(rotations, result)) {
+      find_maps_of_rotations();
+      result.levels = levels();
+    }
     result.complete_to = complete_to_;
     result.least_rms = std::min(thresholds_.none, found_rms());
-    result.levels = levels();
     decide(rotations.front().rms, result);
     return result;
   }
@@ -107,9 +109,10 @@ private:
     const std::size_t dimension = result.continuous.dimension();
     if (dimension == 0) return false;
     result.continuous_rms = rotations[dimension - 1].rms;
-    const bool is_group = !result.levels.empty() && result.levels.front().greatest <= thresholds_.exact;
-    const bool is_exact = is_group || result.continuous_rms < thresholds_.exact;
-    if (result.continuous_rms < thresholds_.exact || tolerance_ > 0) result.levels.clear();
+    const bool turns_exactly = result.continuous_rms < thresholds_.exact;
+    if (turns_exactly || tolerance_ > 0) result.levels.clear();
+    const bool is_exact =
+        turns_exactly || (!result.levels.empty() && result.levels.front().greatest <= thresholds_.exact);
     result.verdict = is_exact ? Symmetry_verdict::EXACT : Symmetry_verdict::APPROXIMATE;
     return true;
   }
@@ -136,6 +139,7 @@ private:
 
   /// Adds maps that are not the same as others.
   void add(std::vector<Centered_map> maps) {
+    maps = different(std::move(maps), std::numeric_limits<double>::infinity());
     std::erase_if(maps, [this](const Centered_map& map) {
       const auto is_same = [&](const Centered_map& other) { return difference(map, other) < same_map; };
       return is_same(Centered_map{}) || std::any_of(found_.begin(), found_.end(), is_same);
@@ -257,7 +261,7 @@ private:
       result.verdict = Symmetry_verdict::APPROXIMATE;
     } else if (slipping_rms < thresholds_.approximate && finite_rms > slipping_rms / 3) {
       result.reason = "rotations about an axis move the surface onto itself to within " + percent(slipping_rms) +
-                      ", which is more than its facets explain";
+                      ", and no group of fewer maps holds much better";
     } else if (best > thresholds_.none && surface_.thickness() < 0.15) {
       result.reason = "the surface is so thin that it is near to its images";
     } else if (is_group) {

@@ -6,6 +6,7 @@
 #include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/registration/internal/Affine_map_3.h>
 #include <equiaffine/registration/internal/samples/Triangles_3.h>
+#include <equiaffine/registration/internal/samples/mesh_samples.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -30,8 +31,9 @@ struct Corner {
   double error; ///< of the angle, by the rounding of coordinates
 };
 
-/// The corners of a mesh whose coordinates have a rounding error.
-inline std::vector<Corner> corners_of(const Triangles_3& mesh, double rounding) {
+/// The corners of a mesh with these sorted edges, whose coordinates have a rounding error.
+inline std::vector<Corner> corners_of(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges,
+                                      double rounding) {
   constexpr double least_difference = 1e-3, greatest_error = 0.1;
   std::vector<double> angles(mesh.points.size()), errors(mesh.points.size());
   for (const auto& triangle : mesh.triangles)
@@ -41,10 +43,15 @@ inline std::vector<Corner> corners_of(const Triangles_3& mesh, double rounding) 
       angles[triangle[k]] += std::atan2(a.cross(b).norm(), a.dot(b));
       errors[triangle[k]] += 2 * rounding * (1 / a.norm() + 1 / b.norm());
     }
+  std::vector<bool> is_on_border(mesh.points.size());
+  for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
+    while (next < edges.size() && edges[next].ends == edges[i].ends) ++next;
+    if (next - i == 1) is_on_border[edges[i].ends[0]] = is_on_border[edges[i].ends[1]] = true;
+  }
   std::vector<Corner> corners;
   for (std::size_t v = 0; v < angles.size(); ++v) {
-    const double defect = std::abs(std::remainder(angles[v], std::numbers::pi)); // from 0, pi or 2 pi
-    if (angles[v] < 2.5 * std::numbers::pi && !(defect > least_difference + errors[v])) continue;
+    const double flat = is_on_border[v] ? std::numbers::pi : 2 * std::numbers::pi;
+    if (!(angles[v] > 0 && std::abs(angles[v] - flat) > least_difference + errors[v])) continue;
     if (errors[v] < greatest_error) corners.push_back({mesh.points[v], angles[v], errors[v] + 1e-9});
   }
   return corners;
