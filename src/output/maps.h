@@ -64,7 +64,7 @@ std::string determinants_text(const Symmetries& symmetries);
 /// "6 exactly, 48 to within 2.9 % of the size"
 std::string levels_text(const Symmetries& symmetries);
 
-/// What else is known of the symmetries, and where that ends: a sentence each.
+/// Returns a sentence for each thing that limits what is known of the symmetries.
 std::vector<std::string> limits_of(const Symmetries& symmetries);
 
 /// One object, see the section on maps of doc/program.md.

@@ -167,7 +167,7 @@ inline std::vector<Eigen::Vector3d> filled_up(std::vector<Eigen::Vector3d> point
   return points;
 }
 
-/// By exact frames at some points, and at many where curvatures vary too fast between these.
+/// Matches exact frames at some points, and at five times as many if curvatures vary too fast between these.
 template <class ConcurrencyTag>
 Affine_symmetries_3<Kernel_of_searches>
 symmetries_by_exact_frames(const Framed_function_3& function, const std::vector<Eigen::Vector3d>& points,

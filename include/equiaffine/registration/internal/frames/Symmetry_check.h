@@ -19,7 +19,7 @@
 
 namespace equiaffine::internal {
 
-/// What the images of many points say of a map.
+/// How far a map moves points of a surface off it.
 struct Checked_map {
   double rms = 0, greatest = 0; ///< distances of images in the box from the surface, in the unit of space
   double inside = 0;            ///< the part of the images that is in the box
@@ -110,7 +110,7 @@ private:
     return false;
   }
 
-  /// By how much rounding disturbs the distance at a point of the surface.
+  /// Bounds the rounding error of the distance at a point of the surface.
   double error_at(const Eigen::Vector3d& p) const {
     constexpr double factor = 32;
     const auto [distance, normal] = function_.distance(p);

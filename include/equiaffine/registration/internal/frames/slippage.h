@@ -21,10 +21,10 @@ namespace equiaffine::internal {
 /// roundings, and those of an ellipsoid that is disturbed by a part of 1e-4 are 1e-5.
 constexpr double slippage_tolerance = 1e-8;
 
-/// Those of a formula that slips, and of a fit, whose normals have errors.
+/// The thresholds for formulas, whose values are roundings, and for fits, whose normals have errors.
 constexpr double exact_slippage = 3e-13, slippage_of_fits = 0.01;
 
-/// A Lie algebra of maps along which a surface slips to within an rms, the part of their velocity that is not tangent.
+/// A Lie algebra of maps along which a surface slides, and the rms of the part of their velocity that is not tangent.
 struct Slippage {
   Affine_slippage_3 algebra;
   double rms = 0;
