@@ -68,6 +68,8 @@ Source make_given_source(Source_options& options, const Given& given, Progress& 
 py::object mesh(const Words& words, const Given& given, const py::object& progress_function) {
   return run<Mesh_options>(words, progress_function, [&](Mesh_options& options, Progress& progress) {
     check_memory(options);
+    if (std::holds_alternative<Volume_array>(given))
+      options.source.estimates_errors = has_affine_curvatures(options.attributes, options.estimates);
     const auto* const delaunay = std::get_if<Delaunay_options>(&options.method);
     const Source source = make_given_source(options.source, given, progress, delaunay ? delaunay->radius : 0);
     auto surface = std::make_shared<Annotated_surface>(surface_of(source, options, progress));

@@ -51,6 +51,12 @@ public:
     else return expand<4, FT>(function_, p.x(), p.y(), p.z());
   }
 
+  /// The expansion of order 5, by automatic differentiation.
+  Jet_3<FT, 5> fifth_order(const Point_3& p) const {
+    using Jet = Jet_3<FT, 5>;
+    return function_(Jet::variable(0, p.x()), Jet::variable(1, p.y()), Jet::variable(2, p.z()));
+  }
+
   /// values[i] becomes value(points[i]), by f(x, y, z, values) on spans if the function has that.
   void values(std::span<const Point_3> points, std::span<FT> values) const {
     internal::values_at<FT>(function_, points, values);

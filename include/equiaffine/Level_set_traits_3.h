@@ -45,6 +45,11 @@ public:
   }
   /// The expansion of order 4, from that of the base.
   Jet_3<FT> taylor(const Point_3& p) const { return shifted(base_.taylor(p)); }
+  /// The expansion of order 5, from that of the base, if the base has one.
+  std::optional<Jet_3<FT, 5>> fifth_order(const Point_3& p) const requires HasFifthOrder<Base> {
+    const std::optional<Jet_3<FT, 5>> jet = base_.fifth_order(p);
+    return jet ? std::optional(shifted(*jet)) : std::nullopt;
+  }
   /// values[i] becomes value(points[i]).
   void values(std::span<const Point_3> points,
               std::span<FT> values) const requires BatchImplicitFunctionTraits_3<Base> {

@@ -59,7 +59,9 @@ public:
   FT value(const Point_3& p) const { return spline_->value(p); }
   /// Value and gradient of the spline.
   Jet_3<FT, 1> first_order(const Point_3& p) const { return spline_->template taylor<1>(p); }
-  Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); }         ///< the expansion of the spline
+  Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); } ///< the expansion of the spline
+  /// The expansion of the spline of order 5, which has jumps between cells if the degree is 5.
+  Jet_3<FT, 5> fifth_order(const Point_3& p) const { return spline_->template taylor<5>(p); }
   Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); } ///< see Spline_function_3::bounds()
   /// See Spline_function_3::first_order_bounds().
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return spline_->first_order_bounds(box); }

@@ -48,6 +48,11 @@ public:
   }
   /// The expansion of order 4, from that of the base at the preimage.
   Jet_3<FT> taylor(const Point_3& p) const { return substituted(base_.taylor(preimage(p))); }
+  /// The expansion of order 5, from that of the base at the preimage, if the base has one.
+  std::optional<Jet_3<FT, 5>> fifth_order(const Point_3& p) const requires HasFifthOrder<Base> {
+    const std::optional<Jet_3<FT, 5>> jet = base_.fifth_order(preimage(p));
+    return jet ? std::optional(substituted(*jet)) : std::nullopt;
+  }
 
   /// values[i] becomes value(points[i]).
   void values(std::span<const Point_3> points,
@@ -186,7 +191,7 @@ private:
 
     Aff_transformation_3 map, inverse;
     bool is_identity;
-    Linear_substitution_3<FT> substitution;
+    Linear_substitution_3<FT, 5> substitution;
     Linear_substitution_3<Interval> substitution_of_bounds;
   };
 

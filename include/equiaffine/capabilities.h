@@ -19,6 +19,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace equiaffine {
@@ -51,6 +52,13 @@ struct Known_bounds {
 template <class Traits>
 concept HasKnownBounds = requires(const Traits& traits) {
   { traits.known_bounds() } -> std::same_as<Known_bounds>;
+};
+
+/// A model has the derivatives of order 5, too, which the gradients of affine curvatures need.
+/// See \ref concept_capabilities.
+template <class Traits>
+concept HasFifthOrder = requires(const Traits& traits, const typename Traits::Point_3& p) {
+  { traits.fifth_order(p) } -> std::convertible_to<std::optional<Jet_3<typename Traits::FT, 5>>>;
 };
 
 /// A model tells how large the errors of its second derivatives are, because these are larger than roundings of the
@@ -97,6 +105,13 @@ Jet_3<typename Traits::FT, 1> first_order(const Traits& traits, const typename T
     for (std::size_t n = 0; n < 4; ++n) result.coefficients()[n] = jet.coefficients()[n];
     return result;
   }
+}
+
+/// The expansion of order 5 at a point, if the model has that.
+template <ImplicitFunctionTraits_3 Traits>
+std::optional<Jet_3<typename Traits::FT, 5>> fifth_order(const Traits& traits, const typename Traits::Point_3& p) {
+  if constexpr (HasFifthOrder<Traits>) return traits.fifth_order(p);
+  else return std::nullopt;
 }
 
 /// The lattice of the given size on which to sample a function: the one that the model chooses, or the axis-parallel

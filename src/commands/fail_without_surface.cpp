@@ -8,11 +8,14 @@
 #include <equiaffine/capabilities.h>
 #include <equiaffine/function/sample_on_lattice.h>
 #include <equiaffine/marching_cubes.h>
+#include <equiaffine/surface/Any_function_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/tags.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <sstream>
@@ -48,6 +51,64 @@ std::pair<double, double> range_on_grid(const Traits& function) {
     add(sample_on_lattice<CGAL::Parallel_if_available_tag>(function, sampling_lattice(function, {33, 33, 33})).values);
   }
   return {least, greatest};
+}
+
+/// |f|, or infinity where f is undefined.
+double size_at(const Any_function_3& f, const Kernel::Point_3& p) {
+  const double size = std::abs(f.value(p));
+  return std::isnan(size) ? std::numeric_limits<double>::infinity() : size;
+}
+
+/// A place near p where |f| is least: a search in steps along the axes that become shorter, within the box of f.
+Kernel::Point_3 least_near(const Any_function_3& f, Kernel::Point_3 p) {
+  constexpr double first_step = 1. / 32, shortest_step = 1e-12; // in sides of the box
+  const CGAL::Bbox_3 box = f.bbox();
+  double least = size_at(f, p);
+  for (double step = first_step; step > shortest_step && least > 0;) {
+    const double before = least;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double sign : {-1., 1.}) {
+        std::array<double, 3> q = {p.x(), p.y(), p.z()};
+        q[std::size_t(axis)] += sign * step * (box.max(axis) - box.min(axis));
+        const Kernel::Point_3 moved(q[0], q[1], q[2]);
+        if (!CGAL::do_overlap(box, moved.bbox())) continue;
+        if (const double size = size_at(f, moved); size < least) least = size, p = moved;
+      }
+    if (least == before) step /= 2;
+  }
+  return p;
+}
+
+/// What is said of zeros beside which f is of one sign: nothing if f has both signs at the nodes of a grid, or no zero
+/// to within rounding was found from the nodes where |f| is least.
+std::string zeros_without_change_of_sign(const Any_function_3& f) {
+  constexpr std::size_t starts = 20;
+  constexpr double rounding = 1e-14;
+  const auto grid = sample_on_lattice<CGAL::Parallel_if_available_tag>(f, sampling_lattice(f, {33, 33, 33}));
+  const auto& values = grid.values;
+  std::vector<std::size_t> nodes;
+  for (std::size_t n = 0; n < values.size(); ++n)
+    if (std::isfinite(values[n])) nodes.push_back(n);
+  if (nodes.empty()) return {};
+  const auto by_value = [&](std::size_t m, std::size_t n) { return values[m] < values[n]; };
+  const auto [least, greatest] = std::minmax_element(nodes.begin(), nodes.end(), by_value);
+  if (values[*least] < 0 && values[*greatest] > 0) return {};
+  const double size = std::max(-values[*least], values[*greatest]);
+  if (size == 0) return "f is that at all nodes of a grid";
+  const auto last = nodes.begin() + std::ptrdiff_t(std::min(starts, nodes.size()));
+  std::partial_sort(nodes.begin(), last, nodes.end(),
+                    [&](std::size_t m, std::size_t n) { return std::abs(values[m]) < std::abs(values[n]); });
+  const auto [nx, ny, nz] = grid.lattice.size();
+  for (auto node = nodes.begin(); node != last; ++node) {
+    const std::size_t row = *node / nx;
+    const auto p = least_near(f, grid.lattice.point(double(*node % nx), double(row % ny), double(row / ny)));
+    if (size_at(f, p) > rounding * size) continue;
+    std::ostringstream text;
+    text.precision(3);
+    text << "f has zeros without a change of sign, as near " << p;
+    return text.str();
+  }
+  return {};
 }
 
 /// Throws the error that says why a fit has no surface, and what to choose instead: it has one beside the data only.
@@ -95,22 +156,26 @@ void fail_without_surface(const Source_function& function, const Source_options&
   if (const auto* const fit = std::get_if<Fit_function>(&function))
     fail_without_surface_of_fit(fit->base(), source, isovalue, search);
   const auto [least, greatest] = std::visit([](const auto& f) { return range_on_grid(f); }, function);
-  const bool is_defined = least <= greatest;
-  std::ostringstream surface, reason;
-  surface << "surface f = " << isovalue;
-  reason << " in the " << search.place << ": at the nodes of a grid f ";
-  if (is_defined) reason << "lies between " << least << " and " << greatest;
-  else reason << "is undefined";
-  if (source.narrow_band) reason << " in the band of --narrow-band " << *source.narrow_band;
-  if (search.met_poles) reason << ", and changes its sign at poles or jumps only";
-  reason << "; choose ";
-  const bool may_help = !search.refinement.empty() && !search.met_poles;
-  if (may_help && least < isovalue && greatest > isovalue)
-    throw Input_error("no part of the " + surface.str() + " was found" + reason.str() + search.refinement);
-  if (source.narrow_band) reason << "a wider band, another --isovalue or box";
-  else if (is_defined && may_help) reason << "another --isovalue or box, or " << search.refinement;
-  else reason << "another --isovalue or box";
-  throw Input_error("no " + surface.str() + reason.str());
+  const bool is_defined = least <= greatest, has_both_signs = least < isovalue && greatest > isovalue;
+  const Any_function_3 level_set = any_level_set(function, isovalue);
+  const bool is_proved = search.is_certified || !level_set.bounds(level_set.bbox()).contains(0);
+  const std::string zeros = is_proved ? std::string() : zeros_without_change_of_sign(level_set);
+  const bool may_help = !search.refinement.empty() && !search.met_poles && !is_proved && zeros.empty();
+  std::ostringstream text;
+  text << (is_proved ? "no surface f = " : "no part of the surface f = ") << isovalue << (is_proved ? "" : " was found")
+       << " in the " << search.place << ": ";
+  if (!zeros.empty()) text << zeros;
+  else if (is_defined) text << "at the nodes of a grid f lies between " << least << " and " << greatest;
+  else text << "at the nodes of a grid f is undefined";
+  if (source.narrow_band) text << " in the band of --narrow-band " << *source.narrow_band;
+  if (search.met_poles) text << ", and changes its sign at poles or jumps only";
+  text << "; choose ";
+  if (!zeros.empty()) text << "another --isovalue, or a function that changes its sign there";
+  else if (may_help && has_both_signs) text << search.refinement;
+  else
+    text << (source.narrow_band ? "a wider band, " : "") << "another --isovalue or box"
+         << (may_help ? ", or " + search.refinement : "");
+  throw Input_error(text.str());
 }
 
 } // namespace equiaffine

@@ -11,9 +11,10 @@ namespace equiaffine {
 
 /// What is known of a search for a surface that found none.
 struct Vain_search {
-  std::string place;      ///< where it was looked for, "box" or "ball"
-  std::string refinement; ///< what may find more of the surface, such as "a smaller --radius"; empty if nothing can
-  bool met_poles;         ///< whether f changes its sign at poles or jumps only
+  std::string place;         ///< where it was looked for, "box" or "ball"
+  std::string refinement;    ///< what may find more of the surface, such as "a smaller --radius"; empty if nothing can
+  bool met_poles;            ///< whether f changes its sign at poles or jumps only
+  bool is_certified = false; ///< whether it is proved that there is none
 };
 
 /// Whether f - isovalue changes its sign between the nodes of a grid at poles and jumps, and nowhere else.

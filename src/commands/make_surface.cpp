@@ -74,7 +74,7 @@ Annotated_surface sample(const Source_function& function, const Mesh_options& op
   if (mesh.triangles.empty())
     fail_without_surface(function, options.source, options.isovalue,
                          {method.clips_to_ball ? "ball" : "box", mesh.is_certified ? "" : "a smaller --radius",
-                          changes_sign_at_poles_only(function, options.isovalue)});
+                          changes_sign_at_poles_only(function, options.isovalue), mesh.is_certified});
   Annotated_surface surface;
   surface.completeness = {mesh.is_certified, std::move(mesh.undecided_boxes)};
   if (options.curves) surface.curves = std::move(mesh.parabolic_curves);

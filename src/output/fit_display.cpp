@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char *scale_label = "Scale", *own_scale = "none: the curvatures are the surface's own",
                      *noise_label = "Noise", *parabolic_label = "Parabolic",
-                     *known_label = "Vertices known to 20 / 50 %", *errors_label = "Errors";
+                     *known_label = "Known to 20 / 50 % at so many %", *errors_label = "Errors";
 constexpr std::array<std::string_view, 4> labels = {scale_label, noise_label, parabolic_label, known_label};
 constexpr std::size_t longest_value = 200;
 constexpr std::string_view begin_of_comment = "fit ", end_of_label = ": ";
@@ -32,7 +32,7 @@ Description description_of(const Fit_statistics& fit) {
                       {noise_label, number_text(fit.noise, 2)}};
   if (const auto percent = std::lround(100 * fit.parabolic); percent > 0)
     rows.emplace_back(parabolic_label, std::to_string(percent) + " % of the vertices");
-  rows.emplace_back(known_label, table_of_known(fit) + " %");
+  rows.emplace_back(known_label, table_of_known(fit));
   return rows;
 }
 

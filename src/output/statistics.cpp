@@ -53,7 +53,10 @@ void add(const Fit_statistics& fit, Json& json) {
   for (std::size_t row = 0; row < fit.known.size(); ++row) {
     const auto& [to_10, to_20, to_50] = fit.known[row];
     json["fit"]["known"][std::string(error_table<double>[row].attribute)] = {
-        {"below_10", to_10}, {"below_20", to_20}, {"below_50", to_50}};
+        {"below_10", to_10},
+        {"below_20", to_20},
+        {"below_50", to_50},
+        {"part_of", error_table<double>[row].name_of_size}};
   }
 }
 

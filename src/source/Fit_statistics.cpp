@@ -73,6 +73,7 @@ std::string table_of_known(const Fit_statistics& fit) {
     text << (text.str().empty() ? "" : ", ") << symbol << ' ' << std::lround(100 * to_20) << " / "
          << std::lround(100 * to_50);
   }
+  text << "; K as a part of |K| + H^2, H of its root";
   return text.str();
 }
 

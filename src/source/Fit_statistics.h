@@ -44,7 +44,8 @@ struct Known_quantity {
 /// or else K.
 Known_quantity first_known(const Fit_statistics& fit);
 
-/// "K 64 / 89, H 54 / 81, ...": at how many percent of the points each is known to 20 and to 50 %.
+/// "K 64 / 89, H 54 / 81, ...": at how many percent of the points each is known to 20 and to 50 %, and
+/// of what these are parts.
 std::string table_of_known(const Fit_statistics& fit);
 
 Fit_statistics statistics_of(std::span<const Fitted_structure_3<double>> structures);

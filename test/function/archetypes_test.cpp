@@ -59,7 +59,7 @@ static_assert(BatchImplicitFunctionTraits_3<Batch> && !FirstOrderBatchImplicitFu
 static_assert(FirstOrderBatchImplicitFunctionTraits_3<First_order_batch> && PackImplicitFunctionTraits_3<Packs>);
 static_assert(LatticeImplicitFunctionTraits_3<On_lattice>);
 static_assert(HasSamplingLattice<Capable> && HasTightFirstOrderBounds<Capable> && HasKnownBounds<Capable> &&
-              HasRounding<Capable> && HasCertainty<Capable> && HasIntersectSegment<Capable>);
+              HasFifthOrder<Capable> && HasRounding<Capable> && HasCertainty<Capable> && HasIntersectSegment<Capable>);
 
 /// Expects a mesh of the unit sphere, whose vertices are on it.
 template <class Surface>
@@ -136,6 +136,8 @@ void expect_members(const Traits& traits, double slope) {
   EXPECT_EQ(rounding(traits, points[0]) > 0, HasRounding<Base>);
   EXPECT_EQ(certainty(traits, points[0]) < 1, HasCertainty<Base>);
   EXPECT_EQ(sampling_lattice(traits, {4, 4, 4}).size()[2], 4U);
+  ASSERT_EQ(fifth_order(traits, points[0]).has_value(), HasFifthOrder<Base>);
+  if (const auto jet = fifth_order(traits, points[0])) EXPECT_NEAR(jet->coefficient(1, 0, 0), slope, 1e-15);
   if constexpr (SecondOrderBoundedImplicitFunctionTraits_3<Traits>) {
     EXPECT_TRUE(traits.second_order_bounds(box).coefficients()[1].contains(slope));
   }

@@ -42,6 +42,26 @@ double scale(const Local_structure_3<double>& s) {
          std::pow(std::abs(s.euclidean.gaussian_curvature), 1.5);
 }
 
+// There the terms of K are larger than K by a power of 1 / x, and it is well conditioned all the same.
+TEST(Affine_structure, the_gaussian_curvature_keeps_its_digits_near_parabolic_curves) {
+  const auto quartic = [](const auto& x, const auto& y, const auto& z) { return z - x * x * x * x - y * y * y * y; };
+  for (const double x : {1e-9, 1e-6, 1e-3, 0.1}) {
+    const double K = local_structure(expand(quartic, {x, 1, x * x * x * x + 1})).affine.gaussian_curvature;
+    EXPECT_NEAR(K * 8 * x * x * x, 1, 1e-14) << x;
+  }
+  using Precise = boost::multiprecision::cpp_bin_float_100;
+  for (const char* formula : {"z-x^3-y^2-y^3", "z-x^3-y^2-x*y^3", "x^4+y^4+z^4-1", "z-exp(x^3)-y^2*cos(y)-x^2*y^2"})
+    for (const double x : {1e-6, 1e-4, 1e-2}) {
+      const Vector p = {x, 0.3, 0.8};
+      const auto jet = expand(Expression_3(formula), p);
+      Jet_3<Precise> exact;
+      for (std::size_t n = 0; n < jet.size; ++n) exact.coefficients()[n] = jet.coefficients()[n];
+      const double K = local_structure(jet).affine.gaussian_curvature;
+      const double expected = local_structure(exact).affine.gaussian_curvature.convert_to<double>();
+      EXPECT_NEAR(K / expected, 1, 1e-12) << formula << ' ' << x;
+    }
+}
+
 TEST(Affine_structure, every_row_of_the_reference_is_within_its_limit) {
   const auto rows = read_reference(EQUIAFFINE_TEST_DATA "/affine_structure.csv");
   ASSERT_EQ(rows.size(), 200u);

@@ -10,7 +10,7 @@ namespace {
 
 template <int Order>
 using Jet = equiaffine::Jet_3<double, Order>;
-using Substitution = equiaffine::Linear_substitution_3<double>;
+using Substitution = equiaffine::Linear_substitution_3<double, 5>;
 using Matrix = Substitution::Matrix;
 
 // Every coefficient differs from zero and the matrices hold small integers: all results are exact.
@@ -54,6 +54,7 @@ constexpr Matrix diagonal = {{{2, 0, 0}, {0, -3, 0}, {0, 0, 5}}};
 } // namespace
 
 TEST(Linear_substitution_3, a_general_map_is_substituted_exactly_at_every_order) {
+  expect_substitution<5>(general);
   expect_substitution<4>(general);
   expect_substitution<3>(general);
   expect_substitution<2>(general);
@@ -61,6 +62,7 @@ TEST(Linear_substitution_3, a_general_map_is_substituted_exactly_at_every_order)
 }
 
 TEST(Linear_substitution_3, a_diagonal_map_is_substituted_exactly) {
+  expect_substitution<5>(diagonal);
   expect_substitution<4>(diagonal);
   expect_substitution<2>(diagonal);
 }

@@ -228,8 +228,8 @@ TEST_F(Program_annotate, view_knows_the_fit_that_a_mesh_comes_from) {
   };
   const std::string lost = "lost: the file has no column NAME_error";
   const std::string with_errors = page_of({"--scale", "1.2"});
-  for (const char* fact :
-       {"<dt>Scale</dt><dd>1.2</dd>", "<dt>Noise</dt>", "<dt>Vertices known to 20", " at scale 1.2"}) {
+  for (const char* fact : {"<dt>Scale</dt><dd>1.2</dd>", "<dt>Noise</dt>",
+                           "<dt>Known to 20 / 50 % at so many %</dt><dd>K ", " at scale 1.2"}) {
     EXPECT_NE(with_errors.find(fact), std::string::npos) << fact;
     EXPECT_NE(file("own.html").find(fact), std::string::npos) << fact;
   }

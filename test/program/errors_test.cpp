@@ -291,9 +291,23 @@ TEST_F(Program_errors, a_surface_outside_the_box_is_none) {
   expect_error(mesh_of("log(-1 - x^2)") + box, {"undefined"});
 }
 
+TEST_F(Program_errors, it_is_not_said_that_there_is_no_surface_where_none_was_found) {
+  const Arguments found = {"no part of the surface f = 0 was found"};
+  const Arguments unseen = mesh_of("log(1e-6-(x-1.31)^2-(y-.73)^2-(z-.1)^2)+14") + box;
+  expect_error(unseen, found + Arguments{"is undefined", "a finer --resolution"});
+  const Arguments delaunay = {"--method", "delaunay", "--radius", "0.3"};
+  for (const Arguments& method : {Arguments{}, delaunay})
+    for (const char* formula : {"(x^2+y^2+z^2-1)^2", "-max(0,x^2+y^2+z^2-1)", "abs(x^2+y^2+z^2-1)", "(x+y-.3)^2+z^2"})
+      expect_error(mesh_of(formula) + box + method,
+                   found + Arguments{"f has zeros without a change of sign", "choose another --isovalue"});
+  expect_error(mesh_of("0*x") + box, found + Arguments{"f is that at all nodes of a grid"});
+  expect_error(mesh_of("x^2+y^2+z^2+1e-9") + box, {"no surface f = 0 in the box"});
+}
+
 TEST_F(Program_errors, a_pole_is_no_surface) {
   const Arguments delaunay = {"--method", "delaunay", "--radius", "0.3"};
-  const Arguments words = {"no surface f = 0 in the box", "at poles or jumps only; choose another --isovalue or box"};
+  const Arguments words = {"no part of the surface f = 0 was found in the box",
+                           "at poles or jumps only; choose another --isovalue or box"};
   for (const Arguments& method : {Arguments{}, delaunay}) expect_error(mesh_of("1/x") + box + method, words);
   expect_error(mesh_of("abs(x)/x*(1+y^2)") + box + delaunay, words);
 }

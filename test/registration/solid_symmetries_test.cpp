@@ -251,6 +251,67 @@ TEST(Solid_symmetries, open_meshes_have_rigid_ones) {
   EXPECT_EQ(symmetries(open, parameters::map_kind(Map_kind::RIGID)).order(), 4u) << "an open surface has a centroid";
 }
 
+/// The sides of a prism over a regular polygon, stretched along y.
+Solid tube(std::size_t sides, double height, double stretch) {
+  auto base = regular(sides);
+  for (auto& p : base) p[1] *= stretch;
+  Solid solid = prism(base, height);
+  solid.polygons.resize(sides);
+  return solid;
+}
+
+// Only its ends tell of a shift along a tube, which the flips would keep otherwise.
+TEST(Solid_symmetries, open_tubes_are_flipped_exactly) {
+  const auto rigid = parameters::map_kind(Map_kind::RIGID);
+  for (const auto& [sides, height, stretch, number] :
+       {std::tuple(24, 2., 1., 96U), {24, 1., 1.002, 8U}, {12, 2., 1.1, 8U}, {4, 1.7, 1.3, 8U}}) {
+    const auto result = symmetries(tube(std::size_t(sides), height, stretch), rigid);
+    ASSERT_FALSE(result.levels.empty()) << sides;
+    EXPECT_EQ(result.levels.front().maps.size(), number) << sides;
+    EXPECT_LT(result.levels.front().greatest, 1e-13) << sides;
+    EXPECT_EQ(result.verdict, Symmetry_verdict::EXACT) << sides;
+  }
+}
+
+TEST(Solid_symmetries, short_coordinates_are_what_they_say_unless_many_look_rounded) {
+  const auto rigid = parameters::map_kind(Map_kind::RIGID);
+  EXPECT_EQ(symmetries(box(1, 1, 1.00001), rigid).order(), 16u);
+  Solid bumped = box(1, 1, 1);
+  bumped.points[0] = Kernel::Point_3(-1, -1, -1.00001);
+  EXPECT_EQ(symmetries(bumped, rigid).levels.front().maps.size(), 2u) << "and the mirror image along a diagonal";
+  Solid dented = box(1, 1, 1);
+  dented.points[0] = Kernel::Point_3(-.999, -.999, -.999);
+  const auto result = symmetries(dented, rigid);
+  ASSERT_EQ(result.levels.size(), 2u);
+  EXPECT_EQ(result.levels[0].maps.size(), 6u);
+  EXPECT_EQ(result.levels[1].maps.size(), 48u);
+  EXPECT_EQ(symmetries(dented, rigid.tolerance(1e-9)).order(), 6u);
+}
+
+// The generators are those of finite turns, which move points as far as is said.
+TEST(Solid_symmetries, a_coarse_mesh_of_an_ellipsoid_turns_as_far_from_itself_as_is_said) {
+  const Formula formula(Expression_3("x^2+y^2/2+z^2/4-1"), CGAL::Bbox_3(-3, -3, -3, 3, 3, 3));
+  const auto mesh = marching_cubes(formula, parameters::number_of_nodes(14));
+  const auto result = affine_symmetries(mesh.points, mesh.triangles);
+  ASSERT_EQ(result.continuous.dimension(), 3u);
+  const double size = std::sqrt(3.5); // about
+  for (const auto& generator : result.continuous.generators)
+    for (const double angle : {.3, 1.1}) {
+      const Eigen::Matrix4d flow = [&] {
+        Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
+        m.topLeftCorner<3, 3>() = angle * generator.matrix;
+        m.topRightCorner<3, 1>() = angle * generator.translation;
+        return Eigen::Matrix4d(m.exp());
+      }();
+      double sum = 0;
+      for (const auto& p : mesh.points) {
+        const Eigen::Vector4d q = flow * Eigen::Vector4d(p.x(), p.y(), p.z(), 1);
+        sum += std::pow(formula.value({q[0], q[1], q[2]}) / 2, 2); // about the distance
+      }
+      EXPECT_LT(std::sqrt(sum / double(mesh.points.size())) / size, 2 * result.continuous_rms + 1e-3);
+    }
+}
+
 TEST(Solid_symmetries, meshes_that_make_no_sense_are_refused) {
   const auto rigid = parameters::map_kind(Map_kind::RIGID);
   EXPECT_THROW(symmetries({{{0, 0, 0}}, {}}, rigid), std::invalid_argument);

@@ -194,6 +194,7 @@ struct Capable_function : Implicit_function<Kernel> {
   Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const {
     return this->template bounds_on<1>(box);
   }
+  Jet_3<FT, 5> fifth_order(const Point_3& p) const { return this->template expansion_at<5>(p); }
   equiaffine::Known_bounds known_bounds() const { return {true, false}; }
   Convertible_to<FT> rounding(const Point_3&) const { return Convertible_to<FT>(FT(1e-9)); }
   Convertible_to<double> certainty(const Point_3&) const { return Convertible_to<double>(0.25); }

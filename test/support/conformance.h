@@ -118,6 +118,7 @@ constexpr bool has_capabilities_of() {
          implies(FirstOrderBatchImplicitFunctionTraits_3<Base>, FirstOrderBatchImplicitFunctionTraits_3<Wrapper>) &&
          implies(HasSamplingLattice<Base>, HasSamplingLattice<Wrapper>) &&
          implies(HasTightFirstOrderBounds<Base>, HasTightFirstOrderBounds<Wrapper>) &&
+         implies(HasFifthOrder<Base>, HasFifthOrder<Wrapper>) &&
          implies(HasKnownBounds<Base>, HasKnownBounds<Wrapper>) && implies(HasRounding<Base>, HasRounding<Wrapper>) &&
          implies(HasCertainty<Base>, HasCertainty<Wrapper>) &&
          implies(HasIntersectSegment<Base>, HasIntersectSegment<Wrapper>);
@@ -143,6 +144,7 @@ void expect_capabilities_of(const Wrapper& wrapper, const Point_3& image, const 
   static_assert(has_capabilities_of<Wrapper, Base>());
   using namespace equiaffine;
   EXPECT_NEAR(certainty(wrapper, image), certainty(base, p), 1e-3);
+  EXPECT_EQ(fifth_order(wrapper, image).has_value(), fifth_order(base, p).has_value());
   EXPECT_EQ(known_bounds(wrapper).have_gradients, known_bounds(base).have_gradients);
   EXPECT_EQ(known_bounds(wrapper).are_tight_in_small_boxes, known_bounds(base).are_tight_in_small_boxes);
 }

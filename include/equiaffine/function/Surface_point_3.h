@@ -12,7 +12,7 @@ struct Surface_point_3 {
   typename Kernel::Point_3 point; ///< the zero
   bool has_converged;             ///< if false, no zero was found, and `point` is the best guess
   std::size_t evaluations;        ///< the number of evaluations of f with its gradient
-  bool is_at_pole = false;        ///< no zero was found since f changes its sign at a pole, which is `point`
+  bool is_at_pole = false;        ///< no zero was found since f changes its sign at a pole or a jump, which is `point`
   bool is_at_end = false;         ///< no zero was found since f, or its derivatives, end beside `point`
 };
 

@@ -8,7 +8,7 @@
 namespace equiaffine {
 
 /// The Taylor expansion of a functor f at (x, y, z), by automatic differentiation: a polynomial in the distances from
-/// x, y and z whose total order is 1 to 4. The functor is a template of the types of its three arguments, which is
+/// x, y and z whose total order is 1 to 5. The functor is a template of the types of its three arguments, which is
 /// faster, or of one type, and calls functions as `using std::sin; sin(x)`. FT may be a Pack, of which each lane is a
 /// point of its own; then f may throw Lanes_disagree.
 template <int Order, class FT, class Function>

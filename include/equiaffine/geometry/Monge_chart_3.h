@@ -55,13 +55,14 @@ struct Monge_chart_3 {
   FT determinant;                    ///< of the symmetric coefficients of Q: d / 4
 
   /// Makes the chart at the point where f has this jet.
-  explicit Monge_chart_3(const Jet_3<FT>& jet) {
+  explicit Monge_chart_3(const Jet_3<FT>& jet) : Monge_chart_3(jet, internal::choose_pivot(jet)) {}
+
+  /// Makes the chart with this pivot.
+  Monge_chart_3(const Jet_3<FT>& jet, const internal::Pivot_3<FT>& pivot)
+      : pivot_is_x(pivot.is_x), pivot_is_y(pivot.is_y) {
     using std::abs;
     const auto& c = jet.coefficients();
     is_steep = abs(c[1]) > FT(0) || abs(c[2]) > FT(0) || abs(c[3]) > FT(0);
-    const auto pivot = internal::choose_pivot(jet);
-    pivot_is_x = pivot.is_x;
-    pivot_is_y = pivot.is_y;
     expand_around_pivot(jet, pivot.reciprocals);
   }
 

@@ -9,6 +9,7 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -35,6 +36,8 @@ public:
   double value(const Point_3& p) const { return function_->value(p); }                       ///< f(p)
   Jet_3<double, 1> first_order(const Point_3& p) const { return function_->first_order(p); } ///< value and gradient
   Jet_3<double> taylor(const Point_3& p) const { return function_->taylor(p); } ///< the expansion of order 4
+  /// The expansion of order 5, if the held model has that.
+  std::optional<Jet_3<double, 5>> fifth_order(const Point_3& p) const { return function_->fifth_order(p); }
   /// values[i] becomes value(points[i]).
   void values(std::span<const Point_3> points, std::span<double> values) const { function_->values(points, values); }
   /// jets[i] becomes first_order(points[i]).

@@ -113,8 +113,8 @@ public:
   /// Turns an expansion in lattice coordinates into one in those of space.
   Jet_3<FT> to_space(const Jet_3<FT>& jet) const { return substitution_(jet); }
 
-  /// The expansion at p in the coordinates of space, to total order `Order` <= 4; lower orders cost less.
-  template <int Order = internal::maximal_order>
+  /// The expansion at p in the coordinates of space, to total order `Order` <= 5; lower orders cost less.
+  template <int Order = internal::default_order>
   Jet_3<FT, Order> taylor(const Point_3& p) const {
     const auto place = locate(p);
     if (!place || !source_->cells().contains(place->cell)) {
@@ -216,7 +216,7 @@ private:
 
   internal::Spline_fit fit_;
   Support support_;
-  Linear_substitution_3<FT> substitution_;
+  Linear_substitution_3<FT, internal::maximal_order> substitution_;
   std::shared_ptr<const internal::Coefficient_source<Kernel>>
       source_;                               // null if the lattice has too few nodes for a spline
   std::shared_ptr<const Coefficients> part_; // of a block of cells, if the function is restricted

@@ -178,6 +178,7 @@ private:
     if (n < 0) return divide(constant(1), integer_power(a, -n));
     if (n == 0) return constant(1);
     if (n == 1) return a;
+    if (n % 2 == 0 && nodes_[a].opcode == Opcode::ABS) a = nodes_[a].a; // smooth at 0, and the same number
     return n == 2 ? node(Opcode::SQUARE, a, a) : node(Opcode::INTEGER_POWER, a, a, n);
   }
 

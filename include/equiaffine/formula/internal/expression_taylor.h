@@ -36,6 +36,11 @@ public:
 
   Node node(Tape_builder& builder) const { return builder_ ? node_ : builder.constant(value_); }
 
+  /// Whether both are known to be the same.
+  friend bool operator==(const Symbol& a, const Symbol& b) {
+    return a.builder_ == b.builder_ && (a.builder_ ? a.node_ == b.node_ : a.value_ == b.value_);
+  }
+
   Symbol operator-() const { return builder_ ? Symbol(*builder_, builder_->negate(node_)) : Symbol(-value_); }
   friend Symbol operator+(const Symbol& a, const Symbol& b) {
     if (a.is_constant(0)) return b;

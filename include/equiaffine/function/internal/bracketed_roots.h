@@ -30,10 +30,16 @@ struct Bracket_3 {
     negligible = FT(1e-6) * (larger_end - larger_end == FT(0) ? larger_end : smaller_end);
   }
 
-  /// A pole or a jump has no such value.
+  /// A pole has no such value, and few jumps have.
   bool is_plausible(const FT& value) const {
     using std::abs;
-    return abs(value) < smaller_than_ends || abs(value) <= negligible;
+    return abs(value) < smaller_than_ends || is_negligible(value);
+  }
+
+  /// No jump has such a value, except a tiny one.
+  bool is_negligible(const FT& value) const {
+    using std::abs;
+    return abs(value) <= negligible;
   }
 
   Surface_point_3<Kernel> point(const FT& t, bool has_converged, int evaluations) const {
@@ -67,6 +73,18 @@ bool is_pole(const Traits& traits, const Bracket_3<Kernel>& bracket, const typen
     nearer = here;
   }
   return true;
+}
+
+/// Whether f jumps where a search has narrowed a change of sign: it has limits on both sides, of different signs.
+template <class Kernel, class Traits>
+bool is_jump(const Traits& traits, const Bracket_3<Kernel>& bracket, const typename Kernel::Point_3& p) {
+  using FT = typename Kernel::FT;
+  using std::abs;
+  const auto value = [&](const FT& t) { return traits.value(p + t * bracket.direction); };
+  const FT near = FT(4) * bracket.tolerance, far = FT(256) * near;
+  const FT left = value(-near), right = value(near);
+  return is_sign_change(left, right) &&
+         abs(value(-far) - left) + abs(value(far) - right) < FT(0.01) * abs(right - left);
 }
 
 /// Whether f, or its derivatives if these are asked for, end beside the point where a search has ended without a zero.
@@ -105,6 +123,9 @@ public:
 
   Surface_point_3<Kernel> result() const { return bracket_.point(t_, has_converged_, evaluations_); }
 
+  /// Returns whether the zero that was found may be a jump.
+  bool is_doubtful() const { return !bracket_.is_negligible(last_value_); }
+
   /// Takes the expansion at point().
   template <class Traits>
   void advance(const Traits& traits, const Jet_3<FT, 1>& jet) {
@@ -115,7 +136,7 @@ public:
     const FT slope = c[1] * direction.x() + c[2] * direction.y() + c[3] * direction.z();
     const bool has_derivatives = c[0] == c[0];
     is_smooth_ = is_smooth_ && has_derivatives;
-    const FT f = has_derivatives ? c[0] : traits.value(point());
+    const FT f = last_value_ = has_derivatives ? c[0] : traits.value(point());
     if (f == FT(0)) return end(t_, has_derivatives);
     if (!(f < FT(0) || f > FT(0))) return end(t_, false); // NaN
     FT step = -c[0] / slope;
@@ -137,15 +158,16 @@ private:
   }
 
   Bracket_3<Kernel> bracket_;
-  FT t_, lower_ = FT(0), upper_ = FT(1), last_step_ = FT(1);
+  FT t_, lower_ = FT(0), upper_ = FT(1), last_step_ = FT(1), last_value_ = FT(0);
   int evaluations_ = 0;
   bool is_smooth_ = true, has_converged_ = false, has_ended_ = false;
 };
 
-/// Searches by inverse quadratic interpolation where it is safe, else by bisection (Chandrupatla, A new hybrid
+/// Searches by inverse quadratic interpolation where it is safe, else by bisection; sets whether the zero that is found
+/// may be a jump (Chandrupatla, A new hybrid
 /// quadratic/bisection algorithm for finding the zero of a nonlinear function without using derivatives, 1997).
 template <class Kernel, class Traits>
-Surface_point_3<Kernel> chandrupatla(const Traits& traits, const Bracket_3<Kernel>& bracket) {
+Surface_point_3<Kernel> chandrupatla(const Traits& traits, const Bracket_3<Kernel>& bracket, bool& is_doubtful) {
   using FT = typename Kernel::FT;
   using std::abs;
   FT x1(0), f1 = bracket.fa, x2(1), f2 = bracket.fb,
@@ -164,6 +186,7 @@ Surface_point_3<Kernel> chandrupatla(const Traits& traits, const Bracket_3<Kerne
     const FT smallest_step = bracket.tolerance / abs(x2 - x1);
     if (!(smallest_step < FT(0.5))) {
       const bool is_first_better = abs(f1) < abs(f2);
+      is_doubtful = !bracket.is_negligible(is_first_better ? f1 : f2);
       return bracket.point(is_first_better ? x1 : x2, bracket.is_plausible(is_first_better ? f1 : f2), n);
     }
     const FT xi = (x1 - x2) / (x3 - x2), phi = (f1 - f2) / (f3 - f2);
@@ -175,11 +198,13 @@ Surface_point_3<Kernel> chandrupatla(const Traits& traits, const Bracket_3<Kerne
   return bracket.point(x1, false, bracket.maximal_evaluations);
 }
 
-/// Says why a search along a bracket has found no zero, if it has not.
+/// Says why a search along a bracket has found no zero, if it has not. A zero that is doubtful and a jump is none.
 template <class Kernel, class Traits>
-void explain(const Traits& traits, const Bracket_3<Kernel>& bracket, Surface_point_3<Kernel>& result) {
-  if (result.has_converged) return;
-  result.is_at_pole = is_pole(traits, bracket, result.point);
+void explain(const Traits& traits, const Bracket_3<Kernel>& bracket, bool is_doubtful,
+             Surface_point_3<Kernel>& result) {
+  if (result.has_converged && !(is_doubtful && is_jump(traits, bracket, result.point))) return;
+  result.has_converged = false;
+  result.is_at_pole = is_pole(traits, bracket, result.point) || is_jump(traits, bracket, result.point);
   result.is_at_end = !result.is_at_pole && is_end_of_domain(traits, bracket, result.point);
 }
 
@@ -189,16 +214,18 @@ Surface_point_3<Kernel> zero_on_segment(const Traits& traits, const typename Ker
                                         const typename Kernel::Point_3& b, const typename Kernel::FT& fa,
                                         const typename Kernel::FT& fb) {
   const Bracket_3<Kernel> bracket(a, b, fa, fb);
+  bool is_doubtful = false;
   auto result = [&] {
     if constexpr (FirstOrderImplicitFunctionTraits_3<Traits>) {
       Newton_search_3 search(bracket);
       while (!search.has_ended()) search.advance(traits, traits.first_order(search.point()));
+      is_doubtful = search.is_doubtful();
       return search.result();
     } else {
-      return chandrupatla(traits, bracket);
+      return chandrupatla(traits, bracket, is_doubtful);
     }
   }();
-  explain(traits, bracket, result);
+  explain(traits, bracket, is_doubtful, result);
   return result;
 }
 

@@ -22,9 +22,9 @@ namespace internal {
 
 /// The partial derivatives of f in the order of the monomials.
 template <class FT>
-std::array<FT, maximal_number_of_monomials> partial_derivatives(const Jet_3<FT>& jet) {
+std::array<FT, Jet_3<FT>::size> partial_derivatives(const Jet_3<FT>& jet) {
   constexpr std::array<int, 5> factorial = {1, 1, 2, 6, 24};
-  std::array<FT, maximal_number_of_monomials> f;
+  std::array<FT, Jet_3<FT>::size> f;
   for (std::size_t n = 0; n < f.size(); ++n) {
     const Monomial_3 m = monomials[n];
     f[n] = jet.coefficients()[n] *

@@ -91,15 +91,17 @@ FT minus_half_squared_norm(const Binary_form<FT, 3>& t, const Inverse_form<FT>& 
          (i11 * (t[0] * t[2] - t[1] * t[1]) - i12 * (t[0] * t[3] - t[1] * t[2]) + i22 * (t[1] * t[3] - t[2] * t[2]));
 }
 
-/// N = tr R - D - C(u) + 3 v v^T, where u is 3 alpha + 6 p^-1 v.
+/// N = tr R - D - C(u) - 9 v v^T + 3/2 Hess(C) / det p, where u is 3 (alpha + p^-1 v).
 template <class FT>
 Binary_form<FT, 2> fourth_order_form(const Monge_chart_3<FT>& chart, const Inverse_form<FT>& inverse,
-                                     const Cubic_parts<FT>& cubic, const std::array<FT, 2>& u) {
-  const auto trace = inverse.trace(chart.quartic), contracted = contract<FT>(chart.cubic, u);
+                                     const Binary_form<FT, 1>& v_thrice, const std::array<FT, 2>& u) {
+  const auto& c = chart.cubic;
+  const auto trace = inverse.trace(chart.quartic), contracted = contract<FT>(c, u);
   const auto& m = chart.mixed_quadratic;
-  const auto& [v, v_thrice, t] = cubic;
-  return {trace[0] - m[0] - contracted[0] + v_thrice[0] * v[0], trace[1] - m[1] - contracted[1] + v_thrice[0] * v[1],
-          trace[2] - m[2] - contracted[2] + v_thrice[1] * v[1]};
+  const FT half = inverse.reciprocal * FT(0.75), whole = half + half;
+  return {trace[0] - m[0] - contracted[0] - v_thrice[0] * v_thrice[0] + whole * (c[0] * c[2] - c[1] * c[1]),
+          trace[1] - m[1] - contracted[1] - v_thrice[0] * v_thrice[1] + half * (c[0] * c[3] - c[1] * c[2]),
+          trace[2] - m[2] - contracted[2] - v_thrice[1] * v_thrice[1] + whole * (c[1] * c[3] - c[2] * c[2])};
 }
 
 /// B = `factor` (p^-1 N + sigma I), row by row.
@@ -110,6 +112,16 @@ std::array<FT, 4> affine_shape_operator(const Inverse_form<FT>& inverse, const B
   const FT cross = i12 * n[1];
   return {factor * (i11 * n[0] - cross + sigma), factor * (i11 * n[1] - i12 * n[2]), factor * (i22 * n[1] - i12 * n[0]),
           factor * (i22 * n[2] - cross + sigma)};
+}
+
+/// det B = `factor`^2 det(N + sigma p) / det p. The entries of p^-1 N may be much larger than this near a parabolic
+/// curve, and those of N are not.
+template <class FT>
+FT affine_gaussian_curvature(const Monge_chart_3<FT>& chart, const Inverse_form<FT>& inverse,
+                             const Binary_form<FT, 2>& n, const FT& sigma, const FT& factor) {
+  const auto& p = chart.quadratic;
+  const FT m0 = n[0] + sigma * p[0], m1 = n[1] + sigma * p[1], m2 = n[2] + sigma * p[2];
+  return factor * factor * inverse.reciprocal * (m0 * m2 - m1 * m1);
 }
 
 template <class FT>
@@ -123,27 +135,24 @@ Affine_invariants_3<FT> affine_invariants_of(const Monge_chart_3<FT>& chart) {
   const auto& v = cubic.v;
   const Binary_form<FT, 1> l = {chart.mixed[0] * FT(-0.5), chart.mixed[1] * FT(-0.5)};
   const std::array<FT, 2> alpha = inverse.raise(l), x = inverse.raise(v);
-  const std::array<FT, 2> w = {x[0] * FT(1.5), x[1] * FT(1.5)}; // 3/2 p^-1 v
-  const FT minus_half_t2 = minus_half_squared_norm(cubic.t, inverse);
   const auto n =
-      fourth_order_form<FT>(chart, inverse, cubic, {FT(3) * alpha[0] + FT(4) * w[0], FT(3) * alpha[1] + FT(4) * w[1]});
-  const FT sigma = linear_form_at<FT>(v, {w[0] - (alpha[0] + alpha[0]), w[1] - (alpha[1] + alpha[1])}) +
-                   FT(0.75) * minus_half_t2 + fraction<4, 3, FT>() * (chart.e - linear_form_at<FT>(l, alpha)) -
-                   inverse.trace(m[0], m[1], m[2]) * fraction<1, 6, FT>();
+      fourth_order_form<FT>(chart, inverse, cubic.v_thrice, {FT(3) * (alpha[0] + x[0]), FT(3) * (alpha[1] + x[1])});
+  const FT sigma = fraction<4, 3, FT>() * (chart.e - linear_form_at<FT>(l, alpha)) -
+                   inverse.trace(m[0], m[1], m[2]) * fraction<1, 6, FT>() - FT(2) * linear_form_at<FT>(v, alpha);
 
   // Powers of |d|: `square` is the root, `length` is s times the fourth root, and `reciprocal_length` 1 / length.
   const FT square = FT(2) * sqrt(abs(chart.determinant)), length = chart.sign * sqrt(square);
   const FT reciprocal_length = length * square * abs(inverse.reciprocal) * FT(0.25);
+  const FT factor = FT(-1.5) * length;
   Affine_invariants_3<FT> s;
   s.conormal = chart.unpermuted(a * reciprocal_length, b * reciprocal_length, reciprocal_length);
-  s.slope = {alpha[0] + w[0], alpha[1] + w[1]};
+  s.slope = {alpha[0] + FT(1.5) * x[0], alpha[1] + FT(1.5) * x[1]};
   const FT xi1 = length * s.slope[0], xi2 = length * s.slope[1];
   s.normal = chart.unpermuted(xi1, xi2, length - a * xi1 - b * xi2);
-  s.shape_operator = affine_shape_operator<FT>(inverse, n, sigma, FT(-1.5) * length);
-  const auto& [b11, b12, b21, b22] = s.shape_operator;
-  s.gaussian_curvature = b11 * b22 - b12 * b21;
-  s.mean_curvature = (b11 + b22) * FT(0.5);
-  s.pick_invariant = FT(1.125) * length * minus_half_t2;
+  s.shape_operator = affine_shape_operator<FT>(inverse, n, sigma, factor);
+  s.gaussian_curvature = affine_gaussian_curvature<FT>(chart, inverse, n, sigma, factor);
+  s.mean_curvature = (s.shape_operator[0] + s.shape_operator[3]) * FT(0.5);
+  s.pick_invariant = FT(1.125) * length * minus_half_squared_norm(cubic.t, inverse);
   s.apolar_cubic = cubic.t;
   return s;
 }

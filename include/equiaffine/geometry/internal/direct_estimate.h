@@ -24,11 +24,11 @@ template <class FT>
 struct Graph_derivatives {
   std::array<std::array<FT, 5>, 5> g;
 
-  explicit Graph_derivatives(const std::array<FT, maximal_number_of_monomials>& f) {
+  explicit Graph_derivatives(const std::array<FT, Jet_3<FT>::size>& f) {
     static const auto formulas = [] {
       std::array<std::array<Implicit_derivative, 5>, 5> table;
-      for (int i = 0; i <= maximal_order; ++i)
-        for (int j = 0; i + j <= maximal_order; ++j)
+      for (int i = 0; i <= default_order; ++i)
+        for (int j = 0; i + j <= default_order; ++j)
           if (i + j > 0) table[std::size_t(i)][std::size_t(j)] = Implicit_derivative(i, j);
       return table;
     }();
@@ -51,9 +51,8 @@ struct Graph_derivatives {
 
 /// Renames the axes cyclically so that `last` becomes z, and returns the derivatives of f by the renamed axes.
 template <class FT>
-std::array<FT, maximal_number_of_monomials> with_last_axis(const std::array<FT, maximal_number_of_monomials>& f,
-                                                           std::size_t last) {
-  std::array<FT, maximal_number_of_monomials> r;
+std::array<FT, Jet_3<FT>::size> with_last_axis(const std::array<FT, Jet_3<FT>::size>& f, std::size_t last) {
+  std::array<FT, Jet_3<FT>::size> r;
   for (std::size_t n = 0; n < r.size(); ++n) {
     std::array<int, 3> exponents;
     const Monomial_3 m = monomials[n];

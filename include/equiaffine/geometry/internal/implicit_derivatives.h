@@ -34,7 +34,7 @@ public:
 
   /// The value for the partial derivatives `f` in the order of the monomials, and the powers of 1 / f_z.
   template <class FT>
-  FT operator()(const std::array<FT, maximal_number_of_monomials>& f, const std::array<FT, 8>& powers) const {
+  FT operator()(const std::array<FT, Jet_3<FT>::size>& f, const std::array<FT, 8>& powers) const {
     FT sum(0);
     for (const Term& t : terms_) {
       FT product = FT(t.factor) * powers[std::size_t(t.exponent)];

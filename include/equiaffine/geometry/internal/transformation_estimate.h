@@ -47,7 +47,7 @@ template <class FT>
 struct Simplifying_map_3 {
   Matrix_3<FT> matrix, inverse;
 
-  explicit Simplifying_map_3(const std::array<FT, maximal_number_of_monomials>& f) {
+  explicit Simplifying_map_3(const std::array<FT, Jet_3<FT>::size>& f) {
     using std::atan2;
     using std::cos;
     using std::sin;
@@ -90,9 +90,9 @@ private:
 
 /// The derivatives of f(A^-1 p), by equation (4) of the paper without any rearrangement.
 template <class FT>
-std::array<FT, maximal_number_of_monomials> mapped_derivatives(const std::array<FT, maximal_number_of_monomials>& f,
-                                                               const Matrix_3<FT>& inverse) {
-  std::array<FT, maximal_number_of_monomials> g{};
+std::array<FT, Jet_3<FT>::size> mapped_derivatives(const std::array<FT, Jet_3<FT>::size>& f,
+                                                   const Matrix_3<FT>& inverse) {
+  std::array<FT, Jet_3<FT>::size> g{};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t a = 0; a < 3; ++a) g[1 + i] = g[1 + i] + f[1 + a] * inverse[a][i];
     for (std::size_t j = i; j < 3; ++j) {
@@ -126,7 +126,7 @@ std::array<FT, maximal_number_of_monomials> mapped_derivatives(const std::array<
 /// The formulas of section 3(b), which hold where f_x = f_y = f_xy = 0 and f_z = 1; on demand with x and y exchanged.
 template <class FT>
 struct Simplified_formulas_3 {
-  const std::array<FT, maximal_number_of_monomials>& f;
+  const std::array<FT, Jet_3<FT>::size>& f;
   bool exchanged;
 
   FT operator()(int i, int j, int k) const {

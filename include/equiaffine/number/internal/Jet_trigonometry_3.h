@@ -20,7 +20,8 @@ template <class T, int Order, Monomial_set A>
 auto sin(const Jet_3<T, Order, A>& a) {
   using internal::sine_and_cosine;
   const auto [s, c] = sine_and_cosine(a.value());
-  return compose(a, std::array<T, 5>{s, c, s * T(-0.5), c * fraction<-1, 6, T>(), s * fraction<1, 24, T>()});
+  return compose(a, std::array<T, 6>{s, c, s * T(-0.5), c * fraction<-1, 6, T>(), s * fraction<1, 24, T>(),
+                                     c * fraction<1, 120, T>()});
 }
 
 /// The cosine of a jet.
@@ -28,7 +29,8 @@ template <class T, int Order, Monomial_set A>
 auto cos(const Jet_3<T, Order, A>& a) {
   using internal::sine_and_cosine;
   const auto [s, c] = sine_and_cosine(a.value());
-  return compose(a, std::array<T, 5>{c, -s, c * T(-0.5), s * fraction<1, 6, T>(), c * fraction<1, 24, T>()});
+  return compose(a, std::array<T, 6>{c, -s, c * T(-0.5), s * fraction<1, 6, T>(), c * fraction<1, 24, T>(),
+                                     s * fraction<-1, 120, T>()});
 }
 
 /// The tangent of a jet.
@@ -36,7 +38,8 @@ template <class T, int Order, Monomial_set A>
 auto tan(const Jet_3<T, Order, A>& a) {
   using std::tan;
   const T t = tan(a.value()), t2 = t * t, d = T(1) + t2;
-  return compose(a, std::array<T, 5>{t, d, t * d, d * (T(1) + T(3) * t2) / T(3), t * d * (T(2) + T(3) * t2) / T(3)});
+  return compose(a, std::array<T, 6>{t, d, t * d, d * (T(1) + T(3) * t2) / T(3), t * d * (T(2) + T(3) * t2) / T(3),
+                                     d * (T(2) + T(15) * (t2 + t2 * t2)) / T(15)});
 }
 
 /// The hyperbolic sine of a jet.
@@ -45,7 +48,8 @@ auto sinh(const Jet_3<T, Order, A>& a) {
   using std::cosh;
   using std::sinh;
   const T s = sinh(a.value()), c = cosh(a.value());
-  return compose(a, std::array<T, 5>{s, c, s * T(0.5), c * fraction<1, 6, T>(), s * fraction<1, 24, T>()});
+  return compose(a, std::array<T, 6>{s, c, s * T(0.5), c * fraction<1, 6, T>(), s * fraction<1, 24, T>(),
+                                     c * fraction<1, 120, T>()});
 }
 
 /// The hyperbolic cosine of a jet.
@@ -54,7 +58,8 @@ auto cosh(const Jet_3<T, Order, A>& a) {
   using std::cosh;
   using std::sinh;
   const T s = sinh(a.value()), c = cosh(a.value());
-  return compose(a, std::array<T, 5>{c, s, c * T(0.5), s * fraction<1, 6, T>(), c * fraction<1, 24, T>()});
+  return compose(a, std::array<T, 6>{c, s, c * T(0.5), s * fraction<1, 6, T>(), c * fraction<1, 24, T>(),
+                                     s * fraction<1, 120, T>()});
 }
 
 /// The hyperbolic tangent of a jet, with tanh' = 1 / cosh^2: 1 - tanh^2 would lose all digits for large arguments.
@@ -63,17 +68,23 @@ auto tanh(const Jet_3<T, Order, A>& a) {
   using std::cosh;
   using std::tanh;
   const T t = tanh(a.value()), t2 = t * t, r = T(1) / cosh(a.value()), d = r * r;
-  return compose(a, std::array<T, 5>{t, d, -t * d, d * (T(3) * t2 - T(1)) / T(3), t * d * (T(2) - T(3) * t2) / T(3)});
+  return compose(a, std::array<T, 6>{t, d, -t * d, d * (T(3) * t2 - T(1)) / T(3), t * d * (T(2) - T(3) * t2) / T(3),
+                                     d * (T(2) + T(15) * (t2 * t2 - t2)) / T(15)});
 }
 
 namespace internal {
 
-/// Taylor coefficients 1 to 4 of asin at u; the value is left at zero.
+/// Taylor coefficients 1 to 5 of asin at u; the value is left at zero.
 template <class T>
-std::array<T, 5> asin_derivatives(const T& u) {
+std::array<T, 6> asin_derivatives(const T& u) {
   using std::sqrt;
-  const T g2 = T(1) / ((T(1) - u) * (T(1) + u)), g = sqrt(g2), g3 = g * g2, u2 = u * u;
-  return {T(0), g, u * g3 / T(2), g2 * g3 * (T(1) + T(2) * u2) / T(6), g2 * g2 * g3 * u * (T(3) + T(2) * u2) / T(8)};
+  const T g2 = T(1) / ((T(1) - u) * (T(1) + u)), g = sqrt(g2), g3 = g * g2, g7 = g2 * g2 * g3, u2 = u * u;
+  return {T(0),
+          g,
+          u * g3 / T(2),
+          g2 * g3 * (T(1) + T(2) * u2) / T(6),
+          g7 * u * (T(3) + T(2) * u2) / T(8),
+          g2 * g7 * (T(3) + u2 * (T(24) + T(8) * u2)) / T(40)};
 }
 
 } // namespace internal
@@ -101,7 +112,8 @@ template <class T, int Order, Monomial_set A>
 auto atan(const Jet_3<T, Order, A>& a) {
   using std::atan;
   const T u = a.value(), g = T(1) / (T(1) + u * u), h = u * g, g2 = g * g, h2 = h * h;
-  return compose(a, std::array<T, 5>{atan(u), g, -g * h, g * (h2 - g2 / T(3)), g * h * (g2 - h2)});
+  return compose(a, std::array<T, 6>{atan(u), g, -g * h, g * (h2 - g2 / T(3)), g * h * (g2 - h2),
+                                     g * (h2 * (h2 - T(2) * g2) + g2 * g2 / T(5))});
 }
 /// @}
 
@@ -115,9 +127,9 @@ auto atan2(const Jet_3<T, Order, A>& y, const Jet_3<T, Order, B>& x) {
   const auto s = y * scale;
   auto across = c.value() * s - s.value() * c;
   across.template at<0>() = T(0);
-  return compose(
-      across / (c.value() * c + s.value() * s),
-      std::array<T, 5>{atan2(y.value(), x.value()), factor_for_jump(y.value(), x.value()), T(0), T(-1) / T(3), T(0)});
+  return compose(across / (c.value() * c + s.value() * s),
+                 std::array<T, 6>{atan2(y.value(), x.value()), factor_for_jump(y.value(), x.value()), T(0),
+                                  T(-1) / T(3), T(0), T(1) / T(5)});
 }
 
 namespace internal {
@@ -127,7 +139,8 @@ namespace internal {
 template <class T, class... Jets>
 auto length(const T& r, const Jets&... x) {
   const T s = T(1) / r;
-  return compose((square(x * s) + ...), std::array<T, 5>{r, r / T(2), -r / T(8), r / T(16), r * T(-5) / T(128)});
+  return compose((square(x * s) + ...),
+                 std::array<T, 6>{r, r / T(2), -r / T(8), r / T(16), r * T(-5) / T(128), r * T(7) / T(256)});
 }
 
 } // namespace internal

@@ -7,6 +7,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -14,7 +15,7 @@ namespace equiaffine {
 
 using internal::Monomial_set;
 
-/// A trivariate Taylor polynomial, truncated at total order `Order` <= 4: the expansion of a function of (x, y, z) at a
+/// A trivariate Taylor polynomial, truncated at total order `Order` <= 5: the expansion of a function of (x, y, z) at a
 /// point, sum of c_ijk dx^i dy^j dz^k with c_ijk = (d^(i+j+k) f / dx^i dy^j dz^k) / (i! j! k!). Order 4 has 35
 /// coefficients, kept in graded lexicographic order (1; x y z; xx xy xz yy yz zz; ...).
 ///
@@ -27,7 +28,7 @@ using internal::Monomial_set;
 ///
 /// `T` may be any number type with ring operations: float, double, multiprecision, Interval, a SIMD pack. The default
 /// constructor leaves the coefficients uninitialized when that of T does.
-template <class T, int Order = internal::maximal_order, Monomial_set Support = internal::all_monomials(Order)>
+template <class T, int Order = internal::default_order, Monomial_set Support = internal::all_monomials(Order)>
 class Jet_3 {
   static_assert(0 <= Order && Order <= internal::maximal_order);
   static_assert((Support & ~internal::all_monomials(Order)) == 0);
@@ -81,7 +82,7 @@ public:
 
   /// The partial derivative d^(i+j+k) f / dx^i dy^j dz^k.
   T derivative(int i, int j, int k) const {
-    constexpr std::array<int, 5> factorial = {1, 1, 2, 6, 24};
+    constexpr std::array<int, 6> factorial = {1, 1, 2, 6, 24, 120};
     return coefficient(i, j, k) * T(factorial[std::size_t(i)] * factorial[std::size_t(j)] * factorial[std::size_t(k)]);
   }
 
@@ -156,6 +157,17 @@ private:
 
   std::array<T, size> c_;
 };
+
+} // namespace equiaffine
+
+/// Limits of jets are those of their coefficients.
+template <class T, int Order, equiaffine::Monomial_set Support>
+class std::numeric_limits<equiaffine::Jet_3<T, Order, Support>> : public std::numeric_limits<T> {
+public:
+  static constexpr bool is_iec559 = false; ///< a jet is no number of the processor
+};
+
+namespace equiaffine {
 
 /// The numbers that arithmetic combines with a jet over T.
 template <class S, class T>

@@ -45,6 +45,7 @@ inline void choose_maps(Affine_symmetries_3<Kernel_of_searches>& result, std::op
       next_rms = found.levels[n].next_rms;
     }
   result.is_decided = std::min(found.complete_to, next_rms) > *tolerance;
+  if (!result.is_decided) result.verdict = Symmetry_verdict::UNDECIDED;
 }
 
 /// Converts what was found to the types of CGAL. Distances of maps are in the unit of the surface.
@@ -69,6 +70,21 @@ inline Affine_symmetries_3<Kernel_of_searches> to_CGAL(const Centered_symmetries
   return result;
 }
 
+/// Returns maps that are a group to within some tolerances, changed so that their products are right; nothing if they
+/// are none.
+inline std::optional<std::vector<Affine_map_3>> nearby_group(std::vector<Affine_map_3> maps,
+                                                             const Framed_surface_3& surface, double tolerance) {
+  constexpr double least = 1e-3, tolerances = 30;
+  const Whitening whitening(surface.probes);
+  const Affine_map_3 to = {whitening.matrix, -(whitening.matrix * whitening.mean)},
+                     from = {whitening.inverse, whitening.mean};
+  for (Affine_map_3& map : maps) map = to * map * from;
+  auto group = as_group(maps, std::max(least, tolerances * tolerance));
+  if (!group || !make_exact(*group)) return std::nullopt;
+  for (Affine_map_3& map : group->maps) map = from * map * to;
+  return group->maps;
+}
+
 /// The group that frames of a fit give, which are symmetries to within the tolerance of at least 98 % of the points. A
 /// fit has errors, so that the identity alone is no result.
 template <class ConcurrencyTag>
@@ -77,11 +93,17 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_by_frames(const Framed_surfac
   Symmetry_search<ConcurrencyTag> search(surface, request.kind, tolerance);
   Affine_symmetries_3<Kernel_of_searches> result;
   result.kind = request.kind;
-  std::vector<Checked_symmetry> maps;
-  for (const Affine_map_3& map : search.run()) {
-    if (!request.allows_reflections && map.matrix.determinant() < 0) continue;
-    maps.push_back({map, search.distances(map)});
+  std::vector<Affine_map_3> found = search.run();
+  if (!request.allows_reflections)
+    std::erase_if(found, [](const Affine_map_3& map) { return map.matrix.determinant() < 0; });
+  const auto group = nearby_group(std::move(found), surface, tolerance);
+  if (!group) {
+    result.maps = {symmetry({}, 0, 0)};
+    result.reason = "maps that move the fit onto itself to within its errors are no group";
+    return result;
   }
+  std::vector<Checked_symmetry> maps;
+  for (const Affine_map_3& map : *group) maps.push_back({map, search.distances(map)});
   auto level = level_of(maps, surface.size);
   result.maps = level.maps;
   if (level.maps.size() > 1) {

@@ -10,6 +10,7 @@
 #include <CGAL/number_utils.h>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -28,6 +29,7 @@ public:
   virtual double value(const Point_3& p) const = 0;
   virtual Jet_3<double, 1> first_order(const Point_3& p) const = 0;
   virtual Jet_3<double> taylor(const Point_3& p) const = 0;
+  virtual std::optional<Jet_3<double, 5>> fifth_order(const Point_3& p) const = 0;
   virtual void values(Points points, std::span<double> values) const = 0;
   virtual void first_orders(Points points, std::span<Jet_3<double, 1>> jets) const = 0;
   virtual void taylors(Points points, std::span<Jet_3<double>> jets) const = 0;
@@ -53,6 +55,10 @@ public:
     return in_doubles(equiaffine::first_order(traits_, to_traits(p)));
   }
   Jet_3<double> taylor(const Point_3& p) const override { return in_doubles(traits_.taylor(to_traits(p))); }
+  std::optional<Jet_3<double, 5>> fifth_order(const Point_3& p) const override {
+    const auto jet = equiaffine::fifth_order(traits_, to_traits(p));
+    return jet ? std::optional(in_doubles(*jet)) : std::nullopt;
+  }
   void values(Points points, std::span<double> values) const override {
     if constexpr (BatchImplicitFunctionTraits_3<Traits>)
       evaluate<FT>(points, values, [&](const auto& at, const auto& results) { traits_.values(at, results); });

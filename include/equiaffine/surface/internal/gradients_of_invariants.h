@@ -3,6 +3,7 @@
 #define EQUIAFFINE_SURFACE_INTERNAL_GRADIENTS_OF_INVARIANTS_H
 
 #include <equiaffine/Local_structure_3.h>
+#include <equiaffine/capabilities.h>
 #include <equiaffine/geometry/affine_frame.h>
 
 #include <algorithm>
@@ -13,17 +14,21 @@
 
 namespace equiaffine::internal {
 
+/// The derivative of a function at 0 with an estimate of its error.
+template <class FT>
+struct Derivative {
+  FT value = std::numeric_limits<FT>::quiet_NaN(), error = std::numeric_limits<FT>::infinity();
+};
+
 /// The derivatives at 0 of three functions of a number, `f(t)`, by central differences with steps `step`, `step` / 2,
 /// ..., extrapolated to step 0; for each function the entry of the table that differs least from its neighbors
 /// (Ridders: Accurate computation of F'(x) and F'(x) F''(x), 1982). Steps at which a function is not finite do not
 /// count.
 template <class FT, class F>
-std::array<FT, 3> derivatives_at_zero(F f, FT step) {
+std::array<Derivative<FT>, 3> derivatives_at_zero(F f, FT step) {
   constexpr std::size_t levels = 10;
   std::array<std::array<FT, levels>, 3> last{}, row{};
-  std::array<FT, 3> best, least_error;
-  best.fill(std::numeric_limits<FT>::quiet_NaN());
-  least_error.fill(std::numeric_limits<FT>::infinity());
+  std::array<Derivative<FT>, 3> best;
   for (std::size_t level = 0, known = 0; level < levels; ++level, step /= FT(2)) {
     const std::array<FT, 3> ahead = f(step), behind = f(-step);
     FT sum(0);
@@ -38,10 +43,7 @@ std::array<FT, 3> derivatives_at_zero(F f, FT step) {
         power *= FT(4);
         row[n][m] = row[n][m - 1] + (row[n][m - 1] - last[n][m - 1]) / (power - FT(1));
         const FT error = std::max(std::abs(row[n][m] - row[n][m - 1]), std::abs(row[n][m] - last[n][m - 1]));
-        if (error < least_error[n]) {
-          least_error[n] = error;
-          best[n] = row[n][m];
-        }
+        if (error < best[n].error) best[n] = {row[n][m], error};
       }
     }
     last = row;
@@ -58,27 +60,81 @@ struct Differentiated_structure_3 {
   std::array<FT, 3> along1, along2;
 };
 
+/// The derivatives of K, H and J along x, y and z, each on the level set through the point, from derivatives of order 5:
+/// the chart of an expansion whose coefficients are expansions of order 1.
+template <class FT>
+std::array<std::array<FT, 3>, 3> gradients_of_invariants(const Jet_3<FT, 5>& jet) {
+  using Number = Jet_3<FT, 1>;
+  Jet_3<Number> moving;
+  for (std::size_t n = 0; n < moving.size; ++n) {
+    const auto [i, j, k] = monomials[n];
+    moving.coefficients()[n].coefficients() = {jet.coefficients()[n], FT(i + 1) * jet.coefficient(i + 1, j, k),
+                                               FT(j + 1) * jet.coefficient(i, j + 1, k),
+                                               FT(k + 1) * jet.coefficient(i, j, k + 1)};
+  }
+  Jet_3<FT> fixed;
+  std::copy_n(jet.coefficients().begin(), fixed.size, fixed.coefficients().begin());
+  const Pivot_3<FT> pivot = choose_pivot(fixed);
+  const auto& c = moving.coefficients();
+  const auto invariants = affine_invariants(
+      Monge_chart_3<Number>(moving, {pivot.is_x, pivot.is_y, {FT(1) / c[1], FT(1) / c[2], FT(1) / c[3]}}));
+  std::array<std::array<FT, 3>, 3> gradients;
+  for (std::size_t n = 0; n < 3; ++n) {
+    const Number& invariant = n == 0   ? invariants.gaussian_curvature
+                              : n == 1 ? invariants.mean_curvature
+                                       : invariants.pick_invariant;
+    std::copy_n(invariant.coefficients().begin() + 1, 3, gradients[n].begin());
+  }
+  return gradients;
+}
+
+/// The derivatives of K, H and J at a regular point along a unit vector, from differences of invariants of neighboring
+/// level sets; NaN where these have an error of more than a hundredth, or, where a derivative vanishes, of more than a
+/// millionth of what is natural there.
+template <class Traits>
+std::array<typename Traits::FT, 3> differences_along(const Traits& traits, const typename Traits::Point_3& p,
+                                                     const Local_structure_3<typename Traits::FT>& structure,
+                                                     const std::array<typename Traits::FT, 3>& direction) {
+  using FT = typename Traits::FT;
+  const typename Traits::Vector_3 along(direction[0], direction[1], direction[2]);
+  const auto invariants = [&](FT t) {
+    const auto s = local_structure(traits.taylor(p + t * along)).affine;
+    return std::array{s.gaussian_curvature, s.mean_curvature, s.pick_invariant};
+  };
+  const auto& euclidean = structure.euclidean;
+  const FT greatest = std::max(std::abs(euclidean.k1), std::abs(euclidean.k2));
+  const FT size = std::pow(std::abs(euclidean.gaussian_curvature), FT(0.75));
+  const std::array<FT, 3> natural = {size * size, size, size};
+  const auto derivatives = derivatives_at_zero(invariants, FT(0.1) / greatest);
+  std::array<FT, 3> result;
+  for (std::size_t n = 0; n < 3; ++n) {
+    const auto& [value, error] = derivatives[n];
+    const bool is_known = error <= FT(0.01) * std::abs(value) || error <= FT(1e-6) * greatest * natural[n];
+    result[n] = is_known ? value : std::numeric_limits<FT>::quiet_NaN();
+  }
+  return result;
+}
+
 template <class Traits>
 Differentiated_structure_3<typename Traits::FT> differentiated_structure(const Traits& traits,
                                                                          const typename Traits::Point_3& p) {
   using FT = typename Traits::FT;
-  using Vector_3 = typename Traits::Vector_3;
   Differentiated_structure_3<FT> result{local_structure(traits.taylor(p)), {}, {}};
   result.along1.fill(std::numeric_limits<FT>::quiet_NaN());
   result.along2 = result.along1;
   if (result.structure.status != Point_status::REGULAR) return result;
-  const auto& euclidean = result.structure.euclidean;
-  const FT step = FT(0.1) / std::max(std::abs(euclidean.k1), std::abs(euclidean.k2));
-  const auto derivatives_along = [&](const std::array<FT, 3>& direction) {
-    const Vector_3 along(direction[0], direction[1], direction[2]);
-    const auto invariants = [&](FT t) {
-      const auto s = local_structure(traits.taylor(p + t * along)).affine;
-      return std::array{s.gaussian_curvature, s.mean_curvature, s.pick_invariant};
-    };
-    return derivatives_at_zero(invariants, step);
-  };
-  result.along1 = derivatives_along(euclidean.direction1);
-  result.along2 = derivatives_along(euclidean.direction2);
+  const auto &direction1 = result.structure.euclidean.direction1, &direction2 = result.structure.euclidean.direction2;
+  if (const auto jet = fifth_order(traits, p)) {
+    const auto gradients = gradients_of_invariants(*jet);
+    for (std::size_t n = 0; n < 3; ++n) {
+      const auto& g = gradients[n];
+      result.along1[n] = g[0] * direction1[0] + g[1] * direction1[1] + g[2] * direction1[2];
+      result.along2[n] = g[0] * direction2[0] + g[1] * direction2[1] + g[2] * direction2[2];
+    }
+  } else {
+    result.along1 = differences_along(traits, p, result.structure, direction1);
+    result.along2 = differences_along(traits, p, result.structure, direction2);
+  }
   return result;
 }
 

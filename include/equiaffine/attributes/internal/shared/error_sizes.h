@@ -18,6 +18,13 @@ FT affine_size(const Local_structure_3<FT>& s) {
   return std::abs(s.affine.gaussian_curvature) + s.affine.mean_curvature * s.affine.mean_curvature;
 }
 
+/// The greatest error of an affine curvature that says nothing: 1e-9 of what |K_e| makes natural for a curvature of
+/// that weight. A K that is zero is known to within this, and not to any part of itself.
+template <class FT>
+FT negligible_error(const FT& euclidean_gaussian_curvature, const FT& power) {
+  return FT(1e-9) * std::pow(std::abs(euclidean_gaussian_curvature), power);
+}
+
 template <class FT>
 FT curved_size(const Local_structure_3<FT>& s) {
   return curvedness(s.euclidean.k1, s.euclidean.k2);

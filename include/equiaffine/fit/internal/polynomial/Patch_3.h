@@ -53,7 +53,7 @@ struct Patch_3 {
   double value(const Vector& p) const;
 
   /// The expansion of order 1 or 4.
-  template <int Order = maximal_order>
+  template <int Order = default_order>
   Jet_3<double, Order> taylor(const Vector& p) const;
 };
 

@@ -29,7 +29,7 @@ std::vector<Surface_point_3<Kernel_of<Traits>>> intersect_segments(const Batch_f
     internal::finish_in_parts(traits, std::span(pointers));
     for (const auto& search : searches) {
       results.push_back(search.result());
-      internal::explain(traits, search.bracket(), results.back());
+      internal::explain(traits, search.bracket(), search.is_doubtful(), results.back());
     }
   } else {
     for (const auto& [ends, values] : segments)

@@ -26,7 +26,8 @@ inline const Vertex_attributes::Column* find_errors(const Vertex_attributes& att
 /// Returns whether a number is known to one digit: the estimated error is at most half of the size of the number.
 inline bool is_known(double size, double error) { return error <= size / 2; }
 
-/// Returns the numbers that errors of a column are called parts of: those of error_table.h, or the numbers themselves.
+/// Returns the numbers that errors of a column are called parts of: those of error_table.h, or the numbers themselves;
+/// where half of that is negligible, twice the greatest error that says nothing.
 inline std::vector<double> sizes_of_numbers(const Vertex_attributes::Column& column,
                                             const Vertex_attributes& attributes) {
   std::vector<double> sizes = column.values;
@@ -44,6 +45,11 @@ inline std::vector<double> sizes_of_numbers(const Vertex_attributes::Column& col
       sizes[i] = &column == K ? size : std::sqrt(size);
     } else sizes[i] = std::abs(sizes[i]);
   }
+  const auto* euclidean_K = find_column(attributes, "gaussian_curvature");
+  for (const auto& row : error_table<double>)
+    if (euclidean_K && row.attribute == column.name && row.power_of_negligible > 0)
+      for (std::size_t i = 0; i < sizes.size(); ++i)
+        sizes[i] = std::max(sizes[i], 2 * internal::negligible_error(euclidean_K->values[i], row.power_of_negligible));
   return sizes;
 }
 

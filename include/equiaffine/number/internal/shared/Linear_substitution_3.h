@@ -10,17 +10,17 @@
 namespace equiaffine {
 
 /// The chain rule for a linear change of variables: turns the jet of g at L(p) into the jet of g o L at p. The map acts
-/// on the homogeneous part of each degree by a fixed matrix, its symmetric power, which is built once: a jet then costs
-/// 370 products, or 34 when L is diagonal.
-template <class FT>
+/// on the homogeneous part of each degree by a fixed matrix, its symmetric power, which is built once: a jet of order 4
+/// then costs 370 products, or 34 when L is diagonal. Jets have the order `MaximalOrder` at most.
+template <class FT, int MaximalOrder = internal::default_order>
 class Linear_substitution_3 {
 public:
   using Matrix = std::array<std::array<FT, 3>, 3>;
 
   explicit Linear_substitution_3(const Matrix& l) {
-    std::array<Jet_3<FT>, 3> images; // of the three variables
+    std::array<Jet, 3> images; // of the three variables
     for (std::size_t row = 0; row < 3; ++row) {
-      images[row] = Jet_3<FT>(FT(0));
+      images[row] = Jet(FT(0));
       for (std::size_t column = 0; column < 3; ++column) {
         images[row].coefficients()[1 + column] = l[row][column];
         is_diagonal_ = is_diagonal_ && (row == column || l[row][column] == FT(0));
@@ -55,8 +55,8 @@ public:
   }
 
 private:
-  static constexpr std::size_t size = Jet_3<FT>::size;
-  std::array<std::array<FT, size>, size> columns_;
+  using Jet = Jet_3<FT, MaximalOrder>;
+  std::array<std::array<FT, Jet::size>, Jet::size> columns_;
   bool is_diagonal_ = true;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The monomials x^i y^j z^k of total degree <= 4 in graded lexicographic order (1; x y z; xx xy xz yy yz zz; ...), sets
+// The monomials x^i y^j z^k of total degree <= 5 in graded lexicographic order (1; x y z; xx xy xz yy yz zz; ...), sets
 // of them as bit masks, and the lists of products that a truncated multiplication of two such sets needs.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_SHARED_MONOMIALS_3_H
 #define EQUIAFFINE_NUMBER_INTERNAL_SHARED_MONOMIALS_3_H
@@ -11,11 +11,10 @@
 
 namespace equiaffine::internal {
 
-inline constexpr int maximal_order = 4;
+inline constexpr int default_order = 4; // that of the affine structure
+inline constexpr int maximal_order = 5; // that of its gradient
 
 constexpr int number_of_monomials(int order) { return (order + 1) * (order + 2) * (order + 3) / 6; }
-
-inline constexpr int maximal_number_of_monomials = number_of_monomials(maximal_order);
 
 struct Monomial_3 {
   std::int8_t i, j, k;
@@ -23,7 +22,7 @@ struct Monomial_3 {
 };
 
 inline constexpr auto monomials = [] {
-  std::array<Monomial_3, maximal_number_of_monomials> table{};
+  std::array<Monomial_3, std::size_t(number_of_monomials(maximal_order))> table{};
   std::size_t n = 0;
   for (int degree = 0; degree <= maximal_order; ++degree)
     for (int i = degree; i >= 0; --i)
@@ -82,8 +81,8 @@ constexpr int quotient_of_monomials(int target, int divisor) {
 /// The products of degree <= order of a member of a and a member of b.
 constexpr Monomial_set product_of_sets(Monomial_set a, Monomial_set b, int order) {
   Monomial_set product = 0;
-  for (int p = 0; p < maximal_number_of_monomials; ++p)
-    for (int q = 0; contains(a, p) && q < maximal_number_of_monomials; ++q)
+  for (int p = 0; p < number_of_monomials(order); ++p)
+    for (int q = 0; contains(a, p) && q < number_of_monomials(order); ++q)
       if (contains(b, q) && product_of_monomials(p, q) >= 0) product |= Monomial_set(1) << product_of_monomials(p, q);
   return product & all_monomials(order);
 }

@@ -84,27 +84,37 @@ inline double facet_error(const Triangles_3& mesh, const std::vector<Edge_of_tri
   return area > 0 ? std::sqrt(sum / (3 * area)) : 0;
 }
 
-/// How far coordinates may be from those that were meant: half a unit of the last decimal place of the largest ones, or
-/// of the last bit of a float or double, and at most a millionth of the largest one.
+/// How far coordinates may be from those that were meant: half a unit of the last decimal place of the largest ones if
+/// many of these have it, as rounded numbers do, else half of the last bit of a float or double; at most a millionth of
+/// the largest one.
 inline double coordinate_rounding(const std::vector<Eigen::Vector3d>& points) {
   constexpr int most_places = 12;
+  constexpr std::size_t many = 4;
+  constexpr double part_of_all = 0.5;
   double greatest = 0;
   for (const Eigen::Vector3d& p : points) greatest = std::max(greatest, p.cwiseAbs().maxCoeff());
+  const auto has_more = [](double c, int n) {
+    const double scaled = c * std::pow(10, n);
+    return std::abs(scaled - std::round(scaled)) > 4e-16 * std::abs(scaled);
+  };
+  std::vector<double> large;
   int places = -6;
   bool are_floats = true;
   for (const Eigen::Vector3d& p : points)
     for (const double c : p) {
       are_floats &= double(float(c)) == c;
       if (std::abs(c) < greatest / 10) continue;
-      const auto has_more = [&](int n) {
-        const double scaled = c * std::pow(10, n);
-        return std::abs(scaled - std::round(scaled)) > 4e-16 * std::abs(scaled);
-      };
-      while (places <= most_places && has_more(places)) ++places;
+      large.push_back(std::abs(c));
+      while (places <= most_places && has_more(c, places)) ++places;
     }
-  const double decimal = places > most_places ? 0 : 0.5 * std::pow(10, -places);
   const double binary = greatest * std::ldexp(1, are_floats ? -24 : -53);
-  return std::min(std::max(decimal, binary), 1e-6 * greatest);
+  if (places > most_places) return binary;
+  const auto last = std::partition(large.begin(), large.end(), [&](double c) { return has_more(c, places - 1); });
+  const auto with_all_places = double(last - large.begin());
+  std::sort(large.begin(), last);
+  const bool are_many = std::size_t(std::unique(large.begin(), last) - large.begin()) >= many;
+  if (!are_many && with_all_places < part_of_all * double(large.size())) return binary;
+  return std::min(std::max(0.5 * std::pow(10, -places), binary), 1e-6 * greatest);
 }
 
 /// Samples triangles by a sequence that is uniform in their area. The moments are those of the triangles themselves, and

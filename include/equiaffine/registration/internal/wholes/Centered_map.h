@@ -74,11 +74,13 @@ struct Centered_refinement {
   int most_steps = 15;
   std::size_t points = 400;
   Eigen::Vector3d fixed_axis = Eigen::Vector3d::Zero(); ///< the map does not turn any further about it, unless it is 0
+  bool keeps_center = false;                            ///< the origin stays where it is
 };
 
 /// The infinitesimal maps of a kind, without the rotation about an axis.
 inline Eigen::MatrixXd infinitesimal_maps(const Centered_refinement& how) {
-  const Eigen::MatrixXd maps = infinitesimal_maps(how.kind);
+  Eigen::MatrixXd maps = infinitesimal_maps(how.kind);
+  if (how.keeps_center) maps.bottomRows<3>().setZero();
   if (how.fixed_axis.isZero()) return maps;
   Eigen::VectorXd rotation = Eigen::VectorXd::Zero(12);
   for (int i = 0; i < 3; ++i) rotation.segment<3>(3 * i) = Eigen::Vector3d::Unit(i).cross(how.fixed_axis);

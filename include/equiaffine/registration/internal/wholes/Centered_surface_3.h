@@ -59,7 +59,9 @@ bool has_group_of_corners(const Triangles_3& mesh, double rounding) {
   const Affine_map_3 map = centering_map(area_moments(mesh));
   rounding *= map.matrix.norm();
   std::vector<Corner> corners = corners_of(transformed(mesh, map), sorted_edges(mesh), rounding);
-  std::erase_if(corners, [](const Corner& c) { return std::abs(c.angle - 2 * std::numbers::pi) < least_defect; });
+  std::erase_if(corners, [](const Corner& c) {
+    return c.is_on_border || std::abs(c.angle - 2 * std::numbers::pi) < least_defect;
+  });
   const Corner_symmetry_search search(std::move(corners), exact_distance(rounding));
   const auto maps = search.run<ConcurrencyTag>(true);
   return maps && !maps->empty();

@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -23,18 +24,42 @@
 
 namespace equiaffine::internal {
 
-/// A vertex whose angles do not add up to that of a plane or a half-plane. Corners depend on the shape alone: however
-/// faces are cut into triangles, a symmetry moves corners to corners with the same angle.
+/// A vertex whose angles do not add up to that of a plane or a half-plane, or at which a border bends. Corners depend on
+/// the shape alone: however faces are cut into triangles, a symmetry moves corners to corners with the same angle.
 struct Corner {
   Eigen::Vector3d point;
-  double angle; ///< the sum of the angles of its triangles
+  double angle; ///< the sum of the angles of its triangles, and of that between edges of a border
   double error; ///< of the angle, by the rounding of coordinates
+  bool is_on_border;
 };
+
+/// The sum of the angles between edges of the border at each vertex, 0 at those that have no two; `edges` are sorted.
+inline std::vector<double> angles_of_borders(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges) {
+  constexpr auto none = std::numeric_limits<std::size_t>::max();
+  std::vector<double> angles(mesh.points.size());
+  std::vector<std::size_t> neighbors(mesh.points.size(), none);
+  for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
+    while (next < edges.size() && edges[next].ends == edges[i].ends) ++next;
+    if (next - i != 1) continue;
+    const std::array<std::size_t, 2> ends = {edges[i].ends[0], edges[i].ends[1]};
+    for (const std::size_t k : {0U, 1U}) {
+      const std::size_t v = ends[k];
+      if (neighbors[v] == none) {
+        neighbors[v] = ends[1 - k];
+        continue;
+      }
+      const Eigen::Vector3d a = mesh.points[neighbors[v]] - mesh.points[v],
+                            b = mesh.points[ends[1 - k]] - mesh.points[v];
+      angles[v] += std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+  }
+  return angles;
+}
 
 /// The corners of a mesh with these sorted edges, whose coordinates have a rounding error.
 inline std::vector<Corner> corners_of(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges,
                                       double rounding) {
-  constexpr double least_difference = 1e-3, greatest_error = 0.1;
+  constexpr double least_difference = 1e-3, greatest_error = 0.1, pi = std::numbers::pi;
   std::vector<double> angles(mesh.points.size()), errors(mesh.points.size());
   for (const auto& triangle : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -43,16 +68,15 @@ inline std::vector<Corner> corners_of(const Triangles_3& mesh, const std::vector
       angles[triangle[k]] += std::atan2(a.cross(b).norm(), a.dot(b));
       errors[triangle[k]] += 2 * rounding * (1 / a.norm() + 1 / b.norm());
     }
-  std::vector<bool> is_on_border(mesh.points.size());
-  for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
-    while (next < edges.size() && edges[next].ends == edges[i].ends) ++next;
-    if (next - i == 1) is_on_border[edges[i].ends[0]] = is_on_border[edges[i].ends[1]] = true;
-  }
+  const std::vector<double> of_borders = angles_of_borders(mesh, edges);
   std::vector<Corner> corners;
   for (std::size_t v = 0; v < angles.size(); ++v) {
-    const double flat = is_on_border[v] ? std::numbers::pi : 2 * std::numbers::pi;
-    if (!(angles[v] > 0 && std::abs(angles[v] - flat) > least_difference + errors[v])) continue;
-    if (errors[v] < greatest_error) corners.push_back({mesh.points[v], angles[v], errors[v] + 1e-9});
+    const bool is_on_border = of_borders[v] > 0;
+    const double least = least_difference + errors[v];
+    const bool is_flat = std::abs(angles[v] - (is_on_border ? pi : 2 * pi)) <= least;
+    const bool is_straight = !is_on_border || std::abs(of_borders[v] - pi) <= least;
+    if (!(angles[v] > 0) || (is_flat && is_straight) || !(errors[v] < greatest_error)) continue;
+    corners.push_back({mesh.points[v], angles[v] + of_borders[v], 2 * errors[v] + 1e-9, is_on_border});
   }
   return corners;
 }

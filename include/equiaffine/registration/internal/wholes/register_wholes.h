@@ -88,12 +88,18 @@ Shape_matches register_wholes(const Centered_surface_3& source, const Centered_s
   const double touching =
       tolerance_of_contact(std::max(source.samples.facet_error, target.samples.facet_error), request);
   const auto maps = refined_candidates<ConcurrencyTag>(surfaces, rotations, scale, request.kind, gate).maps;
+  const auto match = [&](const Centered_map& map) {
+    return match_of(surfaces, map.map, std::max(touching, 3 * map.rms), how);
+  };
   for (const Centered_map& map : maps)
-    if (map.rms < tolerances.equal) result.maps.push_back(match_of(surfaces, map.map, touching, how));
-  if (result.maps.empty() && is_one_alone(maps, tolerances.alone)) {
-    const Shape_match match = match_of(surfaces, maps[0].map, std::max(touching, 3 * maps[0].rms), how);
-    if (match.contradictions[0] + match.contradictions[1] < most_contradictions) result.maps.push_back(match);
-  }
+    if (map.rms < tolerances.equal)
+      if (const Shape_match m = match(map); std::max(m.contradictions[0], m.contradictions[1]) < most_contradictions)
+        result.maps.push_back(m);
+  std::stable_sort(result.maps.begin(), result.maps.end(),
+                   [](const Shape_match& a, const Shape_match& b) { return a.rms < b.rms; });
+  if (result.maps.empty() && is_one_alone(maps, tolerances.alone))
+    if (const Shape_match m = match(maps[0]); m.contradictions[0] + m.contradictions[1] < most_contradictions)
+      result.maps.push_back(m);
   return result;
 }
 

@@ -15,10 +15,9 @@ namespace equiaffine {
 /// directions. On hyperbolic surfaces the metric is indefinite, and the norm is 0 for gradients along an asymptotic
 /// direction, too. Units: length^(-15/4), length^(-9/4), length^(-9/4).
 ///
-/// These are derivatives of order 5, while expansions have order 4. So they are computed from differences of invariants
-/// of neighboring level sets, with some 9 digits where the invariants change slowly over a tenth of the smaller radius
-/// of curvature. They are NaN if p is not regular, or if no neighborhood of p is, as on the border of a volume. Takes
-/// up to 40 expansions.
+/// These are derivatives of order 5: those of the function if it has \ref fifth_order(), else differences of invariants
+/// of neighboring level sets, which take 40 expansions and are NaN where they are not known to a hundredth. All are NaN
+/// where p is not regular.
 template <ImplicitFunctionTraits_3 Traits>
 std::array<typename Traits::FT, 3> affine_gradient_norms(const Traits& traits, const typename Traits::Point_3& p) {
   return internal::gradient_norms_of(internal::differentiated_structure(traits, p));
