@@ -65,11 +65,11 @@ public:
   Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); } ///< see Spline_function_3::bounds()
   /// See Spline_function_3::first_order_bounds().
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return spline_->first_order_bounds(box); }
-  /// The greatest change of second derivatives at p by rounding. It includes the rounding of the samples to float if
-  /// all samples are floats, and is 0 outside the support of the spline.
+  /// The greatest change of second derivatives at p by rounding. It includes the rounding of the samples around p to
+  /// float if all samples are floats, and is 0 outside the support of the spline.
   FT rounding(const Point_3& p) const {
     const auto cell = spline_->cell_of(p);
-    return cell ? (*rounding_)(*cell) : FT(0);
+    return cell ? (*rounding_)(*spline_, *cell) : FT(0);
   }
   CGAL::Bbox_3 bbox() const { return lattice().bbox(); } ///< the box of the lattice
 

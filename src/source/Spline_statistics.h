@@ -6,6 +6,7 @@
 #include <equiaffine/volume/Spline_scheme.h>
 
 #include <cstddef>
+#include <optional>
 
 namespace equiaffine {
 
@@ -15,7 +16,8 @@ struct Spline_statistics {
   Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
   double smoothing = 0;
   Sample_noise noise = {};
-  std::size_t least_nodes = 0; ///< along the axis that has the fewest
+  std::size_t least_nodes = 0;                     ///< along the axis that has the fewest
+  std::optional<std::size_t> distinct_values = {}; ///< the number of those of the samples, if they are at most 256
 };
 
 } // namespace equiaffine

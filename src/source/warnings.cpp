@@ -33,6 +33,13 @@ void warn_of_outside(const Source_options& options, const Source& source, std::s
   progress.warn(text.str());
 }
 
+void warn_of_steps(const Spline_statistics& spline, Progress& progress) {
+  if (spline.smoothing > 0 || !spline.distinct_values) return;
+  progress.warn("the samples have " + std::to_string(*spline.distinct_values) +
+                " distinct values only, and curvatures are those of the steps between them; smooth the samples, "
+                "--smoothing auto");
+}
+
 bool has_affine_curvatures(const Attribute_selection& attributes, const std::vector<std::string>& estimates) {
   return !estimates.empty() ||
          std::any_of(attributes.columns.begin(), attributes.columns.end(), [](const Attribute& column) {

@@ -20,6 +20,9 @@ namespace equiaffine {
 void warn_of_outside(const Source_options& options, const Source& source, std::size_t outside, std::size_t all,
                      const std::string& points, Progress& progress);
 
+/// Warns if samples are not smoothed and have few distinct values, so that their curvatures are those of steps.
+void warn_of_steps(const Spline_statistics& spline, Progress& progress);
+
 /// Whether columns depend on derivatives of order 3 or 4, so that what is known of affine curvatures concerns them.
 bool has_affine_curvatures(const Attribute_selection& attributes, const std::vector<std::string>& estimates);
 

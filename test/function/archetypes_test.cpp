@@ -137,7 +137,9 @@ void expect_members(const Traits& traits, double slope) {
   EXPECT_EQ(certainty(traits, points[0]) < 1, HasCertainty<Base>);
   EXPECT_EQ(sampling_lattice(traits, {4, 4, 4}).size()[2], 4U);
   ASSERT_EQ(fifth_order(traits, points[0]).has_value(), HasFifthOrder<Base>);
-  if (const auto jet = fifth_order(traits, points[0])) EXPECT_NEAR(jet->coefficient(1, 0, 0), slope, 1e-15);
+  if (const auto jet = fifth_order(traits, points[0])) {
+    EXPECT_NEAR(jet->coefficient(1, 0, 0), slope, 1e-15);
+  }
   if constexpr (SecondOrderBoundedImplicitFunctionTraits_3<Traits>) {
     EXPECT_TRUE(traits.second_order_bounds(box).coefficients()[1].contains(slope));
   }

@@ -98,6 +98,16 @@ TEST(Rounding, that_of_floats_hides_no_curvature_inside) {
   }
 }
 
+TEST(Rounding, that_of_floats_is_of_the_samples_around_a_point) {
+  // The samples are up to 2e5 in a corner, and less than 1 around the points.
+  const auto f = [](double x, double y, double z) {
+    return z + 0.02 * (x * x + y * y + x * y) + 1e9 * std::pow((x + y + z) / 4, 24);
+  };
+  const Traits traits = sampled(f, 7, Spline_scheme::QUASI_INTERPOLATION, {true});
+  for (const Point_3& p : {Point_3(0, 0, 0), Point_3(-0.3, 0.2, 0.1), Point_3(0.4, 0.1, -0.2)})
+    EXPECT_EQ(status(traits, p), Point_status::REGULAR) << p;
+}
+
 TEST(Rounding, second_derivatives_err_by_no_more_and_not_by_much_less) {
   const auto f = [](double x, double y, double z) { return x * x * y - 2 * y * z + z * x * x * z + 3 * x; };
   for (const Treatment& treatment : treatments)

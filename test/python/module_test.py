@@ -161,6 +161,20 @@ class Sources(InTemporaryFolder):
         self.assertGreater(report["smoothing"], 1)
         self.assertLess(report["max_distance"], 1e-9)
 
+    def test_noise_of_a_volume_is_not_shown_as_fact(self):
+        x, y, z = np.mgrid[-1:1:40j, -1:1:40j, -1:1:40j]
+        noisy = x**2 + y**2 + z**2 + np.random.default_rng(3).normal(0, 1e-3, x.shape)
+        found = ea.mesh(noisy, level=0.5, spacing=2 / 39, origin=(-1, -1, -1))
+        self.assertGreater(np.median(found["affine_gaussian_curvature_error"]), 10)
+        ea.view(found, self.folder / "page.html")
+        self.assertIn("affine Gaussian curvature is unknown at", (self.folder / "page.html").read_text().replace("Affine", "affine"))
+        smooth = ea.mesh(noisy, level=0.5, spacing=2 / 39, origin=(-1, -1, -1), smoothing="auto")
+        self.assertLess(np.median(smooth["affine_gaussian_curvature_error"]), 1)
+        self.assertNotIn("affine_gaussian_curvature_error", ea.mesh(noisy, level=0.5, attributes="k1"))
+        mask = (x**2 + y**2 + z**2 < 0.5).astype(np.uint8)
+        with self.assertWarnsRegex(UserWarning, 'have 2 distinct values only.*smoothing="auto"'):
+            ea.mesh(mask, level=0.5)
+
     def test_vectors_have_three_columns(self):
         ball = ea.mesh("x^2 + y^2 + z^2 = 4", box=3, resolution=20, attributes="all")
         for name in ("normal", "affine_normal", "conormal", "direction1"):

@@ -20,6 +20,7 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <unsupported/Eigen/MatrixFunctions>
 #include <utility>
 #include <vector>
 
@@ -277,10 +278,10 @@ TEST(Solid_symmetries, short_coordinates_are_what_they_say_unless_many_look_roun
   const auto rigid = parameters::map_kind(Map_kind::RIGID);
   EXPECT_EQ(symmetries(box(1, 1, 1.00001), rigid).order(), 16u);
   Solid bumped = box(1, 1, 1);
-  bumped.points[0] = Kernel::Point_3(-1, -1, -1.00001);
+  bumped.points[0] = Kernel::Point_3(-1, -1, -1e-5);
   EXPECT_EQ(symmetries(bumped, rigid).levels.front().maps.size(), 2u) << "and the mirror image along a diagonal";
   Solid dented = box(1, 1, 1);
-  dented.points[0] = Kernel::Point_3(-.999, -.999, -.999);
+  dented.points[0] = Kernel::Point_3(-.999, -.999, .001);
   const auto result = symmetries(dented, rigid);
   ASSERT_EQ(result.levels.size(), 2u);
   EXPECT_EQ(result.levels[0].maps.size(), 6u);

@@ -122,16 +122,17 @@ public:
       jet.coefficients().fill(std::numeric_limits<FT>::quiet_NaN());
       return jet;
     }
-    const auto expansion = [&](const Coefficients& coefficients) {
+    return with_coefficients_of(place->cell, [&](const Coefficients& coefficients) {
       return substitution_(scheme() == Spline_scheme::PAPER
                                ? coefficients.template interpolated_expansion<Order>(place->cell, place->offset)
                                : coefficients.template expansion<Order>(place->cell, place->offset));
-    };
-    if (!part_) return expansion(source_->all());
-    if (part_->cells().contains(place->cell)) return expansion(*part_);
-    if (const Coefficients* const all = source_->all_if_computed()) return expansion(*all);
-    const auto [i, j, k] = place->cell;
-    return expansion(source_->of_cells({{i, j, k}, {i + 1, j + 1, k + 1}}));
+    });
+  }
+
+  /// Returns the greatest magnitude of the coefficients of a cell, about that of the samples around it.
+  FT greatest_coefficient(const std::array<std::size_t, 3>& cell) const {
+    if (!source_ || !source_->cells().contains(cell)) return std::numeric_limits<FT>::quiet_NaN();
+    return with_coefficients_of(cell, [&](const Coefficients& coefficients) { return coefficients.greatest(cell); });
   }
 
   /// Computes an interval that contains the values at all points of the box, also as value() rounds them, from the
@@ -191,6 +192,16 @@ private:
 
   internal::Bspline_bounds<FT> bounds_of(const Coefficients& coefficients) const {
     return {degree(), coefficients.size(), support_.slack()};
+  }
+
+  /// Returns f(coefficients) for coefficients that have those of a cell of the source.
+  template <class F>
+  auto with_coefficients_of(const std::array<std::size_t, 3>& cell, const F& f) const {
+    if (!part_) return f(source_->all());
+    if (part_->cells().contains(cell)) return f(*part_);
+    if (const Coefficients* const all = source_->all_if_computed()) return f(*all);
+    const auto [i, j, k] = cell;
+    return f(source_->of_cells({{i, j, k}, {i + 1, j + 1, k + 1}}));
   }
 
   std::optional<typename Support::Place> locate(const Point_3& p) const {

@@ -119,6 +119,19 @@ public:
     return jet;
   }
 
+  /// The greatest magnitude of the coefficients of a cell of the block.
+  FT greatest(const Size& cell) const {
+    const std::size_t i = cell[0] - cells_.first[0], j = cell[1] - cells_.first[1], k = cell[2] - cells_.first[2];
+    const auto taps = std::size_t(degree_) + 1;
+    FT result(0);
+    for (std::size_t z = 0; z < taps; ++z)
+      for (std::size_t y = 0; y < taps; ++y) {
+        const FT* const row = &values_[((k + z) * size_[1] + j + y) * size_[0] + i];
+        for (std::size_t x = 0; x < taps; ++x) result = std::max(result, std::abs(row[x]));
+      }
+    return result;
+  }
+
   /// An expansion that is linear in each coordinate between the expansions at the corners of the cell.
   template <int Order>
   Jet_3<FT, Order> interpolated_expansion(const Size& cell, const std::array<FT, 3>& offset) const {

@@ -85,12 +85,12 @@ inline double facet_error(const Triangles_3& mesh, const std::vector<Edge_of_tri
 }
 
 /// How far coordinates may be from those that were meant: half a unit of the last decimal place of the largest ones if
-/// many of these have it, as rounded numbers do, else half of the last bit of a float or double; at most a millionth of
-/// the largest one.
+/// many of these have it, as rounded numbers do, and if it is at most a millionth of the largest one; else half of the
+/// last bit of a float or double.
 inline double coordinate_rounding(const std::vector<Eigen::Vector3d>& points) {
   constexpr int most_places = 12;
   constexpr std::size_t many = 4;
-  constexpr double part_of_all = 0.5;
+  constexpr double part_of_all = 0.5, greatest_part = 1e-6;
   double greatest = 0;
   for (const Eigen::Vector3d& p : points) greatest = std::max(greatest, p.cwiseAbs().maxCoeff());
   const auto has_more = [](double c, int n) {
@@ -108,13 +108,14 @@ inline double coordinate_rounding(const std::vector<Eigen::Vector3d>& points) {
       while (places <= most_places && has_more(c, places)) ++places;
     }
   const double binary = greatest * std::ldexp(1, are_floats ? -24 : -53);
-  if (places > most_places) return binary;
+  const double decimal = 0.5 * std::pow(10, -places);
+  if (places > most_places || decimal > greatest_part * greatest) return binary;
   const auto last = std::partition(large.begin(), large.end(), [&](double c) { return has_more(c, places - 1); });
   const auto with_all_places = double(last - large.begin());
   std::sort(large.begin(), last);
   const bool are_many = std::size_t(std::unique(large.begin(), last) - large.begin()) >= many;
   if (!are_many && with_all_places < part_of_all * double(large.size())) return binary;
-  return std::min(std::max(0.5 * std::pow(10, -places), binary), 1e-6 * greatest);
+  return std::max(decimal, binary);
 }
 
 /// Samples triangles by a sequence that is uniform in their area. The moments are those of the triangles themselves, and

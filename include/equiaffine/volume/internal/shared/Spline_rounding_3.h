@@ -52,8 +52,9 @@ Volume_survey volume_survey(const Volume_view_3<Kernel>& volume, const Volume_vi
   return survey;
 }
 
-/// Estimates from above how far rounding may change the second derivatives of a spline, as if all samples were as large
-/// as the largest one: two roundings of every term, and one of the samples to float if all are floats.
+/// Estimates from above how far rounding may change the second derivatives of a spline: two roundings of every term, as
+/// if all samples were as large as the largest one, and one of the samples to float if all are floats. The latter, which
+/// is the greater one by far, is that of samples as large as the coefficients of the cell unless they were smoothed.
 template <class Kernel>
 class Spline_rounding_3 {
 public:
@@ -66,8 +67,8 @@ public:
   Spline_rounding_3(const Spline& spline, const FT& smoothing, const Volume_survey& samples)
       : to_lattice_(spline.to_lattice()),
         rounding_of_terms_(2 * std::numeric_limits<FT>::epsilon() * FT(samples.greatest)),
-        rounding_of_samples_(samples.are_floats ? FT(std::numeric_limits<float>::epsilon()) / 2 * FT(samples.greatest)
-                                                : FT(0)) {
+        rounding_of_samples_(samples.are_floats ? FT(std::numeric_limits<float>::epsilon()) / 2 : FT(0)),
+        greatest_sample_(FT(samples.greatest)), is_local_(samples.are_floats && !(smoothing > FT(0))) {
     for (std::size_t a = 0; a < 3; ++a) {
       const std::size_t nodes = spline.lattice().size()[a];
       if (nodes <= std::size_t(spline.degree())) return;
@@ -75,26 +76,42 @@ public:
                                                 {spline.degree(), spline.scheme(), spline.border_degree(), smoothing});
       gains_[a] = {line.kinds(), [&](std::size_t kind) { return gains(line, kind); }};
     }
-    inside_ = error({gains_[0].inner_kind(), gains_[1].inner_kind(), gains_[2].inner_kind()});
+    inside_ = errors({gains_[0].inner_kind(), gains_[1].inner_kind(), gains_[2].inner_kind()});
   }
 
-  /// The largest error of a second derivative in the coordinates of space, in the middle of a cell.
-  FT operator()(const Cell& cell) const {
+  /// The largest error of a second derivative in the coordinates of space, in the middle of a cell of the spline.
+  FT operator()(const Spline& spline, const Cell& cell) const {
+    Errors e = inside_;
     for (std::size_t a = 0; a < 3; ++a)
-      if (gains_[a].kind(cell[a]) != gains_[a].inner_kind()) return error(cell);
-    return inside_;
+      if (gains_[a].kind(cell[a]) != gains_[a].inner_kind()) {
+        e = errors(cell);
+        break;
+      }
+    constexpr FT margin(2); // coefficients are less than the samples where these oscillate
+    const FT greatest =
+        is_local_ ? std::min(greatest_sample_, margin * spline.greatest_coefficient(cell)) : greatest_sample_;
+    return e.terms + greatest * e.samples;
   }
 
 private:
-  FT error(const Cell& cell) const {
-    FT greatest = 0;
+  /// The greatest errors of second derivatives by rounding of terms, and by that of samples of magnitude 1.
+  struct Errors {
+    FT terms, samples;
+  };
+
+  Errors errors(const Cell& cell) const {
+    Errors greatest{};
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = i; j < 3; ++j) {
-        FT sum = 0;
+        Errors sum{};
         for (std::size_t a = 0; a < 3; ++a)
-          for (std::size_t b = 0; b < 3; ++b)
-            sum += std::abs(to_lattice_[a][i] * to_lattice_[b][j]) * error_in_lattice(a, b, cell);
-        greatest = std::max(greatest, sum);
+          for (std::size_t b = 0; b < 3; ++b) {
+            const FT factor = std::abs(to_lattice_[a][i] * to_lattice_[b][j]);
+            const Errors e = errors_in_lattice(a, b, cell);
+            sum.terms += factor * e.terms;
+            sum.samples += factor * e.samples;
+          }
+        greatest = {std::max(greatest.terms, sum.terms), std::max(greatest.samples, sum.samples)};
       }
     return greatest;
   }
@@ -105,8 +122,8 @@ private:
     std::array<FT, 3> terms, samples;
   };
 
-  /// The error of the derivative along the axes a and b of the lattice.
-  FT error_in_lattice(std::size_t a, std::size_t b, const Cell& cell) const {
+  /// The errors of the derivative along the axes a and b of the lattice.
+  Errors errors_in_lattice(std::size_t a, std::size_t b, const Cell& cell) const {
     FT terms = rounding_of_terms_, samples = rounding_of_samples_;
     for (std::size_t c = 0; c < 3; ++c) {
       const Gains& gains = gains_[c][cell[c]];
@@ -114,7 +131,7 @@ private:
       terms *= gains.terms[order];
       samples *= gains.samples[order];
     }
-    return terms + samples;
+    return {terms, samples};
   }
 
   static Gains gains(const internal::Line_functionals<FT>& line, std::size_t kind) {
@@ -129,9 +146,12 @@ private:
   }
 
   typename Spline::Matrix to_lattice_;
-  FT rounding_of_terms_, rounding_of_samples_; // of the largest ones
+  FT rounding_of_terms_;   // of the largest ones
+  FT rounding_of_samples_; // of magnitude 1
+  FT greatest_sample_;
+  bool is_local_;
   std::array<internal::Per_kind_of_cell<Gains>, 3> gains_;
-  FT inside_ = 0; // the error in cells away from the borders
+  Errors inside_{}; // in cells away from the borders
 };
 
 } // namespace equiaffine
