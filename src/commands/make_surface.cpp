@@ -191,7 +191,9 @@ void warn_of(const Annotated_surface& surface, const Source& source, const Mesh_
   if (!options.attributes.columns.empty())
     warn_of_outside(options.source, source, surface.status[std::size_t(Point_status::OUTSIDE)],
                     surface.mesh.points.size(), "vertices", progress);
-  if (!options.attributes.columns.empty() && source.spline && options.source.kind == Source_kind::VOLUME)
+  const bool has_curvatures =
+      !options.attributes.columns.empty() && surface.status[std::size_t(Point_status::REGULAR)] > 0;
+  if (has_curvatures && source.spline && options.source.kind == Source_kind::VOLUME)
     warn_of_steps(*source.spline, progress);
   if (!surface.reason_against_remesh.empty())
     progress.warn("the faces are not remeshed, and Marching Cubes makes others: " + surface.reason_against_remesh);

@@ -169,7 +169,8 @@ class Sources(InTemporaryFolder):
         ea.view(found, self.folder / "page.html")
         self.assertIn("affine Gaussian curvature is unknown at", (self.folder / "page.html").read_text().replace("Affine", "affine"))
         smooth = ea.mesh(noisy, level=0.5, spacing=2 / 39, origin=(-1, -1, -1), smoothing="auto")
-        self.assertLess(np.median(smooth["affine_gaussian_curvature_error"]), 1)
+        self.assertLess(np.median(smooth["affine_gaussian_curvature_error"]),
+                        np.median(found["affine_gaussian_curvature_error"]) / 10)
         self.assertNotIn("affine_gaussian_curvature_error", ea.mesh(noisy, level=0.5, attributes="k1"))
         mask = (x**2 + y**2 + z**2 < 0.5).astype(np.uint8)
         with self.assertWarnsRegex(UserWarning, 'have 2 distinct values only.*smoothing="auto"'):

@@ -280,8 +280,8 @@ TEST(Solid_symmetries, short_coordinates_are_what_they_say_unless_many_look_roun
   Solid bumped = box(1, 1, 1);
   bumped.points[0] = Kernel::Point_3(-1, -1, -1e-5);
   EXPECT_EQ(symmetries(bumped, rigid).levels.front().maps.size(), 2u) << "and the mirror image along a diagonal";
-  Solid dented = box(1, 1, 1);
-  dented.points[0] = Kernel::Point_3(-.999, -.999, .001);
+  Solid dented = star(.3);
+  dented.points[0] = Kernel::Point_3(-.4995, -.4995, .0005);
   const auto result = symmetries(dented, rigid);
   ASSERT_EQ(result.levels.size(), 2u);
   EXPECT_EQ(result.levels[0].maps.size(), 6u);
@@ -292,7 +292,7 @@ TEST(Solid_symmetries, short_coordinates_are_what_they_say_unless_many_look_roun
 // The generators are those of finite turns, which move points as far as is said.
 TEST(Solid_symmetries, a_coarse_mesh_of_an_ellipsoid_turns_as_far_from_itself_as_is_said) {
   const Formula formula(Expression_3("x^2+y^2/2+z^2/4-1"), CGAL::Bbox_3(-3, -3, -3, 3, 3, 3));
-  const auto mesh = marching_cubes(formula, parameters::number_of_nodes(14));
+  const auto mesh = marching_cubes(formula, parameters::number_of_nodes(30));
   const auto result = affine_symmetries(mesh.points, mesh.triangles);
   ASSERT_EQ(result.continuous.dimension(), 3u);
   const double size = std::sqrt(3.5); // about

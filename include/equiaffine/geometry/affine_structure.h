@@ -9,7 +9,7 @@
 
 namespace equiaffine {
 
-/// The invariants from a chart, in 337 floating-point operations with the chart. Meaningful where chart.is_curved.
+/// The invariants from a chart, in 327 floating-point operations with the chart. Meaningful where chart.is_curved.
 ///
 /// Writing p for the quadratic form Q, with which indices are raised and traces taken (h = -2 p), and v for a quarter
 /// of the trace of the cubic form, C = t + 3 sym(v p) with t apolar. The direction alpha = -(1/2) p^-1 L, conjugate to
@@ -17,7 +17,7 @@ namespace equiaffine {
 /// remains, rho = alpha + (3/2) p^-1 v, is small where the surface is near one, however anisotropic: without alpha
 /// digits are lost there. The Gauss-Weingarten equations of the graph -(Q + C + R + Q (e Q - D)) then reduce to
 ///
-///     B = -3/2 s |d|^(1/4) (p^-1 N + sigma I),   K = 9/4 sqrt(|d|) det(N + sigma p) / det p,
+///     B = -3/2 s |d|^(1/4) (p^-1 N + sigma I),
 ///     N = tr R - D - 3 C(alpha + p^-1 v) - 9 v v^T + 3/2 Hess(C) / det p,
 ///     sigma = 4/3 (e + L(alpha) / 2) - tr D / 6 - 2 v(alpha),   J = -9/16 s |d|^(1/4) |t|^2
 ///

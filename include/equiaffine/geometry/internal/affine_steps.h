@@ -108,20 +108,9 @@ Binary_form<FT, 2> fourth_order_form(const Monge_chart_3<FT>& chart, const Inver
 template <class FT>
 std::array<FT, 4> affine_shape_operator(const Inverse_form<FT>& inverse, const Binary_form<FT, 2>& n, const FT& sigma,
                                         const FT& factor) {
-  const auto& [reciprocal, i11, i12, i22, i12_twice] = inverse;
-  const FT cross = i12 * n[1];
-  return {factor * (i11 * n[0] - cross + sigma), factor * (i11 * n[1] - i12 * n[2]), factor * (i22 * n[1] - i12 * n[0]),
-          factor * (i22 * n[2] - cross + sigma)};
-}
-
-/// det B = `factor`^2 det(N + sigma p) / det p. The entries of p^-1 N may be much larger than this near a parabolic
-/// curve, and those of N are not.
-template <class FT>
-FT affine_gaussian_curvature(const Monge_chart_3<FT>& chart, const Inverse_form<FT>& inverse,
-                             const Binary_form<FT, 2>& n, const FT& sigma, const FT& factor) {
-  const auto& p = chart.quadratic;
-  const FT m0 = n[0] + sigma * p[0], m1 = n[1] + sigma * p[1], m2 = n[2] + sigma * p[2];
-  return factor * factor * inverse.reciprocal * (m0 * m2 - m1 * m1);
+  const FT i11 = factor * inverse.i11, i12 = factor * inverse.i12, i22 = factor * inverse.i22;
+  const FT mean = factor * sigma - i12 * n[1];
+  return {i11 * n[0] + mean, i11 * n[1] - i12 * n[2], i22 * n[1] - i12 * n[0], i22 * n[2] + mean};
 }
 
 template <class FT>
@@ -143,15 +132,15 @@ Affine_invariants_3<FT> affine_invariants_of(const Monge_chart_3<FT>& chart) {
   // Powers of |d|: `square` is the root, `length` is s times the fourth root, and `reciprocal_length` 1 / length.
   const FT square = FT(2) * sqrt(abs(chart.determinant)), length = chart.sign * sqrt(square);
   const FT reciprocal_length = length * square * abs(inverse.reciprocal) * FT(0.25);
-  const FT factor = FT(-1.5) * length;
   Affine_invariants_3<FT> s;
   s.conormal = chart.unpermuted(a * reciprocal_length, b * reciprocal_length, reciprocal_length);
   s.slope = {alpha[0] + FT(1.5) * x[0], alpha[1] + FT(1.5) * x[1]};
   const FT xi1 = length * s.slope[0], xi2 = length * s.slope[1];
   s.normal = chart.unpermuted(xi1, xi2, length - a * xi1 - b * xi2);
-  s.shape_operator = affine_shape_operator<FT>(inverse, n, sigma, factor);
-  s.gaussian_curvature = affine_gaussian_curvature<FT>(chart, inverse, n, sigma, factor);
-  s.mean_curvature = (s.shape_operator[0] + s.shape_operator[3]) * FT(0.5);
+  s.shape_operator = affine_shape_operator<FT>(inverse, n, sigma, FT(-1.5) * length);
+  const auto& [b11, b12, b21, b22] = s.shape_operator;
+  s.gaussian_curvature = b11 * b22 - b12 * b21;
+  s.mean_curvature = (b11 + b22) * FT(0.5);
   s.pick_invariant = FT(1.125) * length * minus_half_squared_norm(cubic.t, inverse);
   s.apolar_cubic = cubic.t;
   return s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Functions of jets that choose by value: comparisons, max, min, abs.
+// Functions of jets that choose by value, comparisons, max, min, abs, and their limits.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_JET_ORDERING_3_H
 #define EQUIAFFINE_NUMBER_INTERNAL_JET_ORDERING_3_H
 
@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace equiaffine {
 
@@ -74,5 +75,12 @@ auto min(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, A>& b) {
 /// @}
 
 } // namespace equiaffine
+
+/// Limits of jets are those of their coefficients.
+template <class T, int Order, equiaffine::Monomial_set Support>
+class std::numeric_limits<equiaffine::Jet_3<T, Order, Support>> : public std::numeric_limits<T> {
+public:
+  static constexpr bool is_iec559 = false; ///< a jet is no number of the processor
+};
 
 #endif

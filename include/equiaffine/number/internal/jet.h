@@ -7,7 +7,6 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -157,17 +156,6 @@ private:
 
   std::array<T, size> c_;
 };
-
-} // namespace equiaffine
-
-/// Limits of jets are those of their coefficients.
-template <class T, int Order, equiaffine::Monomial_set Support>
-class std::numeric_limits<equiaffine::Jet_3<T, Order, Support>> : public std::numeric_limits<T> {
-public:
-  static constexpr bool is_iec559 = false; ///< a jet is no number of the processor
-};
-
-namespace equiaffine {
 
 /// The numbers that arithmetic combines with a jet over T.
 template <class S, class T>

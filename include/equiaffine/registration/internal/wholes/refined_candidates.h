@@ -31,16 +31,19 @@ inline std::vector<Centered_map> different(std::vector<Centered_map> maps, doubl
                       [](const Centered_map& a, const Centered_map& b) { return difference(a, b) < same_map; });
 }
 
-/// A map refined by least squares, judged by many points. A map of a surface onto itself keeps the centroid, and one
-/// onto an equal surface does if that is as good: along an open tube, say, only the ends tell of a translation.
+/// A map refined by least squares, judged by many points. A map of a mesh onto itself keeps the centroid, and one onto an
+/// equal mesh does if that is as good: along an open tube, say, only the ends tell of a translation. The centroids of other
+/// surfaces have errors.
 inline Centered_map refined_and_judged(const Centered_pair& surfaces, const Affine_map_3& map, Map_kind kind) {
   constexpr int steps = 10;
   constexpr std::size_t points = 300;
   const auto with_center = [&](const Affine_map_3& m) {
     return judged(surfaces, refined(surfaces, m, {kind, steps, points, Eigen::Vector3d::Zero(), true}), points_of_rms);
   };
-  if (&surfaces.source == &surfaces.target) return with_center(map);
+  const bool are_meshes = !surfaces.source.is_exact && !surfaces.target.is_exact;
+  if (are_meshes && &surfaces.source == &surfaces.target) return with_center(map);
   const Centered_map free = judged(surfaces, refined(surfaces, map, {kind, steps, points}), points_of_rms);
+  if (!are_meshes) return free;
   const Centered_map fixed = with_center({free.map.matrix});
   const double rounding = exact_distance(std::max(surfaces.source.rounding, surfaces.target.rounding));
   return fixed.rms <= free.rms + rounding ? fixed : free;
@@ -65,16 +68,16 @@ template <class ConcurrencyTag>
 Refined_maps refined_candidates(const Centered_pair& surfaces, const std::vector<Rotation_candidate>& rotations,
                                 double scale, Map_kind kind, double greatest_rms, bool are_all_asked_for = false) {
   constexpr std::size_t most_after_first = 600, most_after_second = 250;
-  const bool is_symmetry = &surfaces.source == &surfaces.target;
+  const bool keeps_center = &surfaces.source == &surfaces.target && !surfaces.source.is_exact;
   Refined_maps result;
   auto& maps = result.maps;
   for (const Rotation_candidate& rotation : rotations) maps.push_back({{scale * rotation.matrix}});
   const auto refine = [&](int steps, std::size_t points, double gate) {
     parallel_for<ConcurrencyTag>(0, maps.size(), [&](std::size_t i) {
-      maps[i] =
-          judged(surfaces,
-                 refined(surfaces, maps[i].map, {Map_kind::RIGID, steps, points, Eigen::Vector3d::Zero(), is_symmetry}),
-                 points);
+      maps[i] = judged(
+          surfaces,
+          refined(surfaces, maps[i].map, {Map_kind::RIGID, steps, points, Eigen::Vector3d::Zero(), keeps_center}),
+          points);
     });
     maps = different(std::move(maps), gate);
   };

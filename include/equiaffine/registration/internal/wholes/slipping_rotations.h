@@ -31,15 +31,9 @@ inline Eigen::Vector3d axis_of(const Eigen::Matrix3d& m) {
   return Eigen::Vector3d(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)).normalized();
 }
 
-/// The generator of the rotations about an axis through the origin.
-inline Infinitesimal_map_3 rotation_about(const Eigen::Vector3d& axis) {
-  Infinitesimal_map_3 generator = {Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero()};
-  for (int i = 0; i < 3; ++i) generator.matrix.col(i) = axis.cross(Eigen::Vector3d::Unit(i));
-  return generator;
-}
-
-/// Returns three axes through the centroid about which rotations move points away from the surface least, by their rms:
-/// those of small rotations, each changed so that a larger rotation fits best.
+/// Returns three axes about which rotations move points away from the surface least, or in proportion, by their rms. The
+/// rotations of a mesh keep its centroid, which is exact, and are about an axis that was refined once: refinement of each
+/// would fit them to the facets.
 template <class ConcurrencyTag>
 std::vector<Slipping_rotation> slipping_rotations(const Centered_surface_3& surface, Map_kind kind) {
   constexpr std::array<double, 4> angles = {1.0, 0.381966, 1.618034, 2.618034};
@@ -52,24 +46,36 @@ std::vector<Slipping_rotation> slipping_rotations(const Centered_surface_3& surf
     squares += moment * moment.transpose();
   }
   const Centered_pair itself(surface);
+  const bool is_mesh = !surface.is_exact;
   Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares).eigenvectors();
-  parallel_for<ConcurrencyTag>(0, 3, [&](std::size_t i) {
-    const Eigen::Vector3d axis = axes.col(Eigen::Index(i));
-    const Affine_map_3 rotation = {Eigen::AngleAxisd(angles[0], axis).toRotationMatrix()};
-    const Affine_map_3 map = refined(itself, rotation, {kind, 8, 400, axis, true});
-    // A map that was drawn to a symmetry nearby says nothing of the rotation.
-    if (difference(map.matrix, rotation.matrix) < greatest_change) axes.col(Eigen::Index(i)) = axis_of(map.matrix);
-  });
+  // A rotation about an axis, changed by refinement, or as it is where it was drawn to a symmetry nearby.
+  const auto refined_rotation = [&](double angle, const Eigen::Vector3d& axis) -> Affine_map_3 {
+    const Affine_map_3 rotation = {Eigen::AngleAxisd(angle, axis).toRotationMatrix()};
+    const Affine_map_3 map = refined(itself, rotation, {kind, 8, 400, axis, is_mesh});
+    return difference(map.matrix, rotation.matrix) < greatest_change ? map : rotation;
+  };
+  if (is_mesh)
+    parallel_for<ConcurrencyTag>(0, 3, [&](std::size_t i) {
+      const Eigen::Vector3d axis = axes.col(Eigen::Index(i));
+      axes.col(Eigen::Index(i)) = axis_of(refined_rotation(angles[0], axis).matrix);
+    });
   std::array<Centered_map, 3 * angles.size()> maps;
   parallel_for<ConcurrencyTag>(0, maps.size(), [&](std::size_t i) {
     const Eigen::Vector3d axis = axes.col(Eigen::Index(i / angles.size()));
-    maps[i] = judged(itself, {Eigen::AngleAxisd(angles[i % angles.size()], axis).toRotationMatrix()}, points);
+    const double angle = angles[i % angles.size()];
+    const Affine_map_3 rotation = {Eigen::AngleAxisd(angle, axis).toRotationMatrix()};
+    maps[i] = judged(itself, is_mesh ? rotation : refined_rotation(angle, axis), points);
   });
   std::vector<Slipping_rotation> result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    Slipping_rotation slipping = {rotation_about(axes.col(Eigen::Index(axis))), 0};
+    Slipping_rotation slipping = {};
     for (std::size_t k = 0; k < angles.size(); ++k)
       slipping.rms = std::max(slipping.rms, maps[axis * angles.size() + k].rms);
+    const Affine_map_3 turn = maps[axis * angles.size()].map, back = turn.inverse();
+    const double sine = std::sin(angles[0]);
+    slipping.generator.matrix = (turn.matrix - back.matrix) / (2 * sine);
+    // The points that the rotation fixes are those that its generator does not move.
+    slipping.generator.translation = (turn.translation - back.translation) / (2 * sine);
     result.push_back(slipping);
   }
   std::stable_sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.rms < b.rms; });
