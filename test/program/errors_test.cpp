@@ -297,7 +297,7 @@ TEST_F(Program_errors, it_is_not_said_that_there_is_no_surface_where_none_was_fo
   expect_error(unseen, found + Arguments{"is undefined", "a finer --resolution"});
   const Arguments delaunay = {"--method", "delaunay", "--radius", "0.3"};
   for (const Arguments& method : {Arguments{}, delaunay})
-    for (const char* formula : {"(x^2+y^2+z^2-1)^2", "-max(0,x^2+y^2+z^2-1)", "abs(x^2+y^2+z^2-1)", "(x+y-.3)^2+z^2"})
+    for (const char* formula : {"(x^2+y^2+z^2-1)^2", "max(0,x^2+y^2+z^2-1)", "abs(x^2+y^2+z^2-1)", "(x+y-.3)^2+z^2"})
       expect_error(mesh_of(formula) + box + method,
                    found + Arguments{"f has zeros without a change of sign", "choose another --isovalue"});
   expect_error(mesh_of("0*x") + box, found + Arguments{"f is that at all nodes of a grid"});
