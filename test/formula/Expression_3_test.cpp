@@ -210,6 +210,9 @@ TEST(Expression_3, taylor_polynomials_tell_of_kinks_and_of_values_that_do_not_ex
     EXPECT_FALSE(is_smooth(text, 0)) << text;
     EXPECT_TRUE(is_smooth(text, 0.5)) << text;
   }
+  for (const char* text : {"abs(x)^4", "abs(x)^2 + y", "abs(x - y)^6*z"}) EXPECT_TRUE(is_smooth(text, 0)) << text;
+  EXPECT_TRUE(is_smooth("y + 0^x", 0.5));
+  EXPECT_FALSE(is_smooth("y + 0^x", 0));
   EXPECT_TRUE(std::isnan(Expression_3("log(x)*y").taylor(-1.0, 2.0, 0.0).value()));
   EXPECT_TRUE(std::isnan(Expression_3("0*log(x)").taylor(-1.0, 2.0, 0.0).value()));
 }
