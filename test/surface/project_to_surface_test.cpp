@@ -78,7 +78,7 @@ TEST(Intersect_segment, poles_and_jumps_are_not_roots) {
     for (const auto& root : {intersect_segment(with_derivatives(f), a, b, fa, fb),
                              intersect_segment(Values_only<Expression_3>{f}, a, b, fa, fb)}) {
       EXPECT_FALSE(root.has_converged) << text;
-      EXPECT_EQ(root.is_at_pole, text[0] == '1') << text;
+      EXPECT_TRUE(root.is_at_pole) << text;
     }
   }
 }

@@ -204,8 +204,9 @@ void explain(const Traits& traits, const Bracket_3<Kernel>& bracket, bool is_dou
              Surface_point_3<Kernel>& result) {
   if (result.has_converged && !(is_doubtful && is_jump(traits, bracket, result.point))) return;
   result.has_converged = false;
-  result.is_at_pole = is_pole(traits, bracket, result.point) || is_jump(traits, bracket, result.point);
+  result.is_at_pole = is_pole(traits, bracket, result.point);
   result.is_at_end = !result.is_at_pole && is_end_of_domain(traits, bracket, result.point);
+  result.is_at_pole = result.is_at_pole || (!result.is_at_end && is_jump(traits, bracket, result.point));
 }
 
 /// Finds a zero on the segment ab by the values of f and its derivatives, if the model has cheap ones.
