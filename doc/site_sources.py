@@ -30,7 +30,7 @@ SHOWN = (
     (r"\bParameters\b", "NamedParameters"),
     (r"\binternal::(?:expression::Ordered|Property_map) (?=\w)", "class "),
     (r"\binternal::Output_allocator<(?:[^<>]|<[^<>]*>)*>", "Unspecified"),
-    (r"\binternal::maximal_order\b", "4"),
+    (r"\binternal::default_order\b", "4"),
     (r"\binternal::scales_to_try\.back\(\)", "8"),
     (r"\binternal::(?=(?:all_monomials|contains)\()", ""),
 )

@@ -90,8 +90,8 @@ class SiteSources(unittest.TestCase):
                  "class P = decltype(parameters::default_values())>"),
                 ("inline internal::No_parameters default_values()", "inline auto default_values()"),
                 ("std::vector<A, internal::Output_allocator<B<C, 3>>> x;", "std::vector<A, Unspecified> x;"),
-                ("int Order = internal::maximal_order", "int Order = 4"),
-                ("  /// The word internal::maximal_order in a comment.", None),
+                ("int Order = internal::default_order", "int Order = 4"),
+                ("  /// The word internal::default_order in a comment.", None),
                 ("#include <a/internal/Parameters>", None)):
             self.assertEqual(shown or code, site_sources.with_names_for_users(code))
 

@@ -57,6 +57,7 @@ struct Monge_chart_3 {
   /// Makes the chart at the point where f has this jet.
   explicit Monge_chart_3(const Jet_3<FT>& jet) : Monge_chart_3(jet, internal::choose_pivot(jet)) {}
 
+  /// \cond for internal use
   /// Makes the chart with this pivot.
   Monge_chart_3(const Jet_3<FT>& jet, const internal::Pivot_3<FT>& pivot)
       : pivot_is_x(pivot.is_x), pivot_is_y(pivot.is_y) {
@@ -65,6 +66,7 @@ struct Monge_chart_3 {
     is_steep = abs(c[1]) > FT(0) || abs(c[2]) > FT(0) || abs(c[3]) > FT(0);
     expand_around_pivot(jet, pivot.reciprocals);
   }
+  /// \endcond
 
   /// Makes `is_steep` false where one rounding of the coordinates of the point could have made the gradient, component
   /// by component, since the axes can have different units.

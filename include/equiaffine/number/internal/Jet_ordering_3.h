@@ -76,11 +76,13 @@ auto min(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, A>& b) {
 
 } // namespace equiaffine
 
+/// \cond doxygen knows no members of std
 /// Limits of jets are those of their coefficients.
 template <class T, int Order, equiaffine::Monomial_set Support>
 class std::numeric_limits<equiaffine::Jet_3<T, Order, Support>> : public std::numeric_limits<T> {
 public:
   static constexpr bool is_iec559 = false; ///< a jet is no number of the processor
 };
+/// \endcond
 
 #endif
