@@ -39,7 +39,7 @@ Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, 
 }
 
 /// Computes the selected attributes of points, one column of doubles per scalar. This takes one Taylor expansion of
-/// order 4 per point, and up to 40 more if the norm of a gradient is selected. CGAL::Sequential_tag and
+/// order 4 per point, and one of order 5, or up to 40 more of order 4, if the norm of a gradient is selected. CGAL::Sequential_tag and
 /// CGAL::Parallel_tag give the same numbers, bit for bit. Points are computed in packs, and the numbers are those of
 /// local_structure_at: bit for bit if the compiler rounds each product and each sum (-ffp-contract=off), else to within
 /// rounding.

@@ -59,12 +59,14 @@ double size_at(const Any_function_3& f, const Kernel::Point_3& p) {
   return std::isnan(size) ? std::numeric_limits<double>::infinity() : size;
 }
 
-/// A place near p where |f| is least: a search in steps along the axes that become shorter, within the box of f.
+/// A place near p where |f| is least: a search in steps along the axes that become shorter, within the box of f. Along
+/// a curved valley it would take as many steps as it likes, and ends.
 Kernel::Point_3 least_near(const Any_function_3& f, Kernel::Point_3 p) {
   constexpr double first_step = 1. / 32, shortest_step = 1e-12; // in sides of the box
+  constexpr int most_rounds = 2000;
   const CGAL::Bbox_3 box = f.bbox();
-  double least = size_at(f, p);
-  for (double step = first_step; step > shortest_step && least > 0;) {
+  double least = size_at(f, p), step = first_step;
+  for (int round = 0; round < most_rounds && step > shortest_step && least > 0; ++round) {
     const double before = least;
     for (int axis = 0; axis < 3; ++axis)
       for (const double sign : {-1., 1.}) {
@@ -79,8 +81,8 @@ Kernel::Point_3 least_near(const Any_function_3& f, Kernel::Point_3 p) {
   return p;
 }
 
-/// What is said of zeros beside which f is of one sign: nothing if f has both signs at the nodes of a grid, or no zero
-/// to within rounding was found from the nodes where |f| is least.
+/// Returns a clause that names zeros beside which f is of one sign. It is empty if f has both signs at the nodes of a
+/// grid, or if no zero to within rounding was found from the nodes where |f| is least.
 std::string zeros_without_change_of_sign(const Any_function_3& f) {
   constexpr std::size_t starts = 20;
   constexpr double rounding = 1e-14;
@@ -159,7 +161,7 @@ void fail_without_surface(const Source_function& function, const Source_options&
   const bool is_defined = least <= greatest, has_both_signs = least < isovalue && greatest > isovalue;
   const Any_function_3 level_set = any_level_set(function, isovalue);
   const bool is_proved = search.is_certified || !level_set.bounds(level_set.bbox()).contains(0);
-  const std::string zeros = is_proved ? std::string() : zeros_without_change_of_sign(level_set);
+  const std::string zeros = is_proved || has_both_signs ? std::string() : zeros_without_change_of_sign(level_set);
   const bool may_help = !search.refinement.empty() && !search.met_poles && !is_proved && zeros.empty();
   std::ostringstream text;
   text << (is_proved ? "no surface f = " : "no part of the surface f = ") << isovalue << (is_proved ? "" : " was found")

@@ -35,7 +35,7 @@ struct Attribute_selection {
 };
 
 /// Reads `basic`, `all`, `none`, or a comma-separated list of names of attributes, of their components (`nx`), of
-/// `signature` and `status`. `signature` is K, H, J and the norms of their gradients, which take 40 times as long.
+/// `signature` and `status`. `signature` is K, H, J and the norms of their gradients.
 /// \throw Input_error for another name.
 inline Attribute_selection select_attributes(std::string_view list) {
   if (list == "none") return {{}, false};

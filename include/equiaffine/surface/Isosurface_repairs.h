@@ -13,8 +13,7 @@ struct Isosurface_repairs {
   std::size_t moved_vertices = 0;     ///< moved along their grid edge, by at most 1e-6 of it or a few roundings
   std::size_t zero_area_left = 0;     ///< triangles for which none of this helped
   std::size_t flips_undone = 0; ///< vertices put back to their linear position since projection turned a triangle over
-  std::size_t vertices_at_poles =
-      0; ///< removed with their triangles: the function has a pole, a jump or an end there, no zero
+  std::size_t vertices_at_poles = 0; ///< removed with their triangles, at poles, jumps and ends of the function
 };
 
 } // namespace equiaffine

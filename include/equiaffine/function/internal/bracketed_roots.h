@@ -163,9 +163,9 @@ private:
   bool is_smooth_ = true, has_converged_ = false, has_ended_ = false;
 };
 
-/// Searches by inverse quadratic interpolation where it is safe, else by bisection; sets whether the zero that is found
-/// may be a jump (Chandrupatla, A new hybrid
-/// quadratic/bisection algorithm for finding the zero of a nonlinear function without using derivatives, 1997).
+/// Searches by inverse quadratic interpolation where it is safe, else by bisection (Chandrupatla, A new hybrid
+/// quadratic/bisection algorithm for finding the zero of a nonlinear function without using derivatives, 1997), and sets
+/// whether the zero that is found may be a jump.
 template <class Kernel, class Traits>
 Surface_point_3<Kernel> chandrupatla(const Traits& traits, const Bracket_3<Kernel>& bracket, bool& is_doubtful) {
   using FT = typename Kernel::FT;

@@ -156,10 +156,13 @@ template <class T, int Order, Monomial_set A, Monomial_set B>
 auto pow(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   using std::log;
   using std::pow;
-  const T value = pow(a.value(), b.value());
-  if (!internal::is_zero(a)) return internal::exponential(b * log(a), value);
-  const T zero = log(b.value()) - log(b.value()); // NaN where b is not positive: there 0^b ends
-  return internal::exponential(b * log(Jet_3<T, Order, A>(T(1))) + b * zero, value);
+  using Exponent = decltype(b * log(a));
+  const auto zero = [&] { // NaN where b is not positive: there 0^b ends
+    const T logarithm = log(b.value());
+    return T(logarithm - logarithm);
+  };
+  const Exponent exponent = internal::is_zero(a) ? Exponent(b * zero()) : b * log(a);
+  return internal::exponential(exponent, T(pow(a.value(), b.value())));
 }
 
 template <class T, int Order, Monomial_set A, JetScalar<T> S>

@@ -44,8 +44,7 @@ std::optional<std::vector<Checked_symmetry>> group_of(const std::vector<Affine_m
   constexpr std::size_t largest_group = 1000;
   constexpr double same = 1e-4, rounding = 1e-6;
   const Whitening whitening(check.points());
-  const Affine_map_3 to = {whitening.matrix, -(whitening.matrix * whitening.mean)},
-                     from = {whitening.inverse, whitening.mean};
+  const Affine_map_3 to = whitening.to(), from = whitening.from();
   std::vector<Affine_map_3> maps(1);
   const auto is_known = [&](const Affine_map_3& map) {
     return std::any_of(maps.begin(), maps.end(), [&](const Affine_map_3& other) {

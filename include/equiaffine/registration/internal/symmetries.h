@@ -9,6 +9,7 @@
 #include <equiaffine/registration/internal/frames/Framed_surface_3.h>
 #include <equiaffine/registration/internal/frames/Symmetry_check.h>
 #include <equiaffine/registration/internal/frames/Symmetry_search.h>
+#include <equiaffine/registration/internal/frames/Whitening.h>
 #include <equiaffine/registration/internal/frames/slippage.h>
 #include <equiaffine/registration/internal/wholes/Centered_symmetry_search.h>
 
@@ -76,8 +77,7 @@ inline std::optional<std::vector<Affine_map_3>> nearby_group(std::vector<Affine_
                                                              const Framed_surface_3& surface, double tolerance) {
   constexpr double least = 1e-3, tolerances = 30;
   const Whitening whitening(surface.probes);
-  const Affine_map_3 to = {whitening.matrix, -(whitening.matrix * whitening.mean)},
-                     from = {whitening.inverse, whitening.mean};
+  const Affine_map_3 to = whitening.to(), from = whitening.from();
   for (Affine_map_3& map : maps) map = to * map * from;
   auto group = as_group(maps, std::max(least, tolerances * tolerance));
   if (!group || !make_exact(*group)) return std::nullopt;

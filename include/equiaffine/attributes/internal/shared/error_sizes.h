@@ -18,8 +18,8 @@ FT affine_size(const Local_structure_3<FT>& s) {
   return std::abs(s.affine.gaussian_curvature) + s.affine.mean_curvature * s.affine.mean_curvature;
 }
 
-/// The greatest error of an affine curvature that says nothing: 1e-9 of what |K_e| makes natural for a curvature of
-/// that weight. A K that is zero is known to within this, and not to any part of itself.
+/// An error of an affine curvature that does not matter: 1e-9 of the size that is natural beside K_e, a power of |K_e|.
+/// A K that is zero is known to within this, but not to within any part of itself.
 template <class FT>
 FT negligible_error(const FT& euclidean_gaussian_curvature, const FT& power) {
   return FT(1e-9) * std::pow(std::abs(euclidean_gaussian_curvature), power);

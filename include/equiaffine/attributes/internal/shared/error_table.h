@@ -20,10 +20,10 @@ struct Error_row {
   FT (*get)(const Local_structure_error_3<FT>&);
   /// The number of which an error is called a part: it is not zero where a curvature only changes its sign.
   FT (*size)(const Local_structure_3<FT>&);
-  std::string_view name_of_size;
-  FT power_of_negligible = 0; ///< of |K_e|, in negligible_error(); 0 if no error is
+  std::string_view name_of_size; ///< as the program writes it
+  FT power_of_negligible = 0;    ///< of |K_e|, in negligible_error(); 0 if no error is negligible
 
-  /// Whether a number is known to within a part of its size, or its error says nothing.
+  /// Whether a number is known to within a part of its size, or its error does not matter.
   bool is_known(const Local_structure_3<FT>& structure, const Local_structure_error_3<FT>& error, double part) const {
     return get(error) <= part * size(structure) ||
            (power_of_negligible > 0 &&

@@ -26,8 +26,8 @@ inline const Vertex_attributes::Column* find_errors(const Vertex_attributes& att
 /// Returns whether a number is known to one digit: the estimated error is at most half of the size of the number.
 inline bool is_known(double size, double error) { return error <= size / 2; }
 
-/// Returns the numbers that errors of a column are called parts of: those of error_table.h, or the numbers themselves;
-/// where half of that is negligible, twice the greatest error that says nothing.
+/// Returns the numbers that errors of a column are called parts of: those of error_table.h, or the numbers themselves, but
+/// at least twice a negligible error.
 inline std::vector<double> sizes_of_numbers(const Vertex_attributes::Column& column,
                                             const Vertex_attributes& attributes) {
   std::vector<double> sizes = column.values;

@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_FRAMES_WHITENING_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_FRAMES_WHITENING_H
 
+#include <equiaffine/registration/internal/Affine_map_3.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -25,6 +27,9 @@ struct Whitening {
   }
 
   Eigen::Vector3d operator()(const Eigen::Vector3d& p) const { return matrix * (p - mean); }
+
+  Affine_map_3 to() const { return {matrix, -(matrix * mean)}; } ///< the map to these coordinates
+  Affine_map_3 from() const { return {inverse, mean}; }          ///< the map back
 };
 
 } // namespace equiaffine::internal

@@ -34,6 +34,11 @@ struct Centered_pair {
 
   explicit Centered_pair(const Centered_surface_3& surface) : source(surface), target(surface) {}
   Centered_pair(const Centered_surface_3& from, const Centered_surface_3& to) : source(from), target(to) {}
+
+  /// Whether both have exact centroids, which those of other surfaces than meshes are not.
+  bool are_meshes() const { return !source.is_exact && !target.is_exact; }
+  /// Whether every map keeps the centroid: along an open tube, say, only the ends tell of a translation.
+  bool is_mesh_itself() const { return are_meshes() && &source == &target; }
 };
 
 /// The distances of the first `count` points of both surfaces: of moved ones, and of the others beside the moved surface.
@@ -74,7 +79,7 @@ struct Centered_refinement {
   int most_steps = 15;
   std::size_t points = 400;
   Eigen::Vector3d fixed_axis = Eigen::Vector3d::Zero(); ///< the map does not turn any further about it, unless it is 0
-  bool keeps_center = false;                            ///< the origin stays where it is
+  bool keeps_center = false;                            ///< the map does not move the origin
 };
 
 /// The infinitesimal maps of a kind, without the rotation about an axis.

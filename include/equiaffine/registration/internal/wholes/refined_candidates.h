@@ -31,22 +31,17 @@ inline std::vector<Centered_map> different(std::vector<Centered_map> maps, doubl
                       [](const Centered_map& a, const Centered_map& b) { return difference(a, b) < same_map; });
 }
 
-/// A map refined by least squares, judged by many points. A map of a mesh onto itself keeps the centroid, and one onto an
-/// equal mesh does if that is as good: along an open tube, say, only the ends tell of a translation. The centroids of other
-/// surfaces have errors.
+/// A map refined by least squares, judged by many points. A map between meshes keeps the centroid if it is as good then.
 inline Centered_map refined_and_judged(const Centered_pair& surfaces, const Affine_map_3& map, Map_kind kind) {
-  constexpr int steps = 10;
-  constexpr std::size_t points = 300;
-  const auto with_center = [&](const Affine_map_3& m) {
-    return judged(surfaces, refined(surfaces, m, {kind, steps, points, Eigen::Vector3d::Zero(), true}), points_of_rms);
+  const auto refined_map = [&](const Affine_map_3& m, bool keeps_center) {
+    const Centered_refinement how = {.kind = kind, .most_steps = 10, .points = 300, .keeps_center = keeps_center};
+    return judged(surfaces, refined(surfaces, m, how), points_of_rms);
   };
-  const bool are_meshes = !surfaces.source.is_exact && !surfaces.target.is_exact;
-  if (are_meshes && &surfaces.source == &surfaces.target) return with_center(map);
-  const Centered_map free = judged(surfaces, refined(surfaces, map, {kind, steps, points}), points_of_rms);
-  if (!are_meshes) return free;
-  const Centered_map fixed = with_center({free.map.matrix});
+  const Centered_map first = refined_map(map, surfaces.is_mesh_itself());
+  if (surfaces.is_mesh_itself() || !surfaces.are_meshes()) return first;
+  const Centered_map fixed = refined_map({first.map.matrix}, true);
   const double rounding = exact_distance(std::max(surfaces.source.rounding, surfaces.target.rounding));
-  return fixed.rms <= free.rms + rounding ? fixed : free;
+  return fixed.rms <= first.rms + rounding ? fixed : first;
 }
 
 /// Maps that were refined.
@@ -68,16 +63,14 @@ template <class ConcurrencyTag>
 Refined_maps refined_candidates(const Centered_pair& surfaces, const std::vector<Rotation_candidate>& rotations,
                                 double scale, Map_kind kind, double greatest_rms, bool are_all_asked_for = false) {
   constexpr std::size_t most_after_first = 600, most_after_second = 250;
-  const bool keeps_center = &surfaces.source == &surfaces.target && !surfaces.source.is_exact;
   Refined_maps result;
   auto& maps = result.maps;
   for (const Rotation_candidate& rotation : rotations) maps.push_back({{scale * rotation.matrix}});
   const auto refine = [&](int steps, std::size_t points, double gate) {
+    const Centered_refinement how = {
+        .kind = Map_kind::RIGID, .most_steps = steps, .points = points, .keeps_center = surfaces.is_mesh_itself()};
     parallel_for<ConcurrencyTag>(0, maps.size(), [&](std::size_t i) {
-      maps[i] = judged(
-          surfaces,
-          refined(surfaces, maps[i].map, {Map_kind::RIGID, steps, points, Eigen::Vector3d::Zero(), keeps_center}),
-          points);
+      maps[i] = judged(surfaces, refined(surfaces, maps[i].map, how), points);
     });
     maps = different(std::move(maps), gate);
   };

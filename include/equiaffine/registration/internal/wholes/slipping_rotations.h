@@ -46,7 +46,7 @@ std::vector<Slipping_rotation> slipping_rotations(const Centered_surface_3& surf
     squares += moment * moment.transpose();
   }
   const Centered_pair itself(surface);
-  const bool is_mesh = !surface.is_exact;
+  const bool is_mesh = itself.is_mesh_itself();
   Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares).eigenvectors();
   // A rotation about an axis, changed by refinement, or as it is where it was drawn to a symmetry nearby.
   const auto refined_rotation = [&](double angle, const Eigen::Vector3d& axis) -> Affine_map_3 {
