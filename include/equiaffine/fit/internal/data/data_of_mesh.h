@@ -5,6 +5,7 @@
 #include <equiaffine/fit/internal/data/Creased_polygons_3.h>
 #include <equiaffine/fit/internal/data/Data_points_3.h>
 #include <equiaffine/fit/internal/data/Normalization_3.h>
+#include <equiaffine/fit/internal/data/outliers.h>
 #include <equiaffine/surface/internal/shared/indexed_polygons.h>
 
 #include <Eigen/Core>
@@ -31,7 +32,8 @@ inline std::vector<Data_points_3::Edge> edges_of(const std::vector<std::vector<D
 
 /// Vertices of a mesh with the polygons between them. Neighbors are the ends of edges, and normals are the sums of
 /// those of the faces around, weighted by area. The surface comes apart at creases, edges that bend by more than an angle
-/// in degrees: the points on them are data of each side, those of all sides but the largest one behind the vertices.
+/// in degrees: the points on them are data of each side, those of all sides but the largest one behind the vertices. Outliers
+/// have no neighbors.
 inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices,
                                     const std::vector<std::vector<Data_points_3::Index>>& faces,
                                     std::optional<double> feature_angle) {
@@ -39,8 +41,16 @@ inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices
   Normalized_data result;
   result.normalization = normalization_of(vertices, edges);
   Data_points_3& data = result.data;
-  Creased_polygons_3 mesh(vertices, faces);
+  for (const auto& p : vertices) data.points.push_back(result.normalization(p));
+  set_neighbors(data, edges);
+  const std::vector<char> is_outlier = outliers(data);
+  std::vector<Eigen::Vector3d> without_outliers = vertices; // which would bend faces and make creases around them
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (is_outlier[i])
+      without_outliers[i] = result.normalization.inverse(mean_of_neighbors(data, Data_points_3::Index(i)));
+  Creased_polygons_3 mesh(without_outliers, faces);
   if (feature_angle) data.charts = mesh.split(mesh.creases(*feature_angle));
+  data.points.clear();
   for (const auto& p : mesh.points()) data.points.push_back(result.normalization(p));
   data.normals.assign(data.size(), Eigen::Vector3d::Zero());
   for (const auto& face : mesh.faces()) {
@@ -49,6 +59,7 @@ inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices
   }
   for (auto& normal : data.normals) normal.normalize();
   if (!data.charts.empty()) edges = edges_of(mesh.faces());
+  drop_outliers(is_outlier, edges);
   set_neighbors(data, std::move(edges));
   set_spacing(data, 1);
   const std::vector<char> is_on_border = mesh.borders();

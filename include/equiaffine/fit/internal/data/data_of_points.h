@@ -6,6 +6,7 @@
 #include <equiaffine/fit/Normal_orientation.h>
 #include <equiaffine/fit/internal/data/Normalization_3.h>
 #include <equiaffine/fit/internal/data/Point_tree_3.h>
+#include <equiaffine/fit/internal/data/outliers.h>
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
@@ -89,7 +90,7 @@ inline void orient_normals(Data_points_3& data) {
 }
 
 /// Points without faces, all different. Neighbors are the nearest points, first as they are given and then in the
-/// coordinates in which the edges found at first have no preferred direction. Without normals, they are estimated.
+/// coordinates in which the edges found at first have no preferred direction; outliers have none. Without normals, they are estimated.
 template <class ConcurrencyTag>
 Normalized_data data_of_points(const std::vector<Eigen::Vector3d>& points,
                                const std::vector<Eigen::Vector3d>& normals = {},
@@ -98,7 +99,10 @@ Normalized_data data_of_points(const std::vector<Eigen::Vector3d>& points,
   Data_points_3& data = result.data;
   result.normalization = normalization_of(points, edges_to_nearest<ConcurrencyTag>(points));
   for (const auto& p : points) data.points.push_back(result.normalization(p));
-  set_neighbors(data, edges_to_nearest<ConcurrencyTag>(data.points));
+  std::vector<Data_points_3::Edge> edges = edges_to_nearest<ConcurrencyTag>(data.points);
+  set_neighbors(data, edges);
+  drop_outliers(outliers(data), edges);
+  set_neighbors(data, std::move(edges));
   set_spacing(data, mesh_edge / (2. / 3 * std::sqrt(double(number_of_nearest))));
   if (normals.empty()) set_normals_by_neighbors<ConcurrencyTag>(data);
   else {
