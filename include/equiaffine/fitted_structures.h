@@ -24,26 +24,32 @@ namespace equiaffine {
 /// Where the data resolve the surface, its own curvatures come out. The data choose what to fit: heights over a tangent
 /// plane, of degree up to 12, where they lie on a smooth surface, to within little, else polynomials in space (up to
 /// 6), which can go round a corner. Trials at up to 200 places tell degree and radius: those whose results agree best
-/// with the next degree, and whose residuals leave the least deviation. The estimated error is 2.2 times the root of
-/// the sum of two squares: of the greatest difference to other fits there and around, and of the standard deviation of
-/// the number if residuals are white noise. Among the others around is the next degree of the same parity, since a
-/// shape with a center of symmetry that lies in one ball looks the same to the degrees 4 and 5, whatever they miss. For
-/// K the differences around count with the power 0.88, and those at the vertex with the rest. On exact data, whose
-/// noise is below 1e-4 of the spacing, the greater degree answers, and a smaller ball tells its error.
+/// with the next degree and with smaller balls, which see what all degrees leave out (Lepski, On a problem of adaptive
+/// estimation in Gaussian white noise, 1991), and whose residuals leave the least deviation. The estimated error is a
+/// factor times the root of the sum of two squares: of the greatest difference to other fits there and around, and of
+/// the standard deviation of the number if residuals are white noise. The factor depends on the quantity and the noise;
+/// scripts/calibrate-fits makes it, such that estimates below a half cover the errors at 95 % of the vertices of
+/// surfaces whose curvatures are known. Among the others around is the next degree of the same parity, since a shape
+/// with a center of symmetry that lies in one ball looks the same to the degrees 4 and 5, whatever they miss. For K the
+/// differences around count with the power 0.88, and those at the vertex with the rest. On exact data, whose noise is
+/// below 1e-4 of the spacing, the greater degree answers, and a smaller ball tells its error.
 ///
 /// Scans and coarse meshes have sensible curvatures at a scale only. These are by definition, see doc/conventions.md,
 /// those of polynomials in space of degree 4, or of `degree`, fitted within 1.14 of the scale. `scale` is that scale;
 /// `scale(std::nullopt)` lets the data choose: none where they resolve the surface, else the smallest at which K is
 /// known to 20 % at half of the vertices, at most an eighth of the diagonal. Without the parameter, or with 0,
-/// curvatures are the surface's own. Fits are made at most 0.02 of the scale apart, and errors are twice the standard
-/// deviation that noise and sampling make of the numbers at that scale.
+/// curvatures are the surface's own. Fits are made at most 0.02 of the scale apart, and errors are 2 to 2.5 times the
+/// standard deviation that noise and sampling make of the numbers at that scale, as halves of scans tell. At a scale that
+/// the data choose they also count what the scale mixes where the data are exact, such as a jump of the curvature.
 ///
 /// A mesh that is mapped by an affine map of determinant 1 gets the same affine curvatures to within rounding, since
-/// neighborhoods are balls in coordinates in which the edges have no preferred direction. `scale` and `noise` are
+/// neighborhoods are balls in coordinates in which the edges have no preferred direction; an edge counts as at most three
+/// times as long as a quarter of those at its vertex. `scale` and `noise` are
 /// lengths there, divided by the factor of volumes to the power 1/3. Creases are those of the given coordinates.
 ///
 /// Statuses: OUTSIDE for a vertex that no fit belongs to, since it has no faces, or fewer than some 20 vertices are
-/// connected with it. PARABOLIC for one whose K_e is zero within its estimated error, as on a plane or a cylinder.
+/// connected with it, or since it is an outlier: away from its neighbors and theirs by more than 1.5 times their mean
+/// distance from their mean. PARABOLIC for one whose K_e is zero within its estimated error, as on a plane or a cylinder.
 ///
 /// Fits do not reach over creases: edges that bend by more than `feature_angle`, by default 60 degrees, and that follow
 /// each other for ten mean edges, and ten more for each loose end, since noise makes edges sharp, too. Each side has

@@ -109,6 +109,18 @@ inline Fit_errors errors_of_fit(const std::vector<Fitted_structure_3<double>>& s
   return errors;
 }
 
+/// The part of the vertices at which numbers differ by no more than the errors.
+template <class Difference, class Error>
+double part_within(std::size_t count, const Difference& difference, const Error& error) {
+  double within = 0, all = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!std::isfinite(difference(i))) continue;
+    ++all;
+    within += difference(i) <= error(i);
+  }
+  return within / all;
+}
+
 } // namespace equiaffine::test
 
 #endif

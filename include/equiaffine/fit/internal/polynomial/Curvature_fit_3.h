@@ -2,11 +2,13 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_POLYNOMIAL_CURVATURE_FIT_3_H
 #define EQUIAFFINE_FIT_INTERNAL_POLYNOMIAL_CURVATURE_FIT_3_H
 
+#include <equiaffine/fit/internal/polynomial/Fit_calibration.h>
 #include <equiaffine/fit/internal/polynomial/Fit_choices_3.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
@@ -49,9 +51,6 @@ inline std::vector<Local_fit_3> fit_in_way(const Data_points_3& data, Data_point
   return fits;
 }
 
-/// Fits are answered by the greater of two degrees where the data are exact: noise is below this part of their spacing.
-constexpr double noise_of_exact_data = 1e-4;
-
 /// The error of K is the difference of degrees that is typical around with this power, and the difference at the point
 /// itself with the rest, but at least the latter, which is small by chance at some points.
 constexpr double power_of_level = 0.88;
@@ -70,7 +69,8 @@ inline Fit_accuracy exact_accuracy(const Local_fit_3& fit, const Local_fit_3& lo
   bias[GAUSSIAN] = std::max(bias[GAUSSIAN], to_lower[GAUSSIAN]); // within which K_e counts as zero
   const Number_errors deviations = estimates.of_residual / sizes;
   Fit_accuracy accuracy;
-  accuracy.error = coverage * errors_or_all((bias.square() + (part_of_residual * deviations).square()).sqrt());
+  accuracy.error = calibration(Source_of_error::DETAIL) *
+                   errors_or_all((bias.square() + (part_of_residual * deviations).square()).sqrt());
   accuracy.noise = 2 * std::min(1., noise / fit.residual) * errors_or_all(deviations);
   accuracy.detail = accuracy.error;
   accuracy.deviation = noise;
@@ -78,12 +78,14 @@ inline Fit_accuracy exact_accuracy(const Local_fit_3& fit, const Local_fit_3& lo
 }
 
 /// The accuracy of the surface's own curvatures, from the difference to another degree and the standard deviation.
+/// `spacing` is that of the points, `growth` the ratio of the radius to the chosen one: it is larger at borders, where
+/// differences of degrees say less.
 inline Fit_accuracy own_accuracy(const Local_fit_3& fit, const Local_fit_3& other, const Fit_choice& choice,
-                                 bool has_noise) {
+                                 bool has_noise, double spacing, double growth) {
   const Number_estimates& estimates = *fit.estimates;
   const Number_errors sizes = estimates.numbers.sizes();
   const Number_errors difference = relative_difference(estimates.numbers, other.estimates->numbers);
-  Number_errors bias = choice.level.max(difference);
+  Number_errors bias = (std::pow(std::max(1., growth), 4) * choice.level).max(difference);
   double& of_gaussian = bias[AFFINE_GAUSSIAN];
   const double here = difference[AFFINE_GAUSSIAN];
   const bool has_other = &other != &fit; // a ball at a border may have points for one degree only
@@ -93,7 +95,8 @@ inline Fit_accuracy own_accuracy(const Local_fit_3& fit, const Local_fit_3& othe
   const double factor = has_noise && fit.residual > 0 ? choice.noise / fit.residual : 1;
   const Number_errors deviations = std::max(guard(fit, choice.noise), factor) * estimates.of_residual / sizes;
   Fit_accuracy accuracy;
-  accuracy.error = coverage * errors_or_all((bias.square() + deviations.square()).sqrt());
+  accuracy.error = calibration(source_of_error(choice.noise / spacing)) *
+                   errors_or_all((bias.square() + deviations.square()).sqrt());
   accuracy.noise = 2 * errors_or_all(factor * estimates.of_residual / sizes);
   accuracy.detail = accuracy.error;
   accuracy.deviation = choice.noise;
@@ -105,11 +108,28 @@ inline Fit_accuracy accuracy_at_scale(const Local_fit_3& fit, double noise) {
   const Number_estimates& estimates = *fit.estimates;
   const Number_errors sizes = estimates.numbers.sizes();
   Fit_accuracy accuracy;
-  accuracy.noise = 2 * errors_or_all(estimates.of_noise / sizes);
-  accuracy.error = accuracy.noise;
+  accuracy.error = calibration(Source_of_error::SCALE) * errors_or_all(estimates.of_noise / sizes);
+  accuracy.noise = accuracy.error;
   accuracy.detail = 2 * guard(fit, noise) * errors_or_all(estimates.of_residual / sizes);
   accuracy.deviation = noise;
   return accuracy;
+}
+
+/// What a scale mixes where the data are nearly exact, as parts of the sizes of the numbers: the difference to the next
+/// degree. Noise would explain it elsewhere. The curvature jumps at the joint of a sphere and a cylinder, say, without a
+/// crease.
+inline Number_errors mixture_at_scale(const Data_points_3& data, Data_points_3::Index center, const Way_to_fit& way,
+                                      const Local_fit_3& fit, const Number_request& request) {
+  constexpr double nearly_exact = 0.01, quiet_part = 0.25; // of the spacing, and of the points of the ball
+  std::vector<double> noise;
+  for (const auto i : connected_ball(data, center, fit.patch.radius)) noise.push_back(request.noise[i]);
+  const auto quiet = noise.begin() + std::ptrdiff_t(quiet_part * double(noise.size()));
+  std::nth_element(noise.begin(), quiet, noise.end());
+  if (*quiet > nearly_exact * data.spacing[center]) return Number_errors::Zero();
+  const std::array<int, 2> degrees = {way.degree, way.other_degree()};
+  const auto fits = fit_in_way(data, center, fit.patch.radius, way, degrees, request);
+  if (fits.size() < degrees.size() || fits.back().patch.radius != fit.patch.radius) return Number_errors::Zero();
+  return errors_or_all(relative_difference(fit.estimates->numbers, fits.back().estimates->numbers));
 }
 
 /// A fit gives numbers near its center, where the greater of two degrees answers exact data, or it is part of a blend,
@@ -136,21 +156,33 @@ inline std::optional<Curvature_fit_3> exact_fit(const Data_points_3& data, Data_
   return Curvature_fit_3{fit.patch, fit.estimates->numbers, accuracy};
 }
 
-/// Fits the points around a center. At a scale, nothing is known where the ball had to have another radius.
+/// Fits the points around a center. Nothing is known where the degree had to be lower, as at a corner of a border, nor at a
+/// scale where the ball had to have another radius.
 inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, Data_points_3::Index center,
                                                     const Fit_choice& choice, const Fit_choices_3& choices,
                                                     Fit_use use) {
-  const Way_to_fit& way = choice.way;
-  const std::array<int, 2> degrees = {way.degree, way.other_degree()};
+  constexpr int least_degree = 4;
+  Way_to_fit way = choice.way;
   const double radius = choices.radius(way, center), noise = choices.noise(choice, center);
   const Number_request request = choices.number_request();
-  auto fits = fit_in_way(data, center, radius, way, std::span(degrees).first(choices.scale() ? 1 : 2), request);
-  if (fits.empty()) return {};
+  std::vector<Local_fit_3> fits;
+  for (;; way.degree -= way.family == Fit_family::HEIGHT ? 2 : 1) {
+    const std::array<int, 2> degrees = {way.degree, way.other_degree()};
+    fits = fit_in_way(data, center, radius, way, std::span(degrees).first(choices.scale() ? 1 : 2), request);
+    if (!fits.empty()) break;
+    if (way.degree <= least_degree) return {};
+  }
   Local_fit_3& fit = fits.front();
-  Fit_accuracy accuracy =
-      choices.scale() ? accuracy_at_scale(fit, noise) : own_accuracy(fit, fits.back(), choice, choices.has_noise());
-  if (choices.scale() && fit.patch.radius != radius)
+  Fit_accuracy accuracy = choices.scale() ? accuracy_at_scale(fit, noise)
+                                          : own_accuracy(fit, fits.back(), choice, choices.has_noise(),
+                                                         data.spacing[center], fit.patch.radius / radius);
+  if (way.degree < choice.way.degree || (choices.scale() && fit.patch.radius != radius))
     accuracy.error.setConstant(std::numeric_limits<double>::infinity());
+  else if (choices.scale() && choices.is_scale_by_data()) {
+    const Number_errors mixture =
+        calibration(Source_of_error::BOTH) * mixture_at_scale(data, center, way, fit, request);
+    accuracy.error = (accuracy.error.square() + mixture.square()).sqrt();
+  }
   accuracy.radius = fit.patch.radius;
   const bool is_exact = way.family == Fit_family::HEIGHT && fits.size() > 1 && !choices.has_noise() &&
                         noise <= noise_of_exact_data * data.spacing[center];

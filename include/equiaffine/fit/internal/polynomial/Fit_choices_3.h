@@ -52,6 +52,8 @@ public:
   /// The scale of the curvatures, a length in normal coordinates; nothing for the surface's own.
   const std::optional<double>& scale() const { return scale_; }
 
+  bool is_scale_by_data() const { return !request_.scale; }
+
   bool has_noise() const { return request_.noise.has_value(); }
 
   /// The deviation of a point from a smooth surface, which the choice around it has without a scale.

@@ -50,17 +50,26 @@ public:
       if (!choices_[c] || choices_[c]->level[AFFINE_GAUSSIAN] > doubtful_level) doubtful.push_back(c);
     parallel_for<ConcurrencyTag>(0, doubtful.size(), [&](std::size_t k) { try_spaces(doubtful[k]); });
     for (const std::size_t c : doubtful) choices_[c] = choice_at(c);
+    for (const std::size_t c : doubtful)
+      if (!choices_[c]) choices_[c] = choice_around(c);
   }
 
   const std::vector<Index>& centers() const { return centers_; }
 
-  /// Returns the choice of the center that is nearest to the point, if any fit is possible there.
+  /// Returns the choice of the center that is nearest to the point, or of one near it where no fit is possible.
   const std::optional<Fit_choice>& at(const Eigen::Vector3d& p) const { return choices_[tree_.nearest(p, 1).front()]; }
 
 private:
+  /// What is known of a candidate at a center.
+  struct Measurement {
+    Fitted_numbers numbers;
+    double score;            ///< logarithm of the relative error of K
+    Number_errors log_level; ///< logarithms of relative errors that count the same parity, too
+    Fitted_curvatures deviations;
+  };
+
   struct Trial {
-    std::vector<double> scores;            ///< logarithms of relative errors of K, one for each candidate, or NaN
-    std::vector<Number_errors> log_levels; ///< logarithms of relative errors that count the same parity, too
+    std::vector<std::optional<Measurement>> measurements; ///< one for each candidate
     double noise = 0;
   };
 
@@ -73,6 +82,8 @@ private:
   /// The weight of the standard deviation beside the difference to another degree: that of the prototype, which was
   /// tried on metaballs and a product of sines with noise of 0.1 to 5 % of an edge. It was not varied since.
   static constexpr double weight_of_deviation = 1.4;
+
+  static constexpr std::size_t number_around = 12; ///< of centers that are compared
 
   static constexpr std::array<int, 5> height_degrees_ = {4, 6, 8, 10, 12};
   static constexpr std::array<int, 4> space_degrees_ = {4, 5, 6, 7};
@@ -131,8 +142,7 @@ private:
 
   void try_heights(std::size_t c) {
     Trial& trial = trials_[c];
-    trial.scores.assign(candidates_.size(), std::numeric_limits<double>::quiet_NaN());
-    trial.log_levels.resize(candidates_.size());
+    trial.measurements.resize(candidates_.size());
     trial.noise = noise_at(centers_[c]);
     try_radii(trial, 4000,
               [&](std::size_t r) { return fit_heights(data_, centers_[c], length(r, centers_[c]), height_degrees_); });
@@ -160,13 +170,12 @@ private:
       }
       if (fit == nullptr || other == nullptr) continue;
       if (candidate.family == Fit_family::SPACE && fit->residual > 2 * trial.noise) continue;
-      const Fitted_numbers numbers(fit->jet);
-      Number_errors difference = relative_difference(numbers, Fitted_numbers(other->jet));
-      trial.scores[k] = logarithms(*fit, difference, trial.noise)[AFFINE_GAUSSIAN];
-      if (same_parity != nullptr)
-        difference = difference.max(relative_difference(numbers, Fitted_numbers(same_parity->jet)));
-      trial.log_levels[k] = logarithms(*fit, difference, trial.noise);
-      least = std::min(least, trial.scores[k]);
+      const Fitted_numbers numbers = numbers_of(*fit);
+      Number_errors difference = relative_difference(numbers, numbers_of(*other));
+      const double score = logarithms(*fit, difference, trial.noise)[AFFINE_GAUSSIAN];
+      if (same_parity != nullptr) difference = difference.max(relative_difference(numbers, numbers_of(*same_parity)));
+      trial.measurements[k] = Measurement{numbers, score, logarithms(*fit, difference, trial.noise), fit->deviations};
+      least = std::min(least, score);
     }
     return least;
   }
@@ -180,28 +189,83 @@ private:
     return (errors_or_all(errors) + 1e-12).log();
   }
 
+  /// The numbers in the coordinates of the data.
+  static Fitted_numbers numbers_of(const Local_fit_3& fit) {
+    return Jets_of_data(fit.patch.frame / fit.patch.radius).numbers(fit.jet);
+  }
+
+  /// The typical difference around between a number of a candidate and that in a smaller ball, as a part of the size,
+  /// without what noise makes of the latter.
+  double difference_to_smaller(const std::vector<Index>& around, std::size_t candidate, std::size_t smaller,
+                               Fitted_number number, double Fitted_curvatures::*deviation) const {
+    constexpr double part_of_noise = 2 * 0.53, least = 1e-12; // twice that of the mean logarithm of normal errors
+    double log_difference = 0, log_deviation = 0, count = 0;
+    for (const Index d : around) {
+      const auto &large = trials_[d].measurements[candidate], &small = trials_[d].measurements[smaller];
+      if (!large || !small) continue;
+      const double size = large->numbers.sizes()[number], part = small->deviations.*deviation / size;
+      const double difference = std::abs(large->numbers.components[number] - small->numbers.components[number]) / size;
+      if (!std::isfinite(difference) || !std::isfinite(part)) continue; // as on planes
+      log_difference += std::log(difference + least);
+      log_deviation += std::log(part + least);
+      ++count;
+    }
+    if (count < 0.5 * double(around.size())) return 0;
+    const double difference = std::exp(log_difference / count), noise = part_of_noise * std::exp(log_deviation / count);
+    return std::sqrt(std::max(0., difference * difference - noise * noise));
+  }
+
+  /// How many times larger the errors of a candidate are than `level`, which differences of degrees tell. Where all
+  /// degrees leave out the same detail, a smaller ball shows it (Lepski, On a problem of adaptive estimation in Gaussian
+  /// white noise, 1991).
+  double factor_by_smaller_balls(const std::vector<Index>& around, std::size_t candidate,
+                                 const Number_errors& level) const {
+    double factor = 1;
+    for (std::size_t s = 0; s < candidate; ++s) {
+      if (!candidates_[s].is_smaller(candidates_[candidate])) continue;
+      const double of_affine =
+          difference_to_smaller(around, candidate, s, AFFINE_GAUSSIAN, &Fitted_curvatures::gaussian);
+      const double of_euclidean = difference_to_smaller(around, candidate, s, GAUSSIAN, &Fitted_curvatures::euclidean);
+      factor = std::max({factor, of_affine / level[AFFINE_GAUSSIAN], of_euclidean / level[GAUSSIAN]});
+    }
+    return factor;
+  }
+
   /// Candidates that fail at most centers around are passed over, unless no other is left.
   std::optional<Fit_choice> choice_at(std::size_t c) const {
-    const auto around = tree_.nearest(data_.points[centers_[c]], 12);
+    const auto around = tree_.nearest(data_.points[centers_[c]], number_around);
     for (const double part : {0.7, 0.}) {
       std::optional<Fit_choice> best;
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t k = 0; k < candidates_.size(); ++k) {
-        if (std::isnan(trials_[c].scores[k])) continue;
+        if (!trials_[c].measurements[k]) continue;
         double score = 0, count = 0;
         Number_errors level = Number_errors::Zero();
         for (const Index d : around) {
-          if (std::isnan(trials_[d].scores[k])) continue;
-          score += trials_[d].scores[k];
-          level += trials_[d].log_levels[k];
-          ++count;
+          if (const auto& measurement = trials_[d].measurements[k]) {
+            score += measurement->score;
+            level += measurement->log_level;
+            ++count;
+          }
         }
         if (count < part * double(around.size()) || score / count >= least) continue;
-        least = score / count;
-        best = Fit_choice{candidates_[k], (level / count).exp(), trials_[c].noise};
+        level = (level / count).exp();
+        const double factor = factor_by_smaller_balls(around, k, level);
+        score /= count;
+        if (factor > 1) score = std::log(std::hypot(std::exp(score), factor * level[AFFINE_GAUSSIAN]));
+        if (score >= least) continue;
+        least = score;
+        best = Fit_choice{candidates_[k], factor * level, trials_[c].noise};
       }
       if (best) return best;
     }
+    return {};
+  }
+
+  /// The choice of the nearest center around that has one.
+  std::optional<Fit_choice> choice_around(std::size_t c) const {
+    for (const Index d : tree_.nearest(data_.points[centers_[c]], number_around))
+      if (choices_[d]) return choices_[d];
     return {};
   }
 

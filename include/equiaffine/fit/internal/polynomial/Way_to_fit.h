@@ -17,6 +17,13 @@ struct Way_to_fit {
   double radius = 0; ///< as a multiple of the spacing of the points, or a length at a scale
   double weight_of_normals = 0;
 
+  /// Whether it is this way in a ball that is smaller by enough to tell something else.
+  bool is_smaller(const Way_to_fit& other) const {
+    constexpr double ratio = 1.15;
+    return family == other.family && degree == other.degree && weight_of_normals == other.weight_of_normals &&
+           ratio * radius < other.radius;
+  }
+
   /// The degree that the result is compared with.
   int other_degree() const { return degree + (family == Fit_family::HEIGHT ? 2 : 1); }
 
@@ -30,10 +37,6 @@ struct Way_to_fit {
     return fit.patch.family == family && fit.patch.degree == of_degree && fit.weight_of_normals == weight_of_normals;
   }
 };
-
-/// The factor of the root mean square error with which an estimate covers the error at 19 of 20 points, measured on
-/// surfaces whose curvatures are known, with noise and without.
-constexpr double coverage = 2.2;
 
 /// Returns the differences between the numbers of fits, relative to the sizes of the first one.
 inline Number_errors relative_difference(const Fitted_numbers& fit, const Fitted_numbers& other) {

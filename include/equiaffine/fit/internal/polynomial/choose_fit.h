@@ -23,11 +23,12 @@
 
 namespace equiaffine::internal {
 
-/// Whether K of a fit is known to within a part of |K| + H^2.
+/// Whether noise leaves K of a fit at a scale known to within a part of |K| + H^2.
 inline bool is_known(const Curvature_fit_3& fit, double part) {
   const auto& numbers = fit.numbers.components;
   const double size = std::abs(numbers[AFFINE_GAUSSIAN]) + numbers[AFFINE_MEAN] * numbers[AFFINE_MEAN];
-  return fit.accuracy.error[AFFINE_GAUSSIAN] * fit.numbers.sizes()[AFFINE_GAUSSIAN] <= part * size;
+  return std::isfinite(fit.accuracy.error[AFFINE_GAUSSIAN]) &&
+         fit.accuracy.noise[AFFINE_GAUSSIAN] * fit.numbers.sizes()[AFFINE_GAUSSIAN] <= part * size;
 }
 
 /// Whether the surface of a fit is flat along a direction, within the error: it has no affine curvature to be known.
@@ -66,8 +67,8 @@ inline double principal_diagonal(const std::vector<Eigen::Vector3d>& points) {
   return points.empty() ? 0 : (upper - lower).norm();
 }
 
-/// Sets the smallest scale at which K is known to 20 % at half of the points, from 1/64 to 1/8 of the diagonal; or the
-/// largest of these, where it never is.
+/// Sets the smallest scale at which noise leaves K known to 20 % at half of the points, from 1/64 to 1/8 of the diagonal;
+/// or the largest of these, where it never does.
 template <class ConcurrencyTag>
 void set_known_scale(const Normalized_data& normalized, Fit_choices_3& choices) {
   const Data_points_3& data = normalized.data;

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/fit_data.h"
+#include <equiaffine/Expression_3.h>
+#include <equiaffine/fitted_structures.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace equiaffine;
+using namespace equiaffine::test;
+
+// Sums of bumps whose ball held the whole shape: all degrees left out the same detail, and K was within its error at two
+// thirds of the vertices.
+TEST(Fitted_structures, what_every_degree_leaves_out_is_seen_in_smaller_balls) {
+  const auto bumps = make_analytic_traits<Fit_kernel>(
+      Expression_3("exp(-(x-.5)^2-y^2-z^2)+exp(-(x+.6)^2-(y-.4)^2-z^2)+exp(-x^2-(y+.7)^2-(z-.3)^2)-.45"),
+      CGAL::Bbox_3(-2.5, -2.5, -2.5, 2.5, 2.5, 2.5));
+  const Fit_mesh exact = to_surface_mesh(marching_cubes(bumps, parameters::number_of_nodes(26)));
+  const auto points = points_of(exact);
+  for (const double noise : {0.01, 0.05}) {
+    Fit_mesh mesh = exact;
+    add_noise(mesh, noise * mean_edge(mesh));
+    const auto fits = fitted_structures<CGAL::Parallel_tag>(mesh);
+    const auto K_covered = part_within(
+        fits.size(),
+        [&](std::size_t i) {
+          return std::abs(fits[i].structure.affine.gaussian_curvature -
+                          local_structure_at(bumps, points[i]).affine.gaussian_curvature);
+        },
+        [&](std::size_t i) { return fits[i].error.gaussian_curvature; });
+    EXPECT_GT(K_covered, 0.9) << noise;
+  }
+}
+
+TEST(Fitted_structures, outliers_have_no_curvature_and_spoil_none) {
+  const Fit_mesh exact = metaballs_mesh(40);
+  const auto points = points_of(exact);
+  Fit_mesh mesh = exact;
+  const double edge = mean_edge(mesh);
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  std::vector<bool> is_moved(points.size());
+  for (std::size_t i = 17; i < points.size(); i += 100) {
+    Fit_kernel::Vector_3 way(normal(random), normal(random), normal(random));
+    is_moved[i] = true;
+    mesh.point(Fit_mesh::Vertex_index(unsigned(i))) = points[i] + way * (3 * edge / std::sqrt(way.squared_length()));
+  }
+  for (const bool has_faces : {true, false}) {
+    const auto fits = has_faces ? fitted_structures<CGAL::Parallel_tag>(mesh)
+                                : fitted_structures<CGAL::Parallel_tag>(points_of(mesh));
+    std::size_t regular_outliers = 0, outliers = 0, others_without_fit = 0;
+    for (std::size_t i = 0; i < fits.size(); ++i) {
+      const bool has_fit = fits[i].structure.status != Point_status::OUTSIDE;
+      outliers += is_moved[i];
+      regular_outliers += is_moved[i] && has_fit;
+      others_without_fit += !is_moved[i] && !has_fit;
+    }
+    EXPECT_LT(double(regular_outliers), (has_faces ? 0.02 : 0.3) * double(outliers)) << has_faces;
+    EXPECT_EQ(others_without_fit, 0u) << has_faces;
+  }
+  const auto without = fitted_structures<CGAL::Parallel_tag>(exact), with = fitted_structures<CGAL::Parallel_tag>(mesh);
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < with.size(); ++i)
+    if (!is_moved[i])
+      differences.push_back(
+          std::abs(with[i].structure.affine.gaussian_curvature / without[i].structure.affine.gaussian_curvature - 1));
+  std::sort(differences.begin(), differences.end());
+  EXPECT_LT(differences[differences.size() / 2], 1e-3);
+}
+
+// A bullet: a hemisphere with a cylinder behind it whose triangles are forty times as long as wide. They had set the
+// coordinates of balls, which reached from the nose over the whole hemisphere.
+TEST(Fitted_structures, long_triangles_elsewhere_do_not_spoil_a_hemisphere) {
+  Fit_mesh mesh;
+  constexpr int around = 80, rings = 20;
+  const auto tip = mesh.add_vertex({0, 0, -1});
+  std::vector<std::vector<Fit_mesh::Vertex_index>> circles;
+  for (int r = 1; r <= rings; ++r) {
+    circles.emplace_back();
+    const double latitude = std::numbers::pi / 2 * r / rings;
+    for (int a = 0; a < around; ++a) {
+      const double longitude = 2 * std::numbers::pi * (a + r / 2.) / around;
+      circles.back().push_back(mesh.add_vertex(
+          {std::sin(latitude) * std::cos(longitude), std::sin(latitude) * std::sin(longitude), -std::cos(latitude)}));
+    }
+  }
+  circles.emplace_back();
+  for (const auto v : circles[rings - 1]) {
+    const auto& p = mesh.point(v);
+    circles.back().push_back(mesh.add_vertex({p.x(), p.y(), 3}));
+  }
+  for (int a = 0; a < around; ++a) {
+    const auto next = std::size_t((a + 1) % around), here = std::size_t(a);
+    mesh.add_face(tip, circles[0][next], circles[0][here]);
+    for (std::size_t r = 0; r + 1 < circles.size(); ++r) {
+      mesh.add_face(circles[r][here], circles[r][next], circles[r + 1][here]);
+      mesh.add_face(circles[r][next], circles[r + 1][next], circles[r + 1][here]);
+    }
+  }
+  const auto fits = fitted_structures<CGAL::Parallel_tag>(mesh, parameters::scale(std::nullopt));
+  double within = 0, close = 0;
+  const std::size_t nose = mesh.number_of_vertices() - 2 * around;
+  for (std::size_t i = 0; i < nose; ++i) {
+    const double error = std::abs(fits[i].structure.affine.gaussian_curvature - 1);
+    within += error <= fits[i].error.gaussian_curvature;
+    close += error < 0.2;
+  }
+  EXPECT_GT(close, 0.9 * double(nose));
+  EXPECT_GT(within, 0.9 * double(nose));
+}
+
+} // namespace
