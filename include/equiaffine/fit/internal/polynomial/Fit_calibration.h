@@ -36,7 +36,7 @@ inline Number_errors calibration(Source_of_error source) {
   // of K, H, J, |K_e|^(1/4), K_e, H_e, k1, k2, the affine normal and the normal
   using Row = std::array<double, std::size_t(number_of_fitted_numbers)>;
   static constexpr std::array<Row, 4> rows = {{
-      {2.1, 2.8, 3.0, 1.4, 0.8, 1.5, 1.4, 1.5, 2.6, 1.7}, // DETAIL
+      {2.1, 2.8, 3.0, 1.4, 0.9, 1.5, 1.4, 1.5, 2.6, 1.7}, // DETAIL
       {2.5, 2.2, 2.7, 1.9, 1.9, 1.8, 1.8, 2.1, 1.9, 2.1}, // BOTH
       {4.0, 2.4, 4.0, 4.0, 4.0, 3.8, 3.5, 3.5, 4.0, 4.0}, // NOISE
       {2.0, 2.3, 2.0, 2.2, 2.1, 2.0, 2.3, 2.1, 2.5, 2.5}, // SCALE
