@@ -32,8 +32,8 @@ inline std::vector<Data_points_3::Edge> edges_of(const std::vector<std::vector<D
 
 /// Vertices of a mesh with the polygons between them. Neighbors are the ends of edges, and normals are the sums of
 /// those of the faces around, weighted by area. The surface comes apart at creases, edges that bend by more than an angle
-/// in degrees: the points on them are data of each side, those of all sides but the largest one behind the vertices. Outliers
-/// have no neighbors.
+/// in degrees: the points on them are data of each side, those of all sides but the largest one behind the vertices.
+/// Outliers have no neighbors.
 inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices,
                                     const std::vector<std::vector<Data_points_3::Index>>& faces,
                                     std::optional<double> feature_angle) {

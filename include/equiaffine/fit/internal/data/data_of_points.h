@@ -90,7 +90,8 @@ inline void orient_normals(Data_points_3& data) {
 }
 
 /// Points without faces, all different. Neighbors are the nearest points, first as they are given and then in the
-/// coordinates in which the edges found at first have no preferred direction; outliers have none. Without normals, they are estimated.
+/// coordinates in which the edges found at first have no preferred direction. Outliers have no neighbors. Normals that are not given are
+/// estimated.
 template <class ConcurrencyTag>
 Normalized_data data_of_points(const std::vector<Eigen::Vector3d>& points,
                                const std::vector<Eigen::Vector3d>& normals = {},

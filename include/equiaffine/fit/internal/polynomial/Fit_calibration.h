@@ -11,7 +11,7 @@
 
 namespace equiaffine::internal {
 
-/// What makes the numbers of a fit wrong.
+/// The sources of errors of the numbers of a fit, each of which has its own factors.
 enum class Source_of_error {
   DETAIL, ///< what polynomials leave out, since the data are exact
   BOTH,   ///< detail and noise below a fiftieth of the spacing of the points
@@ -22,7 +22,7 @@ enum class Source_of_error {
 /// Data are exact where their noise is below this part of their spacing.
 constexpr double noise_of_exact_data = 1e-4;
 
-/// What makes the numbers wrong without a scale, where the data have a noise that is a part of their spacing.
+/// Returns the source of errors without a scale. `noise` is a part of the spacing of the points.
 inline Source_of_error source_of_error(double noise) {
   constexpr double much_noise = 0.02;
   if (noise <= noise_of_exact_data) return Source_of_error::DETAIL;

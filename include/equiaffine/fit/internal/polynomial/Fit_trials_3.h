@@ -60,7 +60,7 @@ public:
   const std::optional<Fit_choice>& at(const Eigen::Vector3d& p) const { return choices_[tree_.nearest(p, 1).front()]; }
 
 private:
-  /// What is known of a candidate at a center.
+  /// The numbers that a candidate has at a center, with their errors.
   struct Measurement {
     Fitted_numbers numbers;
     double score;            ///< logarithm of the relative error of K
