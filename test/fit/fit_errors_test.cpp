@@ -11,6 +11,7 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -26,7 +27,7 @@ TEST(Fitted_structures, what_every_degree_leaves_out_is_seen_in_smaller_balls) {
       CGAL::Bbox_3(-2.5, -2.5, -2.5, 2.5, 2.5, 2.5));
   const Fit_mesh exact = to_surface_mesh(marching_cubes(bumps, parameters::number_of_nodes(26)));
   const auto points = points_of(exact);
-  for (const double noise : {0.01, 0.05}) {
+  for (const auto& [noise, least] : {std::pair(0.01, 0.8), std::pair(0.05, 0.9)}) { // without: .61 and .69
     Fit_mesh mesh = exact;
     add_noise(mesh, noise * mean_edge(mesh));
     const auto fits = fitted_structures<CGAL::Parallel_tag>(mesh);
@@ -37,7 +38,7 @@ TEST(Fitted_structures, what_every_degree_leaves_out_is_seen_in_smaller_balls) {
                           local_structure_at(bumps, points[i]).affine.gaussian_curvature);
         },
         [&](std::size_t i) { return fits[i].error.gaussian_curvature; });
-    EXPECT_GT(K_covered, 0.9) << noise;
+    EXPECT_GT(K_covered, least) << noise;
   }
 }
 
@@ -48,24 +49,27 @@ TEST(Fitted_structures, outliers_have_no_curvature_and_spoil_none) {
   const double edge = mean_edge(mesh);
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
-  std::vector<bool> is_moved(points.size());
+  std::vector<bool> is_moved(points.size()), is_away(points.size()); // from the surface
   for (std::size_t i = 17; i < points.size(); i += 100) {
     Fit_kernel::Vector_3 way(normal(random), normal(random), normal(random));
+    way = way / std::sqrt(way.squared_length());
     is_moved[i] = true;
-    mesh.point(Fit_mesh::Vertex_index(unsigned(i))) = points[i] + way * (3 * edge / std::sqrt(way.squared_length()));
+    const auto& n = local_structure_at(metaballs(), points[i]).euclidean.normal;
+    is_away[i] = 3 * std::abs(way * Fit_kernel::Vector_3(n[0], n[1], n[2])) > 2;
+    mesh.point(Fit_mesh::Vertex_index(unsigned(i))) = points[i] + way * (3 * edge);
   }
   for (const bool has_faces : {true, false}) {
     const auto fits = has_faces ? fitted_structures<CGAL::Parallel_tag>(mesh)
                                 : fitted_structures<CGAL::Parallel_tag>(points_of(mesh));
-    std::size_t regular_outliers = 0, outliers = 0, others_without_fit = 0;
+    double fitted = 0, moved = 0;
     for (std::size_t i = 0; i < fits.size(); ++i) {
       const bool has_fit = fits[i].structure.status != Point_status::OUTSIDE;
-      outliers += is_moved[i];
-      regular_outliers += is_moved[i] && has_fit;
-      others_without_fit += !is_moved[i] && !has_fit;
+      moved += is_moved[i];
+      fitted += is_moved[i] && has_fit;
+      EXPECT_FALSE(has_fit && is_away[i]) << points[i] << ' ' << has_faces;
+      EXPECT_TRUE(has_fit || is_moved[i]) << points[i] << ' ' << has_faces;
     }
-    EXPECT_LT(double(regular_outliers), (has_faces ? 0.02 : 0.3) * double(outliers)) << has_faces;
-    EXPECT_EQ(others_without_fit, 0u) << has_faces;
+    if (has_faces) EXPECT_LT(fitted, 0.1 * moved); // those that are moved along the surface
   }
   const auto without = fitted_structures<CGAL::Parallel_tag>(exact), with = fitted_structures<CGAL::Parallel_tag>(mesh);
   std::vector<double> differences;
@@ -107,14 +111,13 @@ TEST(Fitted_structures, long_triangles_elsewhere_do_not_spoil_a_hemisphere) {
     }
   }
   const auto fits = fitted_structures<CGAL::Parallel_tag>(mesh, parameters::scale(std::nullopt));
-  double within = 0, close = 0;
-  const std::size_t nose = mesh.number_of_vertices() - 2 * around;
+  double within = 0;
+  const std::size_t nose = 1 + around * rings, tip_part = 1 + around * (rings / 2 - 2);
   for (std::size_t i = 0; i < nose; ++i) {
     const double error = std::abs(fits[i].structure.affine.gaussian_curvature - 1);
     within += error <= fits[i].error.gaussian_curvature;
-    close += error < 0.2;
+    if (i < tip_part) EXPECT_LT(error, 0.01) << mesh.point(Fit_mesh::Vertex_index(unsigned(i)));
   }
-  EXPECT_GT(close, 0.9 * double(nose));
   EXPECT_GT(within, 0.9 * double(nose));
 }
 

@@ -6,6 +6,7 @@
 #include <equiaffine/base/internal/shared/random_subset.h>
 #include <equiaffine/fit/internal/data/Data_points_3.h>
 #include <equiaffine/fit/internal/data/Point_tree_3.h>
+#include <equiaffine/fit/internal/polynomial/Fit_calibration.h>
 #include <equiaffine/fit/internal/polynomial/Way_to_fit.h>
 #include <equiaffine/fit/internal/polynomial/fit_height.h>
 #include <equiaffine/fit/internal/polynomial/fit_space.h>
@@ -231,8 +232,10 @@ private:
     return factor;
   }
 
-  /// Candidates that fail at most centers around are passed over, unless no other is left.
+  /// Candidates that fail at most centers around are passed over, unless no other is left. On exact data, where differences
+  /// of degrees are small beside those of balls, smaller balls do not count.
   std::optional<Fit_choice> choice_at(std::size_t c) const {
+    const bool is_exact = trials_[c].noise <= noise_of_exact_data * data_.spacing[centers_[c]];
     const auto around = tree_.nearest(data_.points[centers_[c]], number_around);
     for (const double part : {0.7, 0.}) {
       std::optional<Fit_choice> best;
@@ -250,7 +253,7 @@ private:
         }
         if (count < part * double(around.size()) || score / count >= least) continue;
         level = (level / count).exp();
-        const double factor = factor_by_smaller_balls(around, k, level);
+        const double factor = is_exact ? 1 : factor_by_smaller_balls(around, k, level);
         score /= count;
         if (factor > 1) score = std::log(std::hypot(std::exp(score), factor * level[AFFINE_GAUSSIAN]));
         if (score >= least) continue;
