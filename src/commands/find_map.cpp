@@ -155,7 +155,8 @@ bool are_meshes(const Register_options& options, const Found_map& found) {
 }
 
 /// Leaves out maps between closed meshes by which a large part of one is off the other, since frames along one edge make
-/// many points agree, and maps between solids, whose corners a fit makes round. Distances become those of the triangles.
+/// many points agree, and maps between solids, whose corners a fit makes round. Distances, and which points are on the
+/// other surface, become those of the triangles.
 void judge_by_triangles(Found_map& found) {
   constexpr double most_contradictions = 0.1, deviations = 3;
   const auto &source = found.source.mesh, &target = found.target.mesh;
@@ -165,6 +166,7 @@ void judge_by_triangles(Found_map& found) {
         contradictions_of_meshes(there.points, there.triangles, target.points, target.triangles, deviations * map.rms);
     const auto& parts = found_here.parts;
     map.contradictions = parts;
+    map.inliers = found_here.inliers;
     map.rms = std::max(map.rms, found_here.rms);
     const bool is_contradicted =
         found_here.are_closed && *std::max_element(parts.begin(), parts.end()) > most_contradictions;

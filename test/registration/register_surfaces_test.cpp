@@ -98,6 +98,15 @@ TEST(Register_surfaces, surfaces_that_have_nothing_in_common_have_no_map) {
   EXPECT_FALSE(result.found());
 }
 
+// Flat caps are near to each other to a high order.
+TEST(Register_surfaces, flat_caps_that_are_near_each_other_are_no_map) {
+  const Formula tapered = Surface{"", "(x/(1+.3*z))^4+(y/(1+.3*z))^4+z^4-1", cube(2)}.traits(),
+                straight = Surface{"", "x^4+y^4+z^4-1", cube(2)}.traits();
+  const Result result =
+      register_surfaces(tapered, points_on_surface(tapered, 24), straight, points_on_surface(straight, 27));
+  EXPECT_FALSE(result.found());
+}
+
 TEST(Register_surfaces, each_pair_of_points_is_tried_once_where_none_gives_a_map) {
   const Formula source = named("blobs5").traits(), target = named("blobs8").traits();
   const Result result = register_surfaces(source, points_on_surface(source, 8), target, points_on_surface(target, 8));

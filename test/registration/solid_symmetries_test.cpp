@@ -241,6 +241,15 @@ TEST(Solid_symmetries, round_ones_turn) {
   };
   EXPECT_EQ(ways(prism(regular(60), 1)), 1u);
   EXPECT_EQ(ways(prism(regular(4), 1)), 0u);
+  Solid with_knob = prism(regular(60), 1);
+  const Solid knob = box(.03, .03, .03);
+  const std::size_t first = with_knob.points.size();
+  for (const Point_3& p : knob.points) with_knob.points.push_back(p + Kernel::Vector_3(.995, 0, .5));
+  for (auto polygon : knob.polygons) {
+    for (auto& v : polygon) v += first;
+    with_knob.polygons.push_back(polygon);
+  }
+  EXPECT_EQ(ways(with_knob), 0u) << "the rms of its turns is that of facets";
 }
 
 TEST(Solid_symmetries, open_meshes_have_rigid_ones) {

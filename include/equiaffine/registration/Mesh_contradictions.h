@@ -8,6 +8,8 @@ namespace equiaffine {
 
 /// The evidence of two meshes against the map that has brought them together.
 struct Mesh_contradictions {
+  /// The points of each mesh that lie on the other one, as a part of all.
+  std::array<double, 2> inliers = {0, 0};
   /// The points of each mesh that lie off the other one although it does not end there, as a part of these and of those
   /// that lie on it.
   std::array<double, 2> parts = {0, 0};

@@ -178,7 +178,8 @@ private:
   }
 
   Map_evidence evidence(const Affine_map_3& map) const {
-    const Judgement how{tolerance_, request_.least_overlap, degrees_of_freedom(request_.kind), double(hypotheses_)};
+    Judgement how{tolerance_, request_.least_overlap, degrees_of_freedom(request_.kind), double(hypotheses_)};
+    how.are_exact = has_exact_frames(source_) && has_exact_frames(target_);
     return evidence_of_map<ConcurrencyTag>(source_, target_, map, how);
   }
 

@@ -63,13 +63,15 @@ struct Judgement {
   int parameters = 0;        ///< of the map, which can bring as many points to the other surface
   double tests = 1;          ///< the number of maps that were tried
   std::size_t probes = most_probes;
+  bool are_exact = false; ///< whether points on both surfaces are on them up to rounding, as those of formulas
 };
 
 /// Two ways how chance could bring points near to a surface: they lie anywhere in the volume, or on a surface that
-/// touches the other one. Where two surfaces have contact of order 4 the distance grows with the fifth power, and the
-/// part of the points within a tenth of a distance is at most 10^(-2/5); that of other smooth surfaces is less.
+/// touches the other one. Where two surfaces have contact of order n the distance grows with the power n + 1, and the part
+/// of the points within a tenth of a distance is at most 10^(-2/(n + 1)). The order is 4 for surfaces in general; flat
+/// caps, as of x^6 + y^6 + z^6 = 1, may have more, which only noise could hide.
 inline void judge_one_way(const Sorted_distances& sorted, double chance, const Judgement& how, Map_evidence& evidence) {
-  const double part_nearer = std::pow(10, -0.4);
+  const double part_nearer = std::pow(10, how.are_exact ? -0.1 : -0.4);
   double contact = 0, volume = 0, tolerance = 1;
   const double all = double(sorted.distances.size()) - how.parameters;
   if (all < double(fewest_probes)) return;

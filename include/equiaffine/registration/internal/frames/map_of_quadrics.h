@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace equiaffine::internal {
 
@@ -33,19 +34,19 @@ struct Normal_quadric_3 {
   int positive, negative; ///< numbers of squares; 2 in all for a paraboloid
 };
 
-/// Returns the quadric through all probes, in coordinates x = (p - mean) / size, if there is exactly one.
-inline std::optional<Quadric_3> quadric_through(const Framed_surface_3& surface, const Eigen::Vector3d& mean) {
-  constexpr double rounding = 1e-9;
-  Eigen::MatrixXd rows(Eigen::Index(surface.probes.size()), 10);
-  for (std::size_t i = 0; i < surface.probes.size(); ++i) {
-    const Eigen::Vector3d x = (surface.probes[i] - mean) / surface.size;
+/// Returns the quadric that is near to all points by least squares, to within a part of their size, if there is exactly
+/// one. Their centroid and size are about 0 and 1.
+inline std::optional<Quadric_3> quadric_near(const std::vector<Eigen::Vector3d>& points, double tolerance) {
+  Eigen::MatrixXd rows(Eigen::Index(points.size()), 10);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d& x = points[i];
     rows.row(Eigen::Index(i)) << x[0] * x[0], x[1] * x[1], x[2] * x[2], 2 * x[0] * x[1], 2 * x[0] * x[2],
         2 * x[1] * x[2], 2 * x[0], 2 * x[1], 2 * x[2], 1;
   }
   if (rows.rows() < 10) return std::nullopt;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeThinV);
   const auto& values = svd.singularValues();
-  if (values[9] > rounding * values[0] || values[8] <= rounding * values[0]) return std::nullopt;
+  if (values[9] > tolerance * values[0] || values[8] <= tolerance * values[0]) return std::nullopt;
   const Eigen::VectorXd c = svd.matrixV().col(9);
   Quadric_3 quadric;
   quadric.form << c[0], c[3], c[4], c[3], c[1], c[5], c[4], c[5], c[2];
@@ -95,12 +96,15 @@ inline std::optional<Normal_quadric_3> normal_form(const Quadric_3& quadric) {
 }
 
 inline std::optional<Normal_quadric_3> normal_form_of(const Framed_surface_3& surface) {
+  constexpr double rounding = 1e-9;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : surface.probes) mean += p / double(surface.probes.size());
-  const auto quadric = quadric_through(surface, mean);
+  const Affine_map_3 centering = {Eigen::Matrix3d::Identity() / surface.size, -mean / surface.size};
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3d& p : surface.probes) points.push_back(centering(p));
+  const auto quadric = quadric_near(points, rounding);
   auto result = quadric ? normal_form(*quadric) : std::nullopt;
-  const Eigen::Matrix3d scaling = Eigen::Matrix3d::Identity() / surface.size;
-  if (result) result->map = result->map * Affine_map_3{scaling, -mean / surface.size};
+  if (result) result->map = result->map * centering;
   return result;
 }
 

@@ -33,7 +33,8 @@ struct Contact_distances {
 constexpr double greatest_displacement = 0.1;
 
 /// A point of one piece, with its normal, in the coordinates of the other one. A solid has another sheet between two
-/// with the same side, and two that are near each other have opposite sides.
+/// with the same side, which is beyond the pieces if the two are as far apart as these are large, and two that are near
+/// each other have opposite sides.
 inline Contact contact_of(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, const Point_of_piece& nearest,
                           bool is_other_closed, const Contact_distances& distances) {
   constexpr double similar = 0.7, parallel = 0.85, opposite = -0.5;
@@ -43,6 +44,7 @@ inline Contact contact_of(const Eigen::Vector3d& p, const Eigen::Vector3d& norma
   if (is_other_closed) return Contact::CONTRADICTING;
   if (nearest.is_on_border) return Contact::NONE;
   if (distance < distances.passing_by && cosine > opposite) return Contact::CONTRADICTING;
+  if (distance > distances.passing_by / greatest_displacement) return Contact::NONE;
   const bool is_across = std::abs(way.dot(nearest.normal)) > parallel * distance;
   return is_across && cosine > parallel ? Contact::CONTRADICTING : Contact::NONE;
 }

@@ -227,7 +227,7 @@ Shape_matches register_pieces(const Triangles_3& source, const Triangles_3& targ
   if (request.kind == Map_kind::RIGID) to_source = {to_target.matrix, -(to_target.matrix * areas[0].centroid)};
   const Triangles_3 a = transformed(source, to_source), b = transformed(target, to_target);
   const auto edges_a = sorted_edges(a), edges_b = sorted_edges(b);
-  const double error_of_facets = are_solids ? 0 : std::max(facet_error(a, edges_a), facet_error(b, edges_b));
+  const double error_of_facets = are_solids ? 0 : std::max(facet_error(a, edges_a).rms, facet_error(b, edges_b).rms);
   const double tolerance = tolerance_of_contact(error_of_facets, request);
   const auto piece = [=](const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges) {
     return Piece_of_surface_3(mesh, edges, samples_of_piece, 2 * tolerance);

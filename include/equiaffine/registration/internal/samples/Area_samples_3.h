@@ -24,7 +24,8 @@ struct Area_samples_3 {
   Moments_3 area;
   std::optional<Moments_3> volume = {}; ///< of a function whose surface bounds a solid
   double facet_error = 0; ///< the rms distance of the triangles from the smooth surface that they stand for
-  bool is_cut = false;    ///< whether the surface ends at its box, so that symmetries of the whole keep no centroid
+  double greatest_facet_error = 0;
+  bool is_cut = false; ///< whether the surface ends at its box, so that symmetries of the whole keep no centroid
 
   double spacing() const { return std::sqrt(area.measure / double(points.size())); }
 

@@ -65,12 +65,16 @@ inline std::vector<Edge_of_triangle> sorted_edges(const Triangles_3& mesh) {
   return edges;
 }
 
-/// The rms, over the area, of the distance between a smooth surface and triangles that touch it at their vertices: the
-/// width of two triangles times the angle between them, over 8. Edges that bend by 50 degrees or more are edges of the
-/// surface itself.
-inline double facet_error(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges) {
+/// The distances between a smooth surface and triangles that touch it at their vertices.
+struct Facet_error {
+  double rms, greatest; ///< the rms over the area
+};
+
+/// Returns what the width of two triangles times the angle between them, over 8, tells of all edges. Those that bend by 50
+/// degrees or more are edges of the surface itself.
+inline Facet_error facet_error(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges) {
   constexpr double greatest_angle = 50 * std::numbers::pi / 180;
-  double sum = 0, area = 0;
+  double sum = 0, area = 0, greatest = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area += mesh.double_area(t).norm();
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     if (edges[i].ends != edges[i + 1].ends) continue;
@@ -80,8 +84,9 @@ inline double facet_error(const Triangles_3& mesh, const std::vector<Edge_of_tri
     if (!(angle < greatest_angle && length > 0)) continue;
     const double sagitta = (m.norm() + n.norm()) / 2 / length * angle / 8;
     sum += (m.norm() + n.norm()) * sagitta * sagitta;
+    greatest = std::max(greatest, sagitta);
   }
-  return area > 0 ? std::sqrt(sum / (3 * area)) : 0;
+  return {area > 0 ? std::sqrt(sum / (3 * area)) : 0, greatest};
 }
 
 /// How far coordinates may be from those that were meant: half a unit of the last decimal place of the largest ones if
@@ -125,7 +130,9 @@ inline Area_samples_3 mesh_samples(const Triangles_3& mesh, const std::vector<Ed
                                    std::size_t count) {
   Area_samples_3 result;
   result.area = area_moments(mesh);
-  result.facet_error = facet_error(mesh, edges);
+  const Facet_error error = facet_error(mesh, edges);
+  result.facet_error = error.rms;
+  result.greatest_facet_error = error.greatest;
   std::vector<double> cumulated;
   double sum = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) cumulated.push_back(sum += mesh.double_area(t).norm());

@@ -73,6 +73,29 @@ inline Centered_map judged(const Centered_pair& surfaces, const Affine_map_3& ma
   return {map, Distances_both_ways(surfaces, map, points).rms()};
 }
 
+/// The distances of points that a map moves from the surface.
+struct Distances_of_moved {
+  double mean_square, greatest;
+};
+
+/// Moves the first samples, and the points that are to be checked, at most `count` of each.
+inline Distances_of_moved distances_of_moved(const Centered_surface_3& surface, const Affine_map_3& map,
+                                             std::size_t count) {
+  const auto& samples = surface.samples.points;
+  const std::size_t sampled = std::min(count, samples.size()), checked = std::min(count, surface.checked.size());
+  Distances_of_moved result = {0, 0};
+  for (std::size_t i = 0; i < sampled; ++i) {
+    const double distance = std::abs((*surface.distances)(map(samples[i])).distance);
+    result.mean_square += distance * distance / double(sampled);
+    result.greatest = std::max(result.greatest, distance);
+  }
+  for (std::size_t i = 0; i < checked; ++i) {
+    const Eigen::Vector3d& p = surface.checked[i * surface.checked.size() / checked];
+    result.greatest = std::max(result.greatest, std::abs((*surface.distances)(map(p)).distance));
+  }
+  return result;
+}
+
 /// How a map about the centroid is refined.
 struct Centered_refinement {
   Map_kind kind = Map_kind::RIGID;

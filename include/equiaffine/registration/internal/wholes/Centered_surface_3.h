@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_CENTERED_SURFACE_3_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_WHOLES_CENTERED_SURFACE_3_H
 
+#include <equiaffine/registration/internal/frames/map_of_quadrics.h>
 #include <equiaffine/registration/internal/samples/Area_samples_3.h>
 #include <equiaffine/registration/internal/samples/Surface_distances.h>
 #include <equiaffine/registration/internal/samples/function_samples.h>
@@ -115,6 +116,24 @@ inline Centered_surface_3 centered_surface(const Triangles_3& mesh, Map_kind kin
   return result;
 }
 
+/// Moves samples near an ellipsoid to the sphere with center 0 and radius 1, by the least squares of a quadric, and returns
+/// the map. What moments of lines are off is much beside what tells such a surface from an ellipsoid.
+inline Affine_map_3 move_to_sphere(Area_samples_3& samples) {
+  constexpr double nearness = 0.02;
+  const auto quadric = quadric_near(samples.points, nearness);
+  const auto form = quadric ? normal_form(*quadric) : std::nullopt;
+  if (!form || form->positive != 3) return {};
+  Affine_map_3 map = form->map;
+  const double determinant = map.matrix.determinant();
+  if (determinant < 0) map = {-map.matrix, -map.translation};
+  const Eigen::Matrix3d of_normals = map.matrix.inverse().transpose();
+  for (Eigen::Vector3d& p : samples.points) p = map(p);
+  for (Eigen::Vector3d& n : samples.normals) n = (of_normals * n).normalized();
+  samples.area = {samples.area.measure * std::pow(std::abs(determinant), 2.0 / 3), Eigen::Vector3d::Zero(),
+                  map.matrix * samples.area.covariance * map.matrix.transpose()};
+  return map;
+}
+
 template <class ConcurrencyTag>
 Centered_surface_3 centered_surface(const Any_function_3& function, Map_kind kind) {
   Centered_surface_3 result;
@@ -131,6 +150,7 @@ Centered_surface_3 centered_surface(const Any_function_3& function, Map_kind kin
   if (samples.is_cut) return surface_without_symmetries("the surface is cut by the box of the function");
   if (samples.points.size() < samples_of_function)
     return surface_without_symmetries("lines met the surface at too few points");
+  if (!keeps_angles(kind)) result.map = move_to_sphere(samples) * result.map;
   const Affine_map_3 centering = centering_map(samples.area);
   for (Eigen::Vector3d& p : samples.points) p = centering(p);
   const double size = samples.area.size();

@@ -40,29 +40,6 @@ struct Symmetry_thresholds {
   }
 };
 
-/// The distances of points that a map moves from the surface.
-struct Distances_of_moved {
-  double mean_square, greatest;
-};
-
-/// Moves the first samples, and the points that are to be checked, at most `count` of each.
-inline Distances_of_moved distances_of_moved(const Centered_surface_3& surface, const Affine_map_3& map,
-                                             std::size_t count) {
-  const auto& samples = surface.samples.points;
-  const std::size_t sampled = std::min(count, samples.size()), checked = std::min(count, surface.checked.size());
-  Distances_of_moved result = {0, 0};
-  for (std::size_t i = 0; i < sampled; ++i) {
-    const double distance = std::abs((*surface.distances)(map(samples[i])).distance);
-    result.mean_square += distance * distance / double(sampled);
-    result.greatest = std::max(result.greatest, distance);
-  }
-  for (std::size_t i = 0; i < checked; ++i) {
-    const Eigen::Vector3d& p = surface.checked[i * surface.checked.size() / checked];
-    result.greatest = std::max(result.greatest, std::abs((*surface.distances)(map(p)).distance));
-  }
-  return result;
-}
-
 /// The search for the symmetries of a whole surface. They keep the centroid of its area, so that all rotations about it
 /// are searched; maps that are found are refined, and complete groups of them are the result.
 template <class ConcurrencyTag>
@@ -104,7 +81,11 @@ private:
 
   /// Adds rotations of any angle, if the surface keeps to itself by them. A finite group to rounding says more, if there
   /// is one, unless turns up to a tolerance were asked for.
-  bool add_continuous(const std::vector<Slipping_rotation>& rotations, Centered_symmetries& result) const {
+  bool add_continuous(std::vector<Slipping_rotation> rotations, Centered_symmetries& result) const {
+    if (!surface_.is_exact && tolerance_ == 0) // a tolerance that is given is one of the rms
+      std::erase_if(rotations, [this](const Slipping_rotation& r) {
+        return r.rms < thresholds_.turn && !keeps_to_facets<ConcurrencyTag>(surface_, r, thresholds_.exact);
+      });
     result.continuous = continuous_symmetries(surface_, rotations, thresholds_.turn);
     const std::size_t dimension = result.continuous.dimension();
     if (dimension == 0) return false;

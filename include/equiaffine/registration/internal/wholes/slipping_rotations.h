@@ -82,6 +82,22 @@ std::vector<Slipping_rotation> slipping_rotations(const Centered_surface_3& surf
   return result;
 }
 
+/// Whether rotations of a mesh move no point further off it than facets are off the surface that they stand for, or than
+/// `rounding`. A part that is not one of revolution moves further, and the rms may not tell.
+template <class ConcurrencyTag>
+bool keeps_to_facets(const Centered_surface_3& surface, const Slipping_rotation& rotation, double rounding) {
+  constexpr std::array<double, 3> angles = {0.381966, 1.618034, 2.618034};
+  constexpr std::size_t points = 20000;
+  constexpr double factor = 3; // that of regular triangles on a sphere is 8 / 3
+  const Eigen::Vector3d axis = axis_of(rotation.generator.matrix);
+  std::array<double, angles.size()> greatest;
+  parallel_for<ConcurrencyTag>(0, angles.size(), [&](std::size_t i) {
+    const Affine_map_3 map = {Eigen::AngleAxisd(angles[i], axis).toRotationMatrix()};
+    greatest[i] = distances_of_moved(surface, map, points).greatest;
+  });
+  return *std::max_element(greatest.begin(), greatest.end()) < rounding + factor * surface.samples.greatest_facet_error;
+}
+
 /// The generators, in the coordinates of the surface, of the rotations whose rms is below a limit. Rotations about two
 /// axes generate those about a third one, so that two that are small alone are less than what they would have to be.
 inline Affine_slippage_3 continuous_symmetries(const Centered_surface_3& surface,
