@@ -61,14 +61,11 @@ TEST(Affine_symmetries, a_group_is_complete_where_the_box_cuts_off_images_of_gen
     EXPECT_EQ(symmetries({icosahedral, cube(1.6), 120}, std::nullopt, nodes).order(), 120u) << nodes << " nodes";
 }
 
-// Moments of lines are off by more than these differ from an ellipsoid.
-TEST(Affine_symmetries, near_ellipsoids_have_those_of_what_tells_them_from_one) {
-  for (const Expected& e : {Expected{"x^2+y^2+z^2-1+1e-4*x*y*z", cube(2), 24},
-                            Expected{"x^2+2*y^2+3*z^2-1+1e-3*(x^4+4*y^4)", cube(2), 16}}) {
-    const auto result = symmetries(e, {}, 30);
-    EXPECT_EQ(result.order(), e.number) << e.formula;
-    EXPECT_EQ(result.verdict, Symmetry_verdict::EXACT) << e.formula;
-  }
+// Moments of lines are off by more than it differs from an ellipsoid.
+TEST(Affine_symmetries, a_near_ellipsoid_has_those_of_what_tells_it_from_one) {
+  const auto result = symmetries({"x^2+2*y^2+3*z^2-1+1e-3*(x^4+4*y^4)", cube(2), 16}, {}, 30);
+  EXPECT_EQ(result.order(), 16u);
+  EXPECT_EQ(result.verdict, Symmetry_verdict::EXACT);
 }
 
 TEST(Affine_symmetries, continuous_ones_have_generators) {

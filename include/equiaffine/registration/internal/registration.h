@@ -83,8 +83,7 @@ Registration_of_functions_3 registration_of_framed(const Framed_surface_3& sourc
   if (result.slippage.dimension() == 0) result.equally_good = search.equally_good();
   for (std::size_t n = 0; n < std::min(accepted.size(), request.number_of_maps); ++n)
     result.maps.push_back(registered_map(accepted[n]));
-  const std::size_t next = result.found() ? 1 : 0;
-  if (search.refined().size() > next) result.next_best_rms = search.refined()[next].evidence.rms;
+  result.next_best_rms = search.next_best_rms();
   registration.is_equivalence =
       result.found() && is_equivalence<ConcurrencyTag>(source, target, accepted[0].map, search.tolerance());
   return registration;

@@ -94,14 +94,14 @@ public:
 
   /// The number of maps beside the best that move as many points onto the other surface, as near.
   std::size_t equally_good() const {
-    constexpr double part = 0.98, factor = 3, same = 0.02;
+    constexpr double part = 0.98, factor = 3;
     const auto maps = accepted();
     if (maps.empty()) return 0;
     const Map_evidence& best = maps.front().evidence;
     return std::size_t(std::count_if(maps.begin() + 1, maps.end(), [&](const Judged_map& m) {
       const double limit = factor * best.rms + thresholds_.rounding * target_.size;
       return m.evidence.rms <= limit && m.evidence.inliers[0] >= part * best.inliers[0] &&
-             m.evidence.inliers[1] >= part * best.inliers[1] && difference_of(m.map, maps.front().map) > same;
+             m.evidence.inliers[1] >= part * best.inliers[1];
     }));
   }
 
@@ -112,15 +112,24 @@ public:
   std::vector<Judged_map> accepted() const {
     std::vector<Judged_map> result;
     for (const Judged_map& m : maps_)
-      if (is_accepted(m)) result.push_back(m);
+      if (is_accepted(m) && std::none_of(result.begin(), result.end(), [&](const Judged_map& better) {
+            return difference_of(m.map, better.map) < same;
+          }))
+        result.push_back(m);
     return result;
   }
 
-  /// All maps that were refined, accepted or not, the best first.
-  const std::vector<Judged_map>& refined() const { return maps_; }
+  /// The rms of the best map, accepted or not, that is not the first accepted one.
+  std::optional<double> next_best_rms() const {
+    const auto maps = accepted();
+    for (const Judged_map& m : maps_)
+      if (maps.empty() || difference_of(m.map, maps.front().map) >= same) return m.evidence.rms;
+    return {};
+  }
 
 private:
   static constexpr std::size_t most_images = 200;
+  static constexpr double same = 0.02; ///< maps that differ by less are one
 
   bool is_accepted(const Judged_map& m) const { return m.evidence.log10_false_alarms < thresholds_.accepted_log10; }
 
@@ -164,7 +173,7 @@ private:
     const double determinant = map.matrix.determinant();
     if (!map.matrix.allFinite() || !(condition(map.matrix) < greatest_condition)) return;
     if (determinant < 0 && !request_.allows_reflections) return;
-    if (is_known(map, 0.02)) return;
+    if (is_known(map, same)) return;
     try_map(map, Pair_of_points{p, pair.target});
   }
 
