@@ -89,6 +89,7 @@ def main():
         surface.SetInputConnection(source.GetOutputPort())
         surface.SetAttributes(attributes)
         surface.SetProjectVertices(project)
+        surface.EstimateErrorsOff()  # the peers have none
         return surface
 
     rows = [("vtkFlyingEdges3D", lambda: flying_edges(False)),

@@ -15,6 +15,8 @@
 #include <equiaffine/function/sample_on_lattice.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_function_3.h>
+#include <equiaffine/volume/Volume_parts_3.h>
+#include <equiaffine/volume/few_values.h>
 #include <equiaffine/volume/signed_distance_volume.h>
 
 #include <CGAL/tags.h>
@@ -23,7 +25,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -174,22 +175,6 @@ void check_steps(const Lattice_3<Kernel>& lattice, const Source_options& options
   }
 }
 
-/// The number of distinct values of some rows of samples, if it is small.
-std::optional<std::size_t> number_of_few_values(const Volume_view_3<Kernel>& volume) {
-  constexpr std::size_t most_values = 256, most_rows = 4096;
-  const auto [nx, ny, nz] = volume.lattice().size();
-  std::vector<double> row(nx);
-  std::set<double> values;
-  const std::size_t step = 1 + ny * nz / most_rows;
-  for (std::size_t n = 0; n < ny * nz; n += step) {
-    volume.copy_block({0, n % ny, n / ny}, {nx, 1, 1}, row);
-    for (std::size_t i = 0; i < nx; ++i)
-      if (std::isfinite(row[i]) && (i == 0 || row[i] != row[i - 1])) values.insert(row[i]);
-    if (values.size() > most_values) return std::nullopt;
-  }
-  return values.size();
-}
-
 struct Fitted_spline {
   Spline_traits function;
   Spline_statistics statistics;
@@ -211,8 +196,12 @@ Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
   const Sample_noise noise = estimate_noise(volume, isovalue);
   const double smoothing = scale ? *scale : choose_smoothing(volume, noise, degree, scheme, isovalue);
   progress.begin("fitting a spline");
-  const Spline_statistics statistics = {
-      degree, scheme, smoothing, noise, std::ranges::min(volume.lattice().size()), number_of_few_values(volume)};
+  const Spline_statistics statistics = {degree,
+                                        scheme,
+                                        smoothing,
+                                        noise,
+                                        std::ranges::min(volume.lattice().size()),
+                                        number_of_few_values(Volume_parts_3<Kernel>::of(volume))};
   const Spline_parameters parameters = {.degree = degree, .scheme = scheme, .smoothing = smoothing};
   Fitted_spline fit = {Spline_traits(volume, parameters), statistics};
   if (source.estimates_errors) fit.errors.emplace(fit.function, volume, smoothing, noise.deviation);

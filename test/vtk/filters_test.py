@@ -35,6 +35,30 @@ def surface(image, **properties):
     return surface_filter.GetOutput()
 
 
+def with_warnings(image, **properties):
+    """The surface of an image, and what the filter warns of."""
+    surface_filter, messages = vtkEquiaffineSurface(), []
+
+    def keep(_, __, text):
+        messages.append(text)
+
+    keep.CallDataType = "string0"
+    surface_filter.AddObserver("WarningEvent", keep)
+    surface_filter.SetInputData(image)
+    for name, value in properties.items():
+        getattr(surface_filter, "Set" + name)(value)
+    surface_filter.Update()
+    return surface_filter.GetOutput(), messages
+
+
+def ball(change, size=60):
+    """An image of a change of the distance from the middle."""
+    image = ellipsoid(size)
+    k, j, i = np.mgrid[:size, :size, :size] - (size - 1) / 2
+    set_scalars(image, change(np.sqrt(i ** 2 + j ** 2 + k ** 2)))
+    return image
+
+
 def points(mesh):
     return vtk_to_numpy(mesh.GetPoints().GetData())
 
@@ -108,6 +132,50 @@ class Surface(unittest.TestCase):
         same = surface(image, Smoothing=scale)
         np.testing.assert_array_equal(points(chosen), points(same))
         np.testing.assert_array_equal(array(chosen, "pick_invariant"), array(same, "pick_invariant"))
+
+    def test_noise_is_not_shown_as_a_curvature(self):
+        def noisy(r):
+            return r - 20 + np.random.default_rng(1).normal(0, 0.1, r.shape)
+
+        mesh, messages = with_warnings(ball(noisy))
+        K, error = array(mesh, "affine_gaussian_curvature"), array(mesh, "affine_gaussian_curvature_error")
+        self.assertEqual(mesh.GetPointData().GetScalars().GetName(), "mean_curvature")
+        self.assertGreater(np.isnan(K).mean(), 0.9)
+        self.assertEqual(len(messages), 2)
+        self.assertIn("Affine Gaussian curvature is unknown at 98 % of the vertices", messages[0])
+        self.assertAlmostEqual(mesh.GetFieldData().GetArray("noise").GetValue(0), 0.1, delta=0.005)
+
+        shown, messages = with_warnings(ball(noisy), HideUnknown=False)
+        all_K = array(shown, "affine_gaussian_curvature")
+        self.assertEqual(len(messages), 2)
+        self.assertTrue(np.isfinite(all_K[array(shown, "status") == 0]).all())
+        np.testing.assert_array_equal(K[np.isfinite(K)], all_K[np.isfinite(K)])
+        size = np.abs(all_K) + array(shown, "affine_mean_curvature") ** 2
+        self.assertTrue((error <= size / 2)[np.isfinite(K)].all())
+
+        plain, messages = with_warnings(ball(noisy), EstimateErrors=False)
+        self.assertEqual(messages, [])
+        self.assertIsNone(plain.GetPointData().GetArray("affine_gaussian_curvature_error"))
+        np.testing.assert_array_equal(array(plain, "affine_gaussian_curvature"), all_K)
+
+    def test_what_is_known_is_shown(self):
+        mesh, messages = with_warnings(ball(lambda r: r - 20))
+        self.assertEqual(messages, [])
+        self.assertEqual(mesh.GetPointData().GetScalars().GetName(), "affine_gaussian_curvature")
+        off = np.abs(array(mesh, "affine_gaussian_curvature") - 20.0 ** -3)
+        self.assertTrue((off <= array(mesh, "affine_gaussian_curvature_error")).mean() > 0.95)
+
+    def test_curvatures_of_a_mask_are_those_of_its_steps(self):
+        def mask(r):
+            return (r < 20).astype(np.uint8)
+
+        mesh, messages = with_warnings(ball(mask), Isovalue=0.5)
+        self.assertEqual(mesh.GetPointData().GetScalars().GetName(), "mean_curvature")
+        self.assertIn("the samples have 2 distinct values only, and curvatures are those of the steps between them",
+                      messages[0])
+        messages = with_warnings(ball(mask), Isovalue=0.5, AutomaticSmoothing=True)[1]
+        self.assertFalse(any("distinct values" in message for message in messages))
+        self.assertEqual(with_warnings(ball(mask), Isovalue=0.5, Attributes="none")[1], [])
 
     def test_triangles_are_turned_to_the_side_of_normals_on_grids_of_both_hands(self):
         for matrix in ((1, 0, 0, 0, 1, 0, 0, 0, 1), (-1, 0, 0, 0, 1, 0, 0, 0, 1), (0, 1, 0, 0.6, 0, 0.8, -0.8, 0, 0.6)):

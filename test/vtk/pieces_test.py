@@ -71,6 +71,7 @@ def pieces(parts):
 def surface(source, prepare, controller):
     surface_filter = vtkEquiaffineSurface()
     surface_filter.SetController(controller)
+    surface_filter.EstimateErrorsOff()  # which pieces do not have
     prepare(surface_filter)
     if isinstance(source, vtk.vtkDataObject):
         surface_filter.SetInputDataObject(source)
@@ -237,6 +238,20 @@ def test_update_without_a_piece():
     assert surface_filter.GetOutput().GetFieldData().GetArray("vertices").GetValue(0) == 352
 
 
+def test_errors_of_pieces():
+    """Where nobody has the whole image, K is not what is shown first, and one process says why."""
+    messages = []
+    surface_filter = vtkEquiaffineSurface()
+    surface_filter.AddObserver("WarningEvent", lambda *_: messages.append(1))
+    surface_filter.SetInputData(image_of(waves, pieces((1, 1, RANKS))[RANK]))
+    surface_filter.UpdatePiece(RANK, RANKS, 0)
+    data = surface_filter.GetOutput().GetPointData()
+    has_errors = data.GetArray("affine_gaussian_curvature_error") is not None
+    assert has_errors == (RANKS == 1)
+    assert data.GetScalars().GetName() == "mean_curvature"
+    assert RANKS == 1 or len(messages) == (RANK == 0)
+
+
 def expect_errors(image, pieces_of_process=1, **properties):
     """Expects one sentence and an empty surface in every process, for the first of its pieces."""
     messages = []
@@ -308,6 +323,7 @@ def main():
     test_parts_that_are_not_those_of_the_source()
     test_automatic_smoothing()
     test_update_without_a_piece()
+    test_errors_of_pieces()
     test_failure_of_one()
     test_more_pieces_than_processes()
     test_processes_that_differ()

@@ -12,7 +12,8 @@
 
 namespace equiaffine {
 
-Attribute_arrays::Attribute_arrays(const Attribute_selection& selection) : selection_(selection) {
+Attribute_arrays::Attribute_arrays(const Attribute_selection& selection, const Error_rows& errors)
+    : selection_(selection) {
   const auto& columns = selection.columns;
   for (std::size_t first = 0; first < columns.size();) {
     std::size_t end = first + 1;
@@ -24,6 +25,8 @@ Attribute_arrays::Attribute_arrays(const Attribute_selection& selection) : selec
     for (; first < end; ++first) array.columns.push_back(first);
     arrays_.push_back(std::move(array));
   }
+  for (std::size_t r = 0; r < errors.size(); ++r)
+    arrays_.push_back({name_of(errors[r]), false, {columns.size() + r}, {}});
 }
 
 void Attribute_arrays::add(const Vertex_attributes& block, std::span<const std::size_t> places) {

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_VTK_ATTRIBUTE_ARRAYS_H
 #define EQUIAFFINE_VTK_ATTRIBUTE_ARRAYS_H
 
+#include "Doubt.h"
 #include "Growing_array.h"
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
@@ -16,12 +17,12 @@ class vtkDataSetAttributes;
 namespace equiaffine {
 
 /// Attributes of points, added a block of points at a time, as arrays for VTK: a vector or a form is one array, whose
-/// components have names.
+/// components have names. Errors have arrays after all others.
 class Attribute_arrays {
 public:
-  explicit Attribute_arrays(const Attribute_selection& selection);
+  explicit Attribute_arrays(const Attribute_selection& selection, const Error_rows& errors = {});
 
-  /// Adds those points of a block whose places in it are given.
+  /// Adds those points of a block whose places in it are given. Its columns are those of the selection, and then the errors.
   void add(const Vertex_attributes& block, std::span<const std::size_t> places);
 
   /// A scalar, by its name and its numbers.

@@ -89,7 +89,9 @@ void Surface_arrays::add(const Isosurface_slab_3<Kernel>& slab, const Compute& c
       ghosts[n] = is_own(slab.least_ids[v]) ? 0 : vtkDataSetAttributes::DUPLICATEPOINT;
       for (int c = 0; c < 3; ++c) coordinates[3 * n + std::size_t(c)] = slab.points[v][c];
     }
-    attributes_.add(compute(points, status), order);
+    Vertex_attributes block = compute(points, status);
+    doubt_.add(block, ghosts);
+    attributes_.add(block, order);
   }
   vertices_ += places.size();
 
@@ -107,7 +109,7 @@ void Surface_arrays::add(const Isosurface_slab_3<Kernel>& slab, const Compute& c
   }
 }
 
-std::int64_t Surface_arrays::add_statistics(const Ranks& ranks, vtkFieldData& data) const {
+Surface_arrays::Summary Surface_arrays::add_statistics(const Ranks& ranks, vtkFieldData& data) const {
   std::array<std::int64_t, 2 + number_of_point_statuses> counts{}; // vertices, triangles, and of each status
   const auto scalars = attributes_.scalars();
   std::vector<double> least(scalars.size(), std::numeric_limits<double>::infinity()), greatest = least;
@@ -132,8 +134,10 @@ std::int64_t Surface_arrays::add_statistics(const Ranks& ranks, vtkFieldData& da
   add_counts(data, "vertices", all.first(1));
   add_counts(data, "triangles", all.subspan(1, 1));
   if (attributes_.has_status()) add_counts(data, "status_counts", all.subspan(2));
+  std::vector<std::string> names; // of those with numbers
   for (std::size_t s = 0; s < scalars.size(); ++s) {
     const bool exists = least[s] <= greatest[s];
+    if (exists) names.push_back(scalars[s].name);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const vtkNew<vtkDoubleArray> range;
     range->SetName((scalars[s].name + "_range").c_str());
@@ -141,7 +145,7 @@ std::int64_t Surface_arrays::add_statistics(const Ranks& ranks, vtkFieldData& da
     range->InsertNextTuple2(exists ? least[s] : nan, exists ? greatest[s] : nan);
     data.AddArray(range);
   }
-  return counts[0];
+  return {counts[0], doubt_.verdict(ranks, names, attributes_.has_status())};
 }
 
 void Surface_arrays::move_to(vtkPolyData& output) {

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_VTK_SURFACE_ARRAYS_H
 
 #include "Attribute_arrays.h"
+#include "Doubt.h"
 #include "Growing_array.h"
 #include "Ranks.h"
 #include <equiaffine/attributes/Attribute_selection.h>
@@ -31,14 +32,16 @@ namespace equiaffine {
 class Surface_arrays {
 public:
   using Kernel = CGAL::Simple_cartesian<double>;
-  /// Computes the attributes of some points.
+  /// Computes the attributes of some points, and then the errors.
   using Compute = std::function<Vertex_attributes(std::span<const Kernel::Point_3>, std::span<const Point_status>)>;
 
   /// The blocks of cells belong to this process, and the lattice has so many nodes. Ghosts are marked if there may be some.
-  Surface_arrays(const Attribute_selection& selection, std::vector<Cell_block> own,
-                 const std::array<std::size_t, 3>& nodes, bool has_ghost_points, bool has_ghost_cells)
+  /// Numbers of the rows have errors, unless these are UNTESTED.
+  Surface_arrays(const Attribute_selection& selection, const Error_rows& rows, Doubtful doubtful,
+                 std::vector<Cell_block> own, const std::array<std::size_t, 3>& nodes, bool has_ghost_points,
+                 bool has_ghost_cells)
       : own_(std::move(own)), nodes_(nodes), has_ghost_points_(has_ghost_points), has_ghost_cells_(has_ghost_cells),
-        attributes_(selection) {}
+        attributes_(selection, doubtful == Doubtful::UNTESTED ? Error_rows() : rows), doubt_(rows, doubtful) {}
 
   /// Begins the surface of another piece. Pieces of one process share their vertices.
   void begin_piece();
@@ -46,8 +49,14 @@ public:
   /// Adds the next slab of the piece.
   void add(const Isosurface_slab_3<Kernel>& slab, const Compute& compute);
 
-  /// Adds what the surfaces of all processes have in common: numbers and ranges. Returns the number of all vertices.
-  std::int64_t add_statistics(const Ranks& ranks, vtkFieldData& data) const;
+  /// What the surfaces of all processes have in common.
+  struct Summary {
+    std::int64_t vertices;
+    Doubt::Verdict verdict;
+  };
+
+  /// Adds numbers and ranges of all processes to the field data.
+  Summary add_statistics(const Ranks& ranks, vtkFieldData& data) const;
 
   /// Gives the surface to a vtkPolyData.
   void move_to(vtkPolyData& output);
@@ -72,6 +81,7 @@ private:
   Growing_array<std::int32_t> triangles_;
   Growing_array<unsigned char> ghost_points_, ghost_cells_;
   Attribute_arrays attributes_;
+  Doubt doubt_;
 };
 
 } // namespace equiaffine

@@ -2,10 +2,10 @@
 #include "vtkEquiaffineCurvatures.h"
 
 #include "Attribute_arrays.h"
+#include "Doubt.h"
 #include "is_aborted.h"
 #include <equiaffine/Progress_observer.h>
 #include <equiaffine/attributes/Attribute_selection.h>
-#include <equiaffine/attributes/internal/shared/error_table.h>
 #include <equiaffine/fitted_structures.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -13,16 +13,13 @@
 #include <CGAL/tags.h>
 
 #include <vtkCellArray.h>
-#include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -103,19 +100,14 @@ void add_columns(const Structures& structures, const Attribute_selection& select
   }
   attributes.status.emplace();
   for (const auto& s : structures) attributes.status->push_back(s.structure.status);
-  Attribute_arrays arrays(selection);
+  const Error_rows errors = selected_errors(selection, with_errors ? error_table<double>.size() : 0);
+  for (const auto& row : errors) {
+    auto& column = attributes.columns.emplace_back(Vertex_attributes::Column{name_of(row), {}});
+    for (const auto& s : structures) column.values.push_back(row.get(s.error));
+  }
+  Attribute_arrays arrays(selection, errors);
   arrays.add(attributes, all);
   arrays.move_to(data);
-  for (const auto& row : error_table<double>) {
-    const bool is_selected = std::any_of(selection.columns.begin(), selection.columns.end(), [&](const Attribute& a) {
-      return attribute_table<double>[a.row].name == row.attribute;
-    });
-    if (!with_errors || !is_selected) continue;
-    const vtkNew<vtkDoubleArray> errors;
-    errors->SetName((std::string(row.attribute) + "_error").c_str());
-    for (const auto& s : structures) errors->InsertNextValue(row.get(s.error));
-    data.AddArray(errors);
-  }
 }
 
 } // namespace

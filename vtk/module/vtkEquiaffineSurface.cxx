@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkEquiaffineSurface.h"
 
+#include "Doubt.h"
 #include "Image_pieces.h"
+#include "Measured_samples.h"
 #include "Ranks.h"
 #include "Surface_arrays.h"
 #include "is_aborted.h"
@@ -9,6 +11,9 @@
 #include <equiaffine/Progress_observer.h>
 #include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/attributes.h>
+#include <equiaffine/attributes/Curvature_error_3.h>
+#include <equiaffine/attributes/internal/shared/error_table.h>
+#include <equiaffine/function/internal/shared/point_blocks.h>
 #include <equiaffine/marching_cubes_in_slabs.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/cells_to_know.h>
@@ -55,23 +60,12 @@ struct Task {
   Orientation_of_level_set orientation;
   Vertex_position position;
   Attribute_selection selection;
+  Doubtful doubtful;
+  Error_rows errors; ///< of the selected numbers that have some
 };
 
-/// The scale of smoothing with the least estimated error. All processes tell each other what they measure.
-double chosen_smoothing(const std::vector<Volume_view_3<equiaffine::Kernel>>& views, const Image_pieces& pieces,
-                        const Task& task, const Ranks& ranks) {
-  double smoothing = 0;
-  together(ranks, [&] {
-    Volume_parts_3<equiaffine::Kernel> volume{
-        *pieces.lattice, {}, [&](const std::vector<double>& numbers) { return ranks.gather(numbers); }};
-    const bool is_measured_elsewhere = pieces.are_whole && ranks.number() > 0;
-    for (std::size_t n = 0; n < views.size() && !is_measured_elsewhere; ++n)
-      volume.parts.push_back({views[n], pieces.pieces[n].surveyed});
-    const Sample_noise noise = estimate_noise<Tag>(volume, task.isovalue);
-    smoothing = choose_smoothing<Tag>(volume, noise, task.spline.degree, task.spline.scheme, task.isovalue);
-  });
-  return smoothing;
-}
+/// Errors of a function, of splines through whole images only.
+using Errors = std::optional<Curvature_error_3<equiaffine::Kernel>>;
 
 /// The cells of a piece's image whose samples are used. Around a piece these are fewer than there are if the scale of
 /// smoothing that was chosen is not the greatest one.
@@ -83,8 +77,7 @@ Cell_block used_cells(const Image_piece& piece, const Image_pieces& pieces, cons
 }
 
 /// The functions of the pieces of this process. All processes add up what they know of the whole image.
-std::vector<Traits> functions_of(const std::vector<Volume_view_3<equiaffine::Kernel>>& views,
-                                 const Image_pieces& pieces, const Task& task, const Ranks& ranks) {
+std::vector<Traits> functions_of(const Views& views, const Image_pieces& pieces, const Task& task, const Ranks& ranks) {
   std::optional<Volume_survey> survey; // of all pieces
   const auto reduce = [&](Volume_survey own) {
     ranks.check("");
@@ -118,7 +111,7 @@ std::vector<Traits> functions_of(const std::vector<Volume_view_3<equiaffine::Ker
 void check_that_properties_agree(const Task& task, int component, const Ranks& ranks) {
   std::string names;
   for (const Attribute& attribute : task.selection.columns) names.append(attribute.name).append(",");
-  std::array<double, 10> least = {double(task.request.spline.degree),
+  std::array<double, 12> least = {double(task.request.spline.degree),
                                   double(task.request.spline.scheme),
                                   task.request.spline.smoothing,
                                   double(task.request.chooses_smoothing),
@@ -126,6 +119,8 @@ void check_that_properties_agree(const Task& task, int component, const Ranks& r
                                   double(task.orientation),
                                   double(task.position),
                                   double(component),
+                                  double(task.doubtful),
+                                  double(task.errors.size()),
                                   double(task.request.ghost_levels),
                                   double(std::hash<std::string>()(names))},
                          greatest = least;
@@ -136,7 +131,7 @@ void check_that_properties_agree(const Task& task, int component, const Ranks& r
 }
 
 /// Throws if there is no number at all, so that the surface is empty whatever the isovalue is.
-void check_that_there_are_numbers(const std::vector<Volume_view_3<equiaffine::Kernel>>& views, const Ranks& ranks) {
+void check_that_there_are_numbers(const Views& views, const Ranks& ranks) {
   std::array<std::int64_t, 2> rows = {0, std::int64_t(views.size())}; // those with a number, and pieces
   for (const auto& view : views) {
     const auto& [first, end] = view.cells();
@@ -173,23 +168,41 @@ std::size_t layers_of_slab(const Cell_block& block) {
   return std::max(least, (block.end[2] - block.first[2] + 3) / 4);
 }
 
+/// Adds the columns with errors to those of attributes.
+void add_errors(const Errors& errors, std::span<const equiaffine::Kernel::Point_3> points, const Error_rows& rows,
+                Vertex_attributes& attributes) {
+  if (!errors) return;
+  std::vector<Local_structure_error_3<double>> at_points(points.size());
+  for_each_point_block<Tag>(*errors, points, 64, 0, [&](const auto& local, std::span<const std::size_t> numbers) {
+    for (const std::size_t n : numbers) at_points[n] = {local(points[n]), 0, 0, 0, 0, 0, 0, 0, 0};
+  });
+  for (const auto& row : rows) {
+    auto& column = attributes.columns.emplace_back(Vertex_attributes::Column{name_of(row), {}});
+    for (const auto& error : at_points) column.values.push_back(row.get(error));
+  }
+}
+
 /// Meshes the pieces, and calls advance(part) with the part of the work that is done, from 0 to 1.
 template <class Advance>
-void mesh_pieces(const std::vector<Traits>& functions, const std::vector<Volume_view_3<equiaffine::Kernel>>& views,
-                 const Image_pieces& pieces, const Task& task, Surface_arrays& arrays, const Advance& advance) {
+void mesh_pieces(const std::vector<Traits>& functions, const Views& views, const Image_pieces& pieces, const Task& task,
+                 const std::optional<Sample_noise>& noise, Surface_arrays& arrays, const Advance& advance) {
   const Lattice_3<equiaffine::Kernel>& lattice = *pieces.lattice;
   for (std::size_t n = 0; n < functions.size(); ++n) {
     const Level_set_traits_3<Traits> function(functions[n], task.isovalue, task.orientation);
     const Cell_block all = cells_of(lattice.size()), own = pieces.pieces[n].cells,
                      block = widened(own, std::size_t(task.request.ghost_levels), all);
     const Cell_block known = known_cells(block, views[n].cells(), pieces, task.spline);
+    Errors errors;
+    if (noise) errors.emplace(functions[n], views[n], task.spline.smoothing, noise->deviation, Tag());
     arrays.begin_piece();
     marching_cubes_in_slabs<Tag>(
         function,
         [&](const Isosurface_slab_3<equiaffine::Kernel>& slab) {
           arrays.add(slab,
                      [&](std::span<const equiaffine::Kernel::Point_3> points, std::span<const Point_status> status) {
-                       return compute_attributes<Tag>(function, points, task.selection, status);
+                       auto attributes = compute_attributes<Tag>(function, points, task.selection, status);
+                       add_errors(errors, points, task.errors, attributes);
+                       return attributes;
                      });
           const double of_piece = double(slab.end_plane - block.first[2]) / double(block.end[2] - block.first[2]);
           advance((double(n) + of_piece) / double(functions.size()));
@@ -224,6 +237,8 @@ void vtkEquiaffineSurface::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "Scheme: " << this->Scheme << '\n'
      << indent << "Smoothing: " << this->Smoothing << '\n'
      << indent << "AutomaticSmoothing: " << this->AutomaticSmoothing << '\n'
+     << indent << "EstimateErrors: " << this->EstimateErrors << '\n'
+     << indent << "HideUnknown: " << this->HideUnknown << '\n'
      << indent << "Attributes: " << (this->Attributes ? this->Attributes : "(none)") << '\n'
      << indent << "FlipNormals: " << this->FlipNormals << '\n'
      << indent << "ProjectVertices: " << this->ProjectVertices << '\n'
@@ -301,6 +316,8 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
                  this->FlipNormals ? Orientation_of_level_set::AGAINST_GRADIENT
                                    : Orientation_of_level_set::ALONG_GRADIENT,
                  this->ProjectVertices ? Vertex_position::PROJECTED : Vertex_position::LINEAR,
+                 {},
+                 this->HideUnknown ? Doubtful::HIDDEN : Doubtful::COUNTED,
                  {}};
     vtkInformation* const input = inputs[0]->GetInformationObject(0);
     vtkDataObject* const data = input->Get(vtkDataObject::DATA_OBJECT());
@@ -310,6 +327,8 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
       require(std::isfinite(this->Isovalue), "the isovalue is not finite; choose a number");
       const bool has_attributes = this->Attributes && *this->Attributes != '\0';
       task.selection = select_attributes(has_attributes ? this->Attributes : "none");
+      constexpr std::size_t errors_of_splines = 2; // the first ones of the table
+      task.errors = selected_errors(task.selection, this->EstimateErrors ? errors_of_splines : 0);
       require(this->Degree == 5 || this->Degree == 7 || this->Degree == 9,
               "the degree of a spline is not 5, 7 or 9: choose one of these");
       require(task.request.spline.scheme != Spline_scheme::INTERPOLATION || ranks.count() == 1,
@@ -333,7 +352,7 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
       if (is_aborted(*this)) throw Stopped();
     };
     const Progress_observer observer([&](const Progress_observer::Stage&) { advance(this->GetProgress()); });
-    std::vector<Volume_view_3<equiaffine::Kernel>> views;
+    Views views;
     const auto view_pieces = [&](const auto& cells_of_piece) {
       together(ranks, [&] {
         views.clear();
@@ -341,24 +360,48 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
           views.push_back(view_of(pieces, piece, this->ArrayComponent, cells_of_piece(piece)));
       });
     };
+    std::optional<Sample_noise> noise;
     if (this->AutomaticSmoothing) {
       view_pieces([&](const Image_piece& piece) { return cells_of(pieces, piece.image); });
-      task.spline.smoothing = chosen_smoothing(views, pieces, task, ranks);
+      noise = measured_noise(views, pieces, task.isovalue, ranks);
+      task.spline.smoothing = chosen_smoothing(views, pieces, *noise, task.spline, task.isovalue, ranks);
     }
     if (!pieces.are_wanted) pieces.pieces.clear();
     view_pieces([&](const Image_piece& piece) { return used_cells(piece, pieces, task); });
+    const bool has_errors = !task.errors.empty() && are_whole(views, ranks);
+    if (!has_errors) task.doubtful = Doubtful::UNTESTED;
+    else if (!noise) noise = measured_noise(views, pieces, task.isovalue, ranks);
     const std::vector<Traits> functions = functions_of(views, pieces, task, ranks);
     std::vector<Cell_block> own;
     for (const Image_piece& piece : pieces.pieces) own.push_back(piece.cells);
-    Surface_arrays surface(task.selection, own, pieces.lattice->size(), task.request.pieces > 1 || ranks.count() > 1,
-                           task.request.ghost_levels > 0);
-    together(ranks, [&] { mesh_pieces(functions, views, pieces, task, surface, advance); });
-    const vtkNew<vtkDoubleArray> smoothing;
-    smoothing->SetName("smoothing");
-    smoothing->InsertNextValue(task.spline.smoothing);
-    output->GetFieldData()->AddArray(smoothing);
-    if (surface.add_statistics(ranks, *output->GetFieldData()) == 0) check_that_there_are_numbers(views, ranks);
+    Surface_arrays surface(task.selection, task.errors, task.doubtful, own, pieces.lattice->size(),
+                           task.request.pieces > 1 || ranks.count() > 1, task.request.ghost_levels > 0);
+    together(ranks,
+             [&] { mesh_pieces(functions, views, pieces, task, has_errors ? noise : std::nullopt, surface, advance); });
+    const auto add_number = [&](const char* name, double number) {
+      const vtkNew<vtkDoubleArray> array;
+      array->SetName(name);
+      array->InsertNextValue(number);
+      output->GetFieldData()->AddArray(array);
+    };
+    add_number("smoothing", task.spline.smoothing);
+    if (noise) add_number("noise", noise->deviation);
+    const auto [vertices, verdict] = surface.add_statistics(ranks, *output->GetFieldData());
+    if (vertices == 0) check_that_there_are_numbers(views, ranks);
     together(ranks, [&] { surface.move_to(*output); });
+    output->GetPointData()->SetActiveScalars(verdict.first_shown.c_str());
+    const bool is_of_steps = vertices > 0 && !task.selection.columns.empty() && task.spline.smoothing == 0;
+    const auto values = is_of_steps ? counted_values(views, pieces, ranks) : std::nullopt;
+    if (vertices == 0 || ranks.number() > 0) return 1;
+    if (values)
+      vtkWarningMacro("the samples have " << *values
+                                          << " distinct values only, and curvatures are those of the steps between "
+                                             "them; smooth the samples, AutomaticSmoothing");
+    for (const std::string& sentence : verdict.sentences) vtkWarningMacro(<< sentence);
+    if (!has_errors && !task.errors.empty())
+      vtkWarningMacro(
+          "errors of affine curvatures are not estimated, since that needs the whole image in each process; "
+          "give it, or set EstimateErrors to off");
   } catch (const Stopped&) {
     output->Initialize();
   } catch (const Failure& error) {

@@ -30,6 +30,7 @@ struct Spline_parameters;
  * |---|---|---|---|
  * | one array per attribute | double | 1, 3 or 6 | NaN where the quantity does not exist; see SetAttributes() |
  * | `normal` | double | 3 | among the attributes, and the active normals |
+ * | `affine_gaussian_curvature_error`, `affine_mean_curvature_error` | double | 1 | estimated errors of these attributes; see SetEstimateErrors() |
  * | `status` | unsigned char | 1 | 0 regular, 1 parabolic, 2 singular, 3 outside, 4 unconverged |
  * | `vertex_id` | vtkIdType | 1 | global ids: equal in all pieces, of which equal ones are one vertex |
  * | `vtkGhostType` | unsigned char | 1 | with several pieces: 1 for a point that belongs to another piece |
@@ -42,17 +43,21 @@ struct Spline_parameters;
  * |---|---|---|---|
  * | `vertices`, `triangles` | vtkIdType | 1 x 1 | of all pieces together, each counted once |
  * | `smoothing` | double | 1 x 1 | the scale by which samples were smoothed, which is set or chosen |
+ * | `noise` | double | 1 x 1 | the standard deviation of the noise of the samples, where errors or the smoothing need it |
  * | `status_counts` | vtkIdType | 1 x 5 | how many vertices have each status |
  * | NAME`_range` | double | 1 x 2 | least and greatest value of a scalar attribute; NaN, NaN if it exists nowhere |
  *
- * In several processes every one meshes its piece, and all pieces together are the mesh of the whole image, bit for bit,
- * as are the field data. The filter asks upstream for the ghost levels that it needs (GetNumberOfGhostLevels()), and gets
- * them from the pieces beside if the source has none. It must execute in all processes, with the same properties. One
+ * In several processes every one meshes its piece, and all pieces together are the mesh of the whole image without
+ * EstimateErrors, bit for bit, as are the field data. The filter asks upstream for the ghost levels that it needs
+ * (GetNumberOfGhostLevels()), and gets them from the pieces beside if the source has none. It must execute in all processes, with the same properties. One
  * process may make the pieces one after the other: it then asks for the whole image, and field data are of a piece. Pieces
  * may differ where the image has the isovalue at more than four points in a row and is less around them: such parts without
  * area are dropped if they are known whole, and else have triangles of less than 1e-6 of the spacing.
  *
  * Hidden points count as others. The status_counts are there with the status.
+ *
+ * The active scalars are what the pages of the program show first: the quantity that is known first. Warnings say which
+ * curvatures are unknown at most vertices, and that samples of few distinct values have curvatures of steps.
  *
  * An error is reported in one sentence, and leaves an empty output.
  */
@@ -102,6 +107,26 @@ public:
   vtkSetMacro(AutomaticSmoothing, bool);
   vtkGetMacro(AutomaticSmoothing, bool);
   vtkBooleanMacro(AutomaticSmoothing, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the errors of affine curvatures are estimated, which takes as long again as all attributes; on by default.
+   * This needs the whole image in each process: else a warning says so, and the active scalars are other ones.
+   */
+  vtkSetMacro(EstimateErrors, bool);
+  vtkGetMacro(EstimateErrors, bool);
+  vtkBooleanMacro(EstimateErrors, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether affine curvatures that are unknown are NaN, for which ParaView has a color of its own: their estimated error
+   * is more than half of their size; on by default.
+   */
+  vtkSetMacro(HideUnknown, bool);
+  vtkGetMacro(HideUnknown, bool);
+  vtkBooleanMacro(HideUnknown, bool);
   ///@}
 
   ///@{
@@ -157,6 +182,8 @@ protected:
   int Scheme = QUASI_INTERPOLATION;
   double Smoothing = 0;
   bool AutomaticSmoothing = false;
+  bool EstimateErrors = true;
+  bool HideUnknown = true;
   char* Attributes = nullptr;
   bool FlipNormals = false;
   bool ProjectVertices = true;

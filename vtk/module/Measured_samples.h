@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_VTK_MEASURED_SAMPLES_H
+#define EQUIAFFINE_VTK_MEASURED_SAMPLES_H
+
+#include "Image_pieces.h"
+#include "Ranks.h"
+#include <equiaffine/Volume_view_3.h>
+#include <equiaffine/volume/Sample_noise.h>
+#include <equiaffine/volume/Spline_parameters.h>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace equiaffine {
+
+using Views = std::vector<Volume_view_3<Kernel>>; ///< of the samples of each piece of a process
+
+/// The noise of the samples. All processes tell each other what they measure, as in the functions below.
+Sample_noise measured_noise(const Views& views, const Image_pieces& pieces, double isovalue, const Ranks& ranks);
+
+/// The scale of smoothing with the least estimated error.
+double chosen_smoothing(const Views& views, const Image_pieces& pieces, const Sample_noise& noise,
+                        const Spline_parameters& spline, double isovalue, const Ranks& ranks);
+
+/// The number of distinct values of the samples, if there are few.
+std::optional<std::size_t> counted_values(const Views& views, const Image_pieces& pieces, const Ranks& ranks);
+
+/// Whether the views of all processes have the whole image.
+bool are_whole(const Views& views, const Ranks& ranks);
+
+} // namespace equiaffine
+
+#endif
