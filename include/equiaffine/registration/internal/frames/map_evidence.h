@@ -68,16 +68,17 @@ struct Judgement {
 
 /// Two ways how chance could bring points near to a surface: they lie anywhere in the volume, or on a surface that
 /// touches the other one. Where two surfaces have contact of order n the distance grows with the power n + 1, and the part
-/// of the points within a tenth of a distance is at most 10^(-2/(n + 1)). The order is 4 for surfaces in general; flat
-/// caps, as of x^6 + y^6 + z^6 = 1, may have more, which only noise could hide.
+/// of the points within a tenth of a distance is at most 10^(-2/(n + 1)). The order is 4 for surfaces in general. Flat
+/// caps, as of x^6 + y^6 + z^6 = 1, have more: of formulas only roundings are no such contact.
 inline void judge_one_way(const Sorted_distances& sorted, double chance, const Judgement& how, Map_evidence& evidence) {
-  const double part_nearer = std::pow(10, how.are_exact ? -0.1 : -0.4);
+  constexpr double rounding = 1e-9;
   double contact = 0, volume = 0, tolerance = 1;
   const double all = double(sorted.distances.size()) - how.parameters;
   if (all < double(fewest_probes)) return;
   for (int i = 0; i < most_tolerances; ++i) {
     const double t = tolerance_of_number(how.greatest_tolerance, i), hits = sorted.within(t) - how.parameters;
     if (hits < double(fewest_probes) || hits + how.parameters < how.least_overlap * double(sorted.probes)) continue;
+    const double part_nearer = std::pow(10, how.are_exact && t > rounding ? -0.1 : -0.4);
     contact = std::min(contact, log10_tail(hits, sorted.within(10 * t) - how.parameters, part_nearer));
     const double by_volume = log10_tail(hits, all, std::min(0.5, chance * t));
     if (by_volume < volume) {
