@@ -50,7 +50,8 @@ const std::vector<Surface> surfaces = {
     {"2*y*(y^2-3*x^2)*(1-z^2)+(x^2+y^2)^2-(9*z^2-1)*(1-z^2)", 2.2},
     {"(x^2+2.25*y^2+z^2-1)^3-x^2*z^3-.1125*y^2*z^3-.02", 1.6}};
 
-/// Compares fits with the surface that was sampled by `nodes` per axis, with a deviation of `noise` times the edge of the grid.
+/// Compares fits with the surface that was sampled by `nodes` per axis, with a deviation of `noise` times the edge of the
+/// grid.
 void compare_with_surface(std::size_t surface, std::size_t nodes, double noise, std::mt19937& random,
                           All_samples& result) {
   constexpr std::size_t most_points = 300;

@@ -44,7 +44,8 @@ namespace equiaffine {
 ///
 /// A mesh that is mapped by an affine map of determinant 1 gets the same affine curvatures to within rounding, since
 /// neighborhoods are balls in coordinates in which the edges have no preferred direction; an edge counts as at most
-/// three times as long as the lower quartile of those at its vertex. `scale` and `noise` are lengths there, divided by the factor of volumes to the power 1/3. Creases are those of the given coordinates.
+/// three times as long as the lower quartile of those at its vertex. `scale` and `noise` are lengths there, divided by the
+/// factor of volumes to the power 1/3. Creases are those of the given coordinates.
 ///
 /// Statuses: OUTSIDE for a vertex that no fit belongs to, since it has no faces, or fewer than some 20 vertices are
 /// connected with it, or since it is an outlier: away from its neighbors and theirs by more than 1.5 times their mean

@@ -58,9 +58,9 @@ inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices
     for (const auto i : face) data.normals[i] += area;
   }
   for (auto& normal : data.normals) normal.normalize();
-  if (!data.charts.empty()) edges = edges_of(mesh.faces());
-  drop_outliers(is_outlier, edges);
-  set_neighbors(data, std::move(edges));
+  const bool has_creases = !data.charts.empty();
+  if (has_creases) edges = edges_of(mesh.faces());
+  if (drop_outliers(is_outlier, edges) || has_creases) set_neighbors(data, std::move(edges));
   set_spacing(data, 1);
   const std::vector<char> is_on_border = mesh.borders();
   data.is_at_border = is_on_border;

@@ -90,8 +90,8 @@ inline void orient_normals(Data_points_3& data) {
 }
 
 /// Points without faces, all different. Neighbors are the nearest points, first as they are given and then in the
-/// coordinates in which the edges found at first have no preferred direction. Outliers have no neighbors. Normals that are not given are
-/// estimated.
+/// coordinates in which the edges found at first have no preferred direction. Outliers have no neighbors. Normals that
+/// are not given are estimated.
 template <class ConcurrencyTag>
 Normalized_data data_of_points(const std::vector<Eigen::Vector3d>& points,
                                const std::vector<Eigen::Vector3d>& normals = {},
@@ -102,8 +102,7 @@ Normalized_data data_of_points(const std::vector<Eigen::Vector3d>& points,
   for (const auto& p : points) data.points.push_back(result.normalization(p));
   std::vector<Data_points_3::Edge> edges = edges_to_nearest<ConcurrencyTag>(data.points);
   set_neighbors(data, edges);
-  drop_outliers(outliers(data), edges);
-  set_neighbors(data, std::move(edges));
+  if (drop_outliers(outliers(data), edges)) set_neighbors(data, std::move(edges));
   set_spacing(data, mesh_edge / (2. / 3 * std::sqrt(double(number_of_nearest))));
   if (normals.empty()) set_normals_by_neighbors<ConcurrencyTag>(data);
   else {

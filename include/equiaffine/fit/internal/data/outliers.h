@@ -60,12 +60,13 @@ inline std::vector<char> outliers(const Data_points_3& data) {
   return result;
 }
 
-/// Leaves the edges between points that are no outliers. Points without neighbors get no fit and count in none.
-inline void drop_outliers(const std::vector<char>& is_outlier, std::vector<Data_points_3::Edge>& edges) {
-  std::erase_if(edges, [&](const auto& edge) {
-    const auto is_one = [&](Data_points_3::Index i) { return i < is_outlier.size() && is_outlier[i]; };
-    return is_one(edge.first) || is_one(edge.second);
-  });
+/// Leaves the edges between points that are no outliers, and returns whether there were others. Points without neighbors
+/// get no fit and count in none.
+inline bool drop_outliers(const std::vector<char>& is_outlier, std::vector<Data_points_3::Edge>& edges) {
+  return std::erase_if(edges, [&](const auto& edge) {
+           const auto is_one = [&](Data_points_3::Index i) { return i < is_outlier.size() && is_outlier[i]; };
+           return is_one(edge.first) || is_one(edge.second);
+         }) > 0;
 }
 
 } // namespace equiaffine::internal

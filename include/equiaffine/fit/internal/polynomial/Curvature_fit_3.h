@@ -116,8 +116,8 @@ inline Fit_accuracy accuracy_at_scale(const Local_fit_3& fit, double noise) {
 }
 
 /// Returns the difference to the next degree, as parts of the sizes of the numbers, where the data are nearly exact: it
-/// is what a scale mixes. Noise would explain it elsewhere. The curvature jumps at the joint of a sphere and a cylinder, say, without a
-/// crease.
+/// is what a scale mixes. Noise would explain it elsewhere. The curvature jumps at the joint of a sphere and a cylinder,
+/// say, without a crease.
 inline Number_errors mixture_at_scale(const Data_points_3& data, Data_points_3::Index center, const Way_to_fit& way,
                                       const Local_fit_3& fit, const Number_request& request) {
   constexpr double nearly_exact = 0.01, quiet_part = 0.25; // of the spacing, and of the points of the ball
