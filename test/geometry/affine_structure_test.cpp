@@ -42,6 +42,19 @@ double scale(const Local_structure_3<double>& s) {
          std::pow(std::abs(s.euclidean.gaussian_curvature), 1.5);
 }
 
+// The invariants of the jet of doubles, computed with 100 digits.
+Affine_invariants_3<double> exact_invariants(const Jet_3<double>& jet) {
+  using Precise = boost::multiprecision::cpp_bin_float_100;
+  Jet_3<Precise> exact;
+  for (std::size_t n = 0; n < jet.size; ++n) exact.coefficients()[n] = jet.coefficients()[n];
+  const auto s = local_structure(exact).affine;
+  Affine_invariants_3<double> result;
+  result.gaussian_curvature = s.gaussian_curvature.convert_to<double>();
+  result.mean_curvature = s.mean_curvature.convert_to<double>();
+  result.pick_invariant = s.pick_invariant.convert_to<double>();
+  return result;
+}
+
 // There the terms of K are larger than K by a power of 1 / x, and it is well conditioned all the same.
 TEST(Affine_structure, the_gaussian_curvature_keeps_its_digits_near_parabolic_curves) {
   const auto quartic = [](const auto& x, const auto& y, const auto& z) { return z - x * x * x * x - y * y * y * y; };
@@ -49,17 +62,33 @@ TEST(Affine_structure, the_gaussian_curvature_keeps_its_digits_near_parabolic_cu
     const double K = local_structure(expand(quartic, {x, 1, x * x * x * x + 1})).affine.gaussian_curvature;
     EXPECT_NEAR(K * 8 * x * x * x, 1, 1e-14) << x;
   }
-  using Precise = boost::multiprecision::cpp_bin_float_100;
   for (const char* formula : {"z-x^3-y^2-y^3", "z-x^3-y^2-x*y^3", "x^4+y^4+z^4-1", "z-exp(x^3)-y^2*cos(y)-x^2*y^2"})
     for (const double x : {1e-6, 1e-4, 1e-2}) {
-      const Vector p = {x, 0.3, 0.8};
-      const auto jet = expand(Expression_3(formula), p);
-      Jet_3<Precise> exact;
-      for (std::size_t n = 0; n < jet.size; ++n) exact.coefficients()[n] = jet.coefficients()[n];
+      const auto jet = expand(Expression_3(formula), {x, 0.3, 0.8});
       const double K = local_structure(jet).affine.gaussian_curvature;
-      const double expected = local_structure(exact).affine.gaussian_curvature.convert_to<double>();
-      EXPECT_NEAR(K / expected, 1, 1e-12) << formula << ' ' << x;
+      EXPECT_NEAR(K / exact_invariants(jet).gaussian_curvature, 1, 1e-12) << formula << ' ' << x;
     }
+}
+
+TEST(Affine_structure, invariants_keep_their_digits_where_a_nearly_parabolic_direction_is_oblique) {
+  const Expression_3 torus("(sqrt(x^2+y^2)-2)^2+z^2-1");
+  for (const double gap : {1e-3, 1e-5, 1e-7, 1e-8, 1e-9}) {
+    const auto jet = expand(torus, {1.2, 1.6 + gap, -1});
+    const Affine_invariants_3<double> s = local_structure(jet).affine, expected = exact_invariants(jet);
+    const double tolerance = 1e-14 / gap; // roundings of the derivatives change K_e by 1 / gap
+    EXPECT_NEAR(s.gaussian_curvature / expected.gaussian_curvature, 1, tolerance) << gap;
+    EXPECT_NEAR(s.mean_curvature / expected.mean_curvature, 1, tolerance) << gap;
+    EXPECT_NEAR(s.pick_invariant / expected.pick_invariant, 1, tolerance) << gap;
+  }
+}
+
+TEST(Affine_structure, the_pivot_is_right_where_the_hessian_is_nearly_of_rank_one) {
+  const Expression_3 square("(x^2+y^2+z^2-1)^2");
+  for (const Vector p : {Vector{.6, .8, 1e-3}, {.8, .6, 5e-4}, {1e-3, .6, .8}, {.8, 5e-4, .6}, {.36, .48, .8000001}}) {
+    const double value = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1;
+    const auto s = affine_structure(Monge_chart_3<double>(expand(square, p)));
+    EXPECT_NEAR(s.gaussian_curvature, 1, 4 * value + 1e-14 / value) << p[0] << ' ' << p[1] << ' ' << p[2];
+  }
 }
 
 TEST(Affine_structure, every_row_of_the_reference_is_within_its_limit) {

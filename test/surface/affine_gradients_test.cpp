@@ -61,6 +61,20 @@ TEST(Affine_gradients, are_kept_by_maps_of_determinant_one) {
   }
 }
 
+TEST(Affine_gradients, have_the_unit_of_length_that_they_should_whatever_it_is) {
+  const auto before = affine_gradient_norms(torus, on_meridian(0.9));
+  for (const int exponent : {-200, -40, 40, 200}) {
+    const double unit = std::ldexp(1, exponent);
+    const analytic_functions::Torus scaled{R * unit, r * unit};
+    const auto p = on_meridian(0.9);
+    const auto after = affine_gradient_norms(make_analytic_traits<Kernel>(scaled, scaled.box()),
+                                             Kernel::Point_3(p.x() * unit, p.y() * unit, p.z() * unit));
+    for (std::size_t n = 0; n < 3; ++n)
+      EXPECT_NEAR(after[n] / before[n] * std::exp2(exponent * (n == 0 ? 3.75 : 2.25)), 1, 1e-12)
+          << exponent << ' ' << n;
+  }
+}
+
 TEST(Affine_gradients, vanish_on_affine_spheres) {
   const auto product = [](const auto& x, const auto& y, const auto& z) { return x * y * z; };
   const auto traits = make_analytic_traits<Kernel>(product, CGAL::Bbox_3(0, 0, 0, 4, 4, 4));

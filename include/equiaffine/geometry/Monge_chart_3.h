@@ -32,6 +32,9 @@ namespace equiaffine {
 /// choice. With the axis of the largest |f_i| digits are lost where the surface is long in another direction, and a
 /// rotation instead of the shear would mix the scales of an anisotropic surface.
 ///
+/// Where Q is nearly the square of a linear form, the forms of conjugate() keep the digits that C, D and R have in the
+/// direction in which Q nearly vanishes.
+///
 /// FT is a number or a pack of numbers; nothing here branches on values but the choice of the pivot of a number.
 template <class FT>
 struct Monge_chart_3 {
@@ -46,6 +49,7 @@ struct Monge_chart_3 {
   FT sign;                           ///< of f_z: normals along the gradient are sign (a, b, 1) up to length
   FT a,                              ///< f_x / f_z
       b;                             ///< f_y / f_z
+  FT shear = FT(0);                  ///< e_v is (0, 1, -b) less this times e_u
   std::array<FT, 3> quadratic;       ///< of Q
   std::array<FT, 2> mixed;           ///< of L
   FT e;                              ///< of w^2
@@ -108,8 +112,36 @@ struct Monge_chart_3 {
             select(pivot_is_x, y, select(pivot_is_y, x, z))};
   }
 
-  /// The vector with components (u, v) in the tangent basis, in the original coordinates.
-  std::array<FT, 3> tangent(const FT& u, const FT& v) const { return unpermuted(u, v, -(a * u + b * v)); }
+  /// The vector with components (u, v, w) in the frame, in the original coordinates.
+  std::array<FT, 3> vector(const FT& u, const FT& v, const FT& w) const {
+    const FT x = u - shear * v;
+    return unpermuted(x, v, w - (a * x + b * v));
+  }
+
+  /// Whether Q is nearly the square of a linear form in both u and v: parts of the forms of the chart that matter are
+  /// much smaller than these.
+  Mask is_nearly_square() const {
+    using std::abs;
+    return FT(16) * abs(determinant) < quadratic[1] * quadratic[1];
+  }
+
+  /// The chart with the vector conjugate to e_u, on which Q has no term u v, for e_v; itself where the condition does
+  /// not hold.
+  Monge_chart_3 conjugate(const Mask& condition) const {
+    Monge_chart_3 result = *this;
+    const FT k = result.shear = select(condition, FT(quadratic[1] / quadratic[0]), FT(0));
+    result.quadratic[1] = select(condition, FT(0), quadratic[1]);
+    result.quadratic[2] = select(condition, FT(determinant / quadratic[0]), quadratic[2]);
+    const auto subtract_u_from_v = [&k](auto& form) { // for each of the arguments in turn
+      for (std::size_t n = 1; n < form.size(); ++n)
+        for (std::size_t i = form.size() - 1; i >= n; --i) form[i] -= k * form[i - 1];
+    };
+    subtract_u_from_v(result.mixed);
+    subtract_u_from_v(result.cubic);
+    subtract_u_from_v(result.mixed_quadratic);
+    subtract_u_from_v(result.quartic);
+    return result;
+  }
 
 private:
   static FT roundings(int n) { return FT(n) * FT(std::numeric_limits<FT>::epsilon()); }

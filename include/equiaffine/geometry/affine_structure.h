@@ -9,7 +9,7 @@
 
 namespace equiaffine {
 
-/// The invariants from a chart, in 327 floating-point operations with the chart. Meaningful where chart.is_curved.
+/// The invariants from a chart, in 334 floating-point operations with the chart. Meaningful where chart.is_curved.
 ///
 /// Writing p for the quadratic form Q, with which indices are raised and traces taken (h = -2 p), and v for a quarter
 /// of the trace of the cubic form, C = t + 3 sym(v p) with t apolar. The direction alpha = -(1/2) p^-1 L, conjugate to
@@ -26,25 +26,17 @@ namespace equiaffine {
 /// much larger than K, and their multiples of p would cancel.
 template <class FT>
 Affine_invariants_3<FT> affine_invariants(const Monge_chart_3<FT>& chart) {
-  return internal::affine_invariants_of(chart);
+  const auto is_nearly_square = chart.is_nearly_square();
+  if (any(is_nearly_square)) return internal::invariants_in_basis(chart.conjugate(is_nearly_square));
+  return internal::invariants_in_basis(chart);
 }
 
 /// The whole structure from a chart. Meaningful where chart.is_curved.
 template <class FT>
 Affine_structure_3<FT> affine_structure(const Monge_chart_3<FT>& chart) {
-  const auto invariants = affine_invariants(chart);
-  const auto [are_real, k1, k2] = internal::affine_principal_curvatures(invariants, chart.determinant > FT(0));
-  const FT scale = internal::scale_of_forms(chart);
-  return {invariants,
-          are_real,
-          k1,
-          k2,
-          internal::affine_metric(invariants, chart),
-          internal::quadric_defect(invariants, chart),
-          chart.tangent(FT(1), FT(0)),
-          chart.tangent(FT(0), FT(1)),
-          internal::scaled_form(chart.quadratic, FT(-2) * scale),
-          internal::scaled_form(invariants.apolar_cubic, FT(-6) * scale)};
+  const auto is_nearly_square = chart.is_nearly_square();
+  if (any(is_nearly_square)) return internal::structure_in_basis(chart.conjugate(is_nearly_square));
+  return internal::structure_in_basis(chart);
 }
 
 } // namespace equiaffine

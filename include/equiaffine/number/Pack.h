@@ -56,6 +56,9 @@ struct Pack_mask {
     return a.lanes || b.lanes;
   }
   /// @}
+
+  /// Whether the condition holds in any lane.
+  friend bool any(const Pack_mask& condition) { return Lanes::any(condition.lanes); }
 };
 
 /// A pack holds as many numbers as one vector register does under the compiler's flags, and is used like one number, by

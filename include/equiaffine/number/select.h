@@ -20,6 +20,9 @@ FT select(bool condition, const FT& yes, const FT& no) {
   return condition ? yes : no;
 }
 
+/// Whether the condition holds; for packs, in any lane.
+inline bool any(bool condition) { return condition; }
+
 /// Whether x is neither infinite nor NaN, decided without an arithmetic operation.
 template <class FT>
 Mask_of<FT> is_finite_number(const FT& x) {

@@ -20,14 +20,16 @@ template <class FT>
 struct Natural_units_3 {
   int of_f = 0, of_length = 0; ///< binary exponents of the units
 
-  explicit Natural_units_3(const Jet_3<FT>& jet) {
+  template <int Order>
+  explicit Natural_units_3(const Jet_3<FT, Order>& jet) {
     const int first = exponent(jet, 1, 4), second = exponent(jet, 4, 10);
     if (first == none || second == none) return;
     of_length = (first - second) / 4 * 4;
     of_f = first + of_length;
   }
 
-  Jet_3<FT> apply(Jet_3<FT> jet) const {
+  template <int Order>
+  Jet_3<FT, Order> apply(Jet_3<FT, Order> jet) const {
     using std::ldexp;
     for (std::size_t n = 0; n < jet.size; ++n) {
       FT& x = jet.coefficients()[n];
@@ -41,10 +43,15 @@ struct Natural_units_3 {
     return ldexp(x, 2 * of_length - of_f);
   }
 
-  /// Returns numbers to the old units, by the weights of doc/conventions.md.
-  void restore(Euclidean_structure_3<FT>& e, Affine_structure_3<FT>& a) const {
+  /// Returns numbers of unit length^(`quarters` / 4) to the old unit.
+  template <class... Number>
+  void restore_all(int quarters, Number&... x) const {
     using std::ldexp;
-    const auto restore_all = [&](int quarters, auto&... x) { ((x = ldexp(x, of_length / 4 * quarters)), ...); };
+    ((x = ldexp(x, of_length / 4 * quarters)), ...);
+  }
+
+  /// Returns a structure to the old units, by the weights of doc/conventions.md.
+  void restore(Euclidean_structure_3<FT>& e, Affine_structure_3<FT>& a) const {
     restore_all(-4, e.k1, e.k2, e.mean_curvature);
     restore_all(-8, e.gaussian_curvature, a.apolar_cubic[0], a.apolar_cubic[1], a.apolar_cubic[2], a.apolar_cubic[3]);
     restore_all(-12, a.gaussian_curvature);
@@ -61,7 +68,8 @@ private:
   static constexpr int none = std::numeric_limits<int>::min();
 
   /// The binary exponent of the largest of the coefficients [begin, end).
-  static int exponent(const Jet_3<FT>& jet, std::size_t begin, std::size_t end) {
+  template <int Order>
+  static int exponent(const Jet_3<FT, Order>& jet, std::size_t begin, std::size_t end) {
     using std::abs;
     using std::frexp;
     FT largest(0);

@@ -114,7 +114,7 @@ std::array<FT, 4> affine_shape_operator(const Inverse_form<FT>& inverse, const B
 }
 
 template <class FT>
-Affine_invariants_3<FT> affine_invariants_of(const Monge_chart_3<FT>& chart) {
+Affine_invariants_3<FT> invariants_in_basis(const Monge_chart_3<FT>& chart) {
   using std::abs;
   using std::sqrt;
   const FT &a = chart.a, &b = chart.b;
@@ -135,8 +135,7 @@ Affine_invariants_3<FT> affine_invariants_of(const Monge_chart_3<FT>& chart) {
   Affine_invariants_3<FT> s;
   s.conormal = chart.unpermuted(a * reciprocal_length, b * reciprocal_length, reciprocal_length);
   s.slope = {alpha[0] + FT(1.5) * x[0], alpha[1] + FT(1.5) * x[1]};
-  const FT xi1 = length * s.slope[0], xi2 = length * s.slope[1];
-  s.normal = chart.unpermuted(xi1, xi2, length - a * xi1 - b * xi2);
+  s.normal = chart.vector(length * s.slope[0], length * s.slope[1], length);
   s.shape_operator = affine_shape_operator<FT>(inverse, n, sigma, FT(-1.5) * length);
   const auto& [b11, b12, b21, b22] = s.shape_operator;
   s.gaussian_curvature = b11 * b22 - b12 * b21;
@@ -192,7 +191,7 @@ std::array<FT, 6> affine_metric(const Affine_invariants_3<FT>& s, const Monge_ch
   const FT factor = FT(-2) * scale_of_forms(chart);
   const auto& [p11, p12, p22] = chart.quadratic;
   const auto& [x1, x2] = s.slope;
-  const auto u = chart.unpermuted(FT(1) - x1 * chart.a, -(x1 * chart.b), -x1);
+  const auto u = chart.unpermuted(FT(1) - x1 * chart.a, chart.shear - x1 * chart.b, -x1);
   const auto v = chart.unpermuted(-(x2 * chart.a), FT(1) - x2 * chart.b, -x2);
   std::array<FT, 6> metric;
   std::size_t n = 0;
@@ -207,7 +206,8 @@ template <class FT>
 FT quadric_defect(const Affine_invariants_3<FT>& s, const Monge_chart_3<FT>& chart) {
   using std::sqrt;
   const FT e = FT(1) + chart.a * chart.a, length = sqrt(FT(e + chart.b * chart.b)), root = sqrt(e);
-  const FT x = FT(1) / root, z = root / length, y = -(chart.a * chart.b) * z / e;
+  const FT x = FT(1) / root, z = root / length;
+  const FT y = (chart.shear - chart.a * chart.b / e) * z;
   const auto& [p11, p12, p22] = chart.quadratic;
   const auto& [t0, t1, t2, t3] = s.apolar_cubic;
   const FT q12 = x * (y * p11 + z * p12), q22 = y * y * p11 + FT(2) * y * z * p12 + z * z * p22, q11 = x * x * p11;
@@ -215,6 +215,23 @@ FT quadric_defect(const Affine_invariants_3<FT>& s, const Monge_chart_3<FT>& cha
   const FT c3 = y * y * (y * t0 + FT(3) * z * t1) + z * z * (FT(3) * y * t2 + z * t3);
   const FT cubic = sqrt(FT(c0 * c0 + FT(3) * (c1 * c1 + c2 * c2) + c3 * c3));
   return FT(1.5) * length * cubic / (q11 * q11 + FT(2) * q12 * q12 + q22 * q22);
+}
+
+template <class FT>
+Affine_structure_3<FT> structure_in_basis(const Monge_chart_3<FT>& chart) {
+  const auto invariants = invariants_in_basis(chart);
+  const auto [are_real, k1, k2] = affine_principal_curvatures(invariants, chart.determinant > FT(0));
+  const FT scale = scale_of_forms(chart), zero(0), one(1);
+  return {invariants,
+          are_real,
+          k1,
+          k2,
+          affine_metric(invariants, chart),
+          quadric_defect(invariants, chart),
+          chart.vector(one, zero, zero),
+          chart.vector(zero, one, zero),
+          scaled_form(chart.quadratic, FT(-2) * scale),
+          scaled_form(invariants.apolar_cubic, FT(-6) * scale)};
 }
 
 } // namespace equiaffine::internal

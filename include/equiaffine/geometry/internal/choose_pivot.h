@@ -19,8 +19,8 @@ struct Pivot_3 {
   std::array<FT, 3> reciprocals; ///< 1 / f_i for all three axes
 };
 
-/// Chooses the axis whose largest |f_ij| / |f_i f_j| is smallest, up to a factor 2 for i = j. An axis with f_j = 0 does
-/// not count. Among equals it is that with the largest |f_i|.
+/// Chooses the axis whose largest |f_ij| / |f_i f_j| is smallest. An axis with f_j = 0 does not count. Among equals it is
+/// that with the largest |f_i|.
 ///
 /// Two axes are compared without the curvature that they share: x with y without xy, then the better one with z.
 template <class FT>
@@ -41,9 +41,9 @@ template <class FT>
   };
   const FT never(std::numeric_limits<FT>::infinity());
   const FT xy = curvature(5, 0, 1), xz = curvature(6, 0, 2), yz = curvature(8, 1, 2);
-  const FT xx = select(counts[0], curvature(4, 0, 0), never);
-  const FT yy = select(counts[1], curvature(7, 1, 1), never);
-  const FT zz = select(counts[2], curvature(9, 2, 2), never);
+  const FT xx = select(counts[0], FT(FT(2) * curvature(4, 0, 0)), never);
+  const FT yy = select(counts[1], FT(FT(2) * curvature(7, 1, 1)), never);
+  const FT zz = select(counts[2], FT(FT(2) * curvature(9, 2, 2)), never);
 
   const FT x = larger(xx, xz), y = larger(yy, yz);
   const Mask_of<FT> x_beats_y = x < y || (x == y && slope[0] > slope[1]);

@@ -76,8 +76,8 @@ void set_principal_directions(Euclidean_structure_3<FT>& s, const Monge_chart_3<
   t = select(is_umbilic, zero, FT(t / length));
   const FT sqrt_e = sqrt(basis.e);
   const FT u2 = -basis.f * sqrt_e / basis.w, v2 = sqrt_e / basis.w; // t2 = u2 e_u + v2 e_v
-  s.direction1 = chart.tangent(c / sqrt_e + t * u2, t * v2);
-  s.direction2 = chart.tangent(chart.sign * (c * u2 - t / sqrt_e), chart.sign * c * v2);
+  s.direction1 = chart.vector(c / sqrt_e + t * u2, t * v2, zero);
+  s.direction2 = chart.vector(chart.sign * (c * u2 - t / sqrt_e), chart.sign * c * v2, zero);
 }
 
 template <class FT>

@@ -5,6 +5,7 @@
 #include <equiaffine/Local_structure_3.h>
 #include <equiaffine/capabilities.h>
 #include <equiaffine/geometry/affine_frame.h>
+#include <equiaffine/geometry/internal/Natural_units_3.h>
 
 #include <algorithm>
 #include <array>
@@ -61,10 +62,12 @@ struct Differentiated_structure_3 {
 };
 
 /// The derivatives of K, H and J along x, y and z, each on the level set through the point, from derivatives of order 5:
-/// the chart of an expansion whose coefficients are expansions of order 1.
+/// the chart of an expansion whose coefficients are expansions of order 1, in natural units.
 template <class FT>
-std::array<std::array<FT, 3>, 3> gradients_of_invariants(const Jet_3<FT, 5>& jet) {
+std::array<std::array<FT, 3>, 3> gradients_of_invariants(const Jet_3<FT, 5>& given) {
   using Number = Jet_3<FT, 1>;
+  const Natural_units_3<FT> units(given);
+  const Jet_3<FT, 5> jet = units.apply(given);
   Jet_3<Number> moving;
   for (std::size_t n = 0; n < moving.size; ++n) {
     const auto [i, j, k] = monomials[n];
@@ -84,6 +87,7 @@ std::array<std::array<FT, 3>, 3> gradients_of_invariants(const Jet_3<FT, 5>& jet
                               : n == 1 ? invariants.mean_curvature
                                        : invariants.pick_invariant;
     std::copy_n(invariant.coefficients().begin() + 1, 3, gradients[n].begin());
+    for (FT& x : gradients[n]) units.restore_all(n == 0 ? -16 : -10, x);
   }
   return gradients;
 }
@@ -144,9 +148,12 @@ std::array<FT, 3> gradient_norms_of(const Differentiated_structure_3<FT>& s) {
   const auto& euclidean = s.structure.euclidean;
   const FT scale = std::sqrt(std::sqrt(std::abs(euclidean.gaussian_curvature)));
   std::array<FT, 3> norms;
-  for (std::size_t n = 0; n < 3; ++n)
-    norms[n] = std::sqrt(
-        std::abs(scale * (s.along1[n] * s.along1[n] / euclidean.k1 + s.along2[n] * s.along2[n] / euclidean.k2)));
+  for (std::size_t n = 0; n < 3; ++n) {
+    const FT size = std::abs(s.along1[n]) + std::abs(s.along2[n]); // whose square may overflow
+    const FT part1 = s.along1[n] / size, part2 = s.along2[n] / size;
+    const FT square = std::abs(scale * (part1 * part1 / euclidean.k1 + part2 * part2 / euclidean.k2));
+    norms[n] = size == FT(0) ? size : FT(size * std::sqrt(square));
+  }
   return norms;
 }
 
