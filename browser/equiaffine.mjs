@@ -37,8 +37,8 @@ export class Equiaffine {
   // Levels of the volume that came last, see readVolume().
   levelSet(volume, {level = 0, smoothing = 0, attributes = 'basic'} = {}) {
     this.takeVolume(volume, smoothing);
-    this.extract({level, attributes});
-    return this.#surface();
+    const samples = this.extract({level, attributes});
+    return {...this.#surface(), ...samples};
   }
 
   annotate(name, bytes, {scale = null, attributes = 'basic'} = {}) {
@@ -68,6 +68,7 @@ export class Equiaffine {
   extract({level, attributes}) {
     check(isFinite(level), 'the level is a number');
     this.#call(pointers => this.#module._eq_level_set(level, this.#text(pointers, attributes)));
+    return {noise: this.#module._eq_noise(), distinctValues: this.#module._eq_distinct_values() || null};
   }
   fit(name, bytes, {scale, attributes}) {
     const data = bytesOf(bytes);

@@ -44,6 +44,14 @@ export interface LevelSetOptions {
   attributes?: string;
 }
 
+export interface LevelSet extends Surface {
+  /** The standard deviation of the noise of the samples beside the level set. */
+  noise: number;
+  /** The number of distinct values of the samples if it is 256 or less: then unsmoothed curvatures are those of the steps
+   *  between them; else null. */
+  distinctValues: number | null;
+}
+
 export interface AnnotateOptions {
   /** The scale of curvatures, a length; 0: the surface's own; null (the default): the data choose. */
   scale?: number | null;
@@ -66,8 +74,9 @@ export class Equiaffine {
   parse(formula: string, constants?: Record<string, number>): void;
   /** Meshes formula = level by Marching Cubes: every vertex lies on the surface to rounding. */
   mesh(formula: string, options: MeshOptions): Surface;
-  /** Meshes a level set of the spline through the samples of a volume, on its own lattice. */
-  levelSet(volume: Volume, options?: LevelSetOptions): Surface;
+  /** Meshes a level set of the spline through the samples of a volume, on its own lattice. Affine curvatures come with
+   *  estimates of their errors as NAME_error. */
+  levelSet(volume: Volume, options?: LevelSetOptions): LevelSet;
   /** Curvatures of a mesh or of points, at most 50000, by polynomials that are fitted around each: `bytes` are those of a
    *  file whose name ends with .ply, .off, .xyz or .csv. */
   annotate(name: string, bytes: Uint8Array | ArrayBuffer, options?: AnnotateOptions): Surface;

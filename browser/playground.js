@@ -11,7 +11,7 @@ const state = {formula: '', names: Object.create(null), box: [-1, 1, -1, 1, -1, 
 // and the worker that has read it: {name, bytes, level, worker}.
 let askedFile = null, shownFile = null;
 
-function finish({id, page, level, progress, mistake, unknownNames, milliseconds}) {
+function finish({id, page, volume, progress, mistake, unknownNames, milliseconds}) {
   if (id !== undefined && running?.id !== id) return;
   if (progress) {
     running.progress = `step ${progress.stage}, ${Math.floor(100 * progress.done / progress.total)} %, `;
@@ -25,7 +25,7 @@ function finish({id, page, level, progress, mistake, unknownNames, milliseconds}
   if (task && task.file === askedFile) {
     if (unknownNames) addNames(unknownNames);
     else if (mistake) fail(task, mistake);
-    else succeed(task, page, level, milliseconds);
+    else succeed(task, page, volume, milliseconds);
   }
   if (!running) runNext();
 }
@@ -39,14 +39,22 @@ function fail(task, mistake) {
   if (task.file && task.file !== shownFile) askFor(shownFile);
   if (!scene) byId('message').textContent = 'No surface yet';
 }
-function succeed(task, page, level, milliseconds) {
+function succeed(task, page, volume, milliseconds) {
   say(null);
-  if (task.file && level !== undefined) Object.assign(task.file, {level, worker});
+  if (volume) Object.assign(task.file, {level: volume.level, worker});
   shownFile = task.file;
   showLevel();
   show(page, task);
   const size = task.file ? '' : `${task.resolution}³ nodes: `;
-  byId('cost').textContent = `${size}${mesh.size.toLocaleString('en')} vertices in ${Math.max(1, Math.round(milliseconds))} ms`;
+  const time = `${mesh.size.toLocaleString('en')} vertices in ${Math.max(1, Math.round(milliseconds))} ms`;
+  byId('cost').textContent = [size + time, ...volume ? textOfSamples(volume) : []].join('; ');
+}
+function textOfSamples({noise, smoothing, distinctValues}) {
+  const text = [`noise in the samples: ${Number(noise.toPrecision(3))}, smoothed by ${smoothing} voxels`];
+  if (distinctValues && smoothing === 0)
+    text.push(`the samples have ${distinctValues} distinct values only, and curvatures are those of the steps between them; ` +
+              'smooth the samples');
+  return text;
 }
 
 // Controls of a formula are hidden while a file is asked for.

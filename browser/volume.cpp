@@ -1,25 +1,54 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Level sets of a volume, whose spline stays until the next volume comes.
+// Level sets of a volume, which stays with its spline until the next volume comes.
 #include "sample.h"
 #include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/Volume_3.h>
+#include <equiaffine/Volume_view_3.h>
+#include <equiaffine/attributes/Curvature_error_3.h>
+#include <equiaffine/volume/Sample_noise.h>
+#include <equiaffine/volume/few_values.h>
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace {
 
+struct Fitted_volume {
+  equiaffine::Volume_view_3<Kernel> samples;
+  double smoothing;
+  equiaffine::Sampled_function_traits_3<Kernel> spline;
+  equiaffine::Curvature_error_3<Kernel> errors;
+  double noise;                               ///< of the samples beside the last level set
+  std::optional<std::size_t> distinct_values; ///< of the samples, if they are few
+};
+
 std::vector<double> values;
-std::optional<equiaffine::Sampled_function_traits_3<Kernel>> spline;
+std::optional<Fitted_volume> fitted;
+
+/// Adds the errors of affine curvatures that the surface has.
+void add_errors() {
+  auto& columns = surface.attributes.columns;
+  const auto has = [&](const char* name) { return equiaffine::find_column(surface.attributes, name) != nullptr; };
+  const bool has_gaussian = has("affine_gaussian_curvature"), has_mean = has("affine_mean_curvature");
+  if (!has_gaussian && !has_mean) return;
+  std::vector<double> gaussian, mean;
+  for (const auto& p : surface.mesh.points) {
+    const auto error = fitted->errors(p);
+    gaussian.push_back(error.gaussian_curvature);
+    mean.push_back(error.mean_curvature);
+  }
+  if (has_gaussian) columns.push_back({"affine_gaussian_curvature_error", std::move(gaussian)});
+  if (has_mean) columns.push_back({"affine_mean_curvature_error", std::move(mean)});
+}
 
 } // namespace
 
 /// Makes place for the values of a volume, i fastest.
 EXPORTED double* eq_values(int nodes) {
-  spline.reset();
+  fitted.reset();
   try {
     values.assign(std::size_t(nodes), 0);
   } catch (const std::bad_alloc&) {
@@ -35,16 +64,28 @@ EXPORTED int eq_volume(int nx, int ny, int nz, const double* placing, double smo
     const auto vector = [&](int k) { return Kernel::Vector_3(placing[3 * k], placing[3 * k + 1], placing[3 * k + 2]); };
     const equiaffine::Lattice_3<Kernel> lattice({std::size_t(nx), std::size_t(ny), std::size_t(nz)},
                                                 CGAL::ORIGIN + vector(0), {vector(1), vector(2), vector(3)});
-    spline.emplace(equiaffine::Volume_3<Kernel>{lattice, std::exchange(values, {})},
-                   equiaffine::Spline_parameters{.smoothing = smoothing}, CGAL::Sequential_tag());
+    const CGAL::Sequential_tag tag;
+    const equiaffine::Volume_view_3<Kernel> samples(equiaffine::Volume_3<Kernel>{lattice, std::exchange(values, {})});
+    const equiaffine::Sampled_function_traits_3<Kernel> spline(samples, {.smoothing = smoothing}, tag);
+    fitted.emplace(samples, smoothing, spline,
+                   equiaffine::Curvature_error_3<Kernel>(spline, samples, smoothing, 0, tag), 0,
+                   equiaffine::number_of_few_values(equiaffine::Volume_parts_3<Kernel>::of(samples)));
   });
 }
 
-/// Meshes a level set of the volume on its own lattice.
+/// Meshes a level set of the volume on its own lattice. Affine curvatures have estimates of their errors.
 EXPORTED int eq_level_set(double level, const char* attributes) {
   return outcome_of([&] {
     surface = {};
-    if (!spline) throw equiaffine::Input_error("there is no volume yet");
-    sample(equiaffine::Level_set_traits_3(*spline, level), attributes);
+    if (!fitted) throw equiaffine::Input_error("there is no volume yet");
+    sample(equiaffine::Level_set_traits_3(fitted->spline, level), attributes);
+    fitted->noise = equiaffine::estimate_noise<CGAL::Sequential_tag>(fitted->samples, level).deviation;
+    fitted->errors = fitted->errors.with_noise(fitted->smoothing, fitted->noise);
+    add_errors();
   });
 }
+
+/// The standard deviation of the noise of the samples beside the last level set.
+EXPORTED double eq_noise() { return fitted ? fitted->noise : std::numeric_limits<double>::quiet_NaN(); }
+/// The number of distinct values of the samples if it is 256 or less, else 0.
+EXPORTED int eq_distinct_values() { return fitted ? int(fitted->distinct_values.value_or(0)) : 0; }

@@ -33,6 +33,7 @@ function unknownNames(ea, {formula, constants}) {
   return names;
 }
 
+// Makes a surface, and returns what there is to say of a volume.
 async function compute(ea, {kind, ...task}) {
   if (kind === 'sample') return ea.sample(task.formula, task);
   if (kind === 'file' && !isVolume(task.name)) {
@@ -45,8 +46,7 @@ async function compute(ea, {kind, ...task}) {
   if (kind === 'file' || task.smoothing !== taken.smoothing) ea.takeVolume(taken.volume, task.smoothing);
   taken.smoothing = task.smoothing;
   const level = task.level ?? levelIn(taken.volume.values);
-  ea.extract({...task, level});
-  return level;
+  return {level, smoothing: task.smoothing, ...ea.extract({...task, level})};
 }
 
 self.onmessage = async ({data: {id, wasm, ...task}}) => {
@@ -54,8 +54,8 @@ self.onmessage = async ({data: {id, wasm, ...task}}) => {
   try {
     const ea = await library, begin = performance.now();
     current = id;
-    const level = await compute(ea, task), page = ea.page();
-    self.postMessage({id, page, level, milliseconds: performance.now() - begin},
+    const volume = await compute(ea, task), page = ea.page();
+    self.postMessage({id, page, volume, milliseconds: performance.now() - begin},
                      [page.positions.buffer, page.triangles.buffer, page.status.buffer, page.parts.buffer]);
   } catch (error) {
     const {message, excerpt = '', unknownName = ''} = error;

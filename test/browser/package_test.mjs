@@ -75,12 +75,21 @@ for (const wrong of [{resolution: 5000}, {resolution: 2 ** 32 + 10}, {resolution
     'a.nii': Buffer.concat([nifti, data]), 'a.nii.gz': gzipSync(Buffer.concat([nifti, data])),
   };
   for (const [name, bytes] of Object.entries(files)) {
-    const {attributes, triangles} = equiaffine.levelSet(await readVolume(name, bytes), {level: 0.25});
+    const {attributes, triangles, noise, distinctValues} = equiaffine.levelSet(await readVolume(name, bytes), {level: 0.25});
     assert(triangles.length > 3000, name);
+    assert(noise < 1e-6 && distinctValues === null, `${name}: no noise and many values`);
+    assert(attributes.affine_gaussian_curvature_error.every(error => error < 0.1), `${name}: K is known`);
+    assert(attributes.affine_mean_curvature_error.every(error => error < 0.1), `${name}: H is known`);
     assert(attributes.affine_gaussian_curvature.every(K => Math.abs(K - 1) < 0.01), `${name}: K of a unit ball is 1`);
     for (const part of [bytes.subarray(0, bytes.length / 2), bytes.subarray(0, 100), bytes.subarray(0, 4), Buffer.alloc(0)])
       await assert.rejects(readVolume(name, part), error => error instanceof Mistake && error.message.includes(name));
   }
+  const mask = await readVolume('a.nrrd', files['a.nrrd']);
+  mask.values.forEach((value, k) => mask.values[k] = value < 0.25 ? 1 : 0);
+  const steps = equiaffine.levelSet(mask, {level: 0.5}), K = steps.attributes.affine_gaussian_curvature;
+  assert.equal(steps.distinctValues, 2);
+  const unknown = steps.attributes.affine_gaussian_curvature_error.filter((error, k) => !(error < Math.abs(K[k]) / 2)).length;
+  assert(unknown > K.length / 2, 'K of a mask is unknown at most vertices');
   const bomb = Buffer.concat([Buffer.from('NRRD0004\ntype: double\ndimension: 3\nsizes: 3000 3000 3000\nencoding: gzip\n\n')]);
   await assert.rejects(readVolume('bomb.nrrd', bomb), /up to 16777216 can be sampled/);
 }

@@ -62,6 +62,14 @@ public:
     return result;
   }
 
+  /// The same estimates if the samples, smoothed by the scale `smoothing`, had noise of that deviation.
+  Curvature_error_3 with_noise(const FT& smoothing, const FT& deviation) const {
+    Curvature_error_3 result = *this;
+    result.disturbances_ =
+        std::make_shared<const Spline_disturbances_3<Kernel>>(function_.spline(), smoothing, deviation);
+    return result;
+  }
+
   /// The estimates at p, NaN where the spline has no regular structure.
   Affine_curvature_error<FT> operator()(const Point_3& p) const {
     const Spline_function_3<Kernel>& spline = function_.spline();
