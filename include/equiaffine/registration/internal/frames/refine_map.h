@@ -80,15 +80,16 @@ public:
     return basis_ * solution;
   }
 
-  /// Returns the map with these coefficients to first order. Its rotation is one to all orders: a surface may be near to a
-  /// sphere, and tell little of rotations.
+  /// Returns the map with these coefficients to first order. Its rotation is one to all orders, since a surface may be
+  /// near to a sphere and tell little of rotations. It is the one nearest to the first order, so that long steps, of
+  /// which less is known, are shortened.
   Affine_map_3 map_of(const Eigen::Matrix<double, 12, 1>& x) const {
     const Eigen::Matrix3d change = Eigen::Map<const Eigen::Matrix3d>(x.data()).transpose();
     const Eigen::Vector3d turn =
         Eigen::Vector3d(change(2, 1) - change(1, 2), change(0, 2) - change(2, 0), change(1, 0) - change(0, 1)) / 2;
     Affine_map_3 map;
     map.matrix += (change + change.transpose()) / 2;
-    if (!turn.isZero(0)) map.matrix = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * map.matrix;
+    if (!turn.isZero(0)) map.matrix = Eigen::AngleAxisd(std::atan(turn.norm()), turn.normalized()) * map.matrix;
     map.translation = center_ - map.matrix * center_ + size_ * x.tail<3>();
     return map;
   }
