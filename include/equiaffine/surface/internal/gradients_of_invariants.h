@@ -5,7 +5,7 @@
 #include <equiaffine/Local_structure_3.h>
 #include <equiaffine/capabilities.h>
 #include <equiaffine/geometry/affine_frame.h>
-#include <equiaffine/geometry/internal/Natural_units_3.h>
+#include <equiaffine/geometry/internal/shared/Natural_units_3.h>
 
 #include <algorithm>
 #include <array>

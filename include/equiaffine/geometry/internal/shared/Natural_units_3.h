@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_GEOMETRY_INTERNAL_NATURAL_UNITS_3_H
-#define EQUIAFFINE_GEOMETRY_INTERNAL_NATURAL_UNITS_3_H
+#ifndef EQUIAFFINE_GEOMETRY_INTERNAL_SHARED_NATURAL_UNITS_3_H
+#define EQUIAFFINE_GEOMETRY_INTERNAL_SHARED_NATURAL_UNITS_3_H
 
 #include <equiaffine/geometry/Affine_structure_3.h>
 #include <equiaffine/geometry/Euclidean_structure_3.h>
