@@ -6,6 +6,7 @@
 #include <equiaffine/Local_structure_3.h>
 #include <equiaffine/Transformed_function_traits_3.h>
 #include <equiaffine/function/expand.h>
+#include <equiaffine/geometry/affine_frame.h>
 #include <equiaffine/geometry/reference_estimators.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -152,6 +153,28 @@ void for_random_surfaces(Visitor visit) {
     visit(f, p, s, random);
   }
   EXPECT_GT(regular, 100);
+}
+
+TEST(Affine_structure, a_conjugate_basis_changes_nothing_but_rounding) {
+  for_random_surfaces([](const Random_surface& f, const Vector& p, const Local_structure_3<double>& s, auto&) {
+    const Monge_chart_3<double> chart(expand(f, p));
+    if (std::abs(chart.quadratic[0]) < 0.05) return;
+    const auto before = internal::structure_in_basis(chart),
+               after = internal::structure_in_basis(chart.conjugate(true));
+    const double S = scale(s), tolerance = 1e-9;
+    EXPECT_NEAR(after.gaussian_curvature, before.gaussian_curvature, tolerance * S);
+    EXPECT_NEAR(after.mean_curvature, before.mean_curvature, tolerance * std::sqrt(S));
+    EXPECT_NEAR(after.pick_invariant, before.pick_invariant, tolerance * std::sqrt(S));
+    EXPECT_LE(relative_difference(after.normal, before.normal), tolerance);
+    EXPECT_LE(relative_difference(after.conormal, before.conormal), tolerance);
+    EXPECT_NEAR(after.quadric_defect, before.quadric_defect, tolerance * (1 + before.quadric_defect));
+    for (std::size_t n = 0; n < 6; ++n)
+      EXPECT_NEAR(after.metric[n], before.metric[n], tolerance * (1 + std::abs(before.metric[n])));
+    const Affine_frame_3<double> frame = affine_frame(after), expected = affine_frame(before);
+    if (expected.quality < 1e-3) return;
+    EXPECT_LE(relative_difference(frame.e1, expected.e1), 1e-6);
+    EXPECT_LE(relative_difference(frame.e2, expected.e2), 1e-6);
+  });
 }
 
 TEST(Affine_structure, unimodular_maps_leave_curvatures_and_carry_normals_along) {
