@@ -38,23 +38,23 @@ void expect_forms_to_fifth_order(const Function& f, int pivot) {
     EXPECT_EQ(chart.pivot_is_x, pivot == 0);
     EXPECT_EQ(chart.pivot_is_y, pivot == 1);
     const double f_w = jet.coefficient(pivot == 0, pivot == 1, pivot == 2);
-    const auto residual = [&](const Monge_chart_3<double>& chart, double h) {
+    const auto residual = [&](const Monge_chart_3<double>& forms, double h) {
       double worst = 0;
       for (int n = 0; n < 8; ++n) {
         const double u = h * std::cos(n * 0.785), v = h * std::sin(n * 0.785);
-        const auto& [q0, q1, q2] = chart.quadratic;
-        const auto& [c0, c1, c2, c3] = chart.cubic;
-        const auto& [m0, m1, m2] = chart.mixed_quadratic;
-        const auto& [r0, r1, r2, r3, r4] = chart.quartic;
-        const double Q = q0 * u * u + 2 * q1 * u * v + q2 * v * v, L = chart.mixed[0] * u + chart.mixed[1] * v;
+        const auto& [q0, q1, q2] = forms.quadratic;
+        const auto& [c0, c1, c2, c3] = forms.cubic;
+        const auto& [m0, m1, m2] = forms.mixed_quadratic;
+        const auto& [r0, r1, r2, r3, r4] = forms.quartic;
+        const double Q = q0 * u * u + 2 * q1 * u * v + q2 * v * v, L = forms.mixed[0] * u + forms.mixed[1] * v;
         const double C = c0 * u * u * u + 3 * c1 * u * u * v + 3 * c2 * u * v * v + c3 * v * v * v;
         const double D = m0 * u * u + 2 * m1 * u * v + m2 * v * v;
         const double R = r0 * u * u * u * u + 4 * r1 * u * u * u * v + 6 * r2 * u * u * v * v + 4 * r3 * u * v * v * v +
                          r4 * v * v * v * v;
         for (const double w : {-Q, Q / 3}) {
-          const auto t = chart.vector(u, v, w);
+          const auto t = forms.vector(u, v, w);
           const double value = f(p[0] + t[0], p[1] + t[1], p[2] + t[2]) - f(p[0], p[1], p[2]);
-          worst = std::max(worst, std::abs(value / f_w - (w + Q + w * L + chart.e * w * w + C + w * D + R)));
+          worst = std::max(worst, std::abs(value / f_w - (w + Q + w * L + forms.e * w * w + C + w * D + R)));
         }
       }
       return worst;

@@ -403,6 +403,14 @@ TEST(Affine_structure, principal_curvatures_are_the_eigenvalues_where_they_are_r
   EXPECT_GT(complex_pairs, 0);
 }
 
+TEST(Affine_structure, the_smaller_principal_curvature_keeps_its_digits) {
+  const auto s = local_structure(expand(Expression_3("x^4+y^4+z-1"), {1, .01, 0})).affine;
+  EXPECT_NEAR(s.k2 / .034641016137521, 1, 1e-13);
+  const auto opposite = local_structure(expand(Expression_3("1-x^4-y^4-z"), {1, .01, 0})).affine;
+  EXPECT_NEAR(opposite.k1 / -.034641016137521, 1, 1e-13);
+  EXPECT_EQ(opposite.k2, -s.k1);
+}
+
 TEST(Affine_structure, ruled_surfaces_have_a_vanishing_pick_invariant) {
   const auto f = [](const auto& x, const auto& y, const auto& z) { return z - x * y + x * x * x / 3.0; };
   EXPECT_NEAR(local_structure(expand(f, {0.3, 0.8, 0.1})).affine.pick_invariant, 0, 1e-14);

@@ -132,9 +132,10 @@ struct Monge_chart_3 {
     const FT k = result.shear = select(condition, FT(quadratic[1] / quadratic[0]), FT(0));
     result.quadratic[1] = select(condition, FT(0), quadratic[1]);
     result.quadratic[2] = select(condition, FT(determinant / quadratic[0]), quadratic[2]);
-    const auto subtract_u_from_v = [&k](auto& form) { // for each of the arguments in turn
+    const auto subtract_u_from_v = [&](auto& form) { // for each of the arguments in turn; -0 stays what it is elsewhere
       for (std::size_t n = 1; n < form.size(); ++n)
-        for (std::size_t i = form.size() - 1; i >= n; --i) form[i] -= k * form[i - 1];
+        for (std::size_t i = form.size() - 1; i >= n; --i)
+          form[i] = select(condition, FT(form[i] - k * form[i - 1]), form[i]);
     };
     subtract_u_from_v(result.mixed);
     subtract_u_from_v(result.cubic);

@@ -153,7 +153,8 @@ struct Real_eigenvalues {
 };
 
 /// The eigenvalues of B: real for a definite metric, for which B is self-adjoint; else by the sign of the discriminant,
-/// which counts as zero (a double eigenvalue) within the rounding errors of B.
+/// which counts as zero (a double eigenvalue) within the rounding errors of B. The one of smaller magnitude follows from
+/// the product, K, where the difference would cancel.
 template <class FT>
 Real_eigenvalues<FT> affine_principal_curvatures(const Affine_invariants_3<FT>& s, const Mask_of<FT>& is_definite) {
   using std::abs;
@@ -165,9 +166,12 @@ Real_eigenvalues<FT> affine_principal_curvatures(const Affine_invariants_3<FT>& 
   const FT size = abs(b11) + abs(b22) + sqrt(FT(abs(product)));
   const Mask_of<FT> are_real = is_definite || discriminant >= -(rounding * rounding * size * size);
   const FT radius = sqrt(select(discriminant > FT(0), discriminant, FT(0)));
+  const FT &mean = s.mean_curvature, plus = mean + radius, minus = mean - radius;
+  const Mask_of<FT> cancels = radius > FT(0.5) * abs(mean), is_positive = mean > FT(0);
+  const FT larger = select(cancels && !is_positive && mean != FT(0), FT(s.gaussian_curvature / minus), plus);
+  const FT smaller = select(cancels && is_positive, FT(s.gaussian_curvature / plus), minus);
   const FT nan = std::numeric_limits<FT>::quiet_NaN();
-  return {are_real, select(are_real, FT(s.mean_curvature + radius), nan),
-          select(are_real, FT(s.mean_curvature - radius), nan)};
+  return {are_real, select(are_real, larger, nan), select(are_real, smaller, nan)};
 }
 
 /// s / |d|^(1/4): the metric and T are this times the second derivatives of the graph and the apolar part of the third
