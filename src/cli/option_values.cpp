@@ -47,18 +47,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last.back();
 }
 
-/// A finite number, written as such or as arithmetic with numbers.
-double parse_arithmetic(const std::string& option, const std::string& word) {
-  if (parse_number<double>(word)) return parse_finite_number(option, word);
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  try {
-    // The value is NaN if it depends on x, y or z.
-    if (const double value = Expression_3(word)(unknown, unknown, unknown); std::isfinite(value)) return value;
-  } catch (const Input_error&) {
-  }
-  fail_option(option, "'" + word + "' is not a number", "write it like 2, -.5, 1e-3 or 2*pi/3");
-}
-
 } // namespace
 
 void fail_option(const std::string& option, const std::string& reason, const std::string& advice) {
@@ -68,10 +56,17 @@ void fail_option(const std::string& option, const std::string& reason, const std
 bool is_number(const std::string& word) { return parse_number<double>(word).has_value(); }
 
 double parse_finite_number(const std::string& option, const std::string& word) {
-  const std::optional<double> number = parse_number<double>(word);
-  if (!number) fail_option(option, "'" + word + "' is not a number", "write it like 2, -.5 or 1e-3");
-  if (!std::isfinite(*number)) fail_option(option, "'" + word + "' is not a finite number", "give a finite one");
-  return *number;
+  if (const std::optional<double> number = parse_number<double>(word)) {
+    if (!std::isfinite(*number)) fail_option(option, "'" + word + "' is not a finite number", "give a finite one");
+    return *number;
+  }
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  try {
+    // The value is NaN if it depends on x, y or z.
+    if (const double value = Expression_3(word)(unknown, unknown, unknown); std::isfinite(value)) return value;
+  } catch (const Input_error&) {
+  }
+  fail_option(option, "'" + word + "' is not a number", "write it like 2, -.5, 1e-3 or 2*pi/3");
 }
 
 std::size_t parse_count(const std::string& option, const std::string& word, std::size_t minimum) {
@@ -159,7 +154,7 @@ std::pair<std::string, double> parse_constant(const std::string& option, const s
   const std::size_t equals = word.find('=');
   if (equals == std::string::npos || equals == 0)
     fail_option(option, "'" + word + "' is not of the form name=value", "write it like R=2");
-  return {word.substr(0, equals), parse_arithmetic(option + " " + word, word.substr(equals + 1))};
+  return {word.substr(0, equals), parse_finite_number(option + " " + word, word.substr(equals + 1))};
 }
 
 std::size_t parse_choice(const Option_words& option, std::span<const std::string_view> choices) {

@@ -34,6 +34,7 @@ struct Option_words {
 
 bool is_number(const std::string& word);
 
+/// A finite number, written as such or as arithmetic with numbers, such as 2*pi/3.
 double parse_finite_number(const std::string& option, const std::string& word);
 
 /// The only word of the option as a number.
@@ -61,7 +62,7 @@ CGAL::Bbox_3 parse_box(const Option_words& option);
 /// are given.
 CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& option);
 
-/// name=value, where the value is a number or arithmetic with numbers.
+/// name=value, where the value is a number or arithmetic.
 std::pair<std::string, double> parse_constant(const std::string& option, const std::string& word);
 
 /// The position of the only word of the option in `choices`.

@@ -157,7 +157,9 @@ TEST_F(Program_errors, a_box_is_finite_and_not_empty) {
                {"--box", "'-inf'", "not a finite number"});
   expect_error(mesh_of("x") + Arguments{"--box", "-1e308", "1e308", "-2", "2", "-2", "2"}, {"--box", "too large"});
   expect_error(mesh_of("x") + Arguments{"--box", "-2", "two", "-2", "2", "-2", "2"},
-               {"--box", "'two' is not a number"});
+               {"--box", "'two' is not a number", "2*pi/3"});
+  expect_error(mesh_of("x") + Arguments{"--box", "-pi", "2*pi", "0", "x", "-2", "2"}, {"--box", "'x' is not a number"});
+  run_well(mesh_of("x-2+y+z") + Arguments{"--box", "-pi/2", "2*pi", "0", "pi", "-2", "2", "--resolution", "6"});
   expect_error({"mesh", "--function", "x", "--box", "-2", "2", "-2", "2", "-2", "-o", "out.ply"},
                {"--box", "a value is missing before -o"});
   expect_error(mesh_of("x") + Arguments{"--box", "-2", "2", "-2"},
