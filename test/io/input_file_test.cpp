@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <sys/stat.h>
+#include <thread>
 
 using namespace equiaffine;
 
@@ -41,4 +43,26 @@ TEST(Input_file, errors_say_why_there_is_nothing_to_read) {
   std::ofstream(empty) << "ply";
   EXPECT_EQ(error_of(empty), "");
   std::filesystem::remove_all(folder);
+}
+
+TEST(Input_file, devices_and_pipes_to_which_nothing_writes_are_refused) {
+  EXPECT_EQ(error_of("/dev/zero"), "cannot read '/dev/zero': it is a device; name a file");
+  const auto pipe = std::filesystem::temp_directory_path() / "equiaffine_input_file_test.pipe";
+  std::filesystem::remove(pipe);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_NE(error_of(pipe.string()).find("no program writes"), std::string::npos);
+  std::thread writer([&] { std::ofstream(pipe) << "ply"; });
+  EXPECT_EQ(error_of(pipe.string()), "");
+  writer.join();
+  std::filesystem::remove(pipe);
+}
+
+TEST(Input_file, errors_quote_the_ends_of_what_is_long) {
+  try {
+    internal::fail_to_read("a.csv", "'" + std::string(1000000, '1') + "' is not a number", "correct it");
+    FAIL();
+  } catch (const Input_error& error) {
+    EXPECT_LT(std::string(error.what()).size(), 400U);
+    EXPECT_NE(std::string(error.what()).find("1' is not a number; correct it"), std::string::npos) << error.what();
+  }
 }

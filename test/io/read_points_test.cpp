@@ -209,6 +209,9 @@ TEST(Read_points, mistakes_in_ply_are_told) {
                                      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
   EXPECT_NE(error_of(ply, point + "0 0 0\n3 0 0 1\n").find("face 0 has a vertex that does not exist"),
             std::string::npos);
+  std::string many = "ply\nformat ascii 1.0\nelement vertex 1\n";
+  for (int n = 0; n <= 10000; ++n) many += "property float p" + std::to_string(n) + '\n';
+  EXPECT_NE(error_of(ply, many + "end_header\n").find("more than 10000 properties"), std::string::npos);
   EXPECT_NE(error_of(ply, point + "0 0 zero\n3 0 0 0\n").find("'zero' is not a number"), std::string::npos);
   EXPECT_NE(error_of(ply, header + "element vertex 99999999999\nproperty float x\nproperty float y\nproperty float z\n"
                                    "end_header\n0 0 0\n")

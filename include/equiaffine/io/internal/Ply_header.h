@@ -65,6 +65,8 @@ public:
         if (elements.empty()) fail("a property before the first element");
         Ply_property property = parse_property(line);
         auto& properties = elements.back().properties;
+        if (properties.size() == most_properties)
+          fail("more than " + std::to_string(most_properties) + " properties of an element");
         if (std::any_of(properties.begin(), properties.end(), [&](const auto& p) { return p.name == property.name; }))
           fail("a second property '" + property.name + "'");
         properties.push_back(std::move(property));
@@ -77,6 +79,8 @@ public:
   }
 
 private:
+  static constexpr std::size_t most_properties = 10000;
+
   [[noreturn]] void fail(const std::string& what) const {
     fail_to_read(name_, what + " in line " + std::to_string(line_number_) + " of its PLY header", "correct the header");
   }

@@ -7,17 +7,25 @@
 
 #include <cstddef>
 #include <istream>
-#include <iterator>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <unistd.h>
 
 namespace equiaffine::internal {
 
 /// The rest of a stream.
+/// \throw std::bad_alloc if it would take more than half of the memory of the computer
 inline std::string read_all(std::istream& stream) {
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::size_t most = std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGESIZE)) / 2;
+  std::string text, chunk(1 << 20, '\0');
+  while (stream.read(chunk.data(), std::streamsize(chunk.size())) || stream.gcount() > 0) {
+    text.append(chunk, 0, std::size_t(stream.gcount()));
+    if (text.size() > most) throw std::bad_alloc();
+  }
+  return text;
 }
 
 /// The text without blanks and line ends at either end.
