@@ -174,6 +174,8 @@ std::string summary(const Statistics& s) {
   if (s.spline && s.spline->smoothing > 0)
     text << "noise in the samples: " << s.spline->noise.deviation << ", smoothed by " << s.spline->smoothing
          << " voxels\n";
+  else if (s.spline && s.spline->is_smoothing_chosen)
+    text << "noise in the samples: " << s.spline->noise.deviation << ", which needs no smoothing\n";
   if (s.remesh) add_remesh(*s.remesh, text);
   if (s.fit) add_fit(*s.fit, text);
   if (s.completeness) {

@@ -15,6 +15,7 @@ struct Spline_statistics {
   int degree = 0;
   Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
   double smoothing = 0;
+  bool is_smoothing_chosen = false; ///< by the noise, and not given
   Sample_noise noise = {};
   std::size_t least_nodes = 0;                     ///< along the axis that has the fewest
   std::optional<std::size_t> distinct_values = {}; ///< the number of those of the samples, if they are at most 256

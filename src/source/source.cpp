@@ -199,6 +199,7 @@ Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
   const Spline_statistics statistics = {degree,
                                         scheme,
                                         smoothing,
+                                        !scale,
                                         noise,
                                         std::ranges::min(volume.lattice().size()),
                                         number_of_few_values(Volume_parts_3<Kernel>::of(volume))};

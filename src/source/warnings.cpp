@@ -57,7 +57,8 @@ void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool h
     if (part > 0.1 * unknown) progress.warn(std::to_string(std::lround(100 * part)) + " % of the vertices " + reason);
   };
   const std::string larger_scale = options.scale ? ", or a larger --scale" : "";
-  warn(fit.without_fit, "have no fit: too few points are connected with them; give more points" + larger_scale);
+  warn(fit.without_fit,
+       "have no fit, which needs 15 connected points or more around each; give more points" + larger_scale);
   if (!has_affine_curvatures) return;
   const std::string without_none = options.scale == 0. ? "leave out --scale none, or " : "";
   const std::string error = "have an estimated error of the affine Gaussian curvature of more than 50 %, most of it ";

@@ -138,6 +138,8 @@ TEST_F(Program_spline, smoothing_is_chosen_from_the_noise) {
   EXPECT_EQ(spline()["smoothing"], 2.5);
   mesh(ellipsoid + noisy + Arguments{"--smoothing", "auto"});
   EXPECT_EQ(spline()["smoothing"], 0) << "what has no noise is left as it is";
+  const Result result = run(Arguments{"mesh"} + ellipsoid + Arguments{"--smoothing", "auto", "-o", "out.ply"});
+  EXPECT_NE(result.out.find(", which needs no smoothing\n"), std::string::npos) << result.out;
 }
 
 TEST_F(Program_spline, errors_are_estimated_on_request_and_transformed_with_the_surface) {
