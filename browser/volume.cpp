@@ -67,9 +67,9 @@ EXPORTED int eq_volume(int nx, int ny, int nz, const double* placing, double smo
     const CGAL::Sequential_tag tag;
     const equiaffine::Volume_view_3<Kernel> samples(equiaffine::Volume_3<Kernel>{lattice, std::exchange(values, {})});
     const equiaffine::Sampled_function_traits_3<Kernel> spline(samples, {.smoothing = smoothing}, tag);
-    fitted.emplace(samples, smoothing, spline,
-                   equiaffine::Curvature_error_3<Kernel>(spline, samples, smoothing, 0, tag), 0,
-                   equiaffine::number_of_few_values(equiaffine::Volume_parts_3<Kernel>::of(samples)));
+    fitted = Fitted_volume{samples, smoothing,
+                           spline,  equiaffine::Curvature_error_3<Kernel>(spline, samples, smoothing, 0, tag),
+                           0,       equiaffine::number_of_few_values(equiaffine::Volume_parts_3<Kernel>::of(samples))};
   });
 }
 

@@ -104,7 +104,7 @@ const scales = ['linear', 'logarithmic', 'equalized'];
 const rounded = number => Number(number.toPrecision(4));
 function shortText(number) {
   const text = String(rounded(number));
-  return text.length <= 7 ? text : rounded(number).toExponential();
+  return text.length <= 7 ? text : number.toExponential(1);
 }
 function showRange() {
   byId('clip').disabled = Boolean(choice.range) || choice.quantity.ranges?.length === 1;
@@ -120,7 +120,7 @@ function showRange() {
 function takeTypedRange() {
   const typed = ['lowest', 'highest'].map((id, k) => {
     const text = byId(id).value.trim(), bound = [range.lower, range.upper][k];
-    return text && Number(text) !== rounded(bound) ? Number(text) : bound;
+    return text && text !== shortText(bound) ? Number(text) : bound;
   });
   const isFine = typed.every(Number.isFinite) && typed[0] < typed[1];
   for (const id of ['lowest', 'highest']) byId(id).setAttribute('aria-invalid', !isFine);

@@ -57,8 +57,8 @@ Outputs outputs_of(const Annotate_options& options) {
 
 void check_has_faces(const Annotate_options& options, const std::string& name,
                      const Indexed_triangle_mesh_3<Kernel>& mesh) {
-  if (options.display.shows_something() && mesh.triangles.empty())
-    throw Input_error("cannot show '" + name + "': it has no faces; leave out --html and --png, or show the surface " +
+  if (options.display.html && mesh.triangles.empty())
+    throw Input_error("cannot show '" + name + "': it has no faces; use --png instead of --html, or show the surface " +
                       "through the points by 'equiaffine mesh --fit " + options.mesh + " -o OUT.ply --html PAGE.html'");
 }
 

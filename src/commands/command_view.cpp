@@ -45,8 +45,9 @@ Outputs show(const Annotated_mesh_3<Kernel>& surface, const std::string& name, c
   check_display_outputs(options.display);
   Outputs outputs;
   outputs.add_displays(options.display);
-  if (surface.mesh.triangles.empty())
-    throw Input_error("cannot show '" + name + "': it has no faces; 'equiaffine mesh --fit " + options.mesh +
+  if (options.display.html && surface.mesh.triangles.empty())
+    throw Input_error("cannot show '" + name +
+                      "': it has no faces; --png draws the points, and 'equiaffine mesh --fit " + options.mesh +
                       " -o OUT.ply --html PAGE.html' shows the surface through the points");
   check_color(options.display.color, surface.attributes);
   check_arrows(options.display.arrows, surface.attributes);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,6 +38,34 @@ std::vector<Vector> vertex_normals(const Indexed_triangle_mesh_3<Kernel>& mesh, 
   return normals;
 }
 
+/// The normals by which the corners of triangles are lit: where a triangle bends away from the normal of a corner, as at a
+/// crease, the mean over the triangles there that do not bend away from it.
+std::vector<std::array<Vector, 3>> corner_normals(const Indexed_triangle_mesh_3<Kernel>& mesh,
+                                                  const std::vector<Vector>& normals) {
+  const double greatest_bend = std::cos(40 * std::numbers::pi / 180);
+  std::vector<Vector> of_faces;
+  std::vector<std::vector<std::uint32_t>> faces_at(mesh.points.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    for (const std::uint32_t corner : {a, b, c}) faces_at[corner].push_back(std::uint32_t(of_faces.size()));
+    of_faces.push_back(cross_product(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]));
+  }
+  const auto is_near = [&](const Vector& a, const Vector& b) {
+    return !(a * b < greatest_bend * std::sqrt(a.squared_length() * b.squared_length()));
+  };
+  std::vector<std::array<Vector, 3>> result(of_faces.size());
+  for (std::size_t face = 0; face < of_faces.size(); ++face)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t corner = mesh.triangles[face][k];
+      Vector& normal = result[face][k] = normals[corner];
+      if (is_near(normal, of_faces[face])) continue;
+      normal = CGAL::NULL_VECTOR;
+      for (const std::uint32_t other : faces_at[corner])
+        if (is_near(of_faces[face], of_faces[other])) normal = normal + of_faces[other];
+      normal = unit(normal);
+    }
+  return result;
+}
+
 /// The light of the page's shader.
 Light lit(const Light& base, const Vector& normal, const Vector& view, bool is_front) {
   static const Vector source = unit(Vector(-0.35, 0.5, 1));
@@ -49,35 +78,53 @@ Light lit(const Light& base, const Vector& normal, const Vector& view, bool is_f
   return light;
 }
 
-/// A mesh from the place of a camera.
+/// A mesh, or points, from the place of a camera.
 class Seen_surface {
 public:
   Seen_surface(const Camera& camera, const Indexed_triangle_mesh_3<Kernel>& mesh, const std::vector<Vector>& normals)
-      : triangles_(mesh.triangles) {
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-      places_.push_back(camera(mesh.points[i]));
-      normals_.push_back(camera.turned(normals[i]));
-      views_.push_back(camera.turned(camera.towards_eye(mesh.points[i])));
+      : triangles_(mesh.triangles), normals_(corner_normals(mesh, normals)) {
+    for (auto& corners : normals_)
+      for (Vector& normal : corners) normal = camera.turned(normal);
+    for (const auto& point : mesh.points) {
+      places_.push_back(camera(point));
+      views_.push_back(camera.turned(camera.towards_eye(point)));
     }
+    if (!triangles_.empty()) return;
+    for (const Vector& normal : normals) normals_of_points_.push_back(camera.turned(normal));
   }
 
   void draw(Canvas& canvas, const Surface_paint& paint) const {
-    for (const auto& triangle : triangles_) {
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
       Progress_observer::step();
-      const auto& [a, b, c] = triangle;
+      const auto& [a, b, c] = triangles_[i];
+      const auto& [na, nb, nc] = normals_[i];
       const auto shade = [&](const std::array<double, 3>& weights, bool is_front) {
         const auto& [u, v, w] = weights;
-        return lit(paint(triangle, weights), u * normals_[a] + v * normals_[b] + w * normals_[c],
+        return lit(paint(triangles_[i], weights), u * na + v * nb + w * nc,
                    u * views_[a] + v * views_[b] + w * views_[c], is_front);
       };
       canvas.draw_triangle({places_[a], places_[b], places_[c]}, shade);
     }
+    if (triangles_.empty()) draw_points(canvas, paint);
   }
 
 private:
+  /// Draws points as discs that cover a third of the picture together, of some pixels at most.
+  void draw_points(Canvas& canvas, const Surface_paint& paint) const {
+    const double radius = std::clamp(180 / std::sqrt(double(places_.size())), 1., 4.);
+    for (std::uint32_t i = 0; i < places_.size(); ++i) {
+      const Light color = paint({i, i, i}, {1, 0, 0});
+      const Vector& normal = normals_of_points_[i];
+      const bool has_normal = normal.squared_length() > 0, is_front = normal * views_[i] >= 0;
+      canvas.draw_stroke(places_[i], places_[i], radius, radius,
+                         has_normal ? lit(color, normal, views_[i], is_front) : color, 0);
+    }
+  }
+
   std::span<const std::array<std::uint32_t, 3>> triangles_;
   std::vector<Screen_point> places_;
-  std::vector<Vector> normals_, views_; // in the directions of the camera
+  std::vector<std::array<Vector, 3>> normals_;    // of the corners of triangles, in the directions of the camera
+  std::vector<Vector> views_, normals_of_points_; // in the same directions
 };
 
 /// The text in lines that are no wider than a picture, broken between words, by the mean width of a letter.

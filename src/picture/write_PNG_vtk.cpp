@@ -68,7 +68,7 @@ double place_on_bar(double number, const Color_mapping& mapping) {
 }
 
 /// Numbers with their places on the bar: equal parts of a linear one, else round numbers a `most`-th of the bar apart or
-/// more, the greatest first.
+/// more, the greatest first, or the ends where there are less than two.
 std::vector<std::pair<double, double>> ticks(const Color_mapping& mapping, std::size_t most) {
   const auto& [lower, upper, knee, is_diverging] = mapping.range;
   std::vector<std::pair<double, double>> result;
@@ -92,6 +92,7 @@ std::vector<std::pair<double, double>> ticks(const Color_mapping& mapping, std::
   for (int power = largest; power > largest - decades; --power)
     for (const double factor : {1., 5., 2.})
       for (const double sign : {1., -1.}) offer(sign * factor * std::pow(10., power));
+  if (result.size() < 2) result = {{lower, 0}, {upper, 1}};
   return result;
 }
 

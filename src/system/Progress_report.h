@@ -44,7 +44,7 @@ private:
   std::ostream& stream_;
   const bool is_terminal_;
   const Time start_;
-  std::string stage_;
+  std::string stage_ = "starting";
   std::size_t steps_ = 0;
   Time begin_of_stage_, time_of_line_; ///< the latter is that of the next line where there is no terminal
   bool is_shown_ = false, is_forewarned_ = false;

@@ -56,7 +56,7 @@ for (const wrong of [{resolution: 5000}, {resolution: 2 ** 32 + 10}, {resolution
   // A ball as a volume, in a header of each format.
   const n = 24, values = new Float32Array(n ** 3);
   for (let k = 0; k < n ** 3; ++k)
-    values[k] = Math.hypot(k % n - 11.5, Math.floor(k / n) % n - 11.5, Math.floor(k / n / n) - 11.5) ** 2 / 400;
+    values[k] = Math.hypot(k % n - 11.5, Math.floor(k / n) % n - 11.4, Math.floor(k / n / n) - 11.3) ** 2 / 400;
   const data = Buffer.from(values.buffer);
   const nifti = Buffer.alloc(352);
   nifti.writeInt32LE(348, 0);

@@ -43,6 +43,28 @@ double position(const Color_range& range, Color_scale scale, double value) {
   return Color_mapping{range, scale}.position(value);
 }
 
+TEST(Color_map, a_column_with_few_numbers_that_are_not_zero_has_a_range) {
+  std::vector<double> values(100, 0.);
+  values.back() = 3;
+  const Color_range range = color_range(values);
+  EXPECT_EQ(range.lower, 0);
+  EXPECT_EQ(range.upper, 3);
+  EXPECT_EQ(Color_mapping{range}.position(0), 0);
+  values.back() = -3;
+  EXPECT_EQ(color_range(values).lower, -3);
+}
+
+TEST(Color_map, numbers_that_are_equal_within_their_errors_have_one_color) {
+  const std::vector<double> values = {0.99, 1, 1.01}, magnitudes = values;
+  const Color_mapping exact{color_range_of_sorted(values, magnitudes, 0, 0)};
+  EXPECT_LT(exact.position(0.99), 0.1);
+  EXPECT_GT(exact.position(1.01), 0.9);
+  const Color_mapping rough{color_range_of_sorted(values, magnitudes, 0, 0, 0.05)};
+  for (const double value : values) EXPECT_NEAR(rough.position(value), 0.5, 0.02);
+  const std::vector<double> both = {-0.01, 0.001, 0.01};
+  EXPECT_EQ(color_range_of_sorted(both, {0.001, 0.01, 0.01}, 0, 0, 0.05).upper, 0.4);
+}
+
 TEST(Color_map, quantiles_interpolate_between_order_statistics) {
   std::vector<double> values = {40, 10, 30, 20};
   EXPECT_EQ(quantile(values, 0), 10);
@@ -254,7 +276,7 @@ TEST(Color_map, every_status_has_its_own_color_away_from_both_maps) {
 Column_numbers numbers_of(const std::vector<double>& values, const std::vector<double>& errors = {}) {
   std::vector<bool> known;
   for (std::size_t i = 0; i < errors.size(); ++i) known.push_back(is_known(std::abs(values[i]), errors[i]));
-  return {values, known, std::vector<double>(values.size(), 1.), 0};
+  return {values, known, errors, std::vector<double>(values.size(), 1.), 0};
 }
 
 TEST(Color_map, the_automatic_scale_is_the_first_by_which_the_median_is_not_near_white) {

@@ -70,6 +70,12 @@ TEST(Trust, what_noise_makes_of_a_number_is_not_shown_first) {
   EXPECT_EQ(first_of({noise}), "affine_gaussian_curvature_noise");
 }
 
+TEST(Trust, columns_of_others_are_shown_first_only_where_there_is_nothing_of_ours) {
+  const Vertex_attributes::Column other = {"fit_outcome", {0, 0, 1}};
+  EXPECT_EQ(first_of({other, affine, errors({9, 9, 9})}), "affine_gaussian_curvature");
+  EXPECT_EQ(first_of({normal, other}), "fit_outcome");
+}
+
 TEST(Trust, something_is_shown_even_if_nothing_is_trusted) {
   EXPECT_EQ(first_of({normal, affine, errors({9, 9, 9})}), "affine_gaussian_curvature");
   EXPECT_EQ(first_of({normal}), "plain");

@@ -262,13 +262,25 @@ TEST_F(Program_annotate, page_and_picture_show_the_mesh) {
   expect_error({"annotate", "p.xyz", "-o", "p.ply", "--html", "p.html"}, {"'p.xyz'", "no faces", "--html"});
 }
 
+TEST_F(Program_annotate, pictures_of_points_show_them) {
+  write_file(folder_ / "none.xyz", "0 0 0\n1 1 1\n");
+  std::string points;
+  for (int i = 0; i < 20; ++i)
+    for (int j = 0; j < 20; ++j)
+      points += std::to_string(i / 20.) + ' ' + std::to_string(j / 20.) + ' ' + std::to_string(i * j / 400.) + '\n';
+  write_file(folder_ / "many.xyz", points);
+  for (const std::string name : {"none", "many"})
+    run_well({"annotate", name + ".xyz", "-o", name + ".ply", "--png", name + ".png", "--size", "200", "200"});
+  EXPECT_GT(file("many.png").size(), 2 * file("none.png").size()) << "there is more to see of 400 points than of two";
+}
+
 TEST_F(Program_annotate, points_that_are_too_few_are_outside_and_a_warning_says_so) {
   write_file(folder_ / "few.csv", "x,y,z\n0,0,0\n1,0,0\n0,1,0\n");
   const Result result = run({"annotate", "few.csv", "-o", "-", "--attributes", "status"});
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.out, "x,y,z,status\n0,0,0,outside\n1,0,0,outside\n0,1,0,outside\n");
-  EXPECT_EQ(result.error, "equiaffine: warning: 100 % of the vertices have no fit: too few points are connected with "
-                          "them; give more points\n");
+  EXPECT_EQ(result.error, "equiaffine: warning: 100 % of the vertices have no fit, which needs 15 connected points "
+                          "or more around each; give more points\n");
   run({"annotate", "few.csv", "-o", "few.ply", "--stats", "stats.json"});
   EXPECT_TRUE(Json::parse(file("stats.json")).at("fit").at("noise").is_null());
 }

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <iterator>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 /// \file
@@ -72,11 +73,14 @@ inline std::vector<double> sorted_magnitudes(const std::vector<double>& sorted) 
 /// unit of the numbers, is the least half-width worth a color. A relative half-width is at least a millionth, as pages
 /// store single precision. Numbers look like zero instead of like noise if at least half of them are below the
 /// resolution and that largest |value| is below a thousand resolutions, since rounding grows beside a parabolic curve:
-/// their range is a billion resolutions, which is the unit of the numbers where the resolution is 1e-9 of it.
+/// their range is a billion resolutions, which is the unit of the numbers where the resolution is 1e-9 of it. `error` is
+/// what the numbers are typically off: a half-width is at least 8 errors, so that numbers that are equal within their
+/// errors have one color.
 /// \pre `sorted` is ascending and finite, `magnitudes` has its absolute values, ascending
 inline Color_range color_range_of_sorted(const std::vector<double>& sorted, const std::vector<double>& magnitudes,
-                                         double clip_percent, double resolution) {
-  CGAL_precondition(clip_percent >= 0 && clip_percent < 50 && resolution >= 0);
+                                         double clip_percent, double resolution, double error = 0) {
+  CGAL_precondition(clip_percent >= 0 && clip_percent < 50 && resolution >= 0 && error >= 0);
+  const double least_half_width = std::max(resolution, 8 * error);
   constexpr double relative_resolution = 1e-6;
   constexpr double resolutions_of_rounding = 1e3, resolutions_of_unit = 1e9;
   const double unit = resolution > 0 ? resolutions_of_unit * resolution : 1;
@@ -91,14 +95,18 @@ inline Color_range color_range_of_sorted(const std::vector<double>& sorted, cons
 
   const double negligible = relative_resolution * largest;
   const bool has_both_signs = -negligible > sorted.front() && negligible < sorted.back();
-  if (has_both_signs) return {-largest, largest, knee, true};
+  if (has_both_signs) {
+    const double end = std::max(largest, least_half_width);
+    return {-end, end, knee, true};
+  }
   const auto bound = [&](double percent) {
     const double number = quantile_of_sorted(sorted, percent);
     return std::abs(number) < negligible ? 0 : number;
   };
-  const double lower = bound(clip_percent), upper = bound(100 - clip_percent);
+  double lower = bound(clip_percent), upper = bound(100 - clip_percent);
+  if (lower == 0 && upper == 0) std::tie(lower, upper) = std::minmax({0., sorted.front(), sorted.back()});
   const double middle = lower + (upper - lower) / 2;
-  const double half_width = std::max({(upper - lower) / 2, resolution, relative_resolution * std::abs(middle)});
+  const double half_width = std::max({(upper - lower) / 2, least_half_width, relative_resolution * std::abs(middle)});
   return {middle - half_width, middle + half_width, knee, false};
 }
 

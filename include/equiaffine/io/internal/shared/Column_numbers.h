@@ -41,18 +41,22 @@ std::vector<double> vertex_areas(const Indexed_triangle_mesh_3<Kernel>& mesh) {
 /// by which numbers get their colors are here, for pages and pictures.
 class Column_numbers {
 public:
-  /// Numbers closer than `resolution` are equal up to rounding; `areas` are those of `vertex_areas`; `is_known` is empty
-  /// if there are no errors.
-  Column_numbers(const std::vector<double>& values, const std::vector<bool>& is_known, const std::vector<double>& areas,
-                 double resolution)
+  /// Numbers closer than `resolution` are equal up to rounding; `areas` are those of `vertex_areas`; `is_known` and `errors`
+  /// are empty if there are no errors.
+  Column_numbers(const std::vector<double>& values, const std::vector<bool>& is_known,
+                 const std::vector<double>& errors, const std::vector<double>& areas, double resolution)
       : resolution_(resolution) {
     std::vector<Weighted_number> all, known;
+    std::vector<double> of_known;
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double value = values[i];
       if (!std::isfinite(value)) continue;
       all.push_back({value, areas[i]});
-      if (!is_known.empty() && is_known[i]) known.push_back(all.back());
+      if (is_known.empty() || !is_known[i]) continue;
+      known.push_back(all.back());
+      of_known.push_back(errors[i]);
     }
+    if (!of_known.empty()) error_ = median_of(std::move(of_known));
     part_unknown_ = is_known.empty() || all.empty() ? 0 : 1 - double(known.size()) / double(all.size());
     numbers_ = known.empty() ? std::move(all) : std::move(known);
     std::sort(numbers_.begin(), numbers_.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
@@ -82,7 +86,8 @@ public:
 
   /// The same, with the equalization of these numbers.
   Color_mapping mapping(double clip_percent, const Equalization& equalization) const {
-    Color_mapping result = {color_range_of_sorted(sorted_, magnitudes_, clip_percent, resolution_), {}, equalization};
+    Color_mapping result = {
+        color_range_of_sorted(sorted_, magnitudes_, clip_percent, resolution_, error_), {}, equalization};
     if (sorted_.empty()) return result;
     for (const Color_scale scale : {Color_scale::LINEAR, Color_scale::ASINH, Color_scale::EQUALIZED}) {
       result.scale = scale;
@@ -101,7 +106,7 @@ private:
     return std::min(t, 1 - t) >= least;
   }
 
-  double resolution_, part_unknown_ = 0;
+  double resolution_, part_unknown_ = 0, error_ = 0; // the latter is the median of known numbers
   std::vector<Weighted_number> numbers_;
   std::vector<double> sorted_, magnitudes_;
 };
@@ -119,11 +124,13 @@ public:
 
   Column_numbers operator()(const Vertex_attributes::Column& column) const {
     std::vector<bool> known;
-    if (const auto* errors = find_errors(attributes_, column.name)) {
+    const auto* const errors = find_errors(attributes_, column.name);
+    if (errors) {
       const std::vector<double> sizes = sizes_of_numbers(column, attributes_);
       for (std::size_t i = 0; i < sizes.size(); ++i) known.push_back(is_known(sizes[i], errors->values[i]));
     }
-    return {column.values, known, areas_, rounding_of_quantity(column.name, diagonal_)};
+    return {column.values, known, errors ? errors->values : std::vector<double>(), areas_,
+            rounding_of_quantity(column.name, diagonal_)};
   }
 
 private:

@@ -9,6 +9,7 @@
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -108,22 +109,20 @@ inline bool is_component_or_error(const std::string& name, const Vertex_attribut
                              name == "ny" || name == "nz" || name.starts_with("metric_"));
 }
 
-/// Returns what pages and pictures show first: of the columns with numbers that are trusted the one of the least rank,
-/// or of all with numbers if none is trusted; else `status` or `plain`.
+/// Returns what pages and pictures show first: of our attributes with numbers that are trusted the one of the least rank, or
+/// of all with numbers if none is trusted, or another column with numbers; else `status` or `plain`.
 inline std::string first_shown(const Vertex_attributes& attributes) {
   const Vertex_attributes::Column* first = nullptr;
-  bool first_is_trusted = false;
+  std::array<int, 3> first_order{};
   for (const auto& column : attributes.columns) {
     const bool has_numbers =
         std::any_of(column.values.begin(), column.values.end(), [](double value) { return std::isfinite(value); });
     if (!has_numbers || is_component_or_error(column.name, attributes)) continue;
-    const bool trusted = is_trusted(column, attributes);
-    const bool is_better =
-        first == nullptr || trusted > first_is_trusted ||
-        (trusted == first_is_trusted && rank_of_quantity(column.name) < rank_of_quantity(first->name));
-    if (!is_better) continue;
+    const int rank = rank_of_quantity(column.name);
+    const std::array<int, 3> order = {rank == Quantity::unranked, !is_trusted(column, attributes), rank};
+    if (first != nullptr && !(order < first_order)) continue;
     first = &column;
-    first_is_trusted = trusted;
+    first_order = order;
   }
   if (first != nullptr) return first->name;
   return attributes.status ? "status" : "plain";
