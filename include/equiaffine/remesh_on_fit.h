@@ -5,9 +5,12 @@
 #include <equiaffine/Fitted_function_traits_3.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/Fit_outcome.h>
+#include <equiaffine/fit/internal/remesh/Deviation_3.h>
+#include <equiaffine/fit/internal/remesh/Triangle_array_3.h>
 #include <equiaffine/fit/internal/remesh/Whole_remesh_3.h>
 #include <equiaffine/fit/internal/remesh/motion_to_fit.h>
 #include <equiaffine/fit/internal/remesh/remesh_of_mesh.h>
+#include <equiaffine/fit/internal/remesh/triangle_array_of.h>
 #include <equiaffine/surface/internal/shared/Face_graph.h>
 
 #include <CGAL/tags.h>
@@ -16,10 +19,13 @@ namespace equiaffine {
 
 /// Remeshes a triangle mesh by CGAL's isotropic remeshing, and moves its vertices onto the zero set of a fit to it, see
 /// move_to_fit(). The mesh stays whole: it has the same components, border loops and Euler characteristic, and its
-/// triangles cross each other only within an edge of places where some of those given did. If edges of the length that
-/// was asked for do not allow that, shorter ones are tried, down to a quarter of the given ones, and then the given
-/// triangles. A length beyond the diagonal of the mesh counts as that diagonal. Vertices in no triangle are removed. A
-/// mesh with a triangle that is a line or a point keeps all its triangles.
+/// triangles cross each other only within an edge of places where some of those given did. The remesh is within a tenth
+/// of an edge of the given mesh, and the given mesh of the remesh, at vertices and centers of triangles: where detail is
+/// finer than the edges, the given ones are kept, or parts of them. No vertex moves farther from there to the fit than
+/// half of the edges at it, or half of the spacing of the data if that is larger. If edges of the length that was asked
+/// for do not allow that, shorter ones are tried, down to a quarter of the given ones, and then the given triangles. A
+/// length beyond the diagonal of the mesh counts as that diagonal. Vertices in no triangle are removed. A mesh with a
+/// triangle that is a line or a point keeps all its triangles.
 ///
 /// Edges that are constrained, or sharper than the feature angle, stay where they are: a fit that does not end there
 /// makes them round. Vertices beside them go to the fit only if that is within a fifth of an edge. Sharp edges count
@@ -36,7 +42,7 @@ namespace equiaffine {
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
 /// `edge_is_constrained_map` says of the edges of the result, too, whether they are kept. Takes n log n time, some 0.1
-/// ms per vertex, for each of the lengths that are tried. CGAL::Parallel_tag gives the same numbers.
+/// ms per vertex, for each of the lengths that are tried, and as much again up to seven times where edges are kept. CGAL::Parallel_tag gives the same numbers.
 /// \throw std::invalid_argument if a face is not a triangle, a coordinate is not finite, a parameter makes no sense, or
 /// there would be more than 10^8 triangles, or more than 10^4 parts of an edge. The mesh is as it was then.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, class Kernel,
@@ -48,7 +54,8 @@ Fit_remesh_report remesh_on_fit(Mesh& mesh, const Fitted_function_traits_3<Kerne
                              internal::Feature_angle_tag, internal::Geom_traits_tag, internal::Verbose_tag>();
   const auto np = internal::joined_parameters(given...);
   const internal::Remesh_request request = internal::remesh_request(np);
-  internal::Whole_remesh_3<Kernel> remesh(internal::copy_to_remesh<Kernel>(mesh, np), request);
+  const internal::Triangle_array_3 data = internal::triangle_array_of(mesh, np);
+  internal::Whole_remesh_3<Kernel> remesh(internal::copy_to_remesh<Kernel>(mesh, np), request, ConcurrencyTag());
   const auto motion =
       internal::motion_to_fit<ConcurrencyTag>(remesh.array(), fit, remesh.crossings(), remesh.features());
   auto& moved = remesh.mesh();
@@ -56,7 +63,9 @@ Fit_remesh_report remesh_on_fit(Mesh& mesh, const Fitted_function_traits_3<Kerne
   const auto outcomes = moved.template add_property_map<Vertex, Fit_outcome>("v:equiaffine_outcome").first;
   const auto report = internal::apply_motion<Kernel>(moved, motion, parameters::vertex_outcome_map(outcomes));
   internal::replace_by_remesh<Kernel>(mesh, remesh, outcomes, np);
-  return {report, remesh.edge_length()};
+  const auto [from_data, of_data] =
+      internal::Deviation_3(data).greatest<ConcurrencyTag>({motion.points(), remesh.array().triangles()});
+  return {report, remesh.edge_length(), from_data, of_data};
 }
 
 } // namespace equiaffine

@@ -5,6 +5,7 @@
 #include "output/statistics.h"
 #include "output/surface_output.h"
 #include "source/fit_vertices.h"
+#include "source/read_triangle_mesh.h"
 #include "source/read_vertices.h"
 #include "source/warnings.h"
 #include "system/atomic_file.h"
@@ -27,7 +28,7 @@ Annotation_statistics make_statistics(const std::string& source, const Indexed_t
   statistics.source = source;
   statistics.vertices = mesh.points.size();
   statistics.faces = mesh.triangles.size();
-  statistics.topology = mesh_topology(mesh.triangles, mesh.points.size());
+  statistics.topology = mesh_topology(oriented_triangles(mesh), mesh.points.size());
   for (const auto& s : structures) ++statistics.status[std::size_t(s.structure.status)];
   statistics.fit = fit;
   return statistics;
@@ -94,7 +95,8 @@ void run_annotate(const Annotate_options& options, std::ostream& out, Progress& 
   progress.end();
   outputs.commit();
   warn_of_opposed_normals(table, progress);
-  warn_of_doubt(statistics.fit, options.fit, has_affine_curvatures(options.attributes, options.estimates), progress);
+  warn_of_doubt(statistics.fit, options.fit, has_affine_curvatures(options.attributes, options.estimates), true,
+                progress);
   if (outputs.use_standard_output()) return;
   out << summary(statistics);
   outputs.report(out);

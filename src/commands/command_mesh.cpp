@@ -5,6 +5,7 @@
 #include "output/fit_display.h"
 #include "output/statistics.h"
 #include "output/surface_output.h"
+#include "output/warn_of_lost_points.h"
 #include "source/source.h"
 #include "system/Background_work.h"
 #include "system/atomic_file.h"
@@ -159,6 +160,7 @@ void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress
   progress.end();
   outputs.commit();
   warn_of(surface, source, options, progress);
+  warn_of_lost_points(options.output, surface.mesh.points, progress);
   if (!outputs.use_standard_output()) {
     out << summary(statistics);
     if (options.curves) out << summary(*surface.curves);

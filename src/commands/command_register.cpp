@@ -5,6 +5,7 @@
 #include "output/maps.h"
 #include "output/maps_display.h"
 #include "output/surface_output.h"
+#include "output/warn_of_lost_points.h"
 #include "system/atomic_file.h"
 
 #include <array>
@@ -54,6 +55,7 @@ void run_register(const Register_options& options, std::ostream& out, Progress& 
     const auto [mesh, attributes] =
         moved_source(source, distances_from_surfaces(found)[1], report.registration.best().map);
     write_surface(*file, mesh, attributes);
+    warn_of_lost_points(file->path(), mesh.points, progress);
   }
   progress.end();
   outputs.commit();

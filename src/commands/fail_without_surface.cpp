@@ -162,12 +162,15 @@ void fail_without_surface(const Source_function& function, const Source_options&
   const Any_function_3 level_set = any_level_set(function, isovalue);
   const bool is_proved = search.is_certified || !level_set.bounds(level_set.bbox()).contains(0);
   const std::string zeros = is_proved || has_both_signs ? std::string() : zeros_without_change_of_sign(level_set);
+  const bool may_be_erased = source.derivatives == Derivatives::SPLINE && source.spline.smoothing != 0.;
   const bool may_help = !search.refinement.empty() && !search.met_poles && !is_proved && zeros.empty();
   std::ostringstream text;
   text << (is_proved ? "no surface f = " : "no part of the surface f = ") << isovalue << (is_proved ? "" : " was found")
        << " in the " << search.place << ": ";
   if (!zeros.empty()) text << zeros;
-  else if (is_defined) text << "at the nodes of a grid f lies between " << least << " and " << greatest;
+  else if (is_defined)
+    text << "at the nodes of a grid f" << (may_be_erased ? ", smoothed," : "") << " lies between " << least << " and "
+         << greatest;
   else text << "at the nodes of a grid f is undefined";
   if (source.narrow_band) text << " in the band of --narrow-band " << *source.narrow_band;
   if (search.met_poles) text << ", and changes its sign at poles or jumps only";
@@ -175,7 +178,8 @@ void fail_without_surface(const Source_function& function, const Source_options&
   if (!zeros.empty()) text << "another --isovalue, or a function that changes its sign there";
   else if (may_help && has_both_signs) text << search.refinement;
   else
-    text << (source.narrow_band ? "a wider band, " : "") << "another --isovalue or box"
+    text << (may_be_erased ? "a smaller --smoothing, which erases what is thin, " : "")
+         << (source.narrow_band ? "a wider band, " : "") << "another --isovalue or box"
          << (may_help ? ", or " + search.refinement : "");
   throw Input_error(text.str());
 }

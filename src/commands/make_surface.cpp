@@ -200,7 +200,7 @@ void warn_of(const Annotated_surface& surface, const Source& source, const Mesh_
   if (surface.close_sheets) warn_of_close_sheets(*surface.close_sheets, progress);
   if (surface.estimates.fit)
     warn_of_doubt(*surface.estimates.fit, options.source.fit,
-                  has_affine_curvatures(options.attributes, options.estimates), progress);
+                  has_affine_curvatures(options.attributes, options.estimates), false, progress);
 }
 
 Annotated_surface surface_of(const Source& source, const Mesh_options& options, Progress& progress) {

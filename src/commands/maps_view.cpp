@@ -5,8 +5,8 @@
 #include "output/maps.h"
 #include "output/symmetry_marks.h"
 #include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/surface/internal/shared/Triangle_tree_3.h>
 
-#include <CGAL/AABB_tree.h>
 #include <CGAL/Bbox_3.h>
 #include <CGAL/tags.h>
 
@@ -20,15 +20,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-// CGAL 6 has new names for these.
-#if __has_include(<CGAL/AABB_traits_3.h>)
-#include <CGAL/AABB_traits_3.h>
-#include <CGAL/AABB_triangle_primitive_3.h>
-#else
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#endif
 
 namespace equiaffine {
 
@@ -140,29 +131,13 @@ Distances_of_points distances_from(const Any_function_3& surface, const Map& bac
   return [&surface, back](const std::vector<Point>& points) { return distances(points, surface, back); };
 }
 
-using Triangles = std::vector<Kernel::Triangle_3>;
-#if __has_include(<CGAL/AABB_traits_3.h>)
-using Triangle_traits = CGAL::AABB_traits_3<Kernel, CGAL::AABB_triangle_primitive_3<Kernel, Triangles::const_iterator>>;
-#else
-using Triangle_traits = CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>;
-#endif
-
 Distances_of_points distances_from(const Mesh& mesh) {
-  struct Tree {
-    Triangles triangles;
-    CGAL::AABB_tree<Triangle_traits> tree;
-  };
-  const auto shared = std::make_shared<Tree>();
-  for (const auto& [a, b, c] : mesh.triangles)
-    shared->triangles.emplace_back(mesh.points[a], mesh.points[b], mesh.points[c]);
-  std::erase_if(shared->triangles, [](const Kernel::Triangle_3& triangle) { return triangle.is_degenerate(); });
-  shared->tree.insert(shared->triangles.begin(), shared->triangles.end());
-  shared->tree.build();
-  shared->tree.accelerate_distance_queries();
-  return [shared](const std::vector<Point>& points) {
+  static constexpr auto in_tree = [](const Point& p) { return Triangle_tree_3::Point_3(p.x(), p.y(), p.z()); };
+  const auto tree = std::make_shared<const Triangle_tree_3>(mesh.points, mesh.triangles, in_tree);
+  return [tree](const std::vector<Point>& points) {
     std::vector<double> result(points.size());
     parallel_for<CGAL::Parallel_if_available_tag>(
-        0, points.size(), [&](std::size_t i) { result[i] = std::sqrt(shared->tree.squared_distance(points[i])); }, 64);
+        0, points.size(), [&](std::size_t i) { result[i] = tree->distance(in_tree(points[i])); }, 64);
     return result;
   };
 }

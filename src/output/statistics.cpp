@@ -110,7 +110,8 @@ void add_remesh(const Remesh_statistics& remesh, std::ostream& text) {
     if (remesh.number_of[i] == 0) continue;
     text << std::exchange(separator, ", ") << remesh.number_of[i] << ' ' << fit_outcome_names[i];
   }
-  text << '\n';
+  text << "\ntriangles up to " << remesh.distance_from_data << " from the data, the data up to "
+       << remesh.distance_of_data << " from the triangles\n";
   if (remesh.crossings > 0)
     text << remesh.crossings << " pairs of triangles cross each other, as those of the data do\n";
 }
@@ -141,7 +142,9 @@ std::string to_JSON(const Statistics& s) {
     for (std::size_t i = 0; i < number_of_fit_outcomes; ++i)
       json["remesh"]["vertices"][std::string(fit_outcome_names[i])] = s.remesh->number_of[i];
     const auto& [of_fit, of_others] = s.remesh->distances_from_data;
-    json["remesh"]["distance_from_data"] = {{"on_fit", of_fit}, {"others", of_others}};
+    json["remesh"]["distance_from_data"] = {
+        {"on_fit", of_fit}, {"others", of_others}, {"triangles", s.remesh->distance_from_data}};
+    json["remesh"]["distance_of_data"] = s.remesh->distance_of_data;
   }
   if (s.completeness) {
     json["certified"] = s.completeness->is_certified;

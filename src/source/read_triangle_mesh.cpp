@@ -11,6 +11,7 @@
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/boost/graph/helpers.h>
 #include <CGAL/exceptions.h>
 
 #include <algorithm>
@@ -55,6 +56,21 @@ Polygon_soup read_soup(const std::string& path) {
   }
 }
 
+/// The faces with a common orientation, cut where they form no surface; nothing if that is not enough.
+CGAL::Surface_mesh<Kernel::Point_3> oriented_surface(Polygon_soup soup) {
+  const auto repeats_a_point = [](std::vector<std::size_t> face) {
+    std::sort(face.begin(), face.end());
+    return std::adjacent_find(face.begin(), face.end()) != face.end();
+  };
+  CGAL::Surface_mesh<Kernel::Point_3> mesh;
+  if (std::any_of(soup.polygons.begin(), soup.polygons.end(), repeats_a_point)) return mesh;
+  pmp::remove_isolated_points_in_polygon_soup(soup.points, soup.polygons);
+  pmp::orient_polygon_soup(soup.points, soup.polygons);
+  if (pmp::is_polygon_soup_a_polygon_mesh(soup.polygons))
+    pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
+  return mesh;
+}
+
 /// Whether the faces could be cut into triangles. CGAL throws at some of those that touch themselves, and leaves a
 /// damaged mesh where a diagonal of one is an edge of others.
 bool cut_faces(CGAL::Surface_mesh<Kernel::Point_3>& mesh) {
@@ -82,14 +98,27 @@ CGAL::Surface_mesh<Kernel::Point_3> to_triangle_mesh(Polygon_soup soup, const st
       fail_to_read_mesh(path, "vertex " + std::to_string(v) + " has a coordinate that is not a finite number",
                         "correct or remove it");
   }
-  pmp::repair_polygon_soup(soup.points, soup.polygons);
-  pmp::orient_polygon_soup(soup.points, soup.polygons);
-  if (!pmp::is_polygon_soup_a_polygon_mesh(soup.polygons))
+  CGAL::Surface_mesh<Kernel::Point_3> mesh = oriented_surface(soup);
+  if (mesh.is_empty() || !CGAL::is_closed(mesh)) { // points of a closed surface may coincide
+    pmp::repair_polygon_soup(soup.points, soup.polygons);
+    mesh = oriented_surface(std::move(soup));
+  }
+  if (mesh.is_empty())
     fail_to_read_mesh(path, "its faces do not form a surface", "repair it so that two faces meet at every edge");
-  CGAL::Surface_mesh<Kernel::Point_3> mesh;
-  pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
   if (!cut_faces(mesh)) fail_to_read_mesh(path, "not every face can be cut into triangles", "triangulate it");
   return mesh;
+}
+
+std::vector<std::array<std::uint32_t, 3>> oriented_triangles(const Indexed_triangle_mesh_3<Kernel>& mesh) {
+  Polygon_soup soup = to_soup(mesh);
+  const auto repeats = [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
+  if (std::any_of(mesh.triangles.begin(), mesh.triangles.end(), repeats) ||
+      !pmp::orient_polygon_soup(soup.points, soup.polygons))
+    return mesh.triangles;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const auto& face : soup.polygons)
+    triangles.push_back({std::uint32_t(face[0]), std::uint32_t(face[1]), std::uint32_t(face[2])});
+  return triangles;
 }
 
 CGAL::Surface_mesh<Kernel::Point_3> read_triangle_mesh(const std::string& path) {

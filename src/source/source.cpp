@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/source.h"
 
+#include "source/erases_mask.h"
 #include "source/fit_vertices.h"
 #include "source/read_triangle_mesh.h"
 #include "source/read_vertices.h"
@@ -194,17 +195,20 @@ Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
   const auto& [degree, scheme, scale, isovalue] = source.spline;
   progress.begin("measuring noise");
   const Sample_noise noise = estimate_noise(volume, isovalue);
-  const double smoothing = scale ? *scale : choose_smoothing(volume, noise, degree, scheme, isovalue);
+  double smoothing = scale ? *scale : choose_smoothing(volume, noise, degree, scheme, isovalue);
   progress.begin("fitting a spline");
-  const Spline_statistics statistics = {degree,
-                                        scheme,
-                                        smoothing,
-                                        !scale,
-                                        noise,
-                                        std::ranges::min(volume.lattice().size()),
-                                        number_of_few_values(Volume_parts_3<Kernel>::of(volume))};
-  const Spline_parameters parameters = {.degree = degree, .scheme = scheme, .smoothing = smoothing};
-  Fitted_spline fit = {Spline_traits(volume, parameters), statistics};
+  const auto distinct_values = number_of_few_values(Volume_parts_3<Kernel>::of(volume));
+  const auto spline = [&] {
+    return Spline_traits(volume, Spline_parameters{.degree = degree, .scheme = scheme, .smoothing = smoothing});
+  };
+  Spline_traits function = spline();
+  while (!scale && distinct_values && smoothing > 0 && isovalue && erases_mask(function, volume, *isovalue)) {
+    smoothing = smaller_scale_to_choose(smoothing);
+    function = spline();
+  }
+  const Spline_statistics statistics = {
+      degree, scheme, smoothing, !scale, noise, std::ranges::min(volume.lattice().size()), distinct_values};
+  Fitted_spline fit = {std::move(function), statistics};
   if (source.estimates_errors) fit.errors.emplace(fit.function, volume, smoothing, noise.deviation);
   if (source.is_registered && smoothing > 0)
     fit.unsmoothed.emplace(volume, Spline_parameters{.degree = degree, .scheme = scheme});

@@ -48,7 +48,7 @@ bool has_affine_curvatures(const Attribute_selection& attributes, const std::vec
          });
 }
 
-void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool has_affine_curvatures,
+void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool has_affine_curvatures, bool are_data,
                    Progress& progress) {
   const double doubtful = has_affine_curvatures ? fit.doubtful_by_noise + fit.doubtful_by_detail : 0;
   const double unknown = fit.without_fit + doubtful;
@@ -58,7 +58,8 @@ void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool h
   };
   const std::string larger_scale = options.scale ? ", or a larger --scale" : "";
   warn(fit.without_fit,
-       "have no fit, which needs 15 connected points or more around each; give more points" + larger_scale);
+       are_data ? "have no fit, which needs 15 connected points or more around each; give more points" + larger_scale
+                : "have no curvatures: they are on creases, or where the data and the fit do not follow each other");
   if (!has_affine_curvatures) return;
   const std::string without_none = options.scale == 0. ? "leave out --scale none, or " : "";
   const std::string error = "have an estimated error of the affine Gaussian curvature of more than 50 %, most of it ";

@@ -28,8 +28,8 @@ bool has_affine_curvatures(const Attribute_selection& attributes, const std::vec
 
 /// Warns if the affine Gaussian curvature of a fit is unknown at more than half of the vertices that are not parabolic,
 /// where it does not exist, and says why: for each reason that a tenth of these vertices have. Without affine
-/// curvatures among the attributes only vertices without a fit count.
-void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool has_affine_curvatures,
+/// curvatures among the attributes only vertices without a fit count. The vertices are those of the data or of a surface.
+void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool has_affine_curvatures, bool are_data,
                    Progress& progress);
 
 /// Warns if a grid does not tell sheets of the data of a fit apart.

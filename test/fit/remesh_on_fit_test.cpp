@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Remeshes on a fit stay whole.
 #include "support/fit_meshes.h"
+#include <equiaffine/move_to_fit.h>
 #include <equiaffine/remesh_on_fit.h>
 
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
+#include <CGAL/Polygon_mesh_processing/distance.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
@@ -127,6 +130,72 @@ TEST(Remesh_on_fit, sharp_edges_stay_edges) {
     for (int k = 0; k < 3; ++k) sides += p[k] == 0 || p[k] == 1;
     EXPECT_EQ(outcomes[v] == Fit_outcome::ON_FEATURE, sides >= 2)
         << "a vertex is on an edge of the cube, or else moves";
+  }
+}
+
+/// A cylinder over an ellipse with axes 1 and .1, of length 2, with few rows of many points and fans at its ends. Its
+/// edges are longer on average than it is thick.
+Mesh blade() {
+  constexpr std::size_t around = 400, rows = 3;
+  Mesh mesh = grid(around, rows - 1, true, false, [](double s, double t) {
+    const double u = 2 * std::numbers::pi * s;
+    return Point_3(std::cos(u), .1 * std::sin(u), 2 * t);
+  });
+  for (const std::size_t row : {std::size_t(0), rows - 1}) {
+    const auto center = mesh.add_vertex(Point_3(0, 0, double(row)));
+    for (std::size_t i = 0; i < around; ++i) {
+      Mesh::Vertex_index a(Mesh::size_type(i * rows + row)), b(Mesh::size_type((i + 1) % around * rows + row));
+      if (row == 0) std::swap(a, b);
+      mesh.add_face(center, a, b);
+    }
+  }
+  return mesh;
+}
+
+TEST(Remesh_on_fit, detail_that_is_finer_than_the_edges_stays) {
+  Mesh mesh = blade();
+  const double volume = pmp::volume(mesh);
+  const auto report = remesh_on_fit(mesh, Fit(mesh, parameters::scale(std::nullopt)));
+  EXPECT_TRUE(CGAL::is_closed(mesh));
+  EXPECT_NEAR(pmp::volume(mesh) / volume, 1, .01);
+  EXPECT_LT(report.distance_of_data, .03);
+  EXPECT_LT(report.distance_from_data, .03);
+}
+
+/// The greatest distance of the vertices and the centers of the triangles of a mesh from another one.
+double distance_of(const Mesh& mesh, const Mesh& other) {
+  std::vector<Point_3> points(mesh.points().begin(), mesh.points().end());
+  for (const auto f : mesh.faces()) {
+    const auto h = mesh.halfedge(f);
+    points.push_back(
+        CGAL::centroid(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)), mesh.point(mesh.target(mesh.next(h)))));
+  }
+  return pmp::max_distance_to_triangle_mesh<CGAL::Sequential_tag>(points, other);
+}
+
+TEST(Remesh_on_fit, the_distances_between_data_and_remesh_are_told) {
+  const Mesh data = torus(12);
+  Mesh mesh = data;
+  const auto report = remesh_on_fit(mesh, Fit(mesh), parameters::target_edge_length(.1));
+  EXPECT_NEAR(report.distance_of_data, distance_of(data, mesh), 1e-12);
+  EXPECT_NEAR(report.distance_from_data, distance_of(mesh, data), 1e-12);
+}
+
+TEST(Remesh_on_fit, vertices_stay_where_the_fit_is_farther_than_half_an_edge) {
+  const Mesh data = grid(60, 60, false, false, [](double s, double t) { // waves as long as ten edges
+    return Point_3(s, t, .01 * std::sin(12 * std::numbers::pi * s));
+  });
+  const Fit fit(data, parameters::scale(.4));
+  Mesh mesh = data;
+  const auto report = move_to_fit(mesh, fit);
+  EXPECT_GT(report.number_of[std::size_t(Fit_outcome::NO_ZERO)], mesh.number_of_vertices() / 10);
+  EXPECT_GT(report.number_on_fit(), mesh.number_of_vertices() / 2);
+  for (const auto v : data.vertices()) {
+    double sum = 0;
+    for (const auto u : data.vertices_around_target(data.halfedge(v)))
+      sum += std::sqrt(CGAL::squared_distance(data.point(u), data.point(v)));
+    const double edge = std::max(sum / double(data.degree(v)), fit.spacing(data.point(v)));
+    EXPECT_LE(std::sqrt(CGAL::squared_distance(data.point(v), mesh.point(v))), .5 * edge + 1e-12);
   }
 }
 

@@ -19,6 +19,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -167,7 +168,8 @@ TEST(Write_mesh, cgal_reads_the_nearest_floats_from_stl) {
 }
 
 TEST(Write_mesh, stl_has_unit_normals_and_zero_where_there_is_none) {
-  const Mesh mesh = {{Point_3(0, 0, 0), Point_3(2, 0, 0), Point_3(0, 3, 0)}, {{0, 1, 2}, {0, 2, 1}, {0, 1, 1}}};
+  const Mesh mesh = {{Point_3(0, 0, 0), Point_3(2, 0, 0), Point_3(0, 3, 0), Point_3(1, 0, 0)},
+                     {{0, 1, 2}, {0, 2, 1}, {0, 1, 3}}};
   const std::string bytes = written(Mesh_format::STL, mesh, {});
   ASSERT_EQ(bytes.size(), 84u + 3u * 50u);
   std::array<std::array<float, 3>, 3> normals;
@@ -176,6 +178,27 @@ TEST(Write_mesh, stl_has_unit_normals_and_zero_where_there_is_none) {
   EXPECT_EQ(normals[0], (Normal{0, 0, 1}));
   EXPECT_EQ(normals[1], (Normal{0, 0, -1}));
   EXPECT_EQ(normals[2], (Normal{0, 0, 0}));
+}
+
+TEST(Write_mesh, a_closed_mesh_is_closed_in_stl_although_points_coincide_in_single_precision) {
+  // An octahedron whose apex is an edge of length 1e-12.
+  const Mesh mesh = {
+      {Point_3(1, 0, 0), Point_3(0, 1, 0), Point_3(-1, 0, 0), Point_3(0, -1, 0), Point_3(0, 0, -1),
+       Point_3(5e-13, 0, 1), Point_3(-5e-13, 0, 1)},
+      {{0, 1, 5}, {5, 1, 6}, {1, 2, 6}, {2, 3, 6}, {6, 3, 5}, {3, 0, 5}, {1, 0, 4}, {2, 1, 4}, {3, 2, 4}, {0, 3, 4}}};
+  std::istringstream stream(written(Mesh_format::STL, mesh, {}));
+  std::vector<Point_3> points;
+  std::vector<std::array<std::size_t, 3>> triangles;
+  ASSERT_TRUE(CGAL::IO::read_STL(stream, points, triangles, CGAL::parameters::use_binary_mode(true)));
+  EXPECT_EQ(triangles.size(), 8U);
+  std::map<std::pair<std::array<double, 3>, std::array<double, 3>>, int> sides; // of edges, less those of opposed ones
+  for (const auto& triangle : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point_3 &p = points[triangle[k]], &q = points[triangle[(k + 1) % 3]];
+      const std::array from{p.x() + 0, p.y() + 0, p.z() + 0}, to{q.x() + 0, q.y() + 0, q.z() + 0};
+      ++sides[{from, to}], --sides[{to, from}];
+    }
+  for (const auto& [ends, count] : sides) EXPECT_EQ(count, 0);
 }
 
 TEST(Write_mesh, csv_has_17_significant_digits_nan_and_words_for_the_status) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/written_meshes.h"
+#include <equiaffine/io/write_mesh.h>
 
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -126,6 +128,18 @@ TEST_F(Program_annotate, faces_that_are_no_surface_stay_as_they_are) {
   run_well({"annotate", "in.off", "-o", "out.ply"});
   const std::array<std::uint32_t, 3> first = {std::uint32_t(b), std::uint32_t(a), std::uint32_t(c)};
   EXPECT_EQ(mesh("out.ply").mesh.triangles.at(0), first);
+}
+
+TEST_F(Program_annotate, faces_that_are_turned_at_random_are_a_manifold) {
+  make_surface("in.ply");
+  Mesh turned = mesh("in.ply");
+  for (std::size_t t = 0; t < turned.mesh.triangles.size(); t += 3)
+    std::swap(turned.mesh.triangles[t][0], turned.mesh.triangles[t][1]);
+  std::ostringstream text;
+  equiaffine::write_OFF(text, turned.mesh);
+  write_file(folder_ / "in.off", text.str());
+  run_well({"annotate", "in.off", "-o", "out.ply", "--stats", "stats.json"});
+  EXPECT_TRUE(Json::parse(file("stats.json")).at("manifold"));
 }
 
 TEST_F(Program_annotate, attributes_can_be_chosen) {

@@ -166,6 +166,19 @@ TEST_F(Program_command_line, known_surfaces_have_their_topology_and_lie_on_the_s
   expect_surface("x^4 - 5*x^2 + y^4 - 5*y^2 + z^4 - 5*z^2 + 11.8", 3, 1, -8);
 }
 
+TEST_F(Program_command_line, vertices_that_STL_cannot_tell_apart_are_warned_of) {
+  const auto warnings = [&](const std::string& name, const std::string& x, double center) {
+    return run({"mesh", "-o", name, "--function", x + "^2+y^2+z^2-1", "--box", std::to_string(center - 2),
+                std::to_string(center + 2), "-2", "2", "-2", "2", "--resolution", "40"})
+        .error;
+  };
+  const std::string warning = warnings("far.stl", "(x-4e6)", 4e6);
+  EXPECT_NE(warning.find("single precision"), std::string::npos) << warning;
+  EXPECT_NE(warning.find(".ply"), std::string::npos) << warning;
+  EXPECT_EQ(warnings("far.ply", "(x-4e6)", 4e6), "");
+  EXPECT_EQ(warnings("near.stl", "x", 0), "");
+}
+
 TEST_F(Program_command_line, statistics_have_the_fields_of_the_contract) {
   const Json stats = stats_of(sphere + Arguments{"--resolution", "16"});
   for (const char* field :

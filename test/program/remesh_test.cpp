@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `mesh --fit FILE --method remesh`: meshes that stay whole.
 #include "support/written_meshes.h"
+#include <equiaffine/io/write_mesh.h>
 
 #include <nlohmann/json.hpp>
 
@@ -8,8 +9,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <random>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -44,6 +47,9 @@ TEST_F(Program_remesh, a_closed_mesh_stays_closed_and_says_what_became_of_its_ve
   EXPECT_EQ(remesh["edge_length"], .1);
   EXPECT_EQ(remesh["crossings"], 0);
   EXPECT_LT(remesh["distance_from_data"]["on_fit"], .02);
+  EXPECT_LE(remesh["distance_from_data"]["on_fit"], remesh["distance_from_data"]["triangles"]);
+  EXPECT_LT(remesh["distance_from_data"]["triangles"], .02);
+  EXPECT_LT(remesh["distance_of_data"], .02);
   const Mesh out = mesh("out.ply");
   const std::vector<double> outcomes = column(out, "fit_outcome");
   const auto on_fit = std::count(outcomes.begin(), outcomes.end(), 0.);
@@ -67,6 +73,28 @@ TEST_F(Program_remesh, a_transformation_moves_the_remesh) {
   ASSERT_EQ(moved.mesh.points.size(), plain.mesh.points.size());
   for (std::size_t i = 0; i < moved.mesh.points.size(); ++i)
     EXPECT_NEAR(moved.mesh.points[i].x(), 2 * plain.mesh.points[i].x() + 1, 1e-12);
+}
+
+TEST_F(Program_remesh, a_closed_mesh_stays_closed_although_two_of_its_points_coincide) {
+  run_well({"mesh", "-o", "torus.ply", "--fit", "torus.off", "--attributes", "none"});
+  Mesh torus = mesh("torus.ply");
+  const auto& triangles = torus.mesh.triangles;
+  std::set<std::uint32_t> around; // of vertex 0
+  const auto is_near = [](const auto& t, std::uint32_t v) { return std::find(t.begin(), t.end(), v) != t.end(); };
+  for (const auto& t : triangles)
+    if (is_near(t, 0)) around.insert(t.begin(), t.end());
+  around.erase(0);
+  const std::uint32_t a = *around.begin();
+  for (const auto& t : triangles)
+    if (is_near(t, a)) around.erase(t[0]), around.erase(t[1]), around.erase(t[2]);
+  ASSERT_FALSE(around.empty());
+  torus.mesh.points[*around.begin()] = torus.mesh.points[a]; // neighbors of a vertex, and not of each other
+  std::ostringstream text;
+  equiaffine::write_OFF(text, torus.mesh);
+  write_file(folder_ / "torus.off", text.str());
+  const Json statistics = statistics_of_remesh({"--attributes", "none"});
+  EXPECT_EQ(statistics["boundary_edges"], 0);
+  EXPECT_EQ(statistics["euler_characteristic"], 0);
 }
 
 TEST_F(Program_remesh, what_has_no_faces_or_no_fit_is_refused) {

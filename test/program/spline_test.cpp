@@ -142,6 +142,23 @@ TEST_F(Program_spline, smoothing_is_chosen_from_the_noise) {
   EXPECT_NE(result.out.find(", which needs no smoothing\n"), std::string::npos) << result.out;
 }
 
+TEST_F(Program_spline, smoothing_does_not_erase_a_thin_mask_or_is_named_as_the_cause) {
+  std::string bytes; // a slab of 24 x 24 x 2 voxels
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 40; ++j)
+      for (int i = 0; i < 40; ++i) bytes += char(k >= 20 && k < 22 && std::min(i, j) >= 8 && std::max(i, j) < 32);
+  write_file(folder_ / "slab.raw", bytes);
+  const Arguments slab = {"--volume", "slab.raw", "--type", "uint8", "--dims", "40", "40", "40", "--isovalue", ".5"};
+  const Table table = mesh(slab + Arguments{"--smoothing", "auto"});
+  const auto& z = table.at("z");
+  EXPECT_LT(*std::min_element(z.begin(), z.end()), 20);
+  EXPECT_GT(*std::max_element(z.begin(), z.end()), 21);
+  const auto& x = table.at("x");
+  EXPECT_LT(*std::min_element(x.begin(), x.end()), 9);
+  EXPECT_GT(*std::max_element(x.begin(), x.end()), 30);
+  expect_error(Arguments{"mesh", "-o", "out.ply", "--smoothing", "6"} + slab, {"smoothed", "a smaller --smoothing"});
+}
+
 TEST_F(Program_spline, errors_are_estimated_on_request_and_transformed_with_the_surface) {
   const Arguments attributes = {"--attributes",
                                 "affine_gaussian_curvature_error,affine_mean_curvature,affine_mean_curvature_error"};

@@ -203,10 +203,12 @@ TEST(Spline_function_3, quasi_interpolation_errs_at_the_border_as_inside_to_one_
   }
 }
 
-TEST(Spline_function_3, smooth_samples_are_extended_by_two_more_degrees_noise_and_edges_are_not) {
+TEST(Spline_function_3,
+     smooth_samples_are_extended_by_two_more_degrees_noise_and_edges_are_not_and_steps_by_constants) {
   const Lattice_3 lattice = unit_lattice(30, 31, 32);
   const auto wave = [](double x, double y, double z) { return std::sin(x / 4) + std::cos(y / 5 + z / 4); };
   const auto ball = [](double x, double y, double z) { return double(std::hypot(x - 20, y - 20, z - 20) < 19); };
+  const auto edge = [&](double x, double y, double z) { return ball(x, y, z) + std::sin(x + 2 * y + 3 * z); };
   for (const int degree : {5, 7, 9}) {
     const auto border_degree = [&](const Volume_3& volume, Spline_scheme scheme) {
       return Spline_function_3(volume, {.degree = degree, .scheme = scheme}).border_degree();
@@ -214,13 +216,31 @@ TEST(Spline_function_3, smooth_samples_are_extended_by_two_more_degrees_noise_an
     constexpr auto scheme = Spline_scheme::QUASI_INTERPOLATION;
     EXPECT_EQ(border_degree(sample(lattice, wave), scheme), std::min(degree + 2, 9));
     EXPECT_EQ(border_degree(sample_volume(lattice, wave, 1e-3), scheme), degree);
-    EXPECT_EQ(border_degree(sample(lattice, ball), scheme), degree);
+    EXPECT_EQ(border_degree(sample(lattice, edge), scheme), degree);
+    EXPECT_EQ(border_degree(sample(lattice, ball), scheme), 0) << "steps go on as constants";
     EXPECT_EQ(border_degree(sample(lattice, wave), Spline_scheme::CONVOLUTION), degree);
   }
   auto masked = sample(lattice, wave);
   for (std::size_t n = 0; n < masked.values.size(); n += 97)
     masked.values[n] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(Spline_function_3(masked).border_degree(), 9) << "lines without a number have no vote";
+}
+
+TEST(Spline_function_3, a_mask_beside_the_border_has_the_spline_that_it_has_far_from_it) {
+  for (const int degree : {5, 7, 9})
+    for (const std::size_t gap : {1, 2, 3}) {
+      const auto block_in = [](std::size_t margin) {
+        const auto inside = [=](double x) { return x >= double(margin) && x < double(margin) + 12; };
+        const std::size_t n = 12 + 2 * margin;
+        return sample(unit_lattice(n, n, n),
+                      [=](double x, double y, double z) { return double(inside(x) && inside(y) && inside(z)); });
+      };
+      const Spline_function_3 near(block_in(gap), {.degree = degree}), far(block_in(20), {.degree = degree});
+      for (const double x : {0., .3, .5, .7, 1., 4.2})
+        for (const double y : {.1, .5, 7.3})
+          EXPECT_NEAR(near.value(Point_3(double(gap) - 1 + x, double(gap) - 1 + y, double(gap) + 5)),
+                      far.value(Point_3(19 + x, 19 + y, 25)), 1e-14);
+    }
 }
 
 TEST(Spline_function_3, lines_that_end_at_zero_do_not_vote_by_their_rounding_errors) {

@@ -50,9 +50,10 @@ void Ranks::greatest(std::span<double> numbers) const { reduce(controller_, numb
 void Ranks::add(Volume_survey& survey) const {
   std::array<double, 1> sizes = {survey.greatest};
   greatest(sizes);
-  std::array<std::int64_t, 2> counts = {survey.border_votes, survey.are_floats ? 0 : 1};
+  const auto& [constant, lesser, greater] = survey.border_votes;
+  std::array<std::int64_t, 4> counts = {survey.are_floats ? 0 : 1, constant, lesser, greater};
   sum(counts);
-  survey = {sizes[0], counts[1] == 0, counts[0]};
+  survey = {sizes[0], counts[0] == 0, {counts[1], counts[2], counts[3]}};
 }
 
 std::vector<double> Ranks::gather(const std::vector<double>& numbers) const {

@@ -13,6 +13,7 @@
 #include <equiaffine/io/write_CSV.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -61,21 +62,33 @@ void write_OBJ(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh
   internal::write_OBJ_of(stream, mesh.points, mesh.triangles, attributes);
 }
 
-/// Writes STL, binary: triangles in single precision with their own unit normals; it holds no attributes.
+/// Writes STL, binary: triangles in single precision with their own unit normals; it holds no attributes. Those with two
+/// corners that coincide in single precision are left out, so that the mesh of a reader, which joins corners that
+/// coincide, is closed where this one is.
 template <class Kernel>
 void write_STL(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh) {
   constexpr std::size_t header_size = 80;
+  using Corner = std::array<float, 3>;
+  const auto written_corner = [&](std::uint32_t v) {
+    const auto [x, y, z] = internal::coordinates(mesh.points[v]);
+    return Corner{float(x), float(y), float(z)};
+  };
+  const auto is_written = [&](const std::array<std::uint32_t, 3>& triangle) {
+    const Corner a = written_corner(triangle[0]), b = written_corner(triangle[1]), c = written_corner(triangle[2]);
+    return a != b && b != c && c != a;
+  };
   std::string header = "binary STL made by equiaffine";
   header.resize(header_size, ' ');
   internal::Buffered_output out(stream);
   out << header;
-  out.write_binary(std::uint32_t(mesh.triangles.size()));
+  out.write_binary(std::uint32_t(std::count_if(mesh.triangles.begin(), mesh.triangles.end(), is_written)));
   for (const auto& triangle : mesh.triangles) {
+    if (!is_written(triangle)) continue;
     std::array<std::array<double, 3>, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) corners[i] = internal::coordinates(mesh.points[triangle[i]]);
     for (const double x : internal::unit_normal(corners)) out.write_binary(float(x));
-    for (const auto& corner : corners)
-      for (const double x : corner) out.write_binary(float(x));
+    for (const std::uint32_t v : triangle)
+      for (const float x : written_corner(v)) out.write_binary(x);
     out.write_binary(std::uint16_t(0));
   }
   out.flush();

@@ -31,6 +31,13 @@ struct Sample_noise {
 /// The greatest scale that choose_smoothing() may choose.
 inline constexpr double greatest_scale_to_choose = internal::scales_to_try.back();
 
+/// The next smaller scale that choose_smoothing() may choose, at least 0.
+inline double smaller_scale_to_choose(double scale) {
+  const auto& scales = internal::scales_to_try;
+  const auto found = std::lower_bound(scales.begin(), scales.end(), scale);
+  return found == scales.begin() ? 0 : *(found - 1);
+}
+
 /// Estimates the noise beside the level set f = isovalue, or everywhere if there is none, from differences of order 12
 /// along the axes, which are next to nothing for a smooth function: their median, in units of the median for white
 /// noise of deviation 1. Details of the function with a wavelength of a few samples count as noise, too. Integers have

@@ -23,7 +23,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -36,8 +35,8 @@ namespace equiaffine {
 /// space: value, and Taylor expansion to order 4, at any point.
 ///
 /// The support is the whole lattice with its border. There the scheme keeps its order because it extends the samples by
-/// polynomials of degree n, that of the spline, or of degree n + 2 if the samples are smooth enough
-/// (internal/border_degree.h). All numbers are NaN outside of the support, at every point whose samples include one
+/// polynomials of degree n, that of the spline, or of degree n + 2 if the samples are smooth enough, or by constants if
+/// they are steps, as those of a mask (internal/border_degree.h). All numbers are NaN outside of the support, at every point whose samples include one
 /// that is not finite (all samples take part in interpolation), and everywhere if an axis has no more than `degree`
 /// nodes. Of a part of a volume (Volume_view_3::part) a cell has a value if all samples that it depends on are known.
 ///
@@ -172,7 +171,7 @@ private:
   /// The votes are counted here if nobody knows them.
   template <class ConcurrencyTag>
   Spline_function_3(const Volume_view_3<Kernel>& smooth, const Spline_parameters& parameters,
-                    std::optional<std::int64_t> border_votes, ConcurrencyTag tag)
+                    std::optional<Border_votes> border_votes, ConcurrencyTag tag)
       : fit_{internal::checked_degree(parameters.degree), parameters.scheme, parameters.degree},
         support_(smooth.lattice()), substitution_(support_.to_lattice()) {
     for (const auto& step : lattice().steps())

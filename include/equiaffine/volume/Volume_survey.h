@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What a spline asks about all samples of a volume.
 #ifndef EQUIAFFINE_VOLUME_VOLUME_SURVEY_H
 #define EQUIAFFINE_VOLUME_VOLUME_SURVEY_H
 
@@ -10,18 +11,32 @@
 
 namespace equiaffine {
 
+/// The numbers of ends of lines for each degree of the polynomials by which samples are extended beyond the border.
+struct Border_votes {
+  std::int64_t constant = 0; ///< for 0: samples are steps
+  std::int64_t lesser = 0;   ///< for the degree of the spline
+  std::int64_t greater = 0;  ///< for a greater one
+
+  /// Adds the votes of another part.
+  void add(const Border_votes& other) {
+    constant += other.constant;
+    lesser += other.lesser;
+    greater += other.greater;
+  }
+};
+
 /// What a spline asks about all samples of a volume. The surveys of the parts of a volume, in any order, add up to that
 /// of the whole one, bit for bit.
 struct Volume_survey {
-  double greatest = 0;           ///< the greatest magnitude of a sample that is finite
-  bool are_floats = true;        ///< whether all samples are numbers of type float
-  std::int64_t border_votes = 0; ///< at the ends of lines, more than 0 for the greater degree of extension
+  double greatest = 0;            ///< the greatest magnitude of a sample that is finite
+  bool are_floats = true;         ///< whether all samples are numbers of type float
+  Border_votes border_votes = {}; ///< of the ends of lines
 
   /// Adds the survey of another part.
   void add(const Volume_survey& other) {
     greatest = std::max(greatest, other.greatest);
     are_floats = are_floats && other.are_floats;
-    border_votes += other.border_votes;
+    border_votes.add(other.border_votes);
   }
 };
 

@@ -7,6 +7,7 @@
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_scheme.h>
 #include <equiaffine/volume/Volume_parts_3.h>
+#include <equiaffine/volume/Volume_survey.h>
 #include <equiaffine/volume/internal/Line_part.h>
 #include <equiaffine/volume/internal/bspline.h>
 
@@ -14,8 +15,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -32,17 +33,24 @@ FT error_of_prediction(std::span<const FT> f, int d) {
   return std::abs(sum);
 }
 
-/// The vote of the end of a line that has the samples f from its end on: 1 if the greater degree predicts the sample
-/// there better than the lesser one, else -1; 0 if the lesser one predicts it up to the rounding of the samples it takes,
-/// or if one of them is NaN.
+/// Counts the vote of the end of a line that has the samples f from its end on. It is for constants if most samples are
+/// equal to the next one, but not all: they are steps. Else it is for the degree that predicts the sample at the end
+/// better than the other one; a short line has no samples for the greater one. There is no vote if the lesser one predicts it up to the rounding of the samples it takes, or
+/// if one of them is NaN.
 template <class FT>
-int vote_for_greater_degree(std::span<const FT> f, int lesser, int greater) {
+void add_vote(std::span<const FT> f, int lesser, int greater, Border_votes& votes) {
   const FT of_lesser = error_of_prediction(f, lesser);
-  const FT of_greater = error_of_prediction(f, greater);
+  const FT of_greater = f.size() < std::size_t(greater) + 2 ? of_lesser : error_of_prediction(f, greater);
   FT largest = 0; // the last sample alone may be nearly 0
-  for (int j = 0; j <= lesser + 1; ++j) largest = std::max(largest, std::abs(f[std::size_t(j)]));
-  if (!(of_lesser > 1000 * std::numeric_limits<FT>::epsilon() * largest)) return 0;
-  return of_greater < of_lesser ? 1 : -1;
+  std::size_t equals = 0;
+  for (std::size_t j = 0; j <= std::size_t(lesser) + 1; ++j) {
+    largest = std::max(largest, std::abs(f[j]));
+    equals += j > 0 && f[j] == f[j - 1];
+  }
+  if (!(of_lesser > 1000 * std::numeric_limits<FT>::epsilon() * largest)) return;
+  if (2 * equals > std::size_t(lesser) + 1) ++votes.constant;
+  else if (of_greater < of_lesser) ++votes.greater;
+  else ++votes.lesser;
 }
 
 /// The degree of a spline. \throw std::invalid_argument unless it is 5, 7 or 9
@@ -55,20 +63,20 @@ inline int checked_degree(int degree) {
 /// The greater degree that the polynomials may have that extend a volume beyond the border for a spline of degree n.
 inline int greater_border_degree(int degree) { return std::min(degree + 2, greatest_border_degree); }
 
-/// The sum of the votes of the ends of lines that belong to a block of cells. Time: proportional to the number of samples
+/// The votes of the ends of lines that belong to a block of cells. Time: proportional to the number of samples
 /// in the n + 4 layers at the border.
 template <class Kernel>
-std::ptrdiff_t border_votes(const Volume_view_3<Kernel>& volume, int degree, Spline_scheme scheme,
-                            const Cell_block& cells) {
+Border_votes border_votes(const Volume_view_3<Kernel>& volume, int degree, Spline_scheme scheme,
+                          const Cell_block& cells) {
   using FT = typename Kernel::FT;
   const int greater = greater_border_degree(checked_degree(degree));
-  if (scheme != Spline_scheme::QUASI_INTERPOLATION || greater == degree) return 0;
+  Border_votes votes;
+  if (scheme != Spline_scheme::QUASI_INTERPOLATION) return votes;
   const std::array<std::size_t, 3>& size = volume.lattice().size();
   std::array<FT, std::size_t(greatest_border_degree) + 2> samples;
-  const std::span f = std::span(samples).first(std::size_t(greater) + 2);
-  std::ptrdiff_t votes = 0;
   for (std::size_t a = 0; a < 3; ++a) {
-    if (size[a] < f.size()) continue;
+    if (size[a] < std::size_t(degree) + 2) continue;
+    const std::span f = std::span(samples).first(std::min(size[a], std::size_t(greater) + 2));
     const std::size_t b = a == 0 ? 1 : 0, c = a == 2 ? 1 : 2; // in the order of the memory where i is fastest
     const Line_part of_a = own_nodes_of(cells, a, size[a]), of_b = own_nodes_of(cells, b, size[b]),
                     of_c = own_nodes_of(cells, c, size[c]);
@@ -78,32 +86,38 @@ std::ptrdiff_t border_votes(const Volume_view_3<Kernel>& volume, int degree, Spl
         if (of_a.first == 0) {
           node[a] = 0;
           volume.copy_line(node, a, f);
-          votes += vote_for_greater_degree<FT>(f, degree, greater);
+          add_vote<FT>(f, degree, greater, votes);
         }
         if (of_a.end == size[a]) {
           node[a] = size[a] - 1;
           volume.copy_line_backwards(node, a, f);
-          votes += vote_for_greater_degree<FT>(f, degree, greater);
+          add_vote<FT>(f, degree, greater, votes);
         }
       }
   }
   return votes;
 }
 
-/// The degree of the polynomials that extend a volume beyond the border for a spline of degree n (see Line_filter): n +
-/// 2, at most 9, if that degree predicts the sample at most ends of lines from its neighbors better than degree n does;
-/// else n. Degree n wins for noise and for edges in a scan, which the greater degree would magnify.
-inline int elected_border_degree(std::ptrdiff_t votes, int degree) {
-  return votes > 0 ? greater_border_degree(degree) : degree;
+/// The degree of the polynomials that extend a volume beyond the border for a spline of degree n (see Line_filter): the
+/// one with the most votes. Steps, as of a mask, go on as constants: polynomials through them rise beyond the border, and
+/// would move a surface that is a few samples away. Degree n wins for noise and for edges in a scan, which n + 2 would
+/// magnify.
+inline int elected_border_degree(const Border_votes& votes, int degree) {
+  if (votes.constant > std::max(votes.lesser, votes.greater)) return 0;
+  return votes.greater > votes.lesser ? greater_border_degree(degree) : degree;
 }
 
 /// The border degree of a volume in parts.
 template <class Kernel>
 int border_degree(const Volume_parts_3<Kernel>& volume, int degree, Spline_scheme scheme) {
-  double votes = 0;
-  for (const auto& [part, cells] : volume.parts) votes += double(border_votes(part, degree, scheme, cells));
-  const std::vector<double> gathered = volume.gather({votes});
-  return elected_border_degree(std::ptrdiff_t(std::accumulate(gathered.begin(), gathered.end(), 0.0)), degree);
+  Border_votes votes;
+  for (const auto& [part, cells] : volume.parts) votes.add(border_votes(part, degree, scheme, cells));
+  const std::vector<double> gathered =
+      volume.gather({double(votes.constant), double(votes.lesser), double(votes.greater)});
+  Border_votes of_all;
+  for (std::size_t n = 0; n < gathered.size(); n += 3)
+    of_all.add({std::int64_t(gathered[n]), std::int64_t(gathered[n + 1]), std::int64_t(gathered[n + 2])});
+  return elected_border_degree(of_all, degree);
 }
 
 } // namespace equiaffine::internal

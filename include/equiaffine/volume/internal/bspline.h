@@ -53,10 +53,10 @@ inline constexpr int greatest_border_degree = 9;
 /// c_i = sum_j border[m + i][j] f_j for i < radius, and the mirror image at the other end. Polynomials of degree n
 /// are hence treated at the border as they are inside, which keeps the order of every derivative. For
 /// quasi-interpolation d may be min(n + 2, 9, N - 1): with d = n, where a wave has 24 samples, the errors of affine
-/// curvatures in the border are a thousand times those inside. A larger d magnifies noise (border_degree.h chooses).
-/// Other extensions lose the order: repeating or mirroring samples makes a kink at the border, zeros make a jump, so
-/// that the value has order 1 or 0 and fourth derivatives grow as h^-3 or h^-4. Giving the domain up as far as the
-/// coefficients reach costs n - 1 cells per axis.
+/// curvatures in the border are a thousand times those inside. A larger d magnifies noise, and steps are no polynomials:
+/// they go on as constants (border_degree.h chooses). Other extensions lose the order: repeating or mirroring samples
+/// makes a kink at the border, zeros make a jump, so that the value has order 1 or 0 and fourth derivatives grow as h^-3
+/// or h^-4. Giving the domain up as far as the coefficients reach costs n - 1 cells per axis.
 template <class FT, int Degree>
 struct Line_filter {
   static constexpr int padding = spline_padding(Degree);
@@ -85,6 +85,17 @@ struct Line_filter {
     filter.border_degree = border_degree;
     filter.weights = weights_of_differences(inverse_of_smoothing());
     filter.border = filter.border_weights(border_degree);
+    return filter;
+  }
+
+  /// The same with the samples at the ends in place of those beyond the border.
+  static constexpr Line_filter quasi_interpolation_of_steps() {
+    Line_filter filter = quasi_interpolation(Degree);
+    filter.border = {};
+    for (int i = -padding; i < filter.radius; ++i)
+      for (int s = -filter.radius; s <= filter.radius; ++s)
+        filter.border[std::size_t(padding + i)][std::size_t(std::max(i + s, 0))] +=
+            filter.weights[std::size_t(s < 0 ? -s : s)];
     return filter;
   }
 

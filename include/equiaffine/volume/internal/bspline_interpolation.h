@@ -83,11 +83,12 @@ template <class FT, int Degree, class F>
 void with_line_filter(Spline_scheme scheme, int border_degree, F f) {
   using Filter = Line_filter<FT, Degree>;
   static constexpr auto convolution = Filter::convolution();
+  static constexpr auto constant = Filter::quasi_interpolation_of_steps();
   static constexpr auto lesser = Filter::quasi_interpolation(Degree);
   static constexpr auto greater = Filter::quasi_interpolation(std::min(Degree + 2, greatest_border_degree));
   if (scheme == Spline_scheme::INTERPOLATION) f(Interpolation_filter<FT, Degree>());
   else if (scheme != Spline_scheme::QUASI_INTERPOLATION) f(convolution);
-  else f(border_degree > Degree ? greater : lesser);
+  else f(border_degree == 0 ? constant : border_degree > Degree ? greater : lesser);
 }
 
 /// Returns f(n) with a constant n for a degree of 5, 7 or 9.

@@ -47,6 +47,12 @@ public:
     return (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
   }
 
+  /// The center of a triangle.
+  Vector center(std::size_t t) const {
+    const auto& [a, b, c] = triangles_[t];
+    return (points_[a] + points_[b] + points_[c]) / 3;
+  }
+
   /// The sum of the normals of the triangles around every point.
   std::vector<Vector> vertex_normals() const {
     std::vector<Vector> sums(points_.size(), Vector::Zero());

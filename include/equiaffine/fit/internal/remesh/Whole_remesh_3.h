@@ -6,6 +6,7 @@
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/internal/data/Creased_polygons_3.h>
 #include <equiaffine/fit/internal/remesh/Crossing_places_3.h>
+#include <equiaffine/fit/internal/remesh/Deviation_3.h>
 #include <equiaffine/fit/internal/remesh/crossing_triangles.h>
 #include <equiaffine/fit/internal/remesh/triangle_array_of.h>
 #include <equiaffine/mesh_topology.h>
@@ -32,8 +33,9 @@ struct Remesh_request {
   unsigned iterations;
 };
 
-/// Remeshes a copy of a mesh so that its topology stays and triangles cross each other only where some did before: with
-/// edges of a length, or shorter ones if that is too long. If none of them will do, the mesh stays as it is.
+/// Remeshes a copy of a mesh so that its topology stays, triangles cross each other only where some did before, and
+/// both meshes are within a tenth of an edge of each other: with edges of a length, or shorter ones if that is too long.
+/// If none of them will do, the mesh stays as it is.
 template <class Kernel>
 class Whole_remesh_3 {
 public:
@@ -43,7 +45,8 @@ public:
   static constexpr const char* name_of_edges = "e:equiaffine_constrained";
 
   /// The map that `name_of_edges` has in the mesh marks the edges that are kept.
-  Whole_remesh_3(const Mesh& given, const Remesh_request& request)
+  template <class ConcurrencyTag>
+  Whole_remesh_3(const Mesh& given, const Remesh_request& request, ConcurrencyTag)
       : array_(triangle_array_of(given, No_parameters())), mesh_(given) {
     const Topology topology = topology_of(given, array_);
     const std::vector<Triangle_pair> given_crossings = crossing_triangles(array_.points(), array_.triangles());
@@ -55,13 +58,13 @@ public:
       edge_length_ = std::min(request.edge_length.value_or(mean), diagonal_of(given_array));
       check_argument(edge_length_ >= least, "edges of that length would make more than 10^8 triangles, or more than "
                                             "10^4 parts of an edge: give longer ones");
+      const Deviation_3 deviation(given_array);
       do {
-        mesh_ = given;
-        remesh(request);
-        array_ = triangle_array_of(mesh_, No_parameters());
-        crossings_ = crossing_triangles(array_.points(), array_.triangles());
-        const Crossing_places_3 places(given_array, given_crossings, edge_length_);
-        if (topology_of(mesh_, array_) == topology && places.contain(array_, crossings_)) return;
+        if (remesh_nearby<ConcurrencyTag>(given, given_array, deviation, request.iterations) &&
+            topology_of(mesh_, array_) == topology) {
+          crossings_ = crossing_triangles(array_.points(), array_.triangles());
+          if (Crossing_places_3(given_array, given_crossings, edge_length_).contain(array_, crossings_)) return;
+        }
         edge_length_ *= 0.6;
       } while (edge_length_ > shortest);
     }
@@ -161,11 +164,54 @@ private:
     }
   }
 
-  void remesh(const Remesh_request& request) {
+  /// Remeshes the given mesh. Where they are too far from each other, edges of the given one are kept, and it is
+  /// remeshed again. Returns whether they are near each other in the end.
+  template <class ConcurrencyTag>
+  bool remesh_nearby(const Mesh& given, const Triangle_array_3& given_array, const Deviation_3& deviation,
+                     unsigned iterations) {
+    constexpr double farthest = 0.1; // a part of the edges
+    constexpr int most_rounds = 8;
+    std::vector<char> is_detail(given_array.points().size());
+    for (int n = 0; n < most_rounds; ++n) {
+      mesh_ = given;
+      remesh(is_detail, n == 0, iterations);
+      array_ = triangle_array_of(mesh_, No_parameters());
+      std::vector<std::uint32_t> ring = deviation.far_vertices<ConcurrencyTag>(array_, farthest * edge_length_);
+      if (ring.empty()) return true;
+      for (const auto v : ring) is_detail[v] = 1;
+      for (int k = 0; k <= n; ++k) ring = add_ring(ring, given_array, is_detail);
+    }
+    return false;
+  }
+
+  /// Marks the neighbors of vertices, and returns those that were not marked.
+  static std::vector<std::uint32_t> add_ring(const std::vector<std::uint32_t>& vertices, const Triangle_array_3& mesh,
+                                             std::vector<char>& marks) {
+    std::vector<std::uint32_t> added;
+    for (const auto v : vertices)
+      for (const auto u : mesh.neighbors(v))
+        if (!std::exchange(marks[u], 1)) added.push_back(u);
+    return added;
+  }
+
+  /// Remeshes by CGAL, which keeps creases, and edges between vertices that are detail. It gives the halves of an edge
+  /// the mark of the whole one.
+  void remesh(const std::vector<char>& is_detail, bool collapses_creases, unsigned iterations) {
+    enum Mark : unsigned char { FREE, CREASE, DETAIL };
     keep_creases();
-    CGAL::Polygon_mesh_processing::isotropic_remeshing(
-        faces(mesh_), edge_length_, mesh_,
-        CGAL::parameters::number_of_iterations(request.iterations).edge_is_constrained_map(kept_edges()));
+    const Edge_map is_kept = kept_edges();
+    auto marks =
+        mesh_.template add_property_map<typename Mesh::Edge_index, unsigned char>("e:equiaffine_mark", FREE).first;
+    for (const auto e : mesh_.edges())
+      marks[e] = is_kept[e]                                                                   ? CREASE
+                 : is_detail[mesh_.vertex(e, 0).idx()] && is_detail[mesh_.vertex(e, 1).idx()] ? DETAIL
+                                                                                              : FREE;
+    CGAL::Polygon_mesh_processing::isotropic_remeshing(faces(mesh_), edge_length_, mesh_,
+                                                       CGAL::parameters::number_of_iterations(iterations)
+                                                           .edge_is_constrained_map(marks)
+                                                           .collapse_constraints(collapses_creases));
+    for (const auto e : mesh_.edges()) is_kept[e] = marks[e] == CREASE;
+    mesh_.remove_property_map(marks);
     mesh_.collect_garbage();
   }
 

@@ -28,7 +28,7 @@ template <class Fit>
 Zero_of_fit_3 zero_of_fit(const Fit& fit, const Eigen::Vector3d& vertex, const Eigen::Vector3d& normal, double edge) {
   using FT = typename Fit::FT;
   constexpr double least_cosine = 0.5; // of the angle between the normals of fit and mesh
-  constexpr double reach = 1.25;       // of a zero, a part of the edges or of the distance of the data
+  constexpr double reach = 0.5;        // of a zero, a part of the edges or of the distance of the data
   const auto is_known = [](const auto& jet) { return std::isfinite(CGAL::to_double(jet.value())); };
   typename Fit::Point_3 start(vertex[0], vertex[1], vertex[2]);
   auto jet = fit.first_order(start);
