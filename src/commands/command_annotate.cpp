@@ -78,6 +78,7 @@ void run_annotate(const Annotate_options& options, std::ostream& out, Progress& 
   Annotation_statistics statistics = make_statistics(name, table.mesh, structures, *estimates.fit);
   Vertex_attributes attributes = attributes_of(structures, options.attributes);
   add_estimates(estimates, options.estimates, attributes);
+  statistics.has_colors = have_colors(table);
   statistics.annotate_seconds = stopwatch.seconds();
   const Description fit = description_of(statistics.fit);
   if (!attributes.columns.empty()) attributes.comments = comments_of(statistics.fit);

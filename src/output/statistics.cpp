@@ -2,6 +2,7 @@
 #include "output/statistics.h"
 
 #include "output/json_text.h"
+#include <equiaffine/io/internal/shared/xyz_colors_note.h>
 
 #include <algorithm>
 #include <cmath>
@@ -193,6 +194,7 @@ std::string summary(const Annotation_statistics& s) {
   std::ostringstream text;
   if (s.faces > 0) add_topology(s, text);
   else text << s.vertices << " points\n";
+  if (s.has_colors) text << xyz_colors_note << '\n';
   add_status(s, text);
   add_fit(s.fit, text);
   return text.str();

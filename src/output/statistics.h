@@ -56,6 +56,7 @@ struct Statistics : Mesh_facts {
 /// The facts that the program reports about a fit to the vertices of a mesh, or to points.
 struct Annotation_statistics : Mesh_facts {
   Fit_statistics fit;
+  bool has_colors = false; ///< instead of normals, as the numbers in columns without names tell
   double annotate_seconds = 0, write_seconds = 0;
 };
 

@@ -4,6 +4,7 @@
 #include "source/Polygon_soup.h"
 #include "system/file_format.h"
 #include <equiaffine/fit/internal/shared/Extent_of_fit.h>
+#include <equiaffine/io/internal/shared/xyz_colors_note.h>
 #include <equiaffine/surface/internal/shared/triangles_of_polygon.h>
 
 #include <CGAL/Bbox_3.h>
@@ -67,6 +68,11 @@ Point_table_3<Kernel> read_vertices(const Source_options& source) {
   Point_table_3<Kernel> table{source.data()};
   check_vertices(table.mesh.points, source.text);
   return table;
+}
+
+bool have_colors(const Annotated_mesh_3<Kernel>& points) {
+  const auto& comments = points.attributes.comments;
+  return std::find(comments.begin(), comments.end(), xyz_colors_note) != comments.end();
 }
 
 void check_vertices(const std::vector<Kernel::Point_3>& points, const std::string& path) {

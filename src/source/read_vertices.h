@@ -20,6 +20,9 @@ Point_table_3<Kernel> read_vertices(const std::string& path);
 /// The mesh or points of a source, from memory or from its file. Throws `Input_error` for the same.
 Point_table_3<Kernel> read_vertices(const Source_options& source);
 
+/// Whether points have colors in columns without names, where one might expect normals.
+bool have_colors(const Annotated_mesh_3<Kernel>& points);
+
 /// Throws `Input_error` if there are no points, a coordinate is not finite, or the unit is extreme. `name` stands for where
 /// they come from.
 void check_vertices(const std::vector<Kernel::Point_3>& points, const std::string& name);

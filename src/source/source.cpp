@@ -14,6 +14,7 @@
 #include <equiaffine/Input_error.h>
 #include <equiaffine/formula/Unknown_name_error.h>
 #include <equiaffine/function/sample_on_lattice.h>
+#include <equiaffine/io/internal/shared/xyz_colors_note.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_function_3.h>
 #include <equiaffine/volume/Volume_parts_3.h>
@@ -125,7 +126,9 @@ Fit_traits make_fit(const Source_options& options, const Point_table_3<Kernel>& 
 
 Point_table_3<Kernel> read_data(const Source_options& options, Progress& progress) {
   progress.begin("reading the vertices");
-  return read_vertices(options);
+  Point_table_3<Kernel> table = read_vertices(options);
+  if (have_colors(table)) progress.announce(describe_as(options, options.text) + ": " + xyz_colors_note);
+  return table;
 }
 
 Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size, Progress& progress) {
@@ -188,7 +191,8 @@ Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
     if (source.kind != Source_kind::VOLUME) return sample_source(source, progress);
     if (source.volume) return source.volume();
     progress.begin("reading the volume");
-    return source.raw ? read_raw_volume(source.text, *source.raw) : read_volume(source.text);
+    return source.raw ? read_raw_volume(source.text, *source.raw)
+                      : read_volume(source.text, Samples_in::FILE, source.selection);
   }();
   check_values(volume, source);
   check_steps(volume.lattice(), source);

@@ -268,6 +268,45 @@ TEST(Read_points, unknown_and_missing_files_are_told) {
             std::string::npos);
 }
 
+TEST(Read_points, the_numbers_of_an_OFF_file_may_follow_its_keyword_at_once) {
+  const equiaffine::test::Scratch_file scratch("points.off");
+  const std::string triangle = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  for (const std::string head : {"OFF3 1 0\n", "COFF3 1 0\n", "OFF 3 1 0\n", "OFF\n3 1 0\n", "OFF3 1\n", "3 1 0\n"}) {
+    const Table points = equiaffine::read_points<Kernel>(scratch.write(head + triangle));
+    EXPECT_EQ(points.mesh.points.size(), 3U) << head;
+    EXPECT_EQ(points.mesh.triangles.size(), 1U) << head;
+  }
+  const auto read = [&](const std::string& text) { equiaffine::read_points<Kernel>(scratch.write(text)); };
+  EXPECT_NE(error_of(read, "4OFF3 1 0\n" + triangle).find("not in 3D"), std::string::npos);
+  EXPECT_NE(error_of(read, "OFFSET 3 1 0\n" + triangle).find("no numbers of vertices"), std::string::npos);
+}
+
+TEST(Read_points, three_numbers_without_names_are_normals_of_length_one_or_colors) {
+  const equiaffine::test::Scratch_file scratch("points.xyz");
+  const auto names = [&](const std::string& text) {
+    const Table points = equiaffine::read_points<Kernel>(scratch.write(text));
+    std::string names;
+    for (const auto& column : points.attributes.columns) names += column.name + ' ';
+    for (const std::string& comment : points.attributes.comments) names += "(" + comment.substr(0, 25) + ")";
+    return names;
+  };
+  const std::string colors = "red green blue (columns 4 to 6 are colors)";
+  EXPECT_EQ(names("1 2 3 0.6 0 -0.8\n4 5 6 0 0 0\n7 8 9 .58 .58 .58\n"), "nx ny nz ");
+  EXPECT_EQ(names("1 2 3 nan nan nan\n4 5 6 0 1 0\n"), "nx ny nz ");
+  EXPECT_EQ(names("1 2 3 120 130 140\n4 5 6 0 1 0\n"), colors);
+  EXPECT_EQ(names("1 2 3 0.5 0.5 0.2\n"), colors);
+  EXPECT_EQ(names("1 2 3 0 0 0\n"), colors) << "black";
+  EXPECT_EQ(names("//X Y Z R G B\n1 2 3 0 1 0\n"), "red green blue ");
+  EXPECT_EQ(names("//X Y Z R G B Intensity Nx Ny Nz\n1 2 3 9 9 9 0.5 0 0 5\n// end\n"),
+            "red green blue Intensity nx ny nz ");
+  EXPECT_EQ(names("# made by hand\n# x y z t\n1 2 3 4\n"), "t ");
+  const auto read = [&](const std::string& text) { equiaffine::read_points<Kernel>(scratch.write(text)); };
+  EXPECT_NE(error_of(read, "1 2 3 -4 5 6\n").find("neither normals, which have the length 1, nor colors"),
+            std::string::npos);
+  EXPECT_NE(error_of(read, "//X Y Z R G B\n1 2 3\n").find("line 2 has 3 numbers; write as many as"), std::string::npos);
+  EXPECT_NE(error_of(read, "//X Y Z T T\n1 2 3 4 5\n").find("two columns have the name 'T'"), std::string::npos);
+}
+
 TEST(Read_points, lines_of_three_or_six_numbers_are_points_and_normals) {
   const equiaffine::test::Scratch_file scratch("points.XYZ");
   const Table points = equiaffine::read_points<Kernel>(scratch.write("1 2 3\r\n\n -4\t5e0  +6 \n"));

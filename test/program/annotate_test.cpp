@@ -80,12 +80,14 @@ TEST_F(Program_annotate, points_without_faces_are_fitted_too) {
   std::string csv = "name;x;y;z\n", xyz, with_normals;
   const Mesh exact = mesh("exact.ply");
   const auto nx = column(exact, "nx"), ny = column(exact, "ny"), nz = column(exact, "nz");
-  std::ostringstream normals, points;
+  std::ostringstream normals, points, colors;
   normals.precision(17);
   points.precision(17);
+  colors.precision(17);
   for (std::size_t i = 0; i < exact.mesh.points.size(); ++i) {
     const auto& p = exact.mesh.points[i];
     points << p << '\n';
+    colors << p << " 120 130 140\n";
     normals << p << "  " << -nx[i] << '\t' << -ny[i] << ' ' << -nz[i] << '\n';
     std::ostringstream row;
     row.precision(17);
@@ -95,12 +97,17 @@ TEST_F(Program_annotate, points_without_faces_are_fitted_too) {
   write_file(folder_ / "in.csv", csv);
   write_file(folder_ / "in.xyz", points.str());
   write_file(folder_ / "inward.xyz", normals.str());
+  write_file(folder_ / "colored.xyz", colors.str());
   for (const char* name : {"in.csv", "in.xyz", "inward.xyz"}) {
     run_well({"annotate", name, "-o", "out.ply"});
     EXPECT_EQ(mesh("out.ply").mesh.points, exact.mesh.points) << name;
     expect_right("out.ply", "exact.ply");
   }
   EXPECT_LT(column(mesh("out.ply"), "nx")[0] * nx[0], 0) << "the normals of the file say what is outside";
+  const std::string summary = run_well({"annotate", "colored.xyz", "-o", "out.ply"});
+  EXPECT_NE(summary.find("points\ncolumns 4 to 6 are colors, not normals"), std::string::npos) << summary;
+  expect_right("out.ply", "exact.ply");
+  EXPECT_EQ(column(mesh("out.ply"), "green")[0], 130);
   run_well({"annotate", "in.csv", "-o", "out.csv", "--degree", "4", "--attributes", "affine_gaussian_curvature"});
   EXPECT_EQ(first_line(file("out.csv")), "name;x;y;z;affine_gaussian_curvature;status");
   EXPECT_EQ(file("out.csv").substr(first_line(file("out.csv")).size() + 1, 3), "p0;");

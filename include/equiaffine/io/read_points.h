@@ -7,6 +7,7 @@
 
 #include <equiaffine/io/Annotated_mesh_3.h>
 #include <equiaffine/io/internal/Csv_scanner.h>
+#include <equiaffine/io/internal/Off_scanner.h>
 #include <equiaffine/io/internal/buffered_output.h>
 #include <equiaffine/io/internal/csv_columns.h>
 #include <equiaffine/io/internal/csv_rows.h>
@@ -81,7 +82,7 @@ Point_table_3<Kernel> read_points(const std::string& path) {
     std::string text = internal::read_all(std::cin);
     std::string_view rest = text;
     const std::string_view word = internal::take_word(rest);
-    const char* const extension = word == "ply" ? ".ply" : word.ends_with("OFF") ? ".off" : ".csv";
+    const char* const extension = word == "ply" ? ".ply" : internal::end_of_OFF_keyword(word) > 0 ? ".off" : ".csv";
     std::istringstream stream(std::move(text));
     return read_points<Kernel>(stream, "standard input", extension);
   }

@@ -16,6 +16,17 @@
 
 namespace equiaffine::internal {
 
+/// The place behind a keyword that ends with OFF at the beginning of a text; 0 if there is none. The first number may
+/// follow at once, as in many files of ModelNet.
+inline std::size_t end_of_OFF_keyword(std::string_view text) {
+  constexpr std::string_view keyword = "OFF";
+  const std::string_view word = text.substr(0, text.find_first_of(" \t\r\n"));
+  const std::size_t at = word.find(keyword);
+  if (at == std::string_view::npos) return 0;
+  const std::size_t end = at + keyword.size();
+  return word.find_first_not_of("0123456789", end) == std::string_view::npos ? end : 0;
+}
+
 /// Takes the lines off the text of an OFF file, without comments and blank lines.
 class Off_scanner {
 public:
@@ -26,11 +37,11 @@ public:
   std::array<std::size_t, 2> read_header() {
     if (trim(rest_).empty()) fail_to_read(name_, "it is empty", "give an OFF file");
     std::string_view text = next_line();
-    std::string_view after_keyword = text;
-    const std::string_view keyword = take_word(after_keyword);
-    if (keyword.ends_with("OFF")) {
-      if (keyword.find_first_of("4n") != std::string_view::npos) fail("announces points that are not in 3D");
-      text = trim(after_keyword).empty() ? next_line() : after_keyword;
+    if (const std::size_t end = end_of_OFF_keyword(text); end > 0) {
+      if (text.substr(0, end).find_first_of("4n") != std::string_view::npos)
+        fail("announces points that are not in 3D");
+      text.remove_prefix(end);
+      if (trim(text).empty()) text = next_line();
     }
     const auto vertices = parse_number<std::size_t>(take_word(text)),
                faces = parse_number<std::size_t>(take_word(text));
