@@ -100,6 +100,7 @@ auto fmod(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) requires int
   return r;
 }
 
+/// @{
 /// The same where one of them is a number.
 template <class T, int Order, Monomial_set A, JetScalar<T> S>
 auto fmod(const Jet_3<T, Order, A>& a, const S& b) requires internal::own_steps::HasFmod<T> {
@@ -109,6 +110,7 @@ template <class T, int Order, Monomial_set B, JetScalar<T> S>
 auto fmod(const S& a, const Jet_3<T, Order, B>& b) requires internal::own_steps::HasFmod<T> {
   return fmod(Jet_3<T, Order, 1>(T(a)), b);
 }
+/// @}
 
 } // namespace equiaffine
 
