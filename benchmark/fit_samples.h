@@ -113,8 +113,8 @@ inline Errors errors_of(const Samples& samples, const Structures& fits, const CG
     errors.relative.push_back(known);
     const double distance = std::min({p.x() - box.xmin(), box.xmax() - p.x(), p.y() - box.ymin(), box.ymax() - p.y()});
     if (has_border) (distance < 0.1 * (box.xmax() - box.xmin()) ? errors.at_border : errors.inside).push_back(known);
-    errors.covered += known * size_of(truth) <= fits[i].error.gaussian_curvature;
-    if (fits[i].error.gaussian_curvature > 0.1 * size_of(fits[i].structure)) continue;
+    errors.covered += known * size_of(truth) <= fits[i].error.affine_gaussian_curvature;
+    if (fits[i].error.affine_gaussian_curvature > 0.1 * size_of(fits[i].structure)) continue;
     ++errors.trusted;
     errors.wrong += known > 0.1;
   }

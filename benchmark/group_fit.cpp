@@ -200,7 +200,7 @@ void scan(const Scan& scan, const std::string& folder) {
   const Structures fits = fitted_structures(mesh, at_scale);
   figure(name + "_seconds", processor_clock() - begin, "s", scan.seconds);
   double known = 0;
-  for (const auto& f : fits) known += f.noise.gaussian_curvature <= 0.2 * size_of(f.structure);
+  for (const auto& f : fits) known += f.noise.affine_gaussian_curvature <= 0.2 * size_of(f.structure);
   figure(name + "_2sd_below_20_percent", known / double(fits.size()), "part", scan.known);
 
   // The fits of two disjoint halves are compared at the same places, 300 vertices that both have: from one vertex to the
@@ -218,7 +218,7 @@ void scan(const Scan& scan, const std::string& folder) {
         std::abs(one.structure.affine.gaussian_curvature - other.structure.affine.gaussian_curvature);
     if (!std::isfinite(difference)) continue;
     differences.push_back(difference / (0.5 * (size_of(one.structure) + size_of(other.structure))));
-    agree += difference <= std::hypot(one.noise.gaussian_curvature, other.noise.gaussian_curvature);
+    agree += difference <= std::hypot(one.noise.affine_gaussian_curvature, other.noise.affine_gaussian_curvature);
   }
   if (differences.empty()) return;
   figure(name + "_halves_differ", quantile(differences, 0.5), "relative", scan.differ);

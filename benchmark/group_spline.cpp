@@ -281,7 +281,7 @@ void noise() {
       const auto on_surface = project_to_surface(s.function, p, 0.2);
       const auto reference = local_structure(s.function.taylor(on_surface.point));
       const auto c = affine_invariants(Monge_chart_3<double>(sampled.taylor(p)));
-      ratios.push_back(estimate(p).gaussian_curvature /
+      ratios.push_back(estimate(p).affine_gaussian_curvature /
                        std::abs(c.gaussian_curvature - reference.affine.gaussian_curvature));
     }
     const auto covered = std::count_if(ratios.begin(), ratios.end(), [](double r) { return r >= 1; });
@@ -349,7 +349,7 @@ double trusted(const Volume& volume, double isovalue, const char* name) {
     double count = 0;
     for (const Point_3& p : points) {
       const auto c = affine_invariants(Monge_chart_3<double>(sampled.taylor(p)));
-      count += estimate(p).gaussian_curvature <= 0.1 * scale_of(c.gaussian_curvature, c.mean_curvature);
+      count += estimate(p).affine_gaussian_curvature <= 0.1 * scale_of(c.gaussian_curvature, c.mean_curvature);
     }
     std::printf("  %-12s noise %.2g, scale %g%s: %.1f %% of the vertices are trusted\n", name, measured.deviation,
                 scale, scale == smoothing ? " (auto)" : "", 100 * count / double(points.size()));

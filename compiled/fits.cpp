@@ -19,7 +19,9 @@ namespace equiaffine::internal {
   template std::vector<double> distances_of_sheets<Tag>(const Fitted_data_3&, double);
 
 EQUIAFFINE_INSTANTIATE(CGAL::Sequential_tag)
+#ifdef CGAL_LINKED_WITH_TBB
 EQUIAFFINE_INSTANTIATE(CGAL::Parallel_tag)
+#endif
 #undef EQUIAFFINE_INSTANTIATE
 
 template Fitted_structure_3<double> structure_of_vertex<CGAL::Sequential_tag>(Fit_data_3, const Fit_request&,

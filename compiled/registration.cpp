@@ -24,7 +24,9 @@ namespace equiaffine::internal {
   template Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles<Tag>(const Triangles_3&, const Map_request&);
 
 EQUIAFFINE_INSTANTIATE(CGAL::Sequential_tag)
+#ifdef CGAL_LINKED_WITH_TBB
 EQUIAFFINE_INSTANTIATE(CGAL::Parallel_tag)
+#endif
 #undef EQUIAFFINE_INSTANTIATE
 
 template Mesh_contradictions contradictions_of_triangles<CGAL::Sequential_tag>(Triangles_3, Triangles_3, double);

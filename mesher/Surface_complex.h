@@ -19,6 +19,8 @@ struct Surface_domain_3 : Implicit_mesh_domain_3<Memoized_function_3> {
     Subdomain operator()(const Point_3&) const { return Subdomain(); }
   };
   Is_in_domain is_in_domain_object() const { return {}; }
+  Construct_intersection construct_intersection_object() const { return construct_intersection_with_zero_set_object(); }
+  Do_intersect_surface do_intersect_surface_object() const { return {construct_intersection_object()}; }
 };
 
 /// A triangulation, and which of its facets approximate the surface. The `in_dimension()` of a vertex is 0 for corners

@@ -9,6 +9,7 @@
 #include <equiaffine/function/internal/expand.h>
 #include <equiaffine/number/Pack.h>
 
+#include <CGAL/Algebraic_structure_traits.h>
 #include <CGAL/Bbox_3.h>
 
 #include <cstddef>
@@ -29,8 +30,8 @@ namespace equiaffine {
 ///     Analytic_function_traits_3<Kernel, Sphere> traits(Sphere(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
 ///
 /// f is called with FT, Interval and jets of both; Marching Cubes, max_distance_to_surface and compute_attributes call
-/// it with jets of Pack<FT>, too. Elementary functions must be found by argument-dependent lookup (`using std::exp;
-/// return exp(x);`). With three template parameters, or `auto`, for the arguments and `auto` for intermediate results
+/// it with jets of Pack<FT>, too. Elementary functions must be found by argument-dependent lookup: `std::exp(x)` does not
+/// compile, since the standard library has no exponential of a jet; write `using std::exp; return exp(x);`. With three template parameters, or `auto`, for the arguments and `auto` for intermediate results
 /// it computes only the derivatives that its structure leaves nonzero.
 template <class Kernel, class Function>
 class Analytic_function_traits_3 {
@@ -38,6 +39,10 @@ public:
   using FT = typename Kernel::FT;             ///< the number type of the kernel
   using Point_3 = typename Kernel::Point_3;   ///< points of the kernel
   using Vector_3 = typename Kernel::Vector_3; ///< vectors of the kernel
+  static_assert(
+      !CGAL::Algebraic_structure_traits<FT>::Is_exact::value,
+      "the numbers of this kernel are exact, as those of Epeck: equiaffine works with floating-point numbers, "
+      "such as those of Epick and Simple_cartesian<double>");
 
   /// The level set is sought in `box`. f may be called outside of it.
   Analytic_function_traits_3(Function function, const CGAL::Bbox_3& box) : function_(std::move(function)), box_(box) {}

@@ -5,6 +5,7 @@
 #include <equiaffine/base/internal/shared/check_argument.h>
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <array>
@@ -27,6 +28,22 @@ public:
              center[2] + radius),
         center_(center), radius_(radius) {
     check();
+  }
+
+  /// The ball about a point of CGAL. \throw std::invalid_argument as above
+  template <class Point_3>
+  Clip_domain_3(const Point_3& center, double radius) requires requires {
+    CGAL::to_double(center.x());
+  } : Clip_domain_3(std::array<double, 3>{CGAL::to_double(center.x()), CGAL::to_double(center.y()),
+                                          CGAL::to_double(center.z())},
+                    radius) {
+  }
+
+  /// The ball of a sphere of CGAL. \throw std::invalid_argument as above
+  template <class Sphere_3>
+  explicit Clip_domain_3(const Sphere_3& sphere) requires requires {
+    CGAL::to_double(sphere.squared_radius());
+  } : Clip_domain_3(sphere.center(), std::sqrt(CGAL::to_double(sphere.squared_radius()))) {
   }
 
   /// The largest ball in a box about its center.

@@ -37,8 +37,8 @@ namespace equiaffine {
 ///     primary  = number | name | function "(" sum {"," sum} ")" | "(" sum ")"
 ///
 /// Numbers are written as 2, .5 or 1e-3, whatever the locale. Names are x, y, z, pi, e and those of `constants`.
-/// Functions of one argument: sqrt cbrt exp log (natural) sin cos tan asin acos atan sinh cosh tanh abs; of two:
-/// atan2(y, x) hypot pow; of two or more: min max. Angles are in radians. Nesting is limited to 1000 levels.
+/// Functions of one argument: sqrt cbrt exp log (natural) sin cos tan asin acos atan sinh cosh tanh abs erf floor sign; of
+/// two: atan2(y, x) hypot pow fmod; of two or more: min max. Angles are in radians. Nesting is limited to 1000 levels.
 ///
 /// Numbers, constants and what is computed from them alone are rounded to double for every number type, so that all
 /// types evaluate the same function. For double, operators and functions are those of the language and of `<cmath>`,
@@ -47,8 +47,9 @@ namespace equiaffine {
 /// Domain errors (log(-1), 0/0) give what T gives: NaN for double.
 ///
 /// A number type T is regular, constructible from double and has + - * / and unary -; the functions above are found by
-/// argument-dependent lookup. Those with substitutes: hypot, min and max (`<` and `!=` decide), pow (exp(b * log(a)),
-/// and products for integer exponents). Used where they exist: square(T), pow(T, double), pow(T, int), and the four
+/// argument-dependent lookup. Those with substitutes: hypot, min, max and sign (`<` and `!=` decide), pow
+/// (exp(b * log(a)), and products for integer exponents). T may have no erf, floor and fmod, and an expression that needs
+/// them throws std::domain_error then. Used where they exist: square(T), pow(T, double), pow(T, int), and the four
 /// operators with a double on either side.
 ///
 /// Equal subexpressions are evaluated once. Evaluation costs one instruction per remaining operation. It takes no

@@ -6,6 +6,7 @@
 #include <equiaffine/base/internal/shared/convert_point.h>
 #include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/delaunay/internal/Segment_oracle_3.h>
+#include <equiaffine/delaunay/internal/border_points.h>
 #include <equiaffine/delaunay/internal/shared/Cgal_optional.h>
 #include <equiaffine/delaunay/internal/shared/certified_seeding.h>
 
@@ -20,10 +21,12 @@
 
 namespace equiaffine {
 
-/// A model of CGAL's MeshDomain_3: the part of a clip domain where f < 0, with the zero set of f as its surface. Use it
-/// in CGAL::make_mesh_3 in place of CGAL::Labeled_mesh_domain_3. Vertices on the surface are exact up to rounding,
-/// every component that is closed within the clip domain gets initial points, and parts of the surface outside of the
-/// clip domain do no harm.
+/// A model of CGAL's MeshDomain_3: the part of a clip domain where f < 0. Its surface is the zero set of f, patch 1, and
+/// the part of the border of the clip domain where f < 0, patch 2. Use it in CGAL::make_mesh_3 in place of
+/// CGAL::Labeled_mesh_domain_3. Vertices on the surface are exact up to rounding, every component of the zero set that
+/// is closed within the clip domain gets initial points, and parts of the surface outside of the clip domain do no
+/// harm. The edges of a box, and those where the zero set meets the border, are no features: facets cut them off by as
+/// much as the criteria allow.
 ///
 /// `Kernel` is the kernel of the mesher, to which the points of the function are converted. Copies share the function.
 template <ImplicitFunctionTraits_3 Traits, class Kernel = CGAL::Exact_predicates_inexact_constructions_kernel>
@@ -41,12 +44,12 @@ public:
 
   using Has_features = CGAL::Tag_false;             ///< there are no features of dimension 0 and 1
   using Subdomain_index = int;                      ///< 1 for the part where f < 0
-  using Surface_patch_index = int;                  ///< 1 for the zero set
+  using Surface_patch_index = int;                  ///< 1 for the zero set, 2 for the border of the clip domain
   using Index = int;                                ///< of a subdomain or a surface patch
   using Subdomain = Cgal_optional<Subdomain_index>; ///< the index of the subdomain that has a point, or nothing
   /// The index of the surface patch that a query meets, or nothing.
   using Surface_patch = Cgal_optional<Surface_patch_index>;
-  /// A point, the index of the surface, and 2; or 0 in the last place for none.
+  /// A point, the index of the surface patch, and 2; or 0 in the last place for none.
   using Intersection = std::tuple<Point_3, Index, int>;
 
   /// `facet_size` is the bound of the radii of surface Delaunay balls that the mesher will be given, or 0 for the
@@ -69,12 +72,18 @@ public:
     OutputIterator operator()(OutputIterator out, int = 0) const {
       const auto size = [this](const auto&) { return facet_size; };
       const auto seeding = certified_seeding(oracle->traits(), oracle->domain(), size, facet_size);
-      for (const auto& p : seeding.seeds) *out++ = std::pair(to_kernel(p), surface_index);
+      for (const auto& p : seeding.seeds) *out++ = std::pair(to_kernel(p), zero_set_index);
+      if (!has_border) return out;
+      internal::for_each_border_point(oracle->domain(), facet_size, [&](double x, double y, double z) {
+        const typename Traits::Point_3 p(x, y, z);
+        if (oracle->traits().value(p) < typename Traits::FT(0)) *out++ = std::pair(to_kernel(p), border_index);
+      });
       return out;
     }
 
     std::shared_ptr<const Oracle> oracle; ///< the function in its clip domain
     double facet_size;                    ///< bound of the radii of surface Delaunay balls
+    bool has_border = true;               ///< whether the border of the clip domain belongs to the surface
   };
 
   /// The functor that says in which subdomain a point lies.
@@ -99,28 +108,41 @@ public:
     /// A point p + t d of the surface with `first` <= t <= `last`, in the clip domain.
     Intersection find(const Point_3& p, const Vector_3& d, double first, double last) const {
       const typename Traits::Vector_3 direction(d.x(), d.y(), d.z());
-      if (const auto q = (*oracle)(to_traits(p), direction, first, last)) return {to_kernel(*q), surface_index, 2};
+      if (const auto q = (*oracle)(to_traits(p), direction, first, last)) return {to_kernel(*q), zero_set_index, 2};
+      if (has_border)
+        if (const auto q = oracle->on_border(to_traits(p), direction, first, last))
+          return {to_kernel(*q), border_index, 2};
       return Intersection(Point_3(CGAL::ORIGIN), 0, 0);
     }
 
     std::shared_ptr<const Oracle> oracle; ///< the function in its clip domain
+    bool has_border = true;               ///< whether the border of the clip domain belongs to the surface
   };
 
   /// The functor that says whether a segment, a ray or a line meets the surface.
   struct Do_intersect_surface {
-    /// The index of the surface if the query meets it, else nothing.
+    /// The index of the patch that the query meets, or nothing.
     template <class Query>
     Surface_patch operator()(const Query& query) const {
-      return std::get<2>(Construct_intersection{oracle}(query)) == 0 ? Surface_patch() : Surface_patch(surface_index);
+      const Intersection found = intersect(query);
+      return std::get<2>(found) == 0 ? Surface_patch() : Surface_patch(std::get<1>(found));
     }
 
-    std::shared_ptr<const Oracle> oracle; ///< the function in its clip domain
+    Construct_intersection intersect; ///< finds a point where they meet
   };
 
   Construct_initial_points construct_initial_points_object() const { return {oracle_, facet_size_}; } ///< the functor
   Is_in_domain is_in_domain_object() const { return {oracle_}; }                                      ///< the functor
   Construct_intersection construct_intersection_object() const { return {oracle_}; }                  ///< the functor
-  Do_intersect_surface do_intersect_surface_object() const { return {oracle_}; }                      ///< the functor
+  Do_intersect_surface do_intersect_surface_object() const {
+    return {construct_intersection_object()};
+  } ///< the functor
+
+  /// @{
+  /// The functors for a mesh of the zero set alone, which ends at the border of the clip domain.
+  Construct_initial_points construct_initial_points_of_zero_set_object() const { return {oracle_, facet_size_, false}; }
+  Construct_intersection construct_intersection_with_zero_set_object() const { return {oracle_, false}; }
+  /// @}
 
   Index index_from_surface_patch_index(const Surface_patch_index& index) const { return index; } ///< the same number
   Index index_from_subdomain_index(const Subdomain_index& index) const { return index; }         ///< the same number
@@ -132,7 +154,7 @@ public:
   const Clip_domain_3& domain() const { return oracle_->domain(); } ///< the clip domain
 
 private:
-  static constexpr int surface_index = 1, subdomain_index_inside = 1;
+  static constexpr int zero_set_index = 1, border_index = 2, subdomain_index_inside = 1;
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   static Point_3 to_kernel(const typename Traits::Point_3& p) { return convert_point<Kernel>(p); }

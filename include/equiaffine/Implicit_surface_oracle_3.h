@@ -39,7 +39,7 @@ public:
     /// `query` is a Segment_3, Ray_3 or Line_3; gives an Intersection_point or nothing.
     template <class Query>
     CGAL::Object operator()(const Surface_3& surface, const Query& query) const {
-      const auto intersection = surface.construct_intersection_object()(query);
+      const auto intersection = surface.construct_intersection_with_zero_set_object()(query);
       if (std::get<2>(intersection) == 0) return CGAL::Object();
       return CGAL::make_object(Intersection_point(std::get<0>(intersection)));
     }
@@ -51,7 +51,7 @@ public:
     template <class OutputIterator>
     OutputIterator operator()(const Surface_3& surface, OutputIterator out, int = 0) const {
       std::vector<std::pair<Point_3, typename Surface_3::Index>> points;
-      surface.construct_initial_points_object()(std::back_inserter(points));
+      surface.construct_initial_points_of_zero_set_object()(std::back_inserter(points));
       for (const auto& [p, index] : points) *out++ = p;
       return out;
     }

@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_PROGRESS_OBSERVER_H
 #define EQUIAFFINE_PROGRESS_OBSERVER_H
 
+#include <equiaffine/base/internal/shared/check_flags.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>

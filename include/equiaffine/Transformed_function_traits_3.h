@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_TRANSFORMED_FUNCTION_TRAITS_3_H
 #define EQUIAFFINE_TRANSFORMED_FUNCTION_TRAITS_3_H
 
+#include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/capabilities.h>
 #include <equiaffine/function/internal/box_intervals.h>
 #include <equiaffine/number/Pack.h>
@@ -36,7 +37,7 @@ public:
   using Vector_3 = typename Base::Vector_3;                                 ///< vectors of the base
   using Aff_transformation_3 = CGAL::Aff_transformation_3<Kernel_of<Base>>; ///< affine maps of its kernel
 
-  /// \pre the linear part of `map` has a nonzero determinant.
+  /// \throw std::invalid_argument if the map has no inverse
   explicit Transformed_function_traits_3(Base base,
                                          const Aff_transformation_3& map = Aff_transformation_3(CGAL::IDENTITY))
       : Transformed_function_traits_3(std::move(base), std::make_shared<const Map>(map)) {}
@@ -187,7 +188,13 @@ private:
     explicit Map(const Aff_transformation_3& m)
         : map(m), inverse(m.inverse()), is_identity(equals_identity(m)),
           substitution(linear_part(inverse, [](const FT& x) { return x; })),
-          substitution_of_bounds(linear_part(inverse, [](const FT& x) { return Interval(CGAL::to_double(x)); })) {}
+          substitution_of_bounds(linear_part(inverse, [](const FT& x) { return Interval(CGAL::to_double(x)); })) {
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 4; ++j)
+          check_argument(inverse.m(i, j) - inverse.m(i, j) == FT(0), // neither infinite nor NaN
+                         "an affine map of a function has no inverse: give one whose determinant is not 0, and whose "
+                         "coefficients are finite");
+    }
 
     Aff_transformation_3 map, inverse;
     bool is_identity;

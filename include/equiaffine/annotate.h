@@ -51,7 +51,9 @@ namespace equiaffine {
 ///
 /// A CGAL::Surface_mesh without such a map gets `v:status` (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`,
 /// `v:direction1`, `v:direction2` (Vector_3), and one of FT for every other attribute in doc/program.md but the
-/// norms of gradients: `v:k1`, `v:metric_xx`, `v:quadric_defect` and so on.
+/// norms of gradients: `v:k1`, `v:metric_xx`, `v:quadric_defect` and so on. These have the sign of
+/// Euclidean_structure_3: on a unit sphere with f < 0 inside, `v:mean_curvature` is -1, and what is put into
+/// `vertex_mean_curvature_map` is 1.
 ///
 /// A vertex whose status is UNCONVERGED before the call keeps that status, unless it is OUTSIDE. CGAL::Sequential_tag
 /// and CGAL::Parallel_tag give the same numbers. Named parameters come in one chain or several, equiaffine's and

@@ -70,8 +70,8 @@ Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const typen
   return internal::without_mesh(std::move(surface));
 }
 
-/// The same for the zero set, which is added to a model of CGAL's MutableFaceGraph: see to_face_graph(). Further named
-/// parameters are
+/// The same for the zero set, which is added to a model of CGAL's MutableFaceGraph: see to_face_graph(). Vertices are made
+/// in the order of the points, which is that of `vertex_status` in the result. Further named parameters are
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|

@@ -2,11 +2,16 @@
 #ifndef EQUIAFFINE_PARABOLIC_CURVES_H
 #define EQUIAFFINE_PARABOLIC_CURVES_H
 
+#include <equiaffine/base/named_parameters.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 #include <equiaffine/surface/Parabolic_curves_3.h>
 #include <equiaffine/surface/internal/Parabolic_curve_finder_3.h>
+#include <equiaffine/surface/internal/shared/Face_graph.h>
+#include <equiaffine/surface/internal/shared/indexed_polygons.h>
 #include <equiaffine/surface/internal/shared/parabolic_function.h>
+#include <equiaffine/surface/internal/shared/points_of_range.h>
+#include <equiaffine/surface/internal/triangle_mesh_of.h>
 
 #include <CGAL/tags.h>
 
@@ -21,6 +26,23 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 
 Parabolic_curves_3<Kernel_of<Traits>> parabolic_curves(const Indexed_triangle_mesh_3<Kernel_of<Traits>>& mesh,
                                                        const Traits& traits) {
   return internal::Parabolic_curve_finder_3<ConcurrencyTag, Traits>(mesh, traits).find();
+}
+
+/// The same for a mesh of CGAL of any kernel whose coordinates are doubles. Faces are cut into triangles.
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, ImplicitFunctionTraits_3 Traits,
+          internal::Parameter_chain... Parameters>
+Parabolic_curves_3<Kernel_of<Traits>> parabolic_curves(const Graph& mesh, const Traits& traits,
+                                                       const Parameters&... given) {
+  using Joined = internal::Joined_parameters<Parameters...>;
+  internal::check_parameters<Joined, internal::Vertex_point_tag, internal::Geom_traits_tag, internal::Verbose_tag>();
+  static_assert(check_coordinates<Point_of_vertices<const Graph, Joined>>());
+  return parabolic_curves<ConcurrencyTag>(
+      internal::triangle_mesh_of<Kernel_of<Traits>>(mesh, internal::joined_parameters(given...)), traits);
 }
 
 } // namespace equiaffine

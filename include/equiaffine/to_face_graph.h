@@ -24,7 +24,8 @@ CGAL::Surface_mesh<typename Kernel::Point_3> to_surface_mesh(const Isosurface_3<
   return internal::surface_mesh_of(surface);
 }
 
-/// Adds the same mesh to a model of CGAL's MutableFaceGraph of any kernel with coordinates that are doubles.
+/// Adds the same mesh to a model of CGAL's MutableFaceGraph of any kernel with coordinates that are doubles. Vertices
+/// and faces are made in their order; a CGAL::Surface_mesh puts the first ones where others were removed.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|

@@ -82,8 +82,8 @@ const std::vector<Option_row> rows_of_sources = {
      read_file},
     {"--function", sampled, SOURCE, 1, "EXPR",
      "a formula in x, y, z: + - * / ^ ( ) pi e sqrt cbrt exp log sin cos tan\n"
-     "asin acos atan atan2 sinh cosh tanh abs min max hypot pow; lhs = rhs means lhs - rhs;\n"
-     "@FILE reads it from a file",
+     "asin acos atan atan2 sinh cosh tanh abs min max hypot erf floor sign fmod pow;\n"
+     "lhs = rhs means lhs - rhs; @FILE reads it from a file",
      read_function},
     {"--set",
      sampled,

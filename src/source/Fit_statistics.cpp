@@ -39,7 +39,9 @@ bool is_doubtful(const Structure& s) {
          !error_table<double>[0].is_known(s.structure, s.error, error_bounds.back());
 }
 
-bool is_noise(const Structure& s) { return !(s.noise.gaussian_curvature <= s.error.gaussian_curvature / 2); }
+bool is_noise(const Structure& s) {
+  return !(s.noise.affine_gaussian_curvature <= s.error.affine_gaussian_curvature / 2);
+}
 
 struct Words {
   std::string_view attribute, label, symbol;

@@ -29,7 +29,8 @@ TEST(Attribute_selection, the_names_are_the_contract_in_its_order) {
                               "direction2_z metric_xx metric_xy metric_xz metric_yy metric_yz metric_zz " +
                               later);
   EXPECT_EQ(names("none"), "");
-  EXPECT_EQ(names("metric_xx,normal,k2"), "nx ny nz k2 metric_xx ");
+  EXPECT_EQ(names("metric_xx,normal,k2"), "metric_xx nx ny nz k2 ") << "in the order that they are asked for";
+  EXPECT_EQ(names("nz,status,k2,normal,k2,nz"), "nz k2 nx ny ") << "each of them once";
   EXPECT_EQ(names("status"), "");
   EXPECT_FALSE(select_attributes("none").has_status);
   EXPECT_TRUE(select_attributes("status").has_status);

@@ -48,8 +48,8 @@ std::array<Quality, 2> quality(const Volume& volume, int degree, double smoothin
     const double k = std::pow(radius(p), -3) / 0.72;
     const auto s = affine_invariants(Monge_chart_3<double>(function.taylor(p)));
     const auto error = estimate(p);
-    ratios[0].push_back(error.gaussian_curvature / std::abs(s.gaussian_curvature - k));
-    ratios[1].push_back(error.mean_curvature / std::abs(s.mean_curvature + std::sqrt(k)));
+    ratios[0].push_back(error.affine_gaussian_curvature / std::abs(s.gaussian_curvature - k));
+    ratios[1].push_back(error.affine_mean_curvature / std::abs(s.mean_curvature + std::sqrt(k)));
   }
   std::array<Quality, 2> result;
   for (std::size_t c = 0; c < 2; ++c) {

@@ -98,7 +98,7 @@ TEST(Annotate, columns_and_maps_hold_the_same_numbers_for_any_number_of_threads)
   const auto traits = torus();
   const auto surface = marching_cubes(traits, parameters::number_of_nodes(20));
   Mesh mesh = to_surface_mesh(surface);
-  annotate<CGAL::Parallel_tag>(mesh, traits);
+  annotate<CGAL::Parallel_if_available_tag>(mesh, traits);
   const auto columns =
       compute_attributes(traits, std::span(surface.points),
                          select_attributes("all,quadric_defect,shape_index,curvedness"), surface.vertex_status);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
 
 using namespace equiaffine;
 using internal::get_parameter;
@@ -32,6 +33,11 @@ TEST(Named_parameters, every_parameter_of_a_chain_is_found) {
 
 TEST(Named_parameters, the_last_one_given_counts) {
   EXPECT_EQ(get_parameter<internal::Clip_tag>(parameters::clip(1).clip(2), 0), 2);
+}
+
+TEST(Named_parameters, a_negative_number_of_nodes_is_refused) {
+  EXPECT_THROW(parameters::number_of_nodes(-5), std::invalid_argument);
+  EXPECT_THROW(parameters::skip_empty_space().planes_per_slab(-1L), std::invalid_argument);
 }
 
 TEST(Named_parameters, one_number_of_nodes_is_that_of_every_axis) {

@@ -30,14 +30,14 @@ TEST(Fitted_structures, what_every_degree_leaves_out_is_seen_in_smaller_balls) {
   for (const auto& [noise, least] : {std::pair(0.01, 0.8), std::pair(0.05, 0.9)}) { // without: .61 and .69
     Fit_mesh mesh = exact;
     add_noise(mesh, noise * mean_edge(mesh));
-    const auto fits = fitted_structures<CGAL::Parallel_tag>(mesh);
+    const auto fits = fitted_structures<CGAL::Parallel_if_available_tag>(mesh);
     const auto K_covered = part_within(
         fits.size(),
         [&](std::size_t i) {
           return std::abs(fits[i].structure.affine.gaussian_curvature -
                           local_structure_at(bumps, points[i]).affine.gaussian_curvature);
         },
-        [&](std::size_t i) { return fits[i].error.gaussian_curvature; });
+        [&](std::size_t i) { return fits[i].error.affine_gaussian_curvature; });
     EXPECT_GT(K_covered, least) << noise;
   }
 }
@@ -59,8 +59,8 @@ TEST(Fitted_structures, outliers_have_no_curvature_and_spoil_none) {
     mesh.point(Fit_mesh::Vertex_index(unsigned(i))) = points[i] + way * (3 * edge);
   }
   for (const bool has_faces : {true, false}) {
-    const auto fits = has_faces ? fitted_structures<CGAL::Parallel_tag>(mesh)
-                                : fitted_structures<CGAL::Parallel_tag>(points_of(mesh));
+    const auto fits = has_faces ? fitted_structures<CGAL::Parallel_if_available_tag>(mesh)
+                                : fitted_structures<CGAL::Parallel_if_available_tag>(points_of(mesh));
     double fitted = 0, moved = 0;
     for (std::size_t i = 0; i < fits.size(); ++i) {
       const bool has_fit = fits[i].structure.status != Point_status::OUTSIDE;
@@ -71,7 +71,8 @@ TEST(Fitted_structures, outliers_have_no_curvature_and_spoil_none) {
     }
     if (has_faces) EXPECT_LT(fitted, 0.1 * moved); // those that are moved along the surface
   }
-  const auto without = fitted_structures<CGAL::Parallel_tag>(exact), with = fitted_structures<CGAL::Parallel_tag>(mesh);
+  const auto without = fitted_structures<CGAL::Parallel_if_available_tag>(exact),
+             with = fitted_structures<CGAL::Parallel_if_available_tag>(mesh);
   std::vector<double> differences;
   for (std::size_t i = 0; i < with.size(); ++i)
     if (!is_moved[i])
@@ -110,12 +111,12 @@ TEST(Fitted_structures, long_triangles_elsewhere_do_not_spoil_a_hemisphere) {
       mesh.add_face(circles[r][next], circles[r + 1][next], circles[r + 1][here]);
     }
   }
-  const auto fits = fitted_structures<CGAL::Parallel_tag>(mesh, parameters::scale(std::nullopt));
+  const auto fits = fitted_structures<CGAL::Parallel_if_available_tag>(mesh, parameters::scale(std::nullopt));
   double within = 0;
   const std::size_t nose = 1 + around * rings, tip_part = 1 + around * (rings / 2 - 2);
   for (std::size_t i = 0; i < nose; ++i) {
     const double error = std::abs(fits[i].structure.affine.gaussian_curvature - 1);
-    within += error <= fits[i].error.gaussian_curvature;
+    within += error <= fits[i].error.affine_gaussian_curvature;
     if (i < tip_part) EXPECT_LT(error, 0.01) << mesh.point(Fit_mesh::Vertex_index(unsigned(i)));
   }
   EXPECT_GT(within, 0.9 * double(nose));

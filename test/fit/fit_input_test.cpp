@@ -33,7 +33,7 @@ double part_that_agrees(const std::vector<Fitted_structure_3<double>>& a,
         std::abs(a[i].structure.affine.gaussian_curvature - b[i].structure.affine.gaussian_curvature);
     if (!std::isfinite(difference)) continue;
     ++known;
-    agree += difference <= a[i].error.gaussian_curvature + b[i].error.gaussian_curvature;
+    agree += difference <= a[i].error.affine_gaussian_curvature + b[i].error.affine_gaussian_curvature;
   }
   return agree / known;
 }
@@ -129,7 +129,7 @@ void expect_parabolic(const std::vector<Fitted_structure_3<double>>& structures)
   for (const auto& s : structures) {
     EXPECT_EQ(s.structure.status, Point_status::PARABOLIC);
     EXPECT_TRUE(std::isfinite(s.structure.euclidean.gaussian_curvature));
-    EXPECT_FALSE(has_numbers(s) || std::isfinite(s.error.gaussian_curvature));
+    EXPECT_FALSE(has_numbers(s) || std::isfinite(s.error.affine_gaussian_curvature));
   }
 }
 
@@ -164,7 +164,7 @@ TEST(Fit_input, a_cylinder_is_parabolic) {
   std::size_t parabolic = 0, unknown = 0;
   for (const auto& s : fitted_structures(mesh)) {
     parabolic += s.structure.status == Point_status::PARABOLIC;
-    unknown += s.error.gaussian_curvature >= std::abs(s.structure.affine.gaussian_curvature);
+    unknown += s.error.affine_gaussian_curvature >= std::abs(s.structure.affine.gaussian_curvature);
   }
   EXPECT_GT(double(parabolic), 0.7 * double(mesh.number_of_vertices()));
   EXPECT_GT(double(parabolic + unknown), 0.97 * double(mesh.number_of_vertices()));
@@ -261,7 +261,8 @@ TEST(Fit_input, at_a_crease_the_error_says_that_curvatures_mean_nothing) {
   for (const auto v : mesh.vertices()) {
     const auto& s = structures[v];
     if (std::abs(mesh.point(v).x()) > 0.03 || !has_numbers(s)) continue;
-    EXPECT_GT(s.error.gaussian_curvature, 0.5 * std::abs(s.structure.affine.gaussian_curvature)) << mesh.point(v);
+    EXPECT_GT(s.error.affine_gaussian_curvature, 0.5 * std::abs(s.structure.affine.gaussian_curvature))
+        << mesh.point(v);
   }
 }
 

@@ -34,7 +34,7 @@ static_assert(FirstOrderImplicitFunctionTraits_3<Traits> && BoundedImplicitFunct
 TEST(Fitted_structures, affine_curvature_at_exact_vertices_has_four_digits) {
   const Fit_mesh mesh = metaballs_mesh(50);
   ASSERT_GT(mesh.number_of_vertices(), 4000u);
-  const auto errors = errors_of_fit(fitted_structures<CGAL::Parallel_tag>(mesh), points_of(mesh));
+  const auto errors = errors_of_fit(fitted_structures<CGAL::Parallel_if_available_tag>(mesh), points_of(mesh));
   EXPECT_EQ(errors.without_fit, 0u);
   EXPECT_LT(errors.quantile(0.5), 1e-4);
   EXPECT_LT(errors.quantile(0.95), 1e-3);
@@ -45,8 +45,8 @@ TEST(Fitted_structures, affine_curvature_at_exact_vertices_has_four_digits) {
 TEST(Fitted_structures, points_without_faces_are_as_good_as_a_mesh) {
   const Fit_mesh mesh = metaballs_mesh(50);
   const auto points = points_of(mesh);
-  const auto of_mesh = errors_of_fit(fitted_structures<CGAL::Parallel_tag>(mesh), points);
-  const auto of_points = errors_of_fit(fitted_structures<CGAL::Parallel_tag>(points), points);
+  const auto of_mesh = errors_of_fit(fitted_structures<CGAL::Parallel_if_available_tag>(mesh), points);
+  const auto of_points = errors_of_fit(fitted_structures<CGAL::Parallel_if_available_tag>(points), points);
   EXPECT_EQ(of_points.without_fit, 0u);
   EXPECT_LT(of_points.quantile(0.5), 1.2 * of_mesh.quantile(0.5));
 }
@@ -55,7 +55,7 @@ TEST(Fitted_structures, noise_of_one_percent_of_an_edge_leaves_K_known_and_the_e
   const Fit_mesh exact = metaballs_mesh(50);
   Fit_mesh mesh = exact;
   add_noise(mesh, 0.01 * mean_edge(mesh));
-  const auto errors = errors_of_fit(fitted_structures<CGAL::Parallel_tag>(mesh), points_of(exact));
+  const auto errors = errors_of_fit(fitted_structures<CGAL::Parallel_if_available_tag>(mesh), points_of(exact));
   EXPECT_LT(errors.quantile(0.5), 0.04);
   EXPECT_LT(errors.quantile(0.95), 0.2);
   EXPECT_GT(errors.part_covered(), 0.93);
@@ -70,8 +70,8 @@ TEST(Fitted_structures, noise_that_is_given_counts_as_it_is) {
   for (std::size_t i = 0; i < once.size(); ++i) {
     if (once[i].structure.status != Point_status::REGULAR || twice[i].structure.status != Point_status::REGULAR)
       continue;
-    EXPECT_NEAR(twice[i].noise.gaussian_curvature / once[i].noise.gaussian_curvature, 2, 1e-6);
-    EXPECT_GE(once[i].error.gaussian_curvature, once[i].noise.gaussian_curvature);
+    EXPECT_NEAR(twice[i].noise.affine_gaussian_curvature / once[i].noise.affine_gaussian_curvature, 2, 1e-6);
+    EXPECT_GE(once[i].error.affine_gaussian_curvature, once[i].noise.affine_gaussian_curvature);
   }
 }
 
@@ -82,18 +82,20 @@ TEST(Fitted_structures, an_equiaffine_map_of_the_mesh_keeps_affine_curvatures) {
   const CGAL::Aff_transformation_3<Fit_kernel> map(s * s * c, -d / s / s, 0, 1, s * s * d, c / s / s, 0, 2, 0, 0, 1, 3);
   Fit_mesh image = mesh;
   for (const auto v : image.vertices()) image.point(v) = map(image.point(v));
-  const auto before = fitted_structures<CGAL::Parallel_tag>(mesh), after = fitted_structures<CGAL::Parallel_tag>(image);
+  const auto before = fitted_structures<CGAL::Parallel_if_available_tag>(mesh),
+             after = fitted_structures<CGAL::Parallel_if_available_tag>(image);
   for (std::size_t i = 0; i < before.size(); ++i) {
     const auto &a = before[i].structure.affine, &b = after[i].structure.affine;
     const double size = std::abs(a.gaussian_curvature) + a.mean_curvature * a.mean_curvature;
-    EXPECT_NEAR(a.gaussian_curvature, b.gaussian_curvature, 1e-8 * size + 0.02 * before[i].error.gaussian_curvature)
+    EXPECT_NEAR(a.gaussian_curvature, b.gaussian_curvature,
+                1e-8 * size + 0.02 * before[i].error.affine_gaussian_curvature)
         << i;
   }
 }
 
 TEST(Fitted_structures, any_number_of_threads_gives_the_same_bits) {
   const Fit_mesh mesh = metaballs_mesh(24);
-  const auto parallel = fitted_structures<CGAL::Parallel_tag>(mesh), sequential = fitted_structures(mesh);
+  const auto parallel = fitted_structures<CGAL::Parallel_if_available_tag>(mesh), sequential = fitted_structures(mesh);
   for (std::size_t i = 0; i < parallel.size(); ++i) {
     const auto &a = parallel[i].structure.affine, &b = sequential[i].structure.affine;
     EXPECT_EQ(std::memcmp(&a.gaussian_curvature, &b.gaussian_curvature, sizeof(double)), 0) << i;
@@ -113,14 +115,14 @@ TEST(Fitted_structures, a_jump_of_density_by_ten_leaves_both_sides_with_right_es
   std::vector<Fit_kernel::Point_3> points;
   for (double x = -1; x < 1; x += x < 0 ? 0.1 : 0.01)
     for (double y = -0.5; y < 0.5; y += x < 0 ? 0.1 : 0.01) points.emplace_back(x, y, -Bowl()(x, y, 0.));
-  const auto structures = fitted_structures<CGAL::Parallel_tag>(points);
+  const auto structures = fitted_structures<CGAL::Parallel_if_available_tag>(points);
   double covered = 0, known = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double fitted = structures[i].structure.affine.gaussian_curvature;
     if (!std::isfinite(fitted)) continue;
     ++known;
     covered += std::abs(fitted - local_structure_at(bowl, points[i]).affine.gaussian_curvature) <=
-               structures[i].error.gaussian_curvature;
+               structures[i].error.affine_gaussian_curvature;
   }
   EXPECT_GT(known, 0.9 * double(points.size()));
   EXPECT_GT(covered, 0.93 * known);
@@ -160,7 +162,7 @@ TEST(Fitted_structures, estimates_cover_the_errors_of_a_small_mesh) {
     for (std::size_t i = 0; i < structures.size(); ++i) {
       const auto truth = local_structure_at(shape, points_of(exact)[i]);
       covered += std::abs(structures[i].structure.affine.gaussian_curvature - truth.affine.gaussian_curvature) <=
-                 structures[i].error.gaussian_curvature;
+                 structures[i].error.affine_gaussian_curvature;
     }
     EXPECT_GT(covered, 0.93 * double(structures.size())) << noise;
   }
@@ -168,21 +170,21 @@ TEST(Fitted_structures, estimates_cover_the_errors_of_a_small_mesh) {
 
 TEST(Fitted_structures, errors_at_a_scale_are_those_of_the_polynomials_of_exact_data_at_that_scale) {
   const Fit_mesh exact = metaballs_mesh(40);
-  const auto truth = fitted_structures<CGAL::Parallel_tag>(exact, parameters::scale(0.3));
+  const auto truth = fitted_structures<CGAL::Parallel_if_available_tag>(exact, parameters::scale(0.3));
   for (const double noise : {0.01, 0.05}) {
     Fit_mesh mesh = exact;
     add_noise(mesh, noise * mean_edge(mesh));
-    const auto fits = fitted_structures<CGAL::Parallel_tag>(mesh, parameters::scale(0.3));
+    const auto fits = fitted_structures<CGAL::Parallel_if_available_tag>(mesh, parameters::scale(0.3));
     const auto K = [](const auto& s) { return s.structure.affine.gaussian_curvature; };
     const auto H = [](const auto& s) { return s.structure.affine.mean_curvature; };
     EXPECT_GT(part_within(
                   fits.size(), [&](std::size_t i) { return std::abs(K(fits[i]) - K(truth[i])); },
-                  [&](std::size_t i) { return fits[i].error.gaussian_curvature; }),
+                  [&](std::size_t i) { return fits[i].error.affine_gaussian_curvature; }),
               0.9)
         << noise;
     EXPECT_GT(part_within(
                   fits.size(), [&](std::size_t i) { return std::abs(H(fits[i]) - H(truth[i])); },
-                  [&](std::size_t i) { return fits[i].error.mean_curvature; }),
+                  [&](std::size_t i) { return fits[i].error.affine_mean_curvature; }),
               0.9)
         << noise;
   }
@@ -191,15 +193,15 @@ TEST(Fitted_structures, errors_at_a_scale_are_those_of_the_polynomials_of_exact_
 TEST(Fitted_structures, a_scale_is_chosen_where_the_data_do_not_resolve_the_surface_and_for_affine_images_alike) {
   const Fit_mesh exact = metaballs_mesh(30);
   const auto by_data = parameters::scale(std::nullopt);
-  EXPECT_FALSE(fitted_structures<CGAL::Parallel_tag>(exact, by_data).front().is_at_scale);
+  EXPECT_FALSE(fitted_structures<CGAL::Parallel_if_available_tag>(exact, by_data).front().is_at_scale);
   Fit_mesh mesh = exact;
   add_noise(mesh, 0.2 * mean_edge(mesh));
-  const auto at_scale = fitted_structures<CGAL::Parallel_tag>(mesh, by_data).front();
+  const auto at_scale = fitted_structures<CGAL::Parallel_if_available_tag>(mesh, by_data).front();
   EXPECT_TRUE(at_scale.is_at_scale);
-  EXPECT_FALSE(fitted_structures<CGAL::Parallel_tag>(mesh, parameters::scale(0)).front().is_at_scale);
+  EXPECT_FALSE(fitted_structures<CGAL::Parallel_if_available_tag>(mesh, parameters::scale(0)).front().is_at_scale);
   const CGAL::Aff_transformation_3<Fit_kernel> map(1, 0.5, 0, 0, 1, 0.5, 0, 0, 1);
   for (const auto v : mesh.vertices()) mesh.point(v) = map(mesh.point(v));
-  EXPECT_NEAR(fitted_structures<CGAL::Parallel_tag>(mesh, by_data).front().scale, at_scale.scale, 1e-9);
+  EXPECT_NEAR(fitted_structures<CGAL::Parallel_if_available_tag>(mesh, by_data).front().scale, at_scale.scale, 1e-9);
 }
 
 TEST(Fitted_structures, every_quantity_has_an_estimate_that_covers_its_error) {
@@ -207,7 +209,7 @@ TEST(Fitted_structures, every_quantity_has_an_estimate_that_covers_its_error) {
   const auto points = points_of(exact);
   Fit_mesh mesh = exact;
   add_noise(mesh, 0.01 * mean_edge(mesh));
-  const auto fits = fitted_structures<CGAL::Parallel_tag>(mesh);
+  const auto fits = fitted_structures<CGAL::Parallel_if_available_tag>(mesh);
   std::vector<Local_structure_3<double>> truth;
   for (const auto& p : points) truth.push_back(local_structure_at(metaballs(), p));
   for (const auto& row : error_table<double>) {
@@ -244,7 +246,7 @@ TEST(Annotate_by_fit, fills_the_maps_of_any_mesh_with_what_fitted_structures_ret
   std::size_t i = 0;
   for (const auto v : mesh.vertices()) {
     expect_same(K[v], expected[i].structure.affine.gaussian_curvature);
-    expect_same(error[v], expected[i].error.gaussian_curvature);
+    expect_same(error[v], expected[i].error.affine_gaussian_curvature);
     EXPECT_EQ(status[v], expected[i++].structure.status);
   }
 
@@ -283,7 +285,8 @@ TEST(Fitted_function_traits_3, estimates_cover_the_errors_of_the_blend_between_t
     Fit_mesh mesh = metaballs_mesh(50);
     add_noise(mesh, noise * mean_edge(mesh));
     const Traits traits(mesh);
-    const auto remesh = marching_cubes<CGAL::Parallel_tag>(traits, parameters::number_of_nodes(40).skip_empty_space());
+    const auto remesh =
+        marching_cubes<CGAL::Parallel_if_available_tag>(traits, parameters::number_of_nodes(40).skip_empty_space());
     std::vector<Fitted_structure_3<double>> structures;
     for (const auto& p : remesh.points) structures.push_back(traits.structure(p));
     const auto errors = errors_of_fit(structures, remesh.points);
@@ -309,7 +312,8 @@ TEST(Fitted_function_traits_3, a_grid_coarser_than_the_points_needs_a_wider_band
 
 TEST(Fitted_function_traits_3, the_band_follows_the_surface_where_a_scale_takes_it_away_from_the_data) {
   const Traits traits(metaballs_mesh(40), parameters::scale(0.5));
-  const auto surface = marching_cubes<CGAL::Parallel_tag>(traits, parameters::number_of_nodes(64).skip_empty_space());
+  const auto surface =
+      marching_cubes<CGAL::Parallel_if_available_tag>(traits, parameters::number_of_nodes(64).skip_empty_space());
   EXPECT_TRUE(CGAL::is_closed(to_surface_mesh(surface)));
 }
 
@@ -353,14 +357,15 @@ TEST(Fitted_function_traits_3, values_are_about_signed_distances_in_the_band_and
 TEST(Fitted_function_traits_3, marching_cubes_remeshes_the_fitted_surface) {
   const Fit_mesh mesh = metaballs_mesh(30);
   const Traits traits(mesh);
-  const auto surface = marching_cubes<CGAL::Parallel_tag>(traits, parameters::number_of_nodes(40));
+  const auto surface = marching_cubes<CGAL::Parallel_if_available_tag>(traits, parameters::number_of_nodes(40));
   const Fit_mesh remesh = to_surface_mesh(surface);
   EXPECT_TRUE(CGAL::is_closed(remesh));
   EXPECT_EQ(remesh.number_of_vertices() + remesh.number_of_faces(), remesh.number_of_edges() + 2);
   const auto truth = metaballs();
   for (const auto& p : surface.points) EXPECT_NEAR(truth.value(p), 0, 1e-3);
 
-  const auto of_band = marching_cubes<CGAL::Parallel_tag>(traits, parameters::number_of_nodes(40).skip_empty_space());
+  const auto of_band =
+      marching_cubes<CGAL::Parallel_if_available_tag>(traits, parameters::number_of_nodes(40).skip_empty_space());
   EXPECT_EQ(of_band.points, surface.points);
   EXPECT_EQ(of_band.triangles, surface.triangles);
   EXPECT_LT(of_band.function_evaluations, surface.function_evaluations);

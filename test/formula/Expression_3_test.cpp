@@ -21,6 +21,7 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <type_traits>
@@ -74,6 +75,10 @@ Dual sinh(const Dual& a) { return chain(a, std::sinh(a.value), std::cosh(a.value
 Dual cosh(const Dual& a) { return chain(a, std::cosh(a.value), std::sinh(a.value)); }
 Dual tanh(const Dual& a) { return sinh(a) / cosh(a); }
 Dual abs(const Dual& a) { return a.value < 0 ? -a : a; }
+Dual erf(const Dual& a) {
+  return chain(a, std::erf(a.value), 2 * std::numbers::inv_sqrtpi * std::exp(-a.value * a.value));
+}
+Dual floor(const Dual& a) { return Dual(std::floor(a.value)); }
 
 } // namespace dual_numbers
 
@@ -150,6 +155,9 @@ const std::vector<Case> exact_cases = {
     {"min(x, y, z, .1)", [](double, double, double) { return .1; }},
     {"max(x, y, z)", [](double x, double y, double z) { return std::max(x, std::max(y, z)); }},
     {"hypot(x, y)", [](double x, double y, double) { return std::hypot(x, y); }},
+    {"erf(x)", [](double x, double, double) { return std::erf(x); }},
+    {"floor(x + y)", [](double x, double y, double) { return std::floor(x + y); }},
+    {"sign(y - x)", [](double x, double y, double) { return x < y ? 1. : -1.; }},
     {"pi", [](double, double, double) { return std::numbers::pi; }},
     {"e", [](double, double, double) { return std::numbers::e; }},
     {"x^2 = y", [](double x, double y, double) { return x * x - y; }},
@@ -181,6 +189,9 @@ TEST(Expression_3, taylor_polynomials_are_those_of_a_call_on_jets) {
                                           "min(x,y+3)+max(z,x-5)",
                                           "hypot(x,y+2)+pow(2+x,y)",
                                           "(2+x)^1.5+(3+y)^-2+(2+z)^9+2^x+max(x*y,0*z)",
+                                          "erf(x*y+z)*z",
+                                          "floor(3*x)*y+sign(z)*x+fmod(5*x,2+y)",
+                                          "fmod(7,3+x*y)",
                                           "0*log(2+x)+(x-x)*y"};
   std::mt19937 random(6);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -210,6 +221,11 @@ TEST(Expression_3, taylor_polynomials_tell_of_kinks_and_of_values_that_do_not_ex
     EXPECT_FALSE(is_smooth(text, 0)) << text;
     EXPECT_TRUE(is_smooth(text, 0.5)) << text;
   }
+  for (const char* text : {"floor(x)", "floor(-x) + y", "sign(x)*z", "fmod(x + 3, 1)"}) {
+    EXPECT_FALSE(is_smooth(text, 0)) << text;
+    EXPECT_TRUE(is_smooth(text, 0.5)) << text;
+  }
+  EXPECT_TRUE(is_smooth("fmod(x, 1)", 0));
   for (const char* text : {"abs(x)^4", "abs(x)^2 + y", "abs(x - y)^6*z"}) EXPECT_TRUE(is_smooth(text, 0)) << text;
   EXPECT_TRUE(is_smooth("y + 0^x", 0.5));
   EXPECT_FALSE(is_smooth("y + 0^x", 0));
@@ -486,6 +502,12 @@ TEST(Expression_3, any_number_type_works_through_argument_dependent_lookup) {
   }
 }
 
+TEST(Expression_3, a_number_type_without_a_function_is_told_so) {
+  EXPECT_EQ(value("fmod(5*x, y)"), std::fmod(5 * px, py));
+  const Expression_3 f("fmod(x, y)");
+  EXPECT_THROW(f(Dual(px), Dual(py), Dual(pz)), std::domain_error);
+}
+
 TEST(Expression_3, a_float_is_evaluated_as_float) {
   EXPECT_EQ(Expression_3("x*0.1 + y")(0.3f, 0.2f, 0.f), 0.3f * 0.1f + 0.2f);
   EXPECT_EQ(Expression_3("sin(x)")(0.3f, 0.f, 0.f), std::sin(0.3f));
@@ -554,10 +576,13 @@ TEST(Expression_3, a_missing_operator_is_named) {
 TEST(Expression_3, an_unknown_name_is_told_with_a_remedy) {
   const std::string define = "give it a value as a constant, or use x, y, z";
   expect_error("x + 2*foo", 7, "unknown name 'foo'", define);
-  const std::string all =
-      "use one of sqrt cbrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh abs min max hypot pow";
+  const std::string all = "use one of sqrt cbrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh abs min max "
+                          "hypot erf floor sign fmod "
+                          "pow";
   expect_error("sqr(x)", 1, "unknown function 'sqr'", "did you mean 'sqrt'? Otherwise " + all);
   expect_error("1+ln(x)", 3, "unknown function 'ln'", "did you mean 'log'? Otherwise " + all);
+  expect_error("sgn(x)", 1, "unknown function 'sgn'", "did you mean 'sign'? Otherwise " + all);
+  expect_error("mod(x, 2)", 1, "unknown function 'mod'", "did you mean 'fmod'? Otherwise " + all);
   expect_error("log10(x)", 1, "unknown function 'log10'", "did you mean 'log(...)/log(10)'? Otherwise " + all);
   expect_error("frobnicate(x)", 1, "unknown function 'frobnicate'", all);
   expect_error("X", 1, "unknown name 'X'", "did you mean 'x'? Otherwise give it a value as a constant, or use x, y, z");

@@ -32,8 +32,8 @@ TEST(Sample_on_lattice, stores_the_value_of_every_node_at_its_index) {
 
 TEST(Sample_on_lattice, does_not_depend_on_threads_and_reports_every_node_once) {
   std::atomic<std::size_t> reported = 0;
-  const auto parallel =
-      equiaffine::sample_on_lattice<CGAL::Parallel_tag>(function, skew, [&](std::size_t nodes) { reported += nodes; });
+  const auto parallel = equiaffine::sample_on_lattice<CGAL::Parallel_if_available_tag>(
+      function, skew, [&](std::size_t nodes) { reported += nodes; });
   EXPECT_EQ(reported, 60U);
   EXPECT_EQ(parallel.values, equiaffine::sample_on_lattice<CGAL::Sequential_tag>(function, skew).values);
 }

@@ -71,7 +71,8 @@ TEST(Marching_cubes, linear_vertices_converge_with_order_two_and_projected_ones_
 
 TEST(Marching_cubes, threads_change_nothing) {
   const auto traits = traits_of(surfaces[3]);
-  const auto one = marching_cubes<CGAL::Sequential_tag>(traits), many = marching_cubes<CGAL::Parallel_tag>(traits);
+  const auto one = marching_cubes<CGAL::Sequential_tag>(traits),
+             many = marching_cubes<CGAL::Parallel_if_available_tag>(traits);
   EXPECT_EQ(one.points, many.points);
   EXPECT_EQ(one.triangles, many.triangles);
   EXPECT_EQ(one.function_evaluations, many.function_evaluations);

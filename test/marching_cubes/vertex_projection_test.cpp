@@ -39,7 +39,8 @@ TEST(Vertex_projection, no_triangle_turns_over_in_many_planes_and_threads_change
     for (std::size_t v = 0; v < 16 * 16 * 70; ++v) volume.values.push_back(values[random() % 6]);
     const Sampled_function_traits_3<Kernel> traits(volume);
     const auto linear = marching_cubes(traits, parameters::vertex_position(Vertex_position::LINEAR));
-    const auto one = marching_cubes<CGAL::Sequential_tag>(traits), many = marching_cubes<CGAL::Parallel_tag>(traits);
+    const auto one = marching_cubes<CGAL::Sequential_tag>(traits),
+               many = marching_cubes<CGAL::Parallel_if_available_tag>(traits);
     ASSERT_EQ(linear.triangles, one.triangles);
     for (const auto& t : linear.triangles) ASSERT_GE(cosine(linear, one, t), 0);
     for (std::size_t v = 0; v < one.points.size(); ++v)

@@ -14,12 +14,12 @@
 #include <equiaffine/io/polygon_mesh_files.h>
 #elif CASE == 3 || CASE == 15
 #include <equiaffine/annotate_by_fit.h>
-#elif CASE == 7 || CASE == 9 || CASE == 10 || CASE == 13
+#elif CASE == 7 || CASE == 9 || CASE == 10 || CASE == 13 || CASE == 17 || CASE == 18 || CASE == 19
 #include <equiaffine/marching_cubes.h>
 #else
 #include <equiaffine/annotate.h>
 #endif
-#if CASE == 1
+#if CASE == 1 || CASE == 18
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #elif CASE == 2 || CASE == 3
 #include <CGAL/Polyhedron_3.h>
@@ -75,5 +75,11 @@ void use([[maybe_unused]] Mesh& mesh, const CGAL::Bbox_3& box) {
   fitted_structures(mesh, 0.1);
 #elif CASE == 16 // the mesh that is read is const: give one that can be changed
   IO::read_polygon_mesh("mesh.ply", std::as_const(mesh));
+#elif CASE == 17 // CGAL::Parallel_tag needs TBB, and CGAL_LINKED_WITH_TBB is not defined
+  marching_cubes<CGAL::Parallel_tag>(sphere);
+#elif CASE == 18 // the numbers of this kernel are exact, as those of Epeck
+  make_analytic_traits<CGAL::Exact_predicates_exact_constructions_kernel>(analytic_functions::Sphere{0.5}, box);
+#elif CASE == 19 // this named parameter counts something: give it a whole number
+  marching_cubes(sphere, parameters::number_of_nodes(64.7));
 #endif
 }

@@ -54,25 +54,47 @@ Exact square(const Exact& a) { return a * a; }
 
 const std::vector<Function>& functions() {
   static const std::vector<Function> list = {
-      EQUIAFFINE_FUNCTION(a + b, 1e300, -9, 9),      EQUIAFFINE_FUNCTION(a - b, 1e300, -9, 9),
-      EQUIAFFINE_FUNCTION(a * b, 1e150, -9, 9),      EQUIAFFINE_FUNCTION(a / b, 1e150, -9, 9),
-      EQUIAFFINE_FUNCTION(-a, 1e300, -9, 9),         EQUIAFFINE_FUNCTION(square(a), 1e150, -9, 9),
-      EQUIAFFINE_FUNCTION(a * a, 1e150, -9, 9),      EQUIAFFINE_FUNCTION(abs(a), 1e300, -9, 9),
-      EQUIAFFINE_FUNCTION(max(a, b), 1e300, -9, 9),  EQUIAFFINE_FUNCTION(min(a, b), 1e300, -9, 9),
-      EQUIAFFINE_FUNCTION(pow(a, 0), 10, -9, 9),     EQUIAFFINE_FUNCTION(pow(a, 1), 10, -9, 9),
-      EQUIAFFINE_FUNCTION(pow(a, 2), 10, -9, 9),     EQUIAFFINE_FUNCTION(pow(a, 3), 10, -9, 9),
-      EQUIAFFINE_FUNCTION(pow(a, 4), 10, -9, 9),     EQUIAFFINE_FUNCTION(pow(a, 6), 10, -9, 9),
-      EQUIAFFINE_FUNCTION(pow(a, 7), 10, -9, 9),     EQUIAFFINE_FUNCTION(pow(a, 10), 10, -9, 9),
-      EQUIAFFINE_FUNCTION(pow(a, -1), 10, -9, 9),    EQUIAFFINE_FUNCTION(pow(a, -4), 10, -9, 9),
-      EQUIAFFINE_FUNCTION(sqrt(a), 1e300, 0, 9),     EQUIAFFINE_FUNCTION(cbrt(a), 1e300, -9, 9),
-      EQUIAFFINE_FUNCTION(exp(a), 700, -9, 9),       EQUIAFFINE_FUNCTION(log(a), 1e300, 2, 9),
-      EQUIAFFINE_FUNCTION(sin(a), 1e4, -1e4, 1e4),   EQUIAFFINE_FUNCTION(cos(a), 1e4, -1e4, 1e4),
-      EQUIAFFINE_FUNCTION(tan(a), 1e4, -1.5, 1.5),   EQUIAFFINE_FUNCTION(asin(a), 2, -0.99, 0.99),
-      EQUIAFFINE_FUNCTION(acos(a), 2, -0.99, 0.99),  EQUIAFFINE_FUNCTION(atan(a), 1e10, -9, 9),
-      EQUIAFFINE_FUNCTION(atan2(a, b), 1e10, -9, 9), EQUIAFFINE_FUNCTION(atan2(b, a), 1e10, -9, 9),
-      EQUIAFFINE_FUNCTION(sinh(a), 700, -9, 9),      EQUIAFFINE_FUNCTION(cosh(a), 700, -9, 9),
-      EQUIAFFINE_FUNCTION(tanh(a), 700, -9, 9),      EQUIAFFINE_FUNCTION(hypot(a, b), 1e300, -9, 9),
+      EQUIAFFINE_FUNCTION(a + b, 1e300, -9, 9),
+      EQUIAFFINE_FUNCTION(a - b, 1e300, -9, 9),
+      EQUIAFFINE_FUNCTION(a * b, 1e150, -9, 9),
+      EQUIAFFINE_FUNCTION(a / b, 1e150, -9, 9),
+      EQUIAFFINE_FUNCTION(-a, 1e300, -9, 9),
+      EQUIAFFINE_FUNCTION(square(a), 1e150, -9, 9),
+      EQUIAFFINE_FUNCTION(a * a, 1e150, -9, 9),
+      EQUIAFFINE_FUNCTION(abs(a), 1e300, -9, 9),
+      EQUIAFFINE_FUNCTION(max(a, b), 1e300, -9, 9),
+      EQUIAFFINE_FUNCTION(min(a, b), 1e300, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, 0), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, 1), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, 2), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, 3), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, 4), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, 6), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, 7), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, 10), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, -1), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(pow(a, -4), 10, -9, 9),
+      EQUIAFFINE_FUNCTION(sqrt(a), 1e300, 0, 9),
+      EQUIAFFINE_FUNCTION(cbrt(a), 1e300, -9, 9),
+      EQUIAFFINE_FUNCTION(exp(a), 700, -9, 9),
+      EQUIAFFINE_FUNCTION(log(a), 1e300, 2, 9),
+      EQUIAFFINE_FUNCTION(sin(a), 1e4, -1e4, 1e4),
+      EQUIAFFINE_FUNCTION(cos(a), 1e4, -1e4, 1e4),
+      EQUIAFFINE_FUNCTION(tan(a), 1e4, -1.5, 1.5),
+      EQUIAFFINE_FUNCTION(asin(a), 2, -0.99, 0.99),
+      EQUIAFFINE_FUNCTION(acos(a), 2, -0.99, 0.99),
+      EQUIAFFINE_FUNCTION(atan(a), 1e10, -9, 9),
+      EQUIAFFINE_FUNCTION(atan2(a, b), 1e10, -9, 9),
+      EQUIAFFINE_FUNCTION(atan2(b, a), 1e10, -9, 9),
+      EQUIAFFINE_FUNCTION(sinh(a), 700, -9, 9),
+      EQUIAFFINE_FUNCTION(cosh(a), 700, -9, 9),
+      EQUIAFFINE_FUNCTION(tanh(a), 700, -9, 9),
+      EQUIAFFINE_FUNCTION(hypot(a, b), 1e300, -9, 9),
       EQUIAFFINE_FUNCTION(pow(a, b), 20, 0.5, 2),
+      EQUIAFFINE_FUNCTION(erf(a), 10, -3, 3),
+      EQUIAFFINE_FUNCTION(floor(a), 1e300, 0.1, 0.9),
+      EQUIAFFINE_FUNCTION(sign(a), 1e300, 1, 9),
+      EQUIAFFINE_FUNCTION(fmod(a, abs(b) + 1), 1e10, 0.1, 0.9),
   };
   return list;
 }
@@ -394,6 +416,10 @@ constexpr auto jet_functions = [](const auto& x, const auto& y, const auto& z, a
   visit(abs(x));
   visit(max(x, y * y));
   visit(min(x, y + z - 2));
+  visit(erf(u));
+  visit(floor(5 * x) + y);
+  visit(sign(x) * y);
+  visit(fmod(5 * x, z));
 };
 
 } // namespace
@@ -453,6 +479,21 @@ TEST(Interval, across_the_cut_of_the_angle_the_gradient_is_not_bounded) {
     EXPECT_LT(abs(gradient(Interval(1, 2), y)[1]).upper(), infinity);
   }
   EXPECT_LT(abs(gradient(Interval(-2, -1), Interval(0.5, 1))[0]).upper(), infinity);
+}
+
+TEST(Interval, across_a_step_no_derivative_is_bounded) {
+  const auto slope = [](const auto& f, double lower, double upper) {
+    return f(Interval_jet::variable(0, Interval(lower, upper))).coefficient(1, 0, 0);
+  };
+  const auto whole_part = [](const Interval_jet& x) { return floor(x); };
+  const auto signum = [](const Interval_jet& x) { return sign(x); };
+  const auto remainder = [](const Interval_jet& x) { return fmod(x, 1.); };
+  EXPECT_EQ(slope(whole_part, 0.1, 0.9), Interval(0));
+  EXPECT_EQ(slope(whole_part, 0.1, 1), Interval::whole());
+  EXPECT_EQ(slope(signum, -2, -0.1), Interval(0));
+  EXPECT_EQ(slope(signum, -2, 0), Interval::whole());
+  EXPECT_TRUE(slope(remainder, -0.9, 0.9).contains(1) && slope(remainder, -0.9, 0.9).upper() < 1.001);
+  EXPECT_EQ(slope(remainder, 0.9, 1), Interval::whole());
 }
 
 TEST(Interval, a_jet_of_intervals_times_itself_has_a_square_as_its_value) {

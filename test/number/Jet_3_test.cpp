@@ -83,6 +83,11 @@ const std::vector<Function>& functions() {
       EQUIAFFINE_FUNCTION(max(x * y, z * z)),
       EQUIAFFINE_FUNCTION(min(x * y, z * z)),
       EQUIAFFINE_FUNCTION(hypot(x * y, z)),
+      EQUIAFFINE_FUNCTION(erf(x * y + z)),
+      EQUIAFFINE_FUNCTION(floor(9 * x) + x * z),
+      EQUIAFFINE_FUNCTION(sign(y - z) * x + y),
+      EQUIAFFINE_FUNCTION(fmod(x * y + z, z)),
+      EQUIAFFINE_FUNCTION(fmod(5., x * y + z)),
   };
   return list;
 }
@@ -236,6 +241,20 @@ TEST(Jet_3, at_a_kink_the_value_is_right_and_the_derivatives_are_not_finite) {
   EXPECT_EQ(pow(x, 2.5).value(), 0);
   EXPECT_TRUE(derivatives_are_not_finite(pow(x, 2.5), {{3, 0, 0}, {4, 0, 0}}));
   EXPECT_TRUE(derivatives_are_not_finite(atan2(y, x), both));
+}
+
+TEST(Jet_3, at_a_step_the_value_is_right_and_the_derivatives_are_not_finite) {
+  const Jet one = variable(0, 1), zero = variable(0, 0);
+  for (const Jet& f : {Jet(floor(one)), Jet(sign(zero)), Jet(fmod(one, 0.5)), Jet(fmod(-2 * one, variable(1, 2)))})
+    EXPECT_TRUE(derivatives_are_not_finite(f, {{1, 0, 0}, {2, 0, 0}, {4, 0, 0}}));
+  EXPECT_EQ(floor(one).value(), 1);
+  EXPECT_EQ(floor(variable(0, -0.5)).value(), -1);
+  EXPECT_EQ(sign(zero).value(), 0);
+  EXPECT_EQ(sign(variable(0, -3)).value(), -1);
+  EXPECT_EQ(fmod(one, 0.5).value(), 0);
+  EXPECT_EQ(fmod(zero, 0.5).derivative(1, 0, 0), 1) << "no step: the remainder is x on both sides of 0";
+  EXPECT_TRUE(std::isnan(sign(variable(0, std::nan(""))).value()));
+  EXPECT_TRUE(std::isnan(equiaffine::sign(std::nan(""))));
 }
 
 TEST(Jet_3, outside_its_domain_no_coefficient_of_a_function_is_finite) {

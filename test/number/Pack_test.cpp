@@ -189,6 +189,7 @@ TEST(Pack, attributes_of_a_batch_are_those_of_its_points_bit_for_bit) {
   expect_batch_equals_single_for(Barth_sextic());
   expect_batch_equals_single_for(Expression_3("abs(x)^1.5 + max(y, z) * pow(2, x) + atan2(y, 2 + z) - min(x, y*z, 1) + "
                                               "hypot(y, z)^9 + log(x) + cbrt(y) + x^12 + tanh(x*y) + acos(z/2)"));
+  expect_batch_equals_single_for(Expression_3("x*y + z^3 + erf(x) + floor(3*y) + sign(z - x) + fmod(7*x, y)"));
 }
 
 TEST(Pack, numbers_of_other_sizes_have_lanes_in_arrays) {

@@ -175,7 +175,8 @@ TEST(Register_surfaces, threads_give_the_same_bits) {
   Random random(6);
   const Pair pair(named("sextic"), random_map(random, 5, 2));
   const Result one = pair.result();
-  const Result many = register_surfaces<CGAL::Parallel_tag>(pair.source, pair.points, pair.target, pair.target_points);
+  const Result many =
+      register_surfaces<CGAL::Parallel_if_available_tag>(pair.source, pair.points, pair.target, pair.target_points);
   ASSERT_TRUE(one.found() && many.found());
   EXPECT_EQ(matrix_of(one.best().map), matrix_of(many.best().map));
   EXPECT_EQ(one.best().log10_false_alarms, many.best().log10_false_alarms);

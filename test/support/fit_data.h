@@ -101,8 +101,8 @@ inline Fit_errors errors_of_fit(const std::vector<Fitted_structure_3<double>>& s
     };
     const double error = std::abs(fit.structure.affine.gaussian_curvature - truth.affine.gaussian_curvature);
     errors.relative.push_back(error / size(truth));
-    errors.covered += error <= fit.error.gaussian_curvature;
-    if (fit.error.gaussian_curvature > 0.1 * size(fit.structure)) continue;
+    errors.covered += error <= fit.error.affine_gaussian_curvature;
+    if (fit.error.affine_gaussian_curvature > 0.1 * size(fit.structure)) continue;
     ++errors.trusted;
     errors.trusted_but_wrong += error > 0.1 * size(truth);
   }

@@ -6,12 +6,17 @@
 #include <equiaffine/io/write_curves.h>
 #include <equiaffine/marching_cubes.h>
 #include <equiaffine/parabolic_curves.h>
+#include <equiaffine/to_face_graph.h>
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <sstream>
 
 namespace {
@@ -46,6 +51,23 @@ TEST(Parabolic_curves, those_of_a_torus_are_its_two_highest_circles) {
   }
 }
 
+TEST(Parabolic_curves, those_of_a_graph_are_those_of_its_triangles) {
+  const auto traits = make_analytic_traits<Kernel>(Torus(), CGAL::Bbox_3(-.8, -.8, -.3, .8, .8, .3));
+  const auto surface = marching_cubes(traits, parameters::number_of_nodes(40));
+  const auto expected = parabolic_curves(surface, traits);
+  CGAL::Polyhedron_3<CGAL::Exact_predicates_inexact_constructions_kernel> polyhedron;
+  to_face_graph(surface, polyhedron);
+  auto mesh = to_surface_mesh(surface);
+  mesh.remove_vertex(mesh.add_vertex(Point_3(0, 0, 0)));
+  for (const auto& curves : {parabolic_curves(mesh, traits), parabolic_curves(polyhedron, traits),
+                             parabolic_curves<CGAL::Parallel_if_available_tag>(
+                                 mesh, traits, CGAL::parameters::vertex_point_map(mesh.points()))}) {
+    ASSERT_EQ(curves.polylines.size(), expected.polylines.size());
+    for (std::size_t n = 0; n < curves.polylines.size(); ++n)
+      EXPECT_EQ(curves.polylines[n].points, expected.polylines[n].points);
+  }
+}
+
 TEST(Parabolic_curves, points_are_exact_where_a_curve_crosses_a_line_of_double_zeros) {
   // K is a positive multiple of (12 x^2 - 0.6) y^2: it changes its sign where x is +- sqrt(0.05), and not where y is 0.
   const auto traits =
@@ -75,9 +97,7 @@ TEST(Parabolic_curves, the_function_is_the_gaussian_curvature_times_a_power_of_t
     using std::sin;
     return x * x * y + sin(z * x) + 2.0 * z - y * y * y;
   };
-  const auto at = [&](double x, double y, double z) {
-    return parabolic_function(expand<4, double>(f, x, y, z));
-  };
+  const auto at = [&](double x, double y, double z) { return parabolic_function(expand<4, double>(f, x, y, z)); };
   const double x = 0.4, y = -0.7, z = 0.3, h = 1e-5;
   const auto jet = expand<4, double>(f, x, y, z);
   const double g2 = std::pow(jet.coefficient(1, 0, 0), 2) + std::pow(jet.coefficient(0, 1, 0), 2) +
@@ -112,7 +132,7 @@ TEST(Parabolic_curves, curves_end_where_the_surface_leaves_the_box_and_threads_c
   const auto traits = make_analytic_traits<Kernel>(wave, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
   const auto surface = marching_cubes(traits, parameters::number_of_nodes(30));
   const auto curves = parabolic_curves(surface, traits),
-             parallel = parabolic_curves<CGAL::Parallel_tag>(surface, traits);
+             parallel = parabolic_curves<CGAL::Parallel_if_available_tag>(surface, traits);
   ASSERT_FALSE(curves.polylines.empty());
   for (std::size_t n = 0; n < curves.polylines.size(); ++n) {
     EXPECT_FALSE(curves.polylines[n].is_closed);

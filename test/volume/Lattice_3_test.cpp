@@ -42,6 +42,13 @@ TEST(Lattice_3, what_is_no_lattice_is_refused_in_every_build) {
   EXPECT_NO_THROW(Lattice_3({3, 3, 3}, CGAL::Bbox_3(0, 0, 0, 1e150, 1e150, 1e150)));
 }
 
+TEST(Lattice_3, a_box_that_is_inside_out_is_refused) {
+  EXPECT_NO_THROW(Lattice_3({2, 2, 2}, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1)));
+  for (const CGAL::Bbox_3& box :
+       {CGAL::Bbox_3(1, -1, -1, -1, 1, 1), CGAL::Bbox_3(-1, 1, -1, 1, -1, 1), CGAL::Bbox_3(1, 1, 1, -1, -1, -1)})
+    EXPECT_THROW(Lattice_3({2, 2, 2}, box), std::invalid_argument) << box;
+}
+
 TEST(Lattice_3, a_node_lies_at_the_origin_plus_its_steps) {
   const Lattice_3 lattice = skew_lattice();
   EXPECT_EQ(lattice.point(0, 0, 0), Point_3(10, 20, 30));

@@ -695,7 +695,7 @@ TEST(Spline_function_3, the_coefficients_do_not_depend_on_threads) {
   const Lattice_3 lattice = skew_lattice(21, 33, 18);
   const Volume_3 volume = random_volume(lattice);
   const Spline_function_3 one(volume, {}, CGAL::Sequential_tag());
-  const Spline_function_3 many(volume, {}, CGAL::Parallel_tag());
+  const Spline_function_3 many(volume, {}, CGAL::Parallel_if_available_tag());
   for (const Point_3& p : points_of(lattice)) EXPECT_EQ(one.taylor(p).coefficients(), many.taylor(p).coefficients());
 }
 #endif

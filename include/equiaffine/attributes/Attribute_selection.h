@@ -6,9 +6,11 @@
 #include <equiaffine/attributes/internal/attribute_names.h>
 #include <equiaffine/attributes/internal/shared/attribute_table.h>
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace equiaffine {
@@ -28,22 +30,24 @@ struct Attribute {
   }
 };
 
-/// Which attributes to compute, in the order of the table, and whether the status comes with them.
+/// Which attributes to compute, and whether the status comes with them.
 struct Attribute_selection {
-  std::vector<Attribute> columns; ///< in the order of the table
+  std::vector<Attribute> columns; ///< in the order that they were asked for
   bool has_status = true;         ///< whether the status is asked for, too
 };
 
 /// Reads `basic`, `all`, `none`, or a comma-separated list of names of attributes, of their components (`nx`), of
-/// `signature` and `status`. `signature` is K, H, J and the norms of their gradients.
+/// `signature` and `status`. `signature` is K, H, J and the norms of their gradients. Columns come in the order of the
+/// list, those of one name in the order of the table, and each of them once.
 /// \throw Input_error for another name.
 inline Attribute_selection select_attributes(std::string_view list) {
   if (list == "none") return {{}, false};
-  const auto is_selected = internal::read_attribute_names(list);
   Attribute_selection selection;
-  for (std::size_t row = 0; row < attribute_table<double>.size(); ++row)
-    for (std::size_t i = 0; i < attribute_table<double>[row].size(); ++i)
-      if (is_selected[row][i]) selection.columns.push_back({attribute_table<double>[row].column(i), row, i});
+  std::array<std::array<bool, 6>, attribute_table<double>.size()> is_selected{};
+  internal::read_attribute_names(list, [&](std::size_t row, std::size_t i) {
+    if (!std::exchange(is_selected[row][i], true))
+      selection.columns.push_back({attribute_table<double>[row].column(i), row, i});
+  });
   return selection;
 }
 

@@ -8,8 +8,8 @@ namespace equiaffine {
 /// was sampled, in the units of the curvatures.
 template <class FT>
 struct Affine_curvature_error {
-  FT gaussian_curvature, ///< of K
-      mean_curvature;    ///< of H
+  FT affine_gaussian_curvature, ///< of K
+      affine_mean_curvature;    ///< of H
 };
 
 } // namespace equiaffine

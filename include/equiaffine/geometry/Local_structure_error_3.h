@@ -6,8 +6,8 @@
 
 namespace equiaffine {
 
-/// Estimates of the errors of a local structure, each in the unit of its number. The base has those of the affine
-/// Gaussian and mean curvature. That of a vector is an angle in degrees, which 19 of 20 errors do not exceed. NaN where
+/// Estimates of the errors of a local structure, each in the unit of its number. The base has
+/// `affine_gaussian_curvature` and `affine_mean_curvature`. That of a vector is an angle in degrees, which 19 of 20 errors do not exceed. NaN where
 /// the number does not exist.
 template <class FT>
 struct Local_structure_error_3 : Affine_curvature_error<FT> {

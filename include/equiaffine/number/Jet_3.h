@@ -5,6 +5,7 @@
 
 #include <equiaffine/number/internal/Jet_functions_3.h>    // IWYU pragma: export
 #include <equiaffine/number/internal/Jet_ordering_3.h>     // IWYU pragma: export
+#include <equiaffine/number/internal/Jet_steps_3.h>        // IWYU pragma: export
 #include <equiaffine/number/internal/Jet_trigonometry_3.h> // IWYU pragma: export
 #include <equiaffine/number/internal/jet.h>                // IWYU pragma: export
 

@@ -4,6 +4,8 @@
 #ifndef EQUIAFFINE_NUMBER_NONSMOOTH_H
 #define EQUIAFFINE_NUMBER_NONSMOOTH_H
 
+#include <equiaffine/number/select.h>
+
 #include <limits>
 
 namespace equiaffine {
@@ -20,6 +22,13 @@ T branch_or_kink(const T& u, const T& v, const T& a, const T& b, int degree) {
 template <class T>
 T factor_for_jump(const T&, const T&) {
   return T(1);
+}
+
+/// What the derivatives of fmod(a, b) get added to them, where r is its value: 0, or NaN where it jumps. Found by
+/// argument-dependent lookup for intervals, whose numbers may have a jump among them.
+template <class T>
+T jump_of_remainder(const T& a, const T&, const T& r) {
+  return select(r == T(0) && a != T(0), T(std::numeric_limits<T>::quiet_NaN()), T(0));
 }
 
 } // namespace equiaffine

@@ -22,7 +22,7 @@ typename Traits::FT max_distance_to_surface(const Traits& traits, std::span<cons
                                             std::span<const Point_status> status = {}) {
   check_argument(status.empty() || status.size() == points.size(),
                  "there are not as many statuses as points: give one for each point, or none");
-  return internal::max_distance_to_surface<ConcurrencyTag>(traits, points, status);
+  return internal::max_newton_distance<ConcurrencyTag>(traits, points, status);
 }
 
 } // namespace equiaffine

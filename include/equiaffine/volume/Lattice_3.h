@@ -45,12 +45,17 @@ public:
                    "the steps of a lattice do not span space: choose a box with an interior, or independent steps");
   }
 
-  /// The axis-parallel lattice whose corner nodes are the corners of `box`.
+  /// The axis-parallel lattice whose corner nodes are the corners of `box`. \throw std::invalid_argument also for a box
+  /// that is inside out
   Lattice_3(const Size& size, const CGAL::Bbox_3& box)
       : Lattice_3(size, Point_3(box.xmin(), box.ymin(), box.zmin()),
                   {Vector_3((box.xmax() - box.xmin()) / double(size[0] - 1), 0, 0),
                    Vector_3(0, (box.ymax() - box.ymin()) / double(size[1] - 1), 0),
-                   Vector_3(0, 0, (box.zmax() - box.zmin()) / double(size[2] - 1))}) {}
+                   Vector_3(0, 0, (box.zmax() - box.zmin()) / double(size[2] - 1))}) {
+    check_argument(box.xmin() < box.xmax() && box.ymin() < box.ymax() && box.zmin() < box.zmax(),
+                   "a box is inside out: give the lower bounds first, as in CGAL::Bbox_3(xmin, ymin, zmin, xmax, ymax, "
+                   "zmax)");
+  }
 
   const Size& size() const { return size_; }                                     ///< nx, ny, nz
   std::size_t number_of_nodes() const { return size_[0] * size_[1] * size_[2]; } ///< nx ny nz

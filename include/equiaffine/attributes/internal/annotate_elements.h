@@ -81,7 +81,7 @@ void annotate_surface_mesh(Mesh& mesh, const Point_of& point_of, const Traits& t
   check_mesh_for_maps<Mesh>();
   Property_maps<Mesh> maps(mesh);
   parallel_for<ConcurrencyTag>(
-      0, mesh.num_vertices() + mesh.number_of_removed_vertices(),
+      0, mesh.num_vertices(), // with removed ones
       [&](std::size_t i) {
         const Vertex_index v{static_cast<typename Vertex_index::size_type>(i)};
         if (!mesh.is_removed(v)) maps.set(v, structure_at(traits, point_of(v), maps.status(v), parameters));

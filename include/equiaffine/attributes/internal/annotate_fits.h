@@ -59,8 +59,8 @@ void fill_maps_of_fit(Mesh& mesh, const std::vector<Fitted_structure_3<double>>&
     const auto& s = structures[i++];
     maps.set(v, s.structure);
     for (std::size_t n = 0; n < errors.size(); ++n) errors[n][v] = error_table<double>[n].get(s.error);
-    gaussian_noise[v] = s.noise.gaussian_curvature;
-    mean_noise[v] = s.noise.mean_curvature;
+    gaussian_noise[v] = s.noise.affine_gaussian_curvature;
+    mean_noise[v] = s.noise.affine_mean_curvature;
   }
 }
 

@@ -46,6 +46,15 @@ public:
     return on_segment(a, b, traits_.value(a), traits_.value(b));
   }
 
+  /// A point where p + t d, first <= t <= last, enters or leaves the domain and f is negative.
+  std::optional<Point_3> on_border(const Point_3& p, const Vector_3& d, double first, double last) const {
+    const auto clipped = domain_.clip(p, d, first, last);
+    if (!clipped) return std::nullopt;
+    for (const auto& [t, end] : {std::pair(clipped->first, first), std::pair(clipped->second, last)})
+      if (const Point_3 q = p + FT(t) * d; t != end && traits_.value(q) < FT(0)) return q;
+    return std::nullopt;
+  }
+
   bool is_inside(const Point_3& p) const { return domain_.contains(p) && traits_.value(p) < FT(0); }
 
   const Traits& traits() const { return traits_; }

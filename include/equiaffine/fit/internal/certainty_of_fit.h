@@ -14,7 +14,7 @@ template <class FT>
 double certainty_of_fit(const Fitted_structure_3<FT>& fit) {
   const auto& affine = fit.structure.affine;
   const FT size = std::abs(affine.gaussian_curvature) + affine.mean_curvature * affine.mean_curvature;
-  const FT part = fit.error.gaussian_curvature / size;
+  const FT part = fit.error.affine_gaussian_curvature / size;
   return std::isfinite(part) ? double(1 / (1 + 10 * part)) : 0;
 }
 

@@ -2,11 +2,14 @@
 #ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_ARITHMETIC_H
 #define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_ARITHMETIC_H
 
+#include <equiaffine/number/internal/shared/own_steps.h>
 #include <equiaffine/number/select.h>
 
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 
 /// The operations and functions that the instructions of an expression need, for any number type.
@@ -137,6 +140,43 @@ T hypotenuse(const T& a, const T& b) {
                      })
     return hypot(a, b);
   else return sqrt(T(squared(a) + squared(b)));
+}
+
+/// The sign, by `<` for types without a `sign` of their own.
+template <class T>
+T signum(const T& a) {
+  if constexpr (requires {
+                  { sign(a) } -> std::convertible_to<T>;
+                })
+    return sign(a);
+  else return T(0) < a ? T(1) : a < T(0) ? T(-1) : a;
+}
+
+/// Throws std::domain_error, since a number type that has no such function cannot do with arithmetic alone.
+[[noreturn]] inline void fail_without(const char* function) {
+  throw std::domain_error(std::string("the number type of this evaluation has no function ") + function +
+                          ": define one that argument-dependent lookup finds");
+}
+
+template <class T>
+T error_function(const T& a) {
+  using std::erf;
+  if constexpr (own_steps::HasErf<T>) return erf(a);
+  else fail_without("erf(T)");
+}
+
+template <class T>
+T whole_part(const T& a) {
+  using std::floor;
+  if constexpr (own_steps::HasFloor<T>) return floor(a);
+  else fail_without("floor(T)");
+}
+
+template <class T>
+T remainder_of(const T& a, const T& b) {
+  using std::fmod;
+  if constexpr (own_steps::HasFmod<T>) return fmod(a, b);
+  else fail_without("fmod(T, T)");
 }
 
 } // namespace equiaffine::internal::expression

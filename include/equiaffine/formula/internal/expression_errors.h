@@ -98,7 +98,9 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
 inline constexpr std::array foreign_names = {std::pair<std::string_view, std::string_view>("ln", "log"),
                                              std::pair<std::string_view, std::string_view>("arcsin", "asin"),
                                              std::pair<std::string_view, std::string_view>("arccos", "acos"),
-                                             std::pair<std::string_view, std::string_view>("arctan", "atan")};
+                                             std::pair<std::string_view, std::string_view>("arctan", "atan"),
+                                             std::pair<std::string_view, std::string_view>("sgn", "sign"),
+                                             std::pair<std::string_view, std::string_view>("mod", "fmod")};
 inline constexpr std::array foreign_logarithms = {
     std::pair<std::string_view, std::string_view>("log10", "log(...)/log(10)"),
     std::pair<std::string_view, std::string_view>("log2", "log(...)/log(2)")};
@@ -129,7 +131,7 @@ inline bool is_identifier(std::string_view name) {
 }
 
 /// The text with a question mark for every character that cannot be printed.
-inline std::string printable(std::string text) {
+inline std::string in_ascii(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return !is_printable(c); }, '?');
   return text;
@@ -140,7 +142,7 @@ inline void check_constants(const std::map<std::string, double>& constants) {
   for (const auto& [name, value] : constants) {
     if (!is_identifier(name))
       throw Input_error(concatenated(
-          {in_quotes(printable(name)), " cannot name a constant: use letters, digits and _, and no digit first"}));
+          {in_quotes(in_ascii(name)), " cannot name a constant: use letters, digits and _, and no digit first"}));
     if (is_reserved(name))
       throw Input_error(
           concatenated({"constant ", in_quotes(name), " hides a name that expressions know: choose another name"}));

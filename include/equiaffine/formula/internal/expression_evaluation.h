@@ -70,6 +70,7 @@ void execute_choice(const Instruction& instruction, const T* a, const T* b, T* r
     return apply([&](const T& u, const T& v) -> T { return branch_or_kink(u, zero, v, zero, 1); });
   case Opcode::WHERE_NEGATIVE:
     return apply([&](const T& u, const T& v) -> T { return branch_or_kink(u, zero, zero, v, 1); });
+  case Opcode::REMAINDER_JUMP: return apply([](const T& u, const T& v) -> T { return jump_of_remainder(u, u, v); });
   default: return;
   }
 }
@@ -104,6 +105,10 @@ template <std::size_t Block, class T>
   case Opcode::MIN: return apply([](const T& u, const T& v) -> T { return minimum(u, v); });
   case Opcode::MAX: return apply([](const T& u, const T& v) -> T { return maximum(u, v); });
   case Opcode::HYPOT: return apply([](const T& u, const T& v) -> T { return hypotenuse(u, v); });
+  case Opcode::ERF: return apply([](const T& u, const T&) -> T { return error_function(u); });
+  case Opcode::FLOOR: return apply([](const T& u, const T&) -> T { return whole_part(u); });
+  case Opcode::SIGN: return apply([](const T& u, const T&) -> T { return signum(u); });
+  case Opcode::FMOD: return apply([](const T& u, const T& v) -> T { return remainder_of(u, v); });
   default:
     if constexpr (Ordered<T>) execute_choice<Block>(instruction, a, b, result, count);
   }

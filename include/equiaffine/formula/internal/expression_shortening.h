@@ -49,6 +49,7 @@ inline bool is_total(const Instruction& i, const Interval& a, const Interval& b,
   case Opcode::ASIN:
   case Opcode::ACOS: return a.lower() >= -1 && a.upper() <= 1;
   case Opcode::ATAN2: return !a.contains(0) || b.lower() > 0; // for atan2(-0, -1) is not atan2(0, -1)
+  case Opcode::FMOD: return !b.contains(0);
   case Opcode::DIVIDE: return is_moderate(Interval(1.0) / b);
   case Opcode::DIVIDE_CONSTANT: return is_moderate(Interval(1.0) / a);
   case Opcode::DIVIDE_BY_CONSTANT: return std::abs(i.constant) > 1e-150;

@@ -43,10 +43,15 @@ enum class Opcode : std::uint8_t {
   MIN,
   MAX,
   HYPOT,
+  ERF,
+  FLOOR,
+  SIGN,
+  FMOD,
   // The following ones occur in tapes of Taylor coefficients only.
   ORDER,          // 1 where a > b, -1 where a < b, else NaN
   WHERE_POSITIVE, // b where a > 0, 0 where a < 0, else NaN
-  WHERE_NEGATIVE  // b where a < 0, 0 where a > 0, else NaN
+  WHERE_NEGATIVE, // b where a < 0, 0 where a > 0, else NaN
+  REMAINDER_JUMP  // NaN where fmod jumps, whose first argument is a and whose value is b, else 0
 };
 
 /// The instruction computes result = opcode(a, b, constant). Operands 0, 1, 2 are x, y, z; operand 3 + s is slot s. A

@@ -82,6 +82,13 @@ public:
   EQUIAFFINE_SYMBOL_FUNCTION(tanh, TANH)
 #undef EQUIAFFINE_SYMBOL_FUNCTION
   friend Symbol atan2(const Symbol& a, const Symbol& b) { return apply(Opcode::ATAN2, a, b); }
+  friend Symbol erf(const Symbol& a) { return apply(Opcode::ERF, a, a); }
+  friend Symbol floor(const Symbol& a) { return apply(Opcode::FLOOR, a, a); }
+  friend Symbol sign(const Symbol& a) { return apply(Opcode::SIGN, a, a); }
+  friend Symbol fmod(const Symbol& a, const Symbol& b) { return apply(Opcode::FMOD, a, b); }
+  friend Symbol jump_of_remainder(const Symbol& a, const Symbol&, const Symbol& r) {
+    return apply(Opcode::REMAINDER_JUMP, a, r);
+  }
   friend Symbol hypot(const Symbol& a, const Symbol& b) { return apply(Opcode::HYPOT, a, b); }
   friend Symbol pow(const Symbol& a, const Symbol& b) { return apply(Opcode::POWER, a, b); }
 

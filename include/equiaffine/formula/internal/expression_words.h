@@ -43,6 +43,10 @@ inline constexpr std::array functions = {Function{"sqrt", Opcode::SQRT},
                                          Function{"min", Opcode::MIN, 2, any_number},
                                          Function{"max", Opcode::MAX, 2, any_number},
                                          Function{"hypot", Opcode::HYPOT, 2, 2},
+                                         Function{"erf", Opcode::ERF},
+                                         Function{"floor", Opcode::FLOOR},
+                                         Function{"sign", Opcode::SIGN},
+                                         Function{"fmod", Opcode::FMOD, 2, 2},
                                          Function{"pow", Opcode::POWER, 2, 2}};
 
 inline constexpr std::array<std::string_view, number_of_variables> variables = {"x", "y", "z"};

@@ -25,7 +25,7 @@ Interval increasing(F f, const Interval& a) {
 }
 
 /// The part of interval a between two numbers, or the whole line if there is none.
-inline Interval clamped(const Interval& a, double lower, double upper) {
+inline Interval part_between(const Interval& a, double lower, double upper) {
   return Interval(std::max(a.lower(), lower), std::min(a.upper(), upper));
 }
 
@@ -113,7 +113,7 @@ Interval sine_wave(F f, const Interval& a, double maximum) {
   constexpr double largest = 1e8; // larger arguments do not tell for certain how many periods a has
   if (!(std::abs(a.lower()) < largest && std::abs(a.upper()) < largest)) return Interval(-1, 1);
   const double p = f(a.lower()), q = f(a.upper());
-  const Interval r = clamped(Interval::widened(std::min(p, q), std::max(p, q), function_error_ulps), -1, 1);
+  const Interval r = part_between(Interval::widened(std::min(p, q), std::max(p, q), function_error_ulps), -1, 1);
   return Interval(contains_multiple(a, maximum - pi, 2 * pi) ? -1 : r.lower(),
                   contains_multiple(a, maximum, 2 * pi) ? 1 : r.upper());
 }
@@ -138,12 +138,12 @@ inline Interval tan(const Interval& a) {
 
 inline Interval asin(const Interval& a) {
   if (a.lower() > 1 || a.upper() < -1) return Interval::whole();
-  return internal::increasing([](double u) { return std::asin(u); }, internal::clamped(a, -1, 1));
+  return internal::increasing([](double u) { return std::asin(u); }, internal::part_between(a, -1, 1));
 }
 
 inline Interval acos(const Interval& a) {
   if (a.lower() > 1 || a.upper() < -1) return Interval::whole();
-  return -internal::increasing([](double u) { return -std::acos(u); }, internal::clamped(a, -1, 1));
+  return -internal::increasing([](double u) { return -std::acos(u); }, internal::part_between(a, -1, 1));
 }
 
 inline Interval atan(const Interval& a) {
@@ -180,7 +180,7 @@ inline Interval cosh(const Interval& a) {
 }
 
 inline Interval tanh(const Interval& a) {
-  return internal::clamped(internal::increasing([](double u) { return std::tanh(u); }, a), -1, 1);
+  return internal::part_between(internal::increasing([](double u) { return std::tanh(u); }, a), -1, 1);
 }
 
 inline Interval hypot(const Interval& x, const Interval& y) {
@@ -190,6 +190,36 @@ inline Interval hypot(const Interval& x, const Interval& y) {
   return Interval(std::max(r.lower(), 0.0), r.upper());
 }
 /// @}
+
+/// @{
+/// Contains the values of the function of this name at the numbers of the intervals where it is defined.
+inline Interval erf(const Interval& a) {
+  return internal::part_between(internal::increasing([](double u) { return std::erf(u); }, a), -1, 1);
+}
+
+inline Interval floor(const Interval& a) { return Interval(std::floor(a.lower()), std::floor(a.upper())); }
+
+inline Interval sign(const Interval& a) {
+  const auto of_number = [](double u) { return double(u > 0) - double(u < 0); };
+  return Interval(of_number(a.lower()), of_number(a.upper()));
+}
+
+/// Where the quotient has one whole part n it is a - n b, else it has the sign of a and is less than b.
+inline Interval fmod(const Interval& a, const Interval& b) {
+  if (b.lower() == 0 && b.upper() == 0) return Interval::whole();
+  const double most = abs(b).upper();
+  const Interval bounds(std::max(std::min(a.lower(), 0.0), -most), std::min(std::max(a.upper(), 0.0), most));
+  const Interval quotient = a / b;
+  const double n = std::trunc(quotient.lower());
+  return n == std::trunc(quotient.upper()) && std::isfinite(n) ? Interval::intersection(a - Interval(n) * b, bounds)
+                                                               : bounds;
+}
+/// @}
+
+/// Does for intervals what the function of this name in Jet_steps_3.h does for numbers.
+inline Interval jump_of_remainder(const Interval& a, const Interval& b, const Interval& r) {
+  return r.contains(0) && !(abs(a).upper() < abs(b).lower()) ? Interval::whole() : Interval(0);
+}
 
 } // namespace equiaffine
 

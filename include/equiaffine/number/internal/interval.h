@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_INTERVAL_H
 #define EQUIAFFINE_NUMBER_INTERNAL_INTERVAL_H
 
+#include <equiaffine/base/internal/shared/check_flags.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

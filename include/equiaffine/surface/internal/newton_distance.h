@@ -96,8 +96,8 @@ Greatest_distance<typename Traits::FT> greatest_distance_of_block(const Batch_fu
 
 /// This is the algorithm of `max_distance_to_surface`.
 template <class ConcurrencyTag, ImplicitFunctionTraits_3 Traits>
-typename Traits::FT max_distance_to_surface(const Traits& traits, std::span<const typename Traits::Point_3> points,
-                                            std::span<const Point_status> status) {
+typename Traits::FT max_newton_distance(const Traits& traits, std::span<const typename Traits::Point_3> points,
+                                        std::span<const Point_status> status) {
   using FT = typename Traits::FT;
   using std::abs;
   using std::sqrt;

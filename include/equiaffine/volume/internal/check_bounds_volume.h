@@ -32,7 +32,7 @@ inline std::string place(const Side_kernel::Point_3& p) {
 
 /// Throws Input_error if a coordinate is not finite, or so large that 1 added to it vanishes by rounding: CGAL decides on
 /// which side a point is by rays, through a second point one unit away.
-inline void check_coordinates(const Distance_mesh& mesh) {
+inline void check_coordinates_of_mesh(const Distance_mesh& mesh) {
   constexpr double greatest = 1e15;
   for (const auto v : mesh.vertices()) {
     const auto& p = mesh.point(v);
@@ -64,7 +64,7 @@ inline void check_areas(const Distance_mesh& mesh) {
 /// at common edges and vertices only and are not too small.
 inline void check_bounds_volume(const Distance_mesh& mesh) {
   if (mesh.number_of_faces() == 0) throw Input_error("the mesh has no faces: give a closed mesh of triangles");
-  check_coordinates(mesh);
+  check_coordinates_of_mesh(mesh);
   for (const auto f : mesh.faces())
     if (const auto degree = mesh.degree(f); degree != 3)
       throw Input_error("the mesh has a face with " + std::to_string(degree) + " vertices, one of them at " +

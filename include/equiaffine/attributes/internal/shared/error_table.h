@@ -40,9 +40,9 @@ inline constexpr auto error_table = [] {
   constexpr auto angle = internal::angle_size<FT>;
   constexpr std::string_view angle_name = "30 degrees", curvedness = "the curvedness";
   return std::array{
-      Row{"affine_gaussian_curvature", [](const Error& e) { return e.gaussian_curvature; }, internal::affine_size<FT>,
-          "|K| + H^2", 1.5},
-      Row{"affine_mean_curvature", [](const Error& e) { return e.mean_curvature; },
+      Row{"affine_gaussian_curvature", [](const Error& e) { return e.affine_gaussian_curvature; },
+          internal::affine_size<FT>, "|K| + H^2", 1.5},
+      Row{"affine_mean_curvature", [](const Error& e) { return e.affine_mean_curvature; },
           [](const Structure& s) -> FT { return std::sqrt(internal::affine_size(s)); }, "(|K| + H^2)^(1/2)", .75},
       Row{"pick_invariant", [](const Error& e) { return e.pick_invariant; },
           [](const Structure& s) -> FT { return std::abs(s.affine.pick_invariant); }, "|J|", .75},

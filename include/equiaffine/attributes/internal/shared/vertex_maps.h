@@ -87,10 +87,10 @@ auto value_for(Vertex_affine_area_density_tag, const S& s) {
   return affine_area_density(structure_in(s).euclidean.gaussian_curvature);
 }
 inline double value_for(Vertex_affine_mean_curvature_error_tag, const Fitted_structure_3<double>& s) {
-  return s.error.mean_curvature;
+  return s.error.affine_mean_curvature;
 }
 inline double value_for(Vertex_affine_Gaussian_curvature_error_tag, const Fitted_structure_3<double>& s) {
-  return s.error.gaussian_curvature;
+  return s.error.affine_gaussian_curvature;
 }
 inline double value_for(Vertex_affine_normal_error_tag, const Fitted_structure_3<double>& s) {
   return s.error.affine_normal;

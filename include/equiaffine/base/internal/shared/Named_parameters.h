@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_BASE_INTERNAL_SHARED_NAMED_PARAMETERS_H
 #define EQUIAFFINE_BASE_INTERNAL_SHARED_NAMED_PARAMETERS_H
 
+#include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/base/internal/shared/named_parameter_list.h>
 
 #include <array>
@@ -10,6 +11,17 @@
 #include <type_traits>
 
 namespace equiaffine::internal {
+
+/// The value of a named parameter that counts something. \throw std::invalid_argument if it is negative
+template <class Count, class Number>
+Count count_of(const Number& number) {
+  static_assert(std::is_integral_v<Number>, "this named parameter counts something: give it a whole number");
+  if constexpr (std::is_signed_v<Number>)
+    check_argument(number >= 0,
+                   "a named parameter that counts something, such as number_of_nodes, is negative: give it "
+                   "a positive number");
+  return static_cast<Count>(number);
+}
 
 /// Tags: the types by which a function asks for its parameters.
 struct Number_of_nodes_tag {};

@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_BASE_INTERNAL_SHARED_CHECK_ARGUMENT_H
 #define EQUIAFFINE_BASE_INTERNAL_SHARED_CHECK_ARGUMENT_H
 
+#include <equiaffine/base/internal/shared/check_flags.h>
+
 #include <stdexcept>
 
 namespace equiaffine {

@@ -19,7 +19,11 @@
     return internal::add_parameter<internal::Number_of_nodes_tag>(n, GIVEN);                                           \
   }                                                                                                                    \
   /** The same number of nodes along each axis. */                                                                     \
-  inline auto number_of_nodes(std::size_t n) CONST { return number_of_nodes(std::array<std::size_t, 3>{n, n, n}); }    \
+  template <class Number>                                                                                              \
+  auto number_of_nodes(Number number) CONST {                                                                          \
+    const auto n = internal::count_of<std::size_t>(number);                                                            \
+    return number_of_nodes(std::array<std::size_t, 3>{n, n, n});                                                       \
+  }                                                                                                                    \
                                                                                                                        \
   /** A Vertex_position. */                                                                                            \
   template <class Position>                                                                                            \
@@ -33,8 +37,9 @@
   }                                                                                                                    \
                                                                                                                        \
   /** How many planes of nodes a slab has. */                                                                          \
-  inline auto planes_per_slab(std::size_t n) CONST {                                                                   \
-    return internal::add_parameter<internal::Planes_per_slab_tag>(n, GIVEN);                                           \
+  template <class Number>                                                                                              \
+  auto planes_per_slab(Number n) CONST {                                                                               \
+    return internal::add_parameter<internal::Planes_per_slab_tag>(internal::count_of<std::size_t>(n), GIVEN);          \
   }                                                                                                                    \
                                                                                                                        \
   /** A Cell_block, whose part of the mesh is wanted. */                                                               \
@@ -133,8 +138,9 @@
   }                                                                                                                    \
                                                                                                                        \
   /** How many maps are sought, at most. */                                                                            \
-  inline auto number_of_maps(std::size_t n) CONST {                                                                    \
-    return internal::add_parameter<internal::Number_of_maps_tag>(n, GIVEN);                                            \
+  template <class Number>                                                                                              \
+  auto number_of_maps(Number n) CONST {                                                                                \
+    return internal::add_parameter<internal::Number_of_maps_tag>(internal::count_of<std::size_t>(n), GIVEN);           \
   }                                                                                                                    \
                                                                                                                        \
   /** The part of the points of one of two surfaces, at least, that has to lie on the other. */                        \
@@ -162,8 +168,9 @@
   }                                                                                                                    \
                                                                                                                        \
   /** How often edges are split, collapsed and flipped and vertices relaxed. */                                        \
-  inline auto number_of_iterations(unsigned n) CONST {                                                                 \
-    return internal::add_parameter<internal::Number_of_iterations_tag>(n, GIVEN);                                      \
+  template <class Number>                                                                                              \
+  auto number_of_iterations(Number n) CONST {                                                                          \
+    return internal::add_parameter<internal::Number_of_iterations_tag>(internal::count_of<unsigned>(n), GIVEN);        \
   }                                                                                                                    \
                                                                                                                        \
   /** A writable property map from the edges of a mesh to bool: the edges that a remesh keeps. */                      \

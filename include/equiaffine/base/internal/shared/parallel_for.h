@@ -17,35 +17,46 @@
 
 namespace equiaffine {
 
-/// Calls f(i) for every i in [begin, end), in any order: on the threads of TBB for CGAL::Parallel_tag when CGAL is used
-/// with TBB, else one after the other. Ranges of `grain` calls or fewer are not split between threads. A Progress_observer
+/// Whether a tag of CGAL asks for threads. Does not compile if it does and there are none, as in CGAL.
+template <class ConcurrencyTag>
+constexpr bool runs_in_threads() {
+  constexpr bool result = std::is_convertible_v<ConcurrencyTag, CGAL::Parallel_tag>;
+#ifndef CGAL_LINKED_WITH_TBB
+  static_assert(!result, "CGAL::Parallel_tag needs TBB, and CGAL_LINKED_WITH_TBB is not defined: link to TBB by CGAL's "
+                         "target CGAL::TBB_support, or write CGAL::Parallel_if_available_tag");
+#endif
+  return result;
+}
+
+/// Calls f(i) for every i in [begin, end), in any order: on the threads of TBB for CGAL::Parallel_tag, else one after
+/// the other. Ranges of `grain` calls or fewer are not split between threads. A Progress_observer
 /// of the calling thread sees the loop.
 template <class ConcurrencyTag, class F>
 void parallel_for(std::size_t begin, std::size_t end, F f, [[maybe_unused]] std::size_t grain = 1) {
   const Progress_observer::Loop loop(begin < end ? end - begin : 0);
+  if constexpr (runs_in_threads<ConcurrencyTag>()) {
 #ifdef CGAL_LINKED_WITH_TBB
-  if constexpr (std::is_convertible_v<ConcurrencyTag, CGAL::Parallel_tag>) {
     loop.run_in_threads([&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain),
                         [&](const tbb::blocked_range<std::size_t>& r) { loop.run(r.begin(), r.end(), f); });
     });
-    return;
-  }
 #endif
-  loop.run(begin, end, f);
+  } else {
+    loop.run(begin, end, f);
+  }
 }
 
 /// Calls f(). While a loop of f waits for other threads, the calling thread does no work of other loops, which could need
 /// what f is about to make.
 template <class ConcurrencyTag, class F>
 void isolated(const F& f) {
+  if constexpr (runs_in_threads<ConcurrencyTag>()) {
 #ifdef CGAL_LINKED_WITH_TBB
-  if constexpr (std::is_convertible_v<ConcurrencyTag, CGAL::Parallel_tag>) {
     tbb::this_task_arena::isolate(f);
-    return;
-  }
 #endif
-  f();
+  } else {
+    f();
+  }
 }
 
 } // namespace equiaffine

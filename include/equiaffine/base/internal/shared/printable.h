@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_BASE_INTERNAL_SHARED_PRINTABLE_H
 #define EQUIAFFINE_BASE_INTERNAL_SHARED_PRINTABLE_H
 
+#include <equiaffine/base/internal/shared/check_flags.h>
 #include <equiaffine/base/internal/utf8.h>
 
 #include <cstddef>

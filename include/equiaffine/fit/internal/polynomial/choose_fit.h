@@ -24,7 +24,7 @@
 namespace equiaffine::internal {
 
 /// Whether noise leaves K of a fit at a scale known to within a part of |K| + H^2.
-inline bool is_known(const Curvature_fit_3& fit, double part) {
+inline bool is_gaussian_known(const Curvature_fit_3& fit, double part) {
   const auto& numbers = fit.numbers.components;
   const double size = std::abs(numbers[AFFINE_GAUSSIAN]) + numbers[AFFINE_MEAN] * numbers[AFFINE_MEAN];
   return std::isfinite(fit.accuracy.error[AFFINE_GAUSSIAN]) &&
@@ -79,8 +79,8 @@ void set_known_scale(const Normalized_data& normalized, Fit_choices_3& choices) 
       std::min(principal_diagonal(data.points), normalized.normalization.scale() * diagonal_of_data(normalized)) / 8;
   for (int step = quarters_of_octave; step >= 0; --step) {
     choices.set_scale(greatest * std::pow(2, -0.25 * step));
-    if (step > 0 &&
-        part_settled<ConcurrencyTag>(data, choices, centers, [](const auto& fit) { return is_known(fit, 0.2); }) >= 0.5)
+    if (step > 0 && part_settled<ConcurrencyTag>(data, choices, centers,
+                                                 [](const auto& fit) { return is_gaussian_known(fit, 0.2); }) >= 0.5)
       return;
   }
 }

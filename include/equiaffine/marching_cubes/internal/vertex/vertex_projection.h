@@ -92,7 +92,10 @@ private:
     const Index_range vertices = numbering_.vertices_of_planes(first, end);
     const std::size_t first_kept = numbering_.vertices_of_planes(first > 0 ? first - 1 : 0, end).first;
     Positions linear{first_kept, {}};
-    if (first > 0) linear.points.assign(&below[first_kept], &below[first_kept] + (vertices.first - first_kept));
+    if (first > 0) {
+      const auto kept = below.points.begin() + std::ptrdiff_t(first_kept - below.first);
+      linear.points.assign(kept, kept + std::ptrdiff_t(vertices.first - first_kept));
+    }
     linear.points.insert(linear.points.end(), surface_.points.begin() + std::ptrdiff_t(vertices.first),
                          surface_.points.begin() + std::ptrdiff_t(vertices.end));
     return linear;

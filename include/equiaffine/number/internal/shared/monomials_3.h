@@ -4,6 +4,8 @@
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_SHARED_MONOMIALS_3_H
 #define EQUIAFFINE_NUMBER_INTERNAL_SHARED_MONOMIALS_3_H
 
+#include <equiaffine/base/internal/shared/check_flags.h>
+
 #include <array>
 #include <bit>
 #include <cstddef>

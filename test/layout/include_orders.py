@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Compiles all headers for users together in several orders: include_orders.py ROOT COMPILER [FLAG...].
+
+all_headers.h has them in the order of the alphabet. The reverse has each of two headers before the other one once; in
+random orders, the same on every run, headers lie between them."""
+import concurrent.futures
+import os
+import pathlib
+import random
+import subprocess
+import sys
+
+
+def first_error(headers, command):
+    lines = "".join(f"#include <{header}>\n" for header in headers)
+    result = subprocess.run([*command, "-std=c++20", "-fsyntax-only", "-x", "c++", "-"], input=lines,
+                            capture_output=True, text=True, check=False)
+    error = next((line for line in result.stderr.splitlines() if "error" in line), "")
+    return error or (result.stderr if result.returncode else "")
+
+
+if __name__ == "__main__":
+    folder = pathlib.Path(sys.argv[1]) / "include"
+    doors = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.h") if "internal" not in path.parts)
+    if len(doors) < 50:
+        sys.exit(f"only {len(doors)} headers were found")
+    orders = [("reverse", doors[::-1])]
+    for seed in (1, 2):
+        orders.append((f"random {seed}", random.Random(seed).sample(doors, len(doors))))
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        errors = list(pool.map(lambda order: first_error(order[1], sys.argv[2:]), orders))
+    faults = [f"{name} order: {error}\n  " + " ".join(order) for (name, order), error in zip(orders, errors) if error]
+    print("\n".join(faults) or f"{len(doors)} headers compile in {len(orders)} orders")
+    sys.exit(bool(faults))
