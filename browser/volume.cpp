@@ -37,8 +37,8 @@ void add_errors() {
   std::vector<double> gaussian, mean;
   for (const auto& p : surface.mesh.points) {
     const auto error = fitted->errors(p);
-    gaussian.push_back(error.gaussian_curvature);
-    mean.push_back(error.mean_curvature);
+    gaussian.push_back(error.affine_gaussian_curvature);
+    mean.push_back(error.affine_mean_curvature);
   }
   if (has_gaussian) columns.push_back({"affine_gaussian_curvature_error", std::move(gaussian)});
   if (has_mean) columns.push_back({"affine_mean_curvature_error", std::move(mean)});
