@@ -35,8 +35,8 @@ FT error_of_prediction(std::span<const FT> f, int d) {
 
 /// Counts the vote of the end of a line that has the samples f from its end on. It is for constants if most samples are
 /// equal to the next one, but not all: they are steps. Else it is for the degree that predicts the sample at the end
-/// better than the other one; a short line has no samples for the greater one. There is no vote if the lesser one predicts it up to the rounding of the samples it takes, or
-/// if one of them is NaN.
+/// better than the other one; a short line has no samples for the greater one. There is no vote if the lesser one
+/// predicts it up to the rounding of the samples it takes, or if one of them is NaN.
 template <class FT>
 void add_vote(std::span<const FT> f, int lesser, int greater, Border_votes& votes) {
   const FT of_lesser = error_of_prediction(f, lesser);
