@@ -99,7 +99,8 @@ py::object annotate(const Words& words, Mesh data, const py::object& progress_fu
     add_errors(estimates, data.attributes);
     data.attributes.comments = comments_of(*estimates.fit);
     warn_of_opposed_normals(data, progress);
-    warn_of_doubt(*estimates.fit, options.fit, has_affine_curvatures(options.attributes, options.estimates), progress);
+    warn_of_doubt(*estimates.fit, options.fit, has_affine_curvatures(options.attributes, options.estimates), true,
+                  progress);
     return [&data, scale = estimates.fit->scale] {
       return arrays_of(std::move(data.mesh), std::move(data.attributes), scale);
     };
