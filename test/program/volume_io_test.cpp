@@ -566,9 +566,10 @@ TEST_F(Program_volume_io, a_nifti_file_may_have_volumes_and_components_of_which_
 
 /// Replaces a number in the header of a NIfTI file.
 template <class Number>
-std::string with_number(std::string bytes, std::size_t place, Number number) {
-  std::memcpy(&bytes[place], &number, sizeof number);
-  return bytes;
+std::string with_number(const std::string& bytes, std::size_t place, Number number) {
+  std::string result = bytes;
+  result.replace(place, sizeof number, reinterpret_cast<const char*>(&number), sizeof number);
+  return result;
 }
 
 TEST_F(Program_volume_io, a_nifti_header_with_a_damaged_frame_is_refused) {
