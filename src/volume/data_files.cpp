@@ -95,7 +95,7 @@ Data_files data_files_of(const std::string& path, Volume_format format) {
 
 /// Whether the way to a file, without regard to links, leads out of a folder.
 bool leads_out_of(const fs::path& folder, const std::string& name) {
-  const fs::path absolute = fs::absolute(folder / ""),
+  const fs::path absolute = fs::absolute(folder / "."),
                  way = (absolute / name).lexically_normal().lexically_relative(absolute.lexically_normal());
   return way.empty() || *way.begin() == "..";
 }

@@ -159,7 +159,9 @@ TEST_F(Program_errors, a_box_is_finite_and_not_empty) {
   expect_error(mesh_of("x") + Arguments{"--box", "-2", "two", "-2", "2", "-2", "2"},
                {"--box", "'two' is not a number", "2*pi/3"});
   expect_error(mesh_of("x") + Arguments{"--box", "-pi", "2*pi", "0", "x", "-2", "2"}, {"--box", "'x' is not a number"});
-  run_well(mesh_of("x-2+y+z") + Arguments{"--box", "-pi/2", "2*pi", "0", "pi", "-2", "2", "--resolution", "6"});
+  run_well({"mesh", "--function", "x-2+y+z", "-o", "box.ply", "--box", "-pi/2", "2*pi", "0", "pi", "-2", "2",
+            "--resolution", "6"});
+  std::filesystem::remove(folder_ / "box.ply");
   expect_error({"mesh", "--function", "x", "--box", "-2", "2", "-2", "2", "-2", "-o", "out.ply"},
                {"--box", "a value is missing before -o"});
   expect_error(mesh_of("x") + Arguments{"--box", "-2", "2", "-2"},

@@ -56,9 +56,9 @@ inline std::vector<Fit_kernel::Point_3> points_of(const Fit_mesh& mesh) {
 /// Moves every point in space by a normal deviate of the given standard deviation along each axis.
 inline void add_noise(Fit_mesh& mesh, double deviation) {
   std::mt19937_64 random(7);
-  std::normal_distribution<double> normal(0, deviation);
+  std::normal_distribution<double> normal;
   for (const auto v : mesh.vertices()) {
-    const double x = normal(random), y = normal(random), z = normal(random);
+    const double x = deviation * normal(random), y = deviation * normal(random), z = deviation * normal(random);
     mesh.point(v) = mesh.point(v) + Fit_kernel::Vector_3(x, y, z);
   }
 }
