@@ -156,7 +156,9 @@ TEST_F(Program_spline, smoothing_does_not_erase_a_thin_mask_or_is_named_as_the_c
   const auto& x = table.at("x");
   EXPECT_LT(*std::min_element(x.begin(), x.end()), 9);
   EXPECT_GT(*std::max_element(x.begin(), x.end()), 30);
-  expect_error(Arguments{"mesh", "-o", "out.ply", "--smoothing", "6"} + slab, {"smoothed", "a smaller --smoothing"});
+  const Result erased = run(Arguments{"mesh", "-o", "out.ply", "--smoothing", "6"} + slab);
+  EXPECT_EQ(erased.status, 2);
+  EXPECT_NE(erased.error.find("a smaller --smoothing"), std::string::npos) << erased.error;
 }
 
 TEST_F(Program_spline, errors_are_estimated_on_request_and_transformed_with_the_surface) {
