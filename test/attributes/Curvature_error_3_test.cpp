@@ -90,12 +90,12 @@ TEST(Curvature_error_3, there_is_none_where_there_is_no_curvature) {
   const Volume volume = sample(20, 0);
   const Sampled_function_traits_3<Kernel> function(volume);
   const Curvature_error_3<Kernel> estimate(function, volume, 0, 0);
-  EXPECT_TRUE(std::isnan(estimate(Point_3(5, 0, 0)).gaussian_curvature));
-  EXPECT_TRUE(std::isnan(estimate(Point_3(std::nan(""), 0, 0)).mean_curvature));
-  EXPECT_TRUE(std::isfinite(estimate(Point_3(0.9, 0.1, 0.2)).mean_curvature));
+  EXPECT_TRUE(std::isnan(estimate(Point_3(5, 0, 0)).affine_gaussian_curvature));
+  EXPECT_TRUE(std::isnan(estimate(Point_3(std::nan(""), 0, 0)).affine_mean_curvature));
+  EXPECT_TRUE(std::isfinite(estimate(Point_3(0.9, 0.1, 0.2)).affine_mean_curvature));
   Volume plane =
       sample_volume(volume.lattice, [](double x, double y, double z) { return 0.3 * x - 0.7 * y + 1.1 * z; });
   for (double& value : plane.values) value = double(float(value));
   const Curvature_error_3<Kernel> of_plane(Sampled_function_traits_3<Kernel>(plane), plane, 0, 0);
-  EXPECT_TRUE(std::isnan(of_plane(Point_3(0.1, 0.2, 0.3)).gaussian_curvature));
+  EXPECT_TRUE(std::isnan(of_plane(Point_3(0.1, 0.2, 0.3)).affine_gaussian_curvature));
 }
