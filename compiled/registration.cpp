@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <equiaffine/registration/internal/declared_searches.h>
 #include <equiaffine/registration/internal/pieces/contradictions_of_triangles.h>
+#include <equiaffine/registration/internal/pieces/slippage_of_triangles.h>
 #include <equiaffine/registration/internal/registration.h>
 #include <equiaffine/registration/internal/registration_of_triangles.h>
 #include <equiaffine/registration/internal/symmetries.h>
@@ -19,6 +20,7 @@ namespace equiaffine::internal {
   template Surface_registration_3<Kernel_of_searches> registration_of_triangles<Tag>(                                  \
       const Triangles_3&, const Triangles_3&, const Registration_request&);                                            \
   template bool differ_as_wholes<Tag>(const Any_function_3&, const Any_function_3&, Map_kind, bool);                   \
+  template Affine_slippage_3 slippage_of_triangles<Tag>(const Triangles_3&, Map_kind);                                 \
   template Affine_symmetries_3<Kernel_of_searches> symmetries_of_function<Tag>(                                        \
       const Any_function_3&, const std::vector<Eigen::Vector3d>&, const Symmetry_request&);                            \
   template Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles<Tag>(const Triangles_3&, const Map_request&);

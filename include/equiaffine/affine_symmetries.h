@@ -68,7 +68,7 @@ Affine_symmetries_3<Kernel_of<Traits>> affine_symmetries(const Traits& traits, c
 /// do not add up to that of a plane, determine a map together with their images, so that up to 1000 exact symmetries are
 /// found; others come from all rotations. Each map is verified at each vertex and facet, or at millions of points of a
 /// very large mesh. EXACT means to the rounding of the coordinates, as they were written; a mesh that also turns about an
-/// axis to within the distance between its facets and a smooth surface has `continuous` with a `continuous_rms`. Without
+/// axis to within the distance between its facets and a smooth surface has `continuous` with an `rms`. Without
 /// a `tolerance` the order is that of the first level within 1 % of the size, less for thin surfaces. Small holes are
 /// closed for the moments by which affine maps are found; if a mesh bounds no solid, its rigid symmetries are the result,
 /// see `kind`.

@@ -7,6 +7,7 @@
 #include <equiaffine/Input_error.h>
 #include <equiaffine/register_surfaces.h>
 #include <equiaffine/registration/contradictions_of_meshes.h>
+#include <equiaffine/registration/slippage_of_mesh.h>
 
 #include <CGAL/compute_average_spacing.h>
 #include <CGAL/tags.h>
@@ -148,10 +149,13 @@ std::size_t number_of_matched_parts(const Found_map& found, const Registered_map
   return parts;
 }
 
-/// Whether the triangles of files are both surfaces.
+/// Whether the triangles of a file are the surface.
+bool is_mesh(const Surface_options& options, const Surface_to_register& surface) {
+  return is_mesh_itself(options) && !surface.mesh.triangles.empty();
+}
+
 bool are_meshes(const Register_options& options, const Found_map& found) {
-  return is_mesh_itself(options.source) && is_mesh_itself(options.target) && !found.source.mesh.triangles.empty() &&
-         !found.target.mesh.triangles.empty();
+  return is_mesh(options.source, found.source) && is_mesh(options.target, found.target);
 }
 
 /// Leaves out maps between closed meshes by which a large part of one is off the other, since frames along one edge make
@@ -251,6 +255,9 @@ void compare_triangles(const Register_options& options, Found_map& found, Progre
 
 Found_map find_map(const Register_options& options, Progress& progress) {
   Found_map found = find_by_frames(options, progress);
+  const auto& source = found.source.mesh;
+  if (is_mesh(options.source, found.source)) // a fit makes edges round, and slides where they do not
+    found.registration.slippage = slippage_of_mesh(source.points, source.triangles, options.maps.kind);
   if (!found.registration.found() && are_meshes(options, found)) compare_triangles(options, found, progress);
   return found;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <sstream>
 
 namespace equiaffine {
@@ -76,7 +77,7 @@ std::string completeness_text(const Symmetries& symmetries) {
   return "all rotations were tried that may move it to within " + part_text(*symmetries.complete_to) + '\n';
 }
 
-/// ", along and about (0, 0, 1)": the axis of one or two rigid motions; nothing for other ones. `size` is that of the
+/// ", along and about (0, 0, 1)": the axis of one or two rigid motions, one of which may be a screw; nothing for others. `size` is that of the
 /// surface.
 std::string axis_text(const Affine_slippage_3& slippage, double size) {
   constexpr double least = 0.05; // of a rotation or a translation beside the other, as fits have errors
@@ -99,7 +100,15 @@ std::string axis_text(const Affine_slippage_3& slippage, double size) {
   const bool is_turn =
       turns[0].norm() > least * shifts[0].norm() ||
       (turns[0].norm() > 0 && std::abs(turns[0].normalized().dot(shifts[0])) < least * shifts[0].norm());
-  if (dimension == 1) return is_turn ? text_of("about", turns[0]) : text_of("along", shifts[0]);
+  if (dimension == 1) {
+    const double rise = turns[0].dot(shifts[0]) / turns[0].squaredNorm() * size; // per radian
+    if (!is_turn || std::abs(rise) < least * size)
+      return is_turn ? text_of("about", turns[0]) : text_of("along", shifts[0]);
+    std::ostringstream text;
+    text.precision(3);
+    text << text_of("as a screw about", turns[0]) << " that rises by " << 2 * std::numbers::pi * rise << " in a turn";
+    return text.str();
+  }
   const Eigen::Vector3d& axis = turns[turns[0].norm() < turns[1].norm() ? 1 : 0];
   const bool is_cylinder = axis.norm() > 0 && turns[0].cross(turns[1]).norm() < least * axis.squaredNorm();
   return is_cylinder ? text_of("along and about", axis) : "";
@@ -176,7 +185,7 @@ std::vector<std::string> limits_of(const Symmetries& symmetries) {
   const std::size_t dimension = symmetries.continuous.dimension();
   if (dimension > 0 && !symmetries.levels.empty())
     limits.push_back("it turns about " + std::string(dimension == 1 ? "an axis" : "any axis") +
-                     within_text(symmetries.continuous_rms, 0) + ", as the surface would that its facets stand for");
+                     within_text(symmetries.continuous.rms, 0) + ", as the surface would that its facets stand for");
   if (symmetries.order_in_box) {
     std::string text = "the surface goes on beyond the box, where nothing was tried";
     if (const auto order = symmetries.order(); order && *symmetries.order_in_box < *order)
@@ -225,7 +234,7 @@ std::string summary(const Registration_report& report) {
          << (registration.equally_good == 1 ? " other map fits" : " other maps fit") << " as well"
          << (report.has_all_maps ? "\n" : ": --all writes them\n");
   if (dimension > 0)
-    text << "the source slides over itself in " << ways(dimension)
+    text << "the source slides over itself" << within_text(registration.slippage.rms, 0) << " in " << ways(dimension)
          << axis_text(registration.slippage, registration.size)
          << (registration.found() ? ": the map is one of a continuous family\n" : "\n");
   return text.str();
@@ -242,7 +251,7 @@ std::string summary(const Symmetries_report& report) {
   if (is_undecided(symmetries)) {
     text += "undecided: " + reason_for_undecided(symmetries) + advice_text(report.advice) + '\n';
   } else if (dimension > 0 && symmetries.levels.empty()) {
-    text += "infinitely many symmetries" + within_text(symmetries.continuous_rms, 0) +
+    text += "infinitely many symmetries" + within_text(symmetries.continuous.rms, 0) +
             ": the surface slides over itself in " + ways(dimension) + '\n';
   } else if (symmetries.maps.size() == 1) {
     text += "1 symmetry, the identity" + advice_text(report.advice) + '\n';

@@ -25,7 +25,7 @@ void add(const Registered_map_3<Kernel>& map, Json& json) {
 }
 
 Json to_JSON(const Affine_slippage_3& slippage) {
-  Json json = {{"dimension", slippage.dimension()}, {"generators", Json::array()}};
+  Json json = {{"dimension", slippage.dimension()}, {"rms", slippage.rms}, {"generators", Json::array()}};
   for (const auto& [matrix, translation] : slippage.generators) {
     Json generator;
     for (int row = 0; row < 3; ++row) {
@@ -95,7 +95,6 @@ std::string to_JSON(const Symmetries_report& report) {
     map["greatest"] = symmetry.greatest;
   }
   json["continuous"] = to_JSON(symmetries.continuous);
-  json["continuous"]["rms"] = symmetries.continuous_rms;
   return text_of(json);
 }
 

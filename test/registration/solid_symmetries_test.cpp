@@ -317,7 +317,7 @@ TEST(Solid_symmetries, a_coarse_mesh_of_an_ellipsoid_turns_as_far_from_itself_as
         const Eigen::Vector4d q = flow * Eigen::Vector4d(p.x(), p.y(), p.z(), 1);
         sum += std::pow(formula.value({q[0], q[1], q[2]}) / 2, 2); // about the distance
       }
-      EXPECT_LT(std::sqrt(sum / double(mesh.points.size())) / size, 2 * result.continuous_rms + 1e-3);
+      EXPECT_LT(std::sqrt(sum / double(mesh.points.size())) / size, 2 * result.continuous.rms + 1e-3);
     }
 }
 

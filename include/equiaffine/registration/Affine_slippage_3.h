@@ -20,6 +20,9 @@ struct Infinitesimal_map_3 {
 /// symmetries. The generators are a basis, orthonormal in the coordinates in which the points have covariance 1.
 struct Affine_slippage_3 {
   std::vector<Infinitesimal_map_3> generators; ///< a basis
+  /// By how much it slides off itself, a part of its size: the rms distance of its points after finite motions, or the
+  /// rms normal part of the velocity beside the largest one; 0 if only rounding is left.
+  double rms = 0;
 
   std::size_t dimension() const { return generators.size(); } ///< of the group; 0 if the surface does not slide
 };

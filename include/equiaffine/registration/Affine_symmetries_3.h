@@ -54,7 +54,6 @@ struct Affine_symmetries_3 {
   /// those of the first level. The identity alone, if there are no others, infinitely many, or they are not known.
   std::vector<Affine_symmetry_3<Kernel>> maps = {};
   Affine_slippage_3 continuous = {}; ///< the Lie algebra of the continuous group
-  double continuous_rms = 0;         ///< by which maps of that group move points off the surface, a part of the size
   bool is_decided = false;           ///< whether `maps` are all symmetries to within the tolerance
   Map_kind kind = Map_kind::AFFINE;  ///< of the maps: RIGID for affine maps of a mesh that bounds no solid
   /// All rotations and reflections about the centroid were tried that move the surface onto itself to within this rms

@@ -54,6 +54,10 @@ template <class ConcurrencyTag>
 bool differ_as_wholes(const Any_function_3& source, const Any_function_3& target, Map_kind kind,
                       bool allows_reflections);
 
+/// How the surface that the triangles of a mesh stand for slides over itself.
+template <class ConcurrencyTag>
+Affine_slippage_3 slippage_of_triangles(const Triangles_3& mesh, Map_kind kind);
+
 /// The symmetries of the zero set of a function, by affine frames at points near it, and by rotations of the whole.
 template <class ConcurrencyTag>
 Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(const Any_function_3& function,

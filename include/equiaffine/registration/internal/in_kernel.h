@@ -65,7 +65,6 @@ Affine_symmetries_3<Kernel> in_kernel(Affine_symmetries_3<Kernel_of_searches> fo
     result.levels.push_back({in_kernel<Kernel>(level.maps), level.rms, level.greatest});
   result.maps = in_kernel<Kernel>(found.maps);
   result.continuous = std::move(found.continuous);
-  result.continuous_rms = found.continuous_rms;
   result.is_decided = found.is_decided;
   result.kind = found.kind;
   result.complete_to = found.complete_to;

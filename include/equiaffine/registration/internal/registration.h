@@ -71,7 +71,8 @@ Registration_of_functions_3 registration_of_framed(const Framed_surface_3& sourc
   Surface_registration_3<Kernel_of_searches>& result = registration.result;
   result.size = target.size;
   const bool is_exact = has_exact_frames(source);
-  result.slippage = slippage_of(source, request.kind, is_exact ? slippage_tolerance : slippage_of_fits).algebra;
+  result.slippage = slippage_of(source, request.kind, is_exact ? slippage_tolerance : slippage_of_fits);
+  if (is_exact) result.slippage.rms = 0;
   Registration_search<ConcurrencyTag> search(source, target, request);
   if (is_in_plane(source, search.tolerance()) || is_in_plane(target, search.tolerance())) return registration;
   if (result.slippage.dimension() > 0)

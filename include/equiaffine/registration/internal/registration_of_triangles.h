@@ -26,9 +26,11 @@ registration_of_triangles(const Triangles_3& source, const Triangles_3& target, 
                           has_group_of_corners<ConcurrencyTag>(target, coordinate_rounding(target.points));
   if (are_solids) from.samples.facet_error = to.samples.facet_error = 0;
   Shape_matches wholes = register_wholes<ConcurrencyTag>(from, to, request);
+  wholes.slippage = slippage_of_triangles<ConcurrencyTag>(source, request.kind);
   if (!wholes.maps.empty()) return to_CGAL(std::move(wholes), request);
   Shape_matches pieces = register_pieces<ConcurrencyTag>(source, target, request, are_solids);
   pieces.hypotheses += wholes.hypotheses;
+  pieces.slippage = std::move(wholes.slippage);
   return to_CGAL(std::move(pieces), request);
 }
 

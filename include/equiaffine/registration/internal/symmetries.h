@@ -66,7 +66,6 @@ inline Affine_symmetries_3<Kernel_of_searches> to_CGAL(const Centered_symmetries
     }
   }
   result.continuous = found.continuous;
-  result.continuous_rms = found.continuous_rms;
   if (found.complete_to > 0) result.complete_to = found.complete_to;
   return result;
 }
@@ -147,12 +146,12 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_by_rotations(const Any_functi
 inline void find_continuous(const Framed_surface_3& surface, const Symmetry_request& request, bool is_exact,
                             Affine_symmetries_3<Kernel_of_searches>& result) {
   const double tolerance = std::max(request.tolerance.value_or(0), slippage_tolerance);
-  Slippage slippage = slippage_of(surface, request.kind, is_exact ? exact_slippage : tolerance);
-  const bool is_to_rounding = is_exact && slippage.algebra.dimension() > 0;
+  Affine_slippage_3 slippage = slippage_of(surface, request.kind, is_exact ? exact_slippage : tolerance);
+  const bool is_to_rounding = is_exact && slippage.dimension() > 0;
   if (is_exact && !is_to_rounding) slippage = slippage_of(surface, request.kind, tolerance);
-  result.continuous = std::move(slippage.algebra);
+  result.continuous = std::move(slippage);
   if (result.continuous.dimension() == 0) return;
-  result.continuous_rms = is_to_rounding ? 0 : slippage.rms;
+  if (is_to_rounding) result.continuous.rms = 0;
   result.verdict = is_to_rounding ? Symmetry_verdict::EXACT : Symmetry_verdict::APPROXIMATE;
   result.is_decided = true;
   result.reason.clear();

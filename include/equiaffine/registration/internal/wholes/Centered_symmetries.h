@@ -26,7 +26,6 @@ struct Centered_symmetries {
   std::string reason = {};                 ///< of an undecided case
   std::vector<Symmetry_level> levels = {}; ///< groups, each of which holds the one before, with growing rms
   Affine_slippage_3 continuous = {};       ///< the rotations of the continuous group: none, 1 or 3
-  double continuous_rms = 0;               ///< by which they move points off the surface, a part of the size
   double complete_to = 0;                  ///< all maps with a smaller rms were tried, a part of the size
   double least_rms = 0;                    ///< the least of a map beside the identity, a part of the size
 };

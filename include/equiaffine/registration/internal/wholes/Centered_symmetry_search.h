@@ -89,8 +89,7 @@ private:
     result.continuous = continuous_symmetries(surface_, rotations, thresholds_.turn);
     const std::size_t dimension = result.continuous.dimension();
     if (dimension == 0) return false;
-    result.continuous_rms = rotations[dimension - 1].rms;
-    const bool turns_exactly = result.continuous_rms < thresholds_.exact;
+    const bool turns_exactly = result.continuous.rms < thresholds_.exact;
     if (turns_exactly || tolerance_ > 0) result.levels.clear();
     const bool is_exact =
         turns_exactly || (!result.levels.empty() && result.levels.front().greatest <= thresholds_.exact);

@@ -105,9 +105,10 @@ inline Affine_slippage_3 continuous_symmetries(const Centered_surface_3& surface
   auto count = std::count_if(rotations.begin(), rotations.end(),
                              [&](const Slipping_rotation& r) { return r.rms < greatest_rms; });
   if (count == 2) count = 1;
+  if (count == 0) return {};
   const Affine_map_3& to = surface.map;
   const Eigen::Matrix3d from = to.matrix.inverse();
-  Affine_slippage_3 result;
+  Affine_slippage_3 result = {{}, rotations[std::size_t(count - 1)].rms};
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const Infinitesimal_map_3& generator = rotations[std::size_t(i)].generator;
     result.generators.push_back(
