@@ -75,6 +75,28 @@ TEST(Affine_gradients, have_the_unit_of_length_that_they_should_whatever_it_is) 
   }
 }
 
+// The level sets of g and g^2 are the same; where g is small, the Hessian of g^2 is nearly of rank one, and rounding of its
+// coefficients costs a factor of 1 / g.
+TEST(Affine_gradients, lose_no_more_digits_than_coefficients_where_the_function_is_nearly_a_square) {
+  const auto g = [](const auto& x, const auto& y, const auto& z) {
+    return x * x * x * x + 0.5 * y * y + 2. * z * z + 0.3 * x * y - 1.;
+  };
+  const auto square = [g](const auto& x, const auto& y, const auto& z) {
+    const auto value = g(x, y, z);
+    return value * value;
+  };
+  const CGAL::Bbox_3 box(-2, -2, -2, 2, 2, 2);
+  const auto traits = make_analytic_traits<Kernel>(g, box);
+  const auto traits_of_square = make_analytic_traits<Kernel>(square, box);
+  for (const double value : {1e-2, 1e-4, 1e-6})
+    for (const auto& [x, y] : {std::array{.5, .6}, std::array{.3, -.8}, std::array{.7, .2}}) {
+      const Kernel::Point_3 p(x, y, std::sqrt((value - g(x, y, 0.)) / 2));
+      const auto expected = affine_gradient_norms(traits, p), norms = affine_gradient_norms(traits_of_square, p);
+      for (std::size_t n = 0; n < 3; ++n)
+        EXPECT_NEAR(norms[n] / expected[n], 1, 1e-14 / value) << value << ' ' << x << ' ' << n;
+    }
+}
+
 TEST(Affine_gradients, vanish_on_affine_spheres) {
   const auto product = [](const auto& x, const auto& y, const auto& z) { return x * y * z; };
   const auto traits = make_analytic_traits<Kernel>(product, CGAL::Bbox_3(0, 0, 0, 4, 4, 4));

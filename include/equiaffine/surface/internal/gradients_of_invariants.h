@@ -61,32 +61,39 @@ struct Differentiated_structure_3 {
   std::array<FT, 3> along1, along2;
 };
 
-/// The derivatives of K, H and J along x, y and z, each on the level set through the point, from derivatives of order 5:
-/// the chart of an expansion whose coefficients are expansions of order 1, in natural units.
+/// The gradients of K, H and J on the level set, as covectors to be applied to tangent vectors, from derivatives of order
+/// 5: the chart of an expansion whose coefficients are expansions of order 1, in natural units. These are along the
+/// vectors e_u and e_v of the chart, since derivatives along the axes would lose digits where f is nearly a square: f_z
+/// changes much along the axes, but little along the surface.
 template <class FT>
 std::array<std::array<FT, 3>, 3> gradients_of_invariants(const Jet_3<FT, 5>& given) {
   using Number = Jet_3<FT, 1>;
   const Natural_units_3<FT> units(given);
   const Jet_3<FT, 5> jet = units.apply(given);
-  Jet_3<Number> moving;
-  for (std::size_t n = 0; n < moving.size; ++n) {
-    const auto [i, j, k] = monomials[n];
-    moving.coefficients()[n].coefficients() = {jet.coefficients()[n], FT(i + 1) * jet.coefficient(i + 1, j, k),
-                                               FT(j + 1) * jet.coefficient(i, j + 1, k),
-                                               FT(k + 1) * jet.coefficient(i, j, k + 1)};
-  }
   Jet_3<FT> fixed;
   std::copy_n(jet.coefficients().begin(), fixed.size, fixed.coefficients().begin());
   const Pivot_3<FT> pivot = choose_pivot(fixed);
+  const std::size_t w = pivot.is_x ? 0 : pivot.is_y ? 1 : 2, u = (w + 1) % 3, v = (w + 2) % 3;
+  const auto& gradient = fixed.coefficients();
+  const FT a = gradient[1 + u] / gradient[1 + w], b = gradient[1 + v] / gradient[1 + w];
+  Jet_3<Number> moving;
+  for (std::size_t n = 0; n < moving.size; ++n) {
+    const auto [i, j, k] = monomials[n];
+    const std::array<FT, 3> along = {FT(i + 1) * jet.coefficient(i + 1, j, k), FT(j + 1) * jet.coefficient(i, j + 1, k),
+                                     FT(k + 1) * jet.coefficient(i, j, k + 1)};
+    moving.coefficients()[n].coefficients() = {jet.coefficients()[n], along[u] - a * along[w], along[v] - b * along[w],
+                                               FT(0)};
+  }
   const auto& c = moving.coefficients();
   const auto invariants = affine_invariants(
       Monge_chart_3<Number>(moving, {pivot.is_x, pivot.is_y, {FT(1) / c[1], FT(1) / c[2], FT(1) / c[3]}}));
-  std::array<std::array<FT, 3>, 3> gradients;
+  std::array<std::array<FT, 3>, 3> gradients{};
   for (std::size_t n = 0; n < 3; ++n) {
     const Number& invariant = n == 0   ? invariants.gaussian_curvature
                               : n == 1 ? invariants.mean_curvature
                                        : invariants.pick_invariant;
-    std::copy_n(invariant.coefficients().begin() + 1, 3, gradients[n].begin());
+    gradients[n][u] = invariant.coefficients()[1];
+    gradients[n][v] = invariant.coefficients()[2];
     for (FT& x : gradients[n]) units.restore_all(n == 0 ? -16 : -10, x);
   }
   return gradients;
