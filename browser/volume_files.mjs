@@ -146,7 +146,7 @@ async function readNIfTI(name, given) {
   const values = numbersOf(name, bytes.subarray(begin), type, isLittle, nodes, float(112) || 1, (float(112) && float(116)) || 0);
   const spacings = [80, 84, 88].map(float);
   let rows = [0, 1, 2].map(axis => [...times(spacings[axis], axis), 0]);
-  // Of two frames ITK takes the second one if that is the scanner's.
+  // Of two frames the program takes the second one if that is the scanner's.
   const hasSecond = short(254) > 0 && (short(252) <= 0 || short(254) === 1);
   if (hasSecond) {
     rows = [280, 296, 312].map(at => [0, 4, 8, 12].map(k => float(at + k)));
@@ -157,7 +157,9 @@ async function readNIfTI(name, given) {
             [2 * (b * c + a * d) * sx, (a * a + c * c - b * b - d * d) * sy, 2 * (c * d - a * b) * sz, float(272)],
             [2 * (b * d - a * c) * sx, 2 * (c * d + a * b) * sy, (a * a + d * d - b * b - c * c) * sz, float(276)]];
   }
-  const toLPS = short(252) > 0 || short(254) > 0 ? [-1, -1, 1] : [1, 1, 1], column = k => rows.map((row, axis) => toLPS[axis] * row[k]);
+  const toLPS = short(252) > 0 || short(254) > 0 ? [-1, -1, 1] : [1, 1, 1];
+  const unit = {1: 1e3, 3: 1e-3}[view.getUint8(123) & 7] ?? 1;  // of meters and micrometers, in millimeters
+  const column = k => rows.map((row, axis) => unit * toLPS[axis] * row[k]);
   return placed(name, values, dimensions, column(3), [0, 1, 2].map(column));
 }
 

@@ -15,7 +15,7 @@ from ._arguments import (choice_of, common_words, data_of, fit_words, integer_of
 from ._results import Fit, Registration, Surface, Symmetries, Values, Volume
 from ._sentences import here, sentences
 
-_VOLUMES = (".nrrd", ".nhdr", ".mhd", ".mha", ".nii", ".nii.gz", ".inr", ".inr.gz", ".vti")
+_VOLUMES = (".nrrd", ".nhdr", ".mhd", ".mha", ".nii", ".nii.gz", ".inr", ".inr.gz", ".vti", ".dcm")
 
 
 def _surface(arrays):
@@ -285,7 +285,7 @@ def symmetries(a, *, kind="affine", reflection=True, tolerance=None, scale=None,
 
 def read(path):
     """Read a file: a Surface from .ply, .off, .obj, .stl, .csv or .xyz, and a Volume from .nrrd, .mhd, .mha, .nii,
-    .nii.gz, .inr, .inr.gz or .vti."""
+    .nii.gz, .inr, .inr.gz, .vti or .dcm."""
     path, text = path_of(path)
     with sentences():
         if not text.lower().endswith(_VOLUMES):

@@ -2,11 +2,13 @@
 #include "cli/check_outputs.h"
 
 #include "cli/formula_file.h"
+#include "volume/volume_io.h"
 #include <equiaffine/Input_error.h>
 
 #include <filesystem>
 #include <set>
 #include <system_error>
+#include <utility>
 
 namespace equiaffine {
 
@@ -34,6 +36,8 @@ std::vector<std::string> input_files(const Option_reader& reader) {
   for (const char* option :
        {"FILE", "--volume", "--distance-to", "--fit", "--points", "--range-of", "MESH.ply", "MESH"})
     if (reader.has(option)) files.push_back(reader.word(option));
+  if (const Source_options& source = reader.draft().source; source.kind == Source_kind::VOLUME && !source.raw)
+    for (std::string& file : files_read_with(source.text)) files.push_back(std::move(file));
   if (reader.has("--function"))
     if (const auto file = formula_file(reader.word("--function"))) files.push_back(*file);
   return files;

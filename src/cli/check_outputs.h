@@ -10,7 +10,7 @@
 
 namespace equiaffine {
 
-/// The paths of the files that the command line says to read.
+/// The paths of the files that the command line says to read, and of those that the headers of volumes among them name.
 std::vector<std::string> input_files(const Option_reader& reader);
 
 /// Throws if an output would replace what is read, or another output.

@@ -94,6 +94,17 @@ void read_raw_layout(Option_reader& reader) {
   reader.read({"--dims", "--spacing", "--origin", "--type"});
 }
 
+/// Reads what is to be read of a volume; the options are refused for other sources.
+void read_selection(Option_reader& reader) {
+  const Source_options& source = reader.draft().source;
+  if (source.kind != Source_kind::VOLUME)
+    reader.refuse({"--component", "--time", "--allow-outside"}, "it is for a --volume", "leave it out");
+  if (source.raw)
+    reader.refuse({"--component", "--time", "--allow-outside"},
+                  "it is for a --volume with a header, and a .raw has none", "leave it out");
+  reader.read({"--component", "--time", "--allow-outside"});
+}
+
 } // namespace
 
 void read_source(Option_reader& reader) {
@@ -102,6 +113,7 @@ void read_source(Option_reader& reader) {
   check_kind(reader);
   read_spline(reader);
   read_raw_layout(reader);
+  read_selection(reader);
   if (reader.draft().source.kind != Source_kind::DISTANCE)
     reader.refuse({"--narrow-band"}, "it is for --distance-to", "leave it out");
   refuse_fit_options(reader);

@@ -103,9 +103,21 @@ const std::vector<Option_row> rows_of_sources = {
      ".xyz: a smooth function about as large as the distance, known near them only",
      [](const Option_words& option, Draft& draft) { read_source(Source_kind::FIT, option, draft); }},
     {"--volume", MESH | EVALUATE | registering, SOURCE, 1, "FILE",
-     "a volume of samples: .nrrd .nhdr .mhd .mha .nii .nii.gz .inr .inr.gz .vti .raw, or a\n"
-     "folder with a DICOM series",
+     "a volume of samples: .nrrd .nhdr .mhd .mha .nii .nii.gz .inr .inr.gz .vti .raw, a DICOM\n"
+     "file with several frames, or a folder with a DICOM series",
      [](const Option_words& option, Draft& draft) { read_source(Source_kind::VOLUME, option, draft); }},
+    {"--component", MESH | EVALUATE | registering, SOURCE, 1, "N",
+     "which number of a volume with several per node, such as a vector or a color, counted from 1",
+     [](const Option_words& option, Draft& draft) {
+       draft.source.selection.component = parse_count(option.name, option.word(), 1);
+     }},
+    {"--time", MESH | EVALUATE | registering, SOURCE, 1, "N", "which volume of a 4D file, counted from 1",
+     [](const Option_words& option, Draft& draft) {
+       draft.source.selection.time = parse_count(option.name, option.word(), 1);
+     }},
+    {"--allow-outside", MESH | EVALUATE | registering, SOURCE, 0, "",
+     "read data that the header of a volume names outside of its own folder",
+     [](const Option_words&, Draft& draft) { draft.source.selection.allows_outside = true; }},
     {"--dims", MESH | EVALUATE | registering, SOURCE, 3, "NX NY NZ",
      "nodes of a .raw, which has no header; x runs fastest", read_raw_dims},
     {"--type", MESH | EVALUATE | registering, SOURCE, 1, "TYPE",

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_SRC_REQUEST_OPTIONS_H
 
 #include "request/Raw_layout.h"
+#include "request/Volume_selection.h"
 #include "system/kernel.h"
 #include "system/resources.h"
 #include <equiaffine/Level_set_traits_3.h>
@@ -63,6 +64,7 @@ struct Source_options {
   bool estimates_errors = false; ///< whether the errors of affine curvatures are estimated
   bool is_registered = false;    ///< whether few data are no error, and registration needs an unsmoothed spline, too
   std::optional<Raw_layout> raw; ///< is set for a volume without a header
+  Volume_selection selection;    ///< what is read of a volume with a header
   Memory_use memory_use = Memory_use::HALF;
   std::optional<double> narrow_band; ///< distances are not needed beyond so many voxels
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;

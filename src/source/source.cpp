@@ -191,7 +191,8 @@ Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
     if (source.kind != Source_kind::VOLUME) return sample_source(source, progress);
     if (source.volume) return source.volume();
     progress.begin("reading the volume");
-    return source.raw ? read_raw_volume(source.text, *source.raw) : read_volume(source.text);
+    return source.raw ? read_raw_volume(source.text, *source.raw)
+                      : read_volume(source.text, Samples_in::FILE, source.selection);
   }();
   check_values(volume, source);
   check_steps(volume.lattice(), source);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "volume/data_files.h"
 #include "volume/header_checks.h"
 #include "volume/header_text.h"
 #include "volume/volume_formats.h"
@@ -7,31 +6,15 @@
 #include <algorithm>
 #include <climits>
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
-#include <vector>
 
 namespace equiaffine {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr long long largest_number_of_axes = 10; // that of the MetaIO library
-
-/// Checks that the files with the data exist. A name with a % stands for several files, which ITK looks for.
-void check_data_files(const std::string& path, std::string_view content, std::string_view following_lines) {
-  const std::vector<std::string> names = data_files_in(content, following_lines);
-  if (content.starts_with("LIST") && names.empty())
-    fail_to_read_volume(path, "its header has ElementDataFile LIST and names no file", "add the names of the slices");
-  std::error_code error;
-  for (const std::string& name : names)
-    if (name.find('%') == std::string::npos && !fs::exists(fs::path(path).parent_path() / name, error))
-      fail_to_read_volume(path, "the file with its data, '" + name + "', is missing", "put it beside the header");
-}
 
 /// Checks a field that holds numbers, one per axis or, for a matrix, one per pair of axes.
 void check_numbers(const std::string& path, std::string_view field, std::string_view content, std::size_t axes) {
@@ -63,7 +46,7 @@ void check_meta_header(const std::string& path) {
       const std::optional<long long> count = to_integer(content, 1, largest_number_of_axes);
       if (!count) fail_at_field(path, field, content, "write the number of axes, which is 3");
       axes = std::size_t(*count);
-    } else if (field == "ElementDataFile") return check_data_files(path, content, rest);
+    } else if (field == "ElementDataFile") return;
     else if (axes > 0) check_numbers(path, field, content, axes);
   }
 }

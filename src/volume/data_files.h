@@ -4,6 +4,7 @@
 
 #include "volume/volume_formats.h"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,13 +12,29 @@
 
 namespace equiaffine {
 
-/// The names of the files with the data, from the field of a MetaImage or NRRD header that has them and the lines after
-/// it; none if the data follow the header. A name with a % stands for several files.
-std::vector<std::string> data_files_in(std::string_view content, std::string_view following_lines);
+/// The files with the data that a MetaImage or NRRD header names.
+struct Data_files {
+  std::string content;            ///< of the field that names them
+  std::vector<std::string> names; ///< in their order; none if the data follow the header
+  std::size_t expected = 0;       ///< the number of them that the sizes of a MetaImage ask for
+  bool are_understood = true;     ///< a pattern of names may be none
+};
+
+/// The files that the content of a field names with the lines after it: a list, a pattern such as slice%03d.raw with the
+/// first and the last number and the step, or one file. `sizes` are those of a MetaImage along its axes, or none.
+Data_files data_files_in(std::string_view content, std::string_view following_lines,
+                         const std::vector<std::size_t>& sizes);
+
+/// Throws `Input_error` unless the files that a MetaImage or NRRD header names exist, are as many as slices, and lie in
+/// the folder of the header or below it, or are allowed outside. What a link there leads to is allowed.
+void check_data_files(const std::string& path, Volume_format format, bool allows_outside);
 
 /// The bytes that a reader has to look at: those of the file, with the files that a MetaImage or NRRD header names, or
 /// those of all files in a folder, which has no format. A file that cannot be read counts for nothing.
 double size_of_volume(const std::string& path, std::optional<Volume_format> format);
+
+/// The paths of the files that are read with a volume: those that its header names, or all in a folder.
+std::vector<std::string> files_of_volume(const std::string& path, std::optional<Volume_format> format);
 
 } // namespace equiaffine
 

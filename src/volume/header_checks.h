@@ -12,7 +12,7 @@ namespace equiaffine {
 /// Checks the fields of an INRIMAGE-4 header, and that the data, decompressed, are as long as it says.
 void check_inr_header(const std::string& path);
 
-/// Checks the numbers of axes and nodes of a MetaImage, its frame, and that the files with its data exist.
+/// Checks the numbers of axes and nodes of a MetaImage, and its frame.
 void check_meta_header(const std::string& path);
 
 /// Checks the frame of a NIfTI-1 file, and that the data, decompressed, are as long as its header says.

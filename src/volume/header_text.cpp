@@ -43,6 +43,17 @@ std::string beginning_of(const std::string& path, std::size_t size) {
   return bytes;
 }
 
+bool read_decompressed(const std::string& path, std::size_t first, std::size_t size, char* bytes) {
+  constexpr std::size_t most_at_once = 1 << 30;
+  const Gzip_file file = open_gzip(path);
+  if (!file || gzseek(file.get(), z_off_t(first), SEEK_SET) < 0) return false;
+  for (std::size_t done = 0, count; done < size; done += count) {
+    count = std::min(size - done, most_at_once);
+    if (gzread(file.get(), bytes + done, unsigned(count)) != int(count)) return false;
+  }
+  return true;
+}
+
 std::optional<double> decompressed_size(const std::string& path) {
   const Gzip_file file = open_gzip(path);
   if (!file) return std::nullopt;

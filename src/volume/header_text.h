@@ -13,6 +13,9 @@ namespace equiaffine {
 /// The first bytes of a file, at most `size`; those of a file that gzip compressed are decompressed.
 std::string beginning_of(const std::string& path, std::size_t size);
 
+/// Reads bytes of a file, decompressed if gzip compressed it, from a place on; returns whether it has them.
+bool read_decompressed(const std::string& path, std::size_t first, std::size_t size, char* bytes);
+
 /// The number of bytes in a file, decompressed if gzip compressed it; nothing if it cannot be decompressed to its end.
 std::optional<double> decompressed_size(const std::string& path);
 

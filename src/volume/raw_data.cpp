@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume/raw_data.h"
 
+#include "volume/Nifti_header.h"
 #include "volume/data_files.h"
 #include "volume/header_text.h"
 #include "volume/sample_type.h"
@@ -44,12 +45,10 @@ std::optional<Raw_data> in_meta_image(const std::string& path) {
       return std::nullopt;
     if (field->name == "HeaderSize") return std::nullopt;
     if (field->name != "ElementDataFile") continue;
-    const std::vector<std::string> names = data_files_in(field->content, rest);
-    if (names.empty() && !field->content.starts_with("LIST"))
-      return Raw_data{path, std::size_t(rest.data() - header.data())};
-    if (names.size() != 1 || field->content.starts_with("LIST") || names[0].find('%') != std::string::npos)
-      return std::nullopt;
-    return Raw_data{(fs::path(path).parent_path() / names[0]).string(), 0};
+    const Data_files files = data_files_in(field->content, rest, {});
+    if (files.content.empty()) return Raw_data{path, std::size_t(rest.data() - header.data())};
+    if (files.names != std::vector{files.content}) return std::nullopt;
+    return Raw_data{(fs::path(path).parent_path() / files.content).string(), 0};
   }
   return std::nullopt;
 }
@@ -76,23 +75,10 @@ std::optional<Raw_data> in_NRRD(const std::string& path) {
 }
 
 std::optional<Raw_data> in_NIfTI(const std::string& path, std::size_t type) {
-  constexpr std::size_t header_size = 348, place_of_type = 70, place_of_offset = 108, place_of_magic = 344;
-  constexpr std::array<std::int16_t, raw_types.size()> codes = {2, 256, 512, 4, 768, 8, 1280, 1024, 16, 64};
-  constexpr float greatest_offset = 1e9F; // beyond which a float would not be exact
-  const std::string header = beginning_of(path, header_size);
-  std::int32_t size = 0;
-  std::int16_t datatype = 0;
-  std::array<float, 3> numbers{}; // vox_offset, scl_slope, scl_inter
-  if (header.size() < header_size || header.compare(place_of_magic, 3, "n+1") != 0) return std::nullopt;
-  std::memcpy(&size, header.data(), sizeof size);
-  std::memcpy(&datatype, header.data() + place_of_type, sizeof datatype);
-  std::memcpy(numbers.data(), header.data() + place_of_offset, sizeof numbers);
-  const auto& [offset, slope, intercept] = numbers;
-  const bool is_scaled = (slope != 0 && slope != 1) || intercept != 0;
-  if (size != std::int32_t(header_size) || datatype != codes[type] || is_scaled ||
-      !(offset >= 0 && offset <= greatest_offset))
-    return std::nullopt;
-  return Raw_data{path, std::size_t(offset)};
+  const Nifti_header header(path);
+  const bool is_as_in_memory =
+      header.sample_type() == type && header.numbers_side_by_side() == 1 && !header.is_swapped() && !header.scaling();
+  return is_as_in_memory ? std::optional(Raw_data{path, header.first_byte()}) : std::nullopt;
 }
 
 /// The beginnings of the elements of that name in a text, up to their '>'.

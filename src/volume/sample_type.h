@@ -31,6 +31,15 @@ inline std::size_t size_of_sample(std::size_t type) {
   return with_sample_type(type, [](auto number) { return sizeof number; });
 }
 
+/// Copies `count` samples of that type, from the one at `first` on every `stride`-th one.
+inline void copy_samples(std::size_t type, const void* from, std::size_t first, std::size_t stride, std::size_t count,
+                         void* to) {
+  with_sample_type(type, [&](auto number) {
+    const auto* const source = static_cast<const decltype(number)*>(from) + first;
+    for (std::size_t n = 0; n < count; ++n) static_cast<decltype(number)*>(to)[n] = source[n * stride];
+  });
+}
+
 /// The position in raw_types of the integers of 1, 2, 4 or 8 bytes. Throws `std::invalid_argument` for others.
 constexpr std::size_t integer_sample_type(std::size_t bytes, bool is_signed) {
   switch (bytes) {

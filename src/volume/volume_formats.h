@@ -4,6 +4,7 @@
 
 // The readers and writers that volume_io.h chooses from. Those of a library exist only in a program built with it.
 
+#include "request/Volume_selection.h"
 #include "system/kernel.h"
 #include "volume/Shared_volume.h"
 #include <equiaffine/Volume_3.h>
@@ -17,13 +18,21 @@
 
 namespace equiaffine {
 
-enum class Volume_format { NRRD, META, NIFTI, INR, VTI };
+enum class Volume_format { NRRD, META, NIFTI, INR, VTI, DICOM };
 
 /// `where` says whether the volume may refer to the file.
-void read_itk_volume(const std::string& path, Volume_format format, Samples_in where, Shared_volume& volume);
-void read_dicom_series(const std::string& folder, Shared_volume& volume);
-void read_inr_volume(const std::string& path, Shared_volume& volume);
-void read_vti_volume(const std::string& path, Samples_in where, Shared_volume& volume);
+void read_itk_volume(const std::string& path, Volume_format format, Samples_in where, const Volume_selection& selection,
+                     Shared_volume& volume);
+void read_inr_volume(const std::string& path, const Volume_selection& selection, Shared_volume& volume);
+void read_vti_volume(const std::string& path, Samples_in where, const Volume_selection& selection,
+                     Shared_volume& volume);
+
+void read_nifti_volume(const std::string& path, Samples_in where, const Volume_selection& selection,
+                       Shared_volume& volume);
+
+/// Reads the frames of a DICOM file, or of all files in a folder, which are one series. The places of the frames make the
+/// lattice, in whatever order they are.
+void read_dicom_volume(const std::string& path, const Volume_selection& selection, Shared_volume& volume);
 
 void write_itk_volume(const std::string& path, Volume_format format, const Volume_3<Kernel>& volume, bool as_float);
 void write_vti_volume(std::ostream& stream, const Volume_3<Kernel>& volume, bool as_float);
@@ -36,6 +45,13 @@ void write_vti_volume(std::ostream& stream, const Volume_3<Kernel>& volume, bool
 
 /// Throws `Input_error` for a file whose samples are no numbers that this program knows.
 [[noreturn]] void fail_to_read_volume_type(const std::string& path);
+
+/// The position, from 0, of what `--component` chooses among so many numbers per node. Throws `Input_error` if there are
+/// several and none is chosen, or not as many.
+std::size_t chosen_component(const std::string& path, const Volume_selection& selection, std::size_t count);
+
+/// The same for `--time` and the volumes of a 4D file.
+std::size_t chosen_time(const std::string& path, const Volume_selection& selection, std::size_t count);
 
 /// Allows a child process the memory that a reader may use for this many nodes, which a header has to say before the
 /// reader decompresses them. Throws `Input_error` if too few for a volume or too many for this computer, where a sample

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <new>
 #include <optional>
 #include <string_view>
@@ -36,12 +37,24 @@ constexpr std::array extensions = {
     Extension{".mhd", Volume_format::META, true},  Extension{".mha", Volume_format::META, true},
     Extension{".nii", Volume_format::NIFTI, true}, Extension{".nii.gz", Volume_format::NIFTI, true},
     Extension{".inr", Volume_format::INR, false},  Extension{".inr.gz", Volume_format::INR, false},
-    Extension{".vti", Volume_format::VTI, true}};
+    Extension{".vti", Volume_format::VTI, true},   Extension{".dcm", Volume_format::DICOM, false}};
+
+/// Whether a file says itself that it is one of DICOM, whose files often have no extension.
+bool is_dicom(const std::string& path) {
+  constexpr std::string_view mark = "DICM";
+  constexpr std::streamoff place = 128;
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return false;
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, mark.size()> word{};
+  file.seekg(place).read(word.data(), word.size());
+  return std::string_view(word.data(), word.size()) == mark;
+}
 
 std::optional<Extension> find_extension(const std::string& path) {
   for (const Extension& extension : extensions)
     if (has_extension(path, extension.text)) return extension;
-  return std::nullopt;
+  return is_dicom(path) ? std::optional(extensions.back()) : std::nullopt;
 }
 
 #ifdef EQUIAFFINE_WITH_ITK
@@ -56,8 +69,8 @@ constexpr bool has_vtk = false;
 #endif
 
 /// The library that reads and writes a format, if this program was built without it; otherwise nothing.
-std::string_view missing_library(Volume_format format) {
-  if (format == Volume_format::INR) return {};
+std::string_view missing_library(Volume_format format, bool is_written) {
+  if (format == Volume_format::INR || (format == Volume_format::NIFTI && !is_written)) return {};
   if (format == Volume_format::VTI) return has_vtk ? "" : "VTK";
   return has_itk ? "" : "ITK";
 }
@@ -66,7 +79,7 @@ std::string_view missing_library(Volume_format format) {
 std::string known_extensions(bool written_only) {
   std::string list;
   for (const Extension& extension : extensions)
-    if (missing_library(extension.format).empty() && (extension.is_written || !written_only))
+    if (missing_library(extension.format, written_only).empty() && (extension.is_written || !written_only))
       list.append(list.empty() ? "" : " ").append(extension.text);
   return list;
 }
@@ -90,7 +103,7 @@ Extension find_written_extension(const std::string& path) {
     throw Input_error("cannot write the volume '" + path + "': " +
                       (extension ? std::string(extension->text) + " is only read" : "its extension is not known") +
                       "; " + advice_for_writing());
-  if (const auto library = missing_library(extension->format); !library.empty())
+  if (const auto library = missing_library(extension->format, true); !library.empty())
     throw Input_error("cannot write the volume '" + path + "': " + built_without(library) + "; " +
                       advice_for_writing());
   return *extension;
@@ -117,6 +130,27 @@ void fail_to_read_volume_data(const std::string& path) {
 
 void fail_to_read_volume_type(const std::string& path) {
   fail_to_read_volume(path, "its type of numbers is not supported", "convert it to float or double");
+}
+
+namespace {
+
+std::size_t chosen(const std::string& path, const std::string& option, std::optional<std::size_t> number,
+                   std::size_t count, const std::string& text) {
+  if (!number && count == 1) return 0;
+  if (number && *number <= count) return *number - 1;
+  fail_to_read_volume(path, "it has " + std::to_string(count) + ' ' + text,
+                      count == 1 ? "leave out " + option
+                                 : "choose one by " + option + " N from 1 to " + std::to_string(count));
+}
+
+} // namespace
+
+std::size_t chosen_component(const std::string& path, const Volume_selection& selection, std::size_t count) {
+  return chosen(path, "--component", selection.component, count, count == 1 ? "number per node" : "numbers per node");
+}
+
+std::size_t chosen_time(const std::string& path, const Volume_selection& selection, std::size_t count) {
+  return chosen(path, "--time", selection.time, count, count == 1 ? "volume" : "volumes, one after the other");
 }
 
 void admit_nodes(const std::string& path, const Lattice_3<Kernel>::Size& size, std::size_t bytes_of_sample) {
@@ -170,26 +204,33 @@ std::string Captured_standard_error::text() const {
 
 namespace {
 
-/// Reads a file or a folder with the reader of its format; `extension` is null for a folder.
-void read_here(const std::string& path, const Extension* extension, Samples_in where, Shared_volume& volume) {
-  if constexpr (has_itk)
-    if (!extension) return read_dicom_series(path, volume);
-  if constexpr (has_vtk)
-    if (extension->format == Volume_format::VTI) return read_vti_volume(path, where, volume);
-  if constexpr (has_itk)
-    if (extension->format != Volume_format::INR) return read_itk_volume(path, extension->format, where, volume);
-  read_inr_volume(path, volume);
+/// Reads a file with the reader of its format, which is DICOM for a folder.
+void read_here(const std::string& path, Volume_format format, Samples_in where, const Volume_selection& selection,
+               Shared_volume& volume) {
+  switch (format) {
+  case Volume_format::NIFTI: return read_nifti_volume(path, where, selection, volume);
+  case Volume_format::INR: return read_inr_volume(path, selection, volume);
+#ifdef EQUIAFFINE_WITH_VTK
+  case Volume_format::VTI: return read_vti_volume(path, where, selection, volume);
+#endif
+#ifdef EQUIAFFINE_WITH_ITK
+  case Volume_format::DICOM: return read_dicom_volume(path, selection, volume);
+  case Volume_format::NRRD:
+  case Volume_format::META: return read_itk_volume(path, format, where, selection, volume);
+#endif
+  default: fail_to_read_volume_without(missing_library(format, false), path);
+  }
 }
 
-Volume_view_3<Kernel> read_in_child(const std::string& path, const Extension* extension, Samples_in where) {
+Volume_view_3<Kernel> read_in_child(const std::string& path, std::optional<Volume_format> format, Samples_in where,
+                                    const Volume_selection& selection) {
   constexpr double seconds = 10, bytes_per_second = 20e6; // a reader takes a tenth of that
   constexpr double memory_for_header = 1 << 29, copies = 4;
   // A volume that takes more than the memory is not read.
-  const double size =
-      std::min(physical_memory(), size_of_volume(path, extension ? std::optional(extension->format) : std::nullopt));
+  const double size = std::min(physical_memory(), size_of_volume(path, format));
   try {
     Shared_volume volume;
-    run_in_child([&] { read_here(path, extension, where, volume); },
+    run_in_child([&] { read_here(path, format.value_or(Volume_format::DICOM), where, selection, volume); },
                  {seconds + size / bytes_per_second, memory_for_header + copies * size});
     return volume.view(path);
   } catch (const Child_failure& failure) {
@@ -201,24 +242,29 @@ Volume_view_3<Kernel> read_in_child(const std::string& path, const Extension* ex
 
 } // namespace
 
-Volume_view_3<Kernel> read_volume(const std::string& path, Samples_in where) {
+Volume_view_3<Kernel> read_volume(const std::string& path, Samples_in where, const Volume_selection& selection) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) fail_to_read_volume(path, "there is no such file", "check the path");
   if (fs::is_directory(status)) {
-    if constexpr (has_itk) return read_in_child(path, nullptr, where);
-    else fail_to_read_volume_without("ITK", path);
+    if (!has_itk) fail_to_read_volume_without("ITK", path);
+    return read_in_child(path, std::nullopt, where, selection);
   }
   const std::optional<Extension> extension = find_extension(path);
   if (!extension)
     fail_to_read_volume(path, "its extension is not known",
                         "use one of " + known_extensions(false) + " or a folder with a DICOM series");
-  if (const auto library = missing_library(extension->format); !library.empty())
+  if (const auto library = missing_library(extension->format, false); !library.empty())
     fail_to_read_volume_without(library, path);
   if (::access(path.c_str(), R_OK) != 0) fail_to_read_volume(path, "permission denied", "make it readable");
   if (fs::is_regular_file(status) && fs::file_size(path, error) == 0)
     fail_to_read_volume(path, "it is empty", "get the complete file again");
-  return read_in_child(path, &*extension, where);
+  return read_in_child(path, extension->format, where, selection);
+}
+
+std::vector<std::string> files_read_with(const std::string& path) {
+  const std::optional<Extension> extension = find_extension(path);
+  return files_of_volume(path, extension ? std::optional(extension->format) : std::nullopt);
 }
 
 bool is_volume(const std::string& path) {

@@ -5,7 +5,8 @@
 
 #include <CGAL/Image_3.h>
 
-#include <cstring>
+#include <cstddef>
+#include <string>
 
 namespace equiaffine {
 
@@ -20,7 +21,7 @@ std::size_t sample_type_of(const CGAL::Image_3& image) {
 
 } // namespace
 
-void read_inr_volume(const std::string& path, Shared_volume& volume) {
+void read_inr_volume(const std::string& path, const Volume_selection& selection, Shared_volume& volume) {
   check_inr_header(path);
   CGAL::Image_3 image;
   bool has_been_read = false;
@@ -30,17 +31,16 @@ void read_inr_volume(const std::string& path, Shared_volume& volume) {
   }
   if (!has_been_read) fail_to_read_volume(path, "it is not a complete INRIMAGE-4 file", "get the complete file again");
   const auto& header = *image.image();
-  if (header.vdim != 1)
-    fail_to_read_volume(path, "it has " + std::to_string(header.vdim) + " numbers per node",
-                        "extract one of them to a file first");
   if (header.rx != 0 || header.ry != 0 || header.rz != 0)
     fail_to_read_volume(path, "its axes are rotated (RX, RY, RZ), which .inr readers ignore",
                         "convert it to .nrrd or .mha");
   const Lattice_3<Kernel> lattice = make_lattice(
       path, {header.xdim, header.ydim, header.zdim}, Kernel::Point_3(header.tx, header.ty, header.tz),
       {Kernel::Vector_3(header.vx, 0, 0), Kernel::Vector_3(0, header.vy, 0), Kernel::Vector_3(0, 0, header.vz)});
+  chosen_time(path, selection, 1);
   const std::size_t type = sample_type_of(image);
-  std::memcpy(volume.allocate(lattice, type), image.data(), lattice.number_of_nodes() * size_of_sample(type));
+  copy_samples(type, image.data(), chosen_component(path, selection, header.vdim), header.vdim,
+               lattice.number_of_nodes(), volume.allocate(lattice, type));
 }
 
 } // namespace equiaffine

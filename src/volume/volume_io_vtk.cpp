@@ -6,7 +6,9 @@
 #include "volume/volume_formats.h"
 
 #include <vtkCallbackCommand.h>
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
@@ -23,7 +25,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <ostream>
 #include <string>
 #include <type_traits>
@@ -52,15 +53,18 @@ private:
   vtkNew<vtkCallbackCommand> callback_;
 };
 
-vtkDataArray& scalars_of(const std::string& path, vtkImageData& image) {
-  vtkPointData* const data = image.GetPointData();
-  if (!data->GetScalars() && data->GetNumberOfArrays() > 1)
-    fail_to_read_volume(path, "none of its point arrays is marked as its scalars", "write it with one array");
-  vtkDataArray* const array = data->GetScalars() ? data->GetScalars() : data->GetArray(0);
-  if (!array) fail_to_read_volume(path, "it has no numbers at its points", "convert its cell data to point data first");
-  if (array->GetNumberOfComponents() != 1)
-    fail_to_read_volume(path, "it has " + std::to_string(array->GetNumberOfComponents()) + " numbers per node",
-                        "extract one of them to a file first");
+/// The numbers at the points; those of cells if there are no others.
+vtkDataSetAttributes& data_of(const std::string& path, vtkImageData& image) {
+  if (image.GetPointData()->GetNumberOfArrays() > 0) return *image.GetPointData();
+  if (image.GetCellData()->GetNumberOfArrays() > 0) return *image.GetCellData();
+  fail_to_read_volume(path, "it has no numbers at its points or cells", "write it with an array of them");
+}
+
+vtkDataArray& scalars_of(const std::string& path, vtkDataSetAttributes& data) {
+  if (!data.GetScalars() && data.GetNumberOfArrays() > 1)
+    fail_to_read_volume(path, "none of its arrays is marked as its scalars", "write it with one array");
+  vtkDataArray* const array = data.GetScalars() ? data.GetScalars() : data.GetArray(0);
+  if (!array) fail_to_read_volume_type(path);
   return *array;
 }
 
@@ -85,18 +89,19 @@ std::size_t sample_type_of(const std::string& path, vtkDataArray& array) {
   }
 }
 
-Lattice_3<Kernel> lattice_of(const std::string& path, vtkImageData& image) {
+/// The lattice of the points, or of the centers of cells.
+Lattice_3<Kernel> lattice_of(const std::string& path, vtkImageData& image, bool has_cells = false) {
   Lattice_3<Kernel>::Size size;
   std::array<Kernel::Vector_3, 3> steps;
   const int* const extent = image.GetExtent();
   const vtkMatrix3x3* const m = image.GetDirectionMatrix();
   Kernel::Point_3 origin(image.GetOrigin()[0], image.GetOrigin()[1], image.GetOrigin()[2]);
   for (int axis = 0; axis < 3; ++axis) {
-    size[std::size_t(axis)] = std::size_t(image.GetDimensions()[axis]);
+    size[std::size_t(axis)] = std::size_t(image.GetDimensions()[axis] - int(has_cells));
     const Kernel::Vector_3 direction(m->GetElement(0, axis), m->GetElement(1, axis), m->GetElement(2, axis));
     const Kernel::Vector_3 step = image.GetSpacing()[axis] * direction;
     steps[std::size_t(axis)] = step;
-    origin = origin + extent[2 * axis] * step;
+    origin = origin + (extent[2 * axis] + (has_cells ? 0.5 : 0)) * step;
   }
   return make_lattice(path, size, origin, steps);
 }
@@ -131,24 +136,29 @@ void set_scalars(vtkImageData& image, const std::vector<double>& values) {
 
 } // namespace
 
-void read_vti_volume(const std::string& path, Samples_in where, Shared_volume& volume) {
+void read_vti_volume(const std::string& path, Samples_in where, const Volume_selection& selection,
+                     Shared_volume& volume) {
   check_vti_header(path);
+  chosen_time(path, selection, 1);
   vtkNew<vtkXMLImageDataReader> reader;
   const Error_flag errors(*reader);
   reader->SetFileName(path.c_str());
-  if (where == Samples_in::FILE && refer_to_samples(path, *reader, volume)) return;
+  if (where == Samples_in::FILE && selection.component.value_or(1) == 1 && refer_to_samples(path, *reader, volume))
+    return;
   {
     const Captured_standard_error standard_error;
     reader->Update();
   }
   vtkImageData& image = *reader->GetOutput();
   if (errors.is_raised() || reader->GetErrorCode() != vtkErrorCode::NoError) fail_to_read_volume_data(path);
-  const Lattice_3<Kernel> lattice = lattice_of(path, image);
-  vtkDataArray& array = scalars_of(path, image);
+  vtkDataSetAttributes& data = data_of(path, image);
+  const Lattice_3<Kernel> lattice = lattice_of(path, image, &data == image.GetCellData());
+  vtkDataArray& array = scalars_of(path, data);
   if (std::size_t(array.GetNumberOfTuples()) != lattice.number_of_nodes()) fail_to_read_volume_data(path);
+  const auto components = std::size_t(array.GetNumberOfComponents());
   const std::size_t type = sample_type_of(path, array);
-  std::memcpy(volume.allocate(lattice, type), array.GetVoidPointer(0),
-              lattice.number_of_nodes() * size_of_sample(type));
+  copy_samples(type, array.GetVoidPointer(0), chosen_component(path, selection, components), components,
+               lattice.number_of_nodes(), volume.allocate(lattice, type));
 }
 
 void write_vti_volume(std::ostream& stream, const Volume_3<Kernel>& volume, bool as_float) {

@@ -194,6 +194,7 @@ function framedFiles() {
   files['q.nii'] = nifti(qform);
   files['s.nii'] = nifti(sform);
   files['both.nii'] = nifti(header => { qform(header); sform(header); });
+  files['micrometers.nii'] = nifti(header => { sform(header); header.writeUInt8(3, 123); });
   const nrrd = lines => Buffer.concat([Buffer.from(`NRRD0004\ntype: float\ndimension: 3\nsizes: ${nx} ${ny} ${nz}\n` +
       `${lines}endian: little\nencoding: raw\n\n`), data]);
   files['ras.nrrd'] = nrrd('space: right-anterior-superior\nspace directions: (0,0.5,0) (-0.6,0,0) (0,0,0.7)\nspace origin: (1,2,3)\n');

@@ -354,6 +354,34 @@ TEST_F(Program_errors, an_output_does_not_replace_what_is_read) {
   expect_error(mesh_of("@f.json") + box + Arguments{"--stats", "f.json"}, same);
 }
 
+TEST_F(Program_errors, an_output_does_not_replace_data_that_a_header_names) {
+  const std::string header =
+      "ObjectType = Image\nNDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\nElementDataFile = ";
+  add_input("d.ply", "01234567");
+  add_input("s1.json", "0123");
+  add_input("one.mhd", header + "d.ply\n");
+  add_input("two.mhd", header + "s%d.json 0 1 1\n");
+  add_input("three.nhdr", "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\ndata file: d.ply\n");
+  const Arguments same = {"would replace the file that is read", "give it another name"};
+  for (const char* volume : {"one.mhd", "three.nhdr"}) expect_error({"mesh", "--volume", volume, "-o", "d.ply"}, same);
+  expect_error({"mesh", "--volume", "two.mhd", "-o", "out.ply", "--stats", "s1.json"}, same);
+  std::filesystem::create_directory(folder_ / "series");
+  write_file(folder_ / "series/slice.ply", "x");
+  before_ = names();
+  expect_error({"mesh", "--volume", "series", "-o", "series/slice.ply"}, same);
+  EXPECT_EQ(file("d.ply"), "01234567");
+}
+
+TEST_F(Program_errors, parts_of_volumes_are_for_volumes_with_a_header) {
+  for (const Arguments& option : {Arguments{"--component", "1"}, {"--time", "1"}, {"--allow-outside"}})
+    expect_error(mesh_of("x") + box + option, {option[0], "for a --volume"});
+  add_input("v.raw", "01234567");
+  expect_error(
+      {"mesh", "--volume", "v.raw", "--dims", "2", "2", "2", "--type", "uint8", "--time", "1", "-o", "out.ply"},
+      {"--time", "has none"});
+  expect_error({"mesh", "--volume", "v.mha", "--component", "0", "-o", "out.ply"}, {"--component", "'0'"});
+}
+
 TEST_F(Program_errors, what_looks_like_another_file_is_no_page_and_no_statistics) {
   run_well(Arguments{"mesh", "--function", "x", "--resolution", "3", "-o", "s.ply"} + box);
   before_ = names();

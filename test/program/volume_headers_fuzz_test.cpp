@@ -11,6 +11,8 @@ EQUIAFFINE_FUZZ_TARGET(volume_headers) {
   const std::string path = file.write(input);
   for (const auto check : {check_inr_header, check_meta_header, check_nifti_header, check_vti_header})
     test::accepts([&] { check(path); });
-  for (const auto format : {Volume_format::META, Volume_format::NRRD})
+  for (const auto format : {Volume_format::META, Volume_format::NRRD}) {
+    test::accepts([&] { check_data_files(path, format, false); });
     test::expect(size_of_volume(path, format) >= double(input.size()), "a volume is no smaller than its header");
+  }
 }

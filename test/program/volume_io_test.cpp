@@ -260,14 +260,17 @@ TEST_F(Program_volume_io, the_size_of_a_volume_is_that_of_its_header_and_the_fil
   expect_size(meta + "absent.raw", Volume_format::META, 0);
   expect_size(meta + path("alone.raw"), Volume_format::META, 1000);
   expect_size(meta + "LIST\ndata/1.raw\n\n data/03.raw\n", Volume_format::META, 2000);
-  expect_size(meta + "data/%d.raw 1 3 1", Volume_format::META, 3000);
+  expect_size(meta + "data/%d.raw 1 3 1", Volume_format::META, 2000);
+  expect_size(meta + "data/%02d.raw 1 3 1", Volume_format::META, 1000);
+  expect_size("NDims = 3\nDimSize = 4 4 2\nElementDataFile = data/%d.raw", Volume_format::META, 2000);
   expect_size(meta + "LOCAL\nElementDataFile = other.raw\n", Volume_format::META, 0);
   const std::string nrrd = "NRRD0004\n# other.raw\ntype: float\n";
   expect_size(nrrd + "data file: alone.raw\n", Volume_format::NRRD, 1000);
-  expect_size(nrrd + "DataFile: ./data/%02d.raw 3 3 1\n", Volume_format::NRRD, 3000);
+  expect_size(nrrd + "DataFile: ./data/%02d.raw 3 3 1\n", Volume_format::NRRD, 1000);
+  expect_size(nrrd + "data file: data/%d.raw 3 1 -1\n", Volume_format::NRRD, 2000);
   expect_size(nrrd + "data file: LIST\ndata/1.raw\ndata/2.raw", Volume_format::NRRD, 2000);
   expect_size(nrrd + "\ndata file: other.raw\n", Volume_format::NRRD, 0);
-  expect_size(nrrd + "data file: data/%", Volume_format::NRRD, 23000);
+  expect_size(nrrd + "data file: data/%", Volume_format::NRRD, 0);
   expect_size("ElementDataFile = other.raw", Volume_format::VTI, 0);
   EXPECT_EQ(equiaffine::size_of_volume(path("data"), std::nullopt), 23000);
 }
@@ -310,6 +313,8 @@ TEST_F(Program_volume_io, samples_that_lie_in_a_file_as_in_memory_are_found_ther
   const auto nifti = [&](float offset, float slope, float intercept, std::int16_t type = 16) {
     std::string header(352, '\0');
     const std::int32_t size = 348;
+    const auto bits = std::int16_t(type == 16 ? 32 : 16);
+    std::memcpy(header.data() + 72, &bits, sizeof bits);
     std::memcpy(header.data() + 70, &type, sizeof type);
     const std::array<float, 3> numbers = {offset, slope, intercept};
     std::memcpy(header.data(), &size, sizeof size);
@@ -319,9 +324,9 @@ TEST_F(Program_volume_io, samples_that_lie_in_a_file_as_in_memory_are_found_ther
   };
   EXPECT_EQ(nifti(352, 0, 0), "header 352");
   EXPECT_EQ(nifti(352, 1, 0), "header 352");
+  EXPECT_EQ(nifti(352, 0, 5), "header 352") << "without a slope there is no intercept";
   EXPECT_EQ(nifti(352, 1, 0, 4), "elsewhere") << "the reader says float, and these are integers of 16 bits";
-  for (const auto& [offset, slope, intercept] :
-       {std::array<float, 3>{352, 2, 0}, {352, 1, 1}, {352, 0, 5}, {353, 1, 0}, {1e30F, 1, 0}})
+  for (const auto& [offset, slope, intercept] : {std::array<float, 3>{352, 2, 0}, {352, 1, 1}, {353, 1, 0}})
     EXPECT_EQ(nifti(offset, slope, intercept), "elsewhere");
 }
 
@@ -398,6 +403,17 @@ TEST_F(Program_volume_io, an_inr_file_may_have_integers_but_no_vectors_and_no_ro
   expect_reading_error("r.inr", "rotated");
 }
 
+TEST_F(Program_volume_io, an_inr_file_of_vectors_needs_the_number_of_a_component) {
+  std::vector<float> values(48);
+  std::iota(values.begin(), values.end(), 0.F);
+  write_file("v.inr", inr(std::string(inr_size) + "VDIM=2\nTYPE=float\nPIXSIZE=32 bits\nCPU=decm\n", bytes_of(values)));
+  expect_reading_error("v.inr", "2 numbers per node; choose one by --component N from 1 to 2");
+  const Volume second = read_volume(path("v.inr"), equiaffine::Samples_in::FILE, {2}).to_volume();
+  for (std::size_t n = 0; n < 24; ++n) EXPECT_EQ(second.values[n], double(2 * n + 1));
+  EXPECT_THROW(read_volume(path("v.inr"), equiaffine::Samples_in::FILE, {3}), Input_error);
+  EXPECT_THROW(read_volume(path("v.inr"), equiaffine::Samples_in::FILE, {2, 2}), Input_error);
+}
+
 TEST_F(Program_volume_io, an_inr_header_is_told_what_is_wrong_with_which_field) {
   const std::string data = bytes_of(std::vector<float>(24, 1.5F));
   const std::string size = inr_size, type = "VDIM=1\nTYPE=float\nPIXSIZE=32 bits\nCPU=decm\n";
@@ -444,7 +460,7 @@ TEST_F(Program_volume_io, an_inr_file_may_decompress_to_what_its_header_says) {
   for (int k = 0; k < 220; ++k) gzwrite(file, plane.data(), unsigned(plane.size()));
   gzclose(file);
   equiaffine::Shared_volume volume;
-  equiaffine::run_in_child([&] { equiaffine::read_inr_volume(path("zeros.inr.gz"), volume); }, little_memory);
+  equiaffine::run_in_child([&] { equiaffine::read_inr_volume(path("zeros.inr.gz"), {}, volume); }, little_memory);
   EXPECT_EQ(volume.lattice().size(), compressible_size);
 }
 
@@ -513,21 +529,47 @@ TEST_F(Program_volume_io, a_nifti_file_may_have_a_fourth_axis_of_one_volume_and_
   write_file("single.nii", bytes);
   EXPECT_EQ(read_volume(path("single.nii")).to_volume().values, volume.values);
   patch_nifti(bytes, {4, 5, 4, 1, 3, 1}, 1, 0);
-  write_file("series.nii", bytes);
-  expect_reading_error("series.nii", "4 axes");
+  write_file("slices.nii", bytes);
+  expect_reading_error("slices.nii", "5 x 4 x 1 nodes");
   patch_nifti(bytes, {3, 5, 4, 3, 1, 1}, 2, -3);
   write_file("scaled.nii", bytes);
   const Volume scaled = read_volume(path("scaled.nii")).to_volume();
   for (std::size_t node = 0; node < volume.values.size(); ++node)
-    EXPECT_NEAR(scaled.values[node], 2 * volume.values[node] - 3,
-                4 * float_epsilon * std::abs(volume.values[node]) + 1e-6);
+    EXPECT_EQ(scaled.values[node], 2 * volume.values[node] - 3);
+}
+
+TEST_F(Program_volume_io, a_nifti_file_may_have_volumes_and_components_of_which_one_is_read) {
+  const Volume volume = sampled({{2, 2, 6}, CGAL::ORIGIN, {Vector_3(1, 0, 0), Vector_3(0, 1, 0), Vector_3(0, 0, 1)}});
+  write_volume(path("a.nii"), volume, false);
+  write_volume(path("a.nii.gz"), volume, false);
+  std::string bytes = read_file("a.nii");
+  patch_nifti(bytes, {5, 2, 2, 2, 3, 1}, 0, 7); // without a slope the intercept does not count, either
+  write_file("times.nii", bytes);
+  const gzFile file = gzopen(path("times.nii.gz").c_str(), "wb");
+  gzwrite(file, bytes.data(), unsigned(bytes.size()));
+  gzclose(file);
+  patch_nifti(bytes, {5, 2, 2, 2, 1, 3}, 1, 0);
+  write_file("vectors.nii", bytes);
+  const auto part = [&](std::size_t n) {
+    return std::vector<double>(volume.values.begin() + std::ptrdiff_t(8 * n),
+                               volume.values.begin() + std::ptrdiff_t(8 * n + 8));
+  };
+  for (std::size_t n = 0; n < 3; ++n)
+    for (const auto where : {equiaffine::Samples_in::FILE, equiaffine::Samples_in::MEMORY}) {
+      EXPECT_EQ(read_volume(path("times.nii"), where, {{}, n + 1}).to_volume().values, part(n));
+      EXPECT_EQ(read_volume(path("times.nii.gz"), where, {{}, n + 1}).to_volume().values, part(n));
+      EXPECT_EQ(read_volume(path("vectors.nii"), where, {n + 1}).to_volume().values, part(n));
+    }
+  expect_reading_error("times.nii", "3 volumes, one after the other; choose one by --time N from 1 to 3");
+  expect_reading_error("vectors.nii", "3 numbers per node; choose one by --component N from 1 to 3");
 }
 
 /// Replaces a number in the header of a NIfTI file.
 template <class Number>
-std::string with_number(std::string bytes, std::size_t place, Number number) {
-  std::memcpy(&bytes[place], &number, sizeof number);
-  return bytes;
+std::string with_number(const std::string& bytes, std::size_t place, Number number) {
+  std::string result = bytes;
+  result.replace(place, sizeof number, reinterpret_cast<const char*>(&number), sizeof number);
+  return result;
 }
 
 TEST_F(Program_volume_io, a_nifti_header_with_a_damaged_frame_is_refused) {
@@ -545,12 +587,32 @@ TEST_F(Program_volume_io, a_nifti_header_with_a_damaged_frame_is_refused) {
     expect_error_of(with_number(bytes, 280, number), "srow");
     expect_error_of(with_number(bytes, 292, number), "srow");
   }
-  expect_error_of(with_number(bytes, 288, -1.7e38F), "srow"); // niftilib never ends
+  expect_error_of(with_number(bytes, 288, -1.7e38F), "srow");
   expect_error_of(with_number(bytes, 108, -352.F), "vox_offset '-352'");
   expect_error_of(with_number(bytes, 0, std::int32_t(540)), "sizeof_hdr");
   expect_error_of(with_number(bytes, 40, std::int16_t(-3)), "dim[0] '-3'");
   expect_error_of(with_number(bytes, 42, std::int16_t(0)), "dim[1] '0'");
   expect_error_of(bytes.substr(0, 100), "end before");
+}
+
+TEST_F(Program_volume_io, a_nifti_file_has_the_steps_of_its_sform_sheared_or_not) {
+  write_volume(path("a.nii"), sampled(axis_parallel_lattice()), false);
+  std::string bytes = read_file("a.nii");
+  const std::array<float, 12> rows = {1, 0.5F, 0, 10, 0, 2, 0.25F, 20, 0, 0, 3, 30};
+  std::memcpy(&bytes[280], rows.data(), sizeof rows);
+  const Lattice expected({5, 4, 3}, Point_3(-10, -20, 30),
+                         {Vector_3(-1, 0, 0), Vector_3(-0.5, -2, 0), Vector_3(0, -0.25, 3)});
+  const auto distance = [&](std::int16_t qform, std::int16_t sform) {
+    write_file("b.nii", with_number(with_number(bytes, 252, qform), 254, sform));
+    return largest_distance_between_nodes(read_volume(path("b.nii")).lattice(), expected);
+  };
+  EXPECT_EQ(distance(0, 1), 0);
+  EXPECT_EQ(distance(0, 2), 0);
+  EXPECT_EQ(distance(1, 1), 0) << "the sform of the scanner comes before a qform, which cannot be sheared";
+  EXPECT_GT(distance(1, 2), 1) << "the qform of the scanner comes before other sforms";
+  write_file("b.nii",
+             with_number(with_number(with_number(bytes, 252, std::int16_t(0)), 254, std::int16_t(1)), 123, char(3)));
+  EXPECT_NEAR(read_volume(path("b.nii")).lattice().origin().z(), 0.03, 1e-12) << "micrometers become millimeters";
 }
 
 TEST_F(Program_volume_io, a_nifti_header_that_contradicts_itself_is_refused) {
@@ -596,6 +658,79 @@ TEST_F(Program_volume_io, a_meta_header_with_damaged_fields_is_refused) {
   expect_reading_error("list.mhd", "names no file");
   write_file("list.mhd", header("3", "2 2 2", "1 1 1", "LIST") + "slice.raw\n");
   expect_reading_error("list.mhd", "'slice.raw', is missing");
+}
+
+std::string meta_of_slices(const std::string& file, const std::string& more = {}) {
+  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nDimSize = 2 2 3\n" + more +
+         "ElementType = MET_FLOAT\nElementDataFile = " + file + "\n";
+}
+
+TEST_F(Program_volume_io, the_slices_that_a_header_names_are_all_there) {
+  const auto slice = [](float first) { return bytes_of(std::vector<float>{first, first + 1, first + 2, first + 3}); };
+  for (const int k : {0, 1, 2}) write_file("s" + std::to_string(k) + ".raw", slice(float(4 * k)));
+  const auto expect_error_of = [&](const std::string& file, const std::string& part) {
+    write_file("wrong.mhd", meta_of_slices(file));
+    expect_reading_error("wrong.mhd", part);
+  };
+  std::vector<double> expected(12);
+  std::iota(expected.begin(), expected.end(), 0);
+  for (const char* files : {"s%d.raw 0 2 1", "LIST\ns0.raw\ns1.raw\ns2.raw", "LIST 2D\ns0.raw\ns1.raw\ns2.raw"}) {
+    write_file("right.mhd", meta_of_slices(files));
+    EXPECT_EQ(read_volume(path("right.mhd")).to_volume().values, expected) << files;
+  }
+  expect_error_of("s%d.raw 1 3 1", "'s3.raw', is missing");
+  expect_error_of("s%d.raw", "'s3.raw', is missing"); // these begin with 1
+  expect_error_of("s%d.raw 0 1 1", "2 files with its data, and its sizes ask for 3");
+  expect_error_of("LIST\ns0.raw\ns1.raw", "2 files");
+  for (const char* pattern : {"s%d.raw 0 2", "s%d.raw 0 2 0", "s%s.raw 0 2 1", "s%d%d.raw 0 2 1", "s%d.raw 2 0 1",
+                              "s%d.raw 0 2147483647 1", "s%n.raw 0 2 1", "%"})
+    expect_error_of(pattern, "the pattern of names '" + std::string(pattern) + "'");
+}
+
+TEST_F(Program_volume_io, data_outside_of_the_folder_of_their_header_are_read_if_that_is_allowed) {
+  fs::create_directory(path("headers"));
+  fs::create_directory(path("headers/data"));
+  const std::string data = bytes_of(std::vector<float>(12, 7.F));
+  write_file("data.raw", data);
+  write_file("headers/data/data.raw", data);
+  fs::create_symlink("../data.raw", path("headers/link.raw"));
+  for (const std::string name : {"data/data.raw", "./data/../data/data.raw", "link.raw"}) {
+    write_file("headers/a.mhd", meta_of_slices(name));
+    EXPECT_EQ(read_volume(path("headers/a.mhd")).to_volume().values, std::vector<double>(12, 7)) << name;
+  }
+  for (const std::string& name : {std::string("../data.raw"), path("data.raw"), std::string("data/../../data.raw")}) {
+    write_file("headers/a.mhd", meta_of_slices(name));
+    write_file("headers/a.nhdr", "NRRD0004\ntype: float\ndimension: 3\nsizes: 2 2 3\nencoding: raw\nendian: little\n"
+                                 "data file: " +
+                                     name + "\n");
+    for (const char* header : {"headers/a.mhd", "headers/a.nhdr"}) {
+      expect_reading_error(header, "outside of its folder; put it beside the header, or add --allow-outside");
+      const Volume volume = read_volume(path(header), equiaffine::Samples_in::FILE, {{}, {}, true}).to_volume();
+      EXPECT_EQ(volume.values, std::vector<double>(12, 7)) << name;
+    }
+  }
+  write_file("headers/a.mhd", meta_of_slices("data"));
+  expect_reading_error("headers/a.mhd", "no regular file");
+}
+
+TEST_F(Program_volume_io, a_component_and_a_volume_of_a_4D_file_can_be_chosen) {
+  std::vector<float> values(24);
+  std::iota(values.begin(), values.end(), 0.F);
+  write_file("vectors.mha", meta_of_slices("LOCAL", "ElementNumberOfChannels = 2\n") + bytes_of(values));
+  write_file("times.mha", "ObjectType = Image\nNDims = 4\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+                          "DimSize = 2 2 3 2\nElementType = MET_FLOAT\nElementDataFile = LOCAL\n" +
+                              bytes_of(values));
+  for (const auto where : {equiaffine::Samples_in::FILE, equiaffine::Samples_in::MEMORY}) {
+    const Volume component = read_volume(path("vectors.mha"), where, {2}).to_volume(),
+                 time = read_volume(path("times.mha"), where, {{}, 2}).to_volume();
+    ASSERT_EQ(component.values.size(), 12u);
+    for (std::size_t n = 0; n < 12; ++n) {
+      EXPECT_EQ(component.values[n], double(2 * n + 1));
+      EXPECT_EQ(time.values[n], double(12 + n));
+    }
+  }
+  expect_reading_error("vectors.mha", "choose one by --component");
+  expect_reading_error("times.mha", "2 volumes, one after the other; choose one by --time N from 1 to 2");
 }
 
 TEST_F(Program_volume_io, coordinates_far_from_the_origin_are_refused_by_nifti) {
@@ -679,7 +814,7 @@ TEST_F(Program_volume_io, a_dicom_series_may_decompress_to_what_its_headers_say)
   write_slice(series / "a.dcm", R"(0\0\0)", width, std::vector<std::int16_t>(width * width, 1), true);
   write_slice(series / "b.dcm", R"(0.96\1.28\1.2)", width, std::vector<std::int16_t>(width * width, 2), true);
   equiaffine::Shared_volume volume;
-  equiaffine::run_in_child([&] { equiaffine::read_dicom_series(series, volume); }, little_memory);
+  equiaffine::run_in_child([&] { equiaffine::read_dicom_volume(series, {}, volume); }, little_memory);
   EXPECT_EQ(volume.lattice().size(), (Lattice::Size{width, width, 2}));
 }
 
@@ -728,7 +863,9 @@ _)";
     const auto sample = float(n);
     text.append(reinterpret_cast<const char*>(&sample), sizeof sample);
   }
-  return text + std::string(200, '\1') + "\n</AppendedData>\n</VTKFile>\n";
+  const std::uint64_t other_length = 12 * sizeof(double);
+  text.append(reinterpret_cast<const char*>(&other_length), sizeof other_length);
+  return text + std::string(other_length, '\1') + "\n</AppendedData>\n</VTKFile>\n";
 }
 
 TEST_F(Program_volume_io, the_samples_of_a_vti_file_may_stay_there) {
@@ -755,12 +892,43 @@ TEST_F(Program_volume_io, the_samples_of_a_vti_file_may_stay_there) {
   for (const auto& [old, replacement] : changes) EXPECT_EQ(place(appended_vti(old, replacement)), 0u) << replacement;
 }
 
+TEST_F(Program_volume_io, a_vti_file_whose_arrays_end_early_is_refused) {
+  const std::string whole = appended_vti();
+  const std::size_t end = whole.find("\n</AppendedData");
+  write_file("a.vti", whole);
+  EXPECT_EQ(read_volume(path("a.vti")).lattice().size(), (Lattice::Size{2, 3, 2}));
+  for (const std::size_t missing : {std::size_t(1), std::size_t(20), std::size_t(96), std::size_t(130)})
+    for (const std::string& rest : {std::string(), whole.substr(end)}) {
+      write_file("a.vti", whole.substr(0, end - missing - 1) + rest);
+      expect_reading_error("a.vti", "the data are damaged or end before");
+    }
+  const std::string text = "RwAAAA=="; // the length 71, and no byte
+  for (const std::string& numbers : {text, std::string("R"), std::string()}) {
+    write_file("b.vti", vti("<PointData><DataArray type=\"Int16\" Name=\"f\" format=\"binary\">" + numbers +
+                            "</DataArray></PointData>"));
+    expect_reading_error("b.vti", "the data are damaged or end before");
+  }
+}
+
+TEST_F(Program_volume_io, a_vti_file_with_numbers_in_cells_has_nodes_at_their_centers) {
+  const std::string text = "<VTKFile type=\"ImageData\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+                           "<ImageData WholeExtent=\"1 3 0 2 0 2\" Origin=\"10 20 30\" Spacing=\"2 4 8\">\n"
+                           "<Piece Extent=\"1 3 0 2 0 2\">\n<CellData>" +
+                           data_array("Name=\"f\"", "1 2 3 4 5 6 7 8") + "</CellData></Piece></ImageData></VTKFile>\n";
+  write_file("cells.vti", text);
+  const Volume volume = read_volume(path("cells.vti")).to_volume();
+  EXPECT_EQ(volume.values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(volume.lattice.point(0, 0, 0), Point_3(10 + 3, 20 + 2, 30 + 4));
+  EXPECT_EQ(volume.lattice.point(1, 1, 1), Point_3(10 + 5, 20 + 6, 30 + 12));
+}
+
 TEST_F(Program_volume_io, a_vti_file_may_decompress_to_what_its_header_says) {
   const Lattice lattice(compressible_size, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
   write_volume(path("zeros.vti"), {lattice, std::vector<double>(lattice.number_of_nodes())}, false);
   equiaffine::Shared_volume volume;
   equiaffine::run_in_child(
-      [&] { equiaffine::read_vti_volume(path("zeros.vti"), equiaffine::Samples_in::MEMORY, volume); }, little_memory);
+      [&] { equiaffine::read_vti_volume(path("zeros.vti"), equiaffine::Samples_in::MEMORY, {}, volume); },
+      little_memory);
   EXPECT_EQ(volume.lattice().size(), compressible_size);
 }
 
@@ -794,8 +962,8 @@ TEST_F(Program_volume_io, a_vti_header_with_damaged_fields_is_refused) {
 
 TEST_F(Program_volume_io, a_vti_file_needs_one_array_of_scalars_at_its_points) {
   const std::string numbers = "1 2 3 4 5 6 7 8 9 10 11 12";
-  write_file("cells.vti", vti("<CellData>" + data_array("Name=\"f\"", "1 2") + "</CellData>"));
-  expect_reading_error("cells.vti", "convert its cell data");
+  write_file("none.vti", vti(""));
+  expect_reading_error("none.vti", "no numbers at its points or cells");
   write_file("two.vti", vti("<PointData>" + data_array("Name=\"f\"", numbers) + data_array("Name=\"g\"", numbers) +
                             "</PointData>"));
   expect_reading_error("two.vti", "marked as its scalars");
@@ -805,7 +973,9 @@ TEST_F(Program_volume_io, a_vti_file_needs_one_array_of_scalars_at_its_points) {
   write_file(
       "vector.vti",
       vti("<PointData>" + data_array("Name=\"f\" NumberOfComponents=\"2\"", numbers + " " + numbers) + "</PointData>"));
-  expect_reading_error("vector.vti", "2 numbers per node");
+  expect_reading_error("vector.vti", "2 numbers per node; choose one by --component N from 1 to 2");
+  const Volume second = read_volume(path("vector.vti"), equiaffine::Samples_in::FILE, {2}).to_volume();
+  EXPECT_EQ(second.values, (std::vector<double>{2, 4, 6, 8, 10, 12, 2, 4, 6, 8, 10, 12}));
   write_file("short.vti", vti("<PointData>" + data_array("Name=\"f\"", "1 2 3 4 5") + "</PointData>"));
   expect_reading_error("short.vti", "damaged");
   write_file("text.vti", "this is no XML");
