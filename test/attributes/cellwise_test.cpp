@@ -136,7 +136,7 @@ TEST(Cellwise, errors_of_curvatures_are_the_same_in_a_part) {
     const Point_3 p = lattice.point(u, 31.7, 35.1);
     const auto [i, j, k] = *errors.cell_of(p);
     const auto part = errors.restricted_to_cells({{i, j, k}, {i + 1, j + 1, k + 1}});
-    EXPECT_TRUE(same_bits(part(p).gaussian_curvature, errors(p).gaussian_curvature));
-    EXPECT_TRUE(same_bits(part(p).mean_curvature, errors(p).mean_curvature));
+    EXPECT_TRUE(same_bits(part(p).affine_gaussian_curvature, errors(p).affine_gaussian_curvature));
+    EXPECT_TRUE(same_bits(part(p).affine_mean_curvature, errors(p).affine_mean_curvature));
   }
 }
