@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annotate(), annotate_by_fit() and the samplers with the meshes, maps and named parameters of CGAL.
+#include "support/sample_volume.h"
 #include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/Sampled_function_traits_3.h>
 #include <equiaffine/analytic_functions.h>
 #include <equiaffine/annotate.h>
 #include <equiaffine/annotate_by_fit.h>
@@ -135,16 +137,16 @@ TYPED_TEST(Annotate_graph, maps_that_are_given_hold_the_structure_at_any_scale) 
 }
 
 TYPED_TEST(Annotate_graph, the_vertices_of_a_sampler_are_its_points_in_their_order) {
-  const auto f = [](const auto& x, const auto& y, const auto& z) {
-    using std::abs;
-    return x * x + y * y + z * z - 1. + 0.3 * z / abs(z); // the jump makes vertices UNCONVERGED
-  };
-  const auto traits = make_analytic_traits<Kernel>(f, CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
-  const auto surface = marching_cubes(traits, parameters::number_of_nodes(24));
+  Volume_3<Kernel> volume = sample_volume(Lattice_3<Kernel>({16, 16, 16}, CGAL::Bbox_3(-2, -2, -2, 2, 2, 2)),
+                                          [](double x, double y, double z) { return x * x + y * y + z * z - 1; });
+  // Vertices around a sample that is smoothed away are UNCONVERGED.
+  volume.values[volume.lattice.index(1, 1, 1)] = -0.5;
+  const Sampled_function_traits_3<Kernel> traits(volume, {.degree = 5, .scheme = Spline_scheme::CONVOLUTION});
+  const auto surface = marching_cubes(traits);
   TypeParam graph;
   Values<TypeParam, Point_status> status;
-  const auto result = marching_cubes(
-      traits, graph, parameters::number_of_nodes(24).vertex_status_map(boost::make_assoc_property_map(status)));
+  const auto result =
+      marching_cubes(traits, graph, parameters::vertex_status_map(boost::make_assoc_property_map(status)));
   ASSERT_TRUE(CGAL::is_valid_polygon_mesh(graph));
   ASSERT_EQ(num_vertices(graph), surface.points.size());
   EXPECT_GT(std::count(result.vertex_status.begin(), result.vertex_status.end(), Point_status::UNCONVERGED), 0);

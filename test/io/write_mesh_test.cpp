@@ -181,10 +181,10 @@ TEST(Write_mesh, stl_has_unit_normals_and_zero_where_there_is_none) {
 }
 
 TEST(Write_mesh, a_closed_mesh_is_closed_in_stl_although_points_coincide_in_single_precision) {
-  // An octahedron whose apex is an edge of length 1e-12.
+  // An octahedron far from the origin, whose apex is an edge of length 1e-12.
   const Mesh mesh = {
-      {Point_3(1, 0, 0), Point_3(0, 1, 0), Point_3(-1, 0, 0), Point_3(0, -1, 0), Point_3(0, 0, -1),
-       Point_3(5e-13, 0, 1), Point_3(-5e-13, 0, 1)},
+      {Point_3(5, 0, 0), Point_3(4, 1, 0), Point_3(3, 0, 0), Point_3(4, -1, 0), Point_3(4, 0, -1),
+       Point_3(4 + 5e-13, 0, 1), Point_3(4 - 5e-13, 0, 1)},
       {{0, 1, 5}, {5, 1, 6}, {1, 2, 6}, {2, 3, 6}, {6, 3, 5}, {3, 0, 5}, {1, 0, 4}, {2, 1, 4}, {3, 2, 4}, {0, 3, 4}}};
   std::istringstream stream(written(Mesh_format::STL, mesh, {}));
   std::vector<Point_3> points;

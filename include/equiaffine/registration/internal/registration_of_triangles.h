@@ -6,6 +6,7 @@
 #include <equiaffine/registration/internal/Shape_matches.h>
 #include <equiaffine/registration/internal/declared_searches.h>
 #include <equiaffine/registration/internal/pieces/register_pieces.h>
+#include <equiaffine/registration/internal/pieces/slippage_of_triangles.h>
 #include <equiaffine/registration/internal/registration_of_wholes.h>
 #include <equiaffine/registration/internal/samples/mesh_samples.h>
 #include <equiaffine/registration/internal/wholes/Centered_surface_3.h>
