@@ -25,6 +25,7 @@ struct Draft {
   Marching_cubes_options marching_cubes;
   Remesh_options remesh;
   Delaunay_options delaunay;
+  std::optional<std::size_t> largest;
   Attribute_selection attributes = select_attributes("basic");
   std::vector<std::string> estimates; ///< the columns of errors and of noise that are asked for
   Estimator estimator = Estimator::COMPACT;

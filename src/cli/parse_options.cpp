@@ -131,6 +131,7 @@ Mesh_options read_mesh_options(Option_reader& reader) {
   if (draft.method == Mesh_method::DELAUNAY) options.method = draft.delaunay;
   else if (draft.method == Mesh_method::REMESH) options.method = draft.remesh;
   else options.method = draft.marching_cubes;
+  options.largest = draft.largest;
   options.remeshes_faces = prefers_remesh(reader) && draft.method == Mesh_method::MARCHING_CUBES;
   options.source.estimates_errors =
       !draft.estimates.empty() || (draft.display.shows_something() && has_column_with_error(draft));

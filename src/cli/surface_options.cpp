@@ -116,6 +116,8 @@ const std::vector<Option_row> rows_of_surfaces = {
      "N [NY NZ]",
      "nodes of the grid per axis, 2 or more: 64, for a distance or fit 129; a volume has its own",
      [](const Option_words& option, Draft& draft) { draft.source.resolution = parse_resolution(option); }},
+    {"--largest", MESH, SAMPLING, 1, "N", "keep the N connected components of the greatest areas, all by default",
+     [](const Option_words& option, Draft& draft) { draft.largest = parse_count(option.name, option.word(), 1); }},
     {"--yes", MESH | EVALUATE | SAMPLE | registering, SAMPLING, 0, "",
      "agree to use more than half of the memory of this computer",
      [](const Option_words& option, Draft& draft) {

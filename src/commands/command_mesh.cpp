@@ -31,6 +31,7 @@ Statistics make_statistics(const Mesh_options& options, const Annotated_surface&
   statistics.vertices = surface.mesh.points.size();
   statistics.faces = surface.mesh.triangles.size();
   statistics.topology = topology;
+  statistics.components_left_out = surface.components_left_out;
   statistics.status = surface.status;
   statistics.max_distance_to_surface = surface.max_distance;
   statistics.sample_seconds = surface.mesh.sampling_seconds;
@@ -70,7 +71,8 @@ Description make_description(const Mesh_options& options, const Statistics& stat
     description.emplace_back("Normals", "against the gradient");
   description.emplace_back("Vertices", std::to_string(statistics.vertices));
   description.emplace_back("Triangles", std::to_string(statistics.faces));
-  description.emplace_back("Components", std::to_string(statistics.topology.components));
+  description.emplace_back("Components",
+                           std::to_string(statistics.topology.components) + left_out_text(statistics));
   description.emplace_back("Euler characteristic", std::to_string(statistics.topology.euler_characteristic));
   description.insert(description.end(), fit.begin(), fit.end());
   return description;

@@ -6,7 +6,7 @@
 #include "commands/fail_without_surface.h"
 #include "commands/forewarn_of_grid.h"
 #include "commands/remesh_fit.h"
-#include "commands/remove_crumbs.h"
+#include "commands/remove_components.h"
 #include "engine/Engine.h"
 #include "source/any_level_set.h"
 #include "source/warnings.h"
@@ -150,6 +150,8 @@ Annotated_surface annotated_surface(const Source& source, const Mesh_options& op
     if (std::holds_alternative<Marching_cubes_options>(options.method))
       surface.close_sheets = close_sheets(*source.fit, options.source);
   }
+  if (options.largest) surface.components_left_out = keep_largest(surface.mesh, *options.largest, surface.outcomes);
+  if (surface.components_left_out > 0) surface.curves.reset(); // they are found anew, on what is left
   if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
     for (auto& triangle : surface.mesh.triangles) std::swap(triangle[1], triangle[2]);
   if (time == Attribute_time::LATER) return surface;

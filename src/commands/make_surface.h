@@ -31,6 +31,7 @@ struct Annotated_surface {
   double max_distance = 0, annotation_seconds = 0;
   std::optional<Parabolic_curves_3<Kernel>> curves; ///< if they were asked for
   std::vector<double> outcomes;                     ///< of vertices of a remesh
+  std::size_t components_left_out = 0;              ///< beside the largest ones, if only these were asked for
   std::optional<Remesh_statistics> remesh;
   std::string reason_against_remesh; ///< of faces that could not be remeshed although nothing else was asked for
 };

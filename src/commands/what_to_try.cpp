@@ -62,11 +62,13 @@ std::vector<std::string> what_to_try(const Register_options& options, const Foun
   if (lacks_curvature(options, found)) {
     add_for_kind_without_curvature(options.maps, advice);
   } else {
+    const bool are_data = is_fit(options.source) || is_fit(options.target);
+    if ((are_data || found.registration.hypotheses == 0) && !keeps_angles(options.maps.kind))
+      advice.emplace_back("--kind similarity, whose frames need fewer derivatives and exist on quadrics, too");
     add_for_scales(options.source, options.target, advice);
     add_for_derivatives({&options.source, &options.target}, advice);
+    if (options.maps.kind == Map_kind::RIGID) advice.emplace_back("--kind similarity, which allows other sizes");
     add_for_kind(options.maps, advice);
-    if (found.registration.hypotheses == 0 && !keeps_angles(options.maps.kind))
-      advice.emplace_back("--kind similarity, whose frames need fewer derivatives and exist on quadrics, too");
   }
   if (found.registration.hypotheses > 0 && options.least_overlap > Register_options().least_overlap)
     advice.emplace_back("a smaller --min-overlap");

@@ -19,6 +19,12 @@ std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_st
   return counts;
 }
 
+std::string left_out_text(const Mesh_facts& facts) {
+  const std::size_t n = facts.components_left_out;
+  if (n == 0) return "";
+  return ", " + std::to_string(n) + (n == 1 ? " smaller one" : " smaller ones") + " left out";
+}
+
 namespace {
 
 long percent(double part) { return std::lround(100 * part); }
@@ -63,7 +69,7 @@ void add(const Fit_statistics& fit, Json& json) {
 
 void add_topology(const Mesh_facts& facts, std::ostream& text) {
   text << facts.vertices << " vertices, " << facts.faces << " triangles, " << facts.topology.components
-       << (facts.topology.components == 1 ? " component" : " components") << ", Euler characteristic "
+       << (facts.topology.components == 1 ? " component" : " components") << left_out_text(facts) << ", Euler characteristic "
        << facts.topology.euler_characteristic << ", ";
   if (!facts.topology.is_manifold) text << "not a manifold, ";
   if (facts.topology.boundary_edges == 0) text << "closed\n";
@@ -123,6 +129,7 @@ std::string to_JSON(const Statistics& s) {
   Json json = begin_JSON(s.source);
   json["isovalue"] = s.isovalue;
   add(s, json);
+  json["components_left_out"] = s.components_left_out;
   json["max_distance_to_surface"] = s.max_distance_to_surface;
   json["seconds"] = {{"sample", s.sample_seconds},
                      {"project", s.project_seconds},

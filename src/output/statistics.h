@@ -36,6 +36,7 @@ struct Mesh_facts {
   std::string source;
   std::size_t vertices = 0, faces = 0;
   Mesh_topology topology;
+  std::size_t components_left_out = 0;
   std::array<std::size_t, number_of_point_statuses> status{};
 };
 
@@ -67,6 +68,9 @@ std::string to_JSON(const Statistics& statistics);
 
 /// One object, see the section on statistics of doc/program.md. A number that does not exist is null.
 std::string to_JSON(const Annotation_statistics& statistics);
+
+/// ", 3 smaller ones left out", or nothing.
+std::string left_out_text(const Mesh_facts& facts);
 
 /// Says the most important statistics in a few lines.
 std::string summary(const Statistics& statistics);

@@ -108,6 +108,7 @@ struct Mesh_options {
   double isovalue = 0;
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
   std::variant<Marching_cubes_options, Delaunay_options, Remesh_options> method;
+  std::optional<std::size_t> largest; ///< so many connected components of the greatest areas are kept, or all
   bool remeshes_faces = false; ///< whether the faces of a fit that form a surface are remeshed without the `method`
   Attribute_selection attributes;
   std::vector<std::string> estimates; ///< the columns of errors and of noise that the mesh gets

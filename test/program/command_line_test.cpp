@@ -513,6 +513,33 @@ TEST_F(Program_command_line, a_surface_without_parabolic_curves_gives_an_empty_f
   EXPECT_TRUE(file("s.html").starts_with("<!DOCTYPE html>"));
 }
 
+TEST_F(Program_command_line, the_largest_components_are_kept_on_request) {
+  const Arguments three_spheres = {"--function", "min(x^2+y^2+z^2-.04, (x-1)^2+y^2+z^2-.25, (x+1)^2+y^2+z^2-.09)",
+                                   "--box",      "-2",
+                                   "2",          "-2",
+                                   "2",          "-2",
+                                   "2",          "--largest"};
+  const auto largest_x = [&](const Arguments& options, std::size_t left, std::size_t left_out) {
+    const Json stats = stats_of(three_spheres + options);
+    EXPECT_EQ(stats["components"], left);
+    EXPECT_EQ(stats["components_left_out"], left_out);
+    EXPECT_EQ(stats["euler_characteristic"], 2 * left);
+    EXPECT_EQ(stats["boundary_edges"], 0);
+    double sum = 0, count = 0;
+    for (const std::string& line : split(file("stats.off"), '\n'))
+      if (split(line, ' ').size() == 3 && line.find('.') != std::string::npos) sum += std::stod(line), ++count;
+    return sum / count;
+  };
+  EXPECT_NEAR(largest_x({"1"}, 1, 2), 1, 1e-2);
+  EXPECT_NEAR(largest_x(Arguments{"1"} + delaunay, 1, 2), 1, 2e-2);
+  EXPECT_GT(largest_x({"2"}, 2, 1), 0);
+  largest_x({"3"}, 3, 0);
+  largest_x({"9"}, 3, 0);
+  const std::string out = run_well(Arguments{"mesh", "-o", "s.off"} + three_spheres + Arguments{"2"});
+  EXPECT_NE(out.find(" 2 components, 1 smaller one left out, Euler characteristic 4, closed"), std::string::npos)
+      << out;
+}
+
 TEST_F(Program_command_line, a_Delaunay_mesh_misses_nothing_and_says_so) {
   const Arguments two_spheres = {
       "--function", "min(x^2+y^2+z^2-1, (x-1.31)^2+(y-0.73)^2+z^2-1e-5)", "--box", "-2", "2", "-2", "2", "-2", "2"};

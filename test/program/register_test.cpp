@@ -141,8 +141,9 @@ TEST_F(Program_register, where_there_is_no_map_it_says_what_to_try) {
             "derivatives and exist on quadrics, too, or surfaces that have more in common");
   const std::string narrow = outcome(surface, image, {"--kind", "rigid", "--no-reflection", "--html", "page.html"});
   EXPECT_TRUE(narrow.starts_with("no map found: ")) << narrow;
-  EXPECT_TRUE(narrow.ends_with("; try --kind affine, which allows all maps, or the command without --no-reflection, or "
-                               "surfaces that have more in common"))
+  EXPECT_TRUE(
+      narrow.ends_with("; try --kind similarity, which allows other sizes, or --kind affine, which allows all maps, "
+                       "or the command without --no-reflection, or surfaces that have more in common"))
       << narrow;
   for (const char* text : {"no map found", "--kind affine, which allows all maps", "1 source, not moved (dark violet)"})
     EXPECT_NE(file("page.html").find(text), std::string::npos) << text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/remove_crumbs.h"
+#include "commands/remove_components.h"
 
 #include "source/source.h"
 #include <equiaffine/base/internal/shared/disjoint_sets.h>
@@ -14,6 +14,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace equiaffine {
@@ -31,13 +33,18 @@ bool is_cut_off(const CGAL::Bbox_3& inner, const CGAL::Bbox_3& outer, const std:
   return false;
 }
 
+Disjoint_sets<std::uint32_t> components_of(const Isosurface_3<Kernel>& surface) {
+  Disjoint_sets<std::uint32_t> components(surface.points.size());
+  for (const auto& [a, b, c] : surface.triangles) components.unite(a, b), components.unite(a, c);
+  return components;
+}
+
 } // namespace
 
 void remove_crumbs(Isosurface_3<Kernel>& surface, const Fit_traits& fit, const Source_options& options) {
   constexpr double reach = 2.5; // in spacings, from side to side
   const std::size_t n = surface.points.size();
-  Disjoint_sets<std::uint32_t> parts(n);
-  for (const auto& [a, b, c] : surface.triangles) parts.unite(a, b), parts.unite(a, c);
+  auto parts = components_of(surface);
   std::vector<CGAL::Bbox_3> boxes(n);
   std::vector<bool> have_border(n, false), are_crumbs(n, false);
   const auto back =
@@ -57,6 +64,28 @@ void remove_crumbs(Isosurface_3<Kernel>& surface, const Fit_traits& fit, const S
   if (std::find(are_crumbs.begin(), are_crumbs.end(), true) == are_crumbs.end()) return;
   std::erase_if(surface.triangles, [&](const auto& t) { return are_crumbs[parts.find(t[0])]; });
   remove_isolated_vertices(surface);
+}
+
+std::size_t keep_largest(Isosurface_3<Kernel>& surface, std::size_t count, std::vector<double>& values) {
+  auto components = components_of(surface);
+  std::map<std::uint32_t, double> areas;
+  for (const auto& [a, b, c] : surface.triangles)
+    areas[components.find(a)] +=
+        std::sqrt(CGAL::cross_product(surface.points[b] - surface.points[a], surface.points[c] - surface.points[a])
+                      .squared_length());
+  if (areas.size() <= count) return 0;
+  std::vector<std::pair<double, std::uint32_t>> sorted;
+  for (const auto& [component, area] : areas) sorted.emplace_back(-area, component);
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = count; i < sorted.size(); ++i) areas.erase(sorted[i].second);
+  const auto is_left_out = [&](std::uint32_t v) { return !areas.contains(components.find(v)); };
+  std::erase_if(surface.triangles, [&](const auto& t) { return is_left_out(t[0]); });
+  if (!values.empty()) {
+    std::uint32_t v = 0;
+    std::erase_if(values, [&](double) { return is_left_out(v++); });
+  }
+  remove_isolated_vertices(surface);
+  return sorted.size() - count;
 }
 
 } // namespace equiaffine
