@@ -148,9 +148,9 @@ TEST_F(Program_register, where_there_is_no_map_it_says_what_to_try) {
   for (const char* text : {"no map found", "--kind affine, which allows all maps", "1 source, not moved (dark violet)"})
     EXPECT_NE(file("page.html").find(text), std::string::npos) << text;
   write_file(folder_ / "three.csv", "x,y,z\n0,0,0\n1,0,0\n0,1,0\n");
-  EXPECT_NE(outcome({"three.csv"}, {"three.csv"}).find("; try the same --scale R on both sides"), std::string::npos);
+  EXPECT_NE(outcome({"three.csv"}, {"three.csv"}).find(", or the same --scale R on both sides"), std::string::npos);
   EXPECT_NE(
-      outcome({"three.csv", "--scale", "2"}, {"three.csv", "--scale", "2"}).find("; try a larger --scale, the same"),
+      outcome({"three.csv", "--scale", "2"}, {"three.csv", "--scale", "2"}).find(", or a larger --scale, the same"),
       std::string::npos);
 }
 
