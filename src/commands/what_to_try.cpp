@@ -7,7 +7,7 @@ namespace equiaffine {
 
 namespace {
 
-bool is_fit(const Surface_options& surface) { return surface.source.kind == Source_kind::FIT; }
+bool is_fitted(const Surface_options& surface) { return surface.source.kind == Source_kind::FIT; }
 
 /// Derivatives that are too rough to be matched have no frames that agree, or wrong ones.
 void add_for_derivatives(std::initializer_list<const Surface_options*> surfaces, std::vector<std::string>& advice) {
@@ -25,18 +25,18 @@ void add_for_derivatives(std::initializer_list<const Surface_options*> surfaces,
 bool lacks_curvature(const Register_options& options, const Found_map& found) {
   const auto lacks = [](const Surface_options& options_of_side, const Surface_to_register& side) {
     const bool has_scale = options_of_side.source.fit.scale || side.scale;
-    return is_fit(options_of_side) && !has_scale && !side.mesh.triangles.empty();
+    return is_fitted(options_of_side) && !has_scale && !side.mesh.triangles.empty();
   };
   return lacks(options.source, found.source) && lacks(options.target, found.target) && found.tried.empty();
 }
 
 void add_for_scales(const Surface_options& source, const Surface_options& target, std::vector<std::string>& advice) {
   const auto &scale = source.source.fit.scale, &other = target.source.fit.scale;
-  if (is_fit(source) && is_fit(target))
+  if (is_fitted(source) && is_fitted(target))
     advice.emplace_back(scale && scale == other ? "a larger --scale, the same on both sides"
                                                 : "the same --scale R on both sides");
-  else if (is_fit(source) || is_fit(target))
-    advice.emplace_back((is_fit(source) ? scale : other) ? "a larger --scale" : "--scale R for the fit");
+  else if (is_fitted(source) || is_fitted(target))
+    advice.emplace_back((is_fitted(source) ? scale : other) ? "a larger --scale" : "--scale R for the fit");
 }
 
 void add_for_reflections(const Map_options& maps, std::vector<std::string>& advice) {
@@ -62,7 +62,7 @@ std::vector<std::string> what_to_try(const Register_options& options, const Foun
   if (lacks_curvature(options, found)) {
     add_for_kind_without_curvature(options.maps, advice);
   } else {
-    const bool are_data = is_fit(options.source) || is_fit(options.target);
+    const bool are_data = is_fitted(options.source) || is_fitted(options.target);
     if ((are_data || found.registration.hypotheses == 0) && !keeps_angles(options.maps.kind))
       advice.emplace_back("--kind similarity, whose frames need fewer derivatives and exist on quadrics, too");
     add_for_scales(options.source, options.target, advice);
