@@ -22,6 +22,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -286,13 +287,33 @@ TEST(Register_meshes, planes_have_no_evidence) {
 }
 
 TEST(Register_meshes, a_map_of_a_surface_that_turns_is_one_of_a_family) {
-  CGAL::Surface_mesh<Point_3> cylinder;
-  CGAL::make_regular_prism(40, cylinder, Point_3(0, 0, 0), 2., 1., true);
-  const auto of_cylinder = register_surfaces<CGAL::Parallel_if_available_tag>(
-      cylinder, cylinder, parameters::map_kind(Map_kind::RIGID).number_of_maps(3));
-  ASSERT_TRUE(of_cylinder.found());
-  EXPECT_EQ(of_cylinder.slippage.dimension(), 1u);
-  EXPECT_EQ(of_cylinder.maps.size(), 1u);
+  constexpr std::size_t rings = 80, sides = 40;
+  Solid torus;
+  for (std::size_t i = 0; i < rings; ++i)
+    for (std::size_t j = 0; j < sides; ++j) {
+      const double u = 2 * std::numbers::pi * double(i) / rings, v = 2 * std::numbers::pi * double(j) / sides;
+      const double r = 1 + .4 * std::cos(v);
+      torus.points.emplace_back(r * std::cos(u), r * std::sin(u), .4 * std::sin(v));
+      const auto vertex = [](std::size_t ring, std::size_t side) { return ring % rings * sides + side % sides; };
+      torus.polygons.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+    }
+  const auto of_torus = registered(torus, torus, parameters::map_kind(Map_kind::RIGID).number_of_maps(3));
+  ASSERT_TRUE(of_torus.found());
+  EXPECT_EQ(of_torus.slippage.dimension(), 1u);
+  EXPECT_LT(of_torus.slippage.rms, 2e-3);
+  EXPECT_EQ(of_torus.maps.size(), 1u);
+}
+
+TEST(Register_meshes, a_prism_of_many_sides_has_many_maps_and_does_not_turn) {
+  CGAL::Surface_mesh<Point_3> prism;
+  CGAL::make_regular_prism(40, prism, Point_3(0, 0, 0), 2., 1., true);
+  const auto of_prism = register_surfaces<CGAL::Parallel_if_available_tag>(
+      prism, prism, parameters::map_kind(Map_kind::RIGID).number_of_maps(3));
+  ASSERT_TRUE(of_prism.found());
+  EXPECT_EQ(of_prism.slippage.dimension(), 0u);
+  EXPECT_EQ(of_prism.maps.size(), 3u);
+  EXPECT_GE(of_prism.equally_good, 79u);
+  EXPECT_LT(of_prism.equally_good, 160u) << "there are 160 symmetries";
 }
 
 TEST(Register_meshes, what_makes_no_sense_is_refused) {

@@ -25,7 +25,7 @@
 namespace equiaffine::internal {
 
 /// A map between centered surfaces with its evidence, in the coordinates of the surfaces. Points further from the other
-/// surface than `touching` contradict it.
+/// surface than `touching` contradict it, and the others lie on it.
 inline Shape_match match_of(const Centered_pair& surfaces, const Affine_map_3& map, double touching,
                             const Judgement& how) {
   const auto& [source, target] = surfaces;
@@ -34,11 +34,13 @@ inline Shape_match match_of(const Centered_pair& surfaces, const Affine_map_3& m
                               chance_of_nearness(source.samples.area.measure, source.samples.radius())};
   const Map_evidence evidence = evidence_of_distances(distances.moved, distances.fixed, 1, chances, how);
   const double unit = 1 / std::cbrt(std::abs(target.map.matrix.determinant()));
+  const std::array<double, 2> parts = {part_on_surface(distances.moved, touching),
+                                       part_on_surface(distances.fixed, touching)};
   return {target.map.inverse() * map * source.map,
           unit * distances.rms(),
-          evidence.inliers,
+          parts,
           evidence.log10_false_alarms,
-          {1 - part_on_surface(distances.moved, touching), 1 - part_on_surface(distances.fixed, touching)}};
+          {1 - parts[0], 1 - parts[1]}};
 }
 
 /// Rotations near all that may move one surface to within a distance of the other. Where the source slips about an axis
