@@ -248,6 +248,7 @@ void compare_triangles(const Register_options& options, Found_map& found, Progre
   } else {
     found.registration.hypotheses = by_triangles.hypotheses;
     found.registration.reason = std::move(by_triangles.reason);
+    found.registration.slippage = std::move(by_triangles.slippage);
   }
 }
 
@@ -256,9 +257,9 @@ void compare_triangles(const Register_options& options, Found_map& found, Progre
 Found_map find_map(const Register_options& options, Progress& progress) {
   Found_map found = find_by_frames(options, progress);
   const auto& source = found.source.mesh;
-  if (is_mesh(options.source, found.source)) // a fit makes edges round, and slides where they do not
-    found.registration.slippage = slippage_of_mesh(source.points, source.triangles, options.maps.kind);
   if (!found.registration.found() && are_meshes(options, found)) compare_triangles(options, found, progress);
+  else if (is_mesh(options.source, found.source)) // a fit makes edges round, and slides where they do not
+    found.registration.slippage = slippage_of_mesh(source.points, source.triangles, options.maps.kind);
   return found;
 }
 

@@ -80,10 +80,8 @@ std::size_t keep_largest(Isosurface_3<Kernel>& surface, std::size_t count, std::
   for (std::size_t i = count; i < sorted.size(); ++i) areas.erase(sorted[i].second);
   const auto is_left_out = [&](std::uint32_t v) { return !areas.contains(components.find(v)); };
   std::erase_if(surface.triangles, [&](const auto& t) { return is_left_out(t[0]); });
-  if (!values.empty()) {
-    std::uint32_t v = 0;
-    std::erase_if(values, [&](double) { return is_left_out(v++); });
-  }
+  std::uint32_t v = 0;
+  std::erase_if(values, [&](double) { return is_left_out(v++); });
   remove_isolated_vertices(surface);
   return sorted.size() - count;
 }

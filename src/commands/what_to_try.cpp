@@ -43,6 +43,10 @@ void add_for_reflections(const Map_options& maps, std::vector<std::string>& advi
   if (!maps.allows_reflections) advice.emplace_back("the command without --no-reflection");
 }
 
+void add_for_sizes(const Map_options& maps, std::vector<std::string>& advice) {
+  if (maps.kind == Map_kind::RIGID) advice.emplace_back("--kind similarity, which allows other sizes");
+}
+
 void add_for_kind(const Map_options& maps, std::vector<std::string>& advice) {
   if (maps.kind != Map_kind::AFFINE) advice.emplace_back("--kind affine, which allows all maps");
   add_for_reflections(maps, advice);
@@ -50,7 +54,7 @@ void add_for_kind(const Map_options& maps, std::vector<std::string>& advice) {
 
 /// Pieces of meshes without curvature are matched by maps that keep angles only.
 void add_for_kind_without_curvature(const Map_options& maps, std::vector<std::string>& advice) {
-  if (maps.kind == Map_kind::RIGID) advice.emplace_back("--kind similarity, which allows other sizes");
+  add_for_sizes(maps, advice);
   if (!keeps_angles(maps.kind)) advice.emplace_back("--kind similarity, which needs no curvature");
   add_for_reflections(maps, advice);
 }
@@ -67,7 +71,7 @@ std::vector<std::string> what_to_try(const Register_options& options, const Foun
       advice.emplace_back("--kind similarity, whose frames need fewer derivatives and exist on quadrics, too");
     add_for_scales(options.source, options.target, advice);
     add_for_derivatives({&options.source, &options.target}, advice);
-    if (options.maps.kind == Map_kind::RIGID) advice.emplace_back("--kind similarity, which allows other sizes");
+    add_for_sizes(options.maps, advice);
     add_for_kind(options.maps, advice);
   }
   if (found.registration.hypotheses > 0 && options.least_overlap > Register_options().least_overlap)

@@ -69,7 +69,7 @@ std::string to_JSON(const Statistics& statistics);
 /// One object, see the section on statistics of doc/program.md. A number that does not exist is null.
 std::string to_JSON(const Annotation_statistics& statistics);
 
-/// ", 3 smaller ones left out", or nothing.
+/// Returns ", 3 smaller ones left out" if components were, or nothing.
 std::string left_out_text(const Mesh_facts& facts);
 
 /// Says the most important statistics in a few lines.

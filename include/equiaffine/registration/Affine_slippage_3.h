@@ -17,11 +17,12 @@ struct Infinitesimal_map_3 {
 };
 
 /// The infinitesimal maps along which a surface slides over itself: the Lie algebra of the continuous group of its
-/// symmetries. The generators are a basis, orthonormal in the coordinates in which the points have covariance 1.
+/// symmetries. A mesh slides as the smooth surface does that its facets stand for, to within a distance.
 struct Affine_slippage_3 {
   std::vector<Infinitesimal_map_3> generators; ///< a basis
-  /// By how much it slides off itself, a part of its size: the rms distance of its points after finite motions, or the
-  /// rms normal part of the velocity beside the largest one; 0 if only rounding is left.
+  /// The surface slides off itself by this part of its size: the rms distance of its points after motions of finite
+  /// length, or, where frames of a function tell, the rms of the normal part of the velocity, beside the largest one. It
+  /// is 0 where only rounding is left.
   double rms = 0;
 
   std::size_t dimension() const { return generators.size(); } ///< of the group; 0 if the surface does not slide

@@ -54,7 +54,7 @@ template <class ConcurrencyTag>
 bool differ_as_wholes(const Any_function_3& source, const Any_function_3& target, Map_kind kind,
                       bool allows_reflections);
 
-/// How the surface that the triangles of a mesh stand for slides over itself.
+/// Returns how the surface that the triangles of a mesh stand for slides over itself.
 template <class ConcurrencyTag>
 Affine_slippage_3 slippage_of_triangles(const Triangles_3& mesh, Map_kind kind);
 
