@@ -3,6 +3,8 @@
 #include <equiaffine/io/color_map.h>
 #include <equiaffine/io/internal/shared/Column_numbers.h>
 
+#include <CGAL/Simple_cartesian.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,6 +65,16 @@ TEST(Color_map, numbers_that_are_equal_within_their_errors_have_one_color) {
   for (const double value : values) EXPECT_NEAR(rough.position(value), 0.5, 0.02);
   const std::vector<double> both = {-0.01, 0.001, 0.01};
   EXPECT_EQ(color_range_of_sorted(both, {0.001, 0.01, 0.01}, 0, 0, 0.05).upper, 0.4);
+}
+
+TEST(Color_map, errors_do_not_take_the_range_of_numbers_of_one_sign_across_zero) {
+  const std::vector<double> values = {0.2, 0.3, 0.4}, opposite = {-0.4, -0.3, -0.2};
+  const Color_range positive = color_range_of_sorted(values, values, 0, 0, 0.05);
+  EXPECT_EQ(positive.lower, 0);
+  EXPECT_EQ(positive.upper, 0.8);
+  const Color_range negative = color_range_of_sorted(opposite, values, 0, 0, 0.05);
+  EXPECT_EQ(negative.lower, -0.8);
+  EXPECT_EQ(negative.upper, 0);
 }
 
 TEST(Color_map, quantiles_interpolate_between_order_statistics) {
@@ -339,6 +351,21 @@ TEST(Color_map, numbers_in_doubt_do_not_count_beside_known_ones) {
   EXPECT_DOUBLE_EQ(numbers.part_unknown(), 1. / 3);
   const std::vector<double> unknown(1500, 1e10);
   EXPECT_EQ(numbers_of(values, unknown).mapping(), numbers_of(values).mapping()) << "if none is known, all count";
+}
+
+TEST(Color_map, an_area_density_is_zero_where_the_curvature_of_which_it_is_a_root_is_rounding) {
+  using Kernel = CGAL::Simple_cartesian<double>;
+  Indexed_triangle_mesh_3<Kernel> mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  Vertex_attributes attributes;
+  attributes.columns = {{"affine_area_density", {1e-8, 6e-8, 0}}, {"gaussian_curvature", {1e-32, 1e-29, 0}}};
+  const Numbers_of_mesh numbers(mesh, attributes);
+  const auto width = [&](std::size_t i) { return numbers(attributes.columns[i]).mapping().range.upper; };
+  EXPECT_GT(width(0), 0.5); // so that all have one color
+  EXPECT_GT(width(1), 0.4);
+  attributes.columns[0].values = {0.1, 0.2, 0.3};
+  EXPECT_NEAR(width(0), 0.3, 0.01);
 }
 
 } // namespace

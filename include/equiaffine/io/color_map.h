@@ -75,7 +75,7 @@ inline std::vector<double> sorted_magnitudes(const std::vector<double>& sorted) 
 /// resolution and that largest |value| is below a thousand resolutions, since rounding grows beside a parabolic curve:
 /// their range is a billion resolutions, which is the unit of the numbers where the resolution is 1e-9 of it. `error` is
 /// what the numbers are typically off: a half-width is at least 8 errors, so that numbers that are equal within their
-/// errors have one color.
+/// errors have one color. It does not take the range of numbers of one sign across zero.
 /// \pre `sorted` is ascending and finite, `magnitudes` has its absolute values, ascending
 inline Color_range color_range_of_sorted(const std::vector<double>& sorted, const std::vector<double>& magnitudes,
                                          double clip_percent, double resolution, double error = 0) {
@@ -107,6 +107,8 @@ inline Color_range color_range_of_sorted(const std::vector<double>& sorted, cons
   if (lower == 0 && upper == 0) std::tie(lower, upper) = std::minmax({0., sorted.front(), sorted.back()});
   const double middle = lower + (upper - lower) / 2;
   const double half_width = std::max({(upper - lower) / 2, least_half_width, relative_resolution * std::abs(middle)});
+  if (lower >= 0 && middle < half_width) return {0, 2 * half_width, knee, false};
+  if (upper <= 0 && -middle < half_width) return {-2 * half_width, 0, knee, false};
   return {middle - half_width, middle + half_width, knee, false};
 }
 

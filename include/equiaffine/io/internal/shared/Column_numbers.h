@@ -123,13 +123,19 @@ public:
   }
 
   Column_numbers operator()(const Vertex_attributes::Column& column) const {
+    std::vector<double> values = column.values;
+    if (column.name == "affine_area_density") { // a fourth root, which makes much of the rounding of its radicand
+      const double rounding = rounding_of_quantity("gaussian_curvature", diagonal_);
+      for (double& value : values)
+        if (value * value * value * value <= rounding) value = 0;
+    }
     std::vector<bool> known;
     const auto* const errors = find_errors(attributes_, column.name);
     if (errors) {
       const std::vector<double> sizes = sizes_of_numbers(column, attributes_);
       for (std::size_t i = 0; i < sizes.size(); ++i) known.push_back(is_known(sizes[i], errors->values[i]));
     }
-    return {column.values, known, errors ? errors->values : std::vector<double>(), areas_,
+    return {values, known, errors ? errors->values : std::vector<double>(), areas_,
             rounding_of_quantity(column.name, diagonal_)};
   }
 
