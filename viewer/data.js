@@ -102,6 +102,37 @@ function vertexNormals() {
   return result;
 }
 
+// Where a triangle bends away from the normal of a corner, as at a crease, a copy of the vertex takes its place there,
+// lit by the mean of the faces that do not bend away from the triangle, as in pictures. The copies, of the vertices
+// `origins`, follow after the vertices.
+function splitAtCreases(normals) {
+  const {positions, triangles, size} = mesh, bent = [], greatestBend = Math.cos(40 * Math.PI / 180);
+  const faces = new Float32Array(triangles.length);
+  const bends = (p, i, q, k) => {
+    const ps = p[i] * p[i] + p[i + 1] * p[i + 1] + p[i + 2] * p[i + 2];
+    const qs = q[k] * q[k] + q[k + 1] * q[k + 1] + q[k + 2] * q[k + 2];
+    return p[i] * q[k] + p[i + 1] * q[k + 1] + p[i + 2] * q[k + 2] < greatestBend * Math.sqrt(ps * qs);
+  };
+  faceNormals(positions, triangles, (t, x, y, z) => {
+    faces[t] = x; faces[t + 1] = y; faces[t + 2] = z;
+    for (let k = t; k < t + 3; ++k) if (bends(faces, t, normals, 4 * triangles[k])) bent.push(k);
+  });
+  if (!bent.length) return {normals, triangles, origins: []};
+  const facesAt = new Map(bent.map(k => [triangles[k], []]));
+  triangles.forEach((i, k) => facesAt.get(i)?.push(k - k % 3));
+  const all = new Int16Array(4 * (size + bent.length)), corners = triangles.slice();
+  all.set(normals);
+  bent.forEach((k, copy) => {
+    const sum = [0, 0, 0], t = k - k % 3;
+    for (const other of facesAt.get(triangles[k]))
+      if (!bends(faces, t, faces, other)) for (let c = 0; c < 3; ++c) sum[c] += faces[other + c];
+    const scale = 32767 / (Math.hypot(...sum) || 1);
+    all.set(sum.map(x => x * scale), 4 * (size + copy));
+    corners[k] = size + copy;
+  });
+  return {normals: all, triangles: corners, origins: bent.map(k => triangles[k])};
+}
+
 // A third of the area of the faces around each vertex; equal shares for a mesh without area.
 function vertexAreas() {
   const areas = new Float64Array(mesh.size);

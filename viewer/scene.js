@@ -46,14 +46,13 @@ class Scene {
   // Takes the mesh, without colors.
   fillSurface() {
     const {gl} = this;
-    this.fill('position', mesh.positions);
-    this.fill('normal', vertexNormals());
-    this.fill('level', new Float32Array(mesh.size));
-    this.fill('code', new Uint8Array(mesh.size));
-    this.fill('side', new Float32Array(mesh.size));
-    this.fill('hasNoSide', new Uint8Array(mesh.size));
-    this.fill('doubt', new Float32Array(mesh.size));
-    this.fill('triangles', mesh.triangles, gl.ELEMENT_ARRAY_BUFFER);
+    const {normals, triangles, origins} = splitAtCreases(vertexNormals());
+    this.origins = origins;
+    this.fill('normal', normals);
+    this.fillVertices('position', mesh.positions);
+    for (const name of ['level', 'side', 'doubt']) this.fillVertices(name, new Float32Array(mesh.size));
+    for (const name of ['code', 'hasNoSide']) this.fillVertices(name, new Uint8Array(mesh.size));
+    this.fill('triangles', triangles, gl.ELEMENT_ARRAY_BUFFER);
     this.fill('marked', new Uint32Array(0), gl.ELEMENT_ARRAY_BUFFER);
     this.fill('needles', new Float32Array(0));
     Object.assign(this, {needleCount: 0, markedCount: 0});
@@ -75,6 +74,15 @@ class Scene {
     gl.bindVertexArray(null);
     gl.bindBuffer(target, this.buffers[name] ??= gl.createBuffer());
     gl.bufferData(target, data, gl.STATIC_DRAW);
+  }
+
+  // The same of numbers at vertices, and at their copies at creases.
+  fillVertices(name, data) {
+    const {origins} = this, count = data.length / mesh.size;
+    const all = origins.length ? new data.constructor(data.length + count * origins.length) : data;
+    if (origins.length) all.set(data);
+    origins.forEach((i, copy) => all.set(data.subarray(count * i, count * (i + 1)), count * (mesh.size + copy)));
+    this.fill(name, all);
   }
 
   // attributes: [place, buffer, components, type, stride, offset, divisor]
@@ -100,12 +108,12 @@ class Scene {
   // levels in [0, 1] along `table`, grayer where `doubts` are near 1, or a plain surface without a table; isolines are
   // levels. `sides` is null, or separates the surface where it is 0; it is NaN where it is not known.
   setColors({levels, doubts, codes, sides, region}, table) {
-    this.fill('level', levels);
-    this.fill('doubt', doubts);
-    this.fill('code', codes);
+    this.fillVertices('level', levels);
+    this.fillVertices('doubt', doubts);
+    this.fillVertices('code', codes);
     const hasNoSide = Uint8Array.from({length: mesh.size}, (_, i) => Number(sides !== null && isNaN(sides[i])));
-    this.fill('side', sides?.map(side => isNaN(side) ? 0 : side) ?? new Float32Array(mesh.size));
-    this.fill('hasNoSide', hasNoSide);
+    this.fillVertices('side', sides?.map(side => isNaN(side) ? 0 : side) ?? new Float32Array(mesh.size));
+    this.fillVertices('hasNoSide', hasNoSide);
     Object.assign(this.colors, {isMapped: Boolean(table), hasSides: Boolean(sides), region: channels(region)});
     if (table) this.setMap(table);
     const marked = [];
