@@ -22,15 +22,13 @@ using Mappings = std::map<std::string, Color_mapping>;
 
 /// The JSON text in the element `facts` of the page; empty if there is none.
 std::string facts_of_page(std::istream& page) {
-  constexpr std::size_t longest = 100'000'000; // bytes of a line
-  const std::string begin = "<script type=\"application/json\" id=\"facts\">", end = "</script>";
-  std::string facts, line;
-  while (std::getline(page, line) && facts.size() < longest) {
-    if (facts.empty() && !line.starts_with(begin)) continue;
-    facts += line;
-    if (line.ends_with(end)) return facts.substr(begin.size(), facts.size() - begin.size() - end.size());
-  }
-  return {};
+  constexpr std::size_t most = 10'000'000; // bytes before the end of that element, far more than our pages have
+  const std::string begin = "<script type=\"application/json\" id=\"facts\">";
+  std::string text(most, '\0');
+  text.resize(std::size_t(page.read(text.data(), std::streamsize(most)).gcount()));
+  const std::size_t first = text.find(begin), last = text.find("</script>", first);
+  if (first == std::string::npos || last == std::string::npos) return {};
+  return text.substr(first + begin.size(), last - first - begin.size());
 }
 
 Color_scale scale_of(const std::string& word) {
