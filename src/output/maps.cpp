@@ -193,7 +193,7 @@ std::vector<std::string> limits_of(const Symmetries& symmetries) {
               (*symmetries.order_in_box == 1 ? "s" : "") + " its piece in the box onto itself";
     limits.push_back(text);
   }
-  if (symmetries.spacing && symmetries.order() && symmetries.maps.size() > 1)
+  if (symmetries.spacing && symmetries.is_decided && (dimension > 0 || symmetries.maps.size() > 1))
     limits.push_back("tried at points " + part_text(*symmetries.spacing) +
                      " apart, between which a narrower detail may hide");
   return limits;

@@ -197,6 +197,33 @@ TEST(Affine_symmetries, a_nearly_round_surface_slides_in_fewer_ways) {
   EXPECT_EQ(result.verdict, Symmetry_verdict::EXACT);
 }
 
+// Velocities at the given points do not see the detail.
+TEST(Affine_symmetries, a_round_surface_with_a_small_detail_slides_in_the_ways_that_keep_it) {
+  for (const std::string formula : {"x^2+y^2+z^2-1+.05*exp(-20000*((x-.6)^2+y^2+(z-.8)^2))",
+                                    "max(x^2+y^2+z^2-1,x-.9995)", "(x^2+y^2+z^2-1)*((x-1.5)^2+y^2+z^2-.0004)"}) {
+    const auto result = symmetries({formula, cube(2), 1}, {}, 31);
+    EXPECT_EQ(result.continuous.dimension(), 1u) << formula;
+    EXPECT_TRUE(result.spacing) << formula;
+  }
+}
+
+TEST(Affine_symmetries, parts_on_both_sides_of_a_jump_do_not_slide_onto_each_other) {
+  const auto torus = symmetries({"(hypot(x,y)-1)^2+z^2-.09+.01*sign(y)", cube(2), 4}, {}, 31);
+  EXPECT_EQ(torus.continuous.dimension(), 0u);
+  EXPECT_EQ(torus.order(), 4u);
+}
+
+TEST(Affine_symmetries, a_surface_ends_where_its_function_is_undefined) {
+  EXPECT_EQ(symmetries({"x^4+y^4+z^4-1+0*sqrt(x+.5)", cube(2), 8}, {}, 31).order(), 8u);
+  const auto cap = symmetries({"z-sqrt(1-x^4-y^4)", cube(2), 8}, {}, 31);
+  EXPECT_EQ(cap.order(), 8u);
+  EXPECT_EQ(cap.order_in_box, std::nullopt) << "it lies in the box";
+  const auto hemisphere = symmetries({"z-sqrt(1-x^2-y^2)", cube(2), 1}, {}, 31);
+  EXPECT_EQ(hemisphere.continuous.dimension(), 0u) << "it turns about one axis, which no velocity tells from others";
+  EXPECT_EQ(hemisphere.verdict, Symmetry_verdict::UNDECIDED);
+  EXPECT_EQ(symmetries({"z-.3", cube(2), 9}, {}, 31).continuous.dimension(), 9u);
+}
+
 TEST(Affine_symmetries, what_makes_no_sense_is_refused) {
   const Formula surface = generic_surfaces()[0].traits();
   EXPECT_THROW(affine_symmetries(surface, std::vector<Point_3>()), std::invalid_argument);

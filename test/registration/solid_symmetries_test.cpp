@@ -321,6 +321,42 @@ TEST(Solid_symmetries, a_coarse_mesh_of_an_ellipsoid_turns_as_far_from_itself_as
     }
 }
 
+// In coordinates in which the solid is round, the tips are a third as far off as in its own.
+TEST(Solid_symmetries, affine_ones_move_points_of_a_long_solid_as_far_off_as_is_said) {
+  Solid needle = {{{-5, -.5, -.5},
+                   {5, -.5, -.5},
+                   {5, .5, -.5},
+                   {-5, .5, -.5},
+                   {-5, -.5, .5},
+                   {5, -.5, .5},
+                   {5, .5, .5},
+                   {-5, .5, .5},
+                   {-5.3, 0, 0},
+                   {5.36, 0, 0}},
+                  {{0, 3, 2, 1},
+                   {4, 5, 6, 7},
+                   {0, 1, 5, 4},
+                   {2, 3, 7, 6},
+                   {1, 2, 9},
+                   {2, 6, 9},
+                   {6, 5, 9},
+                   {5, 1, 9},
+                   {0, 4, 8},
+                   {4, 7, 8},
+                   {7, 3, 8},
+                   {3, 0, 8}}};
+  const auto result = affine_symmetries<CGAL::Parallel_if_available_tag>(needle.points, needle.polygons);
+  ASSERT_GE(result.levels.size(), 2u);
+  EXPECT_EQ(result.levels[0].order(), 8u);
+  EXPECT_EQ(result.levels[1].order(), 16u);
+  constexpr double off = .04295, size = 3.1048; // a tip beside the image of the other one
+  EXPECT_GT(result.levels[1].greatest, off / size);
+  EXPECT_LT(result.levels[1].greatest, 1.4 * off / size);
+  const auto greatest = std::max_element(result.levels[1].maps.begin(), result.levels[1].maps.end(),
+                                         [](const auto& a, const auto& b) { return a.greatest < b.greatest; });
+  EXPECT_NEAR(greatest->greatest, result.levels[1].greatest * size, 1e-3);
+}
+
 TEST(Solid_symmetries, meshes_that_make_no_sense_are_refused) {
   const auto rigid = parameters::map_kind(Map_kind::RIGID);
   EXPECT_THROW(symmetries({{{0, 0, 0}}, {}}, rigid), std::invalid_argument);

@@ -6,6 +6,7 @@
 #include <equiaffine/registration/internal/declared_searches.h>
 #include <equiaffine/registration/internal/frames/Framed_surface_3.h>
 #include <equiaffine/registration/internal/frames/Registration_search.h>
+#include <equiaffine/registration/internal/frames/Symmetry_check.h>
 #include <equiaffine/registration/internal/frames/map_of_quadrics.h>
 #include <equiaffine/registration/internal/frames/part_on_surface.h>
 #include <equiaffine/registration/internal/frames/slippage.h>
@@ -105,6 +106,11 @@ Registration_of_functions_3 registration_of_functions(const Surface_with_points_
   const auto framed_target =
       framed_surface<ConcurrencyTag>(target_function, target_refinement, target.points, request.kind);
   auto registration = registration_of_framed<ConcurrencyTag>(framed, framed_target, request);
+  if (auto& slippage = registration.result.slippage; slippage.dimension() > 0 && has_exact_frames(framed)) {
+    const Symmetry_check check = Symmetry_check::of<ConcurrencyTag>(source.refined);
+    if (check.check_flows<ConcurrencyTag>(slippage.generators).rms > 4 * slippage_tolerance * check.size())
+      slippage = {};
+  }
   const bool has_points = std::min(framed.probes.size(), framed_target.probes.size()) >= fewest_points_of_whole;
   const bool is_exact = has_exact_frames(framed) && has_exact_frames(framed_target);
   if (registration.result.found() || !has_points || !is_exact) return registration;

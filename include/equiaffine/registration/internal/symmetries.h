@@ -52,7 +52,7 @@ inline void choose_maps(Affine_symmetries_3<Kernel_of_searches>& result, std::op
 /// Converts what was found to the types of CGAL. Distances of maps are in the unit of the surface.
 inline Affine_symmetries_3<Kernel_of_searches> to_CGAL(const Centered_symmetries& found,
                                                        const Centered_surface_3& surface) {
-  const double unit = 1 / std::cbrt(std::abs(surface.map.matrix.determinant()));
+  const double unit = surface.own.size;
   const Affine_map_3 back = surface.map.inverse();
   Affine_symmetries_3<Kernel_of_searches> result{found.verdict, found.reason};
   for (const Symmetry_level& level : found.levels) {
@@ -142,7 +142,8 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_by_rotations(const Any_functi
   return result;
 }
 
-/// The continuous symmetries, to rounding if there are some, else to within the tolerance.
+/// The continuous symmetries by the velocities at the probes, to rounding if there are some, else to within the
+/// tolerance.
 inline void find_continuous(const Framed_surface_3& surface, const Symmetry_request& request, bool is_exact,
                             Affine_symmetries_3<Kernel_of_searches>& result) {
   const double tolerance = std::max(request.tolerance.value_or(0), slippage_tolerance);
@@ -155,6 +156,53 @@ inline void find_continuous(const Framed_surface_3& surface, const Symmetry_requ
   result.verdict = is_to_rounding ? Symmetry_verdict::EXACT : Symmetry_verdict::APPROXIMATE;
   result.is_decided = true;
   result.reason.clear();
+}
+
+/// Keeps the continuous symmetries of an exact function if motions of finite length confirm them at all points of the
+/// check. If they do not, those which more points allow are tried. Returns whether none is left.
+template <class ConcurrencyTag>
+bool has_refuted_continuous(Framed_surface_3 surface, const Symmetry_check& check, const Symmetry_request& request,
+                            Affine_symmetries_3<Kernel_of_searches>& result) {
+  constexpr int attempts = 3, most_steps = 20;
+  result.spacing = check.spacing();
+  for (int attempt = 0; attempt < attempts && result.continuous.dimension() > 0; ++attempt) {
+    const Checked_map moved = check.check_flows<ConcurrencyTag>(result.continuous.generators);
+    if (moved.is_exact || (result.verdict == Symmetry_verdict::APPROXIMATE &&
+                           moved.rms <= request.tolerance.value_or(default_tolerance) * check.size()))
+      return false;
+    // Details that the probes have missed are at the points of the check, or where motions end off the surface.
+    if (attempt == 0) surface.probes.insert(surface.probes.end(), check.points().begin(), check.points().end());
+    for (const Eigen::Vector3d& p : moved.off)
+      if (const Eigen::Vector3d foot = surface.refinement.moved_to_surface(p, most_steps);
+          std::abs(surface.refinement.distance(foot).distance) < slippage_tolerance * check.size())
+        surface.probes.push_back(foot);
+    find_continuous(surface, request, true, result);
+  }
+  result.continuous = {};
+  result.verdict = Symmetry_verdict::UNDECIDED;
+  result.is_decided = false;
+  return true;
+}
+
+/// The finite symmetries of an exact function whose points with frames are those of a surface.
+template <class ConcurrencyTag>
+Affine_symmetries_3<Kernel_of_searches>
+symmetries_of_exact_function(const Any_function_3& function, const Framed_surface_3& surface,
+                             const std::vector<Eigen::Vector3d>& points, const Symmetry_check& check,
+                             const Symmetry_request& request) {
+  const double tolerance = request.tolerance.value_or(default_tolerance);
+  const bool is_strict = tolerance <= greatest_tolerance_of_frames;
+  Affine_symmetries_3<Kernel_of_searches> by_frames;
+  if (is_strict) {
+    by_frames = symmetries_by_exact_frames<ConcurrencyTag>(surface.function, points, check, request);
+    if (by_frames.is_decided && request.is_complete)
+      check_by_rotations(symmetries_by_rotations<ConcurrencyTag>(function, request), by_frames);
+    if (by_frames.is_decided || check.is_cut()) return by_frames;
+  }
+  auto result = symmetries_by_rotations<ConcurrencyTag>(function, request);
+  if (result.is_decided || is_strict) return result;
+  by_frames = symmetries_by_frames<ConcurrencyTag>(surface, request, tolerance);
+  return by_frames.is_decided ? by_frames : result;
 }
 
 template <class ConcurrencyTag>
@@ -176,19 +224,16 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(const Any_functio
   if (!is_exact) return result.is_decided ? result : symmetries_by_frames<ConcurrencyTag>(surface, request, tolerance);
   const auto check = Symmetry_check::of<ConcurrencyTag>(function);
   if (check.is_cut()) result.order_in_box = 1;
+  const bool is_refuted = result.is_decided && has_refuted_continuous<ConcurrencyTag>(surface, check, request, result);
   if (result.is_decided) return result;
-  const bool is_strict = tolerance <= greatest_tolerance_of_frames;
-  Affine_symmetries_3<Kernel_of_searches> by_frames;
-  if (is_strict) {
-    by_frames = symmetries_by_exact_frames<ConcurrencyTag>(framed, points, check, request);
-    if (by_frames.is_decided && request.is_complete)
-      check_by_rotations(symmetries_by_rotations<ConcurrencyTag>(function, request), by_frames);
-    if (by_frames.is_decided || check.is_cut()) return by_frames;
+  result = symmetries_of_exact_function<ConcurrencyTag>(function, surface, points, check, request);
+  if (is_refuted && (!result.is_decided || result.verdict == Symmetry_verdict::NONE)) {
+    result.is_decided = false;
+    result.verdict = Symmetry_verdict::UNDECIDED;
+    result.reason =
+        "the surface slides over itself near each point that was tried, but motions move some points off it";
   }
-  result = symmetries_by_rotations<ConcurrencyTag>(function, request);
-  if (result.is_decided || is_strict) return result;
-  by_frames = symmetries_by_frames<ConcurrencyTag>(surface, request, tolerance);
-  return by_frames.is_decided ? by_frames : result;
+  return result;
 }
 
 /// The symmetries of a mesh; the rigid ones if affine ones cannot be found.

@@ -56,18 +56,19 @@ public:
     return p;
   }
 
+  /// Whether a point is in the box of the function.
+  bool contains(const Eigen::Vector3d& p) const {
+    for (int a = 0; a < 3; ++a)
+      if (!(p[a] >= box_.min(a) && p[a] <= box_.max(a))) return false;
+    return true;
+  }
+
 private:
   using Point_3 = Any_function_3::Point_3;
 
   Jet_3<double> taylor(const Eigen::Vector3d& p) const {
     if (!contains(p)) return Jet_3<double>(std::numeric_limits<double>::quiet_NaN());
     return function_.taylor(point(p));
-  }
-
-  bool contains(const Eigen::Vector3d& p) const {
-    for (int a = 0; a < 3; ++a)
-      if (!(p[a] >= box_.min(a) && p[a] <= box_.max(a))) return false;
-    return true;
   }
 
   static Point_3 point(const Eigen::Vector3d& p) { return Point_3(p[0], p[1], p[2]); }

@@ -3,7 +3,9 @@
 #define EQUIAFFINE_REGISTRATION_INTERNAL_FRAMES_SYMMETRY_CHECK_H
 
 #include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/registration/Affine_slippage_3.h>
 #include <equiaffine/registration/internal/frames/Framed_surface_3.h>
+#include <equiaffine/registration/internal/frames/slippage.h>
 #include <equiaffine/registration/internal/samples/function_samples.h>
 
 #include <CGAL/Bbox_3.h>
@@ -21,9 +23,11 @@ namespace equiaffine::internal {
 
 /// How far a map moves points of a surface off it.
 struct Checked_map {
-  double rms = 0, greatest = 0; ///< distances of images in the box from the surface, in the unit of space
-  double inside = 0;            ///< the part of the images that is in the box
-  bool is_exact = false;        ///< whether each of these is on the surface up to rounding
+  /// Distances of images in the box from the surface, in the unit of space; infinite where the function is undefined.
+  double rms = 0, greatest = 0;
+  double inside = 0;                     ///< the part of the images that is in the box
+  bool is_exact = false;                 ///< whether each of these is on the surface up to rounding
+  std::vector<Eigen::Vector3d> off = {}; ///< images that are not, up to some number
 };
 
 /// Tries whether maps move the zero set of a function onto itself, by points on all of it in its box.
@@ -64,23 +68,48 @@ public:
         0, points,
         [&](std::size_t i) {
           const Eigen::Vector3d image = in_box(map(points_[i]));
+          distances[i] = std::numeric_limits<double>::quiet_NaN();
+          if (!function_.contains(image)) return;
           const auto [distance, normal] = function_.distance(image);
           const double limit = least_limit * size_ + errors_[i];
-          distances[i] = std::abs(distance);
+          const bool is_undefined = std::isnan(function_.first_order(image).value());
+          distances[i] = is_undefined ? std::numeric_limits<double>::infinity() : std::abs(distance);
           are_exact[i] = distances[i] <= limit || changes_sign(image, limit);
           if (are_exact[i]) distances[i] = std::min(distances[i], limit);
         },
         64);
-    Checked_map result = {0, 0, 0, true};
+    constexpr std::size_t most_off = 500;
+    Checked_map result = {.is_exact = true};
     for (std::size_t i = 0; i < distances.size(); ++i) {
-      if (std::isnan(distances[i])) continue; // the image is not in the box
+      if (std::isnan(distances[i])) continue; // the image is not in the box, or f has no gradient there
       result.inside += 1;
       result.rms += distances[i] * distances[i];
       result.greatest = std::max(result.greatest, distances[i]);
       result.is_exact &= are_exact[i] != 0;
+      if (!are_exact[i] && result.off.size() < most_off) result.off.push_back(map(points_[i]));
     }
     result.rms = std::sqrt(result.rms / std::max(1.0, result.inside));
     result.inside /= std::max(1.0, double(points));
+    return result;
+  }
+
+  /// Checks the flows of infinitesimal maps by motions of finite lengths. Velocities know nothing of jumps of a function,
+  /// and of places where it is undefined.
+  template <class ConcurrencyTag>
+  Checked_map check_flows(const std::vector<Infinitesimal_map_3>& velocities) const {
+    Checked_map result = {.is_exact = true};
+    for (const Infinitesimal_map_3& velocity : velocities) {
+      double greatest = velocity.matrix.norm() * size_; // those of a plane may not move it at all
+      for (const Eigen::Vector3d& p : points_)
+        greatest = std::max(greatest, (velocity.matrix * p + velocity.translation).norm());
+      for (const double length : {-1.1, -0.31, 0.31, 1.1}) {
+        const Checked_map moved = check<ConcurrencyTag>(flow(velocity, length * size_ / greatest));
+        result.rms = std::max(result.rms, moved.rms);
+        result.greatest = std::max(result.greatest, moved.greatest);
+        result.is_exact &= moved.is_exact;
+        result.off.insert(result.off.end(), moved.off.begin(), moved.off.end());
+      }
+    }
     return result;
   }
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -67,6 +68,15 @@ inline Sliding_maps sliding_maps(const std::vector<Eigen::Vector3d>& points,
     result.rms.push_back(values[k] / values[0]);
   }
   return result;
+}
+
+/// The map at a time of the flow that has an infinitesimal map as its velocity.
+inline Affine_map_3 flow(const Infinitesimal_map_3& velocity, double time) {
+  Eigen::Matrix4d generator = Eigen::Matrix4d::Zero();
+  generator.topLeftCorner<3, 3>() = time * velocity.matrix;
+  generator.topRightCorner<3, 1>() = time * velocity.translation;
+  const Eigen::Matrix4d map = generator.exp();
+  return {map.topLeftCorner<3, 3>(), map.topRightCorner<3, 1>()};
 }
 
 /// The maps of a kind whose velocity at all points is tangent, to within a tolerance beside the largest velocity.

@@ -18,19 +18,9 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
 namespace equiaffine::internal {
-
-/// The map at a time of the flow that has an infinitesimal map as its velocity.
-inline Affine_map_3 flow(const Infinitesimal_map_3& velocity, double time) {
-  Eigen::Matrix4d generator = Eigen::Matrix4d::Zero();
-  generator.topLeftCorner<3, 3>() = time * velocity.matrix;
-  generator.topRightCorner<3, 1>() = time * velocity.translation;
-  const Eigen::Matrix4d map = generator.exp();
-  return {map.topLeftCorner<3, 3>(), map.topRightCorner<3, 1>()};
-}
 
 /// The points of a piece after a motion, with their distances from the piece; NaN where they left it across its border.
 inline std::vector<Mapped_point> points_after(const Affine_map_3& motion, const Piece_of_surface_3& piece,

@@ -25,21 +25,30 @@ struct Ball_3 {
 /// The signs of a function on the faces of its box.
 struct Signs_on_box {
   bool has_positive = false, has_negative = false;
+  bool has_change = false; ///< between points that are neighbors: a function may be undefined between others
 };
 
 inline Signs_on_box signs_on_box(const Mapped_function_3& function) {
   constexpr int steps = 48;
   Signs_on_box signs;
+  std::array<double, steps + 1> row; // for each j the last value that is not zero
   for (int axis = 0; axis < 3; ++axis)
-    for (int side = 0; side < 2; ++side)
-      for (int i = 0; i <= steps; ++i)
+    for (int side = 0; side < 2; ++side) {
+      row.fill(0);
+      for (int i = 0; i <= steps; ++i) {
+        double last = 0;
         for (int j = 0; j <= steps; ++j) {
           Eigen::Vector3d part(side, double(i) / steps, double(j) / steps);
           std::rotate(part.begin(), part.begin() + axis, part.end());
           const double value = function.value_in_box(part);
           signs.has_positive |= value > 0;
           signs.has_negative |= value < 0;
+          double& above = row[std::size_t(j)];
+          signs.has_change |= value * above < 0 || value * last < 0;
+          if (value != 0) above = last = value;
         }
+      }
+    }
   return signs;
 }
 
@@ -113,7 +122,7 @@ Area_samples_3 function_samples(const Mapped_function_3& function, const Ball_3&
   const Signs_on_box signs = signs_on_box(function);
   const Sampling_lines lines(function, signs.has_negative, ball);
   Area_samples_3 result;
-  result.is_cut = signs.has_positive && signs.has_negative;
+  result.is_cut = signs.has_change;
   Moment_sums_3 area(ball.center), volume(ball.center);
   bool has_inside = false;
   std::size_t done = 0;
@@ -133,7 +142,7 @@ Area_samples_3 function_samples(const Mapped_function_3& function, const Ball_3&
   if (result.points.empty()) return result;
   result.area = area.moments();
   result.area.measure = lines.area(double(result.points.size()), double(done));
-  if (has_inside && !result.is_cut) result.volume = volume.moments();
+  if (has_inside && !(signs.has_positive && signs.has_negative)) result.volume = volume.moments();
   return result;
 }
 

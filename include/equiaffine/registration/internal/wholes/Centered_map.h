@@ -73,27 +73,55 @@ inline Centered_map judged(const Centered_pair& surfaces, const Affine_map_3& ma
   return {map, Distances_both_ways(surfaces, map, points).rms()};
 }
 
-/// The distances of points that a map moves from the surface.
+/// The distances of points that a map moves from the surface, in some proportions, the mean over its area there.
 struct Distances_of_moved {
   double mean_square, greatest;
 };
 
 /// Moves the first samples, and the points that are to be checked, at most `count` of each.
 inline Distances_of_moved distances_of_moved(const Centered_surface_3& surface, const Affine_map_3& map,
-                                             std::size_t count) {
+                                             std::size_t count, const Centered_surface_3::Proportions& in) {
   const auto& samples = surface.samples.points;
   const std::size_t sampled = std::min(count, samples.size()), checked = std::min(count, surface.checked.size());
+  const Eigen::Matrix3d of_normals = in.map.matrix.inverse().transpose();
   Distances_of_moved result = {0, 0};
+  double total = 0;
   for (std::size_t i = 0; i < sampled; ++i) {
-    const double distance = std::abs((*surface.distances)(map(samples[i])).distance);
-    result.mean_square += distance * distance / double(sampled);
+    const double distance = std::abs((*in.distances)(in.map(map(samples[i]))).distance);
+    const double weight = (of_normals * surface.samples.normals[i]).norm();
+    result.mean_square += weight * distance * distance;
+    total += weight;
     result.greatest = std::max(result.greatest, distance);
   }
+  result.mean_square /= total;
   for (std::size_t i = 0; i < checked; ++i) {
     const Eigen::Vector3d& p = surface.checked[i * surface.checked.size() / checked];
-    result.greatest = std::max(result.greatest, std::abs((*surface.distances)(map(p)).distance));
+    result.greatest = std::max(result.greatest, std::abs((*in.distances)(in.map(map(p))).distance));
   }
   return result;
+}
+
+/// The same in the proportions in which maps are sought.
+inline Distances_of_moved distances_of_moved(const Centered_surface_3& surface, const Affine_map_3& map,
+                                             std::size_t count) {
+  return distances_of_moved(surface, map, count, {{}, surface.distances});
+}
+
+/// The rms distance, both ways, between moved points and the surface, in the proportions of the target.
+inline double own_rms(const Centered_pair& surfaces, const Affine_map_3& map, std::size_t count) {
+  const auto& [source, target] = surfaces;
+  const Affine_map_3 back = map.inverse();
+  const Eigen::Matrix3d to_source = (source.own.map * back * target.own.map.inverse()).matrix;
+  double sum = 0;
+  const std::size_t moved = std::min(count, source.samples.points.size());
+  const std::size_t fixed = std::min(count, target.samples.points.size());
+  for (std::size_t i = 0; i < moved; ++i)
+    sum += std::pow((*target.own.distances)(target.own.map(map(source.samples.points[i]))).distance, 2);
+  for (std::size_t i = 0; i < fixed; ++i) {
+    const auto [distance, normal] = (*source.own.distances)(source.own.map(back(target.samples.points[i])));
+    sum += std::pow(distance / (to_source.transpose() * normal).norm(), 2);
+  }
+  return std::sqrt(sum / double(moved + fixed));
 }
 
 /// How a map about the centroid is refined.

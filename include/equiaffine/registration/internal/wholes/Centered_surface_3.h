@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 
 #include <algorithm>
 #include <array>
@@ -31,8 +32,19 @@ inline double exact_distance(double rounding) { return 6 * rounding + 1e-11; }
 /// A surface whose symmetries are sought, in coordinates in which its area has centroid 0 and size 1. For affine maps
 /// the solid has, before that, covariance 1, and the area is the one there.
 struct Centered_surface_3 {
+  /// The proportions in which distances are stated: those of the surface, with its own centroid 0 and size 1.
+  struct Proportions {
+    Affine_map_3 map = {}; ///< from the coordinates of the samples
+    std::shared_ptr<const Surface_distances> distances = {};
+    double size = 1; ///< of the surface, in its unit
+
+    /// The least length of the image of a unit vector.
+    double least_stretch() const { return map.matrix.jacobiSvd().singularValues()[2]; }
+  };
+
   Area_samples_3 samples = {};
-  std::unique_ptr<Surface_distances> distances = {};
+  std::shared_ptr<const Surface_distances> distances = {};
+  Proportions own = {};
   Affine_map_3 map = {};                           ///< from the coordinates of the surface to these
   std::array<std::vector<Corner>, 2> corners = {}; ///< of a mesh, to its rounding and to that of few digits
   std::vector<Eigen::Vector3d> checked = {};       ///< more points: each vertex and each triangle of a mesh has one
@@ -108,7 +120,13 @@ inline Centered_surface_3 centered_surface(const Triangles_3& mesh, Map_kind kin
   result.map = centering_map(area_moments(transformed(mesh, result.map))) * result.map;
   const Triangles_3 centered = transformed(mesh, result.map);
   result.samples = mesh_samples(centered, edges, samples_of_mesh);
-  result.distances = std::make_unique<Mesh_distances>(centered);
+  result.distances = std::make_shared<Mesh_distances>(centered);
+  result.own = {{}, result.distances, area.size()};
+  if (!keeps_angles(kind)) {
+    const Affine_map_3 centering = centering_map(area);
+    result.own.map = centering * result.map.inverse();
+    result.own.distances = std::make_shared<Mesh_distances>(transformed(mesh, centering));
+  }
   result.rounding = std::max(result.rounding, coordinate_rounding(mesh.points) * result.map.matrix.norm());
   result.corners = {corners_of(centered, edges, result.rounding),
                     corners_of(centered, edges, std::max(result.rounding, rounding_of_few_digits))};
@@ -134,6 +152,32 @@ inline Affine_map_3 move_to_sphere(Area_samples_3& samples) {
   return map;
 }
 
+/// The proportions of the zero set of a function, by samples in other coordinates to which a map leads.
+inline Centered_surface_3::Proportions own_proportions(const Any_function_3& function, Area_samples_3 samples,
+                                                       const Affine_map_3& to) {
+  const Affine_map_3 back = to.inverse();
+  const auto weight = [&](std::size_t i) { return (to.matrix.transpose() * samples.normals[i]).norm(); }; // of its area
+  double total = 0;
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < samples.points.size(); ++i) {
+    total += weight(i);
+    centroid += weight(i) * back(samples.points[i]);
+  }
+  centroid /= total;
+  double square = 0;
+  for (std::size_t i = 0; i < samples.points.size(); ++i)
+    square += weight(i) / total * (back(samples.points[i]) - centroid).squaredNorm();
+  Centered_surface_3::Proportions result;
+  result.size = std::sqrt(square);
+  const Affine_map_3 centering = {Eigen::Matrix3d::Identity() / result.size, -centroid / result.size};
+  result.map = centering * back;
+  const double stretch = result.map.matrix.jacobiSvd().singularValues()[0];
+  samples.area.measure *= stretch * stretch; // the spacing is the greatest one
+  for (Eigen::Vector3d& p : samples.points) p = result.map(p);
+  result.distances = std::make_shared<Function_distances>(Mapped_function_3(function, centering), samples);
+  return result;
+}
+
 template <class ConcurrencyTag>
 Centered_surface_3 centered_surface(const Any_function_3& function, Map_kind kind) {
   Centered_surface_3 result;
@@ -157,7 +201,10 @@ Centered_surface_3 centered_surface(const Any_function_3& function, Map_kind kin
   samples.area = {samples.area.measure / (size * size), Eigen::Vector3d::Zero(),
                   samples.area.covariance / (size * size)};
   result.map = centering * result.map;
-  result.distances = std::make_unique<Function_distances>(Mapped_function_3(function, result.map), samples);
+  result.distances = std::make_shared<Function_distances>(Mapped_function_3(function, result.map), samples);
+  result.own = keeps_angles(kind)
+                   ? Centered_surface_3::Proportions{{}, result.distances, 1 / result.map.matrix.col(0).norm()}
+                   : own_proportions(function, samples, result.map);
   return result;
 }
 

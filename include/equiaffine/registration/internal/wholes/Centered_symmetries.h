@@ -15,9 +15,10 @@ namespace equiaffine::internal {
 /// A finite group of maps, each of which moves the surface onto itself to within an rms distance.
 struct Symmetry_level {
   std::vector<Centered_map> maps; ///< in the coordinates of the surface, the identity first, then by rms
-  double rms = 0;                 ///< the largest of a map, a part of the size
-  double greatest = 0;            ///< the largest distance of a moved point from the surface, a part of the size
-  double next_rms = std::numeric_limits<double>::infinity(); ///< the least of a map that is not in the group
+  double rms = 0;                 ///< the largest of a map, a part of the size, in the proportions of the surface
+  double greatest = 0;            ///< the largest distance of a moved point from the surface, there
+  double searched_rms = 0;        ///< the largest of a map, in the proportions in which maps are sought
+  double next_rms = std::numeric_limits<double>::infinity(); ///< the least of a map that is not in the group, there
 };
 
 /// The symmetries of a whole surface.
@@ -26,7 +27,7 @@ struct Centered_symmetries {
   std::string reason = {};                 ///< of an undecided case
   std::vector<Symmetry_level> levels = {}; ///< groups, each of which holds the one before, with growing rms
   Affine_slippage_3 continuous = {};       ///< the rotations of the continuous group: none, 1 or 3
-  double complete_to = 0;                  ///< all maps with a smaller rms were tried, a part of the size
+  double complete_to = 0;                  ///< all maps with a smaller rms were tried, in the surface's proportions
   double least_rms = 0;                    ///< the least of a map beside the identity, a part of the size
 };
 

@@ -50,7 +50,8 @@ public:
   Centered_symmetry_search(const Centered_surface_3& surface, Map_kind kind, bool allows_reflections,
                            double tolerance = 0)
       : surface_(surface), kind_(keeps_angles(kind) ? Map_kind::RIGID : Map_kind::EQUIAFFINE),
-        allows_reflections_(allows_reflections), tolerance_(tolerance), thresholds_(surface, tolerance) {}
+        allows_reflections_(allows_reflections), tolerance_(tolerance),
+        thresholds_(surface, tolerance / std::max(surface.own.least_stretch(), least_stretch_of_tolerance)) {}
 
   Centered_symmetries run() {
     Centered_symmetries result;
@@ -67,7 +68,11 @@ public:
     }
     result.complete_to = complete_to_;
     result.least_rms = std::min(thresholds_.none, found_rms());
-    decide(rotations.front().rms, result);
+    decide(rotations.front(), result);
+    const double stretch = surface_.own.least_stretch(); // no distance is a smaller part of one that was sought
+    result.complete_to *= stretch;
+    result.least_rms *= stretch;
+    for (Symmetry_level& level : result.levels) level.next_rms *= stretch;
     return result;
   }
 
@@ -77,7 +82,7 @@ public:
 private:
   static constexpr std::size_t largest_group = 1000;
   static constexpr std::size_t fewest_verified = 6000, most_verified = 4000000; ///< points of a map, and of all of them
-  static constexpr double tolerance_of_products = 0.1;
+  static constexpr double tolerance_of_products = 0.1, least_stretch_of_tolerance = 1.0 / 3;
 
   /// Adds rotations of any angle, if the surface keeps to itself by them. A finite group to rounding says more, if there
   /// is one, unless turns up to a tolerance were asked for.
@@ -85,6 +90,10 @@ private:
     if (!surface_.is_exact && tolerance_ == 0) // a tolerance that is given is one of the rms
       std::erase_if(rotations, [this](const Slipping_rotation& r) {
         return r.rms < thresholds_.turn && !keeps_to_facets<ConcurrencyTag>(surface_, r, thresholds_.exact);
+      });
+    if (tolerance_ > 0)
+      std::erase_if(rotations, [this](const Slipping_rotation& r) {
+        return !(r.own_rms < std::max(thresholds_.exact, tolerance_));
       });
     result.continuous = continuous_symmetries(surface_, rotations, thresholds_.turn);
     const std::size_t dimension = result.continuous.dimension();
@@ -176,20 +185,31 @@ private:
       level.rms = std::max(level.rms, map.rms);
       level.greatest = std::max(level.greatest, map.greatest);
     }
+    level.searched_rms = searched_rms(level);
     for (const Centered_map& map : found_)
       if (std::none_of(level.maps.begin(), level.maps.end(),
                        [&](const Centered_map& other) { return difference(map, other) < 2 * same_map; }))
         level.next_rms = std::min(level.next_rms, map.rms);
-    if (!(level.rms < thresholds_.none) || !(level.next_rms > 2 * level.rms)) return std::nullopt;
+    if (!(level.searched_rms < thresholds_.none) || !(level.next_rms > 2 * level.searched_rms)) return std::nullopt;
     return level;
   }
 
-  /// The maps of a group with their rms, both ways: the points that one way moves are those that the inverse map moves.
+  double searched_rms(const Symmetry_level& level) const {
+    if (surface_.own.distances == surface_.distances) return level.rms;
+    std::vector<double> rms(level.maps.size());
+    parallel_for<ConcurrencyTag>(1, rms.size(), [&](std::size_t i) {
+      rms[i] = judged(Centered_pair(surface_), level.maps[i].map, points_of_rms).rms;
+    });
+    return *std::max_element(rms.begin(), rms.end());
+  }
+
+  /// The maps of a group with their rms, both ways, in the proportions of the surface: the points that one way moves are
+  /// those that the inverse map moves.
   std::vector<Centered_map> verified(const Finite_group& group) const {
     const std::size_t points = std::max(fewest_verified, most_verified / group.maps.size());
     std::vector<Distances_of_moved> distances(group.maps.size(), {0, 0});
     parallel_for<ConcurrencyTag>(1, distances.size(), [&](std::size_t i) {
-      distances[i] = distances_of_moved(surface_, group.maps[i], points);
+      distances[i] = distances_of_moved(surface_, group.maps[i], points, surface_.own);
     });
     std::vector<Centered_map> result;
     for (std::size_t i = 0; i < distances.size(); ++i) {
@@ -227,20 +247,22 @@ private:
 
   /// A verdict says what is known of maps to within `approximate`. A group whose next map is many times as bad is one
   /// however near other maps come.
-  void decide(double slipping_rms, Centered_symmetries& result) const {
+  void decide(const Slipping_rotation& slipping, Centered_symmetries& result) const {
     constexpr double gap = 100;
+    const double slipping_rms = slipping.rms;
     const double best = found_rms();
     const Symmetry_level* const first = result.levels.empty() ? nullptr : &result.levels.front();
-    const bool is_group = first && first->rms < thresholds_.approximate;
-    const bool is_apart = is_group && std::min(complete_to_, first->next_rms) > gap * std::max(first->rms, 1e-9) &&
-                          slipping_rms > gap * first->rms;
-    const double finite_rms = first ? first->rms : best;
+    const bool is_group = first && first->searched_rms < thresholds_.approximate;
+    const bool is_apart = is_group &&
+                          std::min(complete_to_, first->next_rms) > gap * std::max(first->searched_rms, 1e-9) &&
+                          slipping_rms > gap * first->searched_rms;
+    const double finite_rms = first ? first->searched_rms : best;
     if (is_group && first->greatest <= thresholds_.exact) {
       result.verdict = Symmetry_verdict::EXACT;
     } else if (is_apart) {
       result.verdict = Symmetry_verdict::APPROXIMATE;
     } else if (slipping_rms < thresholds_.approximate && finite_rms > slipping_rms / 3) {
-      result.reason = "rotations about an axis move the surface onto itself to within " + percent(slipping_rms) +
+      result.reason = "rotations about an axis move the surface onto itself to within " + percent(slipping.own_rms) +
                       ", and no group of fewer maps holds much better";
     } else if (best > thresholds_.none && surface_.thickness() < 0.15) {
       result.reason = "the surface is so thin that it is near to its images";
@@ -251,8 +273,9 @@ private:
     } else if (best > thresholds_.approximate) {
       result.reason = "too many rotations move the surface nearly onto itself for all to be tried";
     } else {
-      result.reason =
-          "a map moves the surface onto itself to within " + percent(best) + ", but maps like it are no group";
+      result.reason = "a map moves the surface onto itself to within " +
+                      percent(own_rms(Centered_pair(surface_), found_.front().map, points_of_rms)) +
+                      ", but maps like it are no group";
     }
   }
 

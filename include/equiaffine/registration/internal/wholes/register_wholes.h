@@ -33,11 +33,10 @@ inline Shape_match match_of(const Centered_pair& surfaces, const Affine_map_3& m
   const std::array chances = {chance_of_nearness(target.samples.area.measure, target.samples.radius()),
                               chance_of_nearness(source.samples.area.measure, source.samples.radius())};
   const Map_evidence evidence = evidence_of_distances(distances.moved, distances.fixed, 1, chances, how);
-  const double unit = 1 / std::cbrt(std::abs(target.map.matrix.determinant()));
   const std::array<double, 2> parts = {part_on_surface(distances.moved, touching),
                                        part_on_surface(distances.fixed, touching)};
   return {target.map.inverse() * map * source.map,
-          unit * distances.rms(),
+          target.own.size * own_rms(surfaces, map, how.probes),
           parts,
           evidence.log10_false_alarms,
           {1 - parts[0], 1 - parts[1]}};
@@ -73,7 +72,7 @@ Shape_matches register_wholes(const Centered_surface_3& source, const Centered_s
   if (!source.reason_against.empty() || !target.reason_against.empty()) return result;
   if ((source.extents() - target.extents()).cwiseAbs().maxCoeff() > least_difference) return result;
   const Centered_pair surfaces(source, target);
-  result.size = 1 / std::cbrt(std::abs(target.map.matrix.determinant()));
+  result.size = target.own.size;
   const Tolerances_of_wholes tolerances = tolerances_of_wholes(surfaces, request);
   double scale = 1;
   if (keeps_volume(request.kind)) {

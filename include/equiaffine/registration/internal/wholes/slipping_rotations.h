@@ -24,6 +24,7 @@ namespace equiaffine::internal {
 struct Slipping_rotation {
   Infinitesimal_map_3 generator; ///< in the coordinates of the Centered_surface_3
   double rms;                    ///< the largest of the rotations
+  double own_rms;                ///< the same in the proportions of the surface
 };
 
 /// The axis of the rotation that a map nearly is, by the part of it that is antisymmetric.
@@ -60,17 +61,21 @@ std::vector<Slipping_rotation> slipping_rotations(const Centered_surface_3& surf
       axes.col(Eigen::Index(i)) = axis_of(refined_rotation(angles[0], axis).matrix);
     });
   std::array<Centered_map, 3 * angles.size()> maps;
+  std::array<double, maps.size()> own;
   parallel_for<ConcurrencyTag>(0, maps.size(), [&](std::size_t i) {
     const Eigen::Vector3d axis = axes.col(Eigen::Index(i / angles.size()));
     const double angle = angles[i % angles.size()];
     const Affine_map_3 rotation = {Eigen::AngleAxisd(angle, axis).toRotationMatrix()};
     maps[i] = judged(itself, is_mesh ? rotation : refined_rotation(angle, axis), points);
+    own[i] = own_rms(itself, maps[i].map, points);
   });
   std::vector<Slipping_rotation> result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Slipping_rotation slipping = {};
-    for (std::size_t k = 0; k < angles.size(); ++k)
-      slipping.rms = std::max(slipping.rms, maps[axis * angles.size() + k].rms);
+    for (std::size_t k = axis * angles.size(); k < (axis + 1) * angles.size(); ++k) {
+      slipping.rms = std::max(slipping.rms, maps[k].rms);
+      slipping.own_rms = std::max(slipping.own_rms, own[k]);
+    }
     const Affine_map_3 turn = maps[axis * angles.size()].map, back = turn.inverse();
     const double sine = std::sin(angles[0]);
     slipping.generator.matrix = (turn.matrix - back.matrix) / (2 * sine);
@@ -108,9 +113,10 @@ inline Affine_slippage_3 continuous_symmetries(const Centered_surface_3& surface
   if (count == 0) return {};
   const Affine_map_3& to = surface.map;
   const Eigen::Matrix3d from = to.matrix.inverse();
-  Affine_slippage_3 result = {{}, rotations[std::size_t(count - 1)].rms};
+  Affine_slippage_3 result;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const Infinitesimal_map_3& generator = rotations[std::size_t(i)].generator;
+    result.rms = std::max(result.rms, rotations[std::size_t(i)].own_rms);
     result.generators.push_back(
         {from * generator.matrix * to.matrix, from * (generator.matrix * to.translation + generator.translation)});
   }
