@@ -2,6 +2,7 @@
 #include "picture/natural_up.h"
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/convex_hull_2.h>
 
 #include <cmath>
@@ -17,7 +18,8 @@ double part_of_foot(const std::vector<Kernel::Point_3>& points, const CGAL::Bbox
   constexpr double part_of_height = 0.03;
   const int across = (axis + 1) % 3, along = (axis + 2) % 3;
   const auto span = [&](int k) { return box.max(k) - box.min(k); };
-  std::vector<Kernel::Point_2> lowest, hull;
+  using Point_2 = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2; // a hull needs exact predicates
+  std::vector<Point_2> lowest, hull;
   for (const Kernel::Point_3& p : points)
     if (p[axis] <= box.min(axis) + part_of_height * span(axis)) lowest.emplace_back(p[across], p[along]);
   CGAL::convex_hull_2(lowest.begin(), lowest.end(), std::back_inserter(hull));
