@@ -36,7 +36,8 @@ struct Centered_surface_3 {
   struct Proportions {
     Affine_map_3 map = {}; ///< from the coordinates of the samples
     std::shared_ptr<const Surface_distances> distances = {};
-    double size = 1; ///< of the surface, in its unit
+    double size = 1;         ///< of the surface, in its unit
+    double rounding = 1e-12; ///< of points on the surface, a part of the size
 
     /// The least length of the image of a unit vector.
     double least_stretch() const { return map.matrix.jacobiSvd().singularValues()[2]; }
@@ -121,13 +122,15 @@ inline Centered_surface_3 centered_surface(const Triangles_3& mesh, Map_kind kin
   const Triangles_3 centered = transformed(mesh, result.map);
   result.samples = mesh_samples(centered, edges, samples_of_mesh);
   result.distances = std::make_shared<Mesh_distances>(centered);
-  result.own = {{}, result.distances, area.size()};
+  const double rounding = coordinate_rounding(mesh.points);
+  const auto rounding_after = [&](const Affine_map_3& map) { return std::max(1e-12, rounding * map.matrix.norm()); };
+  result.own = {{}, result.distances, area.size(), rounding_after(centering_map(area))};
   if (!keeps_angles(kind)) {
     const Affine_map_3 centering = centering_map(area);
     result.own.map = centering * result.map.inverse();
     result.own.distances = std::make_shared<Mesh_distances>(transformed(mesh, centering));
   }
-  result.rounding = std::max(result.rounding, coordinate_rounding(mesh.points) * result.map.matrix.norm());
+  result.rounding = rounding_after(result.map);
   result.corners = {corners_of(centered, edges, result.rounding),
                     corners_of(centered, edges, std::max(result.rounding, rounding_of_few_digits))};
   result.checked = points_of_facets(centered);

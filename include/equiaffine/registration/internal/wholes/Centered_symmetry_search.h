@@ -92,16 +92,14 @@ private:
         return r.rms < thresholds_.turn && !keeps_to_facets<ConcurrencyTag>(surface_, r, thresholds_.exact);
       });
     if (tolerance_ > 0)
-      std::erase_if(rotations, [this](const Slipping_rotation& r) {
-        return !(r.own_rms < std::max(thresholds_.exact, tolerance_));
-      });
+      std::erase_if(rotations,
+                    [this](const Slipping_rotation& r) { return !(r.own_rms < std::max(own_exact(), tolerance_)); });
     result.continuous = continuous_symmetries(surface_, rotations, thresholds_.turn);
     const std::size_t dimension = result.continuous.dimension();
     if (dimension == 0) return false;
-    const bool turns_exactly = result.continuous.rms < thresholds_.exact;
+    const bool turns_exactly = result.continuous.rms < own_exact();
     if (turns_exactly || tolerance_ > 0) result.levels.clear();
-    const bool is_exact =
-        turns_exactly || (!result.levels.empty() && result.levels.front().greatest <= thresholds_.exact);
+    const bool is_exact = turns_exactly || (!result.levels.empty() && result.levels.front().greatest <= own_exact());
     result.verdict = is_exact ? Symmetry_verdict::EXACT : Symmetry_verdict::APPROXIMATE;
     return true;
   }
@@ -147,6 +145,9 @@ private:
     complete_to_ = std::min(complete_to_, least_left_out / 2);
     add(std::move(maps));
   }
+
+  /// Distances below this are zero in the proportions of the surface.
+  double own_exact() const { return exact_distance(surface_.own.rounding); }
 
   /// Maps that are worse after their refinement are given up.
   double gate() const { return std::max(0.06, 2 * thresholds_.none); }
@@ -257,7 +258,7 @@ private:
                           std::min(complete_to_, first->next_rms) > gap * std::max(first->searched_rms, 1e-9) &&
                           slipping_rms > gap * first->searched_rms;
     const double finite_rms = first ? first->searched_rms : best;
-    if (is_group && first->greatest <= thresholds_.exact) {
+    if (is_group && first->greatest <= own_exact()) {
       result.verdict = Symmetry_verdict::EXACT;
     } else if (is_apart) {
       result.verdict = Symmetry_verdict::APPROXIMATE;
