@@ -83,6 +83,27 @@ TEST(Affine_structure, invariants_keep_their_digits_where_a_nearly_parabolic_dir
   }
 }
 
+// In these coordinates two of the three charts have basis vectors that are nearly parallel for their lengths. The values
+// are from 70-digit arithmetic; roundings of the derivatives change K and H of the first point by 5e-8, of the last by
+// 2e-4 of themselves.
+TEST(Affine_structure, invariants_keep_their_digits_where_a_thin_direction_is_oblique) {
+  const char* formula = "(101*x-100*y)^3+(100*y-100*x)^2*z-sin((101*x-100*y)*z)";
+  const auto s = local_structure(expand(Expression_3(formula), {.3, .296, .6})).affine;
+  EXPECT_NEAR(s.gaussian_curvature / -65.701475492180557, 1, 1e-7);
+  EXPECT_NEAR(s.mean_curvature / -1.9942270083903796, 1, 1e-7);
+  EXPECT_NEAR(s.pick_invariant / -10.194114153924238, 1, 1e-9);
+  const auto f = make_analytic_traits<Kernel>(Expression_3("x^3+y^2*z-sin(x*z)"), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  const auto image = [&](double width, double y) {
+    const Kernel::Aff_transformation_3 map(1, 1, 0, 1, 1 + width, 0, 0, 0, 1);
+    return local_structure(Transformed_function_traits_3(f, map).taylor(Kernel::Point_3(0.29999999999999993, y, 0.6)))
+        .affine;
+  };
+  EXPECT_NEAR(image(.01, .29599999999999993).mean_curvature / -1.9942270083907584, 1, 1e-7);
+  const auto thinnest = image(.001, .2996);
+  EXPECT_NEAR(thinnest.gaussian_curvature / -657.01475492179881, 1, 2e-4);
+  EXPECT_NEAR(thinnest.mean_curvature / -6.3062995179388644, 1, 5e-4);
+}
+
 TEST(Affine_structure, the_pivot_is_right_where_the_hessian_is_nearly_of_rank_one) {
   const Expression_3 square("(x^2+y^2+z^2-1)^2");
   for (const Vector p : {Vector{.6, .8, 1e-3}, {.8, .6, 5e-4}, {1e-3, .6, .8}, {.8, 5e-4, .6}, {.36, .48, .8000001}}) {

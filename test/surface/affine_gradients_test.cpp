@@ -97,6 +97,26 @@ TEST(Affine_gradients, lose_no_more_digits_than_coefficients_where_the_function_
     }
 }
 
+// The right values are from 70-digit arithmetic; roundings of the derivatives change them by 1e-7 of themselves, those of
+// the last point by 9e-3.
+TEST(Affine_gradients, keep_their_digits_where_a_thin_direction_is_oblique) {
+  const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
+  const auto thin =
+      make_analytic_traits<Kernel>(Expression_3("(101*x-100*y)^3+(100*y-100*x)^2*z-sin((101*x-100*y)*z)"), box);
+  const auto norms = affine_gradient_norms(thin, Kernel::Point_3(.3, .296, .6));
+  EXPECT_NEAR(norms[0] / 4580.3640716565028, 1, 5e-7);
+  EXPECT_NEAR(norms[1] / 272.45813919415548, 1, 5e-7);
+  EXPECT_NEAR(norms[2] / 238.19775575118052, 1, 5e-8);
+  const auto f = make_analytic_traits<Kernel>(Expression_3("x^3+y^2*z-sin(x*z)"), box);
+  const auto image = [&](double width, double y) {
+    const Kernel::Aff_transformation_3 map(1, 1, 0, 1, 1 + width, 0, 0, 0, 1);
+    return affine_gradient_norms(Transformed_function_traits_3(f, map), Kernel::Point_3(0.29999999999999993, y, 0.6));
+  };
+  EXPECT_NEAR(image(.01, .29599999999999993)[1] / 272.45813919414076, 1, 5e-7);
+  EXPECT_NEAR(image(.001, .2996)[0] / 81451.671191091815, 1, 2e-2);
+  EXPECT_NEAR(image(.001, .2996)[1] / 1532.1447105334246, 1, 2e-2);
+}
+
 TEST(Affine_gradients, vanish_on_affine_spheres) {
   const auto product = [](const auto& x, const auto& y, const auto& z) { return x * y * z; };
   const auto traits = make_analytic_traits<Kernel>(product, CGAL::Bbox_3(0, 0, 0, 4, 4, 4));

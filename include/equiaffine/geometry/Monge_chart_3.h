@@ -32,8 +32,9 @@ namespace equiaffine {
 /// choice. With the axis of the largest |f_i| digits are lost where the surface is long in another direction, and a
 /// rotation instead of the shear would mix the scales of an anisotropic surface.
 ///
-/// Where Q is nearly the square of a linear form, the forms of conjugate() keep the digits that C, D and R have in the
-/// direction in which Q nearly vanishes.
+/// Where Q is nearly the square of a linear form, e_u and e_v are nearly parallel for their lengths: the pivot becomes
+/// the axis with which they are least so. Where that does not help, the forms of conjugate() keep the digits that C, D
+/// and R have in the direction in which Q nearly vanishes.
 ///
 /// FT is a number or a pack of numbers; nothing here branches on values but the choice of the pivot of a number.
 template <class FT>
@@ -46,6 +47,9 @@ struct Monge_chart_3 {
   /// d counts as not zero: it is more than 1000 roundings of the terms of which its entries are sums could make it, see
   /// also `take_d_within_error_for_zero`.
   Mask is_curved;
+  /// Q is nearly the square of a linear form in both u and v: parts of the forms of the chart that matter are much
+  /// smaller than these.
+  Mask is_nearly_square;
   FT sign;                           ///< of f_z: normals along the gradient are sign (a, b, 1) up to length
   FT a,                              ///< f_x / f_z
       b;                             ///< f_y / f_z
@@ -59,15 +63,18 @@ struct Monge_chart_3 {
   FT determinant;                    ///< of the symmetric coefficients of Q: d / 4
 
   /// Makes the chart at the point where f has this jet.
-  explicit Monge_chart_3(const Jet_3<FT>& jet) : Monge_chart_3(jet, internal::choose_pivot(jet)) {}
+  explicit Monge_chart_3(const Jet_3<FT>& jet) : Monge_chart_3(jet, internal::choose_pivot(jet), true) {}
 
   /// \cond for internal use
-  /// Makes the chart with this pivot.
-  Monge_chart_3(const Jet_3<FT>& jet, const internal::Pivot_3<FT>& pivot)
+  /// Makes the chart with this pivot, or a better one if it `may_change`.
+  Monge_chart_3(const Jet_3<FT>& jet, const internal::Pivot_3<FT>& pivot, bool may_change = false)
       : pivot_is_x(pivot.is_x), pivot_is_y(pivot.is_y) {
     using std::abs;
     const auto& c = jet.coefficients();
     is_steep = abs(c[1]) > FT(0) || abs(c[2]) > FT(0) || abs(c[3]) > FT(0);
+    expand_around_pivot(jet, pivot.reciprocals);
+    if (!may_change || !any(is_nearly_square)) return;
+    change_pivot();
     expand_around_pivot(jet, pivot.reciprocals);
   }
   /// \endcond
@@ -118,13 +125,6 @@ struct Monge_chart_3 {
     return unpermuted(x, v, w - (a * x + b * v));
   }
 
-  /// Whether Q is nearly the square of a linear form in both u and v: parts of the forms of the chart that matter are
-  /// much smaller than these.
-  Mask is_nearly_square() const {
-    using std::abs;
-    return FT(16) * abs(determinant) < quadratic[1] * quadratic[1];
-  }
-
   /// The chart with the vector conjugate to e_u, on which Q has no term u v, for e_v; itself where the condition does
   /// not hold.
   Monge_chart_3 conjugate(const Mask& condition) const {
@@ -157,6 +157,22 @@ private:
   [[gnu::always_inline]] FT f(const Jet_3<FT>& jet) const {
     if constexpr (Pivot < 3) return jet.template at<played_by(Pivot, I, J, K)>();
     else return select(pivot_is_x, f<0, I, J, K>(jet), select(pivot_is_y, f<1, I, J, K>(jet), f<2, I, J, K>(jet)));
+  }
+
+  /// Where Q is nearly a square, takes the axis with which its coefficient of u v, times the square of the f_i of the
+  /// axis, is smallest: d, times the fourth power, is the same for all three. Powers of the new a and b must not
+  /// overflow.
+  void change_pivot() {
+    using std::abs;
+    const FT with_x = abs(quadratic[1] - b / a * quadratic[0]), with_y = abs(quadratic[1] - a / b * quadratic[2]);
+    const FT with_z = abs(quadratic[1]), least(1e-37);
+    const Mask x_is_better = is_nearly_square && abs(a) > least && with_x < with_z;
+    const Mask y_is_better = is_nearly_square && abs(b) > least && with_y < with_z;
+    const Mask to_x = x_is_better && !(y_is_better && with_y < with_x), to_y = y_is_better && !to_x;
+    const Mask stays = !to_x && !to_y;
+    const Mask was_x = pivot_is_x, was_y = pivot_is_y, was_z = !was_x && !was_y;
+    pivot_is_x = (stays && was_x) || (to_x && was_z) || (to_y && was_y);
+    pivot_is_y = (stays && was_y) || (to_x && was_x) || (to_y && was_z);
   }
 
   void expand_around_pivot(const Jet_3<FT>& jet, const std::array<FT, 3>& reciprocals) {
@@ -202,6 +218,7 @@ private:
     const FT uu = r * (abs(xx) + abs(a) * u), vv = r * (abs(yy) + abs(b) * v);
     const FT uv = r2 * (abs(xy) + abs(a) * v + abs(b) * u);
     is_curved = abs(determinant) > roundings(1000) * (uu * vv + uv * uv);
+    is_nearly_square = FT(16) * abs(determinant) < quadratic[1] * quadratic[1];
   }
 
   /// Sets C and D. The form c_n is the coefficient of z^(3 - n) before the division.

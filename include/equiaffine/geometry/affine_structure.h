@@ -26,16 +26,14 @@ namespace equiaffine {
 /// much larger than K, and their multiples of p would cancel.
 template <class FT>
 Affine_invariants_3<FT> affine_invariants(const Monge_chart_3<FT>& chart) {
-  const auto is_nearly_square = chart.is_nearly_square();
-  if (any(is_nearly_square)) return internal::invariants_in_basis(chart.conjugate(is_nearly_square));
+  if (any(chart.is_nearly_square)) return internal::invariants_in_basis(chart.conjugate(chart.is_nearly_square));
   return internal::invariants_in_basis(chart);
 }
 
 /// The whole structure from a chart. Meaningful where chart.is_curved.
 template <class FT>
 Affine_structure_3<FT> affine_structure(const Monge_chart_3<FT>& chart) {
-  const auto is_nearly_square = chart.is_nearly_square();
-  if (any(is_nearly_square)) return internal::structure_in_basis(chart.conjugate(is_nearly_square));
+  if (any(chart.is_nearly_square)) return internal::structure_in_basis(chart.conjugate(chart.is_nearly_square));
   return internal::structure_in_basis(chart);
 }
 

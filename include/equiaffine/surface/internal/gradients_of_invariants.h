@@ -63,8 +63,8 @@ struct Differentiated_structure_3 {
 
 /// The gradients of K, H and J on the level set, as covectors to be applied to tangent vectors, from derivatives of order
 /// 5: the chart of an expansion whose coefficients are expansions of order 1, in natural units. These are along the
-/// vectors e_u and e_v of the chart, since derivatives along the axes would lose digits where f is nearly a square: f_z
-/// changes much along the axes, but little along the surface.
+/// vectors e_u and e_v of the chart, or conjugate ones, since derivatives along the axes would lose digits: where f is
+/// nearly a square, f_z changes much along the axes, but little along the surface.
 template <class FT>
 std::array<std::array<FT, 3>, 3> gradients_of_invariants(const Jet_3<FT, 5>& given) {
   using Number = Jet_3<FT, 1>;
@@ -72,28 +72,28 @@ std::array<std::array<FT, 3>, 3> gradients_of_invariants(const Jet_3<FT, 5>& giv
   const Jet_3<FT, 5> jet = units.apply(given);
   Jet_3<FT> fixed;
   std::copy_n(jet.coefficients().begin(), fixed.size, fixed.coefficients().begin());
-  const Pivot_3<FT> pivot = choose_pivot(fixed);
-  const std::size_t w = pivot.is_x ? 0 : pivot.is_y ? 1 : 2, u = (w + 1) % 3, v = (w + 2) % 3;
-  const auto& gradient = fixed.coefficients();
-  const FT a = gradient[1 + u] / gradient[1 + w], b = gradient[1 + v] / gradient[1 + w];
+  Monge_chart_3<FT> chart(fixed);
+  chart = chart.conjugate(chart.is_nearly_square);
+  const std::size_t w = chart.pivot_is_x ? 0 : chart.pivot_is_y ? 1 : 2, u = (w + 1) % 3, v = (w + 2) % 3;
+  const FT &a = chart.a, &b = chart.b, &shear = chart.shear;
   Jet_3<Number> moving;
   for (std::size_t n = 0; n < moving.size; ++n) {
     const auto [i, j, k] = monomials[n];
     const std::array<FT, 3> along = {FT(i + 1) * jet.coefficient(i + 1, j, k), FT(j + 1) * jet.coefficient(i, j + 1, k),
                                      FT(k + 1) * jet.coefficient(i, j, k + 1)};
-    moving.coefficients()[n].coefficients() = {jet.coefficients()[n], along[u] - a * along[w], along[v] - b * along[w],
-                                               FT(0)};
+    const FT along_u = along[u] - a * along[w], along_v = along[v] - b * along[w] - shear * along_u;
+    moving.coefficients()[n].coefficients() = {jet.coefficients()[n], along_u, along_v, FT(0)};
   }
   const auto& c = moving.coefficients();
   const auto invariants = affine_invariants(
-      Monge_chart_3<Number>(moving, {pivot.is_x, pivot.is_y, {FT(1) / c[1], FT(1) / c[2], FT(1) / c[3]}}));
+      Monge_chart_3<Number>(moving, {chart.pivot_is_x, chart.pivot_is_y, {FT(1) / c[1], FT(1) / c[2], FT(1) / c[3]}}));
   std::array<std::array<FT, 3>, 3> gradients{};
   for (std::size_t n = 0; n < 3; ++n) {
     const Number& invariant = n == 0   ? invariants.gaussian_curvature
                               : n == 1 ? invariants.mean_curvature
                                        : invariants.pick_invariant;
     gradients[n][u] = invariant.coefficients()[1];
-    gradients[n][v] = invariant.coefficients()[2];
+    gradients[n][v] = invariant.coefficients()[2] + shear * gradients[n][u];
     for (FT& x : gradients[n]) units.restore_all(n == 0 ? -16 : -10, x);
   }
   return gradients;
