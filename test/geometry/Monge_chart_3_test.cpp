@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace {
 
@@ -161,6 +162,40 @@ TEST(Monge_chart_3, a_point_where_d_is_merely_small_is_regular) {
   const auto nearly_parabolic = [](const auto& x, const auto& y, const auto& z) { return z - x * x - 1e-11 * y * y; };
   EXPECT_EQ(status(nearly_flat, 0.5, 0.2, 0), Point_status::REGULAR);
   EXPECT_EQ(status(nearly_parabolic, 0.5, 0.2, 0), Point_status::REGULAR);
+}
+
+// Near the zeros of g the second derivatives of a function of g are nearly products of first ones: terms that cancel in d.
+// The values are from 70-digit arithmetic. Roundings of the derivatives change K_e by 8e-10 of itself, K more, the higher
+// the powers of 1 / g in the derivatives.
+TEST(Monge_chart_3, large_terms_that_cancel_in_d_do_not_make_it_zero) {
+  const Jet g =
+      expand([](const auto& x, const auto& y, const auto& z) { return x * x + y * y + z * z + x * y * z - 1.0; }, 0.6,
+             0.5, 0.4922626289332564);
+  for (const Jet& jet : {g, g * g, g * g * g, log(g), -1.0 / g}) {
+    const auto s = local_structure(jet, {0.6, 0.5, 0.4922626289332564});
+    EXPECT_EQ(s.status, Point_status::REGULAR);
+    EXPECT_NEAR(s.euclidean.gaussian_curvature / 0.40002457469023035, 1, 1e-8);
+  }
+  for (const auto& [jet, tolerance] : {std::pair{g, 1e-12}, std::pair{g * g, 1e-8}, std::pair{g * g * g, 1e-2}}) {
+    const auto s = local_structure(jet).affine;
+    EXPECT_NEAR(s.gaussian_curvature / 2.1338319317334991, 1, tolerance);
+    EXPECT_NEAR(s.mean_curvature / -1.4665838917193817, 1, tolerance);
+  }
+}
+
+TEST(Monge_chart_3, cubes_of_functions_with_parabolic_level_sets_have_parabolic_ones) {
+  const auto cylinder = [](const auto& x, const auto& y, const auto& z) {
+    const auto u = 0.6 * x + 0.8 * y;
+    const auto v = 0.28 * z + 0.96 * (0.6 * y - 0.8 * x);
+    return u * u + v * v - 0.75;
+  };
+  const auto cones = [](const auto& x, const auto& y, const auto& z) { return z * z / (x * x + y * y); };
+  for (int n = 0; n < 100; ++n) {
+    const double x = std::sin(n), y = std::sin(2.3 * n), z = std::sin(3.1 * n);
+    for (const Jet& jet : {expand(cylinder, x, y, z), expand(cones, x, y, z), expand(plane, x, y, z)})
+      for (const Jet& image : {jet, jet * jet, jet * jet * jet, exp(jet), -1.0 / jet})
+        EXPECT_NE(local_structure(image, {x, y, z}).status, Point_status::REGULAR) << n;
+  }
 }
 
 TEST(Monge_chart_3, kinks_are_singular_and_undefined_values_outside) {

@@ -44,7 +44,7 @@ struct Monge_chart_3 {
   Mask pivot_is_x, ///< the x axis plays z; the next two, cyclically, play x and y
       pivot_is_y;  ///< the y axis plays z; else the z axis does
   Mask is_steep;   ///< the gradient counts as not zero, see `take_gradient_within_rounding_for_zero`
-  /// d counts as not zero: it is more than 1000 roundings of the terms of which its entries are sums could make it, see
+  /// d counts as not zero: it is more than 500 roundings of the terms of which its entries are sums could make it, see
   /// also `take_d_within_error_for_zero`.
   Mask is_curved;
   /// Q is nearly the square of a linear form in both u and v: parts of the forms of the chart that matter are much
@@ -213,11 +213,14 @@ private:
     e = r * zz;
 
     determinant = quadratic[0] * quadratic[2] - quadratic[1] * quadratic[1];
-    // The sizes of the terms of which the coefficients of Q are sums (Andrade, Lewiner 2012, equation (2)).
+    // The sizes of the terms of which the coefficients of Q are sums (Andrade, Lewiner 2012, equation (2)), and from
+    // these the error of d. Products of the sizes alone would hide a d for which large terms of the coefficients cancel.
     const FT u = abs(xz) + abs(azz), v = abs(yz) + abs(bzz);
-    const FT uu = r * (abs(xx) + abs(a) * u), vv = r * (abs(yy) + abs(b) * v);
-    const FT uv = r2 * (abs(xy) + abs(a) * v + abs(b) * u);
-    is_curved = abs(determinant) > roundings(1000) * (uu * vv + uv * uv);
+    const FT rounded = roundings(500) * abs(r), rounded2 = roundings(500) * abs(r2);
+    const FT uu = rounded * (abs(xx) + abs(a) * u), vv = rounded * (abs(yy) + abs(b) * v);
+    const FT uv = rounded2 * (abs(xy) + abs(a) * v + abs(b) * u);
+    const FT q11 = abs(quadratic[0]), q12 = abs(quadratic[1]), q22 = abs(quadratic[2]);
+    is_curved = abs(determinant) > uu * (q22 + vv) + vv * q11 + uv * (q12 + q12 + uv);
     is_nearly_square = FT(16) * abs(determinant) < quadratic[1] * quadratic[1];
   }
 
