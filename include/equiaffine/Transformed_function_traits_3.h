@@ -5,6 +5,7 @@
 #include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/capabilities.h>
 #include <equiaffine/function/internal/box_intervals.h>
+#include <equiaffine/function/internal/inverse_map.h>
 #include <equiaffine/number/Pack.h>
 #include <equiaffine/number/internal/shared/Linear_substitution_3.h>
 
@@ -186,7 +187,7 @@ private:
   /// way that threads must not do at once.
   struct Map {
     explicit Map(const Aff_transformation_3& m)
-        : map(m), inverse(m.inverse()), is_identity(equals_identity(m)),
+        : map(m), inverse(internal::inverse_map(m)), is_identity(equals_identity(m)),
           substitution(linear_part(inverse, [](const FT& x) { return x; })),
           substitution_of_bounds(linear_part(inverse, [](const FT& x) { return Interval(CGAL::to_double(x)); })) {
       for (int i = 0; i < 3; ++i)
