@@ -156,7 +156,12 @@ std::string reason_for_none(const Registration_report& report) {
   const std::size_t n = report.registration.hypotheses;
   const std::string& reason = report.registration.reason;
   const std::string of_triangles = reason.empty() ? "" : "; by the triangles without curvature, " + reason;
-  if (n == 0) return "no map found: no points of the two have frames that agree" + of_triangles;
+  const bool slides = report.registration.slippage.dimension() > 0;
+  if (n == 0)
+    return std::string("no map found: ") +
+           (slides ? "the source slides over itself, so that no frames tell its points apart"
+                   : "no points of the two have frames that agree") +
+           of_triangles;
   std::string scales;
   for (const std::string& scale : report.scales) scales += (scales.empty() ? " (at the scales " : "; ") + scale;
   if (!scales.empty()) scales += ')';
