@@ -164,9 +164,9 @@ TEST(Monge_chart_3, a_point_where_d_is_merely_small_is_regular) {
   EXPECT_EQ(status(nearly_parabolic, 0.5, 0.2, 0), Point_status::REGULAR);
 }
 
-// Near the zeros of g the second derivatives of a function of g are nearly products of first ones: terms that cancel in d.
-// The values are from 70-digit arithmetic. Roundings of the derivatives change K_e by 8e-10 of itself, K more, the higher
-// the powers of 1 / g in the derivatives.
+// Near the zeros of g the second derivatives of a function of g are nearly products of first ones: terms that cancel in
+// d. The values are from 70-digit arithmetic. Roundings of the derivatives change K_e by 8e-10 of itself, K more, the
+// higher the powers of 1 / g in the derivatives.
 TEST(Monge_chart_3, large_terms_that_cancel_in_d_do_not_make_it_zero) {
   const Jet g =
       expand([](const auto& x, const auto& y, const auto& z) { return x * x + y * y + z * z + x * y * z - 1.0; }, 0.6,

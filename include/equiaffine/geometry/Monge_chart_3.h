@@ -214,7 +214,7 @@ private:
 
     determinant = quadratic[0] * quadratic[2] - quadratic[1] * quadratic[1];
     // The sizes of the terms of which the coefficients of Q are sums (Andrade, Lewiner 2012, equation (2)), and from
-    // these the error of d. Products of the sizes alone would hide a d for which large terms of the coefficients cancel.
+    // these the error of d. Products of the sizes alone would hide a d where large terms of the coefficients cancel.
     const FT u = abs(xz) + abs(azz), v = abs(yz) + abs(bzz);
     const FT rounded = roundings(500) * abs(r), rounded2 = roundings(500) * abs(r2);
     const FT uu = rounded * (abs(xx) + abs(a) * u), vv = rounded * (abs(yy) + abs(b) * v);
