@@ -81,7 +81,8 @@ class Scene {
     const {origins} = this, count = data.length / mesh.size;
     const all = origins.length ? new data.constructor(data.length + count * origins.length) : data;
     if (origins.length) all.set(data);
-    origins.forEach((i, copy) => all.set(data.subarray(count * i, count * (i + 1)), count * (mesh.size + copy)));
+    for (let copy = 0, k = data.length; copy < origins.length; ++copy)
+      for (let c = 0; c < count; ++c) all[k++] = data[count * origins[copy] + c];
     this.fill(name, all);
   }
 

@@ -63,7 +63,7 @@ void compare_at_part(double part, int repeats) {
             return map_of(four_point_ransac(places, signatures, target_places, target_signatures, 20000));
           },
           [&] {
-            const auto result = internal::registration_of_framed<Tag>(framed, framed_target, {}).result;
+            const auto result = internal::registration_of_framed<Tag>(framed, framed_target, {}, {}).result;
             return result.found() ? result.best().map : Map(CGAL::SCALING, 1e9);
           }};
       ++runs;

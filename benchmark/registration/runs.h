@@ -71,7 +71,8 @@ public:
     const auto framed_target =
         internal::framed_surface<Tag>(target, refined_target, internal::vectors_of(target_points), request.kind);
     const double begin = processor_clock();
-    const auto result = internal::registration_of_framed<Tag>(framed, framed_target, request).result;
+    const auto slippage = internal::slippage_of_source(framed, request.kind);
+    const auto result = internal::registration_of_framed<Tag>(framed, framed_target, request, slippage).result;
     seconds_.push_back(processor_clock() - begin);
     found_ += result.found();
     const double error = result.found() ? error_of(result.best().map, right) : 1;

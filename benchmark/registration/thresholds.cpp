@@ -58,8 +58,8 @@ void run(const std::string& name, const std::vector<Case>& cases, const Threshol
   request.thresholds = thresholds;
   double right = 0, hypotheses = 0;
   for (const Case& c : cases) {
-    const auto result = internal::registration_of_framed<CGAL::Parallel_if_available_tag>(c.source.surface(),
-                                                                                          c.target.surface(), request)
+    const auto result = internal::registration_of_framed<CGAL::Parallel_if_available_tag>(
+                            c.source.surface(), c.target.surface(), request, {})
                             .result;
     right += result.found() && error_of(result.best().map, c.right) < 1e-6;
     hypotheses += double(result.hypotheses);

@@ -159,7 +159,7 @@ std::string reason_for_none(const Registration_report& report) {
   const bool slides = report.registration.slippage.dimension() > 0;
   if (n == 0)
     return std::string("no map found: ") +
-           (slides ? "the source slides over itself, so that no frames tell its points apart"
+           (slides ? "no points of the two have frames that are determined and agree"
                    : "no points of the two have frames that agree") +
            of_triangles;
   std::string scales;

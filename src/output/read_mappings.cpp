@@ -22,13 +22,16 @@ using Mappings = std::map<std::string, Color_mapping>;
 
 /// The JSON text in the element `facts` of the page; empty if there is none.
 std::string facts_of_page(std::istream& page) {
-  constexpr std::size_t most = 10'000'000; // bytes before the end of that element, far more than our pages have
+  constexpr std::size_t most = 100'000'000; // bytes before the end of that element
   const std::string begin = "<script type=\"application/json\" id=\"facts\">";
-  std::string text(most, '\0');
-  text.resize(std::size_t(page.read(text.data(), std::streamsize(most)).gcount()));
-  const std::size_t first = text.find(begin), last = text.find("</script>", first);
-  if (first == std::string::npos || last == std::string::npos) return {};
-  return text.substr(first + begin.size(), last - first - begin.size());
+  std::string text, block(1 << 20, '\0');
+  while (text.size() < most && (page.read(block.data(), std::streamsize(block.size())), page.gcount() > 0)) {
+    text.append(block, 0, std::size_t(page.gcount()));
+    const std::size_t first = text.find(begin), last = text.find("</script>", first);
+    if (first != std::string::npos && last != std::string::npos)
+      return text.substr(first + begin.size(), last - first - begin.size());
+  }
+  return {};
 }
 
 Color_scale scale_of(const std::string& word) {

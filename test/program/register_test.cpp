@@ -138,8 +138,8 @@ TEST_F(Program_register, where_there_is_no_map_it_says_what_to_try) {
   const Arguments plane = Arguments{"--function", "x+2*y-z", "--resolution", "12"} + box;
   EXPECT_EQ(
       outcome(plane, plane),
-      "no map found: the source slides over itself, so that no frames tell its points apart; try --kind similarity, "
-      "whose frames need fewer derivatives and exist on quadrics, too, or surfaces that have more in common");
+      "no map found: no points of the two have frames that are determined and agree; try --kind similarity, whose "
+      "frames need fewer derivatives and exist on quadrics, too, or surfaces that have more in common");
   const std::string narrow = outcome(surface, image, {"--kind", "rigid", "--no-reflection", "--html", "page.html"});
   EXPECT_TRUE(narrow.starts_with("no map found: ")) << narrow;
   EXPECT_TRUE(

@@ -249,6 +249,14 @@ TEST(Register_surfaces, planes_and_three_points_have_no_map) {
   EXPECT_FALSE(register_surfaces(surface, three, surface, three).found());
 }
 
+TEST(Register_surfaces, a_surface_that_ends_does_not_slide_as_that_which_goes_on) {
+  const Formula sphere = Surface{"", "x^2+y^2+z^2-1", cube(2)}.traits();
+  const Formula half = Surface{"", "z-sqrt(1-x^2-y^2)", cube(2)}.traits();
+  const auto points = points_on_surface(sphere, 31), points_of_half = points_on_surface(half, 31);
+  EXPECT_EQ(register_surfaces(sphere, points, sphere, points).slippage.dimension(), 3u);
+  EXPECT_EQ(register_surfaces(half, points_of_half, half, points_of_half).slippage.dimension(), 0u);
+}
+
 TEST(Register_surfaces, what_makes_no_sense_is_refused) {
   const Formula surface = named("quartic").traits();
   const auto points = points_on_surface(surface, 10);

@@ -36,7 +36,7 @@ namespace equiaffine {
 /// the axis with which they are least so. Where that does not help, the forms of conjugate() keep the digits that C, D
 /// and R have in the direction in which Q nearly vanishes.
 ///
-/// FT is a number or a pack of numbers; nothing here branches on values but the choice of the pivot of a number.
+/// FT is a number or a pack of numbers; nothing here branches on values but the choice of the pivot.
 template <class FT>
 struct Monge_chart_3 {
   using Mask = Mask_of<FT>; ///< a truth value, or one per lane of a pack

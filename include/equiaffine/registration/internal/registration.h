@@ -65,15 +65,21 @@ inline bool is_in_plane(const Framed_surface_3& surface, double tolerance) {
   return !(variance > std::pow(tolerance * surface.size, 2));
 }
 
+/// How the source slides over itself by the velocities at its probes.
+inline Affine_slippage_3 slippage_of_source(const Framed_surface_3& source, Map_kind kind) {
+  const bool is_exact = has_exact_frames(source);
+  Affine_slippage_3 result = slippage_of(source, kind, is_exact ? slippage_tolerance : slippage_of_fits);
+  if (is_exact) result.rms = 0;
+  return result;
+}
+
 template <class ConcurrencyTag>
 Registration_of_functions_3 registration_of_framed(const Framed_surface_3& source, const Framed_surface_3& target,
-                                                   const Registration_request& request) {
+                                                   const Registration_request& request, Affine_slippage_3 slippage) {
   Registration_of_functions_3 registration;
   Surface_registration_3<Kernel_of_searches>& result = registration.result;
   result.size = target.size;
-  const bool is_exact = has_exact_frames(source);
-  result.slippage = slippage_of(source, request.kind, is_exact ? slippage_tolerance : slippage_of_fits);
-  if (is_exact) result.slippage.rms = 0;
+  result.slippage = std::move(slippage);
   Registration_search<ConcurrencyTag> search(source, target, request);
   if (is_in_plane(source, search.tolerance()) || is_in_plane(target, search.tolerance())) return registration;
   if (result.slippage.dimension() > 0)
@@ -105,12 +111,14 @@ Registration_of_functions_3 registration_of_functions(const Surface_with_points_
   const auto framed = framed_surface<ConcurrencyTag>(function, refinement, source.points, request.kind);
   const auto framed_target =
       framed_surface<ConcurrencyTag>(target_function, target_refinement, target.points, request.kind);
-  auto registration = registration_of_framed<ConcurrencyTag>(framed, framed_target, request);
-  if (auto& slippage = registration.result.slippage; slippage.dimension() > 0 && has_exact_frames(framed)) {
+  Affine_slippage_3 slippage = slippage_of_source(framed, request.kind);
+  if (slippage.dimension() > 0 && has_exact_frames(framed)) {
+    constexpr double longest = 4; // beside the tolerance, which is one of velocities
     const Symmetry_check check = Symmetry_check::of<ConcurrencyTag>(source.refined);
-    if (check.check_flows<ConcurrencyTag>(slippage.generators).rms > 4 * slippage_tolerance * check.size())
-      slippage = {};
+    const Checked_map moved = check.check_flows<ConcurrencyTag>(slippage.generators);
+    if (moved.rms > longest * slippage_tolerance * check.size()) slippage = {};
   }
+  auto registration = registration_of_framed<ConcurrencyTag>(framed, framed_target, request, std::move(slippage));
   const bool has_points = std::min(framed.probes.size(), framed_target.probes.size()) >= fewest_points_of_whole;
   const bool is_exact = has_exact_frames(framed) && has_exact_frames(framed_target);
   if (registration.result.found() || !has_points || !is_exact) return registration;

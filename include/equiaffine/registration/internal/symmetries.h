@@ -136,7 +136,7 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_by_rotations(const Any_functi
   const Centered_symmetries found = search.run();
   auto result = to_CGAL(found, centered);
   result.kind = request.kind;
-  if (result.reason.empty()) result.spacing = centered.samples.spacing();
+  if (result.reason.empty()) result.spacing = centered.own.spacing;
   const bool is_exact = result.verdict == Symmetry_verdict::EXACT;
   choose_maps(result, is_exact ? request.tolerance : request.tolerance.value_or(default_tolerance), found);
   return result;
@@ -170,6 +170,7 @@ bool has_refuted_continuous(Framed_surface_3 surface, const Symmetry_check& chec
     if (moved.is_exact || (result.verdict == Symmetry_verdict::APPROXIMATE &&
                            moved.rms <= request.tolerance.value_or(default_tolerance) * check.size()))
       return false;
+    if (attempt + 1 == attempts) break;
     // Details that the probes have missed are at the points of the check, or where motions end off the surface.
     if (attempt == 0) surface.probes.insert(surface.probes.end(), check.points().begin(), check.points().end());
     for (const Eigen::Vector3d& p : moved.off)
@@ -227,7 +228,7 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(const Any_functio
   const bool is_refuted = result.is_decided && has_refuted_continuous<ConcurrencyTag>(surface, check, request, result);
   if (result.is_decided) return result;
   result = symmetries_of_exact_function<ConcurrencyTag>(function, surface, points, check, request);
-  if (is_refuted && (!result.is_decided || result.verdict == Symmetry_verdict::NONE)) {
+  if (is_refuted && (!result.is_decided || (result.verdict == Symmetry_verdict::NONE && result.complete_to))) {
     result.is_decided = false;
     result.verdict = Symmetry_verdict::UNDECIDED;
     result.reason =

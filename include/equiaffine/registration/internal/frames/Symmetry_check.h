@@ -72,7 +72,7 @@ public:
           if (!function_.contains(image)) return;
           const auto [distance, normal] = function_.distance(image);
           const double limit = least_limit * size_ + errors_[i];
-          const bool is_undefined = std::isnan(function_.first_order(image).value());
+          const bool is_undefined = std::isnan(distance) && std::isnan(function_.first_order(image).value());
           distances[i] = is_undefined ? std::numeric_limits<double>::infinity() : std::abs(distance);
           are_exact[i] = distances[i] <= limit || changes_sign(image, limit);
           if (are_exact[i]) distances[i] = std::min(distances[i], limit);

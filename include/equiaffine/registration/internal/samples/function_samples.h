@@ -24,8 +24,11 @@ struct Ball_3 {
 
 /// The signs of a function on the faces of its box.
 struct Signs_on_box {
-  bool has_positive = false, has_negative = false;
+  bool has_positive = false, has_negative = false, has_zero = false;
   bool has_change = false; ///< between points that are neighbors: a function may be undefined between others
+
+  /// Whether the zero set meets the box. It may do so along edges, on whose faces the sign does not change.
+  bool are_cut() const { return has_change || (has_zero && has_positive && has_negative); }
 };
 
 inline Signs_on_box signs_on_box(const Mapped_function_3& function) {
@@ -44,8 +47,9 @@ inline Signs_on_box signs_on_box(const Mapped_function_3& function) {
           signs.has_positive |= value > 0;
           signs.has_negative |= value < 0;
           double& above = row[std::size_t(j)];
-          signs.has_change |= value * above < 0 || value * last < 0;
-          if (value != 0) above = last = value;
+          signs.has_zero |= value == 0;
+          signs.has_change |= (value > 0 && std::min(above, last) < 0) || (value < 0 && std::max(above, last) > 0);
+          if (value != 0) above = last = std::isnan(value) ? 0 : value;
         }
       }
     }
@@ -122,7 +126,7 @@ Area_samples_3 function_samples(const Mapped_function_3& function, const Ball_3&
   const Signs_on_box signs = signs_on_box(function);
   const Sampling_lines lines(function, signs.has_negative, ball);
   Area_samples_3 result;
-  result.is_cut = signs.has_change;
+  result.is_cut = signs.are_cut();
   Moment_sums_3 area(ball.center), volume(ball.center);
   bool has_inside = false;
   std::size_t done = 0;

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -107,21 +108,27 @@ inline Distances_of_moved distances_of_moved(const Centered_surface_3& surface, 
   return distances_of_moved(surface, map, count, {{}, surface.distances});
 }
 
-/// The rms distance, both ways, between moved points and the surface, in the proportions of the target.
-inline double own_rms(const Centered_pair& surfaces, const Affine_map_3& map, std::size_t count) {
+/// The rms distance, both ways, between moved points and the surface, in the proportions of the target, the mean over its
+/// area there. It is the one that is `sought` where these are the proportions in which maps are sought.
+inline double own_rms(const Centered_pair& surfaces, const Affine_map_3& map, std::size_t count, double sought) {
   const auto& [source, target] = surfaces;
-  const Affine_map_3 back = map.inverse();
-  const Eigen::Matrix3d to_source = (source.own.map * back * target.own.map.inverse()).matrix;
-  double sum = 0;
-  const std::size_t moved = std::min(count, source.samples.points.size());
-  const std::size_t fixed = std::min(count, target.samples.points.size());
-  for (std::size_t i = 0; i < moved; ++i)
-    sum += std::pow((*target.own.distances)(target.own.map(map(source.samples.points[i]))).distance, 2);
-  for (std::size_t i = 0; i < fixed; ++i) {
+  if (source.own.distances == source.distances && target.own.distances == target.distances) return sought;
+  const Affine_map_3 back = map.inverse(), to_source = source.own.map * back * target.own.map.inverse();
+  const Eigen::Matrix3d of_moved = (target.own.map.matrix * map.matrix).inverse().transpose();
+  const Eigen::Matrix3d of_fixed = target.own.map.matrix.inverse().transpose();
+  std::array<double, 2> sums = {0, 0}, weights = {0, 0};
+  const auto add = [&](std::size_t side, double weight, double distance) {
+    sums[side] += weight * distance * distance;
+    weights[side] += weight;
+  };
+  for (std::size_t i = 0; i < std::min(count, source.samples.points.size()); ++i)
+    add(0, (of_moved * source.samples.normals[i]).norm(),
+        (*target.own.distances)(target.own.map(map(source.samples.points[i]))).distance);
+  for (std::size_t i = 0; i < std::min(count, target.samples.points.size()); ++i) {
     const auto [distance, normal] = (*source.own.distances)(source.own.map(back(target.samples.points[i])));
-    sum += std::pow(distance / (to_source.transpose() * normal).norm(), 2);
+    add(1, (of_fixed * target.samples.normals[i]).norm(), distance / (to_source.matrix.transpose() * normal).norm());
   }
-  return std::sqrt(sum / double(moved + fixed));
+  return std::sqrt((sums[0] / weights[0] + sums[1] / weights[1]) / 2);
 }
 
 /// How a map about the centroid is refined.

@@ -38,6 +38,7 @@ struct Centered_surface_3 {
     std::shared_ptr<const Surface_distances> distances = {};
     double size = 1;         ///< of the surface, in its unit
     double rounding = 1e-12; ///< of points on the surface, a part of the size
+    double spacing = 0;      ///< the greatest one of the samples
 
     /// The least length of the image of a unit vector.
     double least_stretch() const { return map.matrix.jacobiSvd().singularValues()[2]; }
@@ -175,7 +176,8 @@ inline Centered_surface_3::Proportions own_proportions(const Any_function_3& fun
   const Affine_map_3 centering = {Eigen::Matrix3d::Identity() / result.size, -centroid / result.size};
   result.map = centering * back;
   const double stretch = result.map.matrix.jacobiSvd().singularValues()[0];
-  samples.area.measure *= stretch * stretch; // the spacing is the greatest one
+  samples.area.measure *= stretch * stretch;
+  result.spacing = samples.spacing();
   for (Eigen::Vector3d& p : samples.points) p = result.map(p);
   result.distances = std::make_shared<Function_distances>(Mapped_function_3(function, centering), samples);
   return result;
@@ -208,6 +210,7 @@ Centered_surface_3 centered_surface(const Any_function_3& function, Map_kind kin
   result.own = keeps_angles(kind)
                    ? Centered_surface_3::Proportions{{}, result.distances, 1 / result.map.matrix.col(0).norm()}
                    : own_proportions(function, samples, result.map);
+  if (keeps_angles(kind)) result.own.spacing = samples.spacing();
   return result;
 }
 

@@ -18,7 +18,8 @@ struct Symmetry_level {
   double rms = 0;                 ///< the largest of a map, a part of the size, in the proportions of the surface
   double greatest = 0;            ///< the largest distance of a moved point from the surface, there
   double searched_rms = 0;        ///< the largest of a map, in the proportions in which maps are sought
-  double next_rms = std::numeric_limits<double>::infinity(); ///< the least of a map that is not in the group, there
+  double next_rms =
+      std::numeric_limits<double>::infinity(); ///< the least of a map that is not in the group, a lower bound
 };
 
 /// The symmetries of a whole surface.

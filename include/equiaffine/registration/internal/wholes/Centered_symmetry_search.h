@@ -69,10 +69,10 @@ public:
     result.complete_to = complete_to_;
     result.least_rms = std::min(thresholds_.none, found_rms());
     decide(rotations.front(), result);
-    const double stretch = surface_.own.least_stretch(); // no distance is a smaller part of one that was sought
-    result.complete_to *= stretch;
-    result.least_rms *= stretch;
-    for (Symmetry_level& level : result.levels) level.next_rms *= stretch;
+    const double least = least_own_rms();
+    result.complete_to *= least;
+    result.least_rms *= least;
+    for (Symmetry_level& level : result.levels) level.next_rms *= least;
     return result;
   }
 
@@ -82,7 +82,9 @@ public:
 private:
   static constexpr std::size_t largest_group = 1000;
   static constexpr std::size_t fewest_verified = 6000, most_verified = 4000000; ///< points of a map, and of all of them
-  static constexpr double tolerance_of_products = 0.1, least_stretch_of_tolerance = 1.0 / 3;
+  static constexpr double tolerance_of_products = 0.1;
+  /// Maps are sought to three times a tolerance at most, so that less is decided for longer bodies.
+  static constexpr double least_stretch_of_tolerance = 1.0 / 3;
 
   /// Adds rotations of any angle, if the surface keeps to itself by them. A finite group to rounding says more, if there
   /// is one, unless turns up to a tolerance were asked for.
@@ -144,6 +146,20 @@ private:
                                                                      kind_, gate(), tolerance_ > 0);
     complete_to_ = std::min(complete_to_, least_left_out / 2);
     add(std::move(maps));
+  }
+
+  /// The least rms in the proportions of the surface of a map whose rms is 1 where maps are sought: no distance is
+  /// stretched less, and no part of the area has a smaller weight.
+  double least_own_rms() const {
+    if (surface_.own.distances == surface_.distances) return 1;
+    const Eigen::Matrix3d of_normals = surface_.own.map.matrix.inverse().transpose();
+    double least = std::numeric_limits<double>::infinity(), sum = 0;
+    for (const Eigen::Vector3d& n : surface_.samples.normals) {
+      const double weight = (of_normals * n).norm();
+      least = std::min(least, weight);
+      sum += weight;
+    }
+    return surface_.own.least_stretch() * std::sqrt(least * double(surface_.samples.normals.size()) / sum);
   }
 
   /// Distances below this are zero in the proportions of the surface.
@@ -275,7 +291,7 @@ private:
       result.reason = "too many rotations move the surface nearly onto itself for all to be tried";
     } else {
       result.reason = "a map moves the surface onto itself to within " +
-                      percent(own_rms(Centered_pair(surface_), found_.front().map, points_of_rms)) +
+                      percent(own_rms(Centered_pair(surface_), found_.front().map, points_of_rms, best)) +
                       ", but maps like it are no group";
     }
   }

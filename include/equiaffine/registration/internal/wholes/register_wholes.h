@@ -36,7 +36,7 @@ inline Shape_match match_of(const Centered_pair& surfaces, const Affine_map_3& m
   const std::array<double, 2> parts = {part_on_surface(distances.moved, touching),
                                        part_on_surface(distances.fixed, touching)};
   return {target.map.inverse() * map * source.map,
-          target.own.size * own_rms(surfaces, map, how.probes),
+          target.own.size * own_rms(surfaces, map, how.probes, distances.rms()),
           parts,
           evidence.log10_false_alarms,
           {1 - parts[0], 1 - parts[1]}};

@@ -67,7 +67,7 @@ std::vector<Slipping_rotation> slipping_rotations(const Centered_surface_3& surf
     const double angle = angles[i % angles.size()];
     const Affine_map_3 rotation = {Eigen::AngleAxisd(angle, axis).toRotationMatrix()};
     maps[i] = judged(itself, is_mesh ? rotation : refined_rotation(angle, axis), points);
-    own[i] = own_rms(itself, maps[i].map, points);
+    own[i] = own_rms(itself, maps[i].map, points, maps[i].rms);
   });
   std::vector<Slipping_rotation> result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
