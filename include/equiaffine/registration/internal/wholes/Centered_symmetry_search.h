@@ -23,23 +23,6 @@
 
 namespace equiaffine::internal {
 
-/// Thresholds of distances, parts of the size.
-struct Symmetry_thresholds {
-  double exact = 0, turn = 0, approximate = 0.01, none = 0.03;
-
-  /// A symmetry is exact if it holds to rounding at every point. Triangles that stand for a smooth surface turn to within
-  /// their own error. Thin surfaces have less than their thickness allows. With a `tolerance` above 0, maps up to it are
-  /// sought, and a surface turns to within it.
-  Symmetry_thresholds(const Centered_surface_3& surface, double tolerance) {
-    const double thickness = surface.thickness(), facet_error = surface.samples.facet_error;
-    exact = exact_distance(surface.rounding);
-    approximate = std::min(approximate, 0.03 * thickness);
-    const double facets = exact + std::min(3 * facet_error, approximate); // points of facets are off other facets
-    turn = tolerance > 0 ? std::max(exact, tolerance) : facets;
-    none = std::max({0.03 * thickness, 1.2 * approximate, 1.2 * tolerance});
-  }
-};
-
 /// The search for the symmetries of a whole surface. They keep the centroid of its area, so that all rotations about it
 /// are searched; maps that are found are refined, and complete groups of them are the result.
 template <class ConcurrencyTag>
