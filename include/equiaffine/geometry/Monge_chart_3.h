@@ -165,7 +165,7 @@ private:
   void change_pivot() {
     using std::abs;
     const FT with_x = abs(quadratic[1] - b / a * quadratic[0]), with_y = abs(quadratic[1] - a / b * quadratic[2]);
-    const FT with_z = abs(quadratic[1]), least(1e-37);
+    const FT with_z = abs(quadratic[1]), least(1e-37F); // in the range of float, too
     const Mask x_is_better = is_nearly_square && abs(a) > least && with_x < with_z;
     const Mask y_is_better = is_nearly_square && abs(b) > least && with_y < with_z;
     const Mask to_x = x_is_better && !(y_is_better && with_y < with_x), to_y = y_is_better && !to_x;
