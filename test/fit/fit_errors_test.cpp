@@ -69,7 +69,9 @@ TEST(Fitted_structures, outliers_have_no_curvature_and_spoil_none) {
       EXPECT_FALSE(has_fit && is_away[i]) << points[i] << ' ' << has_faces;
       EXPECT_TRUE(has_fit || is_moved[i]) << points[i] << ' ' << has_faces;
     }
-    if (has_faces) EXPECT_LT(fitted, 0.1 * moved); // those that are moved along the surface
+    if (has_faces) { // those that are moved along the surface
+      EXPECT_LT(fitted, 0.1 * moved);
+    }
   }
   const auto without = fitted_structures<CGAL::Parallel_if_available_tag>(exact),
              with = fitted_structures<CGAL::Parallel_if_available_tag>(mesh);
@@ -117,7 +119,9 @@ TEST(Fitted_structures, long_triangles_elsewhere_do_not_spoil_a_hemisphere) {
   for (std::size_t i = 0; i < nose; ++i) {
     const double error = std::abs(fits[i].structure.affine.gaussian_curvature - 1);
     within += error <= fits[i].error.affine_gaussian_curvature;
-    if (i < tip_part) EXPECT_LT(error, 0.01) << mesh.point(Fit_mesh::Vertex_index(unsigned(i)));
+    if (i < tip_part) {
+      EXPECT_LT(error, 0.01) << mesh.point(Fit_mesh::Vertex_index(unsigned(i)));
+    }
   }
   EXPECT_GT(within, 0.9 * double(nose));
 }

@@ -285,10 +285,10 @@ TEST(Read_points, three_numbers_without_names_are_normals_of_length_one_or_color
   const equiaffine::test::Scratch_file scratch("points.xyz");
   const auto names = [&](const std::string& text) {
     const Table points = equiaffine::read_points<Kernel>(scratch.write(text));
-    std::string names;
-    for (const auto& column : points.attributes.columns) names += column.name + ' ';
-    for (const std::string& comment : points.attributes.comments) names += "(" + comment.substr(0, 25) + ")";
-    return names;
+    std::string text_of_names;
+    for (const auto& column : points.attributes.columns) text_of_names += column.name + ' ';
+    for (const std::string& comment : points.attributes.comments) text_of_names += "(" + comment.substr(0, 25) + ")";
+    return text_of_names;
   };
   const std::string colors = "red green blue (columns 4 to 6 are colors)";
   EXPECT_EQ(names("1 2 3 0.6 0 -0.8\n4 5 6 0 0 0\n7 8 9 .58 .58 .58\n"), "nx ny nz ");
