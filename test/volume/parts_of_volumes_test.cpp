@@ -64,8 +64,10 @@ struct Samples {
     const auto copy = std::make_shared<std::vector<float>>();
     for (std::size_t k = 0; k < n[2]; ++k)
       for (std::size_t j = 0; j < n[1]; ++j)
-        for (std::size_t i = 0; i < n[0]; ++i)
-          copy->push_back(values[lattice.index(cells.first[0] + i, cells.first[1] + j, cells.first[2] + k)]);
+        for (std::size_t i = 0; i < n[0]; ++i) {
+          const std::size_t node = lattice.index(cells.first[0] + i, cells.first[1] + j, cells.first[2] + k);
+          copy->push_back(node < values.size() ? values[node] : 0); // cells beyond the lattice are refused below
+        }
     const auto step = std::ptrdiff_t(sizeof(float)), row = step * std::ptrdiff_t(n[0]);
     return Volume_view_3<Kernel>::part(lattice, cells, copy->data(), {step, row, row * std::ptrdiff_t(n[1])}, copy);
   }
