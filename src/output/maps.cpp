@@ -158,10 +158,8 @@ std::string reason_for_none(const Registration_report& report) {
   const std::string of_triangles = reason.empty() ? "" : "; by the triangles without curvature, " + reason;
   const bool slides = report.registration.slippage.dimension() > 0;
   if (n == 0)
-    return std::string("no map found: ") +
-           (slides ? "no points of the two have frames that are determined and agree"
-                   : "no points of the two have frames that agree") +
-           of_triangles;
+    return std::string("no map found: no points of the two have frames that ") + (slides ? "are determined and " : "") +
+           "agree" + of_triangles;
   std::string scales;
   for (const std::string& scale : report.scales) scales += (scales.empty() ? " (at the scales " : "; ") + scale;
   if (!scales.empty()) scales += ')';

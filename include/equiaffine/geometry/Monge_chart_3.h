@@ -73,9 +73,7 @@ struct Monge_chart_3 {
     const auto& c = jet.coefficients();
     is_steep = abs(c[1]) > FT(0) || abs(c[2]) > FT(0) || abs(c[3]) > FT(0);
     expand_around_pivot(jet, pivot.reciprocals);
-    if (!may_change || !any(is_nearly_square)) return;
-    change_pivot();
-    expand_around_pivot(jet, pivot.reciprocals);
+    if (may_change && any(is_nearly_square) && change_pivot()) expand_around_pivot(jet, pivot.reciprocals);
   }
   /// \endcond
 
@@ -161,8 +159,8 @@ private:
 
   /// Where Q is nearly a square, takes the axis with which its coefficient of u v, times the square of the f_i of the
   /// axis, is smallest: d, times the fourth power, is the same for all three. Powers of the new a and b must not
-  /// overflow.
-  void change_pivot() {
+  /// overflow. Returns whether there is a new axis.
+  bool change_pivot() {
     using std::abs;
     const FT with_x = abs(quadratic[1] - b / a * quadratic[0]), with_y = abs(quadratic[1] - a / b * quadratic[2]);
     const FT with_z = abs(quadratic[1]), least(1e-37F); // in the range of float, too
@@ -173,6 +171,7 @@ private:
     const Mask was_x = pivot_is_x, was_y = pivot_is_y, was_z = !was_x && !was_y;
     pivot_is_x = (stays && was_x) || (to_x && was_z) || (to_y && was_y);
     pivot_is_y = (stays && was_y) || (to_x && was_x) || (to_y && was_z);
+    return any(to_x || to_y);
   }
 
   void expand_around_pivot(const Jet_3<FT>& jet, const std::array<FT, 3>& reciprocals) {

@@ -9,7 +9,8 @@
 
 namespace equiaffine {
 
-/// The invariants from a chart, in 340 floating-point operations with the chart, more where Q is nearly a square. Meaningful where chart.is_curved.
+/// The invariants from a chart, in 340 floating-point operations with the chart, more where Q is nearly a square.
+/// Meaningful where chart.is_curved.
 ///
 /// Writing p for the quadratic form Q, with which indices are raised and traces taken (h = -2 p), and v for a quarter
 /// of the trace of the cubic form, C = t + 3 sym(v p) with t apolar. The direction alpha = -(1/2) p^-1 L, conjugate to

@@ -36,11 +36,15 @@ struct Symmetry_level_3 {
 
 /// A verdict says what is known of the symmetries of a surface.
 enum class Symmetry_verdict {
-  EXACT, ///< the first level, or else the continuous group, holds to rounding at every point that was tried
-  APPROXIMATE, ///< the first level, or else the continuous group, holds to within its rms, 1 % of the size at most, for affine
-               ///< maps in coordinates in which the solid is round
-  NONE,     ///< no map but the identity holds to within 1 % of the size, as above, or to the tolerance for a function
-  UNDECIDED ///< none of these was verified, for the reason given
+  /// The first level, or else the continuous group, holds to rounding at every point that was tried.
+  EXACT,
+  /// The first level, or else the continuous group, holds to within its rms: 1 % of the size at most, for affine maps in
+  /// coordinates in which the solid is round.
+  APPROXIMATE,
+  /// No map but the identity holds to within 1 % of the size, as above, or to the tolerance for a function.
+  NONE,
+  /// None of these was verified, for the reason given.
+  UNDECIDED
 };
 
 /// The result of `affine_symmetries`.

@@ -123,11 +123,10 @@ public:
   }
 
   Column_numbers operator()(const Vertex_attributes::Column& column) const {
-    std::vector<double> values = column.values;
+    std::vector<double> roots;
     if (column.name == "affine_area_density") { // a fourth root, which makes much of the rounding of its radicand
       const double rounding = rounding_of_quantity("gaussian_curvature", diagonal_);
-      for (double& value : values)
-        if (value * value * value * value <= rounding) value = 0;
+      for (const double value : column.values) roots.push_back(value * value * value * value <= rounding ? 0 : value);
     }
     std::vector<bool> known;
     const auto* const errors = find_errors(attributes_, column.name);
@@ -135,7 +134,7 @@ public:
       const std::vector<double> sizes = sizes_of_numbers(column, attributes_);
       for (std::size_t i = 0; i < sizes.size(); ++i) known.push_back(is_known(sizes[i], errors->values[i]));
     }
-    return {values, known, errors ? errors->values : std::vector<double>(), areas_,
+    return {roots.empty() ? column.values : roots, known, errors ? errors->values : std::vector<double>(), areas_,
             rounding_of_quantity(column.name, diagonal_)};
   }
 

@@ -62,13 +62,12 @@ public:
   template <class ConcurrencyTag>
   Checked_map check(const Affine_map_3& map, std::size_t count = std::numeric_limits<std::size_t>::max()) const {
     const std::size_t points = std::min(count, points_.size());
-    std::vector<double> distances(points);
+    std::vector<double> distances(points, std::numeric_limits<double>::quiet_NaN());
     std::vector<char> are_exact(points);
     parallel_for<ConcurrencyTag>(
         0, points,
         [&](std::size_t i) {
           const Eigen::Vector3d image = in_box(map(points_[i]));
-          distances[i] = std::numeric_limits<double>::quiet_NaN();
           if (!function_.contains(image)) return;
           const auto [distance, normal] = function_.distance(image);
           const double limit = least_limit * size_ + errors_[i];

@@ -84,7 +84,7 @@ inline Distances_of_moved distances_of_moved(const Centered_surface_3& surface, 
                                              std::size_t count, const Centered_surface_3::Proportions& in) {
   const auto& samples = surface.samples.points;
   const std::size_t sampled = std::min(count, samples.size()), checked = std::min(count, surface.checked.size());
-  const Eigen::Matrix3d of_normals = in.map.matrix.inverse().transpose();
+  const Eigen::Matrix3d of_normals = in.of_normals();
   Distances_of_moved result = {0, 0};
   double total = 0;
   for (std::size_t i = 0; i < sampled; ++i) {
@@ -115,7 +115,7 @@ inline double own_rms(const Centered_pair& surfaces, const Affine_map_3& map, st
   if (source.own.distances == source.distances && target.own.distances == target.distances) return sought;
   const Affine_map_3 back = map.inverse(), to_source = source.own.map * back * target.own.map.inverse();
   const Eigen::Matrix3d of_moved = (target.own.map.matrix * map.matrix).inverse().transpose();
-  const Eigen::Matrix3d of_fixed = target.own.map.matrix.inverse().transpose();
+  const Eigen::Matrix3d of_fixed = target.own.of_normals();
   std::array<double, 2> sums = {0, 0}, weights = {0, 0};
   const auto add = [&](std::size_t side, double weight, double distance) {
     sums[side] += weight * distance * distance;

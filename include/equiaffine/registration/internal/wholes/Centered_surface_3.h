@@ -40,6 +40,9 @@ struct Centered_surface_3 {
     double rounding = 1e-12; ///< of points on the surface, a part of the size
     double spacing = 0;      ///< the greatest one of the samples
 
+    /// The matrix of normals. The length of the image of a unit normal is the weight of its area.
+    Eigen::Matrix3d of_normals() const { return map.matrix.inverse().transpose(); }
+
     /// The least length of the image of a unit vector.
     double least_stretch() const { return map.matrix.jacobiSvd().singularValues()[2]; }
   };
@@ -125,9 +128,9 @@ inline Centered_surface_3 centered_surface(const Triangles_3& mesh, Map_kind kin
   result.distances = std::make_shared<Mesh_distances>(centered);
   const double rounding = coordinate_rounding(mesh.points);
   const auto rounding_after = [&](const Affine_map_3& map) { return std::max(1e-12, rounding * map.matrix.norm()); };
-  result.own = {{}, result.distances, area.size(), rounding_after(centering_map(area))};
+  const Affine_map_3 centering = centering_map(area);
+  result.own = {{}, result.distances, area.size(), rounding_after(centering)};
   if (!keeps_angles(kind)) {
-    const Affine_map_3 centering = centering_map(area);
     result.own.map = centering * result.map.inverse();
     result.own.distances = std::make_shared<Mesh_distances>(transformed(mesh, centering));
   }
@@ -207,10 +210,10 @@ Centered_surface_3 centered_surface(const Any_function_3& function, Map_kind kin
                   samples.area.covariance / (size * size)};
   result.map = centering * result.map;
   result.distances = std::make_shared<Function_distances>(Mapped_function_3(function, result.map), samples);
-  result.own = keeps_angles(kind)
-                   ? Centered_surface_3::Proportions{{}, result.distances, 1 / result.map.matrix.col(0).norm()}
-                   : own_proportions(function, samples, result.map);
-  if (keeps_angles(kind)) result.own.spacing = samples.spacing();
+  result.own = keeps_angles(kind) ? Centered_surface_3::Proportions{.distances = result.distances,
+                                                                    .size = 1 / result.map.matrix.col(0).norm(),
+                                                                    .spacing = samples.spacing()}
+                                  : own_proportions(function, samples, result.map);
   return result;
 }
 

@@ -135,7 +135,7 @@ private:
   /// stretched less, and no part of the area has a smaller weight.
   double least_own_rms() const {
     if (surface_.own.distances == surface_.distances) return 1;
-    const Eigen::Matrix3d of_normals = surface_.own.map.matrix.inverse().transpose();
+    const Eigen::Matrix3d of_normals = surface_.own.of_normals();
     double least = std::numeric_limits<double>::infinity(), sum = 0;
     for (const Eigen::Vector3d& n : surface_.samples.normals) {
       const double weight = (of_normals * n).norm();
