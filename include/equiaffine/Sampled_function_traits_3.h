@@ -52,9 +52,11 @@ public:
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   Sampled_function_traits_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters,
                             const Volume_part& part, ConcurrencyTag tag = {})
-      : volume_(smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing))) {
-    Volume_survey survey = volume_survey<ConcurrencyTag>(volume, volume_, parameters, part.cells);
+      : volume_(volume) {
+    Volume_survey survey = volume_survey<ConcurrencyTag>(volume, parameters, part.cells);
     part.reduce(survey);
+    volume_ = smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing),
+                                            internal::elected_border_degree(survey.border_votes, parameters.degree));
     spline_ = std::make_shared<const Spline_function_3<Kernel>>(volume_, parameters, survey, tag);
     rounding_ = std::make_shared<const Spline_rounding_3<Kernel>>(*spline_, FT(parameters.smoothing), survey);
   }

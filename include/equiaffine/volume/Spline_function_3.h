@@ -69,14 +69,14 @@ public:
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Spline_function_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters = {},
                              ConcurrencyTag tag = {})
-      : Spline_function_3(smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing)), parameters, std::nullopt,
-                          tag) {}
+      : Spline_function_3(volume, parameters, internal::known_border_degree(volume, parameters), tag) {}
 
   /// The same for samples that are smoothed already, and the survey of the volume, of which they may be a part.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   Spline_function_3(const Volume_view_3<Kernel>& smooth, const Spline_parameters& parameters,
                     const Volume_survey& survey, ConcurrencyTag tag = {})
-      : Spline_function_3(smooth, parameters, survey.border_votes, tag) {}
+      : Spline_function_3(smooth, {.degree = parameters.degree, .scheme = parameters.scheme},
+                          internal::elected_border_degree(survey.border_votes, parameters.degree), tag) {}
 
   const Lattice& lattice() const { return support_.lattice(); } ///< where the samples are
   int degree() const { return fit_.degree; }                    ///< 5, 7 or 9
@@ -168,21 +168,19 @@ public:
   }
 
 private:
-  /// The votes are counted here if nobody knows them.
   template <class ConcurrencyTag>
-  Spline_function_3(const Volume_view_3<Kernel>& smooth, const Spline_parameters& parameters,
-                    std::optional<Border_votes> border_votes, ConcurrencyTag tag)
-      : fit_{internal::checked_degree(parameters.degree), parameters.scheme, parameters.degree},
-        support_(smooth.lattice()), substitution_(support_.to_lattice()) {
+  Spline_function_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters, int border_degree,
+                    ConcurrencyTag tag)
+      : fit_{internal::checked_degree(parameters.degree), parameters.scheme, border_degree}, support_(volume.lattice()),
+        substitution_(support_.to_lattice()) {
     for (const auto& step : lattice().steps())
       check_argument(shortest_step * shortest_step <= step.squared_length() &&
                          step.squared_length() <= longest_step * longest_step,
                      "a step of the lattice of a spline is not from 1e-70 to 1e70 long: choose another unit");
     for (const std::size_t nodes : lattice().size())
       if (nodes <= std::size_t(degree())) return;
-    if (!border_votes) border_votes = internal::border_votes(smooth, degree(), scheme(), smooth.cells());
-    fit_.border_degree = internal::elected_border_degree(*border_votes, degree());
-    source_ = std::make_shared<const internal::Coefficient_source<Kernel>>(smooth, fit_, tag);
+    source_ = std::make_shared<const internal::Coefficient_source<Kernel>>(
+        smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing), border_degree), fit_, tag);
     if (scheme() == Spline_scheme::INTERPOLATION) source_->all(); // no part of them can be computed alone
   }
 

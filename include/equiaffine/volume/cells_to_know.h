@@ -38,7 +38,7 @@ inline Cell_block cells_to_know(const Cell_block& cells, const std::array<std::s
         if (cells.first[a] == 0) used.end = std::max(used.end, voting);
         if (cells.end[a] + 1 == nodes[a]) used.first = std::min(used.first, nodes[a] - voting);
         if (parameters.smoothing > 1)
-          used = internal::Smoothing_filter<double>(parameters.smoothing, nodes[a]).samples_of(used);
+          used = internal::Smoothing_filter<double>(parameters.smoothing, nodes[a], fit.border_degree).samples_of(used);
         known.first[a] = std::min(known.first[a], used.first);
         known.end[a] = std::max(known.end[a], used.end - 1);
       }

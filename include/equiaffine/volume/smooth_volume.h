@@ -4,6 +4,7 @@
 
 #include <equiaffine/Volume_3.h>
 #include <equiaffine/Volume_view_3.h>
+#include <equiaffine/volume/internal/border_degree.h>
 #include <equiaffine/volume/internal/smoothed_samples.h>
 
 #include <CGAL/tags.h>
@@ -19,23 +20,36 @@ namespace equiaffine {
 /// nothing. White noise in fourth derivatives falls as scale^-5.5. A node whose window has a sample that is not finite
 /// gets one that is not finite.
 ///
+/// Where most lines of the volume end in steps, as those of a mask do, the samples go on beyond the border as constants
+/// instead: polynomials through steps would move the surface between them.
+///
 /// \throw std::invalid_argument unless the scale is finite and not negative, and there are as many values as nodes
 ///
 /// Takes 20 scale operations per node. The result does not depend on the number of threads.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_3<Kernel> smooth_volume(Volume_3<Kernel> volume, const typename Kernel::FT& scale) {
   const auto view = Volume_view_3<Kernel>::of(volume);
-  if (internal::smooths(scale)) volume.values = internal::smoothed_samples<ConcurrencyTag>(view, scale);
+  if (internal::smooths(scale))
+    volume.values = internal::smoothed_samples<ConcurrencyTag>(view, scale, internal::known_border_degree(view));
   return volume;
 }
 
 /// The same for samples of any type: the result has numbers of the kernel, or is the volume itself. Of a part of a volume
-/// the nodes are kept whose windows are in it. \throw std::invalid_argument if there are none
+/// the nodes are kept whose windows are in it. If the border degree is 0, samples go on beyond the border as constants,
+/// else as polynomials (Spline_function_3::border_degree()). \throw std::invalid_argument if there are no such nodes
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
+Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale,
+                                    int border_degree) {
+  if (!internal::smooths(scale)) return volume;
+  if (volume.is_part()) return internal::smoothed_part<ConcurrencyTag>(volume, scale, border_degree);
+  return Volume_3<Kernel>{volume.lattice(), internal::smoothed_samples<ConcurrencyTag>(volume, scale, border_degree)};
+}
+
+/// The same where the ends of the lines that are known decide on the border degree.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale) {
   if (!internal::smooths(scale)) return volume;
-  if (volume.is_part()) return internal::smoothed_part<ConcurrencyTag>(volume, scale);
-  return Volume_3<Kernel>{volume.lattice(), internal::smoothed_samples<ConcurrencyTag>(volume, scale)};
+  return smooth_volume<ConcurrencyTag>(volume, scale, internal::known_border_degree(volume));
 }
 
 } // namespace equiaffine

@@ -50,7 +50,7 @@ public:
   /// Precondition: nodes > rule.degree.
   Line_functionals(std::size_t nodes, const Spline_rule<FT>& rule)
       : cells_(nodes - 1), nodes_(std::min(nodes, sufficient_nodes(rule))) {
-    const std::vector<FT> samples = smoothed_unit_samples(rule.smoothing);
+    const std::vector<FT> samples = smoothed_unit_samples(rule);
     coefficients_.resize((nodes_ + 2 * std::size_t(spline_padding(rule.degree))) * nodes_);
     with_degree(rule.degree, [&](auto n) {
       with_line_filter<FT, n>(rule.scheme, rule.border_degree, [&](const auto& filter) {
@@ -93,12 +93,13 @@ private:
   }
 
   /// The samples of the line as linear functions of themselves, smoothed: row i has the coefficients of sample i.
-  std::vector<FT> smoothed_unit_samples(FT smoothing) const {
+  std::vector<FT> smoothed_unit_samples(const Spline_rule<FT>& rule) const {
     std::vector<FT> unit(nodes_ * nodes_);
     for (std::size_t i = 0; i < nodes_; ++i) unit[i * (nodes_ + 1)] = 1;
-    if (!(smoothing > 1)) return unit;
+    if (!(rule.smoothing > 1)) return unit;
     std::vector<FT> smoothed(unit.size());
-    Smoothing_filter<FT>(smoothing, nodes_).apply(unit.data(), nodes_, nodes_, smoothed.data(), nodes_);
+    Smoothing_filter<FT>(rule.smoothing, nodes_, rule.border_degree)
+        .apply(unit.data(), nodes_, nodes_, smoothed.data(), nodes_);
     return smoothed;
   }
 

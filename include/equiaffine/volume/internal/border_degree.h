@@ -5,6 +5,7 @@
 #include <equiaffine/Volume_view_3.h>
 #include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/volume/Cell_block.h>
+#include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Spline_scheme.h>
 #include <equiaffine/volume/Volume_parts_3.h>
 #include <equiaffine/volume/Volume_survey.h>
@@ -118,6 +119,12 @@ int border_degree(const Volume_parts_3<Kernel>& volume, int degree, Spline_schem
   for (std::size_t n = 0; n < gathered.size(); n += 3)
     of_all.add({std::int64_t(gathered[n]), std::int64_t(gathered[n + 1]), std::int64_t(gathered[n + 2])});
   return elected_border_degree(of_all, degree);
+}
+
+/// The border degree that those ends of lines elect that are known.
+template <class Kernel>
+int known_border_degree(const Volume_view_3<Kernel>& volume, const Spline_parameters& spline = {}) {
+  return elected_border_degree(border_votes(volume, spline.degree, spline.scheme, volume.cells()), spline.degree);
 }
 
 } // namespace equiaffine::internal

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -48,7 +49,8 @@ std::vector<FT> local_polynomial_weights(std::size_t count, FT center, FT reach,
 /// A filter of lines that smooths: node i gets the value of the polynomial of degree 7 that fits the samples around it.
 /// The fit is weighted by a bell of standard deviation `scale` steps that ends at sqrt(11) scale. Hence polynomials of
 /// degree 7 stay as they are and the error is that of order 8; a scale of 1 changes nothing. Near a border the window
-/// stays within the line, and the bell reaches to its other end.
+/// stays within the line, and the bell reaches to its other end. If the border degree is 0, the samples go on beyond
+/// the border as constants instead (border_degree.h): polynomials through steps would move them.
 template <class FT>
 class Smoothing_filter {
 public:
@@ -59,16 +61,23 @@ public:
   static std::size_t radius_of(FT scale) { return scale > 1 ? std::size_t(std::ceil(reach_of(scale))) - 1 : 0; }
 
   /// Makes a filter for lines of `count` nodes, which limit its window. Precondition: scale > 1.
-  Smoothing_filter(FT scale, std::size_t count) : Smoothing_filter(scale, count, {0, count}) {}
+  Smoothing_filter(FT scale, std::size_t count, int border_degree)
+      : Smoothing_filter(scale, count, border_degree, {0, count}) {}
 
   /// The same for lines of which only a part is known.
-  Smoothing_filter(FT scale, std::size_t count, const Line_part& known)
+  Smoothing_filter(FT scale, std::size_t count, int border_degree, const Line_part& known)
       : count_(count), known_(known), radius_(std::min(radius_of(scale), (count - 1) / 2)) {
     const FT reach = reach_of(scale);
     const FT excess = std::min(reach, FT(radius_ + 1)) - FT(radius_);
     for (std::size_t i = 0; i <= radius_; ++i)
       weights_.push_back(local_polynomial_weights(window(), FT(i), FT(window() - 1 - i) + excess,
                                                   std::min(degree, int(window()) - 1)));
+    if (border_degree == 0)
+      for (std::size_t i = 0; i < radius_; ++i) {
+        const auto beyond = weights_[radius_].begin() + std::ptrdiff_t(radius_ - i);
+        weights_[i].assign(beyond, weights_[radius_].end());
+        weights_[i][0] += std::accumulate(weights_[radius_].begin(), beyond, FT(0));
+      }
   }
 
   /// The nodes in the windows of some nodes.

@@ -21,11 +21,11 @@ namespace equiaffine::internal {
 /// The smoothed samples of a volume at the nodes that are known, i fastest. They are NaN where not all that they are made
 /// of is known. \pre the scale is greater than 1
 template <class ConcurrencyTag, class Kernel>
-std::vector<typename Kernel::FT> smoothed_samples(const Volume_view_3<Kernel>& volume,
-                                                  const typename Kernel::FT& scale) {
+std::vector<typename Kernel::FT> smoothed_samples(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale,
+                                                  int border_degree) {
   using Filter = Smoothing_filter<typename Kernel::FT>;
   const auto filter = [&](std::size_t a) {
-    return Filter(scale, volume.lattice().size()[a], nodes_of(volume.cells(), a));
+    return Filter(scale, volume.lattice().size()[a], border_degree, nodes_of(volume.cells(), a));
   };
   const std::array<Filter, 3> filters = {filter(0), filter(1), filter(2)};
   std::array<std::size_t, 3> size;
@@ -39,16 +39,18 @@ std::vector<typename Kernel::FT> smoothed_samples(const Volume_view_3<Kernel>& v
 
 /// The part of a volume that is known, smoothed. \pre the scale is greater than 1
 template <class ConcurrencyTag, class Kernel>
-Volume_view_3<Kernel> smoothed_part(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale) {
+Volume_view_3<Kernel> smoothed_part(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale,
+                                    int border_degree) {
   using FT = typename Kernel::FT;
   const Cell_block& known = volume.cells();
-  const auto samples = std::make_shared<const std::vector<FT>>(smoothed_samples<ConcurrencyTag>(volume, scale));
+  const auto samples =
+      std::make_shared<const std::vector<FT>>(smoothed_samples<ConcurrencyTag>(volume, scale, border_degree));
   const std::ptrdiff_t step = sizeof(FT), row = step * std::ptrdiff_t(nodes_of(known, 0).size()),
                        slab = row * std::ptrdiff_t(nodes_of(known, 1).size());
   Cell_block cells;
   for (std::size_t a = 0; a < 3; ++a) {
     const Line_part nodes =
-        Smoothing_filter<FT>(scale, volume.lattice().size()[a], nodes_of(known, a)).smoothed_nodes();
+        Smoothing_filter<FT>(scale, volume.lattice().size()[a], border_degree, nodes_of(known, a)).smoothed_nodes();
     check_argument(nodes.size() >= 2, "less samples of a volume are known than its smoothing needs: let more be known");
     cells.first[a] = nodes.first;
     cells.end[a] = nodes.end - 1;

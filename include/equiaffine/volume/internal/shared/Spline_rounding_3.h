@@ -21,11 +21,11 @@
 
 namespace equiaffine {
 
-/// The survey of the samples that belong to a block of cells, of which those in `smooth` are smoothed. The spline has
-/// that degree and scheme.
+/// The survey of the samples that belong to a block of cells, before they are smoothed. The spline has that degree and
+/// scheme.
 template <class ConcurrencyTag, class Kernel>
-Volume_survey volume_survey(const Volume_view_3<Kernel>& volume, const Volume_view_3<Kernel>& smooth,
-                            const Spline_parameters& parameters, const Cell_block& cells) {
+Volume_survey volume_survey(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters,
+                            const Cell_block& cells) {
   using FT = typename Kernel::FT;
   constexpr std::size_t planes_at_once = Volume_view_3<Kernel>::planes_at_once;
   const auto& size = volume.lattice().size();
@@ -48,7 +48,7 @@ Volume_survey volume_survey(const Volume_view_3<Kernel>& volume, const Volume_vi
   });
   Volume_survey survey;
   for (const Volume_survey& of_some : of_planes) survey.add(of_some);
-  survey.border_votes = internal::border_votes(smooth, parameters.degree, parameters.scheme, cells);
+  survey.border_votes = internal::border_votes(volume, parameters.degree, parameters.scheme, cells);
   return survey;
 }
 
