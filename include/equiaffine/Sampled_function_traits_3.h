@@ -55,8 +55,7 @@ public:
       : volume_(volume) {
     Volume_survey survey = volume_survey<ConcurrencyTag>(volume, parameters, part.cells);
     part.reduce(survey);
-    volume_ = smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing),
-                                            internal::elected_border_degree(survey.border_votes, parameters.degree));
+    volume_ = smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing), survey.border_votes);
     spline_ = std::make_shared<const Spline_function_3<Kernel>>(volume_, parameters, survey, tag);
     rounding_ = std::make_shared<const Spline_rounding_3<Kernel>>(*spline_, FT(parameters.smoothing), survey);
   }

@@ -69,14 +69,14 @@ public:
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Spline_function_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters = {},
                              ConcurrencyTag tag = {})
-      : Spline_function_3(volume, parameters, internal::known_border_degree(volume, parameters), tag) {}
+      : Spline_function_3(volume, parameters, internal::known_border_votes(volume, parameters), tag) {}
 
   /// The same for samples that are smoothed already, and the survey of the volume, of which they may be a part.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   Spline_function_3(const Volume_view_3<Kernel>& smooth, const Spline_parameters& parameters,
                     const Volume_survey& survey, ConcurrencyTag tag = {})
-      : Spline_function_3(smooth, {.degree = parameters.degree, .scheme = parameters.scheme},
-                          internal::elected_border_degree(survey.border_votes, parameters.degree), tag) {}
+      : Spline_function_3(smooth, {.degree = parameters.degree, .scheme = parameters.scheme}, survey.border_votes,
+                          tag) {}
 
   const Lattice& lattice() const { return support_.lattice(); } ///< where the samples are
   int degree() const { return fit_.degree; }                    ///< 5, 7 or 9
@@ -169,10 +169,11 @@ public:
 
 private:
   template <class ConcurrencyTag>
-  Spline_function_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters, int border_degree,
+  Spline_function_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters, const Border_votes& votes,
                     ConcurrencyTag tag)
-      : fit_{internal::checked_degree(parameters.degree), parameters.scheme, border_degree}, support_(volume.lattice()),
-        substitution_(support_.to_lattice()) {
+      : fit_{internal::checked_degree(parameters.degree), parameters.scheme,
+             internal::elected_border_degree(votes, parameters.degree)},
+        support_(volume.lattice()), substitution_(support_.to_lattice()) {
     for (const auto& step : lattice().steps())
       check_argument(shortest_step * shortest_step <= step.squared_length() &&
                          step.squared_length() <= longest_step * longest_step,
@@ -180,7 +181,7 @@ private:
     for (const std::size_t nodes : lattice().size())
       if (nodes <= std::size_t(degree())) return;
     source_ = std::make_shared<const internal::Coefficient_source<Kernel>>(
-        smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing), border_degree), fit_, tag);
+        smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing), votes), fit_, tag);
     if (scheme() == Spline_scheme::INTERPOLATION) source_->all(); // no part of them can be computed alone
   }
 

@@ -4,6 +4,8 @@
 
 #include <equiaffine/Volume_3.h>
 #include <equiaffine/Volume_view_3.h>
+#include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/Volume_survey.h>
 #include <equiaffine/volume/internal/border_degree.h>
 #include <equiaffine/volume/internal/smoothed_samples.h>
 
@@ -29,27 +31,30 @@ namespace equiaffine {
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_3<Kernel> smooth_volume(Volume_3<Kernel> volume, const typename Kernel::FT& scale) {
   const auto view = Volume_view_3<Kernel>::of(volume);
-  if (internal::smooths(scale))
-    volume.values = internal::smoothed_samples<ConcurrencyTag>(view, scale, internal::known_border_degree(view));
+  if (!internal::smooths(scale)) return volume;
+  const Spline_parameters spline;
+  const int border_degree = internal::elected_border_degree(internal::known_border_votes(view, spline), spline.degree);
+  volume.values = internal::smoothed_samples<ConcurrencyTag>(view, scale, border_degree);
   return volume;
 }
 
 /// The same for samples of any type: the result has numbers of the kernel, or is the volume itself. Of a part of a volume
-/// the nodes are kept whose windows are in it. If the border degree is 0, samples go on beyond the border as constants,
-/// else as polynomials (Spline_function_3::border_degree()). \throw std::invalid_argument if there are no such nodes
+/// the nodes are kept whose windows are in it, and the votes of the ends of lines of all parts decide how samples go on
+/// beyond the border (Volume_survey.h). \throw std::invalid_argument if there are no such nodes
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale,
-                                    int border_degree) {
+                                    const Border_votes& votes) {
   if (!internal::smooths(scale)) return volume;
+  const int border_degree = internal::elected_border_degree(votes, Spline_parameters().degree);
   if (volume.is_part()) return internal::smoothed_part<ConcurrencyTag>(volume, scale, border_degree);
   return Volume_3<Kernel>{volume.lattice(), internal::smoothed_samples<ConcurrencyTag>(volume, scale, border_degree)};
 }
 
-/// The same where the ends of the lines that are known decide on the border degree.
+/// The same with the votes of the ends of lines that are known.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale) {
   if (!internal::smooths(scale)) return volume;
-  return smooth_volume<ConcurrencyTag>(volume, scale, internal::known_border_degree(volume));
+  return smooth_volume<ConcurrencyTag>(volume, scale, internal::known_border_votes(volume, Spline_parameters()));
 }
 
 } // namespace equiaffine

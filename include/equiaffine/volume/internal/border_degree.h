@@ -99,6 +99,12 @@ Border_votes border_votes(const Volume_view_3<Kernel>& volume, int degree, Splin
   return votes;
 }
 
+/// The votes of all ends of lines that are known.
+template <class Kernel>
+Border_votes known_border_votes(const Volume_view_3<Kernel>& volume, const Spline_parameters& spline) {
+  return border_votes(volume, spline.degree, spline.scheme, volume.cells());
+}
+
 /// The degree of the polynomials that extend a volume beyond the border for a spline of degree n (see Line_filter): the
 /// one with the most votes. Steps, as of a mask, go on as constants: polynomials through them rise beyond the border, and
 /// would move a surface that is a few samples away. Degree n wins for noise and for edges in a scan, which n + 2 would
@@ -119,12 +125,6 @@ int border_degree(const Volume_parts_3<Kernel>& volume, int degree, Spline_schem
   for (std::size_t n = 0; n < gathered.size(); n += 3)
     of_all.add({std::int64_t(gathered[n]), std::int64_t(gathered[n + 1]), std::int64_t(gathered[n + 2])});
   return elected_border_degree(of_all, degree);
-}
-
-/// The border degree that those ends of lines elect that are known.
-template <class Kernel>
-int known_border_degree(const Volume_view_3<Kernel>& volume, const Spline_parameters& spline = {}) {
-  return elected_border_degree(border_votes(volume, spline.degree, spline.scheme, volume.cells()), spline.degree);
 }
 
 } // namespace equiaffine::internal
