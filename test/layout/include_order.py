@@ -21,7 +21,7 @@ PLACE = re.compile(r"[^/]+\.h|[^/]+/[^/]+\.h|[^/]+/internal/(?:[^/]+/)?[^/]+\.h"
 
 
 def room_of(path, porch={}):
-    """The first folder of a path below include/equiaffine or src; on the porch, the room that the header belongs to."""
+    """The first folder of a path below include/equiaffine or program; on the porch, the room that the header belongs to."""
     folder, slash, _ = path.partition("/")
     return folder if slash else porch.get(path)
 
@@ -130,7 +130,7 @@ def faults_of_places(root, porch_lines, library):
     for name in sorted({name for name in names if names.count(name) > 1}):
         yield f"cmake/rooms.txt: {name}.h belongs to two rooms"
     used = set()
-    for folder in (LIBRARY, "src", "mesher", "compiled", "test", "benchmark", "reproduce"):
+    for folder in (LIBRARY, "program", "mesher", "compiled", "test", "benchmark", "reproduce"):
         for path, text in read_files(root / folder).items():
             for included, _ in INCLUDE.findall(text):
                 if included and not (folder == LIBRARY and is_own(path) and room_of(path) == room_of(included)):
@@ -188,24 +188,24 @@ def faults_of_names(rooms_of_name, room, path, text):
 
 def find_faults(root):
     all_rooms, porch, lookers = read_rooms(root), read_porch(root), read_lookers(root)
-    library, program = read_files(root / LIBRARY), read_files(root / "src")
+    library, program = read_files(root / LIBRARY), read_files(root / "program")
     rooms = all_rooms[LIBRARY]
     faults = [f"{path}: there is no such room in cmake/rooms.txt"
               for path in library if "/" in path and room_of(path) not in rooms]
-    faults += (f"src/{path}: there is no such room in cmake/rooms.txt"
-               for path in program if "/" in path and room_of(path) not in all_rooms["src"])
+    faults += (f"program/{path}: there is no such room in cmake/rooms.txt"
+               for path in program if "/" in path and room_of(path) not in all_rooms["program"])
     faults += faults_of_porch(porch, rooms, library)
     faults += faults_of_places(root, read_sections(root).get("porch", {}).values(), library)
     faults += (f"cmake/rooms.txt: there is no file {path}" for path in lookers if not (root / path).exists())
     if faults:
         return faults
-    for folder, files, quoted, doors in ((LIBRARY, library, 0, porch), ("src", program, 1, {})):
+    for folder, files, quoted, doors in ((LIBRARY, library, 0, porch), ("program", program, 1, {})):
         faults += [*faults_of_rooms(folder, all_rooms[folder]),
                    *faults_of_uses(folder, all_rooms[folder], files, quoted, doors)]
     for path, text in library.items():
         faults += faults_of_library_file(rooms, porch, path, text)
     faults += faults_of_circles(library)
-    for folder in ("src", "mesher"):
+    for folder in ("program", "mesher"):
         for path, text in read_files(root / folder).items():
             faults += (f"{folder}/{fault}" for fault in faults_of_program_file(all_rooms.get(folder), path, text))
     for path, text in read_files(root / "examples").items():
@@ -213,7 +213,7 @@ def find_faults(root):
     rooms_of_name = functools.cache(lambda name: rooms_that_define(name, library))
     for path, text in library.items():
         faults += faults_of_names(rooms_of_name, room_of(path, porch), path, text)
-    for folder in ("src", "mesher", "compiled", "examples", "reproduce", "test", "benchmark"):
+    for folder in ("program", "mesher", "compiled", "examples", "reproduce", "test", "benchmark"):
         for path, text in read_files(root / folder).items():
             faults += faults_of_looker(f"{folder}/{path}", text, lookers, rooms_of_name)
     return faults

@@ -12,7 +12,7 @@ class IncludeOrder(unittest.TestCase):
         """Of a checkout with two rooms each, where the files that are named have other text; `__` stands for `/`."""
         files = {
             "cmake/rooms.txt": "# a comment\n[include/equiaffine]\nlow: | what is low\nhigh: low | what is high\n"
-                               "other: | what is beside\n\n[src]\nbelow: |\nabove: below |\n"
+                               "other: | what is beside\n\n[program]\nbelow: |\nabove: below |\n"
                                "[porch]\nhigh: entry\n[looks inside]\nreproduce/a.cpp: low\n",
             "include/equiaffine/entry.h": "#include <equiaffine/high/door.h>\nclass Entry {};\n",
             "include/equiaffine/low/a.h": "#include <equiaffine/low/internal/b.h>\nclass A {};\n",
@@ -21,10 +21,10 @@ class IncludeOrder(unittest.TestCase):
             "include/equiaffine/other/c.h": "\n",
             "include/equiaffine/high/door.h": "#include <equiaffine/low/a.h>\n#include <equiaffine/low/internal/shared/s.h>\n"
                                               "class Door {};\n",
-            "src/main.cpp": '#include "above/task.h"\ninternal::Shared shared;\n',
-            "src/below/file.h": "#include <equiaffine/entry.h>\n#include <equiaffine/low/internal/shared/s.h>\n",
+            "program/main.cpp": '#include "above/task.h"\ninternal::Shared shared;\n',
+            "program/below/file.h": "#include <equiaffine/entry.h>\n#include <equiaffine/low/internal/shared/s.h>\n",
             "examples/e.cpp": "#include <equiaffine/entry.h>\n#include <equiaffine/low/a.h>\n",
-            "src/above/task.h": '#include "below/file.h"\n#include <equiaffine/low/a.h>\n',
+            "program/above/task.h": '#include "below/file.h"\n#include <equiaffine/low/a.h>\n',
             "mesher/mesh.cpp": '#include "mesh.h"\n#include <equiaffine/high/door.h>\n',
             "reproduce/a.cpp": "internal::Hidden hidden;\n",
             "test/low/b_test.cpp": "#include <equiaffine/low/internal/b.h>\ninternal::Hidden hidden;\n",
@@ -69,7 +69,7 @@ class IncludeOrder(unittest.TestCase):
     def test_a_header_of_the_porch_that_is_not_there(self):
         self.assert_fault("there is no gone.h on the porch",
                           cmake__rooms_txt="[include/equiaffine]\nlow: |\nhigh: low |\nother: |\n"
-                                           "[porch]\nhigh: entry gone\n[src]\nbelow: |\nabove: below |\n")
+                                           "[porch]\nhigh: entry gone\n[program]\nbelow: |\nabove: below |\n")
 
     def test_a_header_that_only_forwards(self):
         self.assert_fault("other/c.h only forwards: a header has one path", include__equiaffine__other__c_h=
@@ -92,12 +92,12 @@ class IncludeOrder(unittest.TestCase):
     def test_a_header_of_the_porch_in_two_rooms(self):
         self.assert_fault("entry.h belongs to two rooms",
                           cmake__rooms_txt="[include/equiaffine]\nlow: |\nhigh: low |\nother: |\n"
-                                           "[porch]\nlow: entry\nhigh: entry\n[src]\nbelow: |\nabove: below |\n")
+                                           "[porch]\nlow: entry\nhigh: entry\n[program]\nbelow: |\nabove: below |\n")
 
     def test_a_room_of_the_porch_that_is_not_there(self):
         self.assert_fault("there is no room attic",
                           cmake__rooms_txt="[include/equiaffine]\nlow: |\nhigh: low |\nother: |\n"
-                                           "[porch]\nattic: entry\n[src]\nbelow: |\nabove: below |\n")
+                                           "[porch]\nattic: entry\n[program]\nbelow: |\nabove: below |\n")
 
     def test_a_shared_header_that_nobody_shares(self):
         self.assert_fault("low/internal/shared/alone.h is shared with nobody",
@@ -106,10 +106,10 @@ class IncludeOrder(unittest.TestCase):
     def test_a_file_that_looks_inside_and_is_not_there(self):
         self.assert_fault("there is no file reproduce/gone.cpp",
                           cmake__rooms_txt="[include/equiaffine]\nlow: |\nhigh: low |\nother: |\n[porch]\nhigh: entry\n"
-                                           "[src]\nbelow: |\nabove: below |\n[looks inside]\nreproduce/gone.cpp: low\n")
+                                           "[program]\nbelow: |\nabove: below |\n[looks inside]\nreproduce/gone.cpp: low\n")
 
     def test_a_folder_of_the_program_that_is_no_room(self):
-        self.assert_fault("src/attic/x.cpp: there is no such room", src__attic__x_cpp="\n")
+        self.assert_fault("program/attic/x.cpp: there is no such room", program__attic__x_cpp="\n")
 
     def test_a_test_that_opens_the_namespace_internal(self):
         for text in ("using namespace equiaffine::internal;\n", "namespace i = equiaffine::internal;\n",
@@ -130,7 +130,7 @@ class IncludeOrder(unittest.TestCase):
         for definition in ("inline int hidden(int x) {\n", "inline constexpr int hidden = 3;\n",
                            "[[noreturn]] inline void hidden(int x) {\n", "using hidden = int;\n",
                            "template <class T>\nconcept hidden = true;\n", "enum class hidden { A };\n"):
-            self.assert_fault("src/main.cpp uses internal::hidden", src__main_cpp="internal::hidden(3);\n",
+            self.assert_fault("program/main.cpp uses internal::hidden", program__main_cpp="internal::hidden(3);\n",
                               include__equiaffine__low__internal__b_h="namespace equiaffine::internal {\n" + definition)
 
     def test_the_namespace_internal_of_GoogleTest(self):
@@ -140,7 +140,7 @@ class IncludeOrder(unittest.TestCase):
         self.assertEqual(self.faults(benchmark__peers__low_peers_cpp="internal::Hidden hidden;\n"), [])
 
     def test_a_use_that_nothing_makes_in_the_program(self):
-        self.assert_fault("no file of src/above uses below", src__above__task_h="#include <equiaffine/low/a.h>\n")
+        self.assert_fault("no file of program/above uses below", program__above__task_h="#include <equiaffine/low/a.h>\n")
 
     def test_an_example_that_includes_what_is_internal(self):
         self.assert_fault("examples/e.cpp includes low/internal/shared/s.h: that header is internal",
@@ -163,15 +163,15 @@ class IncludeOrder(unittest.TestCase):
         self.assert_fault("circle", include__equiaffine__low__internal__b_h="#include <equiaffine/low/a.h>\n")
 
     def test_the_program_reaching_into_a_room(self):
-        self.assert_fault("src/main.cpp includes low/internal/b.h",
-                          src__main_cpp="#include <equiaffine/low/internal/b.h>\n")
+        self.assert_fault("program/main.cpp includes low/internal/b.h",
+                          program__main_cpp="#include <equiaffine/low/internal/b.h>\n")
 
     def test_the_program_reaching_into_a_room_with_quotes(self):
         self.assert_fault("that header is its room's own",
-                          src__above__task_h='#include "equiaffine/low/internal/b.h"\n')
+                          program__above__task_h='#include "equiaffine/low/internal/b.h"\n')
 
     def test_the_program_including_upwards(self):
-        self.assert_fault("below does not use the room above", src__below__file_h='#include "above/task.h"\n')
+        self.assert_fault("below does not use the room above", program__below__file_h='#include "above/task.h"\n')
 
     def test_a_room_that_is_not_listed_among_those_used(self):
         self.assert_fault("high does not use the room other",
@@ -183,7 +183,7 @@ class IncludeOrder(unittest.TestCase):
     def test_rooms_that_use_each_other(self):
         self.assert_fault("low may use high, which is not above it",
                           cmake__rooms_txt="[include/equiaffine]\nlow: high |\nhigh: low |\nother: |\n"
-                                           "[porch]\nhigh: entry\n[src]\nbelow: |\nabove: below |\n")
+                                           "[porch]\nhigh: entry\n[program]\nbelow: |\nabove: below |\n")
 
     def test_the_name_of_another_room_in_a_test(self):
         self.assert_fault("test/high/a_test.cpp uses internal::Hidden: that name is its room's own",
@@ -194,11 +194,11 @@ class IncludeOrder(unittest.TestCase):
                           benchmark__high__a_cpp="#include <equiaffine/low/internal/b.h>\n")
 
     def test_the_name_of_a_room_in_the_program(self):
-        self.assert_fault("src/main.cpp uses internal::Hidden", src__main_cpp="internal::Hidden hidden;\n")
+        self.assert_fault("program/main.cpp uses internal::Hidden", program__main_cpp="internal::Hidden hidden;\n")
 
     def test_what_a_door_exports(self):
         self.assertEqual(self.faults(
-            src__main_cpp="internal::Hidden hidden;\n",
+            program__main_cpp="internal::Hidden hidden;\n",
             include__equiaffine__low__a_h="#include <equiaffine/low/internal/b.h> // IWYU pragma: export\nclass A {};\n"), [])
 
     def test_the_mesher_reaching_into_a_room(self):
