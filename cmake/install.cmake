@@ -5,8 +5,8 @@ include(GNUInstallDirs)
 
 # Without this check an installation would fail half way and leave a prefix that find_package takes for a package.
 set(built_files)
-if(EQUIAFFINE_BUILD_MESHER)
-  list(APPEND built_files $<TARGET_FILE:equiaffine_mesher> $<TARGET_FILE:equiaffine_compiled>)
+if(EQUIAFFINE_BUILD_LIBRARY)
+  list(APPEND built_files $<TARGET_FILE:equiaffine>)
 endif()
 if(EQUIAFFINE_BUILD_PROGRAM)
   list(APPEND built_files $<TARGET_FILE:equiaffine_executable>)
@@ -15,12 +15,12 @@ install(
   CODE "foreach(file IN ITEMS ${built_files})
   if(NOT EXISTS \"\${file}\")
     message(FATAL_ERROR \"\${file} is not built: run cmake --build first, or install the headers alone with \"
-                        \"-DEQUIAFFINE_BUILD_MESHER=OFF -DEQUIAFFINE_BUILD_PROGRAM=OFF\")
+                        \"-DEQUIAFFINE_BUILD_LIBRARY=OFF -DEQUIAFFINE_BUILD_PROGRAM=OFF\")
   endif()
 endforeach()" COMPONENT development)
 
 set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/equiaffine)
-install(TARGETS equiaffine EXPORT equiaffineTargets
+install(TARGETS equiaffine_headers EXPORT equiaffineTargets
         FILE_SET porch COMPONENT development FILE_SET doors COMPONENT development FILE_SET shared COMPONENT development
         FILE_SET internal COMPONENT development FILE_SET generated COMPONENT development)
 install(EXPORT equiaffineTargets NAMESPACE equiaffine:: DESTINATION ${package_dir} COMPONENT development)
@@ -30,7 +30,7 @@ write_basic_package_version_file(equiaffineConfigVersion.cmake COMPATIBILITY Sam
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/equiaffineConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/equiaffineConfigVersion.cmake
         DESTINATION ${package_dir} COMPONENT development)
 
-# For builds without CMake. equiaffine-mesher and equiaffine-compiled are the parts that are compiled.
+# For builds without CMake.
 file(RELATIVE_PATH EQUIAFFINE_PREFIX_OF_PKGCONFIG /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 string(REGEX REPLACE "/$" "" EQUIAFFINE_PREFIX_OF_PKGCONFIG "${EQUIAFFINE_PREFIX_OF_PKGCONFIG}")
 if(EQUIAFFINE_WITH_TBB)
@@ -38,8 +38,8 @@ if(EQUIAFFINE_WITH_TBB)
   set(EQUIAFFINE_LIBS_FOR_PKGCONFIG " -ltbbmalloc") # CGAL 6 uses it, and it has no file for pkg-config
   set(EQUIAFFINE_FLAGS_FOR_PKGCONFIG " -DCGAL_LINKED_WITH_TBB")
 endif()
-foreach(name IN ITEMS equiaffine equiaffine-mesher equiaffine-compiled)
-  if(name STREQUAL equiaffine OR EQUIAFFINE_BUILD_MESHER)
+foreach(name IN ITEMS equiaffine-headers equiaffine)
+  if(name STREQUAL equiaffine-headers OR EQUIAFFINE_BUILD_LIBRARY)
     configure_file(cmake/${name}.pc.in ${name}.pc @ONLY)
     install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
   endif()

@@ -39,16 +39,16 @@ This package has the program.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libequiaffine-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-# The compiled parts have code of the CGAL that they were compiled with.
+# The library has code of the CGAL that it was compiled with.
 math(EXPR next_minor "${CGAL_MINOR_VERSION} + 1")
 string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libcgal-dev (>= ${CGAL_MAJOR_VERSION}.${CGAL_MINOR_VERSION}), libcgal-dev (<< ${CGAL_MAJOR_VERSION}.${next_minor}), "
     "libeigen3-dev (>= 3.4), libboost-dev, libtbb-dev, libgmp-dev, libmpfr-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "equiaffine-doc")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, headers\n${EQUIAFFINE_IN_SHORT}
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, library\n${EQUIAFFINE_IN_SHORT}
 .
-This package has the C++ headers, the mesher, fits and registration
-compiled, and the files for CMake and pkg-config.")
+This package has the C++ library, static, its headers, and the files for
+CMake and pkg-config.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-equiaffine)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)

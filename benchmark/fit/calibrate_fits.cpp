@@ -2,9 +2,13 @@
 // calibrate_fits MESH...: the rows of Fit_calibration.h that would be right for the fits as they are, on standard output;
 // what the present rows cover goes to standard error. Surfaces whose numbers are known come with noise of 0 to 5 % of an
 // edge, on coarse and fine grids; of each mesh, two halves of the vertices tell the errors at the scale that is chosen.
+#include "fit/Fitted_data_3.h"
+#include "fit/data/fit_input.h"
+#include "fit/polynomial/Curvature_fit_3.h"
+#include "fit/polynomial/Fit_calibration.h"
+#include "fit/polynomial/Fitted_numbers.h"
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/Expression_3.h>
-#include <equiaffine/fit/internal/structures_of_fit.h>
 #include <equiaffine/marching_cubes.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
@@ -65,8 +69,7 @@ void compare_with_surface(std::size_t surface, std::size_t nodes, double noise, 
   for (const auto& p : mesh.points) given.points.emplace_back(move(p.x()), move(p.y()), move(p.z()));
   for (const auto& [i, j, k] : mesh.triangles)
     given.polygons.push_back({std::uint32_t(i), std::uint32_t(j), std::uint32_t(k)});
-  const internal::Fitted_data_3 fit(internal::fit_input<CGAL::Parallel_tag>(std::move(given)).data,
-                                    internal::Fit_request{}, CGAL::Parallel_tag());
+  const internal::Fitted_data_3 fit(true, internal::fit_input(true, std::move(given)).data, internal::Fit_request{});
   const internal::Data_points_3& data = fit.data();
   for (const auto i : random_subset<internal::Data_points_3::Index>(mesh.points.size(), most_points, 5)) {
     const auto& choice = fit.choices().at(data.points[i]);
@@ -106,12 +109,12 @@ void compare_halves(std::size_t mesh, const std::string& file, std::mt19937& ran
       }
   internal::Fit_request request;
   request.scale = std::nullopt;
-  const internal::Fit_input_3 first = internal::fit_input<CGAL::Parallel_tag>(std::move(given[0]));
-  const internal::Fitted_data_3 first_fit(first.data, request, CGAL::Parallel_tag());
+  const internal::Fit_input_3 first = internal::fit_input(true, std::move(given[0]));
+  const internal::Fitted_data_3 first_fit(true, first.data, request);
   request.scale = first_fit.scale();
   if (!request.scale) return;
-  const internal::Fit_input_3 second = internal::fit_input<CGAL::Parallel_tag>(std::move(given[1]));
-  const internal::Fitted_data_3 second_fit(second.data, request, CGAL::Parallel_tag());
+  const internal::Fit_input_3 second = internal::fit_input(true, std::move(given[1]));
+  const internal::Fitted_data_3 second_fit(true, second.data, request);
   const auto fit_at = [](const internal::Fitted_data_3& fit, internal::Data_points_3::Index i) {
     return internal::curvature_fit(fit.data(), i, *fit.choices().at(fit.data().points[i]), fit.choices(),
                                    internal::Fit_use::NUMBERS);

@@ -3,9 +3,9 @@
 #ifndef EQUIAFFINE_BENCHMARK_REGISTRATION_DISTURBED_STRUCTURE_H
 #define EQUIAFFINE_BENCHMARK_REGISTRATION_DISTURBED_STRUCTURE_H
 
+#include "registration/frames/Framed_function_3.h"
 #include "support/registration_cases.h"
 #include <equiaffine/number/Jet_3.h>
-#include <equiaffine/registration/internal/frames/Framed_function_3.h>
 
 #include <Eigen/Core>
 

@@ -46,12 +46,11 @@ void compare_at_part(double part, int repeats) {
       const Map map = random_map(random, 10, random_determinant(random));
       const Image image(function, map);
       const Points image_points = points_on_surface(image, 35);
-      using Tag = CGAL::Sequential_tag;
       const internal::Framed_function_3 from(Any_function_3::make(piece));
       const internal::Framed_function_3 to(Any_function_3::make(image));
       const Vectors vectors = internal::vectors_of(points), target = internal::vectors_of(image_points);
-      const auto framed = internal::framed_surface<Tag>(from, from, vectors, Map_kind::AFFINE);
-      const auto framed_target = internal::framed_surface<Tag>(to, to, target, Map_kind::AFFINE);
+      const auto framed = internal::framed_surface(false, from, from, vectors, Map_kind::AFFINE);
+      const auto framed_target = internal::framed_surface(false, to, to, target, Map_kind::AFFINE);
       const auto [places, signatures] = signed_points(framed);
       const auto [target_places, target_signatures] = signed_points(framed_target);
       const std::vector<std::function<Map()>> ways = {
@@ -63,7 +62,7 @@ void compare_at_part(double part, int repeats) {
             return map_of(four_point_ransac(places, signatures, target_places, target_signatures, 20000));
           },
           [&] {
-            const auto result = internal::registration_of_framed<Tag>(framed, framed_target, {}, {}).result;
+            const auto result = internal::registration_of_framed(false, framed, framed_target, {}, {}).result;
             return result.found() ? result.best().map : Map(CGAL::SCALING, 1e9);
           }};
       ++runs;

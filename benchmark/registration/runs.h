@@ -4,14 +4,12 @@
 #define EQUIAFFINE_BENCHMARK_REGISTRATION_RUNS_H
 
 #include "../measure.h"
+#include "registration/registration_of_framed.h"
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
 #include <equiaffine/base/internal/shared/quantile.h>
 #include <equiaffine/register_surfaces.h>
-#include <equiaffine/registration/internal/registration.h>
 #include <equiaffine/registration/internal/vectors_of.h>
-
-#include <CGAL/tags.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,14 +63,13 @@ public:
   void run(const Framed_function_3& source, const Framed_function_3& refined_source, const Points& points,
            const Framed_function_3& target, const Framed_function_3& refined_target, const Points& target_points,
            const Map& right, const internal::Registration_request& request = {}) {
-    using Tag = CGAL::Sequential_tag;
     const auto framed =
-        internal::framed_surface<Tag>(source, refined_source, internal::vectors_of(points), request.kind);
+        internal::framed_surface(false, source, refined_source, internal::vectors_of(points), request.kind);
     const auto framed_target =
-        internal::framed_surface<Tag>(target, refined_target, internal::vectors_of(target_points), request.kind);
+        internal::framed_surface(false, target, refined_target, internal::vectors_of(target_points), request.kind);
     const double begin = processor_clock();
     const auto slippage = internal::slippage_of_source(framed, request.kind);
-    const auto result = internal::registration_of_framed<Tag>(framed, framed_target, request, slippage).result;
+    const auto result = internal::registration_of_framed(false, framed, framed_target, request, slippage).result;
     seconds_.push_back(processor_clock() - begin);
     found_ += result.found();
     const double error = result.found() ? error_of(result.best().map, right) : 1;

@@ -21,8 +21,8 @@ public:
   Side(const Any_function_3& function, double part, unsigned seed, const Points& points)
       : disturbed_(std::make_unique<Disturbed_structure>(function, part, seed)),
         refined_(std::make_unique<Framed_function_3>(function)),
-        surface_(internal::framed_surface<CGAL::Parallel_if_available_tag>(
-            *disturbed_, *refined_, internal::vectors_of(points), Map_kind::AFFINE)) {}
+        surface_(
+            internal::framed_surface(true, *disturbed_, *refined_, internal::vectors_of(points), Map_kind::AFFINE)) {}
 
   const internal::Framed_surface_3& surface() const { return surface_; }
 
@@ -58,9 +58,8 @@ void run(const std::string& name, const std::vector<Case>& cases, const Threshol
   request.thresholds = thresholds;
   double right = 0, hypotheses = 0;
   for (const Case& c : cases) {
-    const auto result = internal::registration_of_framed<CGAL::Parallel_if_available_tag>(
-                            c.source.surface(), c.target.surface(), request, {})
-                            .result;
+    const auto result =
+        internal::registration_of_framed(true, c.source.surface(), c.target.surface(), request, {}).result;
     right += result.found() && error_of(result.best().map, c.right) < 1e-6;
     hypotheses += double(result.hypotheses);
   }

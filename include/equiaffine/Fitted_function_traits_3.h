@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_FITTED_FUNCTION_TRAITS_3_H
 #define EQUIAFFINE_FITTED_FUNCTION_TRAITS_3_H
 
+#include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
@@ -177,7 +178,8 @@ public:
   /// that are farther from each other than the steps of its grid.
   template <class ConcurrencyTag = CGAL::Sequential_tag>
   std::vector<FT> distances_of_sheets(const FT& distance) const {
-    const auto found = internal::distances_of_sheets<ConcurrencyTag>(function_->data(), CGAL::to_double(distance));
+    const auto found =
+        internal::distances_of_sheets(runs_in_threads<ConcurrencyTag>(), function_->data(), CGAL::to_double(distance));
     return {found.begin(), found.end()};
   }
 
@@ -190,7 +192,8 @@ public:
 private:
   template <class Parameters, class ConcurrencyTag>
   void make(internal::Fit_data_3 data, const Parameters& parameters, ConcurrencyTag) {
-    function_ = internal::fitted_function<ConcurrencyTag>(std::move(data), internal::fit_request(parameters));
+    function_ = internal::fitted_function(runs_in_threads<ConcurrencyTag>(), std::move(data),
+                                          internal::fit_request(parameters));
     box_ = band_box();
   }
 

@@ -39,7 +39,8 @@ class Progress_observer {
     Progress_observer* observer = nullptr;
     bool is_owner = false;
   };
-  static Of_thread& of_thread() {
+  // A thread has one, also if the library is shared.
+  [[gnu::visibility("default")]] static Of_thread& of_thread() {
     static thread_local Of_thread observer;
     return observer;
   }

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_AFFINE_SYMMETRIES_H
 #define EQUIAFFINE_AFFINE_SYMMETRIES_H
 
+#include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/registration/Affine_symmetries_3.h>
@@ -60,8 +61,10 @@ Affine_symmetries_3<Kernel_of<Traits>> affine_symmetries(const Traits& traits, c
                                                          const Parameters&... given) {
   internal::check_map_parameters<internal::Joined_parameters<Parameters...>, internal::Complete_tag>();
   const auto parameters = internal::joined_parameters(given...);
-  return internal::in_kernel<Kernel_of<Traits>>(internal::symmetries_of_function<ConcurrencyTag>(
-      Any_function_3::make(traits), internal::vectors_of(points), internal::symmetry_request(parameters)));
+  const auto function = Any_function_3::make(traits);
+  return internal::in_kernel<Kernel_of<Traits>>(internal::symmetries_of_function(
+      runs_in_threads<ConcurrencyTag>(), {function, function, internal::vectors_of(points)},
+      internal::symmetry_request(parameters)));
 }
 
 /// The same for the triangles of a mesh; other faces are cut into triangles. Two corners, at which the angles of the faces
@@ -89,8 +92,8 @@ auto affine_symmetries(const Graph& mesh, const Parameters&... given) {
   using Point = Point_of_vertices<const Graph, internal::Joined_parameters<Parameters...>>;
   using Kernel_of_points = typename CGAL::Kernel_traits<Point>::Kernel;
   const internal::Triangles_3 triangles = internal::triangles_of_graph(mesh, parameters);
-  return internal::in_kernel<Kernel_of_points>(
-      internal::symmetries_of_triangles<ConcurrencyTag>(triangles, internal::map_request(parameters)));
+  return internal::in_kernel<Kernel_of_points>(internal::symmetries_of_triangles(
+      runs_in_threads<ConcurrencyTag>(), triangles, internal::map_request(parameters)));
 }
 
 /// The same for points with polygons between them, each a range of positions of points. Equal points count once. There
@@ -104,8 +107,8 @@ auto affine_symmetries(const Points& points, const Polygons& polygons,
   const auto parameters = internal::joined_parameters(given...);
   using Kernel_of_points = typename CGAL::Kernel_traits<std::ranges::range_value_t<Points>>::Kernel;
   const internal::Triangles_3 triangles = internal::triangles_of_soup(points, polygons);
-  return internal::in_kernel<Kernel_of_points>(
-      internal::symmetries_of_triangles<ConcurrencyTag>(triangles, internal::map_request(parameters)));
+  return internal::in_kernel<Kernel_of_points>(internal::symmetries_of_triangles(
+      runs_in_threads<ConcurrencyTag>(), triangles, internal::map_request(parameters)));
 }
 
 } // namespace equiaffine

@@ -18,7 +18,7 @@ namespace equiaffine {
 
 /// Meshes the zero set of a function by Delaunay refinement (Boissonnat, Oudot: Provably good sampling and meshing of
 /// surfaces, 2005). The result is a triangle mesh with vertices on the surface, angles of at least `criteria.angle`,
-/// and normals along the gradient. Link with equiaffine::mesher.
+/// and normals along the gradient.
 ///
 /// CGAL's 3D Mesh Generation refines the mesh. It starts from points on every component of the surface, which are found
 /// by subdividing the domain into boxes with the interval bounds of the function. If the result `is_certified`, no

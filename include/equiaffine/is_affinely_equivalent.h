@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_IS_AFFINELY_EQUIVALENT_H
 #define EQUIAFFINE_IS_AFFINELY_EQUIVALENT_H
 
+#include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/registration/internal/Registration_request.h>
@@ -45,8 +46,8 @@ CGAL::Uncertain<bool> is_affinely_equivalent(const Source& source, const Points&
       internal::registration_of<ConcurrencyTag>(source, source_points, target, target_points, parameters);
   if (registration.is_equivalence || registration.result.found()) return registration.is_equivalence;
   const auto request = internal::registration_request(parameters);
-  if (internal::differ_as_wholes<ConcurrencyTag>(Any_function_3::make(source), Any_function_3::make(target),
-                                                 request.kind, request.allows_reflections))
+  if (internal::differ_as_wholes(runs_in_threads<ConcurrencyTag>(), Any_function_3::make(source),
+                                 Any_function_3::make(target), request.kind, request.allows_reflections))
     return false;
   return CGAL::Uncertain<bool>::indeterminate();
 }

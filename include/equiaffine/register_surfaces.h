@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_REGISTER_SURFACES_H
 #define EQUIAFFINE_REGISTER_SURFACES_H
 
+#include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/concepts.h>
 #include <equiaffine/function/internal/shared/explain_misuse.h>
@@ -107,9 +108,9 @@ auto register_surfaces(const Source& source, const Target& target, const Paramet
   const auto target_parameters = internal::joined_parameters(given_of_target);
   using Point = Point_of_vertices<const Target, internal::Joined_parameters<Target_parameters>>;
   using Kernel_of_points = typename CGAL::Kernel_traits<Point>::Kernel;
-  return internal::in_kernel<Kernel_of_points>(internal::registration_of_triangles<ConcurrencyTag>(
-      internal::triangles_of_graph(source, parameters), internal::triangles_of_graph(target, target_parameters),
-      internal::registration_request(parameters)));
+  return internal::in_kernel<Kernel_of_points>(internal::registration_of_triangles(
+      runs_in_threads<ConcurrencyTag>(), internal::triangles_of_graph(source, parameters),
+      internal::triangles_of_graph(target, target_parameters), internal::registration_request(parameters)));
 }
 
 /// The same for points with polygons between them, each a range of positions of points. Equal points count once.
@@ -122,9 +123,9 @@ auto register_surfaces(const Points& points, const Polygons& polygons, const Tar
   internal::check_registration_parameters<internal::Joined_parameters<Parameters...>>();
   const auto parameters = internal::joined_parameters(given...);
   using Kernel_of_points = typename CGAL::Kernel_traits<std::ranges::range_value_t<Target_points>>::Kernel;
-  return internal::in_kernel<Kernel_of_points>(internal::registration_of_triangles<ConcurrencyTag>(
-      internal::triangles_of_soup(points, polygons), internal::triangles_of_soup(target_points, target_polygons),
-      internal::registration_request(parameters)));
+  return internal::in_kernel<Kernel_of_points>(internal::registration_of_triangles(
+      runs_in_threads<ConcurrencyTag>(), internal::triangles_of_soup(points, polygons),
+      internal::triangles_of_soup(target_points, target_polygons), internal::registration_request(parameters)));
 }
 
 /// \cond

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Conan 2 recipe for the headers and the compiled parts, not tried here:
+"""A Conan 2 recipe for the library, not tried here:
 conan create packaging/conan -s compiler.cppstd=20 --build=missing"""
 import os
 
@@ -20,7 +20,7 @@ class Equiaffine(ConanFile):
 
     def export_sources(self):
         root = os.path.join(self.recipe_folder, "..", "..")
-        for part in ("CMakeLists.txt", "LICENSE", "CHANGELOG.md", "cmake/*", "include/*", "mesher/*", "compiled/*", "packaging/*", "viewer/*"):
+        for part in ("CMakeLists.txt", "LICENSE", "CHANGELOG.md", "cmake/*", "include/*", "src/*", "packaging/*", "viewer/*"):
             copy(self, part, root, self.export_sources_folder)
 
     def requirements(self):
@@ -54,12 +54,10 @@ class Equiaffine(ConanFile):
     def package_info(self):
         self.cpp_info.set_property("cmake_file_name", "equiaffine")
         headers = self.cpp_info.components["headers"]
-        headers.set_property("cmake_target_name", "equiaffine::equiaffine")
+        headers.set_property("cmake_target_name", "equiaffine::headers")
         headers.requires = ["cgal::cgal", "eigen::eigen", "boost::headers", "onetbb::libtbb", "onetbb::tbbmalloc"]
         headers.defines = ["CGAL_LINKED_WITH_TBB"]
-        for name in ("mesher", "compiled"):
-            part = self.cpp_info.components[name]
-            part.set_property("cmake_target_name", f"equiaffine::{name}")
-            part.libs = [f"equiaffine_{name}"]
-            part.requires = ["headers"]
-        self.cpp_info.components["compiled"].defines = ["EQUIAFFINE_COMPILED"]
+        library = self.cpp_info.components["library"]
+        library.set_property("cmake_target_name", "equiaffine::equiaffine")
+        library.libs = ["equiaffine"]
+        library.requires = ["headers"]

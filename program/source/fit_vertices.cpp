@@ -3,17 +3,22 @@
 
 #include <equiaffine/Fitted_function_traits_3.h>
 #include <equiaffine/Input_error.h>
-#include <equiaffine/fit/internal/shared/part_with_opposed_normals.h>
+#include <equiaffine/base/internal/shared/Point_tree.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/fitted_structures.h>
 
 #include <CGAL/property_map.h>
 #include <CGAL/tags.h>
+#include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace equiaffine {
 
@@ -62,7 +67,17 @@ std::vector<Fitted_structure_3<double>> fit_vertices(const Annotated_mesh_3<Kern
 
 double part_with_opposed_normals(const Annotated_mesh_3<Kernel>& mesh) {
   if (!mesh.mesh.triangles.empty()) return 0;
-  return part_with_opposed_normals<CGAL::Parallel_if_available_tag>(points_with_normals(mesh));
+  const std::vector<Point_with_normal> points = points_with_normals(mesh);
+  std::vector<Eigen::Vector3d> places;
+  for (const auto& [p, normal] : points) places.emplace_back(p.x(), p.y(), p.z());
+  const Point_tree<3> tree(places);
+  std::vector<std::uint8_t> are_opposed(points.size(), 0);
+  const auto compare = [&](std::size_t i) {
+    for (const std::size_t j : tree.nearest(places[i], 2))
+      if (j != i && points[i].second * points[j].second < 0) are_opposed[i] = 1;
+  };
+  parallel_for<CGAL::Parallel_if_available_tag>(0, points.size(), compare, 256);
+  return points.empty() ? 0 : double(std::count(are_opposed.begin(), are_opposed.end(), 1)) / double(points.size());
 }
 
 Fit_traits blend_vertices(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options) {

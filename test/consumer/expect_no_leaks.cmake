@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Expects that BUILD, a project with equiaffine as a subdirectory, built and installs only what is its own.
-file(GLOB_RECURSE libraries ${BUILD}/*equiaffine_mesher.* ${BUILD}/*equiaffine_compiled.*)
+file(GLOB_RECURSE libraries ${BUILD}/*libequiaffine.*)
 if(libraries)
-  message(FATAL_ERROR "nothing links to what is compiled, and yet it was built: ${libraries}")
+  message(FATAL_ERROR "nothing links to the library, and yet it was built: ${libraries}")
 endif()
 file(REMOVE_RECURSE ${BUILD}/prefix)
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${BUILD}/prefix COMMAND_ERROR_IS_FATAL ANY)

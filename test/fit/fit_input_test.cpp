@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What fits do with data that they were not made for: a status or an exception, and no number out of nowhere.
+#include "fit/data/fit_input.h"
 #include "support/fit_data.h"
 #include <equiaffine/Fitted_function_traits_3.h>
 #include <equiaffine/fit/internal/data/fit_data_of.h>
-#include <equiaffine/fit/internal/data/fit_input.h>
 #include <equiaffine/fitted_structures.h>
 
 #include <gtest/gtest.h>

@@ -3,7 +3,8 @@
 
 A room is a folder. Its headers, and those of include/equiaffine that cmake/rooms.txt gives it, are for users; those in
 `internal/shared` are for the rooms that may use it, for the program and for tests; all others in `internal` are its own.
-cmake/rooms.txt says which rooms each may use. Tests and benchmarks of a room look inside of it."""
+Its sources and their headers are in src. cmake/rooms.txt says which rooms each may use. Tests and benchmarks of a room look
+inside of it."""
 import functools
 import pathlib
 import re
@@ -21,7 +22,7 @@ PLACE = re.compile(r"[^/]+\.h|[^/]+/[^/]+\.h|[^/]+/internal/(?:[^/]+/)?[^/]+\.h"
 
 
 def room_of(path, porch={}):
-    """The first folder of a path below include/equiaffine or program; on the porch, the room that the header belongs to."""
+    """The first folder of a path below include/equiaffine, src or program; on the porch, the room that the header has."""
     folder, slash, _ = path.partition("/")
     return folder if slash else porch.get(path)
 
@@ -91,12 +92,33 @@ def faults_of_library_file(rooms, porch, path, text):
             yield f"{path} includes {library}: {fault}"
 
 
+def faults_of_source(rooms, porch, path, text):
+    """What is wrong with the include lines of a file of src: a room's headers there are for its sources."""
+    for library, quoted in INCLUDE.findall(text):
+        for fault in faults_of_step(rooms, path, library, porch) if library else ():
+            yield f"{path} includes {library}: {fault}"
+        if quoted and room_of(quoted) != room_of(path):
+            yield f"{path} includes {quoted}: that header is its room's own"
+
+
 def faults_of_program_file(rooms, path, text):
     for library, quoted in INCLUDE.findall(text):
         if library and is_own(library):
             yield f"{path} includes {library}: that header is its room's own"
-        for fault in faults_of_step(rooms, path, quoted) if quoted and rooms else ():
+        for fault in faults_of_step(rooms, path, quoted) if quoted else ():
             yield f"{path} includes {quoted}: {fault}"
+
+
+def faults_of_reach(library, programs):
+    """One line for each header that no header for users and no program includes: what sources alone need is not installed."""
+    reached = set()
+    next_ones = {path for path in library if is_for_users(path)}
+    next_ones |= {path for text in programs for path, _ in INCLUDE.findall(text) if path in library}
+    while next_ones:
+        reached |= next_ones
+        included = {included for path in next_ones for included, _ in INCLUDE.findall(library[path])}
+        next_ones = (included & library.keys()) - reached
+    return [f"{path} is included by no header for users, and by no program: it belongs to src" for path in sorted(library.keys() - reached)]
 
 
 def faults_of_circles(texts):
@@ -130,7 +152,7 @@ def faults_of_places(root, porch_lines, library):
     for name in sorted({name for name in names if names.count(name) > 1}):
         yield f"cmake/rooms.txt: {name}.h belongs to two rooms"
     used = set()
-    for folder in (LIBRARY, "program", "mesher", "compiled", "test", "benchmark", "reproduce"):
+    for folder in (LIBRARY, "src", "program", "test", "benchmark", "reproduce"):
         for path, text in read_files(root / folder).items():
             for included, _ in INCLUDE.findall(text):
                 if included and not (folder == LIBRARY and is_own(path) and room_of(path) == room_of(included)):
@@ -151,13 +173,13 @@ def rooms_that_define(name, library):
 
 
 def is_home(path, room):
-    """Whether a file is one of the tests or benchmarks of a room."""
-    return bool(re.match(rf"test/{room}/|benchmark/({room}/|(peers/|group_){room}\w*\.cpp)", path))
+    """Whether a file is one of the sources, tests or benchmarks of a room."""
+    return bool(re.match(rf"src/{room}/|test/{room}/|benchmark/({room}/|(peers/|group_){room}\w*\.cpp)", path))
 
 
 def faults_of_looker(path, text, lookers, rooms_of_name):
     """What a file outside of the library looks at inside of a room that is not its own."""
-    if OPENED.search(text) and not path.startswith(("mesher/", "compiled/")):
+    if OPENED.search(text) and not path.startswith("src/"):
         yield f"{path} opens the namespace internal: write internal::NAME"
     for _, quoted in INCLUDE.findall(text):
         if "include/equiaffine/" in quoted:
@@ -188,10 +210,11 @@ def faults_of_names(rooms_of_name, room, path, text):
 
 def find_faults(root):
     all_rooms, porch, lookers = read_rooms(root), read_porch(root), read_lookers(root)
-    library, program = read_files(root / LIBRARY), read_files(root / "program")
+    library, sources, program = read_files(root / LIBRARY), read_files(root / "src"), read_files(root / "program")
     rooms = all_rooms[LIBRARY]
     faults = [f"{path}: there is no such room in cmake/rooms.txt"
               for path in library if "/" in path and room_of(path) not in rooms]
+    faults += (f"src/{path}: there is no such room in cmake/rooms.txt" for path in sources if room_of(path) not in rooms)
     faults += (f"program/{path}: there is no such room in cmake/rooms.txt"
                for path in program if "/" in path and room_of(path) not in all_rooms["program"])
     faults += faults_of_porch(porch, rooms, library)
@@ -199,21 +222,25 @@ def find_faults(root):
     faults += (f"cmake/rooms.txt: there is no file {path}" for path in lookers if not (root / path).exists())
     if faults:
         return faults
-    for folder, files, quoted, doors in ((LIBRARY, library, 0, porch), ("program", program, 1, {})):
+    for folder, files, quoted, doors in ((LIBRARY, library | sources, 0, porch), ("program", program, 1, {})):
         faults += [*faults_of_rooms(folder, all_rooms[folder]),
                    *faults_of_uses(folder, all_rooms[folder], files, quoted, doors)]
     for path, text in library.items():
         faults += faults_of_library_file(rooms, porch, path, text)
     faults += faults_of_circles(library)
-    for folder in ("program", "mesher"):
-        for path, text in read_files(root / folder).items():
-            faults += (f"{folder}/{fault}" for fault in faults_of_program_file(all_rooms.get(folder), path, text))
+    beside = [text for folder in ("program", "vtk", "browser", "python", "reproduce")
+              for text in read_files(root / folder).values()]
+    faults += faults_of_reach(library, beside)
+    for path, text in sources.items():
+        faults += (f"src/{fault}" for fault in faults_of_source(rooms, porch, path, text))
+    for path, text in program.items():
+        faults += (f"program/{fault}" for fault in faults_of_program_file(all_rooms["program"], path, text))
     for path, text in read_files(root / "examples").items():
         faults += faults_of_example(f"examples/{path}", text)
     rooms_of_name = functools.cache(lambda name: rooms_that_define(name, library))
     for path, text in library.items():
         faults += faults_of_names(rooms_of_name, room_of(path, porch), path, text)
-    for folder in ("program", "mesher", "compiled", "examples", "reproduce", "test", "benchmark"):
+    for folder in ("src", "program", "examples", "reproduce", "test", "benchmark"):
         for path, text in read_files(root / folder).items():
             faults += faults_of_looker(f"{folder}/{path}", text, lookers, rooms_of_name)
     return faults

@@ -25,7 +25,8 @@ class IncludeOrder(unittest.TestCase):
             "program/below/file.h": "#include <equiaffine/entry.h>\n#include <equiaffine/low/internal/shared/s.h>\n",
             "examples/e.cpp": "#include <equiaffine/entry.h>\n#include <equiaffine/low/a.h>\n",
             "program/above/task.h": '#include "below/file.h"\n#include <equiaffine/low/a.h>\n',
-            "mesher/mesh.cpp": '#include "mesh.h"\n#include <equiaffine/high/door.h>\n',
+            "src/high/mesh.cpp": '#include "high/mesh.h"\n#include <equiaffine/high/door.h>\n',
+            "src/high/mesh.h": "namespace equiaffine::internal {\n}\n",
             "reproduce/a.cpp": "internal::Hidden hidden;\n",
             "test/low/b_test.cpp": "#include <equiaffine/low/internal/b.h>\ninternal::Hidden hidden;\n",
             "benchmark/group_low.cpp": "internal::Hidden hidden;\n",
@@ -120,8 +121,8 @@ class IncludeOrder(unittest.TestCase):
         self.assert_fault("write <equiaffine/...>",
                           test__high__a_test_cpp='#include "../../include/equiaffine/low/internal/b.h"\n')
 
-    def test_the_name_of_a_room_in_the_mesher(self):
-        self.assert_fault("mesher/mesh.cpp uses internal::Hidden", mesher__mesh_cpp="internal::Hidden hidden;\n")
+    def test_the_name_of_another_room_in_a_source(self):
+        self.assert_fault("src/high/mesh.cpp uses internal::Hidden", src__high__mesh_cpp="internal::Hidden hidden;\n")
 
     def test_the_name_of_a_room_in_an_example(self):
         self.assert_fault("examples/e.cpp uses internal::Shared", examples__e_cpp="internal::Shared shared;\n")
@@ -201,12 +202,24 @@ class IncludeOrder(unittest.TestCase):
             program__main_cpp="internal::Hidden hidden;\n",
             include__equiaffine__low__a_h="#include <equiaffine/low/internal/b.h> // IWYU pragma: export\nclass A {};\n"), [])
 
-    def test_the_mesher_reaching_into_a_room(self):
-        self.assert_fault("mesher/mesh.cpp includes", mesher__mesh_cpp="#include <equiaffine/low/internal/b.h>\n")
+    def test_a_source_reaching_into_another_room(self):
+        self.assert_fault("src/high/mesh.cpp includes low/internal/b.h: that header is its room's own",
+                          src__high__mesh_cpp="#include <equiaffine/low/internal/b.h>\n")
 
-    def test_what_is_compiled_reaching_into_a_room_that_does_not_let_it_look_inside(self):
-        self.assert_fault("compiled/work.cpp uses low/internal/b.h",
-                          compiled__work_cpp="#include <equiaffine/low/internal/b.h>\nnamespace equiaffine::internal {}\n")
+    def test_a_source_that_includes_the_header_of_another_rooms_sources(self):
+        self.assert_fault("src/low/a.cpp includes high/mesh.h: that header is its room's own",
+                          src__low__a_cpp='#include "high/mesh.h"\n')
+
+    def test_a_source_of_a_room_that_is_not_listed_among_those_used(self):
+        self.assert_fault("src/high/mesh.cpp includes other/c.h: high does not use the room other",
+                          src__high__mesh_cpp="#include <equiaffine/other/c.h>\n")
+
+    def test_a_folder_of_sources_that_is_no_room(self):
+        self.assert_fault("src/attic/x.cpp: there is no such room", src__attic__x_cpp="\n")
+
+    def test_a_header_that_sources_alone_need(self):
+        self.assert_fault("low/internal/c.h is included by no header for users",
+                          include__equiaffine__low__internal__c_h="class C {};\n")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Says which files and functions are too long to be read at a sitting: python3 sizes.py ROOT.
 
-Files of include, program, mesher, compiled and viewer have at most 300 lines, functions there at most 60, in C++ as in JavaScript. A
+Files of include, src, program and viewer have at most 300 lines, functions there at most 60, in C++ as in JavaScript. A
 folder of headers in a room of the library has at most 20.
 The code is formatted by clang-format, so that a function ends at the first closing brace as far left as its head."""
 import pathlib
@@ -49,7 +49,7 @@ def functions(text):
 
 
 def find_faults(root):
-    for folder in ("include", "program", "mesher", "compiled", "viewer"):
+    for folder in ("include", "src", "program", "viewer"):
         for path in sorted((root / folder).rglob("*")):
             if path.suffix not in (".h", ".cpp", ".js", ".glsl", ".css", ".html"):
                 continue

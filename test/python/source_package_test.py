@@ -7,7 +7,7 @@ import tarfile
 import tempfile
 
 ROOT = pathlib.Path(sys.argv[1]).resolve()
-FOLDERS = ("cmake", "compiled", "include", "mesher", "packaging", "program", "python", "viewer")
+FOLDERS = ("cmake", "include", "packaging", "program", "python", "src", "viewer")
 
 
 def main():

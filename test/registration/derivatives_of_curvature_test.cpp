@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "registration/frames/Framed_function_3.h"
+#include "registration/frames/derivatives_of_curvature.h"
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
-#include <equiaffine/registration/internal/frames/Framed_function_3.h>
-#include <equiaffine/registration/internal/frames/derivatives_of_curvature.h>
 
 #include <gtest/gtest.h>
 

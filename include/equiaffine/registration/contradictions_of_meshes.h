@@ -6,8 +6,6 @@
 #include <equiaffine/registration/internal/samples/triangles_of.h>
 #include <equiaffine/registration/internal/searches.h>
 
-#include <CGAL/tags.h>
-
 #include <ranges>
 
 namespace equiaffine {
@@ -23,9 +21,8 @@ template <std::ranges::input_range Points, std::ranges::input_range Polygons, st
 Mesh_contradictions contradictions_of_meshes(const Points& points, const Polygons& polygons,
                                              const Target_points& target_points, const Target_polygons& target_polygons,
                                              double distance) {
-  return internal::contradictions_of_triangles<CGAL::Sequential_tag>(
-      internal::triangles_of_soup(points, polygons), internal::triangles_of_soup(target_points, target_polygons),
-      distance);
+  return internal::contradictions_of_triangles(internal::triangles_of_soup(points, polygons),
+                                               internal::triangles_of_soup(target_points, target_polygons), distance);
 }
 
 } // namespace equiaffine

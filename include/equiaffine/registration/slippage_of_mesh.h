@@ -4,13 +4,8 @@
 
 #include <equiaffine/registration/Affine_slippage_3.h>
 #include <equiaffine/registration/Map_kind.h>
-#include <equiaffine/registration/internal/declared_searches.h>
 #include <equiaffine/registration/internal/samples/triangles_of.h>
-#ifndef EQUIAFFINE_COMPILED
-#include <equiaffine/registration/internal/pieces/slippage_of_triangles.h>
-#endif
-
-#include <CGAL/tags.h>
+#include <equiaffine/registration/internal/searches.h>
 
 #include <ranges>
 
@@ -26,7 +21,7 @@ namespace equiaffine {
 /// \throw std::invalid_argument if a coordinate is not finite, or a polygon has the position of no point.
 template <std::ranges::input_range Points, std::ranges::input_range Polygons>
 Affine_slippage_3 slippage_of_mesh(const Points& points, const Polygons& polygons, Map_kind kind) {
-  return internal::slippage_of_triangles<CGAL::Sequential_tag>(internal::triangles_of_soup(points, polygons), kind);
+  return internal::slippage_of_triangles(false, internal::triangles_of_soup(points, polygons), kind);
 }
 
 } // namespace equiaffine

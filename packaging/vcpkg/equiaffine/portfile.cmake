@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# An overlay port of the headers and the compiled parts, not tried here: vcpkg install equiaffine --overlay-ports=packaging/vcpkg
+# An overlay port of the library, not tried here: vcpkg install equiaffine --overlay-ports=packaging/vcpkg
 # builds the clone that it stands in.
 vcpkg_check_linkage(ONLY_STATIC_LIBRARY)
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)

@@ -4,7 +4,7 @@
 
 #include <equiaffine/registration/Affine_symmetries_3.h>
 #include <equiaffine/registration/Surface_registration_3.h>
-#include <equiaffine/registration/internal/declared_searches.h>
+#include <equiaffine/registration/internal/searches.h>
 
 #include <cstddef>
 #include <utility>

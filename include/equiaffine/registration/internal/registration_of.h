@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_OF_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_OF_H
 
+#include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/searches.h>
@@ -21,7 +22,7 @@ Registration_of_functions_3 registration_of(const Source& source, const Points& 
     from.refined = Any_function_3::make(refined_source);
     to.refined = Any_function_3::make(refined_target);
   }
-  return registration_of_functions<ConcurrencyTag>(from, to, registration_request(parameters));
+  return registration_of_functions(runs_in_threads<ConcurrencyTag>(), from, to, registration_request(parameters));
 }
 
 } // namespace equiaffine::internal

@@ -2,18 +2,73 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_SEARCHES_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_SEARCHES_H
 
-#include <equiaffine/registration/internal/declared_searches.h>
+#include <equiaffine/registration/Affine_symmetries_3.h>
+#include <equiaffine/registration/Map_kind.h>
+#include <equiaffine/registration/Mesh_contradictions.h>
+#include <equiaffine/registration/Surface_registration_3.h>
+#include <equiaffine/registration/internal/Map_request.h>
+#include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/Symmetry_request.h>
+#include <equiaffine/registration/internal/samples/Triangles_3.h>
+#include <equiaffine/surface/Any_function_3.h>
 
 #include <Eigen/Core>
 
-// The target equiaffine::compiled has the definitions, compiled once. A program for vector instructions with which Eigen
-// aligns memory to more bytes has its own: it could not free what that library allocates.
-#if !defined(EQUIAFFINE_COMPILED) || EIGEN_DEFAULT_ALIGN_BYTES != 16
-#include <equiaffine/registration/internal/pieces/contradictions_of_triangles.h>
-#include <equiaffine/registration/internal/registration.h>
-#include <equiaffine/registration/internal/registration_of_triangles.h>
-#include <equiaffine/registration/internal/symmetries.h>
-#include <equiaffine/registration/internal/wholes/differ_as_wholes.h>
-#endif
+#include <vector>
+
+// What the library does for searches of maps, in the threads of TBB if `in_threads`. A shared library exports these
+// functions alone.
+#pragma GCC visibility push(default)
+namespace equiaffine::internal {
+
+using Kernel_of_searches = Any_function_3::Kernel;
+
+/// A surface as register_surfaces() is given it: a function, points near its zero set, and a function with the same zero
+/// set on which maps are refined.
+struct Surface_with_points_3 {
+  Any_function_3 function, refined;
+  std::vector<Eigen::Vector3d> points;
+};
+
+/// The result of register_surfaces(), and whether the best map moves all of each surface onto the other.
+struct Registration_of_functions_3 {
+  Surface_registration_3<Kernel_of_searches> result;
+  bool is_equivalence = false;
+};
+
+/// Whole surfaces of exact functions whose frames give no map are tried without frames.
+Registration_of_functions_3 registration_of_functions(bool in_threads, const Surface_with_points_3& source,
+                                                      const Surface_with_points_3& target,
+                                                      const Registration_request& request);
+
+/// Meshes are tried as wholes, and then as pieces.
+Surface_registration_3<Kernel_of_searches> registration_of_triangles(bool in_threads, const Triangles_3& source,
+                                                                     const Triangles_3& target,
+                                                                     const Registration_request& request);
+
+/// Whether it was verified that no map of a kind moves one whole surface onto another. Such a map would keep the
+/// centroid of the area, and affine ones the moments of the solid inside, so that all rotations and reflections about
+/// the centroid are tried in the coordinates of the search for symmetries: each moves points of the first away from the
+/// second.
+bool differ_as_wholes(bool in_threads, const Any_function_3& source, const Any_function_3& target, Map_kind kind,
+                      bool allows_reflections);
+
+/// Returns how the surface that the triangles of a mesh stand for slides over itself.
+Affine_slippage_3 slippage_of_triangles(bool in_threads, const Triangles_3& mesh, Map_kind kind);
+
+/// The symmetries of the zero set of a function, by affine frames at the points, and by rotations of the whole.
+Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(bool in_threads, const Surface_with_points_3& surface,
+                                                               const Symmetry_request& request);
+
+/// The symmetries of a mesh, by rotations of the whole.
+Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles(bool in_threads, const Triangles_3& mesh,
+                                                                const Map_request& request);
+
+/// Returns the contradictions with the side of the source by which more points are in contact. Meshes without an area
+/// have none.
+Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 target, double distance);
+
+} // namespace equiaffine::internal
+#pragma GCC visibility pop
 
 #endif

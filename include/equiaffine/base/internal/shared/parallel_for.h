@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/blocked_range.h>
@@ -44,6 +45,15 @@ void parallel_for(std::size_t begin, std::size_t end, F f, [[maybe_unused]] std:
   } else {
     loop.run(begin, end, f);
   }
+}
+
+/// The same, on threads if `in_threads`.
+template <class F>
+void parallel_for([[maybe_unused]] bool in_threads, std::size_t begin, std::size_t end, F f, std::size_t grain = 1) {
+#ifdef CGAL_LINKED_WITH_TBB
+  if (in_threads) return parallel_for<CGAL::Parallel_tag>(begin, end, std::move(f), grain);
+#endif
+  parallel_for<CGAL::Sequential_tag>(begin, end, std::move(f), grain);
 }
 
 /// Calls f(). While a loop of f waits for other threads, the calling thread does no work of other loops, which could need

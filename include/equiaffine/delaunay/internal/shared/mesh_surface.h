@@ -22,10 +22,9 @@ struct Meshing_request_3 {
   bool has_parabolic_features; ///< the parabolic curves become features in a second mesh
 };
 
-/// The work of `delaunay_surface`, which does not depend on the type of the function. Compiled in the target
-/// equiaffine::mesher.
-Delaunay_surface_3<Any_function_3::Kernel> mesh_surface(const Any_function_3& function,
-                                                        const Meshing_request_3& request);
+/// The work of `delaunay_surface`, which does not depend on the type of the function, in the library.
+[[gnu::visibility("default")]] Delaunay_surface_3<Any_function_3::Kernel>
+mesh_surface(const Any_function_3& function, const Meshing_request_3& request);
 
 } // namespace equiaffine
 

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_FIT_INTERNAL_SHARED_FITTED_STRUCTURES_OF_H
 
 #include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
 #include <equiaffine/fit/internal/data/Fit_data_3.h>
@@ -30,7 +31,8 @@ Orientation_of_level_set orientation_of(const Parameters& parameters) {
 
 template <class ConcurrencyTag, class Parameters>
 std::vector<Fitted_structure_3<double>> structures_by_request(Fit_data_3 data, const Parameters& parameters) {
-  return structures_of_data<ConcurrencyTag>(std::move(data), fit_request(parameters), orientation_of(parameters));
+  return structures_of_data(runs_in_threads<ConcurrencyTag>(), std::move(data), fit_request(parameters),
+                            orientation_of(parameters));
 }
 
 template <class ConcurrencyTag, class Graph, class Parameters>
@@ -45,8 +47,8 @@ Fitted_structure_3<double> fitted_structure_of_vertex(const Vertex& v, const Gra
   const auto place = std::find(std::begin(all), std::end(all), v);
   CGAL_precondition_msg(place != std::end(all), "the vertex is none of the mesh");
   const auto i = std::size_t(std::distance(std::begin(all), place));
-  return structure_of_vertex<CGAL::Sequential_tag>(fit_data_of_graph(mesh, parameters), fit_request(parameters),
-                                                   orientation_of(parameters), i);
+  return structure_of_vertex(fit_data_of_graph(mesh, parameters), fit_request(parameters), orientation_of(parameters),
+                             i);
 }
 
 template <class ConcurrencyTag, class Points, class Parameters>

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_DELAUNAY_SURFACE_CRITERIA_3_H
+#define EQUIAFFINE_SRC_DELAUNAY_SURFACE_CRITERIA_3_H
+
+#include "delaunay/Facet_sizing_field.h"
+#include <equiaffine/delaunay/Delaunay_criteria.h>
+#include <equiaffine/delaunay/internal/shared/Cgal_optional.h>
+
+#include <CGAL/Weighted_point_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace equiaffine::internal {
+
+/// Model of CGAL's MeshCriteria_3 for surfaces alone. CGAL's own facet criteria measure the same; these do it without
+/// virtual calls, and can stop at a smallest facet.
+template <class Triangulation>
+class Surface_criteria_3 {
+public:
+  struct Facet_criteria {
+    enum Criterion { ON_SURFACE, RADIUS, DISTANCE, ANGLE };
+    using Facet_quality = std::pair<int, double>; ///< criterion and ratio of bound and measure: the worst come first
+    using Is_facet_bad = Cgal_optional<Facet_quality>;
+
+    Is_facet_bad operator()(const Triangulation& triangulation, const typename Triangulation::Facet& facet) const {
+      const auto& [cell, opposite] = facet;
+      const auto point = [&, c = cell, o = opposite ](int i) -> const auto& {
+        return triangulation.point(c, (o + i) & 3);
+      };
+      const auto &p = point(1).point(), &q = point(2).point(), &r = point(3).point();
+      const auto& center = cell->get_facet_surface_center(opposite);
+      const double squared_radius = CGAL::squared_distance(center, p);
+      if (squared_radius < smallest * smallest) return Is_facet_bad();
+      double largest_weight = 0;
+      bool touches_corner = false;
+      for (int i = 1; i < 4; ++i) {
+        const int dimension = cell->vertex((opposite + i) & 3)->in_dimension();
+        if (dimension > 2) return bad(ON_SURFACE, 0);
+        touches_corner = touches_corner || dimension == 0;
+        largest_weight = std::max(largest_weight, double(point(i).weight()));
+      }
+      // No vertex may come into or near a ball around a feature.
+      if (squared_radius - point(1).weight() < clearance * largest_weight) return Is_facet_bad();
+      const double bound = size(center);
+      if (squared_radius > bound * bound) return bad(RADIUS, bound * bound / squared_radius);
+      return touches_corner ? Is_facet_bad() : is_shape_bad(p, q, r, squared_radius);
+    }
+
+    /// The criteria of angle and distance, for a triangle with a surface Delaunay ball of the given radius.
+    template <class Point_3>
+    Is_facet_bad is_shape_bad(const Point_3& p, const Point_3& q, const Point_3& r, double squared_radius) const {
+      const double a = CGAL::squared_distance(q, r), b = CGAL::squared_distance(r, p), c = CGAL::squared_distance(p, q);
+      const double squared_area = CGAL::cross_product(q - p, r - p).squared_length(); // of the parallelogram
+      const double sine_squared = squared_area * std::min({a, b, c}) / (a * b * c);   // of the smallest angle
+      if (sine_squared < least_sine * least_sine) return bad(ANGLE, sine_squared);
+      const double squared_circumradius = a * b * c / (4 * squared_area);
+      const double squared_distance = squared_radius - squared_circumradius;
+      if (squared_distance > distance * distance) return bad(DISTANCE, distance * distance / squared_distance);
+      return Is_facet_bad();
+    }
+
+    static Is_facet_bad bad(Criterion criterion, double quality) {
+      return Is_facet_bad(Facet_quality(criterion, quality));
+    }
+
+    static constexpr double clearance = 2; // least square of distance / radius of a ball around a feature
+
+    double squared_min_radius_bound() const { return smallest * smallest; } // CGAL 6 asks for it
+
+    Facet_sizing_field size;
+    double least_sine, distance, smallest;
+  };
+
+  struct Cell_criteria {
+    using Cell_quality = double;
+    using Is_cell_bad = Cgal_optional<Cell_quality>;
+    Is_cell_bad operator()(const Triangulation&, const typename Triangulation::Cell_handle&) const { return {}; }
+  };
+
+  /// Facets in a surface Delaunay ball of radius below `smallest` are left as they are.
+  Surface_criteria_3(const Delaunay_criteria& criteria, const Facet_sizing_field& size, double smallest)
+      : facet_criteria_{size, std::sin(criteria.angle * std::numbers::pi / 180), criteria.distance, smallest} {}
+
+  const Facet_criteria& facet_criteria_object() const { return facet_criteria_; }
+  const Cell_criteria& cell_criteria_object() const { return cell_criteria_; }
+
+private:
+  Facet_criteria facet_criteria_;
+  Cell_criteria cell_criteria_;
+};
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "registration/frames/Framed_function_3.h"
+#include "registration/frames/Framed_surface_3.h"
+#include "registration/frames/Symmetry_check.h"
+#include "registration/frames/slippage.h"
+#include "registration/registration_of_framed.h"
+#include "registration/registration_of_wholes.h"
+#include "registration/wholes/Centered_surface_3.h"
+#include <equiaffine/base/internal/shared/check_argument.h>
+#include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/searches.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace equiaffine::internal {
+
+namespace {
+
+/// So many points, at least, tell of a whole surface that it is meant.
+constexpr std::size_t fewest_points_of_whole = 16;
+
+} // namespace
+
+Registration_of_functions_3 registration_of_functions(bool in_threads, const Surface_with_points_3& source,
+                                                      const Surface_with_points_3& target,
+                                                      const Registration_request& request) {
+  check_argument(!source.points.empty(), "a surface to be registered has no points: give points of the source");
+  check_argument(!target.points.empty(), "a surface to register with has no points: give points of the target");
+  const Framed_function_3 function(source.function), target_function(target.function);
+  const Framed_function_3 refinement(source.refined), target_refinement(target.refined);
+  const auto framed = framed_surface(in_threads, function, refinement, source.points, request.kind);
+  const auto framed_target =
+      framed_surface(in_threads, target_function, target_refinement, target.points, request.kind);
+  Affine_slippage_3 slippage = slippage_of_source(framed, request.kind);
+  if (slippage.dimension() > 0 && has_exact_frames(framed)) {
+    constexpr double longest = 4; // beside the tolerance, which is one of velocities
+    const Symmetry_check check = Symmetry_check::of(in_threads, source.refined);
+    const Checked_map moved = check.check_flows(in_threads, slippage.generators);
+    if (moved.rms > longest * slippage_tolerance * check.size()) slippage = {};
+  }
+  auto registration = registration_of_framed(in_threads, framed, framed_target, request, std::move(slippage));
+  const bool has_points = std::min(framed.probes.size(), framed_target.probes.size()) >= fewest_points_of_whole;
+  const bool is_exact = has_exact_frames(framed) && has_exact_frames(framed_target);
+  if (registration.result.found() || !has_points || !is_exact) return registration;
+  auto wholes = registration_of_wholes(in_threads, centered_surface(in_threads, source.refined, request.kind),
+                                       centered_surface(in_threads, target.refined, request.kind), request);
+  registration.is_equivalence = wholes.found();
+  const std::size_t hypotheses = registration.result.hypotheses + wholes.hypotheses;
+  if (wholes.found()) registration.result = std::move(wholes);
+  registration.result.hypotheses = hypotheses;
+  return registration;
+}
+
+} // namespace equiaffine::internal

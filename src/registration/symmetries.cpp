@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "registration/exact_symmetries.h"
+#include "registration/frames/Framed_surface_3.h"
+#include "registration/frames/Symmetry_check.h"
+#include "registration/frames/Symmetry_search.h"
+#include "registration/frames/Whitening.h"
+#include "registration/frames/slippage.h"
+#include "registration/wholes/Centered_symmetry_search.h"
+#include <equiaffine/base/internal/shared/check_argument.h>
+#include <equiaffine/registration/Affine_symmetries_3.h>
+#include <equiaffine/registration/internal/searches.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+namespace {
+
+bool has_finite_group(const Affine_symmetries_3<Kernel_of_searches>& result) {
+  return result.continuous.dimension() == 0 || !result.levels.empty();
+}
+
+/// Sets the maps to within the tolerance: those of the last level that is, or without a tolerance, of the first level
+/// that a verdict stands for. They are all there are unless another map is within the tolerance, too.
+void choose_maps(Affine_symmetries_3<Kernel_of_searches>& result, std::optional<double> tolerance,
+                 const Centered_symmetries& found) {
+  result.maps = {symmetry({}, 0, 0)};
+  result.is_decided = result.verdict != Symmetry_verdict::UNDECIDED;
+  if (!has_finite_group(result)) return;
+  const bool is_first_meant =
+      result.verdict == Symmetry_verdict::EXACT || result.verdict == Symmetry_verdict::APPROXIMATE;
+  if (!tolerance && is_first_meant && !result.levels.empty()) result.maps = result.levels.front().maps;
+  if (!tolerance) return;
+  double next_rms = found.least_rms;
+  for (std::size_t n = 0; n < result.levels.size(); ++n)
+    if (result.levels[n].rms <= *tolerance) {
+      result.maps = result.levels[n].maps;
+      next_rms = found.levels[n].next_rms;
+    }
+  result.is_decided = std::min(found.complete_to, next_rms) > *tolerance;
+  if (!result.is_decided) result.verdict = Symmetry_verdict::UNDECIDED;
+}
+
+/// Converts what was found to the types of CGAL. Distances of maps are in the unit of the surface.
+Affine_symmetries_3<Kernel_of_searches> to_CGAL(const Centered_symmetries& found, const Centered_surface_3& surface) {
+  const double unit = surface.own.size;
+  const Affine_map_3 back = surface.map.inverse();
+  Affine_symmetries_3<Kernel_of_searches> result{found.verdict, found.reason};
+  for (const Symmetry_level& level : found.levels) {
+    auto& copy = result.levels.emplace_back();
+    copy.rms = level.rms;
+    copy.greatest = level.greatest;
+    copy.maps.push_back(symmetry({}, 0, 0));
+    for (std::size_t i = 1; i < level.maps.size(); ++i) {
+      const auto& [map, rms, greatest] = level.maps[i];
+      copy.maps.push_back(symmetry(back * map * surface.map, unit * rms, unit * greatest));
+    }
+  }
+  result.continuous = found.continuous;
+  if (found.complete_to > 0) result.complete_to = found.complete_to;
+  return result;
+}
+
+/// Returns maps that are a group to within some tolerances, changed so that their products are right; nothing if they
+/// are none.
+std::optional<std::vector<Affine_map_3>> nearby_group(std::vector<Affine_map_3> maps, const Framed_surface_3& surface,
+                                                      double tolerance) {
+  constexpr double least = 1e-3, tolerances = 30;
+  const Whitening whitening(surface.probes);
+  const Affine_map_3 to = whitening.to(), from = whitening.from();
+  for (Affine_map_3& map : maps) map = to * map * from;
+  auto group = as_group(maps, std::max(least, tolerances * tolerance));
+  if (!group || !make_exact(*group)) return std::nullopt;
+  for (Affine_map_3& map : group->maps) map = from * map * to;
+  return group->maps;
+}
+
+/// The group that frames of a fit give, which are symmetries to within the tolerance of at least 98 % of the points. A
+/// fit has errors, so that the identity alone is no result.
+Affine_symmetries_3<Kernel_of_searches> symmetries_by_frames(bool in_threads, const Framed_surface_3& surface,
+                                                             const Map_request& request, double tolerance) {
+  Symmetry_search search(in_threads, surface, request.kind, tolerance);
+  Affine_symmetries_3<Kernel_of_searches> result;
+  result.kind = request.kind;
+  std::vector<Affine_map_3> found = search.run();
+  if (!request.allows_reflections)
+    std::erase_if(found, [](const Affine_map_3& map) { return map.matrix.determinant() < 0; });
+  const auto group = nearby_group(std::move(found), surface, tolerance);
+  if (!group) {
+    result.maps = {symmetry({}, 0, 0)};
+    result.reason = "maps that move the fit onto itself to within its errors are no group";
+    return result;
+  }
+  std::vector<Checked_symmetry> maps;
+  for (const Affine_map_3& map : *group) maps.push_back({map, search.distances(map)});
+  auto level = level_of(maps, surface.size);
+  result.maps = level.maps;
+  if (level.maps.size() > 1) {
+    result.verdict = Symmetry_verdict::APPROXIMATE;
+    result.levels.push_back(std::move(level));
+  } else {
+    result.reason = "the curvatures of the fit are too uncertain for their frames to find all symmetries";
+  }
+  result.is_decided = result.verdict != Symmetry_verdict::UNDECIDED;
+  return result;
+}
+
+/// Says of a group that frames gave how far a search of all rotations went, and whether it found the same group.
+void check_by_rotations(const Affine_symmetries_3<Kernel_of_searches>& all,
+                        Affine_symmetries_3<Kernel_of_searches>& by_frames) {
+  by_frames.complete_to = all.complete_to;
+  if (!all.is_decided || !all.complete_to || all.maps.size() == by_frames.maps.size()) return;
+  by_frames.is_decided = false;
+  by_frames.verdict = Symmetry_verdict::UNDECIDED;
+  by_frames.reason = "frames of curvature give " + std::to_string(by_frames.maps.size()) +
+                     " maps, and all rotations give " + std::to_string(all.maps.size());
+}
+
+/// The symmetries among all rotations about the centroid.
+Affine_symmetries_3<Kernel_of_searches> symmetries_by_rotations(bool in_threads, const Any_function_3& function,
+                                                                const Map_request& request) {
+  const auto centered = centered_surface(in_threads, function, request.kind);
+  Centered_symmetry_search search(in_threads, centered, request.kind, request.allows_reflections,
+                                  request.tolerance.value_or(0));
+  const Centered_symmetries found = search.run();
+  auto result = to_CGAL(found, centered);
+  result.kind = request.kind;
+  if (result.reason.empty()) result.spacing = centered.own.spacing;
+  const bool is_exact = result.verdict == Symmetry_verdict::EXACT;
+  choose_maps(result, is_exact ? request.tolerance : request.tolerance.value_or(default_tolerance), found);
+  return result;
+}
+
+/// The continuous symmetries by the velocities at the probes, to rounding if there are some, else to within the
+/// tolerance.
+void find_continuous(const Framed_surface_3& surface, const Symmetry_request& request, bool is_exact,
+                     Affine_symmetries_3<Kernel_of_searches>& result) {
+  const double tolerance = std::max(request.tolerance.value_or(0), slippage_tolerance);
+  Affine_slippage_3 slippage = slippage_of(surface, request.kind, is_exact ? exact_slippage : tolerance);
+  const bool is_to_rounding = is_exact && slippage.dimension() > 0;
+  if (is_exact && !is_to_rounding) slippage = slippage_of(surface, request.kind, tolerance);
+  result.continuous = std::move(slippage);
+  if (result.continuous.dimension() == 0) return;
+  if (is_to_rounding) result.continuous.rms = 0;
+  result.verdict = is_to_rounding ? Symmetry_verdict::EXACT : Symmetry_verdict::APPROXIMATE;
+  result.is_decided = true;
+  result.reason.clear();
+}
+
+/// Keeps the continuous symmetries of an exact function if motions of finite length confirm them at all points of the
+/// check. If they do not, those which more points allow are tried. Returns whether none is left.
+bool has_refuted_continuous(bool in_threads, Framed_surface_3 surface, const Symmetry_check& check,
+                            const Symmetry_request& request, Affine_symmetries_3<Kernel_of_searches>& result) {
+  constexpr int attempts = 3, most_steps = 20;
+  result.spacing = check.spacing();
+  for (int attempt = 0; attempt < attempts && result.continuous.dimension() > 0; ++attempt) {
+    const Checked_map moved = check.check_flows(in_threads, result.continuous.generators);
+    if (moved.is_exact || (result.verdict == Symmetry_verdict::APPROXIMATE &&
+                           moved.rms <= request.tolerance.value_or(default_tolerance) * check.size()))
+      return false;
+    if (attempt + 1 == attempts) break;
+    // Details that the probes have missed are at the points of the check, or where motions end off the surface.
+    if (attempt == 0) surface.probes.insert(surface.probes.end(), check.points().begin(), check.points().end());
+    for (const Eigen::Vector3d& p : moved.off)
+      if (const Eigen::Vector3d foot = surface.refinement.moved_to_surface(p, most_steps);
+          std::abs(surface.refinement.distance(foot).distance) < slippage_tolerance * check.size())
+        surface.probes.push_back(foot);
+    find_continuous(surface, request, true, result);
+  }
+  result.continuous = {};
+  result.verdict = Symmetry_verdict::UNDECIDED;
+  result.is_decided = false;
+  return true;
+}
+
+/// The finite symmetries of an exact function whose points with frames are those of a surface.
+Affine_symmetries_3<Kernel_of_searches> symmetries_of_exact_function(bool in_threads, const Any_function_3& function,
+                                                                     const Framed_surface_3& surface,
+                                                                     const std::vector<Eigen::Vector3d>& points,
+                                                                     const Symmetry_check& check,
+                                                                     const Symmetry_request& request) {
+  const double tolerance = request.tolerance.value_or(default_tolerance);
+  const bool is_strict = tolerance <= greatest_tolerance_of_frames;
+  Affine_symmetries_3<Kernel_of_searches> by_frames;
+  if (is_strict) {
+    by_frames = symmetries_by_exact_frames(in_threads, surface.function, points, check, request);
+    if (by_frames.is_decided && request.is_complete)
+      check_by_rotations(symmetries_by_rotations(in_threads, function, request), by_frames);
+    if (by_frames.is_decided || check.is_cut()) return by_frames;
+  }
+  auto result = symmetries_by_rotations(in_threads, function, request);
+  if (result.is_decided || is_strict) return result;
+  by_frames = symmetries_by_frames(in_threads, surface, request, tolerance);
+  return by_frames.is_decided ? by_frames : result;
+}
+
+} // namespace
+
+Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(bool in_threads, const Surface_with_points_3& given,
+                                                               const Symmetry_request& request) {
+  const auto& [function, refined, points] = given;
+  check_argument(!points.empty(), "a surface whose symmetries are sought has no points: give points on it");
+  const Framed_function_3 framed(function);
+  const Framed_surface_3 surface = framed_surface(in_threads, framed, framed, points, request.kind);
+  const double infinity = std::numeric_limits<double>::infinity(), distance = surface.probes.empty() ? infinity : 0;
+  Affine_symmetries_3<Kernel_of_searches> result;
+  result.maps = {symmetry({}, distance, distance)};
+  result.kind = request.kind;
+  result.reason = "the surface is beside all of the points";
+  if (surface.probes.empty()) return result;
+  const bool is_exact = has_exact_frames(surface);
+  const double tolerance = request.tolerance.value_or(default_tolerance);
+  find_continuous(surface, request, is_exact, result);
+  if (!is_exact) return result.is_decided ? result : symmetries_by_frames(in_threads, surface, request, tolerance);
+  const auto check = Symmetry_check::of(in_threads, function);
+  if (check.is_cut()) result.order_in_box = 1;
+  const bool is_refuted = result.is_decided && has_refuted_continuous(in_threads, surface, check, request, result);
+  if (result.is_decided) return result;
+  result = symmetries_of_exact_function(in_threads, function, surface, points, check, request);
+  if (is_refuted && (!result.is_decided || (result.verdict == Symmetry_verdict::NONE && result.complete_to))) {
+    result.is_decided = false;
+    result.verdict = Symmetry_verdict::UNDECIDED;
+    result.reason =
+        "the surface slides over itself near each point that was tried, but motions move some points off it";
+  }
+  return result;
+}
+
+/// The symmetries of a mesh; the rigid ones if affine ones cannot be found.
+Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles(bool in_threads, const Triangles_3& mesh,
+                                                                const Map_request& request) {
+  check_argument(!mesh.triangles.empty(), "a mesh whose symmetries are sought has no faces: give faces");
+  Centered_surface_3 surface = centered_surface(mesh, request.kind);
+  Map_kind kind = request.kind;
+  if (!surface.reason_against.empty() && !keeps_angles(kind)) {
+    kind = Map_kind::RIGID;
+    surface = centered_surface(mesh, kind);
+  }
+  Centered_symmetry_search search(in_threads, surface, kind, request.allows_reflections, request.tolerance.value_or(0));
+  const Centered_symmetries found = search.run();
+  auto result = to_CGAL(found, surface);
+  result.kind = kind;
+  choose_maps(result, request.tolerance, found);
+  return result;
+}
+
+} // namespace equiaffine::internal
