@@ -64,7 +64,8 @@ inline int checked_degree(int degree) {
 /// The greater degree that the polynomials may have that extend a volume beyond the border for a spline of degree n.
 inline int greater_border_degree(int degree) { return std::min(degree + 2, greatest_border_degree); }
 
-/// The votes of the ends of lines that belong to a block of cells. Time: proportional to the number of samples
+/// The votes of the ends of lines that belong to a block of cells, where all samples that a vote looks at are known.
+/// \pre the samples of the block are known. Time: proportional to the number of samples
 /// in the n + 4 layers at the border.
 template <class Kernel>
 Border_votes border_votes(const Volume_view_3<Kernel>& volume, int degree, Spline_scheme scheme,
@@ -80,16 +81,18 @@ Border_votes border_votes(const Volume_view_3<Kernel>& volume, int degree, Splin
     const std::span f = std::span(samples).first(std::min(size[a], std::size_t(greater) + 2));
     const std::size_t b = a == 0 ? 1 : 0, c = a == 2 ? 1 : 2; // in the order of the memory where i is fastest
     const Line_part of_a = own_nodes_of(cells, a, size[a]), of_b = own_nodes_of(cells, b, size[b]),
-                    of_c = own_nodes_of(cells, c, size[c]);
+                    of_c = own_nodes_of(cells, c, size[c]), known = nodes_of(volume.cells(), a);
+    const bool has_first = of_a.first == 0 && f.size() <= known.end;
+    const bool has_last = of_a.end == size[a] && known.first + f.size() <= size[a];
     std::array<std::size_t, 3> node;
     for (node[c] = of_c.first; node[c] < of_c.end; ++node[c])
       for (node[b] = of_b.first; node[b] < of_b.end; ++node[b]) {
-        if (of_a.first == 0) {
+        if (has_first) {
           node[a] = 0;
           volume.copy_line(node, a, f);
           add_vote<FT>(f, degree, greater, votes);
         }
-        if (of_a.end == size[a]) {
+        if (has_last) {
           node[a] = size[a] - 1;
           volume.copy_line_backwards(node, a, f);
           add_vote<FT>(f, degree, greater, votes);

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_VOLUME_INTERNAL_SHARED_SPLINE_ROUNDING_3_H
 
 #include <equiaffine/Volume_view_3.h>
+#include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/base/internal/shared/parallel_for.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_function_3.h>
@@ -22,11 +23,14 @@
 namespace equiaffine {
 
 /// The survey of the samples that belong to a block of cells, before they are smoothed. The spline has that degree and
-/// scheme.
+/// scheme. \throw std::invalid_argument unless samples are known in all of these cells
 template <class ConcurrencyTag, class Kernel>
 Volume_survey volume_survey(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters,
                             const Cell_block& cells) {
   using FT = typename Kernel::FT;
+  check_argument(
+      clamped(cells, volume.cells()) == cells,
+      "fewer samples of a volume are known than belong to a part of it: let more be known, see cells_to_know()");
   constexpr std::size_t planes_at_once = Volume_view_3<Kernel>::planes_at_once;
   const auto& size = volume.lattice().size();
   const auto own = [&](std::size_t a) { return internal::own_nodes_of(cells, a, size[a]); };
