@@ -14,7 +14,7 @@ namespace equiaffine {
 /// `what()` is one line that says what is wrong, where, and what to do about it. What it quotes of the text or file is
 /// `printable`.
 /// `excerpt()` is empty or shows the place: the offending text and, below it, a caret.
-class [[gnu::visibility("default")]] Input_error : public std::runtime_error {
+class Input_error : public std::runtime_error {
 public:
   /// Makes an error of two texts.
   explicit Input_error(const std::string& what, std::string excerpt = {})

@@ -12,6 +12,10 @@
 #include <functional>
 #include <utility>
 
+// A program and the shared library that it uses must have the same variable of each thread.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
 namespace equiaffine {
 
 /// Looks at long computations of the library in the thread that makes it, for as long as it lives, and may end them.
@@ -39,8 +43,7 @@ class Progress_observer {
     Progress_observer* observer = nullptr;
     bool is_owner = false;
   };
-  // A thread has one, also if the library is shared.
-  [[gnu::visibility("default")]] static Of_thread& of_thread() {
+  static Of_thread& of_thread() {
     static thread_local Of_thread observer;
     return observer;
   }
@@ -167,5 +170,8 @@ private:
 };
 
 } // namespace equiaffine
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
 
 #endif

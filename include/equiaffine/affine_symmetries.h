@@ -61,9 +61,8 @@ Affine_symmetries_3<Kernel_of<Traits>> affine_symmetries(const Traits& traits, c
                                                          const Parameters&... given) {
   internal::check_map_parameters<internal::Joined_parameters<Parameters...>, internal::Complete_tag>();
   const auto parameters = internal::joined_parameters(given...);
-  const auto function = Any_function_3::make(traits);
   return internal::in_kernel<Kernel_of<Traits>>(internal::symmetries_of_function(
-      runs_in_threads<ConcurrencyTag>(), {function, function, internal::vectors_of(points)},
+      runs_in_threads<ConcurrencyTag>(), {Any_function_3::make(traits), internal::vectors_of(points)},
       internal::symmetry_request(parameters)));
 }
 

@@ -205,7 +205,7 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_of_exact_function(bool in_thr
 
 Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(bool in_threads, const Surface_with_points_3& given,
                                                                const Symmetry_request& request) {
-  const auto& [function, refined, points] = given;
+  const auto& [function, points] = given;
   check_argument(!points.empty(), "a surface whose symmetries are sought has no points: give points on it");
   const Framed_function_3 framed(function);
   const Framed_surface_3 surface = framed_surface(in_threads, framed, framed, points, request.kind);

@@ -22,7 +22,7 @@ PLACE = re.compile(r"[^/]+\.h|[^/]+/[^/]+\.h|[^/]+/internal/(?:[^/]+/)?[^/]+\.h"
 
 
 def room_of(path, porch={}):
-    """The first folder of a path below include/equiaffine, src or program; on the porch, the room that the header has."""
+    """The first folder of a path below include/equiaffine, src or program; on the porch, the room of the header."""
     folder, slash, _ = path.partition("/")
     return folder if slash else porch.get(path)
 
@@ -196,7 +196,7 @@ def faults_of_looker(path, text, lookers, rooms_of_name):
 
 def read_files(folder):
     """Path below the folder -> text, of all headers and sources."""
-    paths = sorted(path for path in folder.rglob("*") if path.suffix in (".h", ".cpp"))
+    paths = sorted(path for path in folder.rglob("*") if path.suffix in (".h", ".cpp", ".cxx"))
     return {path.relative_to(folder).as_posix(): path.read_text() for path in paths}
 
 

@@ -69,7 +69,7 @@ public:
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Spline_function_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters = {},
                              ConcurrencyTag tag = {})
-      : Spline_function_3(volume, parameters, internal::known_border_votes(volume, parameters), tag) {}
+      : Spline_function_3(volume, parameters, internal::border_votes(volume, parameters, volume.cells()), tag) {}
 
   /// The same for samples that are smoothed already, and the survey of the volume, of which they may be a part.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>

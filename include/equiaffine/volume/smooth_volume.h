@@ -22,8 +22,8 @@ namespace equiaffine {
 /// nothing. White noise in fourth derivatives falls as scale^-5.5. A node whose window has a sample that is not finite
 /// gets one that is not finite.
 ///
-/// Where most lines of the volume end in steps, as those of a mask do, the samples go on beyond the border as constants
-/// instead: polynomials through steps would move the surface between them.
+/// The samples go on beyond the border as constants if most lines of the volume end in steps, as those of a mask do:
+/// polynomials through steps would move the surface between them.
 ///
 /// \throw std::invalid_argument unless the scale is finite and not negative, and there are as many values as nodes
 ///
@@ -33,7 +33,8 @@ Volume_3<Kernel> smooth_volume(Volume_3<Kernel> volume, const typename Kernel::F
   const auto view = Volume_view_3<Kernel>::of(volume);
   if (!internal::smooths(scale)) return volume;
   const Spline_parameters spline;
-  const int border_degree = internal::elected_border_degree(internal::known_border_votes(view, spline), spline.degree);
+  const int border_degree =
+      internal::elected_border_degree(internal::border_votes(view, spline, view.cells()), spline.degree);
   volume.values = internal::smoothed_samples<ConcurrencyTag>(view, scale, border_degree);
   return volume;
 }
@@ -54,7 +55,8 @@ Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const t
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale) {
   if (!internal::smooths(scale)) return volume;
-  return smooth_volume<ConcurrencyTag>(volume, scale, internal::known_border_votes(volume, Spline_parameters()));
+  return smooth_volume<ConcurrencyTag>(volume, scale,
+                                       internal::border_votes(volume, Spline_parameters(), volume.cells()));
 }
 
 } // namespace equiaffine

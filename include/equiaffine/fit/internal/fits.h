@@ -12,9 +12,11 @@
 #include <memory>
 #include <vector>
 
-// What the library does for fits, in the threads of TBB if `in_threads`. A shared library exports these
-// functions alone.
+// The library defines these functions, which do the work of fits. They run in the threads of TBB if `in_threads`. Their
+// parameters name no type of Eigen, whose namespace has another name in the library.
+#ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
+#endif
 namespace equiaffine::internal {
 
 /// Returns the structure at each of the given points.
@@ -35,6 +37,8 @@ std::shared_ptr<const Fitted_function_3> fitted_function(bool in_threads, Fit_da
 std::vector<double> distances_of_sheets(bool in_threads, const Fitted_data_3& fit, double greatest);
 
 } // namespace equiaffine::internal
+#ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility pop
+#endif
 
 #endif

@@ -15,8 +15,8 @@ template <class ConcurrencyTag, class Source, class Points, class Target, class 
 Registration_of_functions_3 registration_of(const Source& source, const Points& source_points, const Target& target,
                                             const Target_points& target_points, const Parameters& parameters) {
   const auto function = Any_function_3::make(source), target_function = Any_function_3::make(target);
-  Surface_with_points_3 from = {function, function, vectors_of(source_points)};
-  Surface_with_points_3 to = {target_function, target_function, vectors_of(target_points)};
+  Refined_surface_3 from = {{function, vectors_of(source_points)}, function};
+  Refined_surface_3 to = {{target_function, vectors_of(target_points)}, target_function};
   if constexpr (has_parameter<Refined_functions_tag, Parameters>) {
     const auto& [refined_source, refined_target] = given_parameter<Refined_functions_tag>(parameters);
     from.refined = Any_function_3::make(refined_source);

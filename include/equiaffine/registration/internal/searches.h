@@ -16,18 +16,24 @@
 
 #include <vector>
 
-// What the library does for searches of maps, in the threads of TBB if `in_threads`. A shared library exports these
-// functions alone.
+// The library defines these functions, which do the work of searches of maps. They run in the threads of TBB if
+// `in_threads`. Their parameters name no type of Eigen, whose namespace has another name in the library.
+#ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
+#endif
 namespace equiaffine::internal {
 
 using Kernel_of_searches = Any_function_3::Kernel;
 
-/// A surface as register_surfaces() is given it: a function, points near its zero set, and a function with the same zero
-/// set on which maps are refined.
+/// The zero set of a function, and points near it.
 struct Surface_with_points_3 {
-  Any_function_3 function, refined;
+  Any_function_3 function;
   std::vector<Eigen::Vector3d> points;
+};
+
+/// A surface as register_surfaces() is given it, with a function with the same zero set on which maps are refined.
+struct Refined_surface_3 : Surface_with_points_3 {
+  Any_function_3 refined;
 };
 
 /// The result of register_surfaces(), and whether the best map moves all of each surface onto the other.
@@ -37,8 +43,8 @@ struct Registration_of_functions_3 {
 };
 
 /// Whole surfaces of exact functions whose frames give no map are tried without frames.
-Registration_of_functions_3 registration_of_functions(bool in_threads, const Surface_with_points_3& source,
-                                                      const Surface_with_points_3& target,
+Registration_of_functions_3 registration_of_functions(bool in_threads, const Refined_surface_3& source,
+                                                      const Refined_surface_3& target,
                                                       const Registration_request& request);
 
 /// Meshes are tried as wholes, and then as pieces.
@@ -69,6 +75,8 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles(bool in_threads,
 Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 target, double distance);
 
 } // namespace equiaffine::internal
+#ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility pop
+#endif
 
 #endif

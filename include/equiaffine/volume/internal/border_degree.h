@@ -68,16 +68,16 @@ inline int greater_border_degree(int degree) { return std::min(degree + 2, great
 /// \pre the samples of the block are known. Time: proportional to the number of samples
 /// in the n + 4 layers at the border.
 template <class Kernel>
-Border_votes border_votes(const Volume_view_3<Kernel>& volume, int degree, Spline_scheme scheme,
+Border_votes border_votes(const Volume_view_3<Kernel>& volume, const Spline_parameters& spline,
                           const Cell_block& cells) {
   using FT = typename Kernel::FT;
-  const int greater = greater_border_degree(checked_degree(degree));
+  const int greater = greater_border_degree(checked_degree(spline.degree));
   Border_votes votes;
-  if (scheme != Spline_scheme::QUASI_INTERPOLATION) return votes;
+  if (spline.scheme != Spline_scheme::QUASI_INTERPOLATION) return votes;
   const std::array<std::size_t, 3>& size = volume.lattice().size();
   std::array<FT, std::size_t(greatest_border_degree) + 2> samples;
   for (std::size_t a = 0; a < 3; ++a) {
-    if (size[a] < std::size_t(degree) + 2) continue;
+    if (size[a] < std::size_t(spline.degree) + 2) continue;
     const std::span f = std::span(samples).first(std::min(size[a], std::size_t(greater) + 2));
     const std::size_t b = a == 0 ? 1 : 0, c = a == 2 ? 1 : 2; // in the order of the memory where i is fastest
     const Line_part of_a = own_nodes_of(cells, a, size[a]), of_b = own_nodes_of(cells, b, size[b]),
@@ -90,22 +90,16 @@ Border_votes border_votes(const Volume_view_3<Kernel>& volume, int degree, Splin
         if (has_first) {
           node[a] = 0;
           volume.copy_line(node, a, f);
-          add_vote<FT>(f, degree, greater, votes);
+          add_vote<FT>(f, spline.degree, greater, votes);
         }
         if (has_last) {
           node[a] = size[a] - 1;
           volume.copy_line_backwards(node, a, f);
-          add_vote<FT>(f, degree, greater, votes);
+          add_vote<FT>(f, spline.degree, greater, votes);
         }
       }
   }
   return votes;
-}
-
-/// The votes of all ends of lines that are known.
-template <class Kernel>
-Border_votes known_border_votes(const Volume_view_3<Kernel>& volume, const Spline_parameters& spline) {
-  return border_votes(volume, spline.degree, spline.scheme, volume.cells());
 }
 
 /// The degree of the polynomials that extend a volume beyond the border for a spline of degree n (see Line_filter): the
@@ -121,7 +115,8 @@ inline int elected_border_degree(const Border_votes& votes, int degree) {
 template <class Kernel>
 int border_degree(const Volume_parts_3<Kernel>& volume, int degree, Spline_scheme scheme) {
   Border_votes votes;
-  for (const auto& [part, cells] : volume.parts) votes.add(border_votes(part, degree, scheme, cells));
+  for (const auto& [part, cells] : volume.parts)
+    votes.add(border_votes(part, {.degree = degree, .scheme = scheme}, cells));
   const std::vector<double> gathered =
       volume.gather({double(votes.constant), double(votes.lesser), double(votes.greater)});
   Border_votes of_all;

@@ -11,6 +11,9 @@
 
 #include <vector>
 
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
 namespace equiaffine {
 
 /// The arguments of `delaunay_surface`, apart from the function.
@@ -22,10 +25,13 @@ struct Meshing_request_3 {
   bool has_parabolic_features; ///< the parabolic curves become features in a second mesh
 };
 
-/// The work of `delaunay_surface`, which does not depend on the type of the function, in the library.
-[[gnu::visibility("default")]] Delaunay_surface_3<Any_function_3::Kernel>
-mesh_surface(const Any_function_3& function, const Meshing_request_3& request);
+/// The work of `delaunay_surface`, which does not depend on the type of the function. The library defines it.
+Delaunay_surface_3<Any_function_3::Kernel> mesh_surface(const Any_function_3& function,
+                                                        const Meshing_request_3& request);
 
 } // namespace equiaffine
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
 
 #endif

@@ -52,7 +52,7 @@ Volume_survey volume_survey(const Volume_view_3<Kernel>& volume, const Spline_pa
   });
   Volume_survey survey;
   for (const Volume_survey& of_some : of_planes) survey.add(of_some);
-  survey.border_votes = internal::border_votes(volume, parameters.degree, parameters.scheme, cells);
+  survey.border_votes = internal::border_votes(volume, parameters, cells);
   return survey;
 }
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "registration/Shape_matches.h"
 #include "registration/frames/Framed_function_3.h"
 #include "registration/frames/Framed_surface_3.h"
 #include "registration/frames/Symmetry_check.h"
 #include "registration/frames/slippage.h"
+#include "registration/pieces/register_pieces.h"
 #include "registration/registration_of_framed.h"
 #include "registration/registration_of_wholes.h"
+#include "registration/samples/mesh_samples.h"
 #include "registration/wholes/Centered_surface_3.h"
+#include "registration/wholes/register_wholes.h"
 #include <equiaffine/base/internal/shared/check_argument.h>
 #include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/searches.h>
@@ -23,8 +27,8 @@ constexpr std::size_t fewest_points_of_whole = 16;
 
 } // namespace
 
-Registration_of_functions_3 registration_of_functions(bool in_threads, const Surface_with_points_3& source,
-                                                      const Surface_with_points_3& target,
+Registration_of_functions_3 registration_of_functions(bool in_threads, const Refined_surface_3& source,
+                                                      const Refined_surface_3& target,
                                                       const Registration_request& request) {
   check_argument(!source.points.empty(), "a surface to be registered has no points: give points of the source");
   check_argument(!target.points.empty(), "a surface to register with has no points: give points of the target");
@@ -51,6 +55,25 @@ Registration_of_functions_3 registration_of_functions(bool in_threads, const Sur
   if (wholes.found()) registration.result = std::move(wholes);
   registration.result.hypotheses = hypotheses;
   return registration;
+}
+
+Surface_registration_3<Kernel_of_searches> registration_of_triangles(bool in_threads, const Triangles_3& source,
+                                                                     const Triangles_3& target,
+                                                                     const Registration_request& request) {
+  check_argument(!source.triangles.empty(), "a mesh to be registered has no faces: give faces of the source");
+  check_argument(!target.triangles.empty(), "a mesh to register with has no faces: give faces of the target");
+  Centered_surface_3 from = centered_surface(source, request.kind), to = centered_surface(target, request.kind);
+  // Facets of solids with corners are their faces, and explain no distance.
+  const bool are_solids = has_group_of_corners(in_threads, source, coordinate_rounding(source.points)) &&
+                          has_group_of_corners(in_threads, target, coordinate_rounding(target.points));
+  if (are_solids) from.samples.facet_error = to.samples.facet_error = 0;
+  Shape_matches wholes = register_wholes(in_threads, from, to, request);
+  wholes.slippage = slippage_of_triangles(in_threads, source, request.kind);
+  if (!wholes.maps.empty()) return to_CGAL(std::move(wholes), request);
+  Shape_matches pieces = register_pieces(in_threads, source, target, request, are_solids);
+  pieces.hypotheses += wholes.hypotheses;
+  pieces.slippage = std::move(wholes.slippage);
+  return to_CGAL(std::move(pieces), request);
 }
 
 } // namespace equiaffine::internal
