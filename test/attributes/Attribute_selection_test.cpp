@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace {
+namespace Attribute_selection_test {
 
 using namespace equiaffine;
 
@@ -69,4 +69,4 @@ TEST(Attribute_selection, every_name_is_that_of_one_row) {
   }
 }
 
-} // namespace
+} // namespace Attribute_selection_test

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace Curvature_error_3_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -68,8 +68,6 @@ void expect_good(const std::array<Quality, 2>& qualities) {
   }
 }
 
-} // namespace
-
 TEST(Curvature_error_3, errors_of_clean_samples_are_covered_and_not_exaggerated) {
   expect_good(quality(sample(48, 0), 7, 0));
   expect_good(quality(sample(48, 0), 5, 0));
@@ -99,3 +97,5 @@ TEST(Curvature_error_3, there_is_none_where_there_is_no_curvature) {
   const Curvature_error_3<Kernel> of_plane(Sampled_function_traits_3<Kernel>(plane), plane, 0, 0);
   EXPECT_TRUE(std::isnan(of_plane(Point_3(0.1, 0.2, 0.3)).affine_gaussian_curvature));
 }
+
+} // namespace Curvature_error_3_test

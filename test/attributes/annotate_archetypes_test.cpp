@@ -18,7 +18,7 @@
 #include <numbers>
 #include <vector>
 
-namespace {
+namespace annotate_archetypes_test {
 
 using namespace equiaffine;
 using Kernel_of_meshes = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -132,4 +132,4 @@ TEST(Annotate_archetypes, of_meshes_and_ranges_are_enough_for_fits) {
   EXPECT_NEAR(one.structure.euclidean.mean_curvature, -1 / radius_of_band, 1e-3);
 }
 
-} // namespace
+} // namespace annotate_archetypes_test

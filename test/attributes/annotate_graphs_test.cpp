@@ -34,7 +34,7 @@
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #endif
 
-namespace {
+namespace annotate_graphs_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -374,4 +374,4 @@ TEST(Samplers, the_isovalue_is_a_level_of_the_function) {
   for (const Point& p : points) EXPECT_NEAR(traits.value(Kernel::Point_3(p.x(), p.y(), p.z())), 0.3, 1e-12);
 }
 
-} // namespace
+} // namespace annotate_graphs_test

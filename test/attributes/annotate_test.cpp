@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace annotate_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -112,4 +112,4 @@ TEST(Annotate, columns_and_maps_hold_the_same_numbers_for_any_number_of_threads)
   EXPECT_EQ(scalars, 20u);
 }
 
-} // namespace
+} // namespace annotate_test

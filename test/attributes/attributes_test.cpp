@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace {
+namespace attributes_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -102,4 +102,4 @@ TEST(Attributes, the_status_comes_without_columns_and_nothing_where_nothing_was_
   EXPECT_TRUE(nothing.columns.empty() && !nothing.status);
 }
 
-} // namespace
+} // namespace attributes_test

@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace cellwise_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -95,8 +95,6 @@ void expect_same_surface(const Traits& function) {
                         max_distance_to_surface<Parallel>(whole, points, surface.vertex_status)));
 }
 
-} // namespace
-
 TEST(Cellwise, surfaces_and_attributes_have_the_bits_of_those_of_the_whole_function) {
   for (const auto& volume : volumes()) expect_same_surface(Sampled_function_traits_3<Kernel>(volume));
 }
@@ -140,3 +138,5 @@ TEST(Cellwise, errors_of_curvatures_are_the_same_in_a_part) {
     EXPECT_TRUE(same_bits(part(p).affine_mean_curvature, errors(p).affine_mean_curvature));
   }
 }
+
+} // namespace cellwise_test

@@ -32,7 +32,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace removed_elements_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -53,8 +53,7 @@ auto quartic() {
 Mesh mesh_with_garbage() {
   Mesh mesh = to_surface_mesh(marching_cubes(quartic(), parameters::number_of_nodes(24)));
   const Vertex last = mesh.add_vertex(Point_3(0, 0, 0)); // it would take the place of a removed one later
-  for (const unsigned v : {0u, 3u, 200u})
-    CGAL::Euler::remove_center_vertex(mesh.halfedge(Vertex(v)), mesh);
+  for (const unsigned v : {0u, 3u, 200u}) CGAL::Euler::remove_center_vertex(mesh.halfedge(Vertex(v)), mesh);
   CGAL::Polygon_mesh_processing::triangulate_faces(mesh);
   mesh.remove_vertex(last);
   EXPECT_TRUE(mesh.has_garbage() && CGAL::is_closed(mesh) && mesh.is_valid());
@@ -162,4 +161,4 @@ TEST(Removed_elements, a_mesh_that_has_them_gets_the_surface_of_a_sampler) {
   EXPECT_EQ(mesh.number_of_vertices(), vertices + sampled.vertex_status.size());
 }
 
-} // namespace
+} // namespace removed_elements_test

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace {
+namespace Input_error_test {
 
 using equiaffine::Input_error;
 
@@ -17,4 +17,4 @@ TEST(Input_error, is_one_line_without_control_characters_whatever_it_quotes) {
 
 TEST(Input_error, keeps_the_lines_of_its_excerpt) { EXPECT_EQ(Input_error("", "x+\n  ^\n").excerpt(), "x+\n  ^\n"); }
 
-} // namespace
+} // namespace Input_error_test

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-namespace {
+namespace Progress_observer_test {
 
 using equiaffine::parallel_for;
 using equiaffine::Progress_observer;
@@ -131,4 +131,4 @@ TEST(Progress_observer, sees_nothing_of_other_threads) {
   std::thread([] { parallel_for<CGAL::Sequential_tag>(0, 5, [](std::size_t) {}); }).join();
 }
 
-} // namespace
+} // namespace Progress_observer_test

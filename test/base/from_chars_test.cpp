@@ -12,7 +12,7 @@
 #include <string>
 #include <system_error>
 
-namespace {
+namespace from_chars_test {
 
 using namespace equiaffine;
 
@@ -84,4 +84,4 @@ TEST(From_chars, any_text_of_the_characters_of_numbers_is_read_as_by_the_standar
 }
 #endif
 
-} // namespace
+} // namespace from_chars_test

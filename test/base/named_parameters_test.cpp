@@ -10,11 +10,11 @@
 #include <optional>
 #include <stdexcept>
 
+namespace named_parameters_test {
+
 using namespace equiaffine;
 using internal::get_parameter;
 using internal::has_parameter;
-
-namespace {
 
 using Nodes = std::array<std::size_t, 3>;
 
@@ -58,4 +58,4 @@ TEST(Named_parameters, a_parameter_without_value_is_given_or_not) {
   EXPECT_FALSE((has_parameter<internal::Parabolic_features_tag, Given>));
 }
 
-} // namespace
+} // namespace named_parameters_test

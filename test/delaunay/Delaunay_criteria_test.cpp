@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace {
+namespace Delaunay_criteria_test {
 
 using namespace equiaffine;
 
@@ -26,4 +26,4 @@ TEST(Delaunay_criteria, lengths_that_are_given_are_kept) {
   EXPECT_EQ(criteria.distance, 0.25);
 }
 
-} // namespace
+} // namespace Delaunay_criteria_test

@@ -16,7 +16,7 @@
 #include <numbers>
 #include <set>
 
-namespace {
+namespace Implicit_mesh_domain_3_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -63,4 +63,4 @@ TEST(Implicit_mesh_domain, a_solid_ends_at_the_border_of_a_ball) {
   expect_solid("x^2+y^2+z^2-0.25", ball, std::numbers::pi / 6, std::numbers::pi, {1});
 }
 
-} // namespace
+} // namespace Implicit_mesh_domain_3_test

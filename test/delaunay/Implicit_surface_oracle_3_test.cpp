@@ -18,7 +18,7 @@
 #include <map>
 #include <vector>
 
-namespace {
+namespace Implicit_surface_oracle_3_test {
 
 using namespace equiaffine;
 namespace functions = equiaffine::analytic_functions;
@@ -81,4 +81,4 @@ TEST(Implicit_surface_oracle, segments_rays_and_lines_meet_the_surface_inside_th
   EXPECT_TRUE(intersect(surface, Kernel::Ray_3(inside, right)).empty());
 }
 
-} // namespace
+} // namespace Implicit_surface_oracle_3_test

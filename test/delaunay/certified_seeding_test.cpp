@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace certified_seeding_test {
 
 using namespace equiaffine;
 namespace functions = equiaffine::analytic_functions;
@@ -135,4 +135,4 @@ TEST(Certified_seeding, no_effort_is_made_where_the_function_is_undefined) {
     }
 }
 
-} // namespace
+} // namespace certified_seeding_test

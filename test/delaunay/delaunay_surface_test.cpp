@@ -30,7 +30,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace delaunay_surface_test {
 
 using namespace equiaffine;
 namespace functions = equiaffine::analytic_functions;
@@ -752,4 +752,4 @@ TEST(Delaunay_surface, facets_of_equal_affine_area_are_as_many_on_all_affine_ima
   EXPECT_GT(uniform.deviation, 2 * expected.deviation) << "the test shows nothing";
 }
 
-} // namespace
+} // namespace delaunay_surface_test

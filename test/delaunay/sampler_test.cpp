@@ -20,7 +20,7 @@
 #include <array>
 #include <cmath>
 
-namespace {
+namespace sampler_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -34,9 +34,9 @@ struct Named_surface {
 };
 
 const std::array<Named_surface, 4> surfaces = {{{"sphere", "x^2+y^2+z^2-1", 1.3, 1, 2},
-                                          {"torus", "z^2+(sqrt(x^2+y^2)-0.5)^2-0.04", 0.8, 1, 0},
-                                          {"blobby", "(3*x)^4+(3*y)^4+(3*z)^4-45*x^2-45*y^2-45*z^2+6", 1.2, 2, 4},
-                                          {"tanglecube", "x^4-5*x^2+y^4-5*y^2+z^4-5*z^2+11.8", 3, 1, -8}}};
+                                                {"torus", "z^2+(sqrt(x^2+y^2)-0.5)^2-0.04", 0.8, 1, 0},
+                                                {"blobby", "(3*x)^4+(3*y)^4+(3*z)^4-45*x^2-45*y^2-45*z^2+6", 1.2, 2, 4},
+                                                {"tanglecube", "x^4-5*x^2+y^4-5*y^2+z^4-5*z^2+11.8", 3, 1, -8}}};
 
 auto traits_of(const Named_surface& s) {
   const double b = s.half_side;
@@ -159,4 +159,4 @@ TYPED_TEST(Every_sampler, has_the_invariants_of_the_surface_by_their_weights_at_
   }
 }
 
-} // namespace
+} // namespace sampler_test

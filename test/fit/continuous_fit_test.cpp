@@ -22,7 +22,7 @@
 #include <set>
 #include <vector>
 
-namespace {
+namespace continuous_fit_test {
 
 using namespace fit_meshes;
 using Vector_3 = Kernel::Vector_3;
@@ -269,4 +269,4 @@ TEST(Creases, sharp_edges_without_followers_are_none) {
   for (const auto& [center, normal] : faces_of(mesh)) EXPECT_EQ(fit.value(center), round.value(center));
 }
 
-} // namespace
+} // namespace continuous_fit_test

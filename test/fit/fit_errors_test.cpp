@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace fit_errors_test {
 
 using namespace equiaffine;
 using namespace equiaffine::test;
@@ -126,4 +126,4 @@ TEST(Fitted_structures, long_triangles_elsewhere_do_not_spoil_a_hemisphere) {
   EXPECT_GT(within, 0.9 * double(nose));
 }
 
-} // namespace
+} // namespace fit_errors_test

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace fit_input_test {
 
 using namespace equiaffine;
 using namespace equiaffine::test;
@@ -274,4 +274,4 @@ TEST(Fit_input, a_hole_stays_a_hole_of_the_blend) {
   for (const auto& p : points) EXPECT_NEAR(traits.value(p), 0, 1e-4);
 }
 
-} // namespace
+} // namespace fit_input_test

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace fitted_soup_test {
 
 using namespace equiaffine;
 using Point_3 = CGAL::Simple_cartesian<double>::Point_3;
@@ -174,4 +174,4 @@ TEST(Fitted_soup, nothing_and_little_have_no_fit) {
   EXPECT_EQ(fitted_structures(points).at(0).structure.status, Point_status::OUTSIDE);
 }
 
-} // namespace
+} // namespace fitted_soup_test

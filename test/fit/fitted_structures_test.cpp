@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace fitted_structures_test {
 
 using namespace equiaffine;
 using namespace equiaffine::test;
@@ -380,4 +380,4 @@ TEST(Fitted_function_traits_3, the_delaunay_mesher_remeshes_the_fitted_surface) 
   for (const auto& p : surface.points) EXPECT_NEAR(metaballs().value(p), 0, 1e-3);
 }
 
-} // namespace
+} // namespace fitted_structures_test

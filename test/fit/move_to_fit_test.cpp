@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace {
+namespace move_to_fit_test {
 
 using namespace equiaffine;
 using namespace fit_meshes;
@@ -126,4 +126,4 @@ TEST(Whole_motion_3, vertices_beside_a_feature_do_not_leave_it) {
   EXPECT_EQ(motion.outcome(41), Fit_outcome::ON_FIT);
 }
 
-} // namespace
+} // namespace move_to_fit_test

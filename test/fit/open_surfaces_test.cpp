@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace open_surfaces_test {
 
 using namespace equiaffine;
 using namespace equiaffine::test;
@@ -87,4 +87,4 @@ TEST(Open_surface, a_closed_surface_stays_closed_also_as_random_points) {
   EXPECT_TRUE(CGAL::is_closed(to_surface_mesh(remesh(Traits(points), 40))));
 }
 
-} // namespace
+} // namespace open_surfaces_test

@@ -28,7 +28,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace remesh_on_fit_test {
 
 using namespace equiaffine;
 using namespace fit_meshes;
@@ -330,4 +330,4 @@ TEST(Remesh_on_fit, what_makes_no_sense_is_refused) {
   EXPECT_THROW(remesh_on_fit(squares, fit), std::invalid_argument);
 }
 
-} // namespace
+} // namespace remesh_on_fit_test

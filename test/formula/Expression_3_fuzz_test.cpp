@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace {
+namespace Expression_3_fuzz_test {
 
 using namespace equiaffine;
 using test::expect;
@@ -105,8 +105,6 @@ void check_parts(std::string_view text) {
     }
 }
 
-} // namespace
-
 EQUIAFFINE_FUZZ_TARGET(expression) {
   equiaffine::test::accepts([&] {
     const Expression_3 f(input, {{"R", 2.0}, {"r", 0.5}});
@@ -115,3 +113,5 @@ EQUIAFFINE_FUZZ_TARGET(expression) {
     check_parts(input);
   });
 }
+
+} // namespace Expression_3_fuzz_test

@@ -27,6 +27,8 @@
 #include <type_traits>
 #include <vector>
 
+namespace Expression_3_test {
+
 using equiaffine::Expression_3;
 using equiaffine::Input_error;
 using equiaffine::Interval;
@@ -81,8 +83,6 @@ Dual erf(const Dual& a) {
 Dual floor(const Dual& a) { return Dual(std::floor(a.value)); }
 
 } // namespace dual_numbers
-
-namespace {
 
 using dual_numbers::Dual;
 
@@ -306,8 +306,6 @@ const std::string torus = "(x^2+y^2+z^2+3.75)^2 = 16*(x^2+y^2)";
 const std::string everything =
     "sqrt(x)+cbrt(y)+exp(z)+log(x)+sin(y)+cos(z)+tan(x)+asin(y)+acos(z)+atan(x)+atan2(y,z)+sinh(x)+cosh(y)+tanh(z)"
     "+abs(x-y)+min(x,y,z)+max(x,y,z)+hypot(x,y)+x^y+y^1.5+z^7+x^4+x^-3+2/x-x/3+(1-y)*0.25-(-z)^3+0.5";
-
-} // namespace
 
 static_assert(std::is_copy_constructible_v<Expression_3> && std::is_copy_assignable_v<Expression_3>);
 static_assert(std::is_nothrow_move_constructible_v<Expression_3>);
@@ -737,8 +735,6 @@ TEST(Expression_3, a_constant_must_have_a_free_name_and_a_finite_value) {
               "constant 'a' is not a finite number: give it a finite value");
 }
 
-namespace {
-
 /// A union of spheres with a cut, whose choices differ from place to place.
 std::string text_with_choices() {
   std::string spheres;
@@ -748,8 +744,6 @@ std::string text_with_choices() {
   }
   return "max(min(" + spheres + "), x-0.9, abs(y)-0.8)";
 }
-
-} // namespace
 
 TEST(Expression_3, on_a_box_it_is_shorter_and_has_the_same_bits) {
   const Expression_3 f(text_with_choices());
@@ -789,3 +783,5 @@ TEST(Expression_3, on_a_box_an_operand_without_a_value_somewhere_stays) {
   EXPECT_FALSE(Expression_3("abs(x)" + sum).restricted(Interval(0, 1), side, side)); // abs(-0) is 0
   EXPECT_FALSE(Expression_3("max(x, y, z)").restricted(Interval(1, 2), side, side)) << "too short to gain";
 }
+
+} // namespace Expression_3_test

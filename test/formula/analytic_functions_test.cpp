@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace analytic_functions_test {
 
 using namespace equiaffine;
 using namespace equiaffine::analytic_functions;
@@ -174,4 +174,4 @@ TEST(Analytic_functions_chmutov, chebyshev_polynomial_is_the_cosine_of_six_times
     EXPECT_NEAR(f(std::cos(angle), 0.0, 0.0), std::cos(6 * angle) - 2, 1e-13); // T(0) = -1
 }
 
-} // namespace
+} // namespace analytic_functions_test

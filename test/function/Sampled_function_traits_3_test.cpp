@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace Sampled_function_traits_3_test {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point_3 = Kernel::Point_3;
@@ -27,8 +27,6 @@ Volume_3 random_volume(std::size_t nodes) {
 }
 
 const Point_3 inner_point = random_volume(9).lattice.point(3.3, 4.4, 5.5);
-
-} // namespace
 
 TEST(Sampled_function_traits_3, the_samples_and_the_lattice_are_those_of_the_volume) {
   const Volume_3 volume = random_volume(9);
@@ -85,3 +83,5 @@ TEST(Sampled_function_traits_3, a_grid_too_small_for_the_spline_still_has_its_sa
   EXPECT_TRUE(std::isnan(traits.value(volume.lattice.point(0.5, 0.5, 0.5))));
   EXPECT_TRUE(std::isnan(traits.taylor(volume.lattice.point(0.5, 0.5, 0.5)).value()));
 }
+
+} // namespace Sampled_function_traits_3_test

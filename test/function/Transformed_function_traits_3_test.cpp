@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace Transformed_function_traits_3_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -46,4 +46,4 @@ TEST(Transformed_function_traits_3, inverts_simple_maps_as_before) {
                    f.value(Kernel::Point_3(0.7e-200, -0.3 / 1e-200, 0.1)));
 }
 
-} // namespace
+} // namespace Transformed_function_traits_3_test

@@ -25,7 +25,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace {
+namespace archetypes_test {
 
 using namespace equiaffine;
 using archetypes::Sphere, archetypes::Torus;
@@ -238,4 +238,4 @@ TEST(Archetypes_of_functors, of_points_are_enough_for_samples) {
   EXPECT_EQ(sample_on_lattice(Functor_of_points{Sphere()}, lattice)(2, 1, 0), 4);
 }
 
-} // namespace
+} // namespace archetypes_test

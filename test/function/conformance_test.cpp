@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace conformance_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -180,7 +180,7 @@ struct Capable_model {
 class Archetype {
 public:
   using FT = double;
-  using Point_3 = ::Point_3;
+  using Point_3 = conformance_test::Point_3;
   using Vector_3 = Kernel::Vector_3;
   Archetype(const Archetype&) = default;
   Archetype& operator=(const Archetype&) = delete;
@@ -207,14 +207,6 @@ using Models =
                      Level_set_model<Sparse>, Level_set_model<Transformed_model<Sampled_model<5>>>, Batch_model<Sparse>,
                      Capable_model, Transformed_model<Capable_model>, Any_model<Sparse>, Union_model,
                      Transformed_model<Union_model>, Level_set_model<Transformed_model<Union_model>>>;
-
-} // namespace
-
-namespace conformance {
-INSTANTIATE_TYPED_TEST_SUITE_P(Models, Conformance, Models);
-}
-
-namespace {
 
 using Analytic = Sparse::Traits;
 using Sampled = Sampled_model<7>::Traits;
@@ -266,4 +258,8 @@ TEST(Concepts, the_archetype_is_enough_for_delaunay_surface) {
   EXPECT_EQ(surface.undecided_boxes.size(), 1u);
 }
 
-} // namespace
+} // namespace conformance_test
+
+namespace conformance {
+INSTANTIATE_TYPED_TEST_SUITE_P(Models, Conformance, conformance_test::Models);
+}

@@ -13,7 +13,7 @@
 #include <array>
 #include <cmath>
 
-namespace {
+namespace first_order_bounds_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -57,4 +57,4 @@ TEST(First_order_bounds, tight_ones_exceed_the_range_by_the_square_of_the_box_al
   }
 }
 
-} // namespace
+} // namespace first_order_bounds_test

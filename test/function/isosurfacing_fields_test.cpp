@@ -22,7 +22,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace {
+namespace isosurfacing_fields_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel; // another one than that of the function
@@ -104,4 +104,4 @@ TEST(Isosurfacing_fields, of_CGAL_are_functions_with_derivatives_once_sampled) {
 
 #endif
 
-} // namespace
+} // namespace isosurfacing_fields_test

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace rounding_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -73,8 +73,6 @@ void expect_status(const Function& f, Point_status expected, const Treatment& tr
       }
     }
 }
-
-} // namespace
 
 TEST(Rounding, planes_and_cylinders_given_as_samples_are_parabolic_stored_as_floats_and_smoothed_too) {
   for (const Treatment& treatment : treatments) {
@@ -136,3 +134,5 @@ TEST(Rounding, a_function_that_says_nothing_has_none) {
   static_assert(HasRounding<Transformed_function_traits_3<Traits>>);
   static_assert(!HasRounding<Silent>);
 }
+
+} // namespace rounding_test

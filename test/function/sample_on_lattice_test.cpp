@@ -9,7 +9,7 @@
 #include <atomic>
 #include <cstddef>
 
-namespace {
+namespace sample_on_lattice_test {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Lattice_3 = equiaffine::Lattice_3<Kernel>;
@@ -18,8 +18,6 @@ const auto function = equiaffine::make_analytic_traits<Kernel>(
     [](const auto& x, const auto& y, const auto& z) { return x + 10.0 * y + 100.0 * z; },
     CGAL::Bbox_3(0, 0, 0, 1, 1, 1));
 const Lattice_3 skew({3, 4, 5}, {1, 2, 3}, {Kernel::Vector_3(1, 0, 0), {2, 3, 0}, {0, 5, 7}});
-
-} // namespace
 
 TEST(Sample_on_lattice, stores_the_value_of_every_node_at_its_index) {
   const auto volume = equiaffine::sample_on_lattice(function, skew);
@@ -37,3 +35,5 @@ TEST(Sample_on_lattice, does_not_depend_on_threads_and_reports_every_node_once) 
   EXPECT_EQ(reported, 60U);
   EXPECT_EQ(parallel.values, equiaffine::sample_on_lattice<CGAL::Sequential_tag>(function, skew).values);
 }
+
+} // namespace sample_on_lattice_test

@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-namespace {
+namespace Monge_chart_3_test {
 
 using namespace equiaffine;
 using Jet = Jet_3<double>;
@@ -337,4 +337,4 @@ TEST(Euclidean_structure, the_smaller_principal_curvature_keeps_its_digits) {
   EXPECT_NEAR(s.k1 * s.k2 / K, 1, 1e-14);
 }
 
-} // namespace
+} // namespace Monge_chart_3_test

@@ -19,7 +19,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace affine_frame_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -209,4 +209,4 @@ TEST(Affine_frame, gradients_in_the_frame_have_their_weights_and_norms) {
     }
 }
 
-} // namespace
+} // namespace affine_frame_test

@@ -20,7 +20,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace affine_structure_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -571,4 +571,4 @@ TEST(Affine_structure, the_quadric_defect_has_no_unit_and_no_direction) {
   });
 }
 
-} // namespace
+} // namespace affine_structure_test

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace {
+namespace euclidean_structure_test {
 
 using namespace equiaffine;
 
@@ -71,4 +71,4 @@ TEST(Shape_index_and_curvedness, of_a_lane_have_the_bits_of_those_of_a_number) {
   }
 }
 
-} // namespace
+} // namespace euclidean_structure_test

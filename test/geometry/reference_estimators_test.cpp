@@ -16,7 +16,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace reference_estimators_test {
 
 using namespace equiaffine;
 using Number = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
@@ -93,4 +93,4 @@ TEST(Reference_estimators, table_1) {
   RecordProperty("direct", std::to_string(count.direct));
 }
 
-} // namespace
+} // namespace reference_estimators_test

@@ -15,7 +15,7 @@
 #include <tuple>
 #include <vector>
 
-namespace {
+namespace color_map_test {
 
 using namespace equiaffine;
 
@@ -368,4 +368,4 @@ TEST(Color_map, an_area_density_is_zero_where_the_curvature_of_which_it_is_a_roo
   EXPECT_NEAR(width(0), 0.3, 0.01);
 }
 
-} // namespace
+} // namespace color_map_test

@@ -26,7 +26,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace graph_files_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -309,4 +309,4 @@ TEST_F(Graph_files, points_of_a_point_set_come_back_with_their_maps) {
   EXPECT_EQ(H_read, H);
 }
 
-} // namespace
+} // namespace graph_files_test

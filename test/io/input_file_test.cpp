@@ -10,9 +10,9 @@
 #include <sys/stat.h>
 #include <thread>
 
-using namespace equiaffine;
+namespace input_file_test {
 
-namespace {
+using namespace equiaffine;
 
 std::string error_of(const std::string& path) {
   try {
@@ -22,8 +22,6 @@ std::string error_of(const std::string& path) {
   }
   return "";
 }
-
-} // namespace
 
 TEST(Input_file, extensions_are_the_same_in_lower_and_upper_case) {
   EXPECT_TRUE(has_extension("folder/mesh.ply", ".ply"));
@@ -66,3 +64,5 @@ TEST(Input_file, errors_quote_the_ends_of_what_is_long) {
     EXPECT_NE(std::string(error.what()).find("1' is not a number; correct it"), std::string::npos) << error.what();
   }
 }
+
+} // namespace input_file_test

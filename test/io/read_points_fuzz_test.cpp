@@ -11,7 +11,7 @@
 #include <iostream>
 #include <sstream>
 
-namespace {
+namespace read_points_fuzz_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -51,8 +51,6 @@ void check_round_trip(const Table& table) {
       expect(is_same(again.mesh.points[n][axis], table.mesh.points[n][axis]), "points that are written stay the same");
 }
 
-} // namespace
-
 EQUIAFFINE_FUZZ_TARGET(points) {
   equiaffine::test::accepts([&] {
     const Table table = read_from_standard_input(std::string(input));
@@ -60,3 +58,5 @@ EQUIAFFINE_FUZZ_TARGET(points) {
     if (!table.header.empty()) check_round_trip(table);
   });
 }
+
+} // namespace read_points_fuzz_test

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace read_points_test {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point_3 = Kernel::Point_3;
@@ -323,4 +323,4 @@ TEST(Read_points, lines_of_three_or_six_numbers_are_points_and_normals) {
   EXPECT_NE(error_of(read, "1 2 3\n\n1 2 z\n").find("line 3: 'z' is not a number"), std::string::npos);
 }
 
-} // namespace
+} // namespace read_points_test

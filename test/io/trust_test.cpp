@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace trust_test {
 
 using namespace equiaffine;
 using Columns = std::vector<Vertex_attributes::Column>;
@@ -103,4 +103,4 @@ TEST(Trust, a_color_is_in_doubt_by_the_share_of_the_bar_that_the_error_takes) {
   }
 }
 
-} // namespace
+} // namespace trust_test

@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace {
+namespace write_HTML_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -289,4 +289,4 @@ TEST(Write_HTML, misuse_is_refused) {
   EXPECT_EQ(out.str(), "");
 }
 
-} // namespace
+} // namespace write_HTML_test

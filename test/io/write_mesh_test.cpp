@@ -26,7 +26,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace write_mesh_test {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point_3 = Kernel::Point_3;
@@ -244,4 +244,4 @@ TEST(Write_mesh, the_extension_chooses_the_format) {
   EXPECT_EQ(equiaffine::mesh_format("ply"), std::nullopt);
 }
 
-} // namespace
+} // namespace write_mesh_test

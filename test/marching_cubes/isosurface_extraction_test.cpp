@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace {
+namespace isosurface_extraction_test {
 
 using namespace equiaffine;
 using Size = std::array<std::size_t, 3>;
@@ -76,4 +76,4 @@ TEST(Isosurface_extraction, threads_change_nothing) {
   }
 }
 
-} // namespace
+} // namespace isosurface_extraction_test

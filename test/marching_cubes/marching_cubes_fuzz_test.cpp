@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace {
+namespace marching_cubes_fuzz_test {
 
 using namespace equiaffine;
 using test::expect;
@@ -77,8 +77,6 @@ void check_topology(const Grid& grid, std::size_t axis) {
          "the Euler characteristic is that of the interpolant");
 }
 
-} // namespace
-
 EQUIAFFINE_FUZZ_TARGET(marching_cubes) {
   const Grid grid = grid_of(input);
   const Mesh_topology topology = topology_of(surface_of<double>(without_zeros(grid)));
@@ -86,3 +84,5 @@ EQUIAFFINE_FUZZ_TARGET(marching_cubes) {
   check_repairs<float>(grid, topology);
   check_topology(with_unequal_values(grid), std::size_t(input.size() % 3));
 }
+
+} // namespace marching_cubes_fuzz_test

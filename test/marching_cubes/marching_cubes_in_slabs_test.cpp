@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace marching_cubes_in_slabs_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -120,4 +120,4 @@ TEST(Marching_cubes_in_slabs, a_visitor_may_stop_and_a_slab_needs_a_plane) {
   EXPECT_THROW(marching_cubes_in_slabs(traits, stop, parameters::planes_per_slab(0)), std::invalid_argument);
 }
 
-} // namespace
+} // namespace marching_cubes_in_slabs_test

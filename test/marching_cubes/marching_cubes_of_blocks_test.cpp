@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace marching_cubes_of_blocks_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -159,4 +159,4 @@ TEST(Marching_cubes_of_blocks, cells_must_be_known) {
   EXPECT_THROW(run({{0, 5, 0}, {20, 5, 20}}, all), std::invalid_argument);
 }
 
-} // namespace
+} // namespace marching_cubes_of_blocks_test

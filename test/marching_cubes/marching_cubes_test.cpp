@@ -21,7 +21,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace {
+namespace marching_cubes_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -387,4 +387,4 @@ TEST(Marching_cubes, parts_of_a_long_expression_give_the_mesh_of_the_whole) {
   EXPECT_EQ(in_parts.vertex_status, whole.vertex_status);
 }
 
-} // namespace
+} // namespace marching_cubes_test

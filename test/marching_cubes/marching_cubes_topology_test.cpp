@@ -12,7 +12,7 @@
 #include <random>
 #include <set>
 
-namespace {
+namespace marching_cubes_topology_test {
 
 using namespace equiaffine;
 using internal::Marching_cubes_cases;
@@ -337,4 +337,4 @@ TEST(Trilinear_cell, saddles_inside_are_decided_exactly) {
   EXPECT_EQ(tunnels(3 * (1 + u)), 1);
 }
 
-} // namespace
+} // namespace marching_cubes_topology_test

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace sign_word_test {
 
 template <class FT>
 class Sign_word : public testing::Test {};
@@ -31,4 +31,4 @@ TYPED_TEST(Sign_word, bit_i_is_the_sign_of_number_i_and_bits_behind_the_last_are
     }
 }
 
-} // namespace
+} // namespace sign_word_test

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <random>
 
-namespace {
+namespace vertex_projection_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -95,4 +95,4 @@ TEST(Vertex_projection, no_triangle_is_left_without_area_beside_samples_that_all
   }
 }
 
-} // namespace
+} // namespace vertex_projection_test

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace {
+namespace zero_area_repair_test {
 
 using namespace equiaffine;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -163,4 +163,4 @@ TEST(Remove_from_mesh, vertices_are_numbered_by_how_many_are_left_before) {
   }
 }
 
-} // namespace
+} // namespace zero_area_repair_test

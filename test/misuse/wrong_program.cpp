@@ -3,27 +3,18 @@
 // words of the first error that the compiler is to print.
 #include <equiaffine/Analytic_function_traits_3.h>
 #include <equiaffine/analytic_functions.h>
+#include <equiaffine/annotate.h>
+#include <equiaffine/annotate_by_fit.h>
+#include <equiaffine/io/polygon_mesh_files.h>
+#include <equiaffine/marching_cubes.h>
 
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <map>
 #include <utility>
-
-#if CASE == 16
-#include <equiaffine/io/polygon_mesh_files.h>
-#elif CASE == 3 || CASE == 15
-#include <equiaffine/annotate_by_fit.h>
-#elif CASE == 7 || CASE == 9 || CASE == 10 || CASE == 13 || CASE == 17 || CASE == 18 || CASE == 19
-#include <equiaffine/marching_cubes.h>
-#else
-#include <equiaffine/annotate.h>
-#endif
-#if CASE == 1 || CASE == 18
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#elif CASE == 2 || CASE == 3
-#include <CGAL/Polyhedron_3.h>
-#endif
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;

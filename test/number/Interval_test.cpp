@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace Interval_test {
 
 using equiaffine::Interval;
 using Exact = boost::multiprecision::cpp_bin_float_50;
@@ -98,6 +98,7 @@ const std::vector<Function>& functions() {
   };
   return list;
 }
+#undef EQUIAFFINE_FUNCTION
 
 bool encloses(const Interval& r, const Exact& x) {
   const bool above = r.lower() == -infinity || Exact(r.lower()) <= x;
@@ -181,8 +182,6 @@ struct Rounding_mode {
   Rounding_mode& operator=(const Rounding_mode&) = delete;
   int old;
 };
-
-} // namespace
 
 TEST(Interval, every_function_encloses_its_values_at_points_of_random_boxes) {
   for (const Function& f : functions()) expect_enclosures(f, 400);
@@ -386,7 +385,6 @@ TEST(Interval, zeros_make_no_subnormal_numbers) {
 }
 
 // The tests below are of jets of intervals.
-namespace {
 
 using Interval_jet = equiaffine::Jet_3<Interval>;
 using Long_jet = equiaffine::Jet_3<long double>; // so exact that its error does not count
@@ -421,8 +419,6 @@ constexpr auto jet_functions = [](const auto& x, const auto& y, const auto& z, a
   visit(sign(x) * y);
   visit(fmod(5 * x, z));
 };
-
-} // namespace
 
 TEST(Interval, jets_over_a_box_enclose_the_jets_at_its_points_also_across_kinks) {
   std::mt19937_64 bits(11);
@@ -502,3 +498,5 @@ TEST(Interval, a_jet_of_intervals_times_itself_has_a_square_as_its_value) {
   EXPECT_EQ(pow(x, 2).value().lower(), 0);
   EXPECT_GE(pow(x, 4).value().lower(), -1e-300);
 }
+
+} // namespace Interval_test

@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace Jet_3_autodiff_test {
 
 using Jet = equiaffine::Jet_3<double, 5>;
 using Derivatives = std::vector<double>;
@@ -74,8 +74,6 @@ std::vector<Derivatives> by_autodiff(const std::array<double, 3>& p) {
   return result;
 }
 
-} // namespace
-
 TEST(Jet_3_autodiff, all_derivatives_of_every_function_are_those_of_boost_autodiff) {
   // The norm is over all 56 derivatives; autodiff itself is good for a few units in the last place.
   constexpr double tolerance = 32 * std::numeric_limits<double>::epsilon();
@@ -94,3 +92,5 @@ TEST(Jet_3_autodiff, all_derivatives_of_every_function_are_those_of_boost_autodi
     }
   }
 }
+
+} // namespace Jet_3_autodiff_test

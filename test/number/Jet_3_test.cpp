@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace {
+namespace Jet_3_test {
 
 using Exact = boost::multiprecision::cpp_bin_float_50;
 template <class T>
@@ -177,8 +177,6 @@ bool derivatives_are_not_finite(const Jet& f, std::initializer_list<std::array<i
                      [&](const auto& d) { return !std::isfinite(f.coefficient(d[0], d[1], d[2])); });
 }
 
-} // namespace
-
 TEST(Jet_3, every_function_is_within_5_epsilon_of_50_digits_which_agree_with_central_differences) {
   expect_agreement(functions(), points);
 }
@@ -310,8 +308,6 @@ TEST(Jet_3, large_arguments_saturate_or_overflow_but_are_never_nan_where_the_lim
   EXPECT_NEAR(tanh(variable(0, 50)).coefficient(1, 0, 0) / (4 * std::exp(-100.0)), 1, 10 * epsilon);
 }
 
-namespace {
-
 // x y + z^2 sin x: no monomial with both y and z, at most one y, at most two z.
 constexpr auto sparse = [](const auto& x, const auto& y, const auto& z) { return x * y + z * z * sin(x); };
 
@@ -328,8 +324,6 @@ Variable<Axis> sparse_variable(double value) {
   v.template at<1 + Axis>() = 1;
   return v;
 }
-
-} // namespace
 
 TEST(Jet_3, sparse_jets_give_the_numbers_of_full_jets_on_a_smaller_support) {
   const auto f = sparse(sparse_variable<0>(0.3), sparse_variable<1>(0.7), sparse_variable<2>(0.2));
@@ -434,3 +428,6 @@ TEST(Jet_3, single_precision_has_the_accuracy_of_single_precision) {
     EXPECT_NEAR(double(single.coefficients()[n]), reference.coefficients()[n],
                 8 * double(std::numeric_limits<float>::epsilon()));
 }
+
+} // namespace Jet_3_test
+#undef EQUIAFFINE_FUNCTION

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-namespace {
+namespace Linear_substitution_3_test {
 
 template <int Order>
 using Jet = equiaffine::Jet_3<double, Order>;
@@ -50,8 +50,6 @@ void expect_substitution(const Matrix& l) {
 
 constexpr Matrix general = {{{1, 2, -3}, {4, -5, 6}, {-7, 8, 2}}};
 constexpr Matrix diagonal = {{{2, 0, 0}, {0, -3, 0}, {0, 0, 5}}};
-
-} // namespace
 
 TEST(Linear_substitution_3, a_general_map_is_substituted_exactly_at_every_order) {
   expect_substitution<5>(general);
@@ -98,3 +96,5 @@ TEST(Linear_substitution_3, one_map_after_another_is_their_product) {
   const Jet<4> g = polynomial<4>();
   EXPECT_EQ(Substitution(b)(Substitution(a)(g)).coefficients(), Substitution(ab)(g).coefficients());
 }
+
+} // namespace Linear_substitution_3_test

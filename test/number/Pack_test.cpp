@@ -21,7 +21,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace {
+namespace Pack_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -243,4 +243,4 @@ TYPED_TEST(Pack_of, masks_that_choose_lane_by_lane_and_decide_only_when_unanimou
   EXPECT_TRUE(std::isnan(max(ascending, nan)[0]) && std::isnan(min(nan, ascending)[0]));
 }
 
-} // namespace
+} // namespace Pack_test

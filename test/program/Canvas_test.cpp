@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-namespace {
+namespace Canvas_test {
 
 using equiaffine::Canvas;
 using equiaffine::Light;
@@ -152,4 +152,4 @@ TEST(Program_Canvas, bands_need_little_memory_however_large_the_picture_is) {
   }
 }
 
-} // namespace
+} // namespace Canvas_test

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace Engine_test {
 
 using namespace equiaffine;
 
@@ -134,4 +134,4 @@ TEST(Program_engine, objects_for_some_processors_share_no_code_but_their_entry) 
 }
 #endif
 
-} // namespace
+} // namespace Engine_test

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-namespace {
+namespace Option_row_test {
 
 using namespace equiaffine;
 
@@ -39,4 +39,4 @@ TEST(Program_Option_row, every_option_is_documented) {
     }
 }
 
-} // namespace
+} // namespace Option_row_test

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 
+namespace Polygon_soup_fuzz_test {
+
 EQUIAFFINE_FUZZ_TARGET(triangle_soup) {
   using namespace equiaffine;
   static const test::Scratch_file obj("mesh.obj"), stl("mesh.stl");
@@ -23,3 +25,5 @@ EQUIAFFINE_FUZZ_TARGET(triangle_soup) {
     });
   }
 }
+
+} // namespace Polygon_soup_fuzz_test

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <sstream>
 
-namespace {
+namespace Progress_report_test {
 
 using namespace equiaffine;
 using std::chrono::seconds;
@@ -49,4 +49,4 @@ TEST(Program_progress_report, a_stage_without_a_number_of_steps_has_the_time_alo
   EXPECT_TRUE(terminal.str().ends_with("[#.......................]        reading, 0 s")) << terminal.str();
 }
 
-} // namespace
+} // namespace Progress_report_test

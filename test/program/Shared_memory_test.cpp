@@ -9,7 +9,7 @@
 #include <iostream>
 #include <sys/resource.h>
 
-namespace {
+namespace Shared_memory_test {
 
 using equiaffine::Shared_memory;
 
@@ -29,4 +29,4 @@ TEST(Shared_memory_DeathTest, says_that_the_limit_of_the_size_of_files_is_too_sm
   EXPECT_EXIT(allocate_beyond_limit(), testing::ExitedWithCode(2), "below 2000 bytes.*ulimit -f");
 }
 
-} // namespace
+} // namespace Shared_memory_test

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace annotate_test {
 
 using namespace equiaffine::test;
 using Json = nlohmann::json;
@@ -53,8 +53,6 @@ protected:
     EXPECT_GE(double(right), 0.93 * double(found.size()));
   }
 };
-
-} // namespace
 
 TEST_F(Program_annotate, vertices_and_faces_stay_and_attributes_come) {
   make_surface("in.ply", "quadric_defect");
@@ -378,3 +376,5 @@ TEST_F(Program_annotate, what_cannot_be_used_is_refused) {
   expect_error({"annotate", "in.xyz", "-o", "out.stl"}, {"'out.stl'", "has no attributes", ".ply .csv"});
   EXPECT_EQ(file("in.xyz"), "0 0 0\n1 0 0\n");
 }
+
+} // namespace annotate_test

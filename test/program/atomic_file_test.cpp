@@ -12,7 +12,7 @@
 #include <string>
 #include <unistd.h>
 
-namespace {
+namespace atomic_file_test {
 
 namespace fs = std::filesystem;
 
@@ -188,4 +188,4 @@ TEST_F(Program_atomic_file, a_folder_where_nobody_can_write_is_an_error_at_once)
             std::string::npos);
 }
 
-} // namespace
+} // namespace atomic_file_test

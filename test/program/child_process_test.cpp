@@ -22,7 +22,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace {
+namespace child_process_test {
 
 using equiaffine::Child_failure;
 using equiaffine::Input_error;
@@ -140,4 +140,4 @@ TEST(Program_child_process, has_no_more_memory_than_the_computer) {
   EXPECT_NO_THROW(run_in_child([&] { expect_less(true); }, {60, megabyte}));
 }
 
-} // namespace
+} // namespace child_process_test

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+namespace command_line_fuzz_test {
+
 static std::vector<std::string> words_of(std::string_view input) {
   std::istringstream lines{std::string(input)};
   std::vector<std::string> words;
@@ -29,3 +31,5 @@ TEST(Command_line_corpus, holds_lines_that_are_understood) {
   }
 }
 #endif
+
+} // namespace command_line_fuzz_test

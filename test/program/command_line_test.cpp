@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-namespace {
+namespace command_line_test {
 
 using namespace equiaffine::test;
 using Arguments = std::vector<std::string>;
@@ -114,8 +114,6 @@ protected:
     return table.at(0);
   }
 };
-
-} // namespace
 
 TEST_F(Program_command_line, help_and_version_go_to_standard_output) {
   EXPECT_NE(run_well({"--help"}).find("Usage: equiaffine COMMAND"), std::string::npos);
@@ -863,3 +861,5 @@ TEST(Program_progress, is_not_shown_in_a_pipe_or_for_short_work) {
   equiaffine::Progress(terminal, true).begin("working");
   EXPECT_EQ(pipe.str() + terminal.str(), "");
 }
+
+} // namespace command_line_test

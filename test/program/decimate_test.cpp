@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace {
+namespace decimate_test {
 
 using equiaffine::Kernel;
 
@@ -120,4 +120,4 @@ TEST(Program_decimate, takes_coordinates_up_to_the_largest_numbers) {
             equiaffine::decimate(mesh, attributes, most_triangles).mesh.triangles);
 }
 
-} // namespace
+} // namespace decimate_test

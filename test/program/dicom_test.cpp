@@ -222,3 +222,5 @@ TEST_F(Program_dicom, slices_that_do_not_belong_together_are_named) {
 } // namespace
 
 #endif
+
+namespace dicom_test {} // namespace dicom_test

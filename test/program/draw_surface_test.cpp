@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace draw_surface_test {
 
 using namespace equiaffine;
 using Vector = Kernel::Vector_3;
@@ -342,4 +342,4 @@ TEST(Program_draw_surface, a_vector_is_three_columns) {
   EXPECT_FALSE(vector_columns(attributes, "a"));
 }
 
-} // namespace
+} // namespace draw_surface_test

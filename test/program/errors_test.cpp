@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace errors_test {
 
 using namespace equiaffine::test;
 using Arguments = std::vector<std::string>;
@@ -61,8 +61,6 @@ protected:
 
   Arguments before_;
 };
-
-} // namespace
 
 TEST_F(Program_errors, no_command_is_told_in_one_line) {
   expect_error({}, {"no command is given; use mesh, evaluate, sample, view, annotate, register or symmetries",
@@ -615,3 +613,5 @@ TEST(Program_defects, give_status_one_and_one_line) {
   EXPECT_EQ(equiaffine::run({"--version"}, {out, error}), 1);
   EXPECT_EQ(error.str(), "equiaffine: internal error: first second\n");
 }
+
+} // namespace errors_test

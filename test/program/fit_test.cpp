@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace fit_test {
 
 using namespace equiaffine::test;
 using Json = nlohmann::json;
@@ -205,4 +205,4 @@ TEST_F(Program_fit, what_cannot_be_used_is_refused) {
   expect_error({"mesh", "--fit", "line.csv", "-o", "a.ply"}, {"line.csv", "enough", "more points"});
 }
 
-} // namespace
+} // namespace fit_test

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace forewarn_test {
 
 using namespace equiaffine;
 
@@ -98,4 +98,4 @@ TEST(Forewarn, more_than_half_of_the_memory_needs_consent) {
   EXPECT_NO_THROW(check_memory_of_volume({nodes / 2, nodes, nodes}, Memory_use::HALF));
 }
 
-} // namespace
+} // namespace forewarn_test

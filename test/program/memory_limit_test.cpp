@@ -298,3 +298,5 @@ TEST_F(Scratch_memory_DeathTest, needs_a_folder) {
 } // namespace
 
 #endif
+
+namespace memory_limit_test {} // namespace memory_limit_test

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace {
+namespace natural_up_test {
 
 using namespace equiaffine;
 using Up = std::array<double, 3>;
@@ -41,4 +41,4 @@ TEST(Program_natural_up, y_is_up_where_no_foot_tells) {
   EXPECT_EQ(natural_up({{0, 0, 0}, {0, 0, 1}}), y) << "a box without area";
 }
 
-} // namespace
+} // namespace natural_up_test

@@ -6,6 +6,8 @@
 
 #include <CGAL/boost/graph/helpers.h>
 
+namespace read_triangle_mesh_fuzz_test {
+
 EQUIAFFINE_FUZZ_TARGET(triangle_mesh) {
   using namespace equiaffine;
   static const test::Scratch_file ply("mesh.ply"), off("mesh.off");
@@ -15,3 +17,5 @@ EQUIAFFINE_FUZZ_TARGET(triangle_mesh) {
     test::expect(mesh.is_valid() && CGAL::is_triangle_mesh(mesh), "a mesh is valid and has triangles only");
   });
 }
+
+} // namespace read_triangle_mesh_fuzz_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace register_test {
 
 using namespace equiaffine::test;
 using Json = nlohmann::json;
@@ -493,4 +493,4 @@ TEST_F(Program_register, contact_along_a_curve_is_no_overlap) {
             false);
 }
 
-} // namespace
+} // namespace register_test

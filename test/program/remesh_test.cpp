@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace remesh_test {
 
 using namespace equiaffine::test;
 using Json = nlohmann::json;
@@ -176,4 +176,4 @@ TEST_F(Program_remesh, a_scale_that_is_too_large_for_the_shape_becomes_smaller) 
   EXPECT_LT(free["fit"]["scale"].get<double>(), .8);
 }
 
-} // namespace
+} // namespace remesh_test

@@ -19,7 +19,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace {
+namespace signals_test {
 
 namespace fs = std::filesystem;
 
@@ -123,4 +123,4 @@ TEST_F(Program_signals, a_folder_that_a_killed_process_left_is_removed_by_the_ne
     EXPECT_TRUE(fs::exists(path)) << path;
 }
 
-} // namespace
+} // namespace signals_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace spline_test {
 
 using namespace equiaffine::test;
 using Arguments = std::vector<std::string>;
@@ -87,8 +87,6 @@ protected:
     EXPECT_EQ(names(), Arguments{});
   }
 };
-
-} // namespace
 
 TEST_F(Program_spline, degrees_and_schemes_can_be_chosen_and_are_in_the_statistics) {
   const Arguments grid = {"--resolution", "40"};
@@ -293,3 +291,5 @@ TEST_F(Program_spline, a_constant_that_the_formula_does_not_have_is_reported) {
                    box,
                {"--set x1", "no 'x1'"});
 }
+
+} // namespace spline_test

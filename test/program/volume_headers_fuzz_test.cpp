@@ -5,6 +5,8 @@
 #include "volume/data_files.h"
 #include "volume/header_checks.h"
 
+namespace volume_headers_fuzz_test {
+
 EQUIAFFINE_FUZZ_TARGET(volume_headers) {
   using namespace equiaffine;
   static const test::Scratch_file file("volume");
@@ -16,3 +18,5 @@ EQUIAFFINE_FUZZ_TARGET(volume_headers) {
     test::expect(size_of_volume(path, format) >= double(input.size()), "a volume is no smaller than its header");
   }
 }
+
+} // namespace volume_headers_fuzz_test

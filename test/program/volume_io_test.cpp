@@ -35,7 +35,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace volume_io_test {
 
 namespace fs = std::filesystem;
 
@@ -984,4 +984,4 @@ TEST_F(Program_volume_io, a_vti_file_needs_one_array_of_scalars_at_its_points) {
 
 #endif
 
-} // namespace
+} // namespace volume_io_test

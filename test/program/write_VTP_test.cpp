@@ -97,3 +97,5 @@ TEST(Program_write_VTP, closed_curves_end_with_their_first_point_and_open_ones_d
 } // namespace
 
 #endif
+
+namespace write_VTP_test {} // namespace write_VTP_test

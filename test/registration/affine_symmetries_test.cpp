@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace affine_symmetries_test {
 
 using namespace equiaffine;
 using namespace registration_cases;
@@ -231,4 +231,4 @@ TEST(Affine_symmetries, what_makes_no_sense_is_refused) {
                std::invalid_argument);
 }
 
-} // namespace
+} // namespace affine_symmetries_test

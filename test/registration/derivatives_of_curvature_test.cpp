@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace {
+namespace derivatives_of_curvature_test {
 
 using namespace equiaffine;
 using namespace registration_cases;
@@ -36,4 +36,4 @@ TEST(Derivatives_of_curvature, they_agree_with_differences_along_principal_direc
   }
 }
 
-} // namespace
+} // namespace derivatives_of_curvature_test

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace {
+namespace register_fits_test {
 
 using namespace equiaffine;
 using namespace equiaffine::test;
@@ -59,4 +59,4 @@ TEST(Register_fits, certainty_falls_with_the_estimated_error) {
   EXPECT_LT(noisy_sum, 0.8 * sum);
 }
 
-} // namespace
+} // namespace register_fits_test

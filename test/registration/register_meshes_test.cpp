@@ -28,7 +28,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace register_meshes_test {
 
 using namespace equiaffine;
 using namespace registration_cases;
@@ -484,4 +484,4 @@ TEST(Register_pieces, threads_give_the_same_bits) {
   EXPECT_EQ(a.best().log10_false_alarms, b.best().log10_false_alarms);
 }
 
-} // namespace
+} // namespace register_meshes_test

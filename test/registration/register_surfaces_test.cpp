@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace register_surfaces_test {
 
 using namespace equiaffine;
 using namespace registration_cases;
@@ -270,4 +270,4 @@ TEST(Register_surfaces, what_makes_no_sense_is_refused) {
   EXPECT_THROW(register_surfaces(surface, points, surface, points, parameters::tolerance(-1)), std::invalid_argument);
 }
 
-} // namespace
+} // namespace register_surfaces_test

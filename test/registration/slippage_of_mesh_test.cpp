@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace slippage_of_mesh_test {
 
 using namespace equiaffine;
 using namespace registration_cases;
@@ -65,8 +65,6 @@ const std::array<Sliding_surface, 6> surfaces = {{
      [](double u, double v) { return Point_3(sin(u + .4) * cos(2 * v), sin(u + .4) * sin(2 * v), cos(u + .4)); }},
     {"waves", 0, 0, [](double u, double v) { return Point_3(u, v, .3 * sin(3 * u + 1) * cos(2 * v)); }},
 }};
-
-} // namespace
 
 TEST(Slippage_of_mesh, smooth_surfaces_slide_in_as_many_ways_as_their_groups_have_dimensions) {
   for (const auto& [name, rigid, affine, surface] : surfaces)
@@ -121,3 +119,5 @@ TEST(Slippage_of_mesh, there_is_none_without_an_area) {
   const std::vector<std::array<std::size_t, 3>> triangles = {{0, 1, 2}};
   EXPECT_EQ(slippage_of_mesh(points, triangles, Map_kind::RIGID).dimension(), 0u);
 }
+
+} // namespace slippage_of_mesh_test

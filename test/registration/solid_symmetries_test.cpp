@@ -24,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace solid_symmetries_test {
 
 using namespace equiaffine;
 using namespace registration_cases;
@@ -366,4 +366,4 @@ TEST(Solid_symmetries, meshes_that_make_no_sense_are_refused) {
   EXPECT_THROW(symmetries(box(1, 1, 1), rigid.tolerance(1)), std::invalid_argument);
 }
 
-} // namespace
+} // namespace solid_symmetries_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace {
+namespace Clip_domain_3_test {
 
 using equiaffine::Clip_domain_3;
 
@@ -34,4 +34,4 @@ TEST(Clip_domain, a_ball_is_given_by_a_point_or_a_sphere_of_any_kernel) {
   EXPECT_THROW(Clip_domain_3(Kernel::Point_3(0, 0, 0), -1), std::invalid_argument);
 }
 
-} // namespace
+} // namespace Clip_domain_3_test

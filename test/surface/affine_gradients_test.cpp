@@ -16,7 +16,7 @@
 #include <array>
 #include <cmath>
 
-namespace {
+namespace affine_gradients_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -199,4 +199,4 @@ TEST(Affine_gradients, differences_are_extrapolated_and_skip_what_is_not_finite)
   }
 }
 
-} // namespace
+} // namespace affine_gradients_test

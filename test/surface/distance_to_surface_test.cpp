@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace {
+namespace distance_to_surface_test {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point_3 = Kernel::Point_3;
@@ -26,8 +26,6 @@ const auto square_root = equiaffine::make_analytic_traits<Kernel>(
       return sqrt(x) - 1.0 + 0.0 * y + 0.0 * z;
     },
     box);
-
-} // namespace
 
 TEST(Distance_to_surface, is_the_greatest_euclidean_distance_for_a_plane_whatever_the_scale_of_f) {
   const std::vector<Point_3> points = {{0, 0, 5}, {3, 4, 1}, {-6, -8, 0}, {1, 0, 0}};
@@ -95,3 +93,5 @@ TEST(Distance_to_surface, does_not_depend_on_threads) {
   EXPECT_EQ(equiaffine::max_distance_to_surface<CGAL::Sequential_tag>(scaled_plane, points),
             equiaffine::max_distance_to_surface<CGAL::Parallel_if_available_tag>(scaled_plane, points));
 }
+
+} // namespace distance_to_surface_test

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace {
+namespace mesh_topology_test {
 
 using equiaffine::mesh_topology;
 using equiaffine::Mesh_topology;
@@ -45,8 +45,6 @@ void expect(const Mesh_topology& topology, bool is_manifold, std::size_t compone
   EXPECT_EQ(topology.euler_characteristic, euler_characteristic);
   EXPECT_EQ(topology.boundary_edges, boundary_edges);
 }
-
-} // namespace
 
 TEST(Mesh_topology, a_tetrahedron_is_a_sphere) {
   const Mesh_topology topology = mesh_topology(tetrahedron, 4);
@@ -99,3 +97,5 @@ TEST(Mesh_topology, a_triangle_given_twice_is_not_a_manifold) {
 }
 
 TEST(Mesh_topology, nothing_is_empty) { expect(mesh_topology(Triangles{}, 0), true, 0, 0, 0); }
+
+} // namespace mesh_topology_test

@@ -19,7 +19,7 @@
 #include <cstddef>
 #include <sstream>
 
-namespace {
+namespace parabolic_curves_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -156,4 +156,4 @@ TEST(Write_curves, closed_curves_end_with_their_first_point_and_open_ones_do_not
   EXPECT_EQ(text.str(), "v 0 0 0\nv 1 0 0\nv 0.10000000000000001 1 0\nv 0 0 1\nv 1 0 1\nl 1 2 3 1\nl 4 5\n");
 }
 
-} // namespace
+} // namespace parabolic_curves_test

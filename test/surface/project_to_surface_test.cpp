@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-namespace {
+namespace project_to_surface_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -28,7 +28,7 @@ using Point_3 = Kernel::Point_3;
 template <class Function>
 struct Values_only {
   using FT = double;
-  using Point_3 = ::Point_3;
+  using Point_3 = project_to_surface_test::Point_3;
   using Vector_3 = Kernel::Vector_3;
   double value(const Point_3& p) const { return function(p.x(), p.y(), p.z()); }
   Jet_3<double> taylor(const Point_3&) const {
@@ -86,7 +86,7 @@ TEST(Intersect_segment, poles_and_jumps_are_not_roots) {
 /// Is x - 0.3 up to `smooth_end`, and 1 without derivatives beyond.
 struct Ending_function {
   using FT = double;
-  using Point_3 = ::Point_3;
+  using Point_3 = project_to_surface_test::Point_3;
   using Vector_3 = Kernel::Vector_3;
   double value(const Point_3& p) const { return p.x() > smooth_end ? 1 : p.x() - 0.3; }
   Jet_3<double, 1> first_order(const Point_3& p) const {
@@ -204,4 +204,4 @@ TEST(Intersect_segments, searches_together_are_searches_alone) {
   EXPECT_EQ(expect_searches_of_single_calls(Ending_function{0.29}, 20), (std::array<std::size_t, 2>{0, 0}));
 }
 
-} // namespace
+} // namespace project_to_surface_test

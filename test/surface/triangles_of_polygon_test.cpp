@@ -16,7 +16,7 @@
 #include <numeric>
 #include <vector>
 
-namespace {
+namespace triangles_of_polygon_test {
 
 using namespace equiaffine;
 using Points = std::vector<Eigen::Vector3d>;
@@ -89,4 +89,4 @@ TEST(Triangles_of_polygon, what_is_no_simple_polygon_has_a_fan_too) {
   EXPECT_TRUE(triangles_of(Points(4), {0, 1}).empty());
 }
 
-} // namespace
+} // namespace triangles_of_polygon_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace {
+namespace Lattice_3_test {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point_3 = Kernel::Point_3;
@@ -23,8 +23,6 @@ Lattice_3 skew_lattice() {
 Lattice_3 left_handed_lattice() {
   return Lattice_3({3, 4, 5}, Point_3(10, 20, 30), {Vector_3(-1, 3, 0), Vector_3(2, 0, 1), Vector_3(0, 1, 4)});
 }
-
-} // namespace
 
 TEST(Lattice_3, what_is_no_lattice_is_refused_in_every_build) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -102,3 +100,5 @@ TEST(Lattice_3, a_transformed_lattice_has_the_images_of_the_nodes) {
     for (int j = 0; j < 4; ++j)
       for (int k = 0; k < 5; ++k) EXPECT_EQ(image.point(i, j, k), mirror_and_shear(lattice.point(i, j, k)));
 }
+
+} // namespace Lattice_3_test

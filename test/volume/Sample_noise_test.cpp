@@ -16,7 +16,7 @@
 #include <optional>
 #include <vector>
 
-namespace {
+namespace Sample_noise_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -29,8 +29,6 @@ Volume sample(std::size_t n, double deviation) {
   const Lattice_3<Kernel> lattice({n, n, n}, CGAL::Bbox_3(-1.25, -1.1, -1, 1.25, 1.1, 1));
   return sample_volume(lattice, ellipsoid, deviation);
 }
-
-} // namespace
 
 TEST(Sample_noise, the_deviation_of_white_noise_is_found) {
   for (const double deviation : {1e-8, 1e-5, 1e-2}) {
@@ -186,3 +184,5 @@ TEST(Sample_noise, nodes_beside_the_level_set_are_those_with_a_neighbor_on_the_o
     EXPECT_EQ(of_parts, some);
   }
 }
+
+} // namespace Sample_noise_test

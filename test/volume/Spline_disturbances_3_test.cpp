@@ -12,9 +12,9 @@
 #include <cstddef>
 #include <vector>
 
-using namespace equiaffine;
+namespace Spline_disturbances_3_test {
 
-namespace {
+using namespace equiaffine;
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Volume = Volume_3<Kernel>;
@@ -49,8 +49,6 @@ double sum_of_products(const std::vector<Jet>& jets, std::size_t m, std::size_t 
   return sum;
 }
 
-} // namespace
-
 TEST(Spline_disturbances_3, their_covariance_is_that_of_the_expansion_under_white_noise) {
   const Lattice_3<Kernel> lattice({7, 8, 7}, CGAL::Bbox_3(0, 0, 0, 6, 7, 6));
   const Spline_parameters parameters = {.degree = 5, .scheme = Spline_scheme::INTERPOLATION};
@@ -70,3 +68,5 @@ TEST(Spline_disturbances_3, their_covariance_is_that_of_the_expansion_under_whit
       }
   }
 }
+
+} // namespace Spline_disturbances_3_test

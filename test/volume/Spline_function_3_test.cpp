@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace Spline_function_3_test {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point_3 = Kernel::Point_3;
@@ -182,8 +182,6 @@ bool all_finite(const Jet_3& jet) {
   return std::all_of(jet.coefficients().begin(), jet.coefficients().end(), [](double c) { return std::isfinite(c); });
 }
 
-} // namespace
-
 TEST(Spline_function_3, quasi_interpolation_reproduces_polynomials_up_to_its_degree_and_to_the_border) {
   expect_reproduction<5>(unit_lattice(6, 7, 11), 1);
   expect_reproduction<7>(unit_lattice(8, 9, 13), 1);
@@ -206,7 +204,7 @@ TEST(Spline_function_3, quasi_interpolation_errs_at_the_border_as_inside_to_one_
 TEST(Spline_function_3,
      smooth_samples_are_extended_by_two_more_degrees_noise_and_edges_are_not_and_steps_by_constants) {
   const Lattice_3 lattice = unit_lattice(30, 31, 32);
-  const auto wave = [](double x, double y, double z) { return std::sin(x / 4) + std::cos(y / 5 + z / 4); };
+  const auto smooth = [](double x, double y, double z) { return std::sin(x / 4) + std::cos(y / 5 + z / 4); };
   const auto ball = [](double x, double y, double z) { return double(std::hypot(x - 20, y - 20, z - 20) < 19); };
   const auto edge = [&](double x, double y, double z) { return ball(x, y, z) + std::sin(x + 2 * y + 3 * z); };
   for (const int degree : {5, 7, 9}) {
@@ -214,13 +212,13 @@ TEST(Spline_function_3,
       return Spline_function_3(volume, {.degree = degree, .scheme = scheme}).border_degree();
     };
     constexpr auto scheme = Spline_scheme::QUASI_INTERPOLATION;
-    EXPECT_EQ(border_degree(sample(lattice, wave), scheme), std::min(degree + 2, 9));
-    EXPECT_EQ(border_degree(sample_volume(lattice, wave, 1e-3), scheme), degree);
+    EXPECT_EQ(border_degree(sample(lattice, smooth), scheme), std::min(degree + 2, 9));
+    EXPECT_EQ(border_degree(sample_volume(lattice, smooth, 1e-3), scheme), degree);
     EXPECT_EQ(border_degree(sample(lattice, edge), scheme), degree);
     EXPECT_EQ(border_degree(sample(lattice, ball), scheme), 0) << "steps go on as constants";
-    EXPECT_EQ(border_degree(sample(lattice, wave), Spline_scheme::CONVOLUTION), degree);
+    EXPECT_EQ(border_degree(sample(lattice, smooth), Spline_scheme::CONVOLUTION), degree);
   }
-  auto masked = sample(lattice, wave);
+  auto masked = sample(lattice, smooth);
   for (std::size_t n = 0; n < masked.values.size(); n += 97)
     masked.values[n] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(Spline_function_3(masked).border_degree(), 9) << "lines without a number have no vote";
@@ -704,3 +702,5 @@ TEST(Spline_function_3, the_coefficients_do_not_depend_on_threads) {
   for (const Point_3& p : points_of(lattice)) EXPECT_EQ(one.taylor(p).coefficients(), many.taylor(p).coefficients());
 }
 #endif
+
+} // namespace Spline_function_3_test

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace Volume_view_3_test {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using View = equiaffine::Volume_view_3<Kernel>;
@@ -48,8 +48,6 @@ class Volume_view_3_of : public ::testing::Test {};
 using Numbers = ::testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t, std::uint32_t, std::int32_t,
                                  std::uint64_t, std::int64_t, float, double>;
 TYPED_TEST_SUITE(Volume_view_3_of, Numbers);
-
-} // namespace
 
 TYPED_TEST(Volume_view_3_of, numbers_that_lie_one_after_the_other) {
   std::vector<TypeParam> samples;
@@ -103,3 +101,5 @@ TEST(Volume_view_3, another_number_of_values_than_nodes_is_refused) {
   EXPECT_THROW(View::of(volume), std::invalid_argument);
   EXPECT_THROW(View{volume}, std::invalid_argument);
 }
+
+} // namespace Volume_view_3_test

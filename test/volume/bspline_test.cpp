@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace bspline_test {
 
 using equiaffine::bspline;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -19,8 +19,6 @@ void expect_partition_of_unity() {
     EXPECT_NEAR(sum, 1, 20 * epsilon) << "degree " << Degree << ", t = " << t;
   }
 }
-
-} // namespace
 
 TEST(Bspline, values_at_integers_are_the_known_fractions) {
   EXPECT_NEAR(bspline<5>(0.), 66 / 120., epsilon);
@@ -42,3 +40,5 @@ TEST(Bspline, it_is_even_and_vanishes_beyond_its_knots) {
   EXPECT_EQ(bspline<7>(-4.25), 0);
   EXPECT_GT(bspline<7>(3.75), 0);
 }
+
+} // namespace bspline_test

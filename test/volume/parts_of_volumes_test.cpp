@@ -28,7 +28,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace parts_of_volumes_test {
 
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -218,8 +218,6 @@ void on_machines(std::size_t count, const Work& work) {
   for (std::thread& machine : machines) machine.join();
 }
 
-} // namespace
-
 TEST(Parts_of_volumes, find_the_noise_and_the_smoothing_of_the_whole_one) {
   constexpr std::array<std::size_t, 3> size = {70, 67, 75};
   const std::vector<Cell_block> blocks = blocks_of(size, {{{0, 33, 69}, {0, 66}, {0, 1, 40, 74}}});
@@ -270,3 +268,5 @@ TEST(Parts_of_volumes, must_know_the_samples_with_which_noise_is_measured) {
   const Sample_noise noise = estimate_noise(parts(6));
   EXPECT_THROW(choose_smoothing(parts(6), noise, 7, Spline_scheme::INTERPOLATION), std::invalid_argument);
 }
+
+} // namespace parts_of_volumes_test

@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace signed_distance_volume_test {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point_3 = Kernel::Point_3;
@@ -176,8 +176,6 @@ Mesh cube_without_a_triangle() {
   return mesh;
 }
 
-} // namespace
-
 TEST(Distance_function_3, distances_to_a_cube_are_exact_and_negative_inside) {
   for (const Lattice_3& lattice : {skew_lattice(), aligned_lattice()})
     expect_distances(cube(0, 2), lattice, [](const Point_3& p) { return distance_to_cube(p, 0, 2); });
@@ -331,3 +329,5 @@ TEST(Distance_function_3, a_mesh_with_a_coordinate_that_is_not_finite_is_refused
                    ": correct or remove it");
   }
 }
+
+} // namespace signed_distance_volume_test

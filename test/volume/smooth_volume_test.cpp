@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace smooth_volume_test {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Volume_3 = equiaffine::Volume_3<Kernel>;
@@ -39,8 +39,6 @@ Volume_3 white_noise(const Lattice_3::Size& size) {
   std::normal_distribution<double> normal;
   return sample(size, [&](double, double, double) { return normal(random); });
 }
-
-} // namespace
 
 TEST(Smooth_volume, polynomials_of_degree_seven_stay_to_the_border) {
   const auto f = [](double x, double y, double z) {
@@ -102,3 +100,5 @@ TEST(Smooth_volume, the_result_does_not_depend_on_threads) {
             smooth_volume<CGAL::Parallel_if_available_tag>(noise, 2.5).values);
 }
 #endif
+
+} // namespace smooth_volume_test
