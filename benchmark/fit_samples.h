@@ -4,12 +4,12 @@
 #define EQUIAFFINE_BENCHMARK_FIT_SAMPLES_H
 
 #include "peers/curvature_peers.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Local_structure_3.h>
-#include <equiaffine/attributes.h>
-#include <equiaffine/delaunay_surface.h>
-#include <equiaffine/fitted_structures.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/geometry/Local_structure_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 

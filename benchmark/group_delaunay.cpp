@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // delaunay_surface against CGAL's two surface meshers on the same criteria, interleaved; ratios of medians of the
 // processor time. Argument: number of repeats (5).
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/analytic_functions.h>
-#include <equiaffine/capabilities.h>
-#include <equiaffine/delaunay_surface.h>
-#include <equiaffine/mesh_topology.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/mesh/mesh_topology.h>
 
 #include <CGAL/Complex_2_in_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

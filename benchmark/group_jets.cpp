@@ -3,9 +3,9 @@
 // and beside Boost.Math autodiff and ADOL-C.
 #include "hand_derived.h"
 #include "runner.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/analytic_functions.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/function/expand.h>
 #include <equiaffine/number/Pack.h>
 

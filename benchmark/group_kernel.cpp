@@ -4,10 +4,10 @@
 #include "support/anisotropic_surface.h"
 #include "support/operation_counts.h"
 #include "support/reference.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/analytic_functions.h>
-#include <equiaffine/attributes.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/function/expand.h>
 #include <equiaffine/geometry/reference_estimators.h>
 

@@ -5,11 +5,11 @@
 // Usage: benchmark_marching_cubes [runs]
 #include "marching_cubes_fields.h"
 #include "measure.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/capabilities.h>
-#include <equiaffine/marching_cubes.h>
-#include <equiaffine/marching_cubes_of_array.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
+#include <equiaffine/marching_cubes/marching_cubes_of_array.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -7,7 +7,7 @@
 #include "registration/Disturbed_structure.h"
 #include "registration/runs.h"
 #include "support/registration_traits.h"
-#include <equiaffine/affine_symmetries.h>
+#include <equiaffine/registration/affine_symmetries.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,16 +5,16 @@
 #include "measure.h"
 #include "peers/spline_peers.h"
 #include "runner.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/analytic_functions.h>
 #include <equiaffine/attributes/Curvature_error_3.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
 #include <equiaffine/function/sample_on_lattice.h>
-#include <equiaffine/marching_cubes.h>
-#include <equiaffine/project_to_surface.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
+#include <equiaffine/surface/project_to_surface.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/signed_distance_volume.h>
 

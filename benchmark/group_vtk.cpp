@@ -3,10 +3,10 @@
 // ids, and beyond the slabs with ids that it asks for.
 #include "measure.h"
 #include "vtkEquiaffineSurface.h"
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/attributes.h>
-#include <equiaffine/marching_cubes.h>
-#include <equiaffine/marching_cubes_in_slabs.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
+#include <equiaffine/marching_cubes/marching_cubes_in_slabs.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -3,8 +3,8 @@
 // smaller.
 #include "module.h"
 #include <equiaffine/attributes/Attribute_selection.h>
-#include <equiaffine/attributes/internal/shared/error_table.h>
-#include <equiaffine/fitted_structures.h>
+#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/io/read_points.h>
 
 #include <cstddef>

@@ -2,12 +2,12 @@
 // The library as a WebAssembly module: C functions for equiaffine.mjs. A call computes a surface, which stays until the
 // next one; arrays of it are read from the memory of the module.
 #include "sample.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/io/internal/page_arrays.h>
-#include <equiaffine/io/internal/page_facts.h>
-#include <equiaffine/io/internal/shared/Parabolic_parts.h>
+#include <equiaffine/display/internal/Parabolic_parts.h>
+#include <equiaffine/display/internal/page_arrays.h>
+#include <equiaffine/display/internal/page_facts.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
 
 #include <CGAL/Bbox_3.h>
 

@@ -3,10 +3,10 @@
 #ifndef EQUIAFFINE_BROWSER_MODULE_H
 #define EQUIAFFINE_BROWSER_MODULE_H
 
-#include <equiaffine/Input_error.h>
-#include <equiaffine/Progress_observer.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/formula/Unknown_name_error.h>
-#include <equiaffine/surface/Isosurface_3.h>
+#include <equiaffine/mesh/Isosurface_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -4,8 +4,8 @@
 #define EQUIAFFINE_BROWSER_SAMPLE_H
 
 #include "module.h"
-#include <equiaffine/attributes.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 /// The zero set of a function becomes the surface of the module, with the attributes in a list.
 template <class Traits, class... Parameters>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Level sets of a volume, which stays with its spline until the next volume comes.
 #include "sample.h"
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/attributes/Curvature_error_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
 #include <equiaffine/volume/Sample_noise.h>
+#include <equiaffine/volume/Volume_view_3.h>
 #include <equiaffine/volume/few_values.h>
 
 #include <cstddef>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a function to a mesh that knows its curvatures. All points of a sphere of radius r look alike:
 // K = r^-3, H = -r^(-3/2) and, as for Euclidean geometry, K_e = r^-2.
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/annotate.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/attributes/annotate.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A surface from text that is known at run time only: to a mesh with attributes (PLY) and to a web page (HTML).
 // A mistake in the text is an Input_error that shows its place.
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/attributes.h>
-#include <equiaffine/io/write_HTML.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/display/write_HTML.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/io/write_mesh.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -2,9 +2,9 @@
 // A function that is known at the nodes of a grid only, as from a scanner or a simulation: a spline gives its
 // derivatives. The surface is an ellipsoid with semi-axes 3, 2, 1, for which K = 1/6 everywhere, so that errors can be
 // measured; they shrink with the spacing of the nodes.
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/attributes.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A point of a torus and its images under affine maps. A map of determinant 1 or -1 changes the Euclidean curvatures
 // K_e and H_e and keeps the affine K, H, J; for another one powers of a = |det| bring K, H, J back.
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/analytic_functions.h>
-#include <equiaffine/attributes.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A function of your own kind, with its derivatives from your own formulas, becomes a model of ImplicitFunctionTraits_3
 // by three members. Here: any quadric, given by its coefficients. The affine curvatures of a quadric are constant.
-#include <equiaffine/attributes.h>
-#include <equiaffine/concepts.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
 

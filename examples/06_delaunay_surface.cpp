@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A Delaunay mesh of a torus, and the proof that it is complete.
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/analytic_functions.h>
-#include <equiaffine/delaunay_surface.h>
-#include <equiaffine/mesh_topology.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/mesh/mesh_topology.h>
 
 #include <CGAL/Simple_cartesian.h>
 

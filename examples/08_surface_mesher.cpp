@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CGAL's make_surface_mesh, which is deprecated since CGAL 6, with an oracle that misses no component.
 #define CGAL_NO_DEPRECATION_WARNINGS
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Implicit_surface_oracle_3.h>
-#include <equiaffine/analytic_functions.h>
+#include <equiaffine/delaunay/Implicit_surface_oracle_3.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
 
 #include <CGAL/Complex_2_in_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A piece of a surface is found in the whole, which was sheared and stretched: one pair of points with the same affine
 // invariants gives the whole affine map. No start and no overlap is assumed, and the points of the two are unrelated.
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/marching_cubes.h>
-#include <equiaffine/register_surfaces.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
+#include <equiaffine/registration/register_surfaces.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -2,10 +2,10 @@
 // All affine symmetries of some surfaces. The second one has as many as the first one, which is an affine image of it,
 // but most of them are no isometries. Where there are infinitely many, their group has a dimension: 3 or 4 for quadrics,
 // and 1 for an affine image of a surface of revolution.
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/affine_symmetries.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
+#include <equiaffine/registration/affine_symmetries.h>
 
 #include <CGAL/Simple_cartesian.h>
 

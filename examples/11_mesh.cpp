@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Curvatures of a mesh that no formula stands for, with an estimate of the error of each: smooth polynomials are fitted to
 // its vertices. Here the mesh is one of a known surface, so that the estimates can be checked.
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Local_structure_3.h>
-#include <equiaffine/annotate.h>
-#include <equiaffine/annotate_by_fit.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/attributes/annotate.h>
+#include <equiaffine/attributes/annotate_by_fit.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes, kernels, maps and named parameters of your own: a CGAL::Polyhedron_3 of another kernel than that of the function
 // gets the numbers that are asked for, in maps that need not belong to it, and keeps them in a file.
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/annotate.h>
-#include <equiaffine/annotate_by_fit.h>
+#include <equiaffine/attributes/annotate.h>
+#include <equiaffine/attributes/annotate_by_fit.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/io/polygon_mesh_files.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polyhedron_3.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "arrays.h"
 
-#include <equiaffine/base/internal/shared/large_pages.h>
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/base/internal/large_pages.h>
+#include <equiaffine/base/internal/parallel_for.h>
 
 #include <CGAL/tags.h>
 

@@ -4,9 +4,9 @@
 #define EQUIAFFINE_PYTHON_ARRAYS_H
 
 #include "system/kernel.h"
-#include <equiaffine/Volume_3.h>
-#include <equiaffine/Volume_view_3.h>
-#include <equiaffine/io/Annotated_mesh_3.h>
+#include <equiaffine/mesh/Annotated_mesh_3.h>
+#include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/Volume_view_3.h>
 
 #include <cstddef>
 #include <cstdint>

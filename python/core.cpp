@@ -17,8 +17,8 @@
 #include "source/read_vertices.h"
 #include "source/warnings.h"
 #include "volume/volume_io.h"
-#include <equiaffine/Input_error.h>
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/internal/parallel_for.h>
 
 #include <CGAL/tags.h>
 

@@ -4,7 +4,7 @@
 #define EQUIAFFINE_PYTHON_OBSERVED_H
 
 #include "system/progress.h"
-#include <equiaffine/Progress_observer.h>
+#include <equiaffine/base/Progress_observer.h>
 
 #include <atomic>
 #include <chrono>

@@ -4,10 +4,10 @@
 //   equiaffine-estimates splines < NUMBERS  the library's B-splines of degree 5 and 7, as CSV
 //   equiaffine-estimates SURFACE < CSV      K, H and xi at points by every method and by the formula as printed, as CSV
 #include "support/operation_counts.h"
-#include <equiaffine/Input_error.h>
-#include <equiaffine/analytic_functions.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/formula/analytic_functions.h>
 #include <equiaffine/geometry/reference_estimators.h>
-#include <equiaffine/volume/internal/shared/bspline.h>
+#include <equiaffine/volume/internal/bspline_value.h>
 
 #include <array>
 #include <cmath>

@@ -2,14 +2,14 @@
 // calibrate_fits MESH...: the rows of Fit_calibration.h that would be right for the fits as they are, on standard output;
 // what the present rows cover goes to standard error. Surfaces whose numbers are known come with noise of 0 to 5 % of an
 // edge, on coarse and fine grids; of each mesh, two halves of the vertices tell the errors at the scale that is chosen.
+#include "fit/Curvature_fit_3.h"
+#include "fit/Fit_calibration.h"
 #include "fit/Fitted_data_3.h"
-#include "fit/data/fit_input.h"
-#include "fit/polynomial/Curvature_fit_3.h"
-#include "fit/polynomial/Fit_calibration.h"
-#include "fit/polynomial/Fitted_numbers.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/marching_cubes.h>
+#include "fit/Fitted_numbers.h"
+#include "fit/fit_input.h"
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Simple_cartesian.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "registration_peers.h"
 
-#include <equiaffine/base/internal/shared/Point_tree.h>
+#include <equiaffine/base/internal/Point_tree.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Dense>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Registration of meshes and points by fits to their vertices.
 #include "runs.h"
-#include <equiaffine/Fitted_function_traits_3.h>
-#include <equiaffine/delaunay_surface.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/fit/Fitted_function_traits_3.h>
 
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh/IO/OFF.h>

@@ -7,9 +7,9 @@
 #include "registration/registration_of_framed.h"
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
-#include <equiaffine/base/internal/shared/quantile.h>
-#include <equiaffine/register_surfaces.h>
+#include <equiaffine/base/internal/quantile.h>
 #include <equiaffine/registration/internal/vectors_of.h>
+#include <equiaffine/registration/register_surfaces.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Registration of sampled volumes: matched on the smoothed spline, refined on the one through the samples.
 #include "runs.h"
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/capabilities.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/sample_on_lattice.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/smooth_volume.h>

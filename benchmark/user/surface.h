@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_BENCHMARK_USER_SURFACE_H
 #define EQUIAFFINE_BENCHMARK_USER_SURFACE_H
 
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/attributes.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 

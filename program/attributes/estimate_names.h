@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_SRC_ATTRIBUTES_ESTIMATE_NAMES_H
 #define EQUIAFFINE_SRC_ATTRIBUTES_ESTIMATE_NAMES_H
 
-#include <equiaffine/attributes/internal/shared/error_table.h>
+#include <equiaffine/attributes/internal/error_table.h>
 
 #include <string>
 #include <vector>

@@ -2,8 +2,8 @@
 #include "attributes/estimates.h"
 
 #include "source/source.h"
-#include <equiaffine/function/internal/shared/point_blocks.h>
-#include <equiaffine/io/internal/shared/trust.h>
+#include <equiaffine/display/internal/trust.h>
+#include <equiaffine/function/internal/point_blocks.h>
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include "system/progress.h"
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <optional>
 #include <span>

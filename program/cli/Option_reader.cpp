@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/Option_reader.h"
 
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 namespace equiaffine {
 

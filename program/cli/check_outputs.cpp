@@ -3,7 +3,7 @@
 
 #include "cli/formula_file.h"
 #include "volume/volume_io.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <filesystem>
 #include <set>

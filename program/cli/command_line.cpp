@@ -4,7 +4,7 @@
 #include "cli/Option_row.h"
 #include "cli/help_texts.h"
 #include "cli/slips.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/formula_file.h"
 
-#include <equiaffine/Input_error.h>
-#include <equiaffine/io/internal/shared/input_file.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/io/internal/input_file.h>
 
 #include <algorithm>
 #include <cstddef>

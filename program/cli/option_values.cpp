@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/option_values.h"
 
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/formula/Expression_3.h>
 
 #include <CGAL/determinant.h>
 

@@ -2,7 +2,7 @@
 #include "attributes/estimate_names.h"
 #include "cli/Option_row.h"
 #include "cli/attributes_help.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include "cli/read_registration.h"
 #include "cli/read_source.h"
 #include "cli/slips.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <algorithm>
 #include <array>

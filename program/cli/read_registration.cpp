@@ -3,7 +3,7 @@
 
 #include "cli/check_outputs.h"
 #include "cli/read_source.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <algorithm>
 #include <cstddef>

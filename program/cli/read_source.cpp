@@ -2,8 +2,8 @@
 #include "cli/read_source.h"
 
 #include "cli/slips.h"
-#include <equiaffine/Input_error.h>
-#include <equiaffine/io/internal/shared/input_file.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/io/internal/input_file.h>
 
 namespace equiaffine {
 

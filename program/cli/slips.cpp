@@ -3,7 +3,7 @@
 
 #include "system/file_format.h"
 #include "volume/volume_io.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <algorithm>
 #include <array>

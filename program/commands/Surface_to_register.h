@@ -5,8 +5,8 @@
 #include "request/options.h"
 #include "system/kernel.h"
 #include "system/progress.h"
-#include <equiaffine/surface/Any_function_3.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <optional>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/check_delaunay_surface.h"
 
-#include <equiaffine/Input_error.h>
-#include <equiaffine/delaunay/internal/shared/Delaunay_range.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/delaunay/internal/Delaunay_range.h>
 
 #include <algorithm>
 #include <sstream>

@@ -10,7 +10,7 @@
 #include "source/warnings.h"
 #include "system/atomic_file.h"
 #include "system/name_of_file.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <cstddef>
 #include <string>

@@ -5,7 +5,7 @@
 #include "source/source.h"
 #include "source/warnings.h"
 #include "system/atomic_file.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/io/read_points.h>
 #include <equiaffine/io/write_mesh.h>
 

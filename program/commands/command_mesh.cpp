@@ -9,8 +9,8 @@
 #include "source/source.h"
 #include "system/Background_work.h"
 #include "system/atomic_file.h"
-#include <equiaffine/mesh_topology.h>
-#include <equiaffine/parabolic_curves.h>
+#include <equiaffine/mesh/mesh_topology.h>
+#include <equiaffine/surface/parabolic_curves.h>
 
 #include <algorithm>
 #include <cstddef>

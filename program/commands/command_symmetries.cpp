@@ -7,7 +7,7 @@
 #include "output/surface_output.h"
 #include "picture/draw_surface.h"
 #include "system/atomic_file.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <string>
 

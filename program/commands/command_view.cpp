@@ -6,8 +6,8 @@
 #include "picture/draw_surface.h"
 #include "system/atomic_file.h"
 #include "system/name_of_file.h"
-#include <equiaffine/Input_error.h>
-#include <equiaffine/io/internal/shared/input_file.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/io/internal/input_file.h>
 #include <equiaffine/io/read_PLY.h>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "engine/Engine.h"
 #include "source/source.h"
-#include <equiaffine/Level_set_traits_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
 
 #include <variant>
 

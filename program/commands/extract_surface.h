@@ -5,7 +5,7 @@
 #include "request/options.h"
 #include "source/source_function.h"
 #include <equiaffine/marching_cubes/Vertex_position.h>
-#include <equiaffine/surface/Isosurface_3.h>
+#include <equiaffine/mesh/Isosurface_3.h>
 
 namespace equiaffine {
 

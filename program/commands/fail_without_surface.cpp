@@ -3,12 +3,12 @@
 
 #include "source/any_level_set.h"
 #include "source/source.h"
-#include <equiaffine/Input_error.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/capabilities.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/sample_on_lattice.h>
-#include <equiaffine/marching_cubes.h>
-#include <equiaffine/surface/Any_function_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/tags.h>

@@ -4,9 +4,9 @@
 #include "commands/maps_view.h"
 #include "commands/what_to_try.h"
 #include "source/source.h"
-#include <equiaffine/Input_error.h>
-#include <equiaffine/register_surfaces.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/registration/contradictions_of_meshes.h>
+#include <equiaffine/registration/register_surfaces.h>
 #include <equiaffine/registration/slippage_of_mesh.h>
 
 #include <CGAL/compute_average_spacing.h>

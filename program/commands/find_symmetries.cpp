@@ -6,8 +6,8 @@
 #include "source/read_vertices.h"
 #include "source/source.h"
 #include "system/name_of_file.h"
-#include <equiaffine/Input_error.h>
-#include <equiaffine/affine_symmetries.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/registration/affine_symmetries.h>
 
 #include <CGAL/tags.h>
 

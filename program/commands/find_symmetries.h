@@ -6,7 +6,7 @@
 #include "output/maps.h"
 #include "request/options.h"
 #include "system/progress.h"
-#include <equiaffine/io/Annotated_mesh_3.h>
+#include <equiaffine/mesh/Annotated_mesh_3.h>
 
 #include <optional>
 #include <string>

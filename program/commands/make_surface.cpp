@@ -12,9 +12,9 @@
 #include "source/warnings.h"
 #include "system/forewarn.h"
 #include "system/resources.h"
-#include <equiaffine/Input_error.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/delaunay_surface.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/function/Level_set_traits_3.h>
 
 #include <algorithm>
 #include <cmath>

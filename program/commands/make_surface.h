@@ -8,8 +8,8 @@
 #include "source/source.h"
 #include "system/kernel.h"
 #include "system/progress.h"
-#include <equiaffine/parabolic_curves.h>
-#include <equiaffine/surface/Isosurface_3.h>
+#include <equiaffine/mesh/Isosurface_3.h>
+#include <equiaffine/surface/parabolic_curves.h>
 
 #include <array>
 #include <cstddef>

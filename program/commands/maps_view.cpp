@@ -4,8 +4,8 @@
 #include "output/arrow_mesh.h"
 #include "output/maps.h"
 #include "output/symmetry_marks.h"
-#include <equiaffine/base/internal/shared/parallel_for.h>
-#include <equiaffine/surface/internal/shared/Triangle_tree_3.h>
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/mesh/internal/Triangle_tree_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/tags.h>

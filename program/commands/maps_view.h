@@ -4,7 +4,7 @@
 #define EQUIAFFINE_SRC_COMMANDS_MAPS_VIEW_H
 
 #include "commands/Surface_to_register.h"
-#include <equiaffine/io/Annotated_mesh_3.h>
+#include <equiaffine/mesh/Annotated_mesh_3.h>
 #include <equiaffine/registration/Affine_symmetries_3.h>
 #include <equiaffine/registration/Surface_registration_3.h>
 

@@ -8,8 +8,8 @@
 #include "system/memory_limit.h"
 #include "system/progress.h"
 #include "system/scratch_memory.h"
-#include <equiaffine/Input_error.h>
-#include <equiaffine/base/internal/shared/printable.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/internal/printable.h>
 
 #include <exception>
 #include <filesystem>

@@ -3,11 +3,11 @@
 
 #include "commands/maps_view.h"
 #include "source/read_triangle_mesh.h"
-#include <equiaffine/Fitted_function_traits_3.h>
-#include <equiaffine/Input_error.h>
-#include <equiaffine/attributes/internal/shared/error_table.h>
-#include <equiaffine/base/internal/shared/random_subset.h>
-#include <equiaffine/remesh_on_fit.h>
+#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/internal/random_subset.h>
+#include <equiaffine/fit/Fitted_function_traits_3.h>
+#include <equiaffine/fit/remesh_on_fit.h>
 
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/tags.h>

@@ -7,7 +7,7 @@
 #include "source/source.h"
 #include "system/kernel.h"
 #include "system/progress.h"
-#include <equiaffine/surface/Isosurface_3.h>
+#include <equiaffine/mesh/Isosurface_3.h>
 
 #include <vector>
 

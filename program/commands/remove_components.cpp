@@ -2,9 +2,9 @@
 #include "commands/remove_components.h"
 
 #include "source/source.h"
-#include <equiaffine/base/internal/shared/disjoint_sets.h>
-#include <equiaffine/surface/internal/shared/remove_isolated_vertices.h>
-#include <equiaffine/surface/internal/shared/vertex_links.h>
+#include <equiaffine/base/internal/disjoint_sets.h>
+#include <equiaffine/mesh/internal/remove_isolated_vertices.h>
+#include <equiaffine/mesh/internal/vertex_links.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Bbox_3.h>

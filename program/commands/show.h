@@ -4,7 +4,7 @@
 
 #include "output/Outputs.h"
 #include "request/options.h"
-#include <equiaffine/io/Annotated_mesh_3.h>
+#include <equiaffine/mesh/Annotated_mesh_3.h>
 
 #include <string>
 

@@ -3,11 +3,11 @@
 #define EQUIAFFINE_SRC_ENGINE_ENGINE_H
 
 #include "source/source_function.h"
-#include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/Estimator.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
-#include <equiaffine/surface/Isosurface_3.h>
+#include <equiaffine/mesh/Isosurface_3.h>
 
 #include <array>
 #include <cstddef>

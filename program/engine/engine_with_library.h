@@ -4,8 +4,8 @@
 #define EQUIAFFINE_SRC_ENGINE_ENGINE_WITH_LIBRARY_H
 
 #include "engine/Engine.h"
-#include <equiaffine/attributes.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 #include <equiaffine/surface/distance_to_surface.h>
 
 #include <CGAL/tags.h>

@@ -3,8 +3,8 @@
 
 #include "output/Vtp_writer.h"
 #include "system/file_format.h"
-#include <equiaffine/io/internal/shared/Csv_writer.h>
-#include <equiaffine/io/internal/shared/Ply_writer.h>
+#include <equiaffine/io/internal/Csv_writer.h>
+#include <equiaffine/io/internal/Ply_writer.h>
 #include <equiaffine/io/write_mesh.h>
 
 namespace equiaffine {

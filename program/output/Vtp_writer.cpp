@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/Vtp_writer.h"
 
-#include <equiaffine/Progress_observer.h>
-#include <equiaffine/base/internal/shared/printable.h>
+#include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/base/internal/printable.h>
 
 #include <CGAL/assertions.h>
 

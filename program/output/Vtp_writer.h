@@ -4,7 +4,7 @@
 
 #include "output/Part_writer.h"
 #include "system/kernel.h"
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <array>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_SRC_OUTPUT_DECIMATE_H
 
 #include "system/kernel.h"
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <cstddef>
 

@@ -4,9 +4,9 @@
 #include "output/json_text.h"
 #include "system/file_format.h"
 #include "system/kernel.h"
-#include <equiaffine/Input_error.h>
-#include <equiaffine/io/internal/shared/Column_numbers.h>
-#include <equiaffine/io/internal/shared/input_file.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/display/internal/Column_numbers.h>
+#include <equiaffine/io/internal/input_file.h>
 #include <equiaffine/io/read_PLY.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_SRC_OUTPUT_READ_MAPPINGS_H
 #define EQUIAFFINE_SRC_OUTPUT_READ_MAPPINGS_H
 
-#include <equiaffine/io/Color_mapping.h>
+#include <equiaffine/display/Color_mapping.h>
 
 #include <map>
 #include <string>

@@ -2,7 +2,7 @@
 #include "output/statistics.h"
 
 #include "output/json_text.h"
-#include <equiaffine/io/internal/shared/xyz_colors_note.h>
+#include <equiaffine/io/internal/xyz_colors_note.h>
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "source/Spline_statistics.h"
 #include <equiaffine/fit/Fit_outcome.h>
 #include <equiaffine/geometry/Point_status.h>
-#include <equiaffine/mesh_topology.h>
+#include <equiaffine/mesh/mesh_topology.h>
 
 #include <CGAL/Bbox_3.h>
 

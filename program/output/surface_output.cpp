@@ -8,9 +8,9 @@
 #include "picture/natural_up.h"
 #include "picture/write_PNG.h"
 #include "system/file_format.h"
-#include <equiaffine/Input_error.h>
-#include <equiaffine/io/internal/shared/trust.h>
-#include <equiaffine/io/write_HTML.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/display/internal/trust.h>
+#include <equiaffine/display/write_HTML.h>
 #include <equiaffine/io/write_curves.h>
 #include <equiaffine/io/write_mesh.h>
 

@@ -8,8 +8,8 @@
 #include "system/atomic_file.h"
 #include "system/kernel.h"
 #include <equiaffine/io/read_points.h>
-#include <equiaffine/parabolic_curves.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+#include <equiaffine/surface/parabolic_curves.h>
 
 #include <string>
 #include <utility>

@@ -3,8 +3,8 @@
 #define EQUIAFFINE_SRC_OUTPUT_SYMMETRY_MARKS_H
 
 #include "system/kernel.h"
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/registration/Affine_symmetries_3.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_SRC_OUTPUT_WRITE_VTP_H
 
 #include "system/kernel.h"
-#include <equiaffine/parabolic_curves.h>
+#include <equiaffine/surface/parabolic_curves.h>
 
 #include <ostream>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture/Canvas.h"
 
-#include <equiaffine/Progress_observer.h>
+#include <equiaffine/base/Progress_observer.h>
 
 namespace equiaffine {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture/Line_drawing.h"
 
-#include <equiaffine/base/internal/shared/quantile.h>
-#include <equiaffine/io/color_map.h>
+#include <equiaffine/base/internal/quantile.h>
+#include <equiaffine/display/color_map.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include "picture/Camera.h"
 #include "picture/Canvas.h"
 #include "system/kernel.h"
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
-#include <equiaffine/surface/Polyline_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Polyline_3.h>
 
 #include <array>
 #include <cstdint>

@@ -2,9 +2,9 @@
 #include "picture/Surface_paint.h"
 
 #include "picture/Line_drawing.h"
-#include <equiaffine/attributes/internal/shared/quantities.h>
-#include <equiaffine/io/internal/shared/Parabolic_parts.h>
-#include <equiaffine/io/internal/shared/trust.h>
+#include <equiaffine/attributes/internal/quantities.h>
+#include <equiaffine/display/internal/Parabolic_parts.h>
+#include <equiaffine/display/internal/trust.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,10 +5,10 @@
 #include "picture/Canvas.h"
 #include "picture/Surface_view.h"
 #include "system/kernel.h"
+#include <equiaffine/display/Color_mapping.h>
+#include <equiaffine/display/internal/Column_numbers.h>
 #include <equiaffine/geometry/Point_status.h>
-#include <equiaffine/io/Color_mapping.h>
-#include <equiaffine/io/internal/shared/Column_numbers.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <array>
 #include <cstdint>

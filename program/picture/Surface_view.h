@@ -3,7 +3,7 @@
 #define EQUIAFFINE_SRC_PICTURE_SURFACE_VIEW_H
 
 #include "picture/Surface_note.h"
-#include <equiaffine/io/Color_mapping.h>
+#include <equiaffine/display/Color_mapping.h>
 
 #include <array>
 #include <cstddef>

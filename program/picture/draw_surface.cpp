@@ -3,8 +3,8 @@
 
 #include "picture/Camera.h"
 #include "picture/Line_drawing.h"
-#include <equiaffine/Progress_observer.h>
-#include <equiaffine/io/internal/shared/trust.h>
+#include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/display/internal/trust.h>
 
 #include <algorithm>
 #include <cmath>

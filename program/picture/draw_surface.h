@@ -7,8 +7,8 @@
 #include "picture/Surface_paint.h"
 #include "picture/Surface_view.h"
 #include "system/kernel.h"
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
-#include <equiaffine/surface/Polyline_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Polyline_3.h>
 
 #include <array>
 #include <cstddef>

@@ -6,16 +6,16 @@
 #include "request/Volume_selection.h"
 #include "system/kernel.h"
 #include "system/resources.h"
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/delaunay/Facet_sizing.h>
+#include <equiaffine/display/color_map.h>
+#include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/Estimator.h>
-#include <equiaffine/io/Annotated_mesh_3.h>
-#include <equiaffine/io/color_map.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
+#include <equiaffine/mesh/Annotated_mesh_3.h>
 #include <equiaffine/registration/Map_kind.h>
 #include <equiaffine/volume/Spline_scheme.h>
+#include <equiaffine/volume/Volume_view_3.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Bbox_3.h>

@@ -2,7 +2,7 @@
 #include "source/Close_sheets.h"
 
 #include "source/source.h"
-#include <equiaffine/base/internal/shared/quantile.h>
+#include <equiaffine/base/internal/quantile.h>
 
 #include <algorithm>
 #include <cmath>

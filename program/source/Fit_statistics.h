@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_SRC_SOURCE_FIT_STATISTICS_H
 #define EQUIAFFINE_SRC_SOURCE_FIT_STATISTICS_H
 
-#include <equiaffine/attributes/internal/shared/error_table.h>
+#include <equiaffine/attributes/internal/error_table.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/Fit_traits.h"
 
-#include <equiaffine/Fitted_function_traits_3.h>
+#include <equiaffine/fit/Fitted_function_traits_3.h>
 
 #include <CGAL/tags.h>
 

@@ -5,7 +5,7 @@
 #include "system/child_process.h"
 #include "system/file_format.h"
 #include "system/resources.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
 

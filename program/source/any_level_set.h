@@ -3,8 +3,8 @@
 #define EQUIAFFINE_SRC_SOURCE_ANY_LEVEL_SET_H
 
 #include "source/source_function.h"
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/surface/Any_function_3.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
 
 namespace equiaffine {
 

@@ -4,7 +4,7 @@
 
 #include "source/source_function.h"
 #include "system/kernel.h"
-#include <equiaffine/Volume_view_3.h>
+#include <equiaffine/volume/Volume_view_3.h>
 
 namespace equiaffine {
 

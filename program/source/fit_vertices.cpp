@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/fit_vertices.h"
 
-#include <equiaffine/Fitted_function_traits_3.h>
-#include <equiaffine/Input_error.h>
-#include <equiaffine/base/internal/shared/Point_tree.h>
-#include <equiaffine/base/internal/shared/parallel_for.h>
-#include <equiaffine/fitted_structures.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/internal/Point_tree.h>
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/fit/Fitted_function_traits_3.h>
+#include <equiaffine/fit/fitted_structures.h>
 
 #include <CGAL/property_map.h>
 #include <CGAL/tags.h>

@@ -6,7 +6,7 @@
 #include "source/source_function.h"
 #include "system/kernel.h"
 #include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/io/Annotated_mesh_3.h>
+#include <equiaffine/mesh/Annotated_mesh_3.h>
 
 #include <vector>
 

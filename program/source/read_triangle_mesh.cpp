@@ -2,7 +2,7 @@
 #include "source/read_triangle_mesh.h"
 
 #include "system/file_format.h"
-#include <equiaffine/io/internal/shared/input_file.h>
+#include <equiaffine/io/internal/input_file.h>
 #include <equiaffine/io/read_OFF.h>
 #include <equiaffine/io/read_PLY.h>
 

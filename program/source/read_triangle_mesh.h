@@ -4,7 +4,7 @@
 
 #include "source/Polygon_soup.h"
 #include "system/kernel.h"
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/Surface_mesh.h>
 

@@ -3,9 +3,9 @@
 
 #include "source/Polygon_soup.h"
 #include "system/file_format.h"
-#include <equiaffine/fit/internal/shared/Extent_of_fit.h>
-#include <equiaffine/io/internal/shared/xyz_colors_note.h>
-#include <equiaffine/surface/internal/shared/triangles_of_polygon.h>
+#include <equiaffine/fit/internal/Extent_of_fit.h>
+#include <equiaffine/io/internal/xyz_colors_note.h>
+#include <equiaffine/mesh/internal/triangles_of_polygon.h>
 
 #include <CGAL/Bbox_3.h>
 

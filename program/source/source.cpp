@@ -10,11 +10,11 @@
 #include "system/resources.h"
 #include "volume/raw_volume.h"
 #include "volume/volume_io.h"
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/formula/Unknown_name_error.h>
 #include <equiaffine/function/sample_on_lattice.h>
-#include <equiaffine/io/internal/shared/xyz_colors_note.h>
+#include <equiaffine/io/internal/xyz_colors_note.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_function_3.h>
 #include <equiaffine/volume/Volume_parts_3.h>

@@ -8,7 +8,7 @@
 #include "system/kernel.h"
 #include "system/progress.h"
 #include <equiaffine/attributes/Curvature_error_3.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <array>
 #include <cstddef>

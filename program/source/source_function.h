@@ -4,10 +4,10 @@
 
 #include "source/Fit_traits.h"
 #include "system/kernel.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
 
 #include <type_traits>
 #include <variant>

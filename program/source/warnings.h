@@ -6,7 +6,7 @@
 #include "source/Fit_statistics.h"
 #include "source/source.h"
 #include "system/progress.h"
-#include <equiaffine/io/Annotated_mesh_3.h>
+#include <equiaffine/mesh/Annotated_mesh_3.h>
 
 #include <cstddef>
 #include <string>

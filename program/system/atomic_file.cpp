@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/atomic_file.h"
 
-#include <equiaffine/Input_error.h>
-#include <equiaffine/base/internal/shared/printable.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/internal/printable.h>
 
 #include <algorithm>
 #include <cerrno>

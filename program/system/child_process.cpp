@@ -5,8 +5,8 @@
 #include "system/resources.h"
 #include "system/scratch_memory.h"
 #include "system/signals.h"
-#include <equiaffine/Input_error.h>
-#include <equiaffine/Progress_observer.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/Progress_observer.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/file_format.h"
 
-#include <equiaffine/io/internal/shared/input_file.h>
+#include <equiaffine/io/internal/input_file.h>
 
 #include <array>
 #include <filesystem>

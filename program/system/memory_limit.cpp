@@ -4,7 +4,7 @@
 #include "system/Temporary_folder.h"
 #include "system/reclaimable_memory.h"
 #include "system/scratch_memory.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/progress.h"
 
-#include <equiaffine/base/internal/shared/printable.h>
+#include <equiaffine/base/internal/printable.h>
 
 namespace equiaffine {
 

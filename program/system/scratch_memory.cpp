@@ -2,7 +2,7 @@
 #include "system/scratch_memory.h"
 
 #include "system/reclaimable_memory.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <algorithm>
 #include <atomic>

@@ -2,7 +2,7 @@
 #include "volume/data_files.h"
 
 #include "volume/header_text.h"
-#include <equiaffine/base/internal/shared/printable.h>
+#include <equiaffine/base/internal/printable.h>
 
 #include <boost/algorithm/string/predicate.hpp>
 

@@ -2,7 +2,7 @@
 #include "volume/header_text.h"
 
 #include "volume/volume_formats.h"
-#include <equiaffine/base/internal/shared/printable.h>
+#include <equiaffine/base/internal/printable.h>
 
 #include <zlib.h>
 

@@ -7,7 +7,7 @@
 #include "request/Volume_selection.h"
 #include "system/kernel.h"
 #include "volume/Shared_volume.h"
-#include <equiaffine/Volume_3.h>
+#include <equiaffine/volume/Volume_3.h>
 
 #include <array>
 #include <cstddef>

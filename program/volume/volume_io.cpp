@@ -6,8 +6,8 @@
 #include "volume/Shared_volume.h"
 #include "volume/data_files.h"
 #include "volume/volume_formats.h"
-#include <equiaffine/Input_error.h>
-#include <equiaffine/io/internal/shared/input_file.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/io/internal/input_file.h>
 
 #include <algorithm>
 #include <array>

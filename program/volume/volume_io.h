@@ -6,8 +6,8 @@
 #include "system/atomic_file.h"
 #include "system/kernel.h"
 #include "volume/Shared_volume.h"
-#include <equiaffine/Volume_3.h>
-#include <equiaffine/Volume_view_3.h>
+#include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/Volume_view_3.h>
 
 #include <string>
 #include <vector>

@@ -5,7 +5,7 @@
 #include "volume/raw_data.h"
 #include "volume/sample_type.h"
 #include "volume/volume_formats.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <itkMetaImageIO.h>
 #include <itkNiftiImageIO.h>

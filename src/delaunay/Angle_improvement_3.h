@@ -3,12 +3,12 @@
 #define EQUIAFFINE_SRC_DELAUNAY_ANGLE_IMPROVEMENT_3_H
 
 #include "delaunay/Facet_sizing_field.h"
-#include <equiaffine/Clip_domain_3.h>
-#include <equiaffine/capabilities.h>
 #include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
-#include <equiaffine/project_to_surface.h>
-#include <equiaffine/surface/internal/shared/curve_step.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/surface/Clip_domain_3.h>
+#include <equiaffine/surface/internal/curve_step.h>
+#include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/squared_distance_3.h>

@@ -3,10 +3,10 @@
 #define EQUIAFFINE_SRC_DELAUNAY_BORDER_CURVE_TRACER_3_H
 
 #include "delaunay/Domain_border_3.h"
-#include <equiaffine/capabilities.h>
-#include <equiaffine/concepts.h>
-#include <equiaffine/surface/Polyline_3.h>
-#include <equiaffine/surface/internal/shared/curve_step.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/mesh/Polyline_3.h>
+#include <equiaffine/surface/internal/curve_step.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/squared_distance_3.h>

@@ -4,11 +4,11 @@
 
 #include "delaunay/Border_curve_tracer_3.h"
 #include "delaunay/Domain_border_3.h"
-#include <equiaffine/Clip_domain_3.h>
-#include <equiaffine/delaunay/internal/shared/Seed_grid_3.h>
-#include <equiaffine/function/internal/shared/sign_change.h>
-#include <equiaffine/project_to_surface.h>
-#include <equiaffine/surface/Polyline_3.h>
+#include <equiaffine/delaunay/internal/Seed_grid_3.h>
+#include <equiaffine/function/internal/sign_change.h>
+#include <equiaffine/mesh/Polyline_3.h>
+#include <equiaffine/surface/Clip_domain_3.h>
+#include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/squared_distance_3.h>

@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_SRC_DELAUNAY_DOMAIN_BORDER_3_H
 #define EQUIAFFINE_SRC_DELAUNAY_DOMAIN_BORDER_3_H
 
-#include <equiaffine/Clip_domain_3.h>
 #include <equiaffine/number/Jet_3.h>
+#include <equiaffine/surface/Clip_domain_3.h>
 
 #include <CGAL/Bbox_3.h>
 

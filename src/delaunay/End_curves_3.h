@@ -3,12 +3,12 @@
 #define EQUIAFFINE_SRC_DELAUNAY_END_CURVES_3_H
 
 #include "delaunay/Feature_curve_3.h"
-#include <equiaffine/Clip_domain_3.h>
-#include <equiaffine/Implicit_mesh_domain_3.h>
-#include <equiaffine/delaunay/internal/shared/Seed_grid_3.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
-#include <equiaffine/surface/Polyline_3.h>
-#include <equiaffine/surface/internal/shared/curve_step.h>
+#include <equiaffine/delaunay/Implicit_mesh_domain_3.h>
+#include <equiaffine/delaunay/internal/Seed_grid_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Polyline_3.h>
+#include <equiaffine/surface/Clip_domain_3.h>
+#include <equiaffine/surface/internal/curve_step.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions_3.h>

@@ -4,10 +4,10 @@
 
 #include "delaunay/Surface_complex.h"
 #include "delaunay/orient_triangles.h"
-#include <equiaffine/Progress_observer.h>
+#include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
-#include <equiaffine/mesh_topology.h>
-#include <equiaffine/surface/internal/shared/curve_step.h>
+#include <equiaffine/mesh/mesh_topology.h>
+#include <equiaffine/surface/internal/curve_step.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 

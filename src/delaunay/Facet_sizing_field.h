@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_SRC_DELAUNAY_FACET_SIZING_FIELD_H
 #define EQUIAFFINE_SRC_DELAUNAY_FACET_SIZING_FIELD_H
 
-#include <equiaffine/Clip_domain_3.h>
-#include <equiaffine/Local_structure_3.h>
 #include <equiaffine/delaunay/Facet_sizing.h>
-#include <equiaffine/surface/Any_function_3.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/surface/Clip_domain_3.h>
 
 #include <algorithm>
 #include <cmath>

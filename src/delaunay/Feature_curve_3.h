@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_SRC_DELAUNAY_FEATURE_CURVE_3_H
 #define EQUIAFFINE_SRC_DELAUNAY_FEATURE_CURVE_3_H
 
-#include <equiaffine/delaunay/internal/shared/mesh_surface.h>
-#include <equiaffine/parabolic_curves.h>
-#include <equiaffine/project_to_surface.h>
-#include <equiaffine/surface/Polyline_3.h>
+#include <equiaffine/delaunay/internal/mesh_surface.h>
+#include <equiaffine/mesh/Polyline_3.h>
+#include <equiaffine/surface/parabolic_curves.h>
+#include <equiaffine/surface/project_to_surface.h>
 
 #include <functional>
 #include <optional>

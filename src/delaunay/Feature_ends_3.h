@@ -3,7 +3,7 @@
 #define EQUIAFFINE_SRC_DELAUNAY_FEATURE_ENDS_3_H
 
 #include "delaunay/Feature_curve_3.h"
-#include <equiaffine/Clip_domain_3.h>
+#include <equiaffine/surface/Clip_domain_3.h>
 
 #include <CGAL/squared_distance_3.h>
 

@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_SRC_DELAUNAY_MEMOIZED_FUNCTION_3_H
 #define EQUIAFFINE_SRC_DELAUNAY_MEMOIZED_FUNCTION_3_H
 
-#include <equiaffine/Progress_observer.h>
-#include <equiaffine/surface/Any_function_3.h>
+#include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/function/Any_function_3.h>
 
 #include <bit>
 #include <cstddef>

@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_SRC_DELAUNAY_PROTECTING_BALLS_3_H
 #define EQUIAFFINE_SRC_DELAUNAY_PROTECTING_BALLS_3_H
 
-#include <equiaffine/delaunay/internal/shared/Seed_grid_3.h>
-#include <equiaffine/surface/Polyline_3.h>
+#include <equiaffine/delaunay/internal/Seed_grid_3.h>
+#include <equiaffine/mesh/Polyline_3.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/squared_distance_3.h>

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_SRC_DELAUNAY_SURFACE_COMPLEX_H
 
 #include "delaunay/Memoized_function_3.h"
-#include <equiaffine/Implicit_mesh_domain_3.h>
+#include <equiaffine/delaunay/Implicit_mesh_domain_3.h>
 
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_triangulation_3.h>

@@ -4,7 +4,7 @@
 
 #include "delaunay/Facet_sizing_field.h"
 #include <equiaffine/delaunay/Delaunay_criteria.h>
-#include <equiaffine/delaunay/internal/shared/Cgal_optional.h>
+#include <equiaffine/delaunay/internal/Cgal_optional.h>
 
 #include <CGAL/Weighted_point_3.h>
 

@@ -15,8 +15,8 @@
 #include "delaunay/missing_facets.h"
 #include "delaunay/refine_facets.h"
 #include "delaunay/straddling_triangles.h"
-#include <equiaffine/delaunay/internal/shared/mesh_surface.h>
-#include <equiaffine/parabolic_curves.h>
+#include <equiaffine/delaunay/internal/mesh_surface.h>
+#include <equiaffine/surface/parabolic_curves.h>
 
 #include <CGAL/Real_timer.h>
 #include <CGAL/exceptions.h>

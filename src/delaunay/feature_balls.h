@@ -8,7 +8,7 @@
 #include "delaunay/Feature_ends_3.h"
 #include "delaunay/Memoized_function_3.h"
 #include "delaunay/Protecting_balls_3.h"
-#include <equiaffine/Clip_domain_3.h>
+#include <equiaffine/surface/Clip_domain_3.h>
 
 #include <optional>
 #include <vector>

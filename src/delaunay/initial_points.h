@@ -4,7 +4,7 @@
 
 #include "delaunay/feature_balls.h"
 #include "delaunay/singular_points.h"
-#include <equiaffine/delaunay/internal/shared/certified_seeding.h>
+#include <equiaffine/delaunay/internal/certified_seeding.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/squared_distance_3.h>

@@ -4,7 +4,7 @@
 
 #include "delaunay/Surface_complex.h"
 #include "delaunay/initial_points.h"
-#include <equiaffine/Progress_observer.h>
+#include <equiaffine/base/Progress_observer.h>
 
 #include <CGAL/spatial_sort.h>
 

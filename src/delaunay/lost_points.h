@@ -4,7 +4,7 @@
 
 #include "delaunay/Facet_mesh.h"
 #include "delaunay/insert_points.h"
-#include <equiaffine/surface/internal/shared/vertex_links.h>
+#include <equiaffine/mesh/internal/vertex_links.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 

@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_SRC_DELAUNAY_SINGULAR_POINTS_H
 #define EQUIAFFINE_SRC_DELAUNAY_SINGULAR_POINTS_H
 
-#include <equiaffine/capabilities.h>
-#include <equiaffine/concepts.h>
-#include <equiaffine/surface/internal/shared/jet_derivatives.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/surface/internal/jet_derivatives.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions_3.h>

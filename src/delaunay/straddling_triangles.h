@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_SRC_DELAUNAY_STRADDLING_TRIANGLES_H
 #define EQUIAFFINE_SRC_DELAUNAY_STRADDLING_TRIANGLES_H
 
-#include <equiaffine/Local_structure_3.h>
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
-#include <equiaffine/surface/Any_function_3.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/geometry/Local_structure_3.h>
 
 #include <algorithm>
 #include <vector>

@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_SRC_FIT_FITTED_DATA_3_H
 #define EQUIAFFINE_SRC_FIT_FITTED_DATA_3_H
 
-#include "fit/data/Normalization_3.h"
-#include "fit/polynomial/choose_fit.h"
-#include <equiaffine/number/internal/shared/Linear_substitution_3.h>
+#include "fit/Normalization_3.h"
+#include "fit/choose_fit.h"
+#include <equiaffine/number/internal/Linear_substitution_3.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

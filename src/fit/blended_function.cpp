@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/Blend_3.h"
 #include "fit/Fitted_data_3.h"
-#include "fit/blend/Blend_3.h"
-#include "fit/data/fit_input.h"
+#include "fit/fit_input.h"
 #include "fit/structure_of_jet.h"
-#include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/fit/internal/blend/Band_margin.h>
+#include <equiaffine/fit/internal/Band_margin.h>
+#include <equiaffine/fit/internal/Fit_request.h>
 #include <equiaffine/fit/internal/fits.h>
-#include <equiaffine/fit/internal/shared/Fit_request.h>
+#include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/number/Jet_3.h>
 
 #include <CGAL/Bbox_3.h>

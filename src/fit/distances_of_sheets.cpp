@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/Fitted_data_3.h"
-#include "fit/data/Point_tree_3.h"
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include "fit/Point_tree_3.h"
+#include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/fit/internal/fits.h>
 
 #include <Eigen/Core>

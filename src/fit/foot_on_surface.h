@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_SRC_FIT_FOOT_ON_SURFACE_H
 #define EQUIAFFINE_SRC_FIT_FOOT_ON_SURFACE_H
 
-#include <equiaffine/surface/internal/shared/jet_derivatives.h>
+#include <equiaffine/surface/internal/jet_derivatives.h>
 
 #include <Eigen/Core>
 

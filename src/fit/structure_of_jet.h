@@ -4,10 +4,10 @@
 #define EQUIAFFINE_SRC_FIT_STRUCTURE_OF_JET_H
 
 #include "fit/Fitted_data_3.h"
-#include "fit/polynomial/Fitted_numbers.h"
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Local_structure_3.h>
+#include "fit/Fitted_numbers.h"
 #include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/number/Jet_3.h>
 
 #include <cmath>

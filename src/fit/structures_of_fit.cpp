@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/Fitted_data_3.h"
-#include "fit/blend/Patch_cover_3.h"
-#include "fit/data/fit_input.h"
+#include "fit/Patch_cover_3.h"
+#include "fit/fit_input.h"
 #include "fit/foot_on_surface.h"
 #include "fit/structure_of_jet.h"
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/base/internal/shared/check_argument.h>
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/fit/internal/Extent_of_fit.h>
 #include <equiaffine/fit/internal/fits.h>
-#include <equiaffine/fit/internal/shared/Extent_of_fit.h>
+#include <equiaffine/function/Level_set_traits_3.h>
 
 #include <cstddef>
 #include <optional>

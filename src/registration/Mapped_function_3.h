@@ -3,9 +3,9 @@
 #define EQUIAFFINE_SRC_REGISTRATION_MAPPED_FUNCTION_3_H
 
 #include "registration/Affine_map_3.h"
-#include <equiaffine/function/internal/shared/sign_change.h>
-#include <equiaffine/surface/Any_function_3.h>
-#include <equiaffine/surface/internal/shared/jet_derivatives.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/function/internal/sign_change.h>
+#include <equiaffine/surface/internal/jet_derivatives.h>
 
 #include <CGAL/Bbox_3.h>
 #include <Eigen/Core>

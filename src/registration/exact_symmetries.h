@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_EXACT_SYMMETRIES_H
 #define EQUIAFFINE_SRC_REGISTRATION_EXACT_SYMMETRIES_H
 
-#include "registration/frames/Framed_surface_3.h"
-#include "registration/frames/Symmetry_check.h"
-#include "registration/frames/Symmetry_search.h"
-#include "registration/frames/Whitening.h"
-#include "registration/wholes/Finite_group.h"
+#include "registration/Finite_group.h"
+#include "registration/Framed_surface_3.h"
+#include "registration/Symmetry_check.h"
+#include "registration/Symmetry_search.h"
+#include "registration/Whitening.h"
 #include <equiaffine/registration/Affine_symmetries_3.h>
 #include <equiaffine/registration/internal/Symmetry_request.h>
 #include <equiaffine/registration/internal/searches.h>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_RANDOM_ELEMENTS_H
 #define EQUIAFFINE_SRC_REGISTRATION_RANDOM_ELEMENTS_H
 
-#include <equiaffine/base/internal/shared/random_subset.h>
+#include <equiaffine/base/internal/random_subset.h>
 
 #include <cstddef>
 #include <vector>

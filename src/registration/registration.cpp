@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "registration/Centered_surface_3.h"
+#include "registration/Framed_function_3.h"
+#include "registration/Framed_surface_3.h"
 #include "registration/Shape_matches.h"
-#include "registration/frames/Framed_function_3.h"
-#include "registration/frames/Framed_surface_3.h"
-#include "registration/frames/Symmetry_check.h"
-#include "registration/frames/slippage.h"
-#include "registration/pieces/register_pieces.h"
+#include "registration/Symmetry_check.h"
+#include "registration/mesh_samples.h"
+#include "registration/register_pieces.h"
+#include "registration/register_wholes.h"
 #include "registration/registration_of_framed.h"
 #include "registration/registration_of_wholes.h"
-#include "registration/samples/mesh_samples.h"
-#include "registration/wholes/Centered_surface_3.h"
-#include "registration/wholes/register_wholes.h"
-#include <equiaffine/base/internal/shared/check_argument.h>
+#include "registration/slippage.h"
+#include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/searches.h>
 

@@ -2,13 +2,13 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_REGISTRATION_OF_FRAMED_H
 #define EQUIAFFINE_SRC_REGISTRATION_REGISTRATION_OF_FRAMED_H
 
-#include "registration/frames/Framed_surface_3.h"
-#include "registration/frames/Registration_search.h"
-#include "registration/frames/map_of_quadrics.h"
-#include "registration/frames/part_on_surface.h"
-#include "registration/frames/slippage.h"
+#include "registration/Centered_surface_3.h"
+#include "registration/Framed_surface_3.h"
+#include "registration/Registration_search.h"
+#include "registration/map_of_quadrics.h"
+#include "registration/part_on_surface.h"
 #include "registration/registration_of_wholes.h"
-#include "registration/wholes/Centered_surface_3.h"
+#include "registration/slippage.h"
 #include <equiaffine/registration/Affine_slippage_3.h>
 #include <equiaffine/registration/internal/searches.h>
 

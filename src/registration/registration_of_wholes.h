@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_REGISTRATION_OF_WHOLES_H
 #define EQUIAFFINE_SRC_REGISTRATION_REGISTRATION_OF_WHOLES_H
 
+#include "registration/Centered_surface_3.h"
 #include "registration/Shape_matches.h"
-#include "registration/wholes/Centered_surface_3.h"
-#include "registration/wholes/register_wholes.h"
+#include "registration/register_wholes.h"
 #include <equiaffine/registration/internal/searches.h>
 
 #include <algorithm>

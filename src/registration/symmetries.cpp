@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "registration/Centered_symmetry_search.h"
+#include "registration/Framed_surface_3.h"
+#include "registration/Symmetry_check.h"
+#include "registration/Symmetry_search.h"
+#include "registration/Whitening.h"
 #include "registration/exact_symmetries.h"
-#include "registration/frames/Framed_surface_3.h"
-#include "registration/frames/Symmetry_check.h"
-#include "registration/frames/Symmetry_search.h"
-#include "registration/frames/Whitening.h"
-#include "registration/frames/slippage.h"
-#include "registration/wholes/Centered_symmetry_search.h"
-#include <equiaffine/base/internal/shared/check_argument.h>
+#include "registration/slippage.h"
+#include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/registration/Affine_symmetries_3.h>
 #include <equiaffine/registration/internal/searches.h>
 

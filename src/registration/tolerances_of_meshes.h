@@ -3,7 +3,7 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_TOLERANCES_OF_MESHES_H
 #define EQUIAFFINE_SRC_REGISTRATION_TOLERANCES_OF_MESHES_H
 
-#include "registration/wholes/Centered_map.h"
+#include "registration/Centered_map.h"
 #include <equiaffine/registration/internal/Registration_request.h>
 
 #include <algorithm>

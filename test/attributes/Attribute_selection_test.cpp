@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Input_error.h>
 #include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 // is an archetype.
 #include "support/archetypes.h"
 #include "support/graph_archetypes.h"
-#include <equiaffine/annotate.h>
-#include <equiaffine/annotate_by_fit.h>
+#include <equiaffine/attributes/annotate.h>
+#include <equiaffine/attributes/annotate_by_fit.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Simple_cartesian.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annotate(), annotate_by_fit() and the samplers with the meshes, maps and named parameters of CGAL.
 #include "support/sample_volume.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/analytic_functions.h>
-#include <equiaffine/annotate.h>
-#include <equiaffine/annotate_by_fit.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/attributes/annotate.h>
+#include <equiaffine/attributes/annotate_by_fit.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Linear_cell_complex_for_combinatorial_map.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/contraction.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/annotate.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/attributes/annotate.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/contraction.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/attributes.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -2,13 +2,13 @@
 // A function that can be restricted to cells gives the same numbers, bit for bit, as one that cannot.
 #include "support/same_bits.h"
 #include "support/sample_volume.h"
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/attributes.h>
 #include <equiaffine/attributes/Curvature_error_3.h>
-#include <equiaffine/function/internal/shared/point_blocks.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
+#include <equiaffine/function/internal/point_blocks.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 #include <equiaffine/surface/distance_to_surface.h>
 
 #include <CGAL/Simple_cartesian.h>

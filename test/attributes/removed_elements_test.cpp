@@ -2,19 +2,19 @@
 // Every function for meshes takes a CGAL::Surface_mesh with removed elements whose garbage is not collected, and gives
 // what it gives for the same mesh without them.
 #include "support/Scratch_file.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Fitted_function_traits_3.h>
-#include <equiaffine/affine_symmetries.h>
-#include <equiaffine/annotate.h>
-#include <equiaffine/annotate_by_fit.h>
-#include <equiaffine/delaunay_surface.h>
-#include <equiaffine/fitted_structures.h>
+#include <equiaffine/attributes/annotate.h>
+#include <equiaffine/attributes/annotate_by_fit.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/fit/Fitted_function_traits_3.h>
+#include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/fit/move_to_fit.h>
+#include <equiaffine/fit/remesh_on_fit.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/io/polygon_mesh_files.h>
-#include <equiaffine/marching_cubes.h>
-#include <equiaffine/move_to_fit.h>
-#include <equiaffine/parabolic_curves.h>
-#include <equiaffine/register_surfaces.h>
-#include <equiaffine/remesh_on_fit.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
+#include <equiaffine/registration/affine_symmetries.h>
+#include <equiaffine/registration/register_surfaces.h>
+#include <equiaffine/surface/parabolic_curves.h>
 #include <equiaffine/volume/signed_distance_volume.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Progress_observer.h>
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/base/internal/parallel_for.h>
 
 #include <CGAL/tags.h>
 

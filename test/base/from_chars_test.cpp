@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/base/internal/shared/from_chars.h>
+#include <equiaffine/base/internal/from_chars.h>
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/annotate.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/attributes/annotate.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 #ifndef HEADERS_ALONE
-#include <equiaffine/affine_symmetries.h>
-#include <equiaffine/delaunay_surface.h>
-#include <equiaffine/fitted_structures.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/registration/affine_symmetries.h>
 #endif
 
 #include <CGAL/Simple_cartesian.h>

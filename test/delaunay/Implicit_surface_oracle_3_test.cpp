@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #define CGAL_NO_DEPRECATION_WARNINGS // the package is deprecated since CGAL 6
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Implicit_surface_oracle_3.h>
-#include <equiaffine/analytic_functions.h>
-#include <equiaffine/capabilities.h>
-#include <equiaffine/mesh_topology.h>
+#include <equiaffine/delaunay/Implicit_surface_oracle_3.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/mesh/mesh_topology.h>
 
 #include <CGAL/Complex_2_in_triangulation_3.h>
 #include <CGAL/Surface_mesh_default_criteria_3.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How dense the points are that a Delaunay mesh begins with, and that effort is spared nowhere that needs it; that none
 // of a surface is missed is tested on the meshes.
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/analytic_functions.h>
-#include <equiaffine/delaunay/internal/shared/certified_seeding.h>
+#include <equiaffine/delaunay/internal/certified_seeding.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Implicit_mesh_domain_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/analytic_functions.h>
-#include <equiaffine/annotate.h>
-#include <equiaffine/capabilities.h>
-#include <equiaffine/delaunay_surface.h>
+#include <equiaffine/attributes/annotate.h>
+#include <equiaffine/delaunay/Implicit_mesh_domain_3.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/sample_on_lattice.h>
-#include <equiaffine/marching_cubes.h>
-#include <equiaffine/mesh_topology.h>
-#include <equiaffine/parabolic_curves.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
+#include <equiaffine/mesh/mesh_topology.h>
+#include <equiaffine/surface/parabolic_curves.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/version.h>

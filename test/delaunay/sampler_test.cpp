@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the mesh of every sampler promises: topology, vertices on the surface, the side it faces, and the invariants.
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/annotate.h>
-#include <equiaffine/capabilities.h>
-#include <equiaffine/delaunay_surface.h>
+#include <equiaffine/attributes/annotate.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/expand.h>
-#include <equiaffine/marching_cubes.h>
-#include <equiaffine/mesh_topology.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
+#include <equiaffine/mesh/mesh_topology.h>
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Simple_cartesian.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the text of the pages says that there is already, for code_blocks.py, and all headers for users together.
+// What the text of the pages says that there is already, for code_blocks.py, and all public headers together.
 // Nothing is defined, since nothing is linked.
 #ifndef CGAL_LINKED_WITH_TBB // pages use threads
 #define CGAL_LINKED_WITH_TBB

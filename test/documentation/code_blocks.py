@@ -2,7 +2,7 @@
 """Compiles the C++ code of the Markdown files: code_blocks.py ROOT COMPILER [FLAG...].
 
 Every block ```cpp is a function of its own, all in one unit after test/documentation/code_blocks.h, which declares what
-the text around them says that there is, and includes all headers for users. Their `#include` lines, classes and
+the text around them says that there is, and includes all public headers. Their `#include` lines, classes and
 templates stand before the function. A comment `<!-- needs CGAL 6.1 -->` on the line before a block leaves it out with
 an older CGAL. The compiler names the page and its line."""
 import pathlib

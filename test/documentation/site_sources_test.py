@@ -32,9 +32,9 @@ auto volume_of(const T& t, const Parameters&... given) {
 } // namespace equiaffine
 """
 FILES = {
-    "include/equiaffine/box.h": HEADER,
+    "include/equiaffine/solids/box.h": HEADER,
     "include/equiaffine/io/internal/secret.h": "class Secret {\n};\n",
-    "doc/reference.dox": "- \\classified solids\n\n\\defgroup solids Solids\nText.\n\nHeaders: `box.h`, `io/`.\n\n",
+    "doc/reference.dox": "- \\classified solids\n\n\\defgroup solids Solids\nText.\n\nHeaders: `solids/`, `io/`.\n\n",
     "doc/concepts/Solid_3.md": "# Solid_3\n",
     "doc/manual/page.md": "# Page\n",
     "doc/a.png": "",
@@ -64,9 +64,9 @@ class SiteSources(unittest.TestCase):
     def test_every_file_is_written_with_its_lines(self):
         site_sources.main(pathlib.Path("site"))
         written = {path.relative_to("site").as_posix() for path in pathlib.Path("site").rglob("*") if path.is_file()}
-        self.assertEqual({"include/equiaffine/box.h", "doc/reference.dox", "doc/concepts/Solid_3.md",
+        self.assertEqual({"include/equiaffine/solids/box.h", "doc/reference.dox", "doc/concepts/Solid_3.md",
                           "doc/manual/page.md", "CHANGELOG.md"}, written)
-        header = pathlib.Path("site/include/equiaffine/box.h").read_text()
+        header = pathlib.Path("site/include/equiaffine/solids/box.h").read_text()
         self.assertEqual(HEADER.count("\n"), header.count("\n"))
         self.assertIn("namespace equiaffine { /** \\begin{solids} */\n", header)
         self.assertTrue(header.endswith("/** @} */\n} // namespace equiaffine\n"))
@@ -77,7 +77,7 @@ class SiteSources(unittest.TestCase):
 
     def test_names_that_differ_in_case_alone_have_one_order_for_every_seed_of_hashes(self):
         names = "Box", "box", "BOx", "bOx", "boX"
-        pathlib.Path("include/equiaffine/box.h").write_text("".join(f"class {name} {{\n}};\n" for name in names))
+        pathlib.Path("include/equiaffine/solids/box.h").write_text("".join(f"class {name} {{\n}};\n" for name in names))
         for seed in range(5):
             subprocess.run([sys.executable, "-B", site_sources.__file__, f"site{seed}"], check=True,
                            env=os.environ | {"PYTHONHASHSEED": str(seed)})

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The function of a fit is continuous, has the right sign and first derivatives beside the data, at creases, too.
 #include "support/fit_meshes.h"
-#include <equiaffine/fitted_structures.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/fit_data.h"
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/fitted_structures.h>
+#include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/formula/Expression_3.h>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What fits do with data that they were not made for: a status or an exception, and no number out of nowhere.
-#include "fit/data/fit_input.h"
+#include "fit/fit_input.h"
 #include "support/fit_data.h"
-#include <equiaffine/Fitted_function_traits_3.h>
-#include <equiaffine/fit/internal/data/fit_data_of.h>
-#include <equiaffine/fitted_structures.h>
+#include <equiaffine/fit/Fitted_function_traits_3.h>
+#include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/fit/internal/fit_data_of.h>
 
 #include <gtest/gtest.h>
 

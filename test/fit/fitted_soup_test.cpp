@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/fitted_structures.h>
+#include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/function/Level_set_traits_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

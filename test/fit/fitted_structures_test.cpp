@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/fit_data.h"
-#include <equiaffine/Fitted_function_traits_3.h>
-#include <equiaffine/annotate_by_fit.h>
-#include <equiaffine/attributes/internal/shared/attribute_table.h>
-#include <equiaffine/attributes/internal/shared/error_table.h>
-#include <equiaffine/delaunay_surface.h>
-#include <equiaffine/fitted_structures.h>
+#include <equiaffine/attributes/annotate_by_fit.h>
+#include <equiaffine/attributes/internal/attribute_table.h>
+#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/fit/Fitted_function_traits_3.h>
+#include <equiaffine/fit/fitted_structures.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Polyhedron_3.h>

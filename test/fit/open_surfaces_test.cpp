@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What samplers make of fits to surfaces with borders: a mesh that ends where the data end.
 #include "support/fit_data.h"
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Fitted_function_traits_3.h>
-#include <equiaffine/mesh_topology.h>
+#include <equiaffine/fit/Fitted_function_traits_3.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/mesh/mesh_topology.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Remeshes on a fit stay whole.
 #include "support/fit_meshes.h"
-#include <equiaffine/move_to_fit.h>
-#include <equiaffine/remesh_on_fit.h>
+#include <equiaffine/fit/move_to_fit.h>
+#include <equiaffine/fit/remesh_on_fit.h>
 
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/distance.h>

@@ -2,7 +2,7 @@
 // Any text is an expression or refused, and the number types agree on what it computes. No tolerance is needed: intervals
 // contain what is rounded, and where nothing is rounded, all ways to compute a number give the same.
 #include "support/fuzz_target.h"
-#include <equiaffine/Expression_3.h>
+#include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
 

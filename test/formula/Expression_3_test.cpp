@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Expression_3.h>
+#include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
 

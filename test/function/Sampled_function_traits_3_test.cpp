@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Sampled_function_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
 
 #include <gtest/gtest.h>
 

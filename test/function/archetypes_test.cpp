@@ -2,18 +2,18 @@
 // Functions of the library ask for no more than the concepts of their arguments promise: each is called with an
 // archetype of the concept. conformance_test.cpp does that for delaunay_surface(), which takes long to compile.
 #include "support/archetypes.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Batch_function_traits_3.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/attributes.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/function/Batch_function_traits_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
+#include <equiaffine/function/isosurfacing_fields.h>
 #include <equiaffine/function/sample_on_lattice.h>
-#include <equiaffine/isosurfacing_fields.h>
-#include <equiaffine/marching_cubes.h>
-#include <equiaffine/parabolic_curves.h>
-#include <equiaffine/project_to_surface.h>
-#include <equiaffine/surface/Any_function_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 #include <equiaffine/surface/distance_to_surface.h>
+#include <equiaffine/surface/parabolic_curves.h>
+#include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Simple_cartesian.h>

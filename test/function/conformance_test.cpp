@@ -3,13 +3,13 @@
 // every concept.
 #include "support/archetypes.h"
 #include "support/conformance.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Fitted_function_traits_3.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/delaunay_surface.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/fit/Fitted_function_traits_3.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
 #include <equiaffine/function/expand.h>
 
 #include <CGAL/Simple_cartesian.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/capabilities.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
+#include <equiaffine/function/capabilities.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/isosurfacing_fields.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/function/isosurfacing_fields.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Simple_cartesian.h>

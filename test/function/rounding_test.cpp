@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Local_structure_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/capabilities.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/geometry/Local_structure_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 

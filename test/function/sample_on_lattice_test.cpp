@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Analytic_function_traits_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/function/sample_on_lattice.h>
 
 #include <CGAL/Simple_cartesian.h>

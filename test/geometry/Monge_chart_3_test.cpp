@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Local_structure_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/function/expand.h>
+#include <equiaffine/geometry/Local_structure_3.h>
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/contraction.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/analytic_functions.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
 #include <equiaffine/geometry/affine_frame.h>
 #include <equiaffine/number/Pack.h>
-#include <equiaffine/surface/internal/shared/affine_gradients.h>
+#include <equiaffine/surface/internal/affine_gradients.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <Eigen/Dense>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files of meshes and points of CGAL with their property maps.
 #include "support/same_bits.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Input_error.h>
-#include <equiaffine/analytic_functions.h>
-#include <equiaffine/annotate.h>
+#include <equiaffine/attributes/annotate.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/io/point_files.h>
 #include <equiaffine/io/polygon_mesh_files.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Point_set_3.h>
 #include <CGAL/Polyhedron_3.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Input_error.h>
-#include <equiaffine/io/internal/shared/input_file.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/io/internal/input_file.h>
 
 #include <gtest/gtest.h>
 

@@ -42,7 +42,7 @@ def functions_of(text):
 
 
 def find_faults(headers):
-    """Of a dictionary: path -> text of all headers, those for users and those in `internal`."""
+    """Of a dictionary: path -> text of all headers, public and internal ones."""
     names = {a or c: b or d for text in headers.values() for a, b, c, d in DEFINED.findall(text)}
     checkers = {a or c: b or d for text in headers.values() for a, b, c, d in CHECKER.findall(text)}
     functions = [(path, *function) for path, text in headers.items() if "/internal/" not in path

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Says whether doc/headers.md has each header for users with its first sentence: headers_table.py ROOT [--write].
+"""Says whether doc/headers.md has each public header with its first sentence: headers_table.py ROOT [--write].
 
 With --write it becomes so."""
 import pathlib
 import re
 import sys
 
-from rooms import read_porch, read_rooms
+from modules import read_modules
 
 LIBRARY = "include/equiaffine"
 BEGINNING = """# Headers
@@ -14,8 +14,8 @@ BEGINNING = """# Headers
 These headers are the interface of the library: documented, tested, and kept as [versions.md](versions.md) promises. What is in a
 folder `internal` may change at any time.
 
-What people begin with is directly in the folder; the others have types of its arguments and results, and functions for
-special purposes. A header brings the types that it needs.
+`equiaffine/MODULE/x.h` is what the module has for its users: functions, classes, and the types of their arguments and
+results. A header brings the types that it needs.
 This list is made of the first sentence of each header; the rest of its documentation stands there.
 """
 
@@ -35,15 +35,14 @@ def escaped(sentence):
 
 
 def document_of(root):
-    folder, porch = root / LIBRARY, read_porch(root)
-    paths = {room: [] for room in read_rooms(root)[LIBRARY]}
-    for path in sorted(folder.rglob("*.h"), key=lambda path: (path.parent != folder, path)):
+    folder = root / LIBRARY
+    paths = {module: [] for module in read_modules(root)[LIBRARY]}
+    for path in sorted(folder.glob("*/*.h")):
         name = path.relative_to(folder).as_posix()
-        if "/internal/" not in name:
-            paths[porch.get(name) or name.partition("/")[0]].append(name)
+        paths[name.partition("/")[0]].append(name)
     lines = [BEGINNING]
-    for room, names in paths.items():
-        lines += [f"## {room}\n", f"| `equiaffine/` | |", "|---|---|"] if names else []
+    for module, names in paths.items():
+        lines += [f"## {module}\n", "| `equiaffine/` | |", "|---|---|"] if names else []
         for name in names:
             sentence = first_sentence((folder / name).read_text())
             if not sentence:
@@ -59,5 +58,5 @@ if __name__ == "__main__":
     if "--write" in sys.argv:
         document.write_text(expected)
     elif not document.exists() or document.read_text() != expected:
-        sys.exit("doc/headers.md does not have the headers for users as they are: "
+        sys.exit("doc/headers.md does not have the public headers as they are: "
                  "run python3 test/layout/headers_table.py . --write")

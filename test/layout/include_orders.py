@@ -21,13 +21,15 @@ def first_error(headers, command):
 
 if __name__ == "__main__":
     folder = pathlib.Path(sys.argv[1]) / "include"
-    doors = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.h") if "internal" not in path.parts)
-    if len(doors) < 50:
-        sys.exit(f"only {len(doors)} headers were found")
-    orders = {"reverse": [("reverse", doors[::-1])],
-              "random": [(f"random {seed}", random.Random(seed).sample(doors, len(doors))) for seed in (1, 2)]}[sys.argv[2]]
+    headers = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.h")
+                     if "internal" not in path.parts)
+    if len(headers) < 50:
+        sys.exit(f"only {len(headers)} headers were found")
+    orders = {"reverse": [("reverse", headers[::-1])],
+              "random": [(f"random {seed}", random.Random(seed).sample(headers, len(headers)))
+                         for seed in (1, 2)]}[sys.argv[2]]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         errors = list(pool.map(lambda order: first_error(order[1], sys.argv[3:]), orders))
     faults = [f"{name} order: {error}\n  " + " ".join(order) for (name, order), error in zip(orders, errors) if error]
-    print("\n".join(faults) or f"{len(doors)} headers compile in {len(orders)} orders")
+    print("\n".join(faults) or f"{len(headers)} headers compile in {len(orders)} orders")
     sys.exit(bool(faults))

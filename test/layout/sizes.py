@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Says which files and functions are too long to be read at a sitting: python3 sizes.py ROOT.
 
-Files of include, src, program and viewer have at most 300 lines, functions there at most 60, in C++ as in JavaScript. A
-folder of headers in a room of the library has at most 20.
+Files of include, src, program and viewer have at most 300 lines, functions there at most 60, in C++ as in JavaScript.
 The code is formatted by clang-format, so that a function ends at the first closing brace as far left as its head."""
 import pathlib
 import re
 import sys
 
-MOST_LINES_OF_FILE, MOST_LINES_OF_FUNCTION, MOST_HEADERS = 300, 60, 20
+MOST_LINES_OF_FILE, MOST_LINES_OF_FUNCTION = 300, 60
 NO_FUNCTION = re.compile(r"(namespace|class|struct|enum|union|extern|concept|if|else|for|while|do|switch|try|catch|return)\b"
                          r"|[}#@]|//")
 END_OF_STATEMENT = re.compile(r"([;{}:]|\*/|^\s*//.*|^\s*#.*|R\"\w*\()$")
@@ -59,9 +58,6 @@ def find_faults(root):
             for line, length in functions(text):
                 if length > MOST_LINES_OF_FUNCTION:
                     yield f"{name}:{line}: a function of {length} lines, {MOST_LINES_OF_FUNCTION} at most"
-    for folder in sorted((root / "include/equiaffine").glob("*/**")):
-        if (count := len(list(folder.glob("*.h")))) > MOST_HEADERS:
-            yield f"{folder.relative_to(root).as_posix()} has {count} headers, {MOST_HEADERS} at most: which belong together?"
 
 
 if __name__ == "__main__":

@@ -3,8 +3,8 @@
 #include "support/fuzz_target.h"
 #include "support/random_grid.h"
 #include "support/trilinear_topology.h"
-#include <equiaffine/marching_cubes_of_array.h>
-#include <equiaffine/mesh_topology.h>
+#include <equiaffine/marching_cubes/marching_cubes_of_array.h>
+#include <equiaffine/mesh/mesh_topology.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/marching_cubes.h>
-#include <equiaffine/marching_cubes_in_slabs.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
+#include <equiaffine/marching_cubes/marching_cubes_in_slabs.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/marching_cubes.h>
-#include <equiaffine/marching_cubes_of_array.h>
-#include <equiaffine/mesh_topology.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
+#include <equiaffine/marching_cubes/marching_cubes_of_array.h>
+#include <equiaffine/mesh/mesh_topology.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random_grid.h"
 #include "support/trilinear_topology.h"
-#include <equiaffine/marching_cubes/internal/cell/marching_cubes_cases.h>
-#include <equiaffine/marching_cubes_of_array.h>
-#include <equiaffine/mesh_topology.h>
+#include <equiaffine/marching_cubes/internal/marching_cubes_cases.h>
+#include <equiaffine/marching_cubes/marching_cubes_of_array.h>
+#include <equiaffine/mesh/mesh_topology.h>
 
 #include <gtest/gtest.h>
 

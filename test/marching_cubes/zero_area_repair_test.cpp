@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/marching_cubes/internal/vertex/zero_area_repair.h>
-#include <equiaffine/mesh_topology.h>
+#include <equiaffine/marching_cubes/internal/zero_area_repair.h>
+#include <equiaffine/mesh/mesh_topology.h>
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every header of the porch refuses what the library cannot be compiled with: wrong_flags.py ROOT COMPILER [FLAG...]."""
+"""Every public header refuses what the library cannot be compiled with: wrong_flags.py ROOT COMPILER [FLAG...].
+
+Those that others include may be mere types, and are left out."""
 import pathlib
 import re
 import subprocess
 import sys
 
 INCLUDE = re.compile(r"#include <(equiaffine/[^>]+)>")
-CHECK = "equiaffine/base/internal/shared/check_flags.h"
+CHECK = "equiaffine/base/internal/check_flags.h"
 REFUSED = {"-ffast-math": "compile without -ffast-math", "-Ofast": "compile without -ffast-math",
            "-ffinite-math-only": "compile without -ffast-math", "-std=c++17": "equiaffine needs C++20"}
 
@@ -30,11 +32,12 @@ def first_error(flags):
 if __name__ == "__main__":
     folder = pathlib.Path(sys.argv[1]) / "include"
     compiler = [*sys.argv[2:], f"-I{folder}", "-std=c++20"]
-    porch = sorted(path.relative_to(folder).as_posix() for path in (folder / "equiaffine").glob("*.h"))
-    faults = [f"{header} does not include {CHECK}" for header in porch if CHECK not in reached(folder, header, set())]
+    included = set().union(*(INCLUDE.findall(path.read_text()) for path in folder.rglob("*.h")))
+    headers = sorted({path.relative_to(folder).as_posix() for path in (folder / "equiaffine").glob("*/*.h")} - included)
+    faults = [f"{header} does not include {CHECK}" for header in headers if CHECK not in reached(folder, header, set())]
     faults += [f"{flag}: '{words}' is not in '{first_error([*compiler, flag])}'"
                for flag, words in REFUSED.items() if words not in first_error([*compiler, flag])]
-    if not porch or first_error(compiler):
-        faults.append(f"{len(porch)} headers on the porch; without a wrong flag: {first_error(compiler)}")
-    print("\n".join(faults) or f"{len(porch)} headers refuse {', '.join(REFUSED)}")
+    if not headers or first_error(compiler):
+        faults.append(f"{len(headers)} public headers; without a wrong flag: {first_error(compiler)}")
+    print("\n".join(faults) or f"{len(headers)} headers refuse {', '.join(REFUSED)}")
     sys.exit(bool(faults))

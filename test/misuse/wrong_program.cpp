@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Programs with one mistake each, chosen by the macro CASE; wrong_programs.py compiles them. The comment of a case has
 // words of the first error that the compiler is to print.
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/analytic_functions.h>
-#include <equiaffine/annotate.h>
-#include <equiaffine/annotate_by_fit.h>
+#include <equiaffine/attributes/annotate.h>
+#include <equiaffine/attributes/annotate_by_fit.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/io/polygon_mesh_files.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polyhedron_3.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/number/internal/shared/Linear_substitution_3.h>
+#include <equiaffine/number/internal/Linear_substitution_3.h>
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/contraction.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/analytic_functions.h>
-#include <equiaffine/attributes.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
 #include <equiaffine/number/Pack.h>
 
 #include <CGAL/Simple_cartesian.h>

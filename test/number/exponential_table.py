@@ -5,12 +5,12 @@ import decimal
 import pathlib
 import sys
 
-HEADER = "include/equiaffine/number/internal/shared/exponential_table.h"
+HEADER = "include/equiaffine/number/internal/exponential_table.h"
 SIZE = 128
 TEXT = """// SPDX-License-Identifier: GPL-3.0-or-later
 // Made by test/number/exponential_table.py.
-#ifndef EQUIAFFINE_NUMBER_INTERNAL_SHARED_EXPONENTIAL_TABLE_H
-#define EQUIAFFINE_NUMBER_INTERNAL_SHARED_EXPONENTIAL_TABLE_H
+#ifndef EQUIAFFINE_NUMBER_INTERNAL_EXPONENTIAL_TABLE_H
+#define EQUIAFFINE_NUMBER_INTERNAL_EXPONENTIAL_TABLE_H
 
 #include <array>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/Engine.h"
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 #include <equiaffine/surface/distance_to_surface.h>
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 #include "system/Shared_memory.h"
 #include "system/child_process.h"
 #include "system/resources.h"
-#include <equiaffine/Input_error.h>
-#include <equiaffine/Progress_observer.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/Progress_observer.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/decimate.h"
-#include <equiaffine/mesh_topology.h>
+#include <equiaffine/mesh/mesh_topology.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Frames of DICOM files: their places make the lattice.
 #include "volume/volume_io.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture/draw_surface.h"
-#include <equiaffine/io/internal/shared/Parabolic_parts.h>
+#include <equiaffine/display/internal/Parabolic_parts.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "commands/program.h"
 #include "support/run_program.h"
 #include "system/child_process.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <CGAL/version.h>
 

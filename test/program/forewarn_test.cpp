@@ -2,7 +2,7 @@
 // What will take long or much memory is announced or asked for beforehand.
 #include "system/forewarn.h"
 #include "system/resources.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "system/memory_limit.h"
 #include "system/reclaimable_memory.h"
 #include "system/scratch_memory.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <algorithm>
 #include <chrono>

@@ -6,7 +6,7 @@
 #include "volume/sample_type.h"
 #include "volume/volume_formats.h"
 #include "volume/volume_io.h"
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <gtest/gtest.h>
 

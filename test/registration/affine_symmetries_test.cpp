@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
-#include <equiaffine/affine_symmetries.h>
+#include <equiaffine/registration/affine_symmetries.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "registration/frames/Framed_function_3.h"
-#include "registration/frames/derivatives_of_curvature.h"
+#include "registration/Framed_function_3.h"
+#include "registration/derivatives_of_curvature.h"
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
 

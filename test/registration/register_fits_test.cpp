@@ -2,9 +2,9 @@
 // Registration of meshes by fits to their vertices, which estimate their errors.
 #include "support/fit_data.h"
 #include "support/registration_cases.h"
-#include <equiaffine/Fitted_function_traits_3.h>
-#include <equiaffine/capabilities.h>
-#include <equiaffine/register_surfaces.h>
+#include <equiaffine/fit/Fitted_function_traits_3.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/registration/register_surfaces.h>
 
 #include <gtest/gtest.h>
 

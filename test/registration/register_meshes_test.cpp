@@ -4,11 +4,11 @@
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
 #include "support/solids.h"
-#include <equiaffine/affine_symmetries.h>
-#include <equiaffine/is_affinely_equivalent.h>
-#include <equiaffine/register_surfaces.h>
+#include <equiaffine/registration/affine_symmetries.h>
 #include <equiaffine/registration/contradictions_of_meshes.h>
 #include <equiaffine/registration/internal/in_kernel.h>
+#include <equiaffine/registration/is_affinely_equivalent.h>
+#include <equiaffine/registration/register_surfaces.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Simple_cartesian.h>

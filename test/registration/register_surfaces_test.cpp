@@ -2,8 +2,8 @@
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
 #include "support/registration_traits.h"
-#include <equiaffine/is_affinely_equivalent.h>
-#include <equiaffine/register_surfaces.h>
+#include <equiaffine/registration/is_affinely_equivalent.h>
+#include <equiaffine/registration/register_surfaces.h>
 
 #include <CGAL/tags.h>
 

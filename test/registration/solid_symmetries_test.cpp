@@ -3,7 +3,7 @@
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
 #include "support/solids.h"
-#include <equiaffine/affine_symmetries.h>
+#include <equiaffine/registration/affine_symmetries.h>
 
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/generators.h>

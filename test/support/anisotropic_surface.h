@@ -4,8 +4,8 @@
 #ifndef EQUIAFFINE_TEST_SUPPORT_ANISOTROPIC_SURFACE_H
 #define EQUIAFFINE_TEST_SUPPORT_ANISOTROPIC_SURFACE_H
 
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/project_to_surface.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -5,8 +5,8 @@
 #ifndef EQUIAFFINE_TEST_SUPPORT_ARCHETYPES_H
 #define EQUIAFFINE_TEST_SUPPORT_ARCHETYPES_H
 
-#include <equiaffine/capabilities.h>
-#include <equiaffine/concepts.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/function/concepts.h>
 #include <equiaffine/function/expand.h>
 
 #include <CGAL/Bbox_3.h>

@@ -9,13 +9,13 @@
 
 #include "support/contraction.h"
 #include "support/same_bits.h"
-#include <equiaffine/Batch_function_traits_3.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/capabilities.h>
-#include <equiaffine/concepts.h>
-#include <equiaffine/function/internal/shared/sign_change.h>
-#include <equiaffine/surface/Any_function_3.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/function/Batch_function_traits_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/function/internal/sign_change.h>
 
 #include <gtest/gtest.h>
 

@@ -3,11 +3,11 @@
 #ifndef EQUIAFFINE_TEST_SUPPORT_FIT_DATA_H
 #define EQUIAFFINE_TEST_SUPPORT_FIT_DATA_H
 
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Local_structure_3.h>
-#include <equiaffine/annotate.h>
-#include <equiaffine/fitted_structures.h>
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/attributes/annotate.h>
+#include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

@@ -3,8 +3,8 @@
 #ifndef EQUIAFFINE_TEST_SUPPORT_FIT_MESHES_H
 #define EQUIAFFINE_TEST_SUPPORT_FIT_MESHES_H
 
-#include <equiaffine/Fitted_function_traits_3.h>
 #include <equiaffine/fit/Fit_outcome.h>
+#include <equiaffine/fit/Fitted_function_traits_3.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>

@@ -9,7 +9,7 @@
 // Compiled with EQUIAFFINE_FUZZING it is the entry point of libFuzzer, which scripts/fuzz runs. Otherwise it is a test
 // that gives it the files of its corpus, test/data/fuzz/NAME, and all their beginnings.
 
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <cstdint>
 #include <stdexcept>

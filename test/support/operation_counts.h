@@ -5,7 +5,7 @@
 #define EQUIAFFINE_TEST_SUPPORT_OPERATION_COUNTS_H
 
 #include "support/counting_number.h"
-#include <equiaffine/Local_structure_3.h>
+#include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/geometry/reference_estimators.h>
 
 #include <random>

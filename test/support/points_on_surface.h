@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_TEST_SUPPORT_POINTS_ON_SURFACE_H
 #define EQUIAFFINE_TEST_SUPPORT_POINTS_ON_SURFACE_H
 
-#include <equiaffine/marching_cubes.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <algorithm>
 #include <cstddef>

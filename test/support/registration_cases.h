@@ -3,9 +3,9 @@
 #ifndef EQUIAFFINE_TEST_SUPPORT_REGISTRATION_CASES_H
 #define EQUIAFFINE_TEST_SUPPORT_REGISTRATION_CASES_H
 
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <Eigen/Dense>

@@ -5,7 +5,7 @@
 #define EQUIAFFINE_TEST_SUPPORT_REGISTRATION_TRAITS_H
 
 #include "support/registration_cases.h"
-#include <equiaffine/capabilities.h>
+#include <equiaffine/function/capabilities.h>
 
 #include <cmath>
 #include <cstddef>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_TEST_SUPPORT_SAMPLE_VOLUME_H
 #define EQUIAFFINE_TEST_SUPPORT_SAMPLE_VOLUME_H
 
-#include <equiaffine/Volume_3.h>
+#include <equiaffine/volume/Volume_3.h>
 
 #include <cstddef>
 #include <random>

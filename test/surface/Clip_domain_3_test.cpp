@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Clip_domain_3.h>
+#include <equiaffine/surface/Clip_domain_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/Transformed_function_traits_3.h>
-#include <equiaffine/analytic_functions.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
 #include <equiaffine/function/sample_on_lattice.h>
-#include <equiaffine/surface/Any_function_3.h>
-#include <equiaffine/surface/internal/shared/affine_gradients.h>
+#include <equiaffine/surface/internal/affine_gradients.h>
 
 #include <CGAL/Simple_cartesian.h>
 

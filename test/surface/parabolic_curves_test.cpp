@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Local_structure_3.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/function/expand.h>
+#include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/io/write_curves.h>
-#include <equiaffine/marching_cubes.h>
-#include <equiaffine/parabolic_curves.h>
-#include <equiaffine/to_face_graph.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
+#include <equiaffine/mesh/to_face_graph.h>
+#include <equiaffine/surface/parabolic_curves.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Named_function_parameters.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/contraction.h"
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/analytic_functions.h>
-#include <equiaffine/function/internal/shared/intersect_segments.h>
-#include <equiaffine/project_to_surface.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/formula/analytic_functions.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/internal/intersect_segments.h>
+#include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 VIEWER, *TOOLS = sys.argv[1:5]
-HEADER = "include/equiaffine/io/internal/html_page.h"
+HEADER = "include/equiaffine/display/internal/html_page.h"
 
 
 def answer(name, old, new, tools):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/same_bits.h"
 #include "support/sample_volume.h"
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/volume/Spline_function_3.h>
 #include <equiaffine/volume/smooth_volume.h>

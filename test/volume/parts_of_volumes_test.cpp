@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/attributes.h>
-#include <equiaffine/marching_cubes_in_slabs.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/marching_cubes/marching_cubes_in_slabs.h>
 #include <equiaffine/volume/Sample_noise.h>
 
 #include <CGAL/Simple_cartesian.h>

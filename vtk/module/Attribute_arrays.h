@@ -5,7 +5,7 @@
 #include "Doubt.h"
 #include "Growing_array.h"
 #include <equiaffine/attributes/Attribute_selection.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <cstddef>
 #include <span>

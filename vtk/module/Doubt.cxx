@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Doubt.h"
 
-#include <equiaffine/io/internal/shared/trust.h>
+#include <equiaffine/display/internal/trust.h>
 
 #include <algorithm>
 #include <cmath>

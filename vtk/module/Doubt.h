@@ -4,8 +4,8 @@
 
 #include "Ranks.h"
 #include <equiaffine/attributes/Attribute_selection.h>
-#include <equiaffine/attributes/internal/shared/error_table.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #include "Image_pieces.h"
 
 #include "exchange_ghost_levels.h"
-#include <equiaffine/marching_cubes_in_slabs.h>
+#include <equiaffine/marching_cubes/marching_cubes_in_slabs.h>
 #include <equiaffine/volume/cells_to_know.h>
 
 #include <vtkCellData.h>

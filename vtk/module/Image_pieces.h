@@ -3,10 +3,10 @@
 #define EQUIAFFINE_VTK_IMAGE_PIECES_H
 
 #include "Ranks.h"
-#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Lattice_3.h>
 #include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/Volume_view_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 

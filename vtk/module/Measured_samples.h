@@ -4,9 +4,9 @@
 
 #include "Image_pieces.h"
 #include "Ranks.h"
-#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/Volume_view_3.h>
 
 #include <cstddef>
 #include <optional>

@@ -8,7 +8,7 @@
 #include "Ranks.h"
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/marching_cubes/Isosurface_slab_3.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/volume/Cell_block.h>
 
 #include <CGAL/Simple_cartesian.h>

@@ -4,9 +4,9 @@
 #include "Attribute_arrays.h"
 #include "Doubt.h"
 #include "is_aborted.h"
-#include <equiaffine/Progress_observer.h>
 #include <equiaffine/attributes/Attribute_selection.h>
-#include <equiaffine/fitted_structures.h>
+#include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/fit/fitted_structures.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/property_map.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkEquiaffineFunction.h"
 
-#include <equiaffine/Analytic_function_traits_3.h>
-#include <equiaffine/Expression_3.h>
-#include <equiaffine/Input_error.h>
-#include <equiaffine/surface/Any_function_3.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/function/Any_function_3.h>
 
 #include <vtkObjectFactory.h>
 

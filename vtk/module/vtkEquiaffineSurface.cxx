@@ -7,14 +7,14 @@
 #include "Ranks.h"
 #include "Surface_arrays.h"
 #include "is_aborted.h"
-#include <equiaffine/Level_set_traits_3.h>
-#include <equiaffine/Progress_observer.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/attributes.h>
 #include <equiaffine/attributes/Curvature_error_3.h>
-#include <equiaffine/attributes/internal/shared/error_table.h>
-#include <equiaffine/function/internal/shared/point_blocks.h>
-#include <equiaffine/marching_cubes_in_slabs.h>
+#include <equiaffine/attributes/attributes.h>
+#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/function/internal/point_blocks.h>
+#include <equiaffine/marching_cubes/marching_cubes_in_slabs.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/cells_to_know.h>
 

@@ -4,7 +4,7 @@
 #define EQUIAFFINE_ATTRIBUTES_ATTRIBUTE_SELECTION_H
 
 #include <equiaffine/attributes/internal/attribute_names.h>
-#include <equiaffine/attributes/internal/shared/attribute_table.h>
+#include <equiaffine/attributes/internal/attribute_table.h>
 
 #include <array>
 #include <cstddef>

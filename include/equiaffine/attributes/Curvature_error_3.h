@@ -2,13 +2,13 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_CURVATURE_ERROR_3_H
 #define EQUIAFFINE_ATTRIBUTES_CURVATURE_ERROR_3_H
 
-#include <equiaffine/Local_structure_3.h>
-#include <equiaffine/Sampled_function_traits_3.h>
-#include <equiaffine/Volume_view_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
 #include <equiaffine/geometry/Affine_curvature_error.h>
+#include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_function_3.h>
-#include <equiaffine/volume/internal/shared/Spline_disturbances_3.h>
+#include <equiaffine/volume/Volume_view_3.h>
+#include <equiaffine/volume/internal/Spline_disturbances_3.h>
 
 #include <CGAL/tags.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Named parameters in the style of CGAL: `parameters::number_of_nodes(128).vertex_position(Vertex_position::LINEAR)`.
-// internal/shared/named_parameter_list.h has the list. The types are our own, since CGAL's list of names is closed and
-// differs between its versions 5 and 6.
+// internal/named_parameter_list.h has the list. The types are our own, since CGAL's list of names is closed and differs
+// between its versions 5 and 6.
 #ifndef EQUIAFFINE_BASE_NAMED_PARAMETERS_H
 #define EQUIAFFINE_BASE_NAMED_PARAMETERS_H
 
-#include <equiaffine/base/internal/shared/Named_parameters.h>
-#include <equiaffine/base/internal/shared/joined_parameters.h>
-#include <equiaffine/base/internal/shared/named_parameter_list.h>
+#include <equiaffine/base/internal/Named_parameters.h>
+#include <equiaffine/base/internal/joined_parameters.h>
+#include <equiaffine/base/internal/named_parameter_list.h>
 
 #include <array>
 #include <cstddef>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_DELAUNAY_DELAUNAY_CRITERIA_H
 #define EQUIAFFINE_DELAUNAY_DELAUNAY_CRITERIA_H
 
-#include <equiaffine/Clip_domain_3.h>
+#include <equiaffine/surface/Clip_domain_3.h>
 
 namespace equiaffine {
 

@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_DELAUNAY_DELAUNAY_SURFACE_3_H
 #define EQUIAFFINE_DELAUNAY_DELAUNAY_SURFACE_3_H
 
-#include <equiaffine/parabolic_curves.h>
-#include <equiaffine/surface/Isosurface_3.h>
+#include <equiaffine/mesh/Isosurface_3.h>
+#include <equiaffine/surface/parabolic_curves.h>
 
 #include <CGAL/Bbox_3.h>
 

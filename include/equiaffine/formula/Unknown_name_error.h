@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_FORMULA_UNKNOWN_NAME_ERROR_H
 #define EQUIAFFINE_FORMULA_UNKNOWN_NAME_ERROR_H
 
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <string>
 #include <utility>

@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_FUNCTION_SAMPLE_ON_LATTICE_H
 #define EQUIAFFINE_FUNCTION_SAMPLE_ON_LATTICE_H
 
-#include <equiaffine/Batch_function_traits_3.h>
-#include <equiaffine/Volume_3.h>
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/function/Batch_function_traits_3.h>
+#include <equiaffine/volume/Volume_3.h>
 
 #include <CGAL/tags.h>
 

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_GEOMETRY_AFFINE_AREA_DENSITY_H
 #define EQUIAFFINE_GEOMETRY_AFFINE_AREA_DENSITY_H
 
-#include <equiaffine/number/internal/shared/elementary_functions.h>
+#include <equiaffine/number/internal/elementary_functions.h>
 
 #include <array>
 #include <cmath>

@@ -3,8 +3,8 @@
 #ifndef EQUIAFFINE_GEOMETRY_REFERENCE_ESTIMATORS_H
 #define EQUIAFFINE_GEOMETRY_REFERENCE_ESTIMATORS_H
 
-#include <equiaffine/Local_structure_3.h>
 #include <equiaffine/geometry/Estimator.h>
+#include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/geometry/internal/affine_estimate.h>
 #include <equiaffine/geometry/internal/estimate_by.h>
 

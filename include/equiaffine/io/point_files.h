@@ -3,15 +3,15 @@
 #ifndef EQUIAFFINE_IO_POINT_FILES_H
 #define EQUIAFFINE_IO_POINT_FILES_H
 
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/named_parameters.h>
-#include <equiaffine/io/internal/graphs/columns_of_maps.h>
-#include <equiaffine/io/internal/graphs/maps_of_columns.h>
-#include <equiaffine/io/internal/graphs/write_polygon_file.h>
-#include <equiaffine/io/internal/shared/input_file.h>
+#include <equiaffine/io/internal/columns_of_maps.h>
+#include <equiaffine/io/internal/input_file.h>
+#include <equiaffine/io/internal/maps_of_columns.h>
+#include <equiaffine/io/internal/write_polygon_file.h>
 #include <equiaffine/io/read_points.h>
-#include <equiaffine/surface/internal/shared/indexed_polygons.h>
-#include <equiaffine/surface/internal/shared/points_of_range.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
+#include <equiaffine/mesh/internal/points_of_range.h>
 
 #include <CGAL/Iterator_range.h>
 #include <CGAL/Simple_cartesian.h>

@@ -4,14 +4,14 @@
 #define EQUIAFFINE_IO_POLYGON_MESH_FILES_H
 
 #include <equiaffine/base/named_parameters.h>
-#include <equiaffine/function/internal/shared/explain_misuse.h>
-#include <equiaffine/io/internal/graphs/columns_of_maps.h>
-#include <equiaffine/io/internal/graphs/maps_of_columns.h>
-#include <equiaffine/io/internal/graphs/polygons_of_file.h>
-#include <equiaffine/io/internal/graphs/write_polygon_file.h>
-#include <equiaffine/surface/internal/shared/Face_graph.h>
-#include <equiaffine/surface/internal/shared/indexed_polygons.h>
-#include <equiaffine/surface/internal/shared/points_of_range.h>
+#include <equiaffine/function/internal/explain_misuse.h>
+#include <equiaffine/io/internal/columns_of_maps.h>
+#include <equiaffine/io/internal/maps_of_columns.h>
+#include <equiaffine/io/internal/polygons_of_file.h>
+#include <equiaffine/io/internal/write_polygon_file.h>
+#include <equiaffine/mesh/internal/Face_graph.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
+#include <equiaffine/mesh/internal/points_of_range.h>
 
 #include <CGAL/boost/graph/properties.h>
 

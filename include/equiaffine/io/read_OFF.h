@@ -3,8 +3,8 @@
 #define EQUIAFFINE_IO_READ_OFF_H
 
 #include <equiaffine/io/internal/off_elements.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
-#include <equiaffine/surface/internal/shared/triangles_of_polygon.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/internal/triangles_of_polygon.h>
 
 #include <istream>
 #include <string>

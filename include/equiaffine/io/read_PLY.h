@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_IO_READ_PLY_H
 #define EQUIAFFINE_IO_READ_PLY_H
 
-#include <equiaffine/io/Annotated_mesh_3.h>
 #include <equiaffine/io/internal/ply_elements.h>
-#include <equiaffine/surface/internal/shared/triangles_of_polygon.h>
+#include <equiaffine/mesh/Annotated_mesh_3.h>
+#include <equiaffine/mesh/internal/triangles_of_polygon.h>
 
 #include <istream>
 #include <string>

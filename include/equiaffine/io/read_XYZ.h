@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_IO_READ_XYZ_H
 #define EQUIAFFINE_IO_READ_XYZ_H
 
-#include <equiaffine/base/internal/shared/printable.h>
-#include <equiaffine/io/Annotated_mesh_3.h>
-#include <equiaffine/io/internal/shared/fail_to_read.h>
+#include <equiaffine/base/internal/printable.h>
+#include <equiaffine/io/internal/fail_to_read.h>
 #include <equiaffine/io/internal/text_input.h>
 #include <equiaffine/io/internal/xyz_line.h>
+#include <equiaffine/mesh/Annotated_mesh_3.h>
 
 #include <algorithm>
 #include <cstddef>

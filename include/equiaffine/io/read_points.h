@@ -5,19 +5,19 @@
 
 // Reads points from CSV, PLY, OFF and XYZ with all that came with them, and writes them to CSV with more columns.
 
-#include <equiaffine/io/Annotated_mesh_3.h>
 #include <equiaffine/io/internal/Csv_scanner.h>
 #include <equiaffine/io/internal/Off_scanner.h>
 #include <equiaffine/io/internal/buffered_output.h>
 #include <equiaffine/io/internal/csv_columns.h>
 #include <equiaffine/io/internal/csv_rows.h>
-#include <equiaffine/io/internal/shared/fail_to_read.h>
-#include <equiaffine/io/internal/shared/input_file.h>
+#include <equiaffine/io/internal/fail_to_read.h>
+#include <equiaffine/io/internal/input_file.h>
 #include <equiaffine/io/internal/text_input.h>
 #include <equiaffine/io/read_OFF.h>
 #include <equiaffine/io/read_PLY.h>
 #include <equiaffine/io/read_XYZ.h>
 #include <equiaffine/io/write_CSV.h>
+#include <equiaffine/mesh/Annotated_mesh_3.h>
 
 #include <algorithm>
 #include <cstddef>

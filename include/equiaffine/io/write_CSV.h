@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_IO_WRITE_CSV_H
 #define EQUIAFFINE_IO_WRITE_CSV_H
 
-#include <equiaffine/io/internal/shared/Csv_writer.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/io/internal/Csv_writer.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <ostream>
 #include <span>

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_IO_WRITE_CURVES_H
 
 #include <equiaffine/io/internal/buffered_output.h>
-#include <equiaffine/parabolic_curves.h>
+#include <equiaffine/surface/parabolic_curves.h>
 
 #include <CGAL/number_utils.h>
 

@@ -7,11 +7,11 @@
 // that do not exist. All functions write to a stream, which has to be binary for PLY and STL. Errors are in its state.
 
 #include <equiaffine/io/internal/buffered_output.h>
+#include <equiaffine/io/internal/input_file.h>
 #include <equiaffine/io/internal/mesh_text.h>
-#include <equiaffine/io/internal/shared/input_file.h>
 #include <equiaffine/io/internal/write_polygons.h>
 #include <equiaffine/io/write_CSV.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_MARCHING_CUBES_ARRAY_ISOSURFACE_3_H
 
 #include <equiaffine/marching_cubes/internal/Output_allocator.h>
-#include <equiaffine/surface/Isosurface_repairs.h>
+#include <equiaffine/mesh/Isosurface_repairs.h>
 
 #include <array>
 #include <cstdint>

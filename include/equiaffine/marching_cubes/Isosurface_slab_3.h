@@ -3,7 +3,7 @@
 #define EQUIAFFINE_MARCHING_CUBES_ISOSURFACE_SLAB_3_H
 
 #include <equiaffine/marching_cubes/Vertex_id.h>
-#include <equiaffine/surface/Isosurface_3.h>
+#include <equiaffine/mesh/Isosurface_3.h>
 
 #include <array>
 #include <cstddef>

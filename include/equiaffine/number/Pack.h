@@ -4,10 +4,10 @@
 #define EQUIAFFINE_NUMBER_PACK_H
 
 #include <equiaffine/number/internal/Array_lanes.h>
+#include <equiaffine/number/internal/Pack_fwd.h>
 #include <equiaffine/number/internal/Simd_lanes.h>
+#include <equiaffine/number/internal/elementary_functions.h>
 #include <equiaffine/number/internal/natural_power.h>
-#include <equiaffine/number/internal/shared/Pack_fwd.h>
-#include <equiaffine/number/internal/shared/elementary_functions.h>
 #include <equiaffine/number/select.h>
 
 #include <cmath>

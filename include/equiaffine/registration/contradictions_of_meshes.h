@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_REGISTRATION_CONTRADICTIONS_OF_MESHES_H
 #define EQUIAFFINE_REGISTRATION_CONTRADICTIONS_OF_MESHES_H
 
+#include <equiaffine/mesh/internal/triangles_of.h>
 #include <equiaffine/registration/Mesh_contradictions.h>
-#include <equiaffine/registration/internal/samples/triangles_of.h>
 #include <equiaffine/registration/internal/searches.h>
 
 #include <ranges>

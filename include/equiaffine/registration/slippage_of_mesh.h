@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_REGISTRATION_SLIPPAGE_OF_MESH_H
 #define EQUIAFFINE_REGISTRATION_SLIPPAGE_OF_MESH_H
 
+#include <equiaffine/mesh/internal/triangles_of.h>
 #include <equiaffine/registration/Affine_slippage_3.h>
 #include <equiaffine/registration/Map_kind.h>
-#include <equiaffine/registration/internal/samples/triangles_of.h>
 #include <equiaffine/registration/internal/searches.h>
 
 #include <ranges>

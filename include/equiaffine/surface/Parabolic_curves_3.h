@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_SURFACE_PARABOLIC_CURVES_3_H
 #define EQUIAFFINE_SURFACE_PARABOLIC_CURVES_3_H
 
-#include <equiaffine/surface/Polyline_3.h>
+#include <equiaffine/mesh/Polyline_3.h>
 
 #include <cstddef>
 #include <vector>

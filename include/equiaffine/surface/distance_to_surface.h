@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_SURFACE_DISTANCE_TO_SURFACE_H
 #define EQUIAFFINE_SURFACE_DISTANCE_TO_SURFACE_H
 
-#include <equiaffine/base/internal/shared/check_argument.h>
-#include <equiaffine/concepts.h>
+#include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/function/concepts.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/surface/internal/newton_distance.h>
 

@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_VOLUME_LATTICE_3_H
 #define EQUIAFFINE_VOLUME_LATTICE_3_H
 
-#include <equiaffine/Input_error.h>
-#include <equiaffine/base/internal/shared/check_argument.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/internal/check_argument.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Bbox_3.h>

@@ -3,15 +3,15 @@
 #ifndef EQUIAFFINE_VOLUME_SAMPLE_NOISE_H
 #define EQUIAFFINE_VOLUME_SAMPLE_NOISE_H
 
-#include <equiaffine/Volume_3.h>
-#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Spline_scheme.h>
+#include <equiaffine/volume/Volume_3.h>
 #include <equiaffine/volume/Volume_parts_3.h>
+#include <equiaffine/volume/Volume_view_3.h>
 #include <equiaffine/volume/cells_to_know.h>
+#include <equiaffine/volume/internal/Smoothing_trial.h>
 #include <equiaffine/volume/internal/border_degree.h>
-#include <equiaffine/volume/internal/noise/Smoothing_trial.h>
-#include <equiaffine/volume/internal/noise/noise_measurement.h>
+#include <equiaffine/volume/internal/noise_measurement.h>
 
 #include <CGAL/tags.h>
 

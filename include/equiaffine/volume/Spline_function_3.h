@@ -2,14 +2,14 @@
 #ifndef EQUIAFFINE_VOLUME_SPLINE_FUNCTION_3_H
 #define EQUIAFFINE_VOLUME_SPLINE_FUNCTION_3_H
 
-#include <equiaffine/Volume_view_3.h>
-#include <equiaffine/base/internal/shared/check_argument.h>
+#include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
-#include <equiaffine/number/internal/shared/Linear_substitution_3.h>
+#include <equiaffine/number/internal/Linear_substitution_3.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Volume_survey.h>
+#include <equiaffine/volume/Volume_view_3.h>
 #include <equiaffine/volume/internal/Coefficient_source.h>
 #include <equiaffine/volume/internal/Spline_coefficients.h>
 #include <equiaffine/volume/internal/Spline_support_3.h>

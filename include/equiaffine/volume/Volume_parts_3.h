@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_VOLUME_VOLUME_PARTS_3_H
 #define EQUIAFFINE_VOLUME_VOLUME_PARTS_3_H
 
-#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Lattice_3.h>
+#include <equiaffine/volume/Volume_view_3.h>
 
 #include <CGAL/assertions.h>
 

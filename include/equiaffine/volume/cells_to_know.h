@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_CELLS_TO_KNOW_H
 #define EQUIAFFINE_VOLUME_CELLS_TO_KNOW_H
 
-#include <equiaffine/base/internal/shared/check_argument.h>
+#include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/internal/Line_part.h>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_SIGNED_DISTANCE_VOLUME_H
 #define EQUIAFFINE_VOLUME_SIGNED_DISTANCE_VOLUME_H
 
-#include <equiaffine/Volume_3.h>
+#include <equiaffine/volume/Volume_3.h>
 #include <equiaffine/volume/internal/check_bounds_volume.h>
 #include <equiaffine/volume/internal/signed_distances.h>
 

@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_VOLUME_SMOOTH_VOLUME_H
 #define EQUIAFFINE_VOLUME_SMOOTH_VOLUME_H
 
-#include <equiaffine/Volume_3.h>
-#include <equiaffine/Volume_view_3.h>
 #include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/Volume_3.h>
 #include <equiaffine/volume/Volume_survey.h>
+#include <equiaffine/volume/Volume_view_3.h>
 #include <equiaffine/volume/internal/border_degree.h>
 #include <equiaffine/volume/internal/smoothed_samples.h>
 

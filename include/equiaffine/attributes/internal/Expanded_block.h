@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_EXPANDED_BLOCK_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_EXPANDED_BLOCK_H
 
-#include <equiaffine/capabilities.h>
-#include <equiaffine/concepts.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/function/concepts.h>
 #include <equiaffine/number/Pack.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_PROPERTY_MAPS_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_PROPERTY_MAPS_H
 
-#include <equiaffine/attributes/internal/shared/attribute_table.h>
+#include <equiaffine/attributes/internal/attribute_table.h>
 
 #include <CGAL/Kernel_traits.h>
 

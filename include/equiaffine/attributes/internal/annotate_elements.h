@@ -2,13 +2,13 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_ANNOTATE_ELEMENTS_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_ANNOTATE_ELEMENTS_H
 
-#include <equiaffine/attributes.h>
+#include <equiaffine/attributes/attributes.h>
 #include <equiaffine/attributes/internal/Property_maps.h>
-#include <equiaffine/attributes/internal/shared/vertex_maps.h>
-#include <equiaffine/base/internal/shared/convert_point.h>
-#include <equiaffine/base/internal/shared/parallel_for.h>
-#include <equiaffine/surface/internal/shared/indexed_polygons.h>
-#include <equiaffine/surface/internal/shared/points_of_range.h>
+#include <equiaffine/attributes/internal/vertex_maps.h>
+#include <equiaffine/base/internal/convert_point.h>
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
+#include <equiaffine/mesh/internal/points_of_range.h>
 
 #include <CGAL/Surface_mesh/Surface_mesh_fwd.h>
 

@@ -3,9 +3,9 @@
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_ANNOTATE_FITS_H
 
 #include <equiaffine/attributes/internal/Property_maps.h>
-#include <equiaffine/attributes/internal/shared/error_table.h>
-#include <equiaffine/attributes/internal/shared/vertex_maps.h>
-#include <equiaffine/fit/internal/shared/Fit_request.h>
+#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/attributes/internal/vertex_maps.h>
+#include <equiaffine/fit/internal/Fit_request.h>
 
 #include <cstddef>
 #include <string>

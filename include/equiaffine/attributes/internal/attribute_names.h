@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_ATTRIBUTE_NAMES_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_ATTRIBUTE_NAMES_H
 
-#include <equiaffine/Input_error.h>
-#include <equiaffine/attributes/internal/shared/attribute_table.h>
+#include <equiaffine/attributes/internal/attribute_table.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -4,14 +4,14 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_COMPUTE_COLUMNS_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_COMPUTE_COLUMNS_H
 
-#include <equiaffine/Progress_observer.h>
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/attributes/internal/Expanded_block.h>
 #include <equiaffine/attributes/internal/structure_by.h>
-#include <equiaffine/base/internal/shared/large_pages.h>
-#include <equiaffine/function/internal/shared/point_blocks.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
-#include <equiaffine/surface/internal/shared/affine_gradients.h>
+#include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/base/internal/large_pages.h>
+#include <equiaffine/function/internal/point_blocks.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+#include <equiaffine/surface/internal/affine_gradients.h>
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_STRUCTURE_BY_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_STRUCTURE_BY_H
 
-#include <equiaffine/Local_structure_3.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/geometry/Estimator.h>
+#include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/geometry/reference_estimators.h>
 
 #include <array>

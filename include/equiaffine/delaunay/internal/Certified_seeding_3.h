@@ -2,12 +2,12 @@
 #ifndef EQUIAFFINE_DELAUNAY_INTERNAL_CERTIFIED_SEEDING_3_H
 #define EQUIAFFINE_DELAUNAY_INTERNAL_CERTIFIED_SEEDING_3_H
 
-#include <equiaffine/Clip_domain_3.h>
-#include <equiaffine/Progress_observer.h>
+#include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/delaunay/internal/Octree_3.h>
 #include <equiaffine/delaunay/internal/Seed_packing_3.h>
+#include <equiaffine/delaunay/internal/Seeding_3.h>
 #include <equiaffine/delaunay/internal/Seeding_cell_3.h>
-#include <equiaffine/delaunay/internal/shared/Seeding_3.h>
+#include <equiaffine/surface/Clip_domain_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>

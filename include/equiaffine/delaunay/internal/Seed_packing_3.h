@@ -2,12 +2,12 @@
 #ifndef EQUIAFFINE_DELAUNAY_INTERNAL_SEED_PACKING_3_H
 #define EQUIAFFINE_DELAUNAY_INTERNAL_SEED_PACKING_3_H
 
-#include <equiaffine/Clip_domain_3.h>
-#include <equiaffine/capabilities.h>
-#include <equiaffine/delaunay/internal/shared/Seed_grid_3.h>
-#include <equiaffine/function/internal/shared/sign_change.h>
-#include <equiaffine/project_to_surface.h>
-#include <equiaffine/surface/internal/shared/curve_step.h>
+#include <equiaffine/delaunay/internal/Seed_grid_3.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/function/internal/sign_change.h>
+#include <equiaffine/surface/Clip_domain_3.h>
+#include <equiaffine/surface/internal/curve_step.h>
+#include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions_3.h>

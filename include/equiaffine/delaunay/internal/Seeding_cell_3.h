@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_DELAUNAY_INTERNAL_SEEDING_CELL_3_H
 #define EQUIAFFINE_DELAUNAY_INTERNAL_SEEDING_CELL_3_H
 
-#include <equiaffine/capabilities.h>
 #include <equiaffine/delaunay/internal/Octree_3.h>
 #include <equiaffine/delaunay/internal/acute_gradients.h>
+#include <equiaffine/function/capabilities.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>

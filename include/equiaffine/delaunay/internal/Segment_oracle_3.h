@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_DELAUNAY_INTERNAL_SEGMENT_ORACLE_3_H
 #define EQUIAFFINE_DELAUNAY_INTERNAL_SEGMENT_ORACLE_3_H
 
-#include <equiaffine/Clip_domain_3.h>
-#include <equiaffine/capabilities.h>
-#include <equiaffine/function/internal/shared/sign_change.h>
-#include <equiaffine/project_to_surface.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/function/internal/sign_change.h>
+#include <equiaffine/surface/Clip_domain_3.h>
+#include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>

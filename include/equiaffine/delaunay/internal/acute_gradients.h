@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_DELAUNAY_INTERNAL_ACUTE_GRADIENTS_H
 #define EQUIAFFINE_DELAUNAY_INTERNAL_ACUTE_GRADIENTS_H
 
-#include <equiaffine/capabilities.h>
+#include <equiaffine/function/capabilities.h>
 
 #include <CGAL/Bbox_3.h>
 

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_DELAUNAY_INTERNAL_BORDER_POINTS_H
 #define EQUIAFFINE_DELAUNAY_INTERNAL_BORDER_POINTS_H
 
-#include <equiaffine/Clip_domain_3.h>
+#include <equiaffine/surface/Clip_domain_3.h>
 
 #include <CGAL/Bbox_3.h>
 

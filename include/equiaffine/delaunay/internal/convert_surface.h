@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_DELAUNAY_INTERNAL_CONVERT_SURFACE_H
 #define EQUIAFFINE_DELAUNAY_INTERNAL_CONVERT_SURFACE_H
 
-#include <equiaffine/base/internal/shared/convert_point.h>
+#include <equiaffine/base/internal/convert_point.h>
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
-#include <equiaffine/surface/Polyline_3.h>
+#include <equiaffine/mesh/Polyline_3.h>
 
 #include <type_traits>
 #include <utility>

@@ -2,17 +2,17 @@
 #ifndef EQUIAFFINE_DELAUNAY_INTERNAL_DELAUNAY_SURFACE_OF_H
 #define EQUIAFFINE_DELAUNAY_INTERNAL_DELAUNAY_SURFACE_OF_H
 
-#include <equiaffine/Clip_domain_3.h>
-#include <equiaffine/base/internal/shared/check_argument.h>
+#include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
 #include <equiaffine/delaunay/Facet_sizing.h>
+#include <equiaffine/delaunay/internal/Delaunay_range.h>
 #include <equiaffine/delaunay/internal/convert_surface.h>
-#include <equiaffine/delaunay/internal/shared/Delaunay_range.h>
-#include <equiaffine/delaunay/internal/shared/mesh_surface.h>
-#include <equiaffine/surface/Any_function_3.h>
-#include <equiaffine/surface/Polyline_3.h>
+#include <equiaffine/delaunay/internal/mesh_surface.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/mesh/Polyline_3.h>
+#include <equiaffine/surface/Clip_domain_3.h>
 
 #include <cmath>
 #include <vector>

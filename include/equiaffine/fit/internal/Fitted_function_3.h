@@ -3,7 +3,7 @@
 #define EQUIAFFINE_FIT_INTERNAL_FITTED_FUNCTION_3_H
 
 #include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/fit/internal/blend/Band_margin.h>
+#include <equiaffine/fit/internal/Band_margin.h>
 #include <equiaffine/number/Jet_3.h>
 
 #include <CGAL/Bbox_3.h>

@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_FITS_H
 #define EQUIAFFINE_FIT_INTERNAL_FITS_H
 
-#include <equiaffine/Level_set_traits_3.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/fit/internal/Fit_data_3.h>
+#include <equiaffine/fit/internal/Fit_request.h>
 #include <equiaffine/fit/internal/Fitted_function_3.h>
-#include <equiaffine/fit/internal/data/Fit_data_3.h>
-#include <equiaffine/fit/internal/shared/Fit_request.h>
+#include <equiaffine/function/Level_set_traits_3.h>
 
 #include <cstddef>
 #include <memory>

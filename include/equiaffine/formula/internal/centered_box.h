@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_FORMULA_INTERNAL_CENTERED_BOX_H
 #define EQUIAFFINE_FORMULA_INTERNAL_CENTERED_BOX_H
 
-#include <equiaffine/base/internal/shared/check_flags.h>
+#include <equiaffine/base/internal/check_flags.h>
 
 #include <CGAL/Bbox_3.h>
 

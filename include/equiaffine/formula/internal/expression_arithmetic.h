@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_ARITHMETIC_H
 #define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_ARITHMETIC_H
 
-#include <equiaffine/number/internal/shared/own_steps.h>
+#include <equiaffine/number/internal/own_steps.h>
 #include <equiaffine/number/select.h>
 
 #include <cmath>

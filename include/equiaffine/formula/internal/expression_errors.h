@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_ERRORS_H
 #define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_ERRORS_H
 
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/formula/internal/expression_words.h>
 
 #include <algorithm>

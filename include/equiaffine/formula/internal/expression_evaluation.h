@@ -4,7 +4,7 @@
 
 #include <equiaffine/formula/internal/expression_arithmetic.h>
 #include <equiaffine/formula/internal/expression_tape.h>
-#include <equiaffine/number/internal/shared/elementary_functions.h>
+#include <equiaffine/number/internal/elementary_functions.h>
 #include <equiaffine/number/nonsmooth.h>
 
 #include <algorithm>

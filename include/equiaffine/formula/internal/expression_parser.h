@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_PARSER_H
 #define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_PARSER_H
 
-#include <equiaffine/base/internal/shared/from_chars.h>
+#include <equiaffine/base/internal/from_chars.h>
 #include <equiaffine/formula/Unknown_name_error.h>
 #include <equiaffine/formula/internal/expression_errors.h>
 #include <equiaffine/formula/internal/expression_tape_builder.h>

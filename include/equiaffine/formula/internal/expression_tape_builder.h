@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAPE_BUILDER_H
 #define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAPE_BUILDER_H
 
-#include <equiaffine/base/internal/shared/bit_cast.h>
+#include <equiaffine/base/internal/bit_cast.h>
 #include <equiaffine/formula/internal/expression_evaluation.h>
 
 #include <algorithm>

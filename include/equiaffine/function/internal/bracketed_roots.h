@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_FUNCTION_INTERNAL_BRACKETED_ROOTS_H
 #define EQUIAFFINE_FUNCTION_INTERNAL_BRACKETED_ROOTS_H
 
-#include <equiaffine/concepts.h>
 #include <equiaffine/function/Surface_point_3.h>
-#include <equiaffine/function/internal/shared/sign_change.h>
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/function/internal/sign_change.h>
 
 #include <algorithm>
 #include <cmath>

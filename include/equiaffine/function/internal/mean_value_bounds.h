@@ -4,7 +4,7 @@
 
 #include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
-#include <equiaffine/number/internal/shared/monomials_3.h>
+#include <equiaffine/number/internal/monomials_3.h>
 
 #include <array>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #ifndef EQUIAFFINE_FUNCTION_INTERNAL_SEARCHES_TOGETHER_H
 #define EQUIAFFINE_FUNCTION_INTERNAL_SEARCHES_TOGETHER_H
 
-#include <equiaffine/Batch_function_traits_3.h>
+#include <equiaffine/function/Batch_function_traits_3.h>
 #include <equiaffine/function/internal/bracketed_roots.h>
 
 #include <CGAL/Bbox_3.h>

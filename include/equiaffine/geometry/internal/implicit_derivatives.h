@@ -4,7 +4,7 @@
 #ifndef EQUIAFFINE_GEOMETRY_INTERNAL_IMPLICIT_DERIVATIVES_H
 #define EQUIAFFINE_GEOMETRY_INTERNAL_IMPLICIT_DERIVATIVES_H
 
-#include <equiaffine/number/internal/shared/monomials_3.h>
+#include <equiaffine/number/internal/monomials_3.h>
 
 #include <algorithm>
 #include <array>

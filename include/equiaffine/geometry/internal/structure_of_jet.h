@@ -8,8 +8,8 @@
 #include <equiaffine/geometry/Regular_structure_3.h>
 #include <equiaffine/geometry/affine_structure.h>
 #include <equiaffine/geometry/euclidean_structure.h>
+#include <equiaffine/geometry/internal/Natural_units_3.h>
 #include <equiaffine/geometry/internal/missing_structure.h>
-#include <equiaffine/geometry/internal/shared/Natural_units_3.h>
 
 #include <algorithm>
 #include <array>

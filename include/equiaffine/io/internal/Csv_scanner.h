@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_CSV_SCANNER_H
 #define EQUIAFFINE_IO_INTERNAL_CSV_SCANNER_H
 
-#include <equiaffine/Progress_observer.h>
-#include <equiaffine/io/internal/shared/fail_to_read.h>
+#include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/io/internal/fail_to_read.h>
 #include <equiaffine/io/internal/text_input.h>
 
 #include <algorithm>

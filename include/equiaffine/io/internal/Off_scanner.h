@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_OFF_SCANNER_H
 #define EQUIAFFINE_IO_INTERNAL_OFF_SCANNER_H
 
-#include <equiaffine/io/internal/shared/fail_to_read.h>
+#include <equiaffine/io/internal/fail_to_read.h>
 #include <equiaffine/io/internal/text_input.h>
 
 #include <array>

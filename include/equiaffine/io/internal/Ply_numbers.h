@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_PLY_NUMBERS_H
 #define EQUIAFFINE_IO_INTERNAL_PLY_NUMBERS_H
 
-#include <equiaffine/base/internal/shared/bit_cast.h>
+#include <equiaffine/base/internal/bit_cast.h>
 #include <equiaffine/io/internal/Ply_header.h>
-#include <equiaffine/io/internal/shared/fail_to_read.h>
+#include <equiaffine/io/internal/fail_to_read.h>
 #include <equiaffine/io/internal/text_input.h>
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_BUFFERED_OUTPUT_H
 #define EQUIAFFINE_IO_INTERNAL_BUFFERED_OUTPUT_H
 
-#include <equiaffine/Progress_observer.h>
-#include <equiaffine/base/internal/shared/bit_cast.h>
+#include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/base/internal/bit_cast.h>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include <equiaffine/io/internal/Csv_scanner.h>
 #include <equiaffine/io/internal/text_input.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_IO_INTERNAL_CSV_ROWS_H
 
 #include <equiaffine/io/internal/buffered_output.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/assertions.h>
 

@@ -2,12 +2,12 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_PLY_ELEMENTS_H
 #define EQUIAFFINE_IO_INTERNAL_PLY_ELEMENTS_H
 
-#include <equiaffine/Progress_observer.h>
-#include <equiaffine/io/Annotated_mesh_3.h>
+#include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/io/internal/Ply_header.h>
 #include <equiaffine/io/internal/Ply_numbers.h>
 #include <equiaffine/io/internal/text_input.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Annotated_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_TEXT_INPUT_H
 #define EQUIAFFINE_IO_INTERNAL_TEXT_INPUT_H
 
-#include <equiaffine/Progress_observer.h>
-#include <equiaffine/base/internal/shared/from_chars.h>
+#include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/base/internal/from_chars.h>
 
 #include <cstddef>
 #include <istream>

@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_WRITE_POLYGONS_H
 #define EQUIAFFINE_IO_INTERNAL_WRITE_POLYGONS_H
 
+#include <equiaffine/io/internal/Ply_writer.h>
 #include <equiaffine/io/internal/buffered_output.h>
 #include <equiaffine/io/internal/mesh_text.h>
-#include <equiaffine/io/internal/shared/Ply_writer.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <array>
 #include <cstddef>

@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_XYZ_LINE_H
 #define EQUIAFFINE_IO_INTERNAL_XYZ_LINE_H
 
-#include <equiaffine/io/internal/shared/fail_to_read.h>
-#include <equiaffine/io/internal/shared/xyz_colors_note.h>
+#include <equiaffine/io/internal/fail_to_read.h>
 #include <equiaffine/io/internal/text_input.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/io/internal/xyz_colors_note.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>
 #include <cmath>

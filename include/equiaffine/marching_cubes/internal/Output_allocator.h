@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_OUTPUT_ALLOCATOR_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_OUTPUT_ALLOCATOR_H
 
-#include <equiaffine/base/internal/shared/large_pages.h>
+#include <equiaffine/base/internal/large_pages.h>
 
 #include <cstddef>
 #include <cstdlib>

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ARRAY_ISOSURFACE_H
 
 #include <equiaffine/marching_cubes/Array_isosurface_3.h>
-#include <equiaffine/marching_cubes/internal/grid/array_grid.h>
+#include <equiaffine/marching_cubes/internal/array_grid.h>
 #include <equiaffine/marching_cubes/internal/isosurface_plan.h>
 #include <equiaffine/marching_cubes/internal/linear_isosurface.h>
 

@@ -2,12 +2,12 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_EXTRACTION_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_EXTRACTION_H
 
-#include <equiaffine/base/internal/shared/parallel_for.h>
-#include <equiaffine/marching_cubes/internal/cell/Cell_vertices.h>
-#include <equiaffine/marching_cubes/internal/cell/case_table.h>
-#include <equiaffine/marching_cubes/internal/grid/Grid_rows.h>
-#include <equiaffine/marching_cubes/internal/grid/active_cells.h>
-#include <equiaffine/marching_cubes/internal/grid/grid_elements.h>
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/marching_cubes/internal/Cell_vertices.h>
+#include <equiaffine/marching_cubes/internal/Grid_rows.h>
+#include <equiaffine/marching_cubes/internal/active_cells.h>
+#include <equiaffine/marching_cubes/internal/case_table.h>
+#include <equiaffine/marching_cubes/internal/grid_elements.h>
 #include <equiaffine/marching_cubes/internal/isosurface_plan.h>
 
 #include <array>

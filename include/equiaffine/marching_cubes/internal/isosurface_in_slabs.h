@@ -4,7 +4,7 @@
 
 #include <equiaffine/marching_cubes/Isosurface_slab_3.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
-#include <equiaffine/marching_cubes/internal/grid/lattice_function.h>
+#include <equiaffine/marching_cubes/internal/lattice_function.h>
 #include <equiaffine/marching_cubes/internal/lattice_isosurface.h>
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_NUMBERING_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_NUMBERING_H
 
-#include <equiaffine/marching_cubes/internal/grid/Grid_rows.h>
-#include <equiaffine/marching_cubes/internal/grid/grid_elements.h>
-#include <equiaffine/marching_cubes/internal/grid/node_signs.h>
+#include <equiaffine/marching_cubes/internal/Grid_rows.h>
+#include <equiaffine/marching_cubes/internal/grid_elements.h>
+#include <equiaffine/marching_cubes/internal/node_signs.h>
 
 #include <CGAL/assertions.h>
 

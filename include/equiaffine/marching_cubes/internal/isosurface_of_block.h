@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_OF_BLOCK_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_OF_BLOCK_H
 
-#include <equiaffine/base/internal/shared/check_argument.h>
+#include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/marching_cubes/Isosurface_slab_3.h>
 #include <equiaffine/marching_cubes/Vertex_id.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
-#include <equiaffine/marching_cubes/internal/grid/lattice_function.h>
+#include <equiaffine/marching_cubes/internal/lattice_function.h>
 #include <equiaffine/marching_cubes/internal/lattice_isosurface.h>
 #include <equiaffine/volume/Cell_block.h>
 

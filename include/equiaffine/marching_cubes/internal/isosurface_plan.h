@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_PLAN_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_PLAN_H
 
-#include <equiaffine/base/internal/shared/parallel_for.h>
-#include <equiaffine/marching_cubes/internal/cell/case_table.h>
-#include <equiaffine/marching_cubes/internal/cell/trilinear_cell.h>
-#include <equiaffine/marching_cubes/internal/grid/active_cells.h>
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/marching_cubes/internal/active_cells.h>
+#include <equiaffine/marching_cubes/internal/case_table.h>
 #include <equiaffine/marching_cubes/internal/isosurface_numbering.h>
+#include <equiaffine/marching_cubes/internal/trilinear_cell.h>
 
 #include <array>
 #include <bit>

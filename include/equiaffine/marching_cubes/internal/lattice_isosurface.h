@@ -2,16 +2,16 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_LATTICE_ISOSURFACE_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LATTICE_ISOSURFACE_H
 
-#include <equiaffine/base/internal/shared/large_pages.h>
+#include <equiaffine/base/internal/large_pages.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
-#include <equiaffine/marching_cubes/internal/grid/lattice_function.h>
-#include <equiaffine/marching_cubes/internal/grid/sample_signs.h>
 #include <equiaffine/marching_cubes/internal/isosurface_plan.h>
+#include <equiaffine/marching_cubes/internal/lattice_function.h>
 #include <equiaffine/marching_cubes/internal/linear_isosurface.h>
-#include <equiaffine/marching_cubes/internal/vertex/pole_removal.h>
-#include <equiaffine/marching_cubes/internal/vertex/vertex_place.h>
-#include <equiaffine/marching_cubes/internal/vertex/vertex_projection.h>
-#include <equiaffine/surface/Isosurface_3.h>
+#include <equiaffine/marching_cubes/internal/pole_removal.h>
+#include <equiaffine/marching_cubes/internal/sample_signs.h>
+#include <equiaffine/marching_cubes/internal/vertex_place.h>
+#include <equiaffine/marching_cubes/internal/vertex_projection.h>
+#include <equiaffine/mesh/Isosurface_3.h>
 
 #include <CGAL/Real_timer.h>
 

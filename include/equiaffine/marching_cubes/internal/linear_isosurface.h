@@ -5,15 +5,15 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_LINEAR_ISOSURFACE_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LINEAR_ISOSURFACE_H
 
-#include <equiaffine/base/internal/shared/parallel_for.h>
-#include <equiaffine/marching_cubes/internal/cell/inner_vertex.h>
-#include <equiaffine/marching_cubes/internal/grid/grid_elements.h>
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/marching_cubes/internal/grid_elements.h>
+#include <equiaffine/marching_cubes/internal/inner_vertex.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
-#include <equiaffine/marching_cubes/internal/vertex/remove_from_mesh.h>
-#include <equiaffine/marching_cubes/internal/vertex/vertex_place.h>
-#include <equiaffine/marching_cubes/internal/vertex/zero_area_repair.h>
-#include <equiaffine/surface/Isosurface_repairs.h>
-#include <equiaffine/surface/internal/shared/split_fans.h>
+#include <equiaffine/marching_cubes/internal/remove_from_mesh.h>
+#include <equiaffine/marching_cubes/internal/vertex_place.h>
+#include <equiaffine/marching_cubes/internal/zero_area_repair.h>
+#include <equiaffine/mesh/Isosurface_repairs.h>
+#include <equiaffine/mesh/internal/split_fans.h>
 
 #include <array>
 #include <cstddef>

@@ -3,12 +3,12 @@
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_MARCHING_CUBES_OF_H
 
 #include <equiaffine/base/named_parameters.h>
-#include <equiaffine/capabilities.h>
-#include <equiaffine/concepts.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/function/concepts.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
-#include <equiaffine/marching_cubes/internal/grid/lattice_function.h>
+#include <equiaffine/marching_cubes/internal/lattice_function.h>
 #include <equiaffine/marching_cubes/internal/lattice_isosurface.h>
-#include <equiaffine/surface/Isosurface_3.h>
+#include <equiaffine/mesh/Isosurface_3.h>
 
 #include <array>
 #include <cstddef>

@@ -3,9 +3,9 @@
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_INTERVAL_FUNCTIONS_H
 #define EQUIAFFINE_NUMBER_INTERNAL_INTERVAL_FUNCTIONS_H
 
+#include <equiaffine/number/internal/elementary_functions.h>
 #include <equiaffine/number/internal/interval.h>
 #include <equiaffine/number/internal/natural_power.h>
-#include <equiaffine/number/internal/shared/elementary_functions.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_JET_FUNCTIONS_3_H
 #define EQUIAFFINE_NUMBER_INTERNAL_JET_FUNCTIONS_3_H
 
+#include <equiaffine/number/internal/elementary_functions.h>
 #include <equiaffine/number/internal/jet.h>
 #include <equiaffine/number/internal/natural_power.h>
-#include <equiaffine/number/internal/shared/elementary_functions.h>
 #include <equiaffine/number/select.h>
 
 #include <algorithm>

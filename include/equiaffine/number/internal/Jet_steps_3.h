@@ -5,9 +5,9 @@
 #define EQUIAFFINE_NUMBER_INTERNAL_JET_STEPS_3_H
 
 #include <equiaffine/number/internal/Jet_functions_3.h>
+#include <equiaffine/number/internal/Pack_fwd.h>
 #include <equiaffine/number/internal/jet.h>
-#include <equiaffine/number/internal/shared/Pack_fwd.h>
-#include <equiaffine/number/internal/shared/own_steps.h>
+#include <equiaffine/number/internal/own_steps.h>
 #include <equiaffine/number/nonsmooth.h>
 #include <equiaffine/number/select.h>
 

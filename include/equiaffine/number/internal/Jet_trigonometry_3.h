@@ -5,8 +5,8 @@
 
 #include <equiaffine/number/internal/Jet_functions_3.h>
 #include <equiaffine/number/internal/Jet_ordering_3.h>
+#include <equiaffine/number/internal/elementary_functions.h>
 #include <equiaffine/number/internal/jet.h>
-#include <equiaffine/number/internal/shared/elementary_functions.h>
 #include <equiaffine/number/nonsmooth.h>
 #include <equiaffine/number/select.h>
 

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_INTERVAL_H
 #define EQUIAFFINE_NUMBER_INTERNAL_INTERVAL_H
 
-#include <equiaffine/base/internal/shared/check_flags.h>
+#include <equiaffine/base/internal/check_flags.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_JET_H
 #define EQUIAFFINE_NUMBER_INTERNAL_JET_H
 
-#include <equiaffine/number/internal/shared/monomials_3.h>
+#include <equiaffine/number/internal/monomials_3.h>
 
 #include <array>
 #include <concepts>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_MAP_REQUEST_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_MAP_REQUEST_H
 
-#include <equiaffine/base/internal/shared/check_argument.h>
+#include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/registration/Map_kind.h>
 

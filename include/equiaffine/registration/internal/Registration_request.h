@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_REQUEST_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_REQUEST_H
 
-#include <equiaffine/base/internal/shared/check_argument.h>
+#include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/base/named_parameters.h>
+#include <equiaffine/registration/internal/Frame_thresholds.h>
 #include <equiaffine/registration/internal/Map_request.h>
-#include <equiaffine/registration/internal/frames/Frame_thresholds.h>
 
 #include <cstddef>
 

@@ -2,12 +2,12 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_OF_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_REGISTRATION_OF_H
 
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
+#include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/searches.h>
 #include <equiaffine/registration/internal/vectors_of.h>
-#include <equiaffine/surface/Any_function_3.h>
 
 namespace equiaffine::internal {
 

@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_SEARCHES_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_SEARCHES_H
 
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/mesh/internal/Triangles_3.h>
 #include <equiaffine/registration/Affine_symmetries_3.h>
 #include <equiaffine/registration/Map_kind.h>
 #include <equiaffine/registration/Mesh_contradictions.h>
@@ -9,8 +11,6 @@
 #include <equiaffine/registration/internal/Map_request.h>
 #include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/Symmetry_request.h>
-#include <equiaffine/registration/internal/samples/Triangles_3.h>
-#include <equiaffine/surface/Any_function_3.h>
 
 #include <Eigen/Core>
 

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_VECTORS_OF_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_VECTORS_OF_H
 
-#include <equiaffine/surface/internal/shared/indexed_polygons.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
 
 #include <Eigen/Core>
 

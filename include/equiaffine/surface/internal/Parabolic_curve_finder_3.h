@@ -2,16 +2,16 @@
 #ifndef EQUIAFFINE_SURFACE_INTERNAL_PARABOLIC_CURVE_FINDER_3_H
 #define EQUIAFFINE_SURFACE_INTERNAL_PARABOLIC_CURVE_FINDER_3_H
 
-#include <equiaffine/base/internal/shared/parallel_for.h>
-#include <equiaffine/concepts.h>
-#include <equiaffine/function/internal/shared/sign_change.h>
-#include <equiaffine/project_to_surface.h>
-#include <equiaffine/surface/Indexed_triangle_mesh_3.h>
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/function/internal/sign_change.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/surface/Parabolic_curves_3.h>
+#include <equiaffine/surface/internal/curve_step.h>
+#include <equiaffine/surface/internal/jet_derivatives.h>
 #include <equiaffine/surface/internal/parabolic_crossings.h>
-#include <equiaffine/surface/internal/shared/curve_step.h>
-#include <equiaffine/surface/internal/shared/jet_derivatives.h>
-#include <equiaffine/surface/internal/shared/parabolic_function.h>
+#include <equiaffine/surface/internal/parabolic_function.h>
+#include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/number_utils.h>

@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_SURFACE_INTERNAL_GRADIENTS_OF_INVARIANTS_H
 #define EQUIAFFINE_SURFACE_INTERNAL_GRADIENTS_OF_INVARIANTS_H
 
-#include <equiaffine/Local_structure_3.h>
-#include <equiaffine/capabilities.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/geometry/affine_frame.h>
-#include <equiaffine/geometry/internal/shared/Natural_units_3.h>
+#include <equiaffine/geometry/internal/Natural_units_3.h>
 
 #include <algorithm>
 #include <array>

@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_SURFACE_INTERNAL_LINE_SEARCH_H
 #define EQUIAFFINE_SURFACE_INTERNAL_LINE_SEARCH_H
 
-#include <equiaffine/capabilities.h>
-#include <equiaffine/concepts.h>
 #include <equiaffine/function/Surface_point_3.h>
-#include <equiaffine/function/internal/shared/sign_change.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/function/internal/sign_change.h>
 #include <equiaffine/surface/distance_estimate.h>
 
 #include <algorithm>

@@ -2,12 +2,12 @@
 #ifndef EQUIAFFINE_SURFACE_INTERNAL_NEWTON_DISTANCE_H
 #define EQUIAFFINE_SURFACE_INTERNAL_NEWTON_DISTANCE_H
 
-#include <equiaffine/Batch_function_traits_3.h>
-#include <equiaffine/function/internal/shared/point_blocks.h>
-#include <equiaffine/function/internal/shared/sign_change.h>
+#include <equiaffine/function/Batch_function_traits_3.h>
+#include <equiaffine/function/internal/point_blocks.h>
+#include <equiaffine/function/internal/sign_change.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/surface/distance_estimate.h>
-#include <equiaffine/surface/internal/shared/curve_step.h>
+#include <equiaffine/surface/internal/curve_step.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_SURFACE_INTERNAL_PARABOLIC_CROSSINGS_H
 #define EQUIAFFINE_SURFACE_INTERNAL_PARABOLIC_CROSSINGS_H
 
-#include <equiaffine/surface/internal/shared/jet_derivatives.h>
+#include <equiaffine/surface/internal/jet_derivatives.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>

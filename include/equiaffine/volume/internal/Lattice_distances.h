@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_LATTICE_DISTANCES_H
 #define EQUIAFFINE_VOLUME_INTERNAL_LATTICE_DISTANCES_H
 
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/volume/Lattice_3.h>
-#include <equiaffine/volume/internal/shared/Triangle_tree.h>
+#include <equiaffine/volume/internal/Triangle_tree.h>
 
 #include <CGAL/number_utils.h>
 

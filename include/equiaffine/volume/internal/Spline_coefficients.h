@@ -2,13 +2,13 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SPLINE_COEFFICIENTS_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SPLINE_COEFFICIENTS_H
 
-#include <equiaffine/Volume_view_3.h>
-#include <equiaffine/base/internal/shared/check_argument.h>
-#include <equiaffine/base/internal/shared/large_pages.h>
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/base/internal/large_pages.h>
+#include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_scheme.h>
+#include <equiaffine/volume/Volume_view_3.h>
 #include <equiaffine/volume/internal/Line_part.h>
 #include <equiaffine/volume/internal/bspline.h>
 #include <equiaffine/volume/internal/bspline_evaluation.h>

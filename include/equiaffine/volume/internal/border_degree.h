@@ -2,13 +2,13 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_BORDER_DEGREE_H
 #define EQUIAFFINE_VOLUME_INTERNAL_BORDER_DEGREE_H
 
-#include <equiaffine/Volume_view_3.h>
-#include <equiaffine/base/internal/shared/check_argument.h>
+#include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Spline_scheme.h>
 #include <equiaffine/volume/Volume_parts_3.h>
 #include <equiaffine/volume/Volume_survey.h>
+#include <equiaffine/volume/Volume_view_3.h>
 #include <equiaffine/volume/internal/Line_part.h>
 #include <equiaffine/volume/internal/bspline.h>
 

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_EVALUATION_H
 #define EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_EVALUATION_H
 
-#include <equiaffine/number/internal/shared/monomials_3.h>
+#include <equiaffine/number/internal/monomials_3.h>
 #include <equiaffine/volume/internal/Spline_pack.h>
 #include <equiaffine/volume/internal/bspline.h>
 

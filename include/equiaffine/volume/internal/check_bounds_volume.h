@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_CHECK_BOUNDS_VOLUME_H
 #define EQUIAFFINE_VOLUME_INTERNAL_CHECK_BOUNDS_VOLUME_H
 
-#include <equiaffine/Input_error.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>

@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SEPARABLE_FILTER_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SEPARABLE_FILTER_H
 
-#include <equiaffine/Volume_view_3.h>
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/volume/Volume_view_3.h>
 
 #include <algorithm>
 #include <array>

@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SIGNED_DISTANCES_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SIGNED_DISTANCES_H
 
-#include <equiaffine/base/internal/shared/parallel_for.h>
+#include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/volume/Lattice_3.h>
 #include <equiaffine/volume/internal/Lattice_distances.h>
+#include <equiaffine/volume/internal/Triangle_tree.h>
 #include <equiaffine/volume/internal/check_bounds_volume.h>
-#include <equiaffine/volume/internal/shared/Triangle_tree.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Cartesian_converter.h>

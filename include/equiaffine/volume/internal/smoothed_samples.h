@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SMOOTHED_SAMPLES_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SMOOTHED_SAMPLES_H
 
-#include <equiaffine/Volume_3.h>
-#include <equiaffine/Volume_view_3.h>
-#include <equiaffine/base/internal/shared/check_argument.h>
-#include <equiaffine/base/internal/shared/large_pages.h>
+#include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/base/internal/large_pages.h>
 #include <equiaffine/volume/Cell_block.h>
+#include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/Volume_view_3.h>
 #include <equiaffine/volume/internal/Line_part.h>
 #include <equiaffine/volume/internal/local_polynomial.h>
 #include <equiaffine/volume/internal/separable_filter.h>

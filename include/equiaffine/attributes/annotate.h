@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Puts the local structure of level sets into property maps of meshes and ranges.
+#ifndef EQUIAFFINE_ATTRIBUTES_ANNOTATE_H
+#define EQUIAFFINE_ATTRIBUTES_ANNOTATE_H
+
+#include <equiaffine/attributes/internal/annotate_elements.h>
+#include <equiaffine/attributes/internal/vertex_maps.h>
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/function/internal/explain_misuse.h>
+#include <equiaffine/mesh/internal/Face_graph.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
+#include <equiaffine/mesh/internal/points_of_range.h>
+#include <equiaffine/mesh/to_face_graph.h>
+
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/graph_traits_Surface_mesh.h>
+#include <CGAL/tags.h>
+
+#include <ranges>
+
+namespace equiaffine {
+
+/// Puts the local structure of the level sets of f through the vertices of a mesh into property maps. The mesh is a
+/// model of CGAL's VertexListGraph with any faces, or none; its kernel need not be that of the function, but has
+/// coordinates that are doubles.
+///
+/// The maps are named parameters, each of which is filled if it is given. Those of CGAL have its sign: curvatures of
+/// spheres are positive, the opposite of Euclidean_structure_3. A vector is put as what the map holds, if that can be
+/// made of three numbers, and principal curvatures as a struct with the members of CGAL's
+/// Principal_curvatures_and_directions.
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `vertex_status_map` | map of Point_status | none | which numbers exist; it is read, too |
+/// | `vertex_structure_map` | map of Local_structure_3 | none | the whole structure |
+/// | `vertex_affine_Gaussian_curvature_map` | map of numbers | none | K |
+/// | `vertex_affine_mean_curvature_map` | map of numbers | none | H |
+/// | `vertex_pick_invariant_map` | map of numbers | none | J |
+/// | `vertex_affine_normal_map` | map of vectors | none | xi |
+/// | `vertex_conormal_map` | map of vectors | none | nu |
+/// | `vertex_affine_metric_map` | map of arrays | none | xx xy xz yy yz zz of the affine metric |
+/// | `vertex_affine_area_density_map` | map of numbers | none | the affine area per Euclidean area |
+/// | `vertex_unit_normal_map` | map of vectors | none | n |
+/// | `vertex_mean_curvature_map` | map of numbers | none | -H_e, of CGAL |
+/// | `vertex_Gaussian_curvature_map` | map of numbers | none | K_e, of CGAL |
+/// | `vertex_principal_curvatures_and_directions_map` | map of structs | none | k_1, k_2 with directions, of CGAL |
+/// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
+/// | `estimator` | Estimator | COMPACT | how the affine structure is computed |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// A CGAL::Surface_mesh without such a map gets `v:status` (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`,
+/// `v:direction1`, `v:direction2` (Vector_3), and one of FT for every other attribute in doc/program.md but the
+/// norms of gradients: `v:k1`, `v:metric_xx`, `v:quadric_defect` and so on. These have the sign of
+/// Euclidean_structure_3: on a unit sphere with f < 0 inside, `v:mean_curvature` is -1, and what is put into
+/// `vertex_mean_curvature_map` is 1.
+///
+/// A vertex whose status is UNCONVERGED before the call keeps that status, unless it is OUTSIDE. CGAL::Sequential_tag
+/// and CGAL::Parallel_tag give the same numbers. Named parameters come in one chain or several, equiaffine's and
+/// CGAL's:
+/// \code
+/// annotate(graph, traits, CGAL::parameters::vertex_point_map(points),
+///          equiaffine::parameters::vertex_pick_invariant_map(map));
+/// \endcode
+/// Takes one expansion of order 4 per vertex.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Vertex_graph Graph, ImplicitFunctionTraits_3 Traits,
+          internal::Parameter_chain... Parameters>
+void annotate(Graph& graph, const Traits& traits, const Parameters&... given) {
+  using Joined = internal::Joined_parameters<Parameters...>;
+  internal::check_annotate_parameters<Joined, internal::Vertex_point_tag>();
+  const Joined parameters = internal::joined_parameters(given...);
+  static_assert(check_coordinates<Point_of_vertices<Graph, Joined>>());
+  const auto point_of = [map = vertex_points(graph, parameters)](const auto& v) { return get(map, v); };
+  if constexpr (internal::is_surface_mesh<Graph> && !internal::has_maps<Joined>(internal::Structure_tags()))
+    internal::annotate_surface_mesh<ConcurrencyTag>(graph, point_of, traits, parameters);
+  else internal::annotate_elements<ConcurrencyTag>(vertices_of(graph), point_of, traits, parameters);
+}
+
+/// The same for one vertex, whose structure is returned, too. A Surface_mesh gets no maps of its own here.
+template <class Vertex, Vertex_graph Graph, ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
+Local_structure_3<typename Traits::FT> annotate(const Vertex& v, const Graph& graph, const Traits& traits,
+                                                const Parameters&... given) {
+  internal::check_annotate_parameters<internal::Joined_parameters<Parameters...>, internal::Vertex_point_tag>();
+  const auto parameters = internal::joined_parameters(given...);
+  const auto structure = internal::structure_at(traits, get(vertex_points(graph, parameters), v),
+                                                internal::status_before(parameters, v), parameters);
+  internal::put_structure(parameters, v, structure, internal::Structure_tags());
+  return structure;
+}
+
+/// The same for a range, such as CGAL::Point_set_3: maps are from its elements. They are points, or a member of the
+/// range gives their points, or the named parameter `point_map`, a property map, in the place of `vertex_point_map`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::forward_range Points,
+          ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
+void annotate(Points&& points, const Traits& traits, const Parameters&... given) requires(!Vertex_graph<Points>) {
+  internal::check_annotate_parameters<internal::Joined_parameters<Parameters...>, internal::Point_tag>();
+  const auto parameters = internal::joined_parameters(given...);
+  internal::annotate_elements<ConcurrencyTag>(points, point_of_element(points, parameters), traits, parameters);
+}
+
+/// \cond
+// Calls that are mistaken, see explain_misuse.h.
+template <class ConcurrencyTag = CGAL::Sequential_tag, class Elements, class Traits, class... Others>
+void annotate(const Elements&, const Traits&, const Others&...) requires(
+    (Vertex_graph<Elements> || std::ranges::input_range<Elements>)&&!(ImplicitFunctionTraits_3<Traits> &&
+                                                                      (internal::Parameter_chain<Others> && ...))) {
+  internal::explain_traits<Traits>();
+  internal::explain_parameters<Others...>();
+}
+template <class Vertex, class Graph, class Traits, class... Others>
+void annotate(const Vertex&, const Graph&, const Traits&, const Others&...) requires(
+    Vertex_graph<Graph> && !Vertex_graph<Vertex> && !std::ranges::input_range<Vertex> &&
+    !(ImplicitFunctionTraits_3<Traits> && (internal::Parameter_chain<Others> && ...))) {
+  internal::explain_traits<Traits>();
+  internal::explain_parameters<Others...>();
+}
+/// \endcond
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_ATTRIBUTES_ANNOTATE_BY_FIT_H
+#define EQUIAFFINE_ATTRIBUTES_ANNOTATE_BY_FIT_H
+
+#include <equiaffine/attributes/internal/annotate_elements.h>
+#include <equiaffine/attributes/internal/annotate_fits.h>
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/fit/fitted_structures.h> // IWYU pragma: keep
+#include <equiaffine/fit/internal/fitted_structures_of.h>
+#include <equiaffine/function/internal/explain_misuse.h>
+#include <equiaffine/mesh/internal/Face_graph.h>
+
+#include <CGAL/boost/graph/graph_traits_Surface_mesh.h>
+#include <CGAL/property_map.h>
+#include <CGAL/tags.h>
+
+#include <ranges>
+
+namespace equiaffine {
+
+/// Puts the local structure of the surface that the vertices of a mesh are samples of, as `fitted_structures` finds it,
+/// into the property maps that are named parameters, as annotate() with a function does, and estimates of their errors.
+/// `vertex_structure_map` has a Fitted_structure_3<double>; no map is read. The named parameters are those of
+/// fitted_structures(), the maps of annotate(), and maps of the estimated errors:
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `vertex_affine_Gaussian_curvature_error_map` | map of numbers | none | of K |
+/// | `vertex_affine_mean_curvature_error_map` | map of numbers | none | of H |
+/// | `vertex_pick_invariant_error_map` | map of numbers | none | of J |
+/// | `vertex_affine_normal_error_map` | map of numbers | none | of xi, in degrees |
+/// | `vertex_conormal_error_map` | map of numbers | none | of nu, in degrees |
+/// | `vertex_affine_area_density_error_map` | map of numbers | none | of the affine area density |
+/// | `vertex_mean_curvature_error_map` | map of numbers | none | of H_e |
+/// | `vertex_Gaussian_curvature_error_map` | map of numbers | none | of K_e |
+/// | `vertex_unit_normal_error_map` | map of numbers | none | of n, in degrees |
+///
+/// A CGAL::Surface_mesh without such a map gets the maps that annotate() gives it, the estimates `v:NAME_error` of the
+/// errors of NAMEs that doc/program.md lists, and `v:affine_gaussian_curvature_noise` and
+/// `v:affine_mean_curvature_noise`.
+///
+/// Named parameters come in one chain or several, equiaffine's and CGAL's.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Parameter_chain... Parameters>
+void annotate_by_fit(Graph& mesh, const Parameters&... given) {
+  using Joined = internal::Joined_parameters<Parameters...>;
+  internal::check_annotate_by_fit_parameters<Joined, internal::Vertex_point_tag, internal::Vertex_normal_tag,
+                                             internal::Feature_angle_tag>();
+  const Joined parameters = internal::joined_parameters(given...);
+  const auto structures = internal::fitted_structures_of_graph<ConcurrencyTag>(mesh, parameters);
+  if constexpr (internal::is_surface_mesh<Graph> && !internal::has_maps_of_fit<Joined>)
+    internal::fill_maps_of_fit(mesh, structures);
+  else internal::put_structures_of_fit(parameters, vertices_of(mesh), structures);
+}
+
+/// The same for one vertex, whose structure is returned, too; see fitted_structure(). A Surface_mesh gets no maps of
+/// its own here.
+template <class Vertex, Face_graph Graph, internal::Parameter_chain... Parameters>
+Fitted_structure_3<double> annotate_by_fit(const Vertex& v, const Graph& mesh, const Parameters&... given) {
+  using Joined = internal::Joined_parameters<Parameters...>;
+  internal::check_annotate_by_fit_parameters<Joined, internal::Vertex_point_tag, internal::Vertex_normal_tag,
+                                             internal::Feature_angle_tag>();
+  const Joined parameters = internal::joined_parameters(given...);
+  const auto structure = internal::fitted_structure_of_vertex(v, mesh, parameters);
+  internal::put_structure_of_fit(parameters, v, structure);
+  return structure;
+}
+
+/// The same for points without faces, the elements of a range: see `fitted_structures`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::forward_range Points,
+          internal::Parameter_chain... Parameters>
+void annotate_by_fit(Points&& points, const Parameters&... given) requires(!Face_graph<Points>) {
+  using Joined = internal::Joined_parameters<Parameters...>;
+  internal::check_annotate_by_fit_parameters<Joined, internal::Point_tag, internal::Normal_tag,
+                                             internal::Normal_orientation_tag>();
+  const Joined parameters = internal::joined_parameters(given...);
+  internal::put_structures_of_fit(parameters, points,
+                                  internal::fitted_structures_of_points<ConcurrencyTag>(points, parameters));
+}
+
+/// The same as with `vertex_structure_map`.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Property_map Structure_map,
+          internal::Parameter_chain... Parameters>
+void annotate_by_fit(const Graph& mesh, Structure_map map, const Parameters&... given) {
+  annotate_by_fit<ConcurrencyTag>(mesh, parameters::vertex_structure_map(map), given...);
+}
+/// The same for points without faces.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::forward_range Points,
+          internal::Property_map Structure_map, internal::Parameter_chain... Parameters>
+void annotate_by_fit(Points&& points, Structure_map map, const Parameters&... given) requires(!Face_graph<Points>) {
+  annotate_by_fit<ConcurrencyTag>(points, parameters::vertex_structure_map(map), given...);
+}
+
+/// \cond
+// A call that is mistaken, see explain_misuse.h.
+template <class ConcurrencyTag = CGAL::Sequential_tag, class Elements, class... Others>
+void annotate_by_fit(const Elements&, const Others&...) requires(
+    (Face_graph<Elements> || std::ranges::input_range<Elements>)&&!((internal::Parameter_chain<Others> ||
+                                                                     internal::Property_map<Others>)&&...)) {
+  internal::explain_parameters<Others...>();
+}
+template <class Vertex, Face_graph Graph, class... Others>
+void annotate_by_fit(const Vertex&, const Graph&,
+                     const Others&...) requires(!Face_graph<Vertex> && !std::ranges::input_range<Vertex> &&
+                                                !(internal::Parameter_chain<Others> && ...)) {
+  internal::explain_parameters<Others...>();
+}
+/// \endcond
+
+} // namespace equiaffine
+
+#endif

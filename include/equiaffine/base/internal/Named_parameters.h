@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_BASE_INTERNAL_NAMED_PARAMETERS_H
+#define EQUIAFFINE_BASE_INTERNAL_NAMED_PARAMETERS_H
+
+#include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/base/internal/named_parameter_list.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <type_traits>
+
+namespace equiaffine::internal {
+
+/// The value of a named parameter that counts something. \throw std::invalid_argument if it is negative
+template <class Count, class Number>
+Count count_of(const Number& number) {
+  static_assert(std::is_integral_v<Number>, "this named parameter counts something: give it a whole number");
+  if constexpr (std::is_signed_v<Number>)
+    check_argument(number >= 0,
+                   "a named parameter that counts something, such as number_of_nodes, is negative: give it "
+                   "a positive number");
+  return static_cast<Count>(number);
+}
+
+/// Tags: the types by which a function asks for its parameters.
+struct Number_of_nodes_tag {};
+struct Vertex_position_tag {};
+struct Planes_per_slab_tag {};
+struct Cell_block_tag {};
+struct Known_cells_tag {};
+struct Skip_empty_space_tag {};
+struct Estimator_tag {};
+struct Clip_tag {};
+struct Feature_curves_tag {};
+struct Parabolic_features_tag {};
+struct Facet_sizing_tag {};
+struct Vertex_point_tag {};
+struct Point_tag {};
+struct Normal_tag {};
+struct Normal_orientation_tag {};
+struct Noise_tag {};
+struct Scale_tag {};
+struct Degree_tag {};
+struct Orientation_tag {};
+struct Map_kind_tag {};
+struct Reflections_tag {};
+struct Number_of_maps_tag {};
+struct Least_overlap_tag {};
+struct Refined_functions_tag {};
+struct Tolerance_tag {};
+struct Complete_tag {};
+struct Target_edge_length_tag {};
+struct Number_of_iterations_tag {};
+struct Edge_is_constrained_tag {};
+struct Feature_angle_tag {};
+struct Vertex_outcome_tag {};
+struct Vertex_normal_tag {};
+struct Ball_radius_tag {};
+struct Geom_traits_tag {};
+struct Verbose_tag {};
+struct Comments_tag {};
+struct Vertex_status_tag {};
+struct Vertex_structure_tag {};
+struct Vertex_unit_normal_tag {};
+struct Vertex_mean_curvature_tag {};
+struct Vertex_Gaussian_curvature_tag {};
+struct Vertex_principal_curvatures_tag {};
+struct Vertex_affine_mean_curvature_tag {};
+struct Vertex_affine_Gaussian_curvature_tag {};
+struct Vertex_affine_normal_tag {};
+struct Vertex_conormal_tag {};
+struct Vertex_pick_invariant_tag {};
+struct Vertex_affine_metric_tag {};
+struct Vertex_affine_area_density_tag {};
+struct Vertex_affine_mean_curvature_error_tag {};
+struct Vertex_affine_Gaussian_curvature_error_tag {};
+struct Vertex_affine_normal_error_tag {};
+struct Vertex_conormal_error_tag {};
+struct Vertex_pick_invariant_error_tag {};
+struct Vertex_affine_area_density_error_tag {};
+struct Vertex_mean_curvature_error_tag {};
+struct Vertex_Gaussian_curvature_error_tag {};
+struct Vertex_unit_normal_error_tag {};
+
+/// The empty chain of parameters.
+struct No_parameters {};
+
+template <class Value, class Tag, class Base>
+struct Named_parameters;
+
+template <class Tag, class Value, class Base>
+Named_parameters<Value, Tag, Base> add_parameter(const Value& value, const Base& base) {
+  return {value, base};
+}
+
+/// One parameter and those given before it.
+template <class Value, class Tag, class Base>
+struct Named_parameters {
+  Value value;
+  Base base;
+
+  EQUIAFFINE_NAMED_PARAMETERS(const, *this)
+};
+
+template <class Tag, class Default>
+Default get_parameter(const No_parameters&, const Default& otherwise) {
+  return otherwise;
+}
+
+/// The parameter with the given tag, the last one given if there are several.
+template <class Tag, class Default, class Value, class OtherTag, class Base>
+Default get_parameter(const Named_parameters<Value, OtherTag, Base>& parameters, const Default& otherwise) {
+  if constexpr (std::is_same_v<Tag, OtherTag>) return parameters.value;
+  else return get_parameter<Tag>(parameters.base, otherwise);
+}
+
+/// The value of a parameter whose type the caller chooses. Precondition: it is given.
+template <class Tag, class Value, class OtherTag, class Base>
+const auto& given_parameter(const Named_parameters<Value, OtherTag, Base>& parameters) {
+  if constexpr (std::is_same_v<Tag, OtherTag>) return parameters.value;
+  else return given_parameter<Tag>(parameters.base);
+}
+
+/// Whether a parameter was given.
+template <class Tag, class Parameters>
+inline constexpr bool has_parameter = false;
+template <class Tag, class Value, class OtherTag, class Base>
+inline constexpr bool has_parameter<Tag, Named_parameters<Value, OtherTag, Base>> =
+    std::is_same_v<Tag, OtherTag> || has_parameter<Tag, Base>;
+
+/// The compiler's message shows the tag of the unknown parameter as `Given`.
+template <class Given, class... Known>
+constexpr void check_parameter() {
+  static_assert((std::is_same_v<Given, Known> || ...),
+                "this function does not know one of the named parameters that it is given");
+}
+
+template <class... Known>
+constexpr void check_each_parameter(const No_parameters*) {}
+
+template <class... Known, class Value, class Tag, class Base>
+constexpr void check_each_parameter(const Named_parameters<Value, Tag, Base>*) {
+  check_parameter<Tag, Known...>();
+  check_each_parameter<Known...>(static_cast<const Base*>(nullptr));
+}
+
+/// Every function with named parameters begins with this call, which does not compile when `Parameters` has one that is
+/// not among the tags `Known`.
+template <class Parameters, class... Known>
+constexpr void check_parameters() {
+  check_each_parameter<Known...>(static_cast<const Parameters*>(nullptr));
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_BASE_INTERNAL_PARALLEL_FOR_H
+#define EQUIAFFINE_BASE_INTERNAL_PARALLEL_FOR_H
+
+#include <equiaffine/base/Progress_observer.h>
+
+#include <CGAL/tags.h>
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
+
+namespace equiaffine {
+
+/// Whether a tag of CGAL asks for threads. Does not compile if it does and there are none, as in CGAL.
+template <class ConcurrencyTag>
+constexpr bool runs_in_threads() {
+  constexpr bool result = std::is_convertible_v<ConcurrencyTag, CGAL::Parallel_tag>;
+#ifndef CGAL_LINKED_WITH_TBB
+  static_assert(!result, "CGAL::Parallel_tag needs TBB, and CGAL_LINKED_WITH_TBB is not defined: link to TBB by CGAL's "
+                         "target CGAL::TBB_support, or write CGAL::Parallel_if_available_tag");
+#endif
+  return result;
+}
+
+/// Calls f(i) for every i in [begin, end), in any order: on the threads of TBB for CGAL::Parallel_tag, else one after
+/// the other. Ranges of `grain` calls or fewer are not split between threads. A Progress_observer
+/// of the calling thread sees the loop.
+template <class ConcurrencyTag, class F>
+void parallel_for(std::size_t begin, std::size_t end, F f, [[maybe_unused]] std::size_t grain = 1) {
+  const Progress_observer::Loop loop(begin < end ? end - begin : 0);
+  if constexpr (runs_in_threads<ConcurrencyTag>()) {
+#ifdef CGAL_LINKED_WITH_TBB
+    loop.run_in_threads([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain),
+                        [&](const tbb::blocked_range<std::size_t>& r) { loop.run(r.begin(), r.end(), f); });
+    });
+#endif
+  } else {
+    loop.run(begin, end, f);
+  }
+}
+
+/// The same, on threads if `in_threads`.
+template <class F>
+void parallel_for([[maybe_unused]] bool in_threads, std::size_t begin, std::size_t end, F f, std::size_t grain = 1) {
+#ifdef CGAL_LINKED_WITH_TBB
+  if (in_threads) return parallel_for<CGAL::Parallel_tag>(begin, end, std::move(f), grain);
+#endif
+  parallel_for<CGAL::Sequential_tag>(begin, end, std::move(f), grain);
+}
+
+/// Calls f(). While a loop of f waits for other threads, the calling thread does no work of other loops, which could need
+/// what f is about to make.
+template <class ConcurrencyTag, class F>
+void isolated(const F& f) {
+  if constexpr (runs_in_threads<ConcurrencyTag>()) {
+#ifdef CGAL_LINKED_WITH_TBB
+    tbb::this_task_arena::isolate(f);
+#endif
+  } else {
+    f();
+  }
+}
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_DISPLAY_INTERNAL_BASE64_H
+#define EQUIAFFINE_DISPLAY_INTERNAL_BASE64_H
+
+#include <cstdint>
+#include <ostream>
+#include <string>
+
+namespace equiaffine::internal {
+
+/// Writes bytes to a stream as base64 (RFC 4648, section 4, padded, without line breaks). Call `finish` once, last.
+class Base64_writer {
+public:
+  explicit Base64_writer(std::ostream& out) : out_(out) { text_.reserve(buffer_size + 4); }
+
+  void put(std::uint8_t byte) {
+    group_ = (group_ << 8) | byte;
+    if (++bytes_in_group_ == 3) put_group();
+  }
+
+  /// Puts the four bytes of a word, the least significant one first.
+  void put_little_endian(std::uint32_t word) {
+    for (int shift = 0; shift < 32; shift += 8) put(static_cast<std::uint8_t>(word >> shift));
+  }
+
+  void finish() {
+    const int missing = (3 - bytes_in_group_) % 3;
+    for (int i = 0; i < missing; ++i) put(0);
+    text_.replace(text_.size() - static_cast<std::size_t>(missing), std::string::npos,
+                  static_cast<std::size_t>(missing), '=');
+    flush();
+  }
+
+private:
+  static constexpr std::size_t buffer_size = 1 << 16;
+
+  void put_group() {
+    constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    if (text_.size() >= buffer_size) flush();
+    for (int shift = 18; shift >= 0; shift -= 6) text_ += digits[(group_ >> shift) & 63];
+    group_ = 0;
+    bytes_in_group_ = 0;
+  }
+
+  void flush() {
+    out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
+    text_.clear();
+  }
+
+  std::ostream& out_;
+  std::string text_;
+  std::uint32_t group_ = 0;
+  int bytes_in_group_ = 0;
+};
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_FUNCTION_SAMPLED_FUNCTION_TRAITS_3_H
+#define EQUIAFFINE_FUNCTION_SAMPLED_FUNCTION_TRAITS_3_H
+
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/volume/Cell_block.h>
+#include <equiaffine/volume/Spline_function_3.h>
+#include <equiaffine/volume/Volume_survey.h>
+#include <equiaffine/volume/Volume_view_3.h>
+#include <equiaffine/volume/cells_to_know.h>
+#include <equiaffine/volume/internal/Spline_rounding_3.h>
+#include <equiaffine/volume/smooth_volume.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace equiaffine {
+
+/// A volume as a function: values and expansions are those of the tensor product spline through its samples, and the
+/// signs at nodes are those of the samples. The convolution scheme smooths, so that the spline's value at a node
+/// differs from the sample there.
+///
+/// A spline of degree n needs n + 1 nodes along each axis. Through fewer there is none: values off the nodes are NaN,
+/// points are OUTSIDE, and vertices of Marching Cubes stay at their linear positions, UNCONVERGED. Degree 5 needs 6 nodes,
+/// 7, the default, needs 8.
+///
+/// This is a model of ImplicitFunctionTraits_3 with first-order bounds and expansions, with a lattice, and cell by cell:
+/// Marching Cubes and the attributes need the memory of the samples, in the type that they have, and that of a block of
+/// cells for each thread, while other algorithms need one more number per node (Spline_function_3). Copies share the
+/// immutable data.
+template <class Kernel>
+class Sampled_function_traits_3 {
+public:
+  using FT = typename Kernel::FT;             ///< the number type of the kernel
+  using Point_3 = typename Kernel::Point_3;   ///< points of the kernel
+  using Vector_3 = typename Kernel::Vector_3; ///< vectors of the kernel
+
+  /// Makes the spline that `parameters` ask for. If they smooth the samples, `sample` returns smoothed ones. A Volume_3
+  /// is copied or moved, and a view of samples of any type only viewed.
+  template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+  explicit Sampled_function_traits_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters = {},
+                                     ConcurrencyTag tag = {})
+      : Sampled_function_traits_3(volume, parameters, Volume_part{volume.cells()}, tag) {}
+
+  /// Makes the same function, bit for bit, of a part of a volume: where all samples are known that it depends on, as
+  /// cells_to_know() says. \throw std::invalid_argument if that is nowhere, and for interpolation, which needs all samples
+  template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+  Sampled_function_traits_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters,
+                            const Volume_part& part, ConcurrencyTag tag = {})
+      : volume_(volume) {
+    Volume_survey survey = volume_survey<ConcurrencyTag>(volume, parameters, part.cells);
+    part.reduce(survey);
+    volume_ = smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing), survey.border_votes);
+    spline_ = std::make_shared<const Spline_function_3<Kernel>>(volume_, parameters, survey, tag);
+    rounding_ = std::make_shared<const Spline_rounding_3<Kernel>>(*spline_, FT(parameters.smoothing), survey);
+  }
+
+  /// Values and coefficients of expansions are NaN outside the support of the spline.
+  FT value(const Point_3& p) const { return spline_->value(p); }
+  /// Value and gradient of the spline.
+  Jet_3<FT, 1> first_order(const Point_3& p) const { return spline_->template taylor<1>(p); }
+  Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); } ///< the expansion of the spline
+  /// The expansion of the spline of order 5, which has jumps between cells if the degree is 5.
+  Jet_3<FT, 5> fifth_order(const Point_3& p) const { return spline_->template taylor<5>(p); }
+  Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); } ///< see Spline_function_3::bounds()
+  /// See Spline_function_3::first_order_bounds().
+  Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return spline_->first_order_bounds(box); }
+  /// The greatest change of second derivatives at p by rounding. It includes the rounding of the samples around p to
+  /// float if all samples are floats, and is 0 outside the support of the spline.
+  FT rounding(const Point_3& p) const {
+    const auto cell = spline_->cell_of(p);
+    return cell ? (*rounding_)(*spline_, *cell) : FT(0);
+  }
+  CGAL::Bbox_3 bbox() const { return lattice().bbox(); } ///< the box of the lattice
+
+  const Lattice_3<Kernel>& lattice() const { return volume_.lattice(); } ///< the lattice of the samples
+
+  /// The sample at node (i, j, k).
+  FT sample(std::size_t i, std::size_t j, std::size_t k) const { return volume_(i, j, k); }
+  /// The samples at the nodes of a block of that size, i fastest.
+  void samples(const std::array<std::size_t, 3>& first, const std::array<std::size_t, 3>& size,
+               std::span<FT> out) const {
+    volume_.copy_block(first, size, out);
+  }
+
+  /// The cell of the lattice that contains p, if p is in the support of the spline.
+  std::optional<std::array<std::size_t, 3>> cell_of(const Point_3& p) const { return spline_->cell_of(p); }
+  /// The same function, cheaper in memory if it is evaluated in these cells only: see
+  /// Spline_function_3::restricted_to_cells().
+  Sampled_function_traits_3 restricted_to_cells(const Cell_block& cells) const {
+    Sampled_function_traits_3 result = *this;
+    result.spline_ = std::make_shared<const Spline_function_3<Kernel>>(spline_->restricted_to_cells(cells));
+    return result;
+  }
+
+  const Spline_function_3<Kernel>& spline() const { return *spline_; } ///< the spline through the samples
+
+private:
+  Volume_view_3<Kernel> volume_;
+  std::shared_ptr<const Spline_function_3<Kernel>> spline_;
+  std::shared_ptr<const Spline_rounding_3<Kernel>> rounding_;
+};
+
+static_assert(FirstOrderBoundedImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+static_assert(FirstOrderImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+static_assert(CellwiseImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::Simple_cartesian<double>>>);
+
+/// The kernel is that of the volume.
+template <class Kernel>
+Sampled_function_traits_3(Volume_3<Kernel>, const Spline_parameters& = {}) -> Sampled_function_traits_3<Kernel>;
+
+/// The kernel is that of the volume.
+template <class Kernel, class ConcurrencyTag>
+Sampled_function_traits_3(Volume_3<Kernel>, const Spline_parameters&, ConcurrencyTag)
+    -> Sampled_function_traits_3<Kernel>;
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A model of ImplicitFunctionTraits_3 may do some things better than others can do for it. Each capability is an
+// optional member of the model and a free function, which calls the member or, where there is none, falls back on what
+// every model has. They have the same name, but for the member `lattice(size)` of sampling_lattice(). The wrappers
+// Level_set_traits_3, Transformed_function_traits_3, Batch_function_traits_3 and Any_function_3 have the capabilities
+// of what they wrap. doc/concepts/capabilities.md says what each promises, and what happens without the member;
+// test/support/conformance.h checks it for every model and wrapper.
+#ifndef EQUIAFFINE_FUNCTION_CAPABILITIES_H
+#define EQUIAFFINE_FUNCTION_CAPABILITIES_H
+
+#include <equiaffine/function/Surface_point_3.h>
+#include <equiaffine/function/concepts.h>
+#include <equiaffine/function/internal/box_intervals.h>
+#include <equiaffine/function/internal/bracketed_roots.h>
+#include <equiaffine/function/internal/mean_value_bounds.h>
+
+#include <CGAL/Bbox_3.h>
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace equiaffine {
+
+// clang-format off
+
+/// A model chooses the lattices on which it is sampled, such as those that fill the image of a box.
+/// See \ref concept_capabilities.
+template <class Traits>
+concept HasSamplingLattice = requires(const Traits& traits, const typename Lattice_3<Kernel_of<Traits>>::Size& size) {
+  { traits.lattice(size) } -> std::convertible_to<Lattice_3<Kernel_of<Traits>>>;
+};
+
+/// A model has bounds of value and gradient that are tighter than its `first_order_bounds`, at a higher cost.
+/// See \ref concept_capabilities.
+template <class Traits>
+concept HasTightFirstOrderBounds = requires(const Traits& traits, const CGAL::Bbox_3& box) {
+  { traits.tight_first_order_bounds(box) } -> std::same_as<Jet_3<Interval, 1>>;
+};
+
+/// Which bounds a model has. They are tight in small boxes if their excess over the range shrinks with the square of
+/// the box's size.
+struct Known_bounds {
+  bool have_gradients,          ///< value and gradient have bounds, not the value alone
+      are_tight_in_small_boxes; ///< as said above
+};
+
+/// A model learns at run time which bounds it has, as one that holds another one of any type.
+/// See \ref concept_capabilities.
+template <class Traits>
+concept HasKnownBounds = requires(const Traits& traits) {
+  { traits.known_bounds() } -> std::same_as<Known_bounds>;
+};
+
+/// A model has the derivatives of order 5, too, which the gradients of affine curvatures need.
+/// See \ref concept_capabilities.
+template <class Traits>
+concept HasFifthOrder = requires(const Traits& traits, const typename Traits::Point_3& p) {
+  { traits.fifth_order(p) } -> std::convertible_to<std::optional<Jet_3<typename Traits::FT, 5>>>;
+};
+
+/// A model tells how large the errors of its second derivatives are, because these are larger than roundings of the
+/// derivatives, as for a spline.
+/// See \ref concept_capabilities.
+template <class Traits>
+concept HasRounding = requires(const Traits& traits, const typename Traits::Point_3& p) {
+  traits.rounding(p);
+};
+
+/// A model tells how far its affine curvatures can be trusted, because it is a fit, which has estimated errors.
+/// See \ref concept_capabilities.
+template <class Traits>
+concept HasCertainty = requires(const Traits& traits, const typename Traits::Point_3& p) {
+  { traits.certainty(p) } -> std::convertible_to<double>;
+};
+
+/// A model finds its zeros on segments itself.
+/// See \ref concept_capabilities.
+template <class Traits>
+concept HasIntersectSegment = requires(const Traits& traits, const typename Traits::Point_3& p,
+                                       const typename Traits::FT& f) {
+  { traits.intersect_segment(p, p, f, f) } -> std::same_as<Surface_point_3<Kernel_of<Traits>>>;
+};
+
+/// A model hands out the samples of a block of nodes at once.
+/// See \ref concept_capabilities.
+template <class Traits>
+concept HasSamples = requires(const Traits& traits, const std::array<std::size_t, 3>& node,
+                              std::span<typename Traits::FT> out) {
+  traits.samples(node, node, out);
+};
+
+// clang-format on
+
+/// The expansion of order 1 at a point, computed in the cheapest way that the model has.
+template <ImplicitFunctionTraits_3 Traits>
+Jet_3<typename Traits::FT, 1> first_order(const Traits& traits, const typename Traits::Point_3& p) {
+  if constexpr (FirstOrderImplicitFunctionTraits_3<Traits>) {
+    return traits.first_order(p);
+  } else {
+    const auto jet = traits.taylor(p);
+    Jet_3<typename Traits::FT, 1> result;
+    for (std::size_t n = 0; n < 4; ++n) result.coefficients()[n] = jet.coefficients()[n];
+    return result;
+  }
+}
+
+/// The expansion of order 5 at a point, if the model has that.
+template <ImplicitFunctionTraits_3 Traits>
+std::optional<Jet_3<typename Traits::FT, 5>> fifth_order(const Traits& traits, const typename Traits::Point_3& p) {
+  if constexpr (HasFifthOrder<Traits>) return traits.fifth_order(p);
+  else return std::nullopt;
+}
+
+/// The lattice of the given size on which to sample a function: the one that the model chooses, or the axis-parallel
+/// one of its box.
+template <ImplicitFunctionTraits_3 Traits>
+Lattice_3<Kernel_of<Traits>> sampling_lattice(const Traits& traits,
+                                              const typename Lattice_3<Kernel_of<Traits>>::Size& size) {
+  if constexpr (HasSamplingLattice<Traits>) return traits.lattice(size);
+  else return Lattice_3<Kernel_of<Traits>>(size, traits.bbox());
+}
+
+/// Bounds of value and gradient on a box. Where the model has none, they are the whole line.
+template <ImplicitFunctionTraits_3 Traits>
+Jet_3<Interval, 1> first_order_bounds(const Traits& traits, const CGAL::Bbox_3& box) {
+  if constexpr (FirstOrderBoundedImplicitFunctionTraits_3<Traits>) {
+    return traits.first_order_bounds(box);
+  } else {
+    Jet_3<Interval, 1> jet;
+    jet.coefficients().fill(Interval::whole());
+    if constexpr (BoundedImplicitFunctionTraits_3<Traits>) jet.template at<0>() = traits.bounds(box);
+    return jet;
+  }
+}
+
+/// The tightest bounds of value and gradient that the model can give. Those from bounds of second order cost about
+/// three times as much, and exceed the range by a multiple of the square of the box's size only.
+template <ImplicitFunctionTraits_3 Traits>
+Jet_3<Interval, 1> tight_first_order_bounds(const Traits& traits, const CGAL::Bbox_3& box) {
+  if constexpr (HasTightFirstOrderBounds<Traits>) {
+    return traits.tight_first_order_bounds(box);
+  } else if constexpr (SecondOrderBoundedImplicitFunctionTraits_3<Traits>) {
+    const auto center = internal::center_of(box);
+    const auto at_center = traits.first_order_bounds(internal::box_of_point(center));
+    return internal::mean_value_bounds(traits.second_order_bounds(box), at_center,
+                                       internal::offset_from_center(box, center));
+  } else {
+    return first_order_bounds(traits, box);
+  }
+}
+
+/// Which bounds the model has.
+template <ImplicitFunctionTraits_3 Traits>
+Known_bounds known_bounds(const Traits& traits) {
+  if constexpr (HasKnownBounds<Traits>) return traits.known_bounds();
+  else return {FirstOrderBoundedImplicitFunctionTraits_3<Traits>, SecondOrderBoundedImplicitFunctionTraits_3<Traits>};
+}
+
+/// The greatest error of second derivatives at p, apart from some roundings of the derivatives. A Gaussian curvature
+/// that such errors could produce counts as zero.
+template <ImplicitFunctionTraits_3 Traits>
+typename Traits::FT rounding(const Traits& traits, const typename Traits::Point_3& p) {
+  if constexpr (HasRounding<Traits>) return traits.rounding(p);
+  else return typename Traits::FT(0);
+}
+
+/// How far the affine curvatures of the level set through p can be trusted, from 0 to 1. Affine maps of the function
+/// keep it. Registration tries points of greater certainty first.
+template <ImplicitFunctionTraits_3 Traits>
+double certainty(const Traits& traits, const typename Traits::Point_3& p) {
+  if constexpr (HasCertainty<Traits>) return traits.certainty(p);
+  else return 1;
+}
+
+/// Finds a zero of f on the segment ab, at whose ends f has the values fa and fb of different signs (0 counts as
+/// positive). This is done by Newton's method if the model has derivatives that cost less than `taylor`, else by
+/// Chandrupatla's method. Both start from linear interpolation and stay within the bracket. The result is accurate to a
+/// few roundings of the coordinates. If |f| neither gets smaller than at both ends nor negligible, the sign changes
+/// without a zero, at a pole, a jump or a place where f ceases to be defined, and the result has not converged and says
+/// which it is.
+template <ImplicitFunctionTraits_3 Traits>
+Surface_point_3<Kernel_of<Traits>> intersect_segment(const Traits& traits, const typename Traits::Point_3& a,
+                                                     const typename Traits::Point_3& b, const typename Traits::FT& fa,
+                                                     const typename Traits::FT& fb) {
+  if constexpr (HasIntersectSegment<Traits>) return traits.intersect_segment(a, b, fa, fb);
+  else return internal::zero_on_segment<Kernel_of<Traits>>(traits, a, b, fa, fb);
+}
+
+/// Writes the samples of a function at the nodes of a block of its lattice, i fastest: the block begins with node `first`, and
+/// has `size` nodes along each axis.
+template <LatticeImplicitFunctionTraits_3 Traits>
+void samples(const Traits& traits, const std::array<std::size_t, 3>& first, const std::array<std::size_t, 3>& size,
+             std::span<typename Traits::FT> out) {
+  if constexpr (HasSamples<Traits>) traits.samples(first, size, out);
+  else {
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < size[2]; ++k)
+      for (std::size_t j = 0; j < size[1]; ++j)
+        for (std::size_t i = 0; i < size[0]; ++i) out[n++] = traits.sample(first[0] + i, first[1] + j, first[2] + k);
+  }
+}
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_IO_INTERNAL_PLY_WRITER_H
+#define EQUIAFFINE_IO_INTERNAL_PLY_WRITER_H
+
+#include <equiaffine/io/internal/buffered_output.h>
+#include <equiaffine/io/internal/mesh_text.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace equiaffine {
+
+/// Writes binary PLY part by part: the header, then all vertices in any number of parts, then all faces.
+class Ply_writer {
+public:
+  /// Writes the header. `layout` has the names of the columns, whether there is a status, and the comments; what
+  /// numbers it has does not matter.
+  Ply_writer(std::ostream& stream, std::size_t vertices, std::size_t faces, const Vertex_attributes& layout)
+      : out_(stream) {
+    write_header(vertices, faces, layout);
+  }
+
+  /// Writes the next vertices with their attributes, one row of numbers for each.
+  template <class Point>
+  void write_vertices(std::span<const Point> points, const Vertex_attributes& attributes) {
+    CGAL_precondition(attributes.has_length(points.size()));
+    constexpr std::size_t number = sizeof(double);
+    const std::size_t columns = attributes.columns.size(), width = number * (3 + columns) + (attributes.status ? 1 : 0);
+    for (std::size_t first = 0; first < points.size(); first += rows_at_once) {
+      const std::size_t rows = std::min(rows_at_once, points.size() - first);
+      block_.resize(rows * width);
+      for (std::size_t row = 0; row < rows; ++row) {
+        const std::array<double, 3> p = internal::coordinates(points[first + row]);
+        for (std::size_t axis = 0; axis < 3; ++axis) store(p[axis], row * width + axis * number);
+      }
+      for (std::size_t c = 0; c < columns; ++c)
+        for (std::size_t row = 0; row < rows; ++row)
+          store(attributes.columns[c].values[first + row], row * width + (3 + c) * number);
+      for (std::size_t row = 0; row < rows && attributes.status; ++row)
+        store(static_cast<std::uint8_t>((*attributes.status)[first + row]), (row + 1) * width - 1);
+      out_.write_block(block_);
+    }
+  }
+
+  /// Writes all faces, each a range of numbers of vertices.
+  template <class Face>
+  void write_faces(const std::vector<Face>& faces) {
+    for (std::size_t first = 0; first < faces.size(); first += rows_at_once) {
+      const auto rows = std::span(faces).subspan(first, std::min(rows_at_once, faces.size() - first));
+      std::size_t size = 0;
+      for (const Face& face : rows) size += 1 + sizeof(std::uint32_t) * face.size();
+      block_.resize(size);
+      std::size_t place = 0;
+      for (const Face& face : rows) {
+        store(static_cast<std::uint8_t>(face.size()), place++);
+        for (const std::uint32_t v : face) {
+          store(v, place);
+          place += sizeof v;
+        }
+      }
+      out_.write_block(block_);
+    }
+  }
+
+  void flush() { out_.flush(); }
+
+private:
+  /// So many rows with their attributes fit into the cache nearest to a processor.
+  static constexpr std::size_t rows_at_once = 256;
+
+  void write_header(std::size_t vertices, std::size_t faces, const Vertex_attributes& layout) {
+    out_ << "ply\nformat binary_little_endian 1.0\ncomment made by equiaffine";
+    if (layout.status) {
+      out_ << "; status:";
+      for (std::size_t i = 0; i < number_of_point_statuses; ++i) out_ << ' ' << i << ' ' << to_string(Point_status(i));
+    }
+    for (std::string line : layout.comments) {
+      std::replace_if(
+          line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+      out_ << "\ncomment " << line;
+    }
+    out_ << "\nelement vertex " << vertices << "\nproperty double x\nproperty double y\nproperty double z\n";
+    for (const auto& column : layout.columns) out_ << "property double " << column.name << '\n';
+    if (layout.status) out_ << "property uchar status\n";
+    out_ << "element face " << faces << "\nproperty list uchar int vertex_indices\nend_header\n";
+  }
+
+  /// Stores a number at a place of the block, the least significant byte first.
+  template <class Number>
+  void store(Number number, std::size_t place) {
+    char* const bytes = &block_[place];
+    std::memcpy(bytes, &number, sizeof number);
+    if constexpr (std::endian::native == std::endian::big) std::reverse(bytes, bytes + sizeof number);
+  }
+
+  internal::Buffered_output out_;
+  std::string block_;
+};
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_NODE_SIGNS_H
+#define EQUIAFFINE_MARCHING_CUBES_INTERNAL_NODE_SIGNS_H
+
+#include <equiaffine/base/internal/large_pages.h>
+#include <equiaffine/marching_cubes/internal/sign_word.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// The numbers from `first` up to, but without, `end`.
+struct Index_range {
+  std::size_t first = 0, end = 0;
+  std::size_t size() const { return end - first; }
+};
+
+/// The nodes of a grid in a range along each axis.
+using Node_block = std::array<Index_range, 3>;
+
+/// The signs of the nodes of a grid, one bit each, in rows along i that begin with a new word; bits behind the end of a
+/// row are 0. Planes of constant k may be written by different threads.
+///
+/// A node for which `set` was not called must not be a corner of a cell that meets the surface. Its sign is negative
+/// unless `set_positive` was called.
+class Node_signs {
+public:
+  using Word = std::uint64_t;
+  using Size = std::array<std::size_t, 3>;
+
+  explicit Node_signs(const Size& size)
+      : size_(size), words_((size[0] + 63) / 64), masks_((words_ + 63) / 64),
+        cells_of_last_word_(within(~Word(0), words_ - 1, size[0] - 1)), evaluated_(masks_ * size[1] * size[2]),
+        undefined_(size[2]) {
+    resize_with_large_pages(positive_, words_ * size[1] * size[2] + 1);
+  }
+
+  const Size& size() const { return size_; }
+  std::size_t words() const { return words_; }
+
+  /// The words of a row. The word behind its end may be read, but is that of another row.
+  const Word* row(std::size_t j, std::size_t k) const { return &positive_[(k * size_[1] + j) * words_]; }
+
+  /// Sets the signs of the nodes of a row from `first` on; the bits of all of them must lie in one word.
+  void set(std::size_t first, std::size_t j, std::size_t k, const Sign_word& signs) {
+    const std::size_t row = k * size_[1] + j, w = first / 64;
+    positive_[row * words_ + w] |= signs.positive << first % 64;
+    evaluated_[row * masks_ + w / 64] |= Word(1) << w % 64;
+    if (signs.undefined != 0) set_undefined(first, j, k, signs.undefined);
+  }
+
+  /// Makes all nodes of a block positive.
+  void set_positive(const Node_block& block) {
+    const auto& [is, js, ks] = block;
+    for (std::size_t w = is.first / 64; 64 * w < is.end; ++w) {
+      const Word bits = within(~Word(0), w, is.end) & ~within(~Word(0), w, is.first);
+      for (std::size_t k = ks.first; k < ks.end; ++k)
+        for (std::size_t j = js.first; j < js.end; ++j) positive_[(k * size_[1] + j) * words_ + w] |= bits;
+    }
+  }
+
+  /// Whether some node of some plane has no value.
+  bool has_undefined() const {
+    return std::any_of(undefined_.begin(), undefined_.end(), [](const auto& plane) { return !plane.empty(); });
+  }
+
+  /// Calls visit(w) for the words w of a row with nodes from which edges or cells may begin that meet the surface.
+  template <class Visit>
+  void for_each_word(std::size_t j, std::size_t k, const Visit& visit) const {
+    for (std::size_t m = 0; m < masks_; ++m)
+      for (Word bits = evaluated_[(k * size_[1] + j) * masks_ + m]; bits != 0; bits &= bits - 1)
+        visit(64 * m + std::size_t(std::countr_zero(bits)));
+  }
+
+  /// Word w of a row without its bits for nodes from n on.
+  static Word within(Word word, std::size_t w, std::size_t n) {
+    return 64 * (w + 1) <= n ? word : 64 * w >= n ? 0 : word & ((Word(1) << n % 64) - 1);
+  }
+
+  /// Word w of a row without its bits for nodes at which no cell begins.
+  Word cells(Word word, std::size_t w) const { return w + 1 == words_ ? word & cells_of_last_word_ : word; }
+
+  /// Bit i of word w says that the cell (64 w + i, j, k) exists and its eight nodes have values.
+  Word defined_cells(std::size_t j, std::size_t k, std::size_t w) const {
+    if (j + 1 >= size_[1] || k + 1 >= size_[2] || w >= words_) return 0;
+    const auto undefined = [&](std::size_t v) {
+      Word word = 0;
+      if (v < words_)
+        for (std::size_t q = k; q <= k + 1; ++q)
+          if (!undefined_[q].empty()) word |= undefined_[q][j * words_ + v] | undefined_[q][(j + 1) * words_ + v];
+      return word;
+    };
+    const Word here = undefined(w);
+    return cells(~(here | here >> 1 | undefined(w + 1) << 63), w);
+  }
+
+  /// The edges that begin at the nodes of a row.
+  template <bool HasUndefined>
+  class Edge_row {
+  public:
+    Edge_row(const Node_signs& signs, std::size_t j, std::size_t k)
+        : signs_(signs), j_(j), k_(k), here_(signs.row(j, k)),
+          along_j_(j + 1 < signs.size_[1] ? signs.row(j + 1, k) : here_),
+          along_k_(k + 1 < signs.size_[2] ? signs.row(j, k + 1) : here_) {}
+
+    /// One word for each axis, whose bit i says that the edge at node 64 w + i has ends of different signs and belongs
+    /// to a cell all of whose nodes have values.
+    std::array<Word, 3> crossed(std::size_t w) const {
+      const Word here = here_[w];
+      std::array<Word, 3> crossed = {signs_.cells(here ^ (here >> 1 | here_[w + 1] << 63), w), here ^ along_j_[w],
+                                     here ^ along_k_[w]};
+      if constexpr (HasUndefined)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          if (crossed[axis] != 0) crossed[axis] &= signs_.edges_of_defined_cells(axis, j_, k_, w);
+      return crossed;
+    }
+
+  private:
+    const Node_signs& signs_;
+    std::size_t j_, k_;
+    const Word *here_, *along_j_, *along_k_;
+  };
+
+private:
+  void set_undefined(std::size_t first, std::size_t j, std::size_t k, Word bits) {
+    if (undefined_[k].empty()) undefined_[k].resize(words_ * size_[1]);
+    undefined_[k][j * words_ + first / 64] |= bits << first % 64;
+  }
+
+  /// Bit i of word w says that the edge along `axis` at the node (64 w + i, j, k) belongs to such a cell.
+  Word edges_of_defined_cells(std::size_t axis, std::size_t j, std::size_t k, std::size_t w) const {
+    Word word = 0;
+    for (std::size_t b = 0; b < (axis == 1 ? 1U : 2U); ++b)
+      for (std::size_t c = 0; c < (axis == 2 ? 1U : 2U); ++c) {
+        if (j < b || k < c) continue;
+        const Word cells = defined_cells(j - b, k - c, w);
+        word |= cells;
+        if (axis != 0) word |= cells << 1 | (w > 0 ? defined_cells(j - b, k - c, w - 1) >> 63 : 0);
+      }
+    return word;
+  }
+
+  Size size_;
+  std::size_t words_; // per row
+  std::size_t masks_; // words of evaluated_ per row
+  Word cells_of_last_word_;
+  std::vector<Word> positive_;               // with one more word behind the end
+  std::vector<Word> evaluated_;              // a bit per word of positive_, which says that `set` was called for it
+  std::vector<std::vector<Word>> undefined_; // per plane; a plane is empty if all its nodes have values
+};
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_ZERO_AREA_REPAIR_H
+#define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ZERO_AREA_REPAIR_H
+
+#include <equiaffine/marching_cubes/internal/remove_from_mesh.h>
+#include <equiaffine/mesh/Isosurface_repairs.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// Whether three points span no triangle, in the precision of double.
+template <class Coordinates>
+bool has_zero_area(const Coordinates& a, const Coordinates& b, const Coordinates& c) {
+  std::array<double, 3> u, v;
+  for (std::size_t m = 0; m < 3; ++m) {
+    u[m] = double(b[m]) - double(a[m]);
+    v[m] = double(c[m]) - double(a[m]);
+  }
+  for (std::size_t m = 0; m < 3; ++m) {
+    const std::size_t n = (m + 1) % 3;
+    const double product = u[m] * v[n],
+                 other = u[n] * v[m]; // no compiler contracts a comparison, as it may a difference
+    if (product != other || std::isinf(product)) return false;
+  }
+  return true;
+}
+
+template <class Triangles, class Coordinates>
+bool any_zero_area(const Triangles& triangles, const Coordinates& coordinates) {
+  return std::any_of(triangles.begin(), triangles.end(), [&](const auto& t) {
+    return has_zero_area(coordinates(t[0]), coordinates(t[1]), coordinates(t[2]));
+  });
+}
+
+/// Removes triangles of zero area from a mesh made by Marching Cubes, where the surface passes through nodes: edges
+/// without length are contracted while that leaves the topology as it is (link condition: Dey, Edelsbrunner, Guha,
+/// Nekhayev 1999), components without area are dropped, and what is left is given area by moving vertices a little.
+///
+/// `coordinates(v)` are those of a vertex, `nudge(v, round)` moves it a little, and `is_at_cut(v)` says that the mesh
+/// goes on there beyond what is known of it. `run` gives the triangles to remove three equal indices, and `remove`
+/// takes them out.
+template <class Coordinates, class Nudge, class Is_at_cut>
+class Zero_area_repair {
+public:
+  using Index = std::uint32_t;
+  using Triangle = std::array<Index, 3>;
+
+  /// `suspects` are the numbers of all triangles that may have no area, and of all triangles that have a vertex in
+  /// common with one that has none.
+  Zero_area_repair(std::span<Triangle> triangles, const std::vector<std::size_t>& suspects,
+                   const Coordinates& coordinates, const Nudge& nudge, const Is_at_cut& is_at_cut)
+      : triangles_(triangles), coordinates_(coordinates), nudge_(nudge), is_at_cut_(is_at_cut) {
+    for (const std::size_t t : suspects)
+      if (is_flat(t)) flat_.push_back(t);
+    if (!flat_.empty()) find_stars(suspects);
+  }
+
+  /// Repairs the triangles and says what it did.
+  Isosurface_repairs run() {
+    if (flat_.empty()) return {};
+    while (contract_edges()) continue;
+    drop_components();
+    move_vertices();
+    return repairs_;
+  }
+
+  /// Whether a closed part without area may go on beyond a cut, so that it is not known whether it is to be dropped.
+  bool is_undecided() const { return is_undecided_; }
+
+  /// Removes the triangles that are gone, and the vertices that are in no triangle any more from `points...`, arrays
+  /// with an entry per vertex.
+  template <class Triangles, class... Points>
+  void remove(Layer_bounds& bounds, Triangles& triangles, Points&... points) {
+    sort_and_unite(removed_vertices_);
+    sort_and_unite(removed_triangles_);
+    remove_from_mesh(removed_vertices_, removed_triangles_, bounds, triangles, points...);
+  }
+
+private:
+  static bool is_removed(const Triangle& t) { return t[0] == t[1]; }
+  static void sort_and_unite(auto& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  }
+  static bool contains(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
+
+  bool is_flat(std::size_t t) const {
+    const Triangle& triangle = triangles_[t];
+    return !is_removed(triangle) &&
+           has_zero_area(coordinates_(triangle[0]), coordinates_(triangle[1]), coordinates_(triangle[2]));
+  }
+
+  /// Finds the triangles around the vertices of flat triangles.
+  void find_stars(const std::vector<std::size_t>& suspects) {
+    Index last = 0;
+    for (const std::size_t t : suspects) last = std::max({last, triangles_[t][0], triangles_[t][1], triangles_[t][2]});
+    std::vector<bool> has_star(std::size_t(last) + 1);
+    for (const std::size_t t : flat_)
+      for (const Index v : triangles_[t]) has_star[v] = true;
+    for (const std::size_t t : suspects)
+      for (const Index v : triangles_[t])
+        if (has_star[v]) stars_[v].push_back(t);
+  }
+
+  /// Contracts edges without length where that is possible. Returns false if there was none.
+  bool contract_edges() {
+    const std::size_t before = repairs_.contracted_edges;
+    for (const std::size_t t : flat_)
+      for (std::size_t m = 0; m < 3 && !is_removed(triangles_[t]); ++m) {
+        const Index u = triangles_[t][m], v = triangles_[t][(m + 1) % 3];
+        if (coordinates_(u) == coordinates_(v) && may_contract(u, v)) contract(u, v);
+      }
+    return repairs_.contracted_edges != before;
+  }
+
+  /// The vertices around v, each with the number of triangles at the edge to it: 1 on the boundary, else 2.
+  std::unordered_map<Index, int> neighbors(Index v) const {
+    std::unordered_map<Index, int> result;
+    for (const std::size_t t : stars_.at(v))
+      for (const Index w : triangles_[t])
+        if (w != v) ++result[w];
+    return result;
+  }
+
+  static bool is_on_boundary(const std::unordered_map<Index, int>& around) {
+    return std::any_of(around.begin(), around.end(), [](const auto& n) { return n.second == 1; });
+  }
+
+  /// Whether contraction of the edge uv leaves the topology as it is and no two triangles the same.
+  bool may_contract(Index u, Index v) const {
+    const auto around_u = neighbors(u), around_v = neighbors(v);
+    const int triangles = around_u.at(v);
+    if (is_on_boundary(around_u) && is_on_boundary(around_v) && triangles == 2) return false;
+    int common = 0;
+    for (const auto& [w, n] : around_u) {
+      const auto at_v = around_v.find(w);
+      if (at_v == around_v.end()) continue;
+      ++common;
+      if (n == 1 && at_v->second == 1) return false; // w has no other triangle
+    }
+    return common == triangles && !is_edge_facing_both(u, v);
+  }
+
+  /// Whether triangles at u and at v, not the same ones, have the edge opposite to these vertices in common. They would
+  /// become the same triangle.
+  bool is_edge_facing_both(Index u, Index v) const {
+    for (const std::size_t s : stars_.at(u)) {
+      if (contains(triangles_[s], v)) continue;
+      for (const std::size_t t : stars_.at(v)) {
+        const auto is_at_u_or_in_t = [&](Index w) { return w == u || contains(triangles_[t], w); };
+        if (std::all_of(triangles_[s].begin(), triangles_[s].end(), is_at_u_or_in_t)) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Moves the triangles at u to v and removes those at both.
+  void contract(Index u, Index v) {
+    for (const std::size_t t : stars_[u]) {
+      Triangle& triangle = triangles_[t];
+      if (contains(triangle, v)) {
+        for (const Index w : triangle)
+          if (const auto star = stars_.find(w); w != u && star != stars_.end()) std::erase(star->second, t);
+        triangle.fill(v);
+        removed_triangles_.push_back(t);
+      } else {
+        std::replace(triangle.begin(), triangle.end(), u, v);
+        stars_[v].push_back(t);
+      }
+    }
+    stars_.erase(u);
+    removed_vertices_.push_back(u);
+    ++repairs_.contracted_edges;
+  }
+
+  /// Drops the closed components without area.
+  void drop_components() {
+    std::unordered_set<std::size_t> visited;
+    for (const std::size_t first : flat_) {
+      if (!is_flat(first) || visited.contains(first)) continue;
+      std::vector<std::size_t> component = {first}; // the flat triangles that are connected with the first
+      visited.insert(first);
+      bool is_closed_and_flat = true, meets_cut = false;
+      for (std::size_t n = 0; n < component.size(); ++n)
+        for (const Index v : triangles_[component[n]]) {
+          if (is_on_boundary(neighbors(v))) {
+            if (is_at_cut_(v)) meets_cut = true;
+            else is_closed_and_flat = false;
+          }
+          for (const std::size_t t : stars_[v]) {
+            if (!is_flat(t)) is_closed_and_flat = false;
+            else if (visited.insert(t).second) component.push_back(t);
+          }
+        }
+      if (is_closed_and_flat && meets_cut) is_undecided_ = true;
+      else if (is_closed_and_flat) drop(component);
+    }
+  }
+
+  void drop(const std::vector<std::size_t>& component) {
+    ++repairs_.dropped_components;
+    for (const std::size_t t : component) {
+      removed_vertices_.insert(removed_vertices_.end(), triangles_[t].begin(), triangles_[t].end());
+      triangles_[t].fill(triangles_[t][0]);
+    }
+    removed_triangles_.insert(removed_triangles_.end(), component.begin(), component.end());
+  }
+
+  /// Gives the remaining flat triangles area.
+  void move_vertices() {
+    constexpr int rounds = 4; // a vertex moves by 2.5e-7 at most in each
+    std::unordered_set<Index> moved;
+    for (int round = 0; round < rounds; ++round) {
+      std::vector<Index> vertices;
+      for (const std::size_t t : flat_)
+        if (is_flat(t)) vertices.insert(vertices.end(), triangles_[t].begin(), triangles_[t].end());
+      sort_and_unite(vertices);
+      for (const Index v : vertices) nudge_(v, round);
+      moved.insert(vertices.begin(), vertices.end());
+      flat_.clear(); // the move of a vertex may have flattened triangles around it
+      for (const Index v : vertices) flat_.insert(flat_.end(), stars_[v].begin(), stars_[v].end());
+    }
+    repairs_.moved_vertices = moved.size();
+    sort_and_unite(flat_);
+    repairs_.zero_area_left =
+        std::size_t(std::count_if(flat_.begin(), flat_.end(), [&](std::size_t t) { return is_flat(t); }));
+  }
+
+  std::span<Triangle> triangles_;
+  const Coordinates& coordinates_;
+  const Nudge& nudge_;
+  const Is_at_cut& is_at_cut_;
+  std::vector<std::size_t> flat_;                             // triangles that may have no area
+  std::unordered_map<Index, std::vector<std::size_t>> stars_; // the triangles around the vertices of those
+  std::vector<Index> removed_vertices_;
+  std::vector<std::size_t> removed_triangles_;
+  Isosurface_repairs repairs_;
+  bool is_undecided_ = false;
+};
+
+/// A position near p, which is move(0): move(d) for a small d that depends on the place of the vertex and the round. d
+/// is at most 2.5e-7 where move(0.5e-7) differs from p, else a few roundings.
+template <class Point, class Move>
+Point nudged(const Point& p, std::size_t place, int round, const Move& move) {
+  // The square makes vertices that move alike in one round move differently in the next.
+  const double golden = 0.6180339887498949 * double(place) * (round + 1) * (round + 1);
+  double d = 0.5e-7;
+  while (move(d) == p && d < 1) d *= 2;
+  return move(d * (1 + 4 * (golden - std::floor(golden))));
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_MESH_INTERNAL_INDEXED_POLYGONS_H
+#define EQUIAFFINE_MESH_INTERNAL_INDEXED_POLYGONS_H
+
+#include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/mesh/internal/Face_graph.h>
+
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <boost/graph/graph_traits.hpp>
+#include <boost/property_map/property_map.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <ranges>
+#include <type_traits>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+// Meshes and points of CGAL become arrays of numbers.
+namespace equiaffine {
+
+template <class Vector>
+Eigen::Vector3d coordinates_of(const Vector& v) {
+  return {CGAL::to_double(v.x()), CGAL::to_double(v.y()), CGAL::to_double(v.z())};
+}
+
+/// Points, with polygons between their positions.
+struct Indexed_polygons {
+  std::vector<Eigen::Vector3d> points = {};
+  std::vector<std::vector<std::uint32_t>> polygons = {};
+};
+
+/// Twice the vector of the area of a polygon, the sum of those of a fan of triangles.
+template <class Polygon>
+Eigen::Vector3d double_area_of_polygon(const std::vector<Eigen::Vector3d>& points, const Polygon& polygon) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
+    sum += (points[polygon[k]] - points[polygon[0]]).cross(points[polygon[k + 1]] - points[polygon[0]]);
+  return sum;
+}
+
+inline void check_points(const std::vector<Eigen::Vector3d>& points) {
+  check_argument(points.size() < std::numeric_limits<std::uint32_t>::max(), "a surface has fewer than 2^32 points");
+  check_argument(std::all_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); }),
+                 "a point has a coordinate that is not a finite number: remove it");
+}
+
+template <class Graph, class Parameters>
+auto vertex_points(Graph& graph, const Parameters& parameters) {
+  if constexpr (internal::has_parameter<internal::Vertex_point_tag, Parameters>)
+    return internal::given_parameter<internal::Vertex_point_tag>(parameters);
+  else return get(CGAL::vertex_point, graph);
+}
+
+/// The points that this map has.
+template <class Graph, class Parameters>
+using Point_of_vertices = typename boost::property_traits<
+    std::decay_t<decltype(vertex_points(std::declval<Graph&>(), std::declval<const Parameters&>()))>>::value_type;
+
+/// The points are those of the vertices, in their order.
+template <Face_graph Graph, class Parameters>
+Indexed_polygons indexed_polygons_of_graph(const Graph& graph, const Parameters& parameters) {
+  using Vertex = typename boost::graph_traits<Graph>::vertex_descriptor;
+  const auto point_of = vertex_points(graph, parameters);
+  Indexed_polygons result;
+  std::unordered_map<Vertex, std::uint32_t> index;
+  for (const Vertex v : vertices_of(graph)) {
+    index.emplace(v, std::uint32_t(result.points.size()));
+    result.points.push_back(coordinates_of(get(point_of, v)));
+  }
+  check_points(result.points);
+  for (const auto f : faces_of(graph)) {
+    auto& polygon = result.polygons.emplace_back();
+    for (const Vertex v : CGAL::vertices_around_face(halfedge(f, graph), graph)) polygon.push_back(index.at(v));
+  }
+  return result;
+}
+
+template <std::ranges::input_range Points, std::ranges::input_range Polygons>
+Indexed_polygons indexed_polygons_of_soup(const Points& points, const Polygons& polygons) {
+  Indexed_polygons result;
+  for (const auto& p : points) result.points.push_back(coordinates_of(p));
+  check_points(result.points);
+  for (const auto& polygon : polygons) {
+    auto& positions = result.polygons.emplace_back();
+    for (const auto i : polygon) {
+      check_argument(std::size_t(i) < result.points.size(), "a polygon has the position of no point: give all points");
+      positions.push_back(std::uint32_t(i));
+    }
+  }
+  return result;
+}
+
+/// Returns the first of the points that are equal to each one.
+inline std::vector<std::uint32_t> first_of_equal(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<std::uint32_t> order(points.size()), first(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](std::uint32_t i) { return std::array<double, 3>{points[i][0], points[i][1], points[i][2]}; };
+  std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) { return key(i) < key(j); });
+  for (std::size_t k = 0; k < order.size(); ++k)
+    first[order[k]] = k > 0 && key(order[k]) == key(order[k - 1]) ? first[order[k - 1]] : order[k];
+  return first;
+}
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_VOLUME_INTERNAL_SMOOTHING_TRIAL_H
+#define EQUIAFFINE_VOLUME_INTERNAL_SMOOTHING_TRIAL_H
+
+#include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/volume/Volume_parts_3.h>
+#include <equiaffine/volume/Volume_view_3.h>
+#include <equiaffine/volume/internal/Line_functionals.h>
+#include <equiaffine/volume/internal/Spline_probe.h>
+#include <equiaffine/volume/internal/local_polynomial.h>
+#include <equiaffine/volume/internal/noise_measurement.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// The cells in which scales of smoothing are compared, and the standard deviation of the noise in the samples.
+template <class Kernel>
+class Smoothing_test_site {
+public:
+  using Cell = std::array<std::size_t, 3>;
+
+  using Numbers = std::array<double, 4>;
+
+  /// The cells are those of each part that is known here. All machines get all of them.
+  Smoothing_test_site(const Volume_parts_3<Kernel>& volume, const Nodes_of_parts& cells, double deviation)
+      : volume_(volume), own_cells_(cells), deviation_(deviation) {
+    const auto cells_and_slopes = measure([](const Volume_view_3<Kernel>& samples, const Cell& cell) -> Numbers {
+      const auto& [i, j, k] = cell;
+      const double slope = 0.5 * std::hypot(double(samples(i + 1, j, k) - samples(i - 1, j, k)),
+                                            double(samples(i, j + 1, k) - samples(i, j - 1, k)),
+                                            double(samples(i, j, k + 1) - samples(i, j, k - 1)));
+      return {double(i), double(j), double(k), slope};
+    });
+    for (const auto& [i, j, k, slope] : cells_and_slopes) {
+      cells_.push_back({std::size_t(i), std::size_t(j), std::size_t(k)});
+      slopes_.push_back(slope);
+    }
+  }
+
+  const std::array<std::size_t, 3>& size() const { return volume_.lattice.size(); } ///< the numbers of nodes
+  const std::vector<Cell>& cells() const { return cells_; }
+  const std::vector<double>& slopes() const { return slopes_; } ///< of the samples in each cell, per step
+  double deviation() const { return deviation_; }
+
+  /// Returns the numbers that measure_cell(samples, cell) finds, for all cells in their order.
+  template <class Measure_cell>
+  std::vector<Numbers> measure(const Measure_cell& measure_cell) const {
+    std::vector<double> own;
+    for (std::size_t p = 0; p < own_cells_.size(); ++p)
+      for (const Cell& cell : own_cells_[p]) {
+        Progress_observer::step();
+        const Numbers numbers = measure_cell(volume_.parts[p].volume, cell);
+        own.insert(own.end(), numbers.begin(), numbers.end());
+      }
+    const std::vector<double> all = volume_.gather(std::move(own));
+    std::vector<Numbers> result(all.size() / 4);
+    for (std::size_t n = 0; n < all.size(); ++n) result[n / 4][n % 4] = all[n];
+    return result;
+  }
+
+  /// The number of the first machine: others may have rounded differently, and have to decide as it does.
+  double agreed(double number) const { return volume_.gather({number}).front(); }
+
+private:
+  const Volume_parts_3<Kernel>& volume_;
+  Nodes_of_parts own_cells_;
+  double deviation_;
+  std::vector<Cell> cells_;
+  std::vector<double> slopes_;
+};
+
+/// A scale of smoothing, tried at a test site: value and fourth derivatives of the spline in each of its cells.
+template <class Kernel>
+class Smoothing_trial {
+public:
+  using Site = Smoothing_test_site<Kernel>;
+
+  Smoothing_trial(const Site& site, const Spline_rule<typename Kernel::FT>& rule) : probe_(site.size(), rule) {
+    measured_ = site.measure(
+        [&](const Volume_view_3<Kernel>& samples, const auto& cell) { return probe_.measure(samples, cell); });
+  }
+
+  /// The number of cells in which the spline has a value: there is no sample that is not finite in their windows.
+  std::size_t number_of_values() const {
+    return std::size_t(
+        std::count_if(measured_.begin(), measured_.end(), [](const auto& cell) { return std::isfinite(cell[0]); }));
+  }
+
+  /// Whether this scale moves the surface that `unsmoothed` has: in more than a tenth of the cells the value changes by
+  /// more than hypot(two standard deviations of the change that noise explains, the slope times a tenth of a voxel), or
+  /// there is none any more.
+  bool moves_surface(const Smoothing_trial& unsmoothed, const Site& site) const {
+    std::size_t compared = 0, moved = 0;
+    for (std::size_t n = 0; n < site.cells().size(); ++n) {
+      if (!std::isfinite(unsmoothed.measured_[n][0])) continue;
+      const double explained =
+          site.deviation() * std::sqrt(probe_.variance_of_difference(unsmoothed.probe_, site.cells()[n]).value);
+      const double change = std::abs(measured_[n][0] - unsmoothed.measured_[n][0]);
+      ++compared;
+      moved += !(change <= std::hypot(2 * explained, 0.1 * site.slopes()[n])); // also if there is no value
+    }
+    return 10 * moved > compared;
+  }
+
+  /// The estimated error of fourth derivatives: their standard deviation by noise, and their bias.
+  double risk(const Site& site, double bias) const {
+    std::vector<double> deviations;
+    for (const auto& cell : site.cells())
+      deviations.push_back(site.deviation() * std::sqrt(probe_.covariance(probe_, cell).derivative));
+    return std::hypot(median_magnitude(std::move(deviations)), bias);
+  }
+
+  /// The estimated bias of fourth derivatives: how far they differ from those of the scale before, beyond what noise
+  /// explains.
+  double bias(const Smoothing_trial& last, const Site& site) const {
+    std::vector<double> differences, expected;
+    for (std::size_t n = 0; n < site.cells().size(); ++n) {
+      expected.push_back(site.deviation() *
+                         std::sqrt(probe_.variance_of_difference(last.probe_, site.cells()[n]).derivative));
+      for (std::size_t a = 1; a < 4; ++a)
+        if (const double d = last.measured_[n][a] - measured_[n][a]; std::isfinite(d)) differences.push_back(d);
+    }
+    const double of_noise = median_magnitude(std::move(expected));
+    const double change = quantile_of_magnitudes(std::move(differences), 0.8) / quantile_80_over_deviation;
+    return std::sqrt(std::max(0.0, change * change - 1.5 * of_noise * of_noise)); // 1.5, as both are uncertain
+  }
+
+private:
+  Spline_probe<Kernel> probe_;
+  std::vector<typename Site::Numbers> measured_; ///< the numbers of the probe in each cell
+};
+
+inline constexpr std::array<double, 8> scales_to_try = {1.5, 2, 2.5, 3, 4, 5, 6, 8};
+
+/// The scale with the least risk at a site; `rule` says how samples become a spline without smoothing. Scales are tried
+/// in increasing order up to the first one that moves the surface or whose window does not fit into the volume.
+template <class Kernel>
+typename Kernel::FT least_risky_scale(const Smoothing_test_site<Kernel>& site, Spline_rule<typename Kernel::FT> rule) {
+  using FT = typename Kernel::FT;
+  using Trial = Smoothing_trial<Kernel>;
+  const std::size_t shortest = *std::min_element(site.size().begin(), site.size().end());
+  const Trial unsmoothed(site, rule);
+  if (unsmoothed.number_of_values() == 0) return 0;
+  Trial last = unsmoothed;
+  double least_risk = unsmoothed.risk(site, 0);
+  FT best = 0;
+  for (const FT scale : scales_to_try) {
+    if (2 * Smoothing_filter<FT>::radius_of(scale) + 1 > shortest) break;
+    rule.smoothing = scale;
+    Trial trial(site, rule);
+    constexpr double moves = std::numeric_limits<double>::infinity();
+    const double risk =
+        site.agreed(trial.moves_surface(unsmoothed, site) ? moves : trial.risk(site, trial.bias(last, site)));
+    if (risk == moves) break;
+    if (risk < least_risk) {
+      least_risk = risk;
+      best = scale;
+    }
+    last = std::move(trial);
+  }
+  return best;
+}
+
+} // namespace equiaffine::internal
+
+#endif

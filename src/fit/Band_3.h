@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_FIT_BAND_3_H
+#define EQUIAFFINE_SRC_FIT_BAND_3_H
+
+#include "fit/Ball_tree_3.h"
+#include "fit/Border_gap_3.h"
+#include "fit/Normalization_3.h"
+#include "fit/Point_tree_3.h"
+#include <equiaffine/fit/internal/Band_margin.h>
+#include <equiaffine/fit/internal/Charts_3.h>
+
+#include <CGAL/Bbox_3.h>
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// A point of the surface with its normal, the distance of the data around it, the height of the core there, and where
+/// the surface does not go on, if the point is on its border.
+struct Band_point_3 {
+  Eigen::Vector3d point, normal;
+  double spacing, core;
+  std::optional<Border_gap_3> gap;
+  Charts_3::Index chart; ///< the smooth part of the surface
+};
+
+/// The part of space near points of a surface: within 2 spacings of the nearest one along its normal, or within a margin
+/// that may be larger, within 1.25 spacings across, and no more than a quarter of a spacing beyond the border, since
+/// polynomials that go on there know nothing. Away from borders it is also what is within 1 spacing across of another one
+/// of the nearest points, where the density jumps. The core is a lower part of it.
+class Band_3 {
+public:
+  using Vector = Eigen::Vector3d;
+
+  /// The height over a smooth part of the surface, as of planes that are blended, and what is known there.
+  struct Height {
+    Charts_3::Index chart;
+    double value = 0;
+    Vector gradient = Vector::Zero(); ///< the mean normal
+    double spacing = 0, core = 0;     ///< means
+    double remoteness = 0;            ///< from 0 for the part of the nearest point to 1 where none of its points counts
+  };
+
+  /// Makes the band of a surface of which at most `most_at_point` smooth parts meet at a point.
+  explicit Band_3(std::vector<Band_point_3> points, std::size_t most_at_point = 1)
+      : points_(std::move(points)), count_(std::clamp<std::size_t>(2 * most_at_point, 9, 64)) {
+    std::vector<Vector> places;
+    std::vector<double> reaches;
+    for (const auto& p : points_) {
+      places.push_back(p.point);
+      reaches.push_back(std::hypot(band_height, border) * p.spacing);
+    }
+    tree_ = Point_tree_3(places);
+    balls_ = Ball_tree_3(places, reaches);
+  }
+
+  /// Whether a point is in the band with its margin.
+  bool contains(const Vector& p, const Band_margin& margin) const {
+    const auto nearest = tree_.nearest(p, 1);
+    if (nearest.empty()) return false;
+    if (contains(p, points_[nearest.front()], border, margin)) return true;
+    const auto feet = tree_.nearest(p, count_);
+    return std::none_of(feet.begin(), feet.end(), [&](auto i) { return points_[i].gap.has_value(); }) &&
+           std::any_of(feet.begin(), feet.end(), [&](auto i) { return contains(p, points_[i], 1, margin); });
+  }
+
+  /// Returns the heights over the smooth parts that the nearest points belong to, that of the very nearest first: means
+  /// of the heights over the tangent planes at these points, with the weights ((R - d) / (R d))^2, where R is the distance
+  /// of the next nearest one, so that the mean is continuous (Renka, Multivariate interpolation of large sets of scattered
+  /// data, 1988, with planes in place of quadratic functions).
+  /// \pre the band has points.
+  std::vector<Height> heights(const Vector& p) const {
+    const std::vector<Foot> feet = nearest_feet(p);
+    const double reach = feet.size() < count_ ? std::numeric_limits<double>::infinity() : feet.back().distance;
+    const double nearest = feet.front().distance;
+    std::vector<Height> result;
+    for (const Charts_3::Index chart : charts_of(feet)) {
+      Height& height = result.emplace_back(Height{chart});
+      double sum = 0;
+      for (const auto& [index, distance] : feet) {
+        const auto& [point, normal, spacing, core, gap, own_chart] = points_[index];
+        if (own_chart != chart) continue;
+        if (sum == 0 && !std::isinf(reach) && reach > nearest)
+          height.remoteness = std::min((distance - nearest) / (reach - nearest), 1 - 1e-9);
+        const double least = 1e-6 * spacing, d = std::max(distance, least); // a point has its own plane
+        const double root = (std::isinf(reach) ? 1 : std::max(1e-9, (reach - d) / reach)) / d, weight = root * root;
+        height.value += weight * (p - point).dot(normal);
+        height.gradient += weight * normal;
+        height.spacing += weight * spacing;
+        height.core += weight * core;
+        sum += weight;
+      }
+      height.value /= sum, height.gradient /= sum, height.spacing /= sum, height.core /= sum;
+    }
+    return result;
+  }
+
+  /// Returns a point moved along the normal of the nearest point of the surface into the tangent plane there; the same
+  /// point if the band has none.
+  Vector on_tangent_plane(const Vector& p) const {
+    const auto nearest = tree_.nearest(p, 1);
+    if (nearest.empty()) return p;
+    const Band_point_3& foot = points_[nearest.front()];
+    return p - (p - foot.point).dot(foot.normal) * foot.normal;
+  }
+
+  /// The distance of the data around the nearest point of the surface. \pre The band has points.
+  double spacing(const Vector& p) const { return points_[tree_.nearest(p, 1).front()].spacing; }
+
+  /// Returns whether some point of a box, given by its corners, may be in the band.
+  bool may_meet(const Vector& lower, const Vector& upper, const Band_margin& margin) const {
+    const Vector half = Vector::Constant(std::hypot(1, margin.slope) * margin.height);
+    return balls_.meets(lower - half, upper + half);
+  }
+
+  /// Returns the box of the core in the coordinates of the data.
+  CGAL::Bbox_3 box(const Normalization_3& normalization) const {
+    CGAL::Bbox_3 box;
+    const Eigen::Matrix3d inverse = normalization.matrix.inverse();
+    const Vector reach_of_axes = inverse.rowwise().norm();
+    for (const auto& p : points_) {
+      const Vector center = normalization.origin + inverse * p.point;
+      const Vector half = std::hypot(band_height, border) * p.spacing * reach_of_axes;
+      const Vector lower = center - half, upper = center + half;
+      box += CGAL::Bbox_3(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]);
+    }
+    return box;
+  }
+
+  static constexpr double band_height = 2, border = 1.25, overhang = 0.25; ///< in spacings
+
+private:
+  /// Whether a point is near a foot: up to a distance across, in spacings, and not beyond the border.
+  static bool contains(const Vector& p, const Band_point_3& foot, double across, const Band_margin& margin) {
+    const Vector difference = p - foot.point;
+    const double height = difference.dot(foot.normal), size = std::abs(height), spacing = foot.spacing;
+    const Vector tangential = difference - height * foot.normal;
+    const double excess = std::max(tangential.norm() - across * spacing,
+                                   foot.gap ? foot.gap->depth(tangential) - overhang * spacing : -border * spacing);
+    return size <= std::max(margin.height, band_height * spacing) && excess <= margin.slope * size;
+  }
+
+  struct Foot {
+    Data_points_3::Index index;
+    double distance;
+  };
+
+  /// The nearest points, the nearest first.
+  std::vector<Foot> nearest_feet(const Vector& p) const {
+    std::vector<Foot> feet;
+    for (const auto i : tree_.nearest(p, count_)) feet.push_back({i, (p - points_[i].point).norm()});
+    std::sort(feet.begin(), feet.end(), [](const Foot& a, const Foot& b) {
+      return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
+    });
+    return feet;
+  }
+
+  std::vector<Charts_3::Index> charts_of(const std::vector<Foot>& feet) const {
+    std::vector<Charts_3::Index> charts;
+    for (const Foot& foot : feet)
+      if (std::find(charts.begin(), charts.end(), points_[foot.index].chart) == charts.end())
+        charts.push_back(points_[foot.index].chart);
+    return charts;
+  }
+
+  std::vector<Band_point_3> points_;
+  std::size_t count_; ///< of the nearest points that have a say: 9, or more for corners of many parts
+  Point_tree_3 tree_;
+  Ball_tree_3 balls_;
+};
+
+} // namespace equiaffine::internal
+
+#endif

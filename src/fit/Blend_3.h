@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_FIT_BLEND_3_H
+#define EQUIAFFINE_SRC_FIT_BLEND_3_H
+
+#include "fit/Band_3.h"
+#include "fit/Patches_3.h"
+#include "fit/foot_on_surface.h"
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/number/Jet_3.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// One function from many patches, defined near its zero set beside the data only, in a band with a margin as large as it
+/// is asked for. Above the core of the band polynomials know nothing, and where they are far from the height over the
+/// surface they are wrong: the value becomes that height there, continuously, and first derivatives become those of the
+/// height. Each smooth part between creases has a function of its own; where parts meet, their values are combined as a
+/// solid is from half-spaces, see Charts_3.
+class Blend_3 {
+public:
+  using Vector = Eigen::Vector3d;
+
+  Blend_3(bool in_threads, const Data_points_3& data, const Fit_choices_3& choices)
+      : charts_(data.charts), patches_(in_threads, data, choices),
+        band_(feet(in_threads, data), data.charts.most_at_point) {}
+
+  const Band_3& band() const { return band_; }
+
+  double value(const Vector& p, const Band_margin& margin) const {
+    if (!band_.contains(p, margin)) return std::numeric_limits<double>::quiet_NaN();
+    const auto heights = band_.heights(p);
+    return heights.size() == 1 ? value_of_part(p, heights.front()) : choice(p, heights).value;
+  }
+
+  /// The expansion at a point: to first order in the band, to a higher one where the value is that of polynomials alone.
+  /// A value that fades has the derivatives that it has without.
+  template <int Order>
+  Jet_3<double, Order> taylor(const Vector& p) const {
+    using Jet = Jet_3<double, Order>;
+    if (!band_.contains(p, {})) return Jet(std::numeric_limits<double>::quiet_NaN());
+    const auto heights = band_.heights(p);
+    if (heights.size() == 1) return taylor_of_part<Order>(p, heights.front());
+    const Charts_3::Choice chosen = choice(p, heights);
+    if (Order > 1 && chosen.fading != 0) return Jet(std::numeric_limits<double>::quiet_NaN());
+    return taylor_of_part<Order>(p, heights[chosen.position]) + Jet(chosen.fading);
+  }
+
+  Fit_accuracy accuracy(const Vector& p, const Jet_3<double>& jet) const {
+    const auto heights = band_.heights(p);
+    const std::size_t position = heights.size() == 1 ? 0 : choice(p, heights).position;
+    return patches_.accuracy(p, jet, heights[position].chart);
+  }
+
+private:
+  /// Feet may be farther apart than the data are. A spacing of this part of their distance makes a band that reaches
+  /// 0.75 of it across: the middle of three feet, at 0.58 of it if they are equally far apart, is in the band.
+  static constexpr double part_of_gap = 0.6;
+
+  /// From this part of the height of the core on, the value is the height alone; above the core, it is so in part.
+  static constexpr double top = 1.5;
+
+  /// Parts that are less remote than this have their own value, see Band_3::Height.
+  static constexpr double near = 0.7;
+
+  static bool is_above_core(const Band_3::Height& height) { return !(std::abs(height.value) < top * height.core); }
+
+  /// A polynomial of x that goes from 0 at a to 1 at b with slope 0.
+  static double smooth_step(double a, double b, double x) {
+    const double t = std::clamp((x - a) / (b - a), 0., 1.);
+    return t * t * (3 - 2 * t);
+  }
+
+  /// The weight of the height beside the value of the polynomials: 0 in the core if the two about agree, 1 above it, where
+  /// they differ by 0.8 of the distance of the data, and where patches end.
+  static double part_of_height(const Patches_3::Mean<double>& mean, const Band_3::Height& height) {
+    const auto& [value, depth] = mean;
+    if (!std::isfinite(value) || is_above_core(height)) return 1;
+    const double agreement = smooth_step(0.8, 0.4, std::abs(value - height.value) / height.spacing);
+    return 1 - smooth_step(0, 0.1, depth) * agreement * smooth_step(top, 1, std::abs(height.value) / height.core);
+  }
+
+  /// The value of the function of a smooth part.
+  double value_of_part(const Vector& p, const Band_3::Height& height) const {
+    if (is_above_core(height)) return height.value;
+    const auto mean = patches_.value(p, height.chart);
+    const double part = part_of_height(mean, height);
+    return part < 1 ? (1 - part) * mean.value + part * height.value : height.value;
+  }
+
+  /// The expansion of the function of a smooth part.
+  template <int Order>
+  Jet_3<double, Order> taylor_of_part(const Vector& p, const Band_3::Height& height) const {
+    using Jet = Jet_3<double, Order>;
+    const auto [jet, depth] =
+        is_above_core(height) ? Patches_3::Mean<Jet>{Jet(height.value), 0} : patches_.taylor<Order>(p, height.chart);
+    const double part = part_of_height({jet.value(), depth}, height);
+    if (part == 0) return jet;
+    if constexpr (Order > 1) {
+      return Jet(std::numeric_limits<double>::quiet_NaN());
+    } else {
+      Jet plane(height.value);
+      for (std::size_t axis = 0; axis < 3; ++axis) plane.coefficients()[1 + axis] = height.gradient[Eigen::Index(axis)];
+      return part < 1 ? jet * (1 - part) + plane * part : plane;
+    }
+  }
+
+  /// The part whose value is that of the function, and what fading adds to it.
+  Charts_3::Choice choice(const Vector& p, const std::vector<Band_3::Height>& heights) const {
+    std::vector<Charts_3::Part_value> values;
+    for (const Band_3::Height& height : heights) {
+      const double fading = height.spacing * std::max(0., height.remoteness - near) / (1 - height.remoteness);
+      values.push_back({height.chart, value_of_part(p, height), fading});
+    }
+    return charts_.combined(values);
+  }
+
+  /// The points of the zero set beside the data.
+  std::vector<Band_point_3> feet(bool in_threads, const Data_points_3& data) const {
+    std::vector<std::optional<Band_point_3>> found(data.size());
+    parallel_for(
+        in_threads, 0, data.size(),
+        [&](std::size_t i) {
+          const Charts_3::Index chart = charts_.of(i);
+          const auto foot = foot_on_surface(
+              data.points[i], [&](const Vector& p) { return patches_.taylor<1>(p, chart).value; },
+              [&](const Vector& p) { return patches_.least_radius(p, chart); }, 1e-3 * data.spacing[i], 8);
+          if (!foot) return;
+          const Vector unit = foot->gradient.normalized();
+          const double core = sound_height(foot->point, unit, chart, Band_3::band_height * data.spacing[i]);
+          found[i] = {foot->point, unit, data.spacing[i], core, {}, chart};
+        },
+        64);
+    fill_holes(data, found);
+    std::vector<std::optional<Border_gap_3>> gaps(data.size());
+    parallel_for(
+        in_threads, 0, data.size(), [&](std::size_t i) { gaps[i] = gap(data, found, Data_points_3::Index(i)); }, 256);
+    std::vector<Band_point_3> result;
+    for (std::size_t i = 0; i < data.size(); ++i) {
+      if (!found[i]) continue;
+      found[i]->gap = gaps[i];
+      result.push_back(*found[i]);
+      for (const auto j : data.neighbors_of(Data_points_3::Index(i)))
+        if (found[j])
+          result.back().spacing =
+              std::max(result.back().spacing, part_of_gap * (found[j]->point - found[i]->point).norm());
+    }
+    return result;
+  }
+
+  /// A datum whose foot is not found is one itself, with the least core around, if at least half of its neighbors have
+  /// feet, or without a core if it is of a part between creases that has too few points for any. Others, such as points
+  /// away from the surface or without a normal, make no part of it.
+  static void fill_holes(const Data_points_3& data, std::vector<std::optional<Band_point_3>>& feet) {
+    std::vector<char> has_feet(data.size()); // of parts
+    for (std::size_t i = 0; i < data.size(); ++i)
+      if (feet[i]) has_feet[data.charts.of(i)] = 1;
+    std::vector<std::pair<Data_points_3::Index, double>> filled; // with their cores
+    for (Data_points_3::Index i = 0; i < data.size(); ++i) {
+      if (feet[i] || data.normals[i].isZero() || data.spacing[i] == 0) continue;
+      const auto around = data.neighbors_of(i);
+      const auto known = std::count_if(around.begin(), around.end(), [&](auto j) { return feet[j].has_value(); });
+      const bool is_of_few = data.charts.has_creases(data.charts.of(i)) && !has_feet[data.charts.of(i)];
+      if (!is_of_few && (known == 0 || 2 * std::size_t(known) < around.size())) continue;
+      double least = std::numeric_limits<double>::infinity();
+      for (const auto j : around)
+        if (feet[j]) least = std::min(least, feet[j]->core);
+      filled.emplace_back(i, std::isinf(least) ? 0 : least);
+    }
+    for (const auto& [i, core] : filled)
+      feet[i] = {data.points[i], data.normals[i], data.spacing[i], core, {}, data.charts.of(i)};
+  }
+
+  /// Returns the gap beside the foot of a point where the surface does not go on, if there is one: neither a neighbor nor
+  /// another point nearby is there. At a crease the surface goes on as another part.
+  static std::optional<Border_gap_3> gap(const Data_points_3& data,
+                                         const std::vector<std::optional<Band_point_3>>& feet, Data_points_3::Index i) {
+    if (!feet[i] || data.charts.has_crease_at(i)) return {};
+    if (!data.is_at_border.empty() && !data.is_at_border[i]) return {};
+    std::vector<Vector> to_others;
+    const auto add = [&](Data_points_3::Index j) {
+      if (j != i && feet[j]) to_others.push_back(feet[j]->point - feet[i]->point);
+    };
+    for (const auto j : data.neighbors_of(i)) add(j);
+    for (const auto j : connected_ball(data, i, Border_gap_3::radius * data.spacing[i])) add(j);
+    return Border_gap_3::widest(feet[i]->normal, to_others);
+  }
+
+  /// The greatest part of a height, halved up to three times, up to which values are about the height on both sides. Fits
+  /// to flat parts do not know much of what is above them.
+  double sound_height(const Vector& foot, const Vector& normal, Charts_3::Index chart, double height) const {
+    const auto is_sound = [&](double h) { return patches_.value(foot + h * normal, chart).value / h > 0.5; };
+    const double least = height / 8;
+    double sound = least;
+    for (double h = least; h <= height && is_sound(h) && is_sound(-h); h *= 2) sound = h;
+    return sound;
+  }
+
+  Charts_3 charts_;
+  Patches_3 patches_;
+  Band_3 band_;
+};
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_FIT_CURVATURE_FIT_3_H
+#define EQUIAFFINE_SRC_FIT_CURVATURE_FIT_3_H
+
+#include "fit/Fit_calibration.h"
+#include "fit/Fit_choices_3.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// A fit, or a mean of fits, is known to within these errors, parts of the sizes of its numbers.
+struct Fit_accuracy {
+  Number_errors error;  ///< the whole estimate of the error of what the fit stands for
+  Number_errors noise;  ///< two standard deviations of what noise alone makes
+  Number_errors detail; ///< at a scale: what residuals make that have more than noise; else the error
+  double radius;        ///< of the ball whose points were fitted
+  double deviation;     ///< of one point from any smooth surface
+};
+
+struct Curvature_fit_3 {
+  Patch_3 patch;
+  Fitted_numbers numbers; ///< at the foot of the center
+  Fit_accuracy accuracy;
+};
+
+/// Fits polynomials of degrees of a family. Where the ball has too few points for all, as at a border of the surface, it
+/// grows. Where they do not determine a polynomial, since they fill a small part of the ball only, it shrinks.
+inline std::vector<Local_fit_3> fit_in_way(const Data_points_3& data, Data_points_3::Index center, double radius,
+                                           const Way_to_fit& way, std::span<const int> degrees,
+                                           const Number_request& request) {
+  const std::array<double, 1> weights = {way.weight_of_normals};
+  const auto fit = [&](double r) {
+    auto fits = way.family == Fit_family::HEIGHT ? fit_heights(data, center, r, degrees, &request)
+                                                 : fit_spaces(data, center, r, degrees, weights, &request);
+    if (!fits.empty() && !way.has_made(fits.front(), way.degree)) fits.clear();
+    return fits;
+  };
+  std::vector<Local_fit_3> fits = fit(radius);
+  for (int step = 1; step < 6 && fits.size() < degrees.size(); ++step)
+    if (auto larger = fit(radius * std::pow(1.15, step)); larger.size() > fits.size()) fits = std::move(larger);
+  for (int step = 1; step < 6 && fits.empty(); ++step) fits = fit(radius / std::pow(1.3, step));
+  return fits;
+}
+
+/// The error of K is the difference of degrees that is typical around with this power, and the difference at the point
+/// itself with the rest, but at least the latter, which is small by chance at some points.
+constexpr double power_of_level = 0.88;
+
+/// The accuracy of the greater of two degrees on exact data. A ball 1.35 times smaller, whose error is some five times
+/// less, tells the error of this one, unless both happen to agree; residuals are what polynomials leave out and not
+/// noise, which matters in part.
+inline Fit_accuracy exact_accuracy(const Local_fit_3& fit, const Local_fit_3& lower, const Local_fit_3& smaller,
+                                   double noise) {
+  constexpr double part_of_difference = 0.12, part_of_residual = 0.75;
+  const Number_estimates& estimates = *fit.estimates;
+  const Number_errors sizes = estimates.numbers.sizes();
+  const Number_errors to_lower = relative_difference(estimates.numbers, lower.estimates->numbers);
+  Number_errors bias =
+      relative_difference(estimates.numbers, smaller.estimates->numbers).max(part_of_difference * to_lower);
+  bias[GAUSSIAN] = std::max(bias[GAUSSIAN], to_lower[GAUSSIAN]); // within which K_e counts as zero
+  const Number_errors deviations = estimates.of_residual / sizes;
+  Fit_accuracy accuracy;
+  accuracy.error = calibration(Source_of_error::DETAIL) *
+                   errors_or_all((bias.square() + (part_of_residual * deviations).square()).sqrt());
+  accuracy.noise = 2 * std::min(1., noise / fit.residual) * errors_or_all(deviations);
+  accuracy.detail = accuracy.error;
+  accuracy.deviation = noise;
+  return accuracy;
+}
+
+/// The accuracy of the surface's own curvatures, from the difference to another degree and the standard deviation.
+/// `spacing` is that of the points, `growth` the ratio of the radius to the chosen one: it is larger at borders, where
+/// differences of degrees say less.
+inline Fit_accuracy own_accuracy(const Local_fit_3& fit, const Local_fit_3& other, const Fit_choice& choice,
+                                 bool has_noise, double spacing, double growth) {
+  const Number_estimates& estimates = *fit.estimates;
+  const Number_errors sizes = estimates.numbers.sizes();
+  const Number_errors difference = relative_difference(estimates.numbers, other.estimates->numbers);
+  Number_errors bias = (std::pow(std::max(1., growth), 4) * choice.level).max(difference);
+  double& of_gaussian = bias[AFFINE_GAUSSIAN];
+  const double here = difference[AFFINE_GAUSSIAN];
+  const bool has_other = &other != &fit; // a ball at a border may have points for one degree only
+  if (has_other)
+    of_gaussian = std::max(here, std::pow(of_gaussian, power_of_level) * std::pow(here, 1 - power_of_level));
+  // Noise that is given counts as it is, whatever the residuals are.
+  const double factor = has_noise && fit.residual > 0 ? choice.noise / fit.residual : 1;
+  const Number_errors deviations = std::max(guard(fit, choice.noise), factor) * estimates.of_residual / sizes;
+  Fit_accuracy accuracy;
+  accuracy.error = calibration(source_of_error(choice.noise / spacing)) *
+                   errors_or_all((bias.square() + deviations.square()).sqrt());
+  accuracy.noise = 2 * errors_or_all(factor * estimates.of_residual / sizes);
+  accuracy.detail = accuracy.error;
+  accuracy.deviation = choice.noise;
+  return accuracy;
+}
+
+/// The accuracy of curvatures at a scale, which noise and sampling alone make wrong.
+inline Fit_accuracy accuracy_at_scale(const Local_fit_3& fit, double noise) {
+  const Number_estimates& estimates = *fit.estimates;
+  const Number_errors sizes = estimates.numbers.sizes();
+  Fit_accuracy accuracy;
+  accuracy.error = calibration(Source_of_error::SCALE) * errors_or_all(estimates.of_noise / sizes);
+  accuracy.noise = accuracy.error;
+  accuracy.detail = 2 * guard(fit, noise) * errors_or_all(estimates.of_residual / sizes);
+  accuracy.deviation = noise;
+  return accuracy;
+}
+
+/// Returns the difference to the next degree, as parts of the sizes of the numbers, where the data are nearly exact: it
+/// is what a scale mixes. Noise would explain it elsewhere. The curvature jumps at the joint of a sphere and a cylinder,
+/// say, without a crease.
+inline Number_errors mixture_at_scale(const Data_points_3& data, Data_points_3::Index center, const Way_to_fit& way,
+                                      const Local_fit_3& fit, const Number_request& request) {
+  constexpr double nearly_exact = 0.01, quiet_part = 0.25; // of the spacing, and of the points of the ball
+  std::vector<double> noise;
+  for (const auto i : connected_ball(data, center, fit.patch.radius)) noise.push_back(request.noise[i]);
+  const auto quiet = noise.begin() + std::ptrdiff_t(quiet_part * double(noise.size()));
+  std::nth_element(noise.begin(), quiet, noise.end());
+  if (*quiet > nearly_exact * data.spacing[center]) return Number_errors::Zero();
+  const std::array<int, 2> degrees = {way.degree, way.other_degree()};
+  const auto fits = fit_in_way(data, center, fit.patch.radius, way, degrees, request);
+  if (fits.size() < degrees.size() || fits.back().patch.radius != fit.patch.radius) return Number_errors::Zero();
+  return errors_or_all(relative_difference(fit.estimates->numbers, fits.back().estimates->numbers));
+}
+
+/// A fit gives numbers near its center, where the greater of two degrees answers exact data, or it is part of a blend,
+/// which reaches half of the radius away and takes the lower degree.
+enum class Fit_use { NUMBERS, BLEND };
+
+/// The fit of the greater degree to exact data, if its K is known better than with the accuracy `lower` of the other. Where
+/// that says that K_e may be zero, it answers: curvatures of a flat part are small for the lower degree.
+inline std::optional<Curvature_fit_3> exact_fit(const Data_points_3& data, Data_points_3::Index center,
+                                                const Way_to_fit& way, const Number_request& request,
+                                                const std::vector<Local_fit_3>& fits, const Fit_accuracy& lower) {
+  constexpr double ratio_of_radii = 1.35, known_at_all = 0.5;
+  const std::array<int, 2> degrees = {way.degree, way.other_degree()};
+  const Local_fit_3& fit = fits.back();
+  const double radius = fit.patch.radius;
+  const Fitted_numbers& lower_numbers = fits.front().estimates->numbers;
+  if (std::abs(lower_numbers.components[GAUSSIAN]) <= lower.error[GAUSSIAN] * lower_numbers.sizes()[GAUSSIAN])
+    return {};
+  const auto smaller = fit_in_way(data, center, radius / ratio_of_radii, way, degrees, request);
+  if (smaller.size() < degrees.size() || smaller.back().patch.radius >= 0.99 * radius) return {};
+  Fit_accuracy accuracy = exact_accuracy(fit, fits.front(), smaller.back(), lower.deviation);
+  if (!(accuracy.error[AFFINE_GAUSSIAN] < std::min(known_at_all, lower.error[AFFINE_GAUSSIAN]))) return {};
+  accuracy.radius = radius;
+  return Curvature_fit_3{fit.patch, fit.estimates->numbers, accuracy};
+}
+
+/// Fits the points around a center. Nothing is known where the degree had to be lower, as at a corner of a border, nor at a
+/// scale where the ball had to have another radius.
+inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, Data_points_3::Index center,
+                                                    const Fit_choice& choice, const Fit_choices_3& choices,
+                                                    Fit_use use) {
+  constexpr int least_degree = 4;
+  Way_to_fit way = choice.way;
+  const double radius = choices.radius(way, center), noise = choices.noise(choice, center);
+  const Number_request request = choices.number_request();
+  std::vector<Local_fit_3> fits;
+  for (;; way.degree -= way.family == Fit_family::HEIGHT ? 2 : 1) {
+    const std::array<int, 2> degrees = {way.degree, way.other_degree()};
+    fits = fit_in_way(data, center, radius, way, std::span(degrees).first(choices.scale() ? 1 : 2), request);
+    if (!fits.empty()) break;
+    if (way.degree <= least_degree) return {};
+  }
+  Local_fit_3& fit = fits.front();
+  Fit_accuracy accuracy = choices.scale() ? accuracy_at_scale(fit, noise)
+                                          : own_accuracy(fit, fits.back(), choice, choices.has_noise(),
+                                                         data.spacing[center], fit.patch.radius / radius);
+  if (way.degree < choice.way.degree || (choices.scale() && fit.patch.radius != radius))
+    accuracy.error.setConstant(std::numeric_limits<double>::infinity());
+  else if (choices.scale() && choices.is_scale_by_data()) {
+    const Number_errors mixture =
+        calibration(Source_of_error::BOTH) * mixture_at_scale(data, center, way, fit, request);
+    accuracy.error = (accuracy.error.square() + mixture.square()).sqrt();
+  }
+  accuracy.radius = fit.patch.radius;
+  const bool is_exact = way.family == Fit_family::HEIGHT && fits.size() > 1 && !choices.has_noise() &&
+                        noise <= noise_of_exact_data * data.spacing[center];
+  if (use == Fit_use::NUMBERS && is_exact)
+    if (auto exact = exact_fit(data, center, way, request, fits, accuracy)) return exact;
+  return Curvature_fit_3{std::move(fit.patch), fit.estimates->numbers, accuracy};
+}
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_REGISTRATION_ROTATION_SEARCH_H
+#define EQUIAFFINE_SRC_REGISTRATION_ROTATION_SEARCH_H
+
+#include "registration/Distance_grid.h"
+#include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/base/internal/parallel_for.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// About the angle between two maps in radians: 2 at most for rotations, or for two reflections.
+inline double difference(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) { return (a - b).norm() / std::sqrt(2.0); }
+
+/// A rotation about the origin, or one times -1, with the rms distance of the points that it moves from the surface.
+struct Rotation_candidate {
+  Eigen::Matrix3d matrix;
+  double rms;
+};
+
+/// Rotations near all that move a surface onto itself.
+struct Rotation_candidates {
+  std::vector<Rotation_candidate> rotations; ///< in the order of their rms, none nearby another
+  /// All rotations with a smaller rms are near one of these; less than was asked for if there were too many.
+  double complete_to = 0;
+};
+
+/// The search of all rotations about the origin, and of those times -1, by branch and bound. The distance from a
+/// surface is 1-Lipschitz, so that the rms distance at the center of a cell of rotations is at most by the radius of
+/// the cell, times the rms distance of points from an axis, above that of any rotation in the cell.
+class Rotation_search {
+public:
+  /// `spread` is the largest rms distance of the points from an axis.
+  Rotation_search(bool in_threads, const Distance_grid& grid, std::vector<Eigen::Vector3d> points, double spread)
+      : in_threads_(in_threads), grid_(grid), points_(std::move(points)), spread_(spread) {}
+
+  /// Finds rotations near all whose rms may be below `tolerance`.
+  Rotation_candidates run(double tolerance, bool allows_reflections) const {
+    std::vector<Cell> cells = first_cells(allows_reflections);
+    double half = 1.0 / first_division;
+    while (true) {
+      const double bound = tolerance + grid_.step() / 3 + radius(half) * spread_;
+      measure(cells, bound);
+      std::erase_if(cells, [&](const Cell& cell) { return cell.rms > bound; });
+      if (radius(half) < smallest_radius || cells.empty()) break;
+      half /= 2;
+      cells = divided(cells, half);
+    }
+    return apart(std::move(cells), tolerance, grid_.step() / 3 + radius(half) * spread_);
+  }
+
+private:
+  static constexpr int first_division = 5;
+  static constexpr double smallest_radius = 0.06, least_difference = 0.1;
+  static constexpr std::size_t most_candidates = 3000;
+
+  /// A cube in one of the four faces of the cube whose points are quaternions, up to a factor.
+  struct Cell {
+    std::array<float, 3> center;
+    int face, sign;
+    float rms = 0;
+
+    Eigen::Matrix3d matrix() const {
+      Eigen::Vector4d q;
+      q[face] = 1;
+      for (int k = 0; k < 3; ++k) q[k < face ? k : k + 1] = double(center[std::size_t(k)]);
+      q.normalize();
+      return sign * Eigen::Quaterniond(q[3], q[0], q[1], q[2]).toRotationMatrix();
+    }
+  };
+
+  /// The largest angle between the center of a cell with sides of 2 `half` and a rotation in it: twice that between
+  /// their quaternions, which projection onto the sphere does not enlarge.
+  static double radius(double half) { return 2 * half * std::sqrt(3.0); }
+
+  static std::vector<Cell> first_cells(bool allows_reflections) {
+    std::vector<Cell> cells;
+    const auto position = [](int i) { return (float(i) + 0.5F) * 2 / first_division - 1; };
+    for (const int sign : {1, -1}) {
+      if (sign < 0 && !allows_reflections) continue;
+      for (int face = 0; face < 4; ++face)
+        for (int i = 0; i < first_division; ++i)
+          for (int j = 0; j < first_division; ++j)
+            for (int k = 0; k < first_division; ++k)
+              cells.push_back({{position(i), position(j), position(k)}, face, sign});
+    }
+    return cells;
+  }
+
+  static std::vector<Cell> divided(const std::vector<Cell>& cells, double half) {
+    std::vector<Cell> result;
+    result.reserve(8 * cells.size());
+    for (const Cell& cell : cells) {
+      Progress_observer::step();
+      for (int part = 0; part < 8; ++part) {
+        Cell child = cell;
+        for (std::size_t k = 0; k < 3; ++k) child.center[k] += float(part >> k & 1 ? half : -half);
+        result.push_back(child);
+      }
+    }
+    return result;
+  }
+
+  /// Computes the rms of cells as far as it is below a bound.
+  void measure(std::vector<Cell>& cells, double bound) const {
+    const double largest_sum = bound * bound * double(points_.size());
+    parallel_for(
+        in_threads_, 0, cells.size(),
+        [&](std::size_t i) {
+          const Eigen::Matrix3d matrix = cells[i].matrix();
+          double sum = 0;
+          for (const Eigen::Vector3d& p : points_) {
+            const double d = grid_(matrix * p);
+            sum += d * d;
+            if (sum > 1.01 * largest_sum) break;
+          }
+          cells[i].rms = float(std::sqrt(sum / double(points_.size())));
+        },
+        256);
+  }
+
+  /// Returns the centers of cells, without those near others of less rms. The rms of a rotation in a cell is less than at
+  /// its center by at most the `slack`.
+  static Rotation_candidates apart(std::vector<Cell> cells, double tolerance, double slack) {
+    std::stable_sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.rms < b.rms; });
+    Rotation_candidates result{{}, tolerance};
+    for (const Cell& cell : cells) {
+      Progress_observer::step();
+      const Eigen::Matrix3d matrix = cell.matrix();
+      if (std::any_of(result.rotations.begin(), result.rotations.end(), [&](const Rotation_candidate& other) {
+            return difference(matrix, other.matrix) < least_difference;
+          }))
+        continue;
+      if (result.rotations.size() == most_candidates) {
+        result.complete_to = std::clamp(double(cell.rms) - slack, 0.0, tolerance);
+        break;
+      }
+      result.rotations.push_back({matrix, double(cell.rms)});
+    }
+    return result;
+  }
+
+  bool in_threads_;
+  const Distance_grid& grid_;
+  std::vector<Eigen::Vector3d> points_;
+  double spread_;
+};
+
+} // namespace equiaffine::internal
+
+#endif

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_REGISTRATION_REFINE_MAP_H
+#define EQUIAFFINE_SRC_REGISTRATION_REFINE_MAP_H
+
+#include "registration/map_distances.h"
+#include "registration/order_of_points.h"
+#include <equiaffine/base/internal/quantile.h>
+#include <equiaffine/registration/internal/Frame_thresholds.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// The infinitesimal maps p -> M p + c of a kind, one per column: M row by row, then c.
+inline Eigen::MatrixXd infinitesimal_maps(Map_kind kind) {
+  Eigen::MatrixXd maps = Eigen::MatrixXd::Zero(12, degrees_of_freedom(kind));
+  int n = 0;
+  for (int i = 0; i < 3; ++i) maps(9 + i, n++) = 1;
+  for (int i = 0; i < 3; ++i)
+    for (int j = i + 1; j < 3; ++j) { // rotations, and for affine maps the symmetric shears, too
+      maps(3 * i + j, n) = 1;
+      maps(3 * j + i, n++) = -1;
+      if (keeps_angles(kind)) continue;
+      maps(3 * i + j, n) = 1;
+      maps(3 * j + i, n++) = 1;
+    }
+  if (!keeps_angles(kind)) {
+    for (int i = 0; i < 2; ++i) {
+      maps(4 * i, n) = 1;
+      maps(4 * i + 4, n++) = -1;
+    }
+  }
+  if (!keeps_volume(kind)) maps(0, n) = maps(4, n) = maps(8, n) = 1;
+  return maps;
+}
+
+/// The equations that a small change of a map, a combination of infinitesimal ones, moves points onto the other surface.
+class Refinement_equations {
+public:
+  /// Points are taken relative to `center`, in the unit `size`.
+  Refinement_equations(Eigen::MatrixXd basis, const Eigen::Vector3d& center, double size)
+      : basis_(std::move(basis)), center_(center), size_(size) {}
+
+  /// Adds the points that are nearer than `tolerance`. `sign` is 1 for points that move with the map, and -1 for points
+  /// that stay while the other surface moves.
+  void add(const std::vector<Mapped_point>& points, double tolerance, double sign) {
+    for (const auto& [point, to_other] : points) {
+      const auto& [distance, normal] = to_other;
+      if (!(std::abs(distance) < tolerance)) continue;
+      const Eigen::Vector3d x = (point - center_) / size_;
+      Eigen::Matrix<double, 12, 1> row;
+      for (int i = 0; i < 3; ++i) row.segment<3>(3 * i) = normal[i] * x;
+      row.tail<3>() = normal;
+      rows_.push_back(sign * row);
+      values_.push_back(-distance / size_);
+    }
+  }
+
+  std::size_t size() const { return rows_.size(); }
+
+  /// Returns the coefficients of the map that the least squares solution of least norm gives, to be applied after the one
+  /// that is refined. Combinations along which points move less than the `threshold` do not change.
+  Eigen::Matrix<double, 12, 1> solution(double threshold) const {
+    Eigen::MatrixXd matrix(Eigen::Index(size()), basis_.cols());
+    for (std::size_t i = 0; i < size(); ++i) matrix.row(Eigen::Index(i)) = rows_[i].transpose() * basis_;
+    const Eigen::Map<const Eigen::VectorXd> values(values_.data(), Eigen::Index(size()));
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+    decomposition.setThreshold(threshold);
+    decomposition.compute(matrix);
+    const Eigen::VectorXd solution = decomposition.solve(values);
+    return basis_ * solution;
+  }
+
+  /// Returns the map with these coefficients to first order. Its rotation is one to all orders, since a surface may be
+  /// near to a sphere and tell little of rotations. It is the one nearest to the first order, so that long steps, of
+  /// which less is known, are shortened.
+  Affine_map_3 map_of(const Eigen::Matrix<double, 12, 1>& x) const {
+    const Eigen::Matrix3d change = Eigen::Map<const Eigen::Matrix3d>(x.data()).transpose();
+    const Eigen::Vector3d turn =
+        Eigen::Vector3d(change(2, 1) - change(1, 2), change(0, 2) - change(2, 0), change(1, 0) - change(0, 1)) / 2;
+    Affine_map_3 map;
+    map.matrix += (change + change.transpose()) / 2;
+    if (!turn.isZero(0)) map.matrix = Eigen::AngleAxisd(std::atan(turn.norm()), turn.normalized()) * map.matrix;
+    map.translation = center_ - map.matrix * center_ + size_ * x.tail<3>();
+    return map;
+  }
+
+private:
+  Eigen::MatrixXd basis_;
+  Eigen::Vector3d center_;
+  double size_;
+  std::vector<Eigen::Matrix<double, 12, 1>> rows_;
+  std::vector<double> values_;
+};
+
+constexpr double deviations_per_median = 1.4826; ///< of a normal distribution
+
+/// The median of the distances below a tolerance.
+inline double median_distance(const std::vector<Mapped_point>& a, const std::vector<Mapped_point>& b,
+                              double tolerance) {
+  std::vector<double> distances;
+  for (const auto* points : {&a, &b})
+    for (const Mapped_point& p : *points)
+      if (std::abs(p.to_other.distance) < tolerance) distances.push_back(std::abs(p.to_other.distance));
+  return distances.empty() ? 0 : median_of(distances);
+}
+
+/// How a map is refined.
+struct Refinement {
+  Map_kind kind = Map_kind::AFFINE;
+  double tolerance =
+      0.05; ///< points further than this from the other surface do not count at first, a part of its size
+  int most_steps = 20;
+  std::size_t probes = most_probes;
+};
+
+/// Refines a map by Gauss's and Newton's steps with the points both ways that are near, within 6 deviations of the
+/// median. Returns nothing if too few points are near, or the map degenerates: to shrink the source to a point of the
+/// target would be a perfect solution.
+inline std::optional<Affine_map_3> refine_map(bool in_threads, const Framed_surface_3& source,
+                                              const Framed_surface_3& target, const Affine_map_3& start,
+                                              const Refinement& how) {
+  constexpr double rounding = 1e-12;
+  Affine_map_3 map = start;
+  const double determinant = start.matrix.determinant();
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : source.probes) center += p / double(source.probes.size());
+  double tolerance = how.tolerance;
+  for (int step = 0; step < how.most_steps; ++step) {
+    const double unit = unit_of_distances(source, target, map);
+    const auto moved = moved_source(in_threads, source, target, map, how.probes);
+    const auto fixed = target_beside_moved_source(in_threads, source, target, map, how.probes);
+    const double spread = 6 * deviations_per_median * median_distance(moved, fixed, tolerance * unit) / unit;
+    tolerance = std::clamp(spread, 1e-10, tolerance);
+    Refinement_equations equations(infinitesimal_maps(how.kind), map(center), unit);
+    equations.add(moved, tolerance * unit, 1);
+    equations.add(fixed, tolerance * unit, -1);
+    if (equations.size() < 16) return std::nullopt;
+    const Affine_map_3 change = equations.map_of(equations.solution(rounding));
+    Affine_map_3 next = change * map;
+    const Eigen::Vector3d image = next(center);
+    next.matrix = nearest_of_kind(next.matrix, how.kind);
+    next.translation = image - next.matrix * center;
+    const bool is_sound = next.matrix.allFinite() && next.translation.allFinite() &&
+                          condition(next.matrix) < greatest_condition &&
+                          std::abs(std::log(next.matrix.determinant() / determinant)) < 1;
+    if (!is_sound) return std::nullopt;
+    const double difference = (change.matrix - Eigen::Matrix3d::Identity()).norm();
+    map = next;
+    if (difference < 1e-13) break;
+  }
+  return map;
+}
+
+} // namespace equiaffine::internal
+
+#endif

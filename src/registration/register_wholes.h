@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_REGISTRATION_REGISTER_WHOLES_H
+#define EQUIAFFINE_SRC_REGISTRATION_REGISTER_WHOLES_H
+
+#include "registration/Centered_map.h"
+#include "registration/Centered_surface_3.h"
+#include "registration/Shape_matches.h"
+#include "registration/candidate_rotations.h"
+#include "registration/map_evidence.h"
+#include "registration/part_on_surface.h"
+#include "registration/refined_candidates.h"
+#include "registration/slipping_rotations.h"
+#include "registration/tolerances_of_meshes.h"
+#include <equiaffine/registration/internal/Registration_request.h>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// A map between centered surfaces with its evidence, in the coordinates of the surfaces. Points further from the other
+/// surface than `touching` contradict it, and the others lie on it.
+inline Shape_match match_of(const Centered_pair& surfaces, const Affine_map_3& map, double touching,
+                            const Judgement& how) {
+  const auto& [source, target] = surfaces;
+  const Distances_both_ways distances(surfaces, map, how.probes);
+  const std::array chances = {chance_of_nearness(target.samples.area.measure, target.samples.radius()),
+                              chance_of_nearness(source.samples.area.measure, source.samples.radius())};
+  const Map_evidence evidence = evidence_of_distances(distances.moved, distances.fixed, 1, chances, how);
+  const std::array<double, 2> parts = {part_on_surface(distances.moved, touching),
+                                       part_on_surface(distances.fixed, touching)};
+  return {target.map.inverse() * map * source.map,
+          target.own.size * own_rms(surfaces, map, how.probes, distances.rms()),
+          parts,
+          evidence.log10_false_alarms,
+          {1 - parts[0], 1 - parts[1]}};
+}
+
+/// Rotations near all that may move one surface to within a distance of the other. Where the source slips about an axis
+/// there are too many, and the nearest of them do; a surface that slips every way is a sphere.
+inline std::vector<Rotation_candidate> rotations_to_refine(bool in_threads, const Centered_pair& surfaces,
+                                                           double distance, bool allows_reflections,
+                                                           std::size_t dimension_of_slippage) {
+  constexpr std::size_t most_of_family = 200;
+  if (dimension_of_slippage == 3) return {{Eigen::Matrix3d::Identity(), 0}};
+  auto rotations =
+      candidate_rotations(in_threads, surfaces.source, surfaces.target, distance, allows_reflections).rotations;
+  if (dimension_of_slippage > 0 && rotations.size() > most_of_family) rotations.resize(most_of_family);
+  return rotations;
+}
+
+/// Whether the best map is below an rms and all others are at least twice as far.
+inline bool is_one_alone(const std::vector<Centered_map>& maps, double rms) {
+  return !maps.empty() && maps[0].rms < rms && (maps.size() == 1 || maps[1].rms > 2 * maps[0].rms);
+}
+
+/// The maps that move a whole surface onto another one: they keep the centroid of the area, and affine ones the moments
+/// of the solid inside, so that all rotations and reflections about the centroid are tried, and no curvature is needed.
+/// Surfaces whose extents differ by a tenth of the size are not equal, and no rotation is tried.
+inline Shape_matches register_wholes(bool in_threads, const Centered_surface_3& source,
+                                     const Centered_surface_3& target, const Registration_request& request) {
+  constexpr double gate = 0.06, least_difference = 0.1, most_contradictions = 0.1;
+  constexpr std::size_t probes = 6000;
+  Shape_matches result;
+  if (!source.reason_against.empty() || !target.reason_against.empty()) return result;
+  if ((source.extents() - target.extents()).cwiseAbs().maxCoeff() > least_difference) return result;
+  const Centered_pair surfaces(source, target);
+  result.size = target.own.size;
+  const Tolerances_of_wholes tolerances = tolerances_of_wholes(surfaces, request);
+  double scale = 1;
+  if (keeps_volume(request.kind)) {
+    scale = std::cbrt(std::abs(target.map.matrix.determinant() / source.map.matrix.determinant()));
+    if (std::abs(std::log(scale)) > least_difference) return result;
+  }
+  const auto slipping = slipping_rotations(in_threads, source, request.kind);
+  result.slippage = continuous_symmetries(source, slipping, tolerances_of_wholes(Centered_pair(source), request).tried);
+  const auto rotations = rotations_to_refine(in_threads, surfaces, 2 * std::max(tolerances.tried, tolerances.alone),
+                                             request.allows_reflections, result.slippage.dimension());
+  result.hypotheses = rotations.size();
+  const Judgement how = {10 * tolerances.tried, 0, degrees_of_freedom(request.kind),
+                         double(std::max<std::size_t>(result.hypotheses, 1)), probes};
+  const double touching =
+      tolerance_of_contact(std::max(source.samples.facet_error, target.samples.facet_error), request);
+  const auto maps = refined_candidates(in_threads, surfaces, rotations, scale, request.kind, gate).maps;
+  const auto match = [&](const Centered_map& map) {
+    return match_of(surfaces, map.map, std::max(touching, 3 * map.rms), how);
+  };
+  for (const Centered_map& map : maps)
+    if (map.rms < tolerances.equal)
+      if (const Shape_match m = match(map); std::max(m.contradictions[0], m.contradictions[1]) < most_contradictions)
+        result.maps.push_back(m);
+  std::stable_sort(result.maps.begin(), result.maps.end(),
+                   [](const Shape_match& a, const Shape_match& b) { return a.rms < b.rms; });
+  if (result.maps.empty() && is_one_alone(maps, tolerances.alone))
+    if (const Shape_match m = match(maps[0]); m.contradictions[0] + m.contradictions[1] < most_contradictions)
+      result.maps.push_back(m);
+  return result;
+}
+
+} // namespace equiaffine::internal
+
+#endif

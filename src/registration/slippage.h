@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_SRC_REGISTRATION_SLIPPAGE_H
+#define EQUIAFFINE_SRC_REGISTRATION_SLIPPAGE_H
+
+#include "registration/Framed_surface_3.h"
+#include "registration/Whitening.h"
+#include "registration/refine_map.h"
+#include <equiaffine/registration/Affine_slippage_3.h>
+
+#include <Eigen/Core>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cstddef>
+#include <unsupported/Eigen/MatrixFunctions>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// Singular values below this part of the largest one count as zero by default: those of a surface that slips are
+/// roundings, and those of an ellipsoid that is disturbed by a part of 1e-4 are 1e-5.
+constexpr double slippage_tolerance = 1e-8;
+
+/// The thresholds for formulas, whose values are roundings, and for fits, whose normals have errors.
+constexpr double exact_slippage = 3e-13, slippage_of_fits = 0.01;
+
+/// Infinitesimal maps, those along which a surface slides best first, and the rms of the normal part of the velocity of
+/// each, beside the largest one.
+struct Sliding_maps {
+  std::vector<Infinitesimal_map_3> maps;
+  std::vector<double> rms;
+
+  /// The first maps as a Lie algebra.
+  Affine_slippage_3 first(std::size_t dimension) const {
+    if (dimension == 0) return {};
+    return {{maps.begin(), maps.begin() + std::ptrdiff_t(dimension)}, rms[dimension - 1]};
+  }
+};
+
+/// The singular vectors of the matrix with a row normal . (M p + c) per point, for the maps of a kind in coordinates of the
+/// surface (Gelfand, Guibas: Shape segmentation using local slippage analysis, 2004, for rigid maps). `size` is that of
+/// the surface, and there are no maps if it is in a plane.
+inline Sliding_maps sliding_maps(const std::vector<Eigen::Vector3d>& points,
+                                 const std::vector<Eigen::Vector3d>& normals, Map_kind kind, double size) {
+  Sliding_maps result;
+  if (points.size() < 16) return result;
+  const Whitening whitening(points);
+  if (!whitening.matrix.allFinite()) return result;
+  const Eigen::MatrixXd maps = infinitesimal_maps(kind);
+  Eigen::MatrixXd rows(Eigen::Index(points.size()), 12);
+  const bool is_affine = !keeps_angles(kind);
+  const Eigen::Matrix3d to = is_affine ? whitening.matrix : Eigen::Matrix3d(Eigen::Matrix3d::Identity() / size);
+  const Eigen::Matrix3d from = is_affine ? whitening.inverse : Eigen::Matrix3d(Eigen::Matrix3d::Identity() * size);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d x = to * (points[i] - whitening.mean);
+    const Eigen::Vector3d n = (from.transpose() * normals[i]).normalized();
+    for (int k = 0; k < 3; ++k) rows.row(Eigen::Index(i)).segment<3>(3 * k) = n[k] * x.transpose();
+    rows.row(Eigen::Index(i)).tail<3>() = n.transpose();
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows * maps, Eigen::ComputeThinV);
+  const auto& values = svd.singularValues();
+  for (Eigen::Index k = values.size() - 1; k >= 0; --k) {
+    const Eigen::Matrix<double, 12, 1> v = maps * svd.matrixV().col(k);
+    Eigen::Matrix3d m;
+    for (int i = 0; i < 3; ++i) m.row(i) = v.segment<3>(3 * i).transpose();
+    const Eigen::Matrix3d matrix = from * m * to;
+    result.maps.push_back({matrix, from * v.tail<3>() - matrix * whitening.mean});
+    result.rms.push_back(values[k] / values[0]);
+  }
+  return result;
+}
+
+/// The map at a time of the flow that has an infinitesimal map as its velocity.
+inline Affine_map_3 flow(const Infinitesimal_map_3& velocity, double time) {
+  Eigen::Matrix4d generator = Eigen::Matrix4d::Zero();
+  generator.topLeftCorner<3, 3>() = time * velocity.matrix;
+  generator.topRightCorner<3, 1>() = time * velocity.translation;
+  const Eigen::Matrix4d map = generator.exp();
+  return {map.topLeftCorner<3, 3>(), map.topRightCorner<3, 1>()};
+}
+
+/// The maps of a kind whose velocity at all points is tangent, to within a tolerance beside the largest velocity.
+inline Affine_slippage_3 slippage_of(const Framed_surface_3& surface, Map_kind kind, double tolerance) {
+  std::vector<Eigen::Vector3d> normals;
+  for (const Eigen::Vector3d& p : surface.probes) normals.push_back(surface.refinement.distance(p).normal);
+  const Sliding_maps maps = sliding_maps(surface.probes, normals, kind, surface.size);
+  const auto end = std::find_if(maps.rms.begin(), maps.rms.end(), [=](double rms) { return !(rms < tolerance); });
+  return maps.first(std::size_t(end - maps.rms.begin()));
+}
+
+} // namespace equiaffine::internal
+
+#endif
