@@ -21,7 +21,7 @@ class CMakeBuild(build_ext):
                         f"-DPython3_EXECUTABLE={sys.executable}",
                         *os.environ.get("CMAKE_ARGS", "").split()], check=True)
         subprocess.run(["cmake", "--build", str(build), "--target", "equiaffine_python"], check=True)
-        built, = (build / "python/equiaffine").glob("_core*.so")
+        built, = (build / "bindings/python/equiaffine").glob("_core*.so")
         target = pathlib.Path(self.get_ext_fullpath(ext.name))
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(built, target)

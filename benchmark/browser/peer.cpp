@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The functions of the module, compiled for this machine with its least instruction set: the program reads lines
 // `NODES FORMULA`, computes the surface of each in the box [-1.2, 1.2]^3 and writes the milliseconds.
-#include "../../browser/module.cpp"
+#include "../../bindings/browser/module.cpp"
 
 #include <chrono>
 #include <iostream>

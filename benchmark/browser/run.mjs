@@ -33,7 +33,7 @@ for (const [nodes, rounds] of [[64, 41], [128, 21], [256, 9]]) {
 peer.stdin.end();
 
 // What a frame of the playground computes while a slider moves.
-const text = readFileSync(new URL('../../browser/examples.js', import.meta.url), 'utf8');
+const text = readFileSync(new URL('../../bindings/browser/examples.js', import.meta.url), 'utf8');
 const examples = new Function(text + 'return examples;')();
 let smooth = 0;
 for (const {name, formula, names, box: place} of examples) {

@@ -157,8 +157,7 @@ def find_faults(root):
     for path, text in library.items():
         faults += faults_of_library_file(modules, path, text)
     faults += faults_of_circles(library)
-    callers = [text for folder in ("program", "vtk", "browser", "python", "reproduce")
-               for text in read_files(root / folder).values()]
+    callers = [text for folder in ("program", "bindings", "reproduce") for text in read_files(root / folder).values()]
     faults += faults_of_reach(library, callers)
     for path, text in sources.items():
         faults += (f"src/{fault}" for fault in faults_of_source(modules, path, text))

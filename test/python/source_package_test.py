@@ -7,7 +7,7 @@ import tarfile
 import tempfile
 
 ROOT = pathlib.Path(sys.argv[1]).resolve()
-FOLDERS = ("cmake", "include", "packaging", "program", "python", "src", "viewer")
+FOLDERS = ("bindings/python", "cmake", "include", "packaging", "program", "src", "viewer")
 
 
 def main():

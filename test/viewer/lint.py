@@ -22,7 +22,7 @@ PROGRAM = re.compile(r"const (\w+(Vertex|Fragment)) = (placing \+ )?`(.*?)`;", r
 
 def script_of(source):
     if source.is_dir():
-        sys.path.insert(0, str(source / "browser"))
+        sys.path.insert(0, str(source / "bindings/browser"))
         import make_page
         return "const wasmBytes = new ArrayBuffer(0), workerText = '';\n" + make_page.script_of(source)
     parts = source.read_text().split("viewer_script[] = {")[1]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_VTK_ATTRIBUTE_ARRAYS_H
-#define EQUIAFFINE_VTK_ATTRIBUTE_ARRAYS_H
+#ifndef EQUIAFFINE_BINDINGS_VTK_ATTRIBUTE_ARRAYS_H
+#define EQUIAFFINE_BINDINGS_VTK_ATTRIBUTE_ARRAYS_H
 
 #include "Doubt.h"
 #include "Growing_array.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Calls of the library from Python: without the lock of the interpreter, with progress, signals and warnings.
-#ifndef EQUIAFFINE_PYTHON_OBSERVED_H
-#define EQUIAFFINE_PYTHON_OBSERVED_H
+#ifndef EQUIAFFINE_BINDINGS_PYTHON_OBSERVED_H
+#define EQUIAFFINE_BINDINGS_PYTHON_OBSERVED_H
 
 #include "system/progress.h"
 #include <equiaffine/base/Progress_observer.h>

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the playground, one file without anything from elsewhere: make_page.py ROOT MODULE_FOLDER PAGE.
 
-It is the page of viewer/ with the controls and the script of browser/, and the module that scripts/browser has built."""
+It is the page of viewer/ with the controls and the script of bindings/browser/, and the module that scripts/browser
+has built."""
 import gzip
 import pathlib
 import re
@@ -20,17 +21,18 @@ def script_of(root):
     viewer = root / "viewer"
     parts = [part(viewer / f"{name}.js") for name in (viewer / "parts.txt").read_text().split()]
     text = re.sub(r"@([a-z.]+\.glsl)@", lambda match: part(viewer / match[1]).rstrip("\n"), "".join(parts))
-    return "'use strict';\n" + text + "".join(part(root / f"browser/{name}.js") for name in ("examples", "tasks", "playground"))
+    playground = "".join(part(root / f"bindings/browser/{name}.js") for name in ("examples", "tasks", "playground"))
+    return "'use strict';\n" + text + playground
 
 
 def worker_of(root, module_folder):
     """Glue, library and worker as one classic script."""
     glue = (module_folder / "module.mjs").read_text().replace("import.meta.url", "'file:///'")
     glue = glue.replace("export default Module", "const createModule = Module")
-    library = part(root / "browser/equiaffine.mjs").replace("import.meta.url", "'file:///'")
-    library += part(root / "browser/volume_files.mjs")
+    library = part(root / "bindings/browser/equiaffine.mjs").replace("import.meta.url", "'file:///'")
+    library += part(root / "bindings/browser/volume_files.mjs")
     library = re.sub(r"^(import .*|export {.*|export )", "", library, flags=re.MULTILINE)
-    return glue + "\n" + library + part(root / "browser/worker.js")
+    return glue + "\n" + library + part(root / "bindings/browser/worker.js")
 
 
 def packed(name, content):
@@ -45,7 +47,7 @@ def packed(name, content):
 
 
 def page_of(root, module_folder):
-    viewer, browser = root / "viewer", root / "browser"
+    viewer, browser = root / "viewer", root / "bindings/browser"
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_VTK_GROWING_ARRAY_H
-#define EQUIAFFINE_VTK_GROWING_ARRAY_H
+#ifndef EQUIAFFINE_BINDINGS_VTK_GROWING_ARRAY_H
+#define EQUIAFFINE_BINDINGS_VTK_GROWING_ARRAY_H
 
 #include "growing_memory.h"
 

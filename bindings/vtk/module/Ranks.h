@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_VTK_RANKS_H
-#define EQUIAFFINE_VTK_RANKS_H
+#ifndef EQUIAFFINE_BINDINGS_VTK_RANKS_H
+#define EQUIAFFINE_BINDINGS_VTK_RANKS_H
 
 #include <equiaffine/volume/Volume_survey.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces of functions, by Marching Cubes.
-#ifndef EQUIAFFINE_BROWSER_SAMPLE_H
-#define EQUIAFFINE_BROWSER_SAMPLE_H
+#ifndef EQUIAFFINE_BINDINGS_BROWSER_SAMPLE_H
+#define EQUIAFFINE_BINDINGS_BROWSER_SAMPLE_H
 
 #include "module.h"
 #include <equiaffine/attributes/attributes.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_VTK_MEASURED_SAMPLES_H
-#define EQUIAFFINE_VTK_MEASURED_SAMPLES_H
+#ifndef EQUIAFFINE_BINDINGS_VTK_MEASURED_SAMPLES_H
+#define EQUIAFFINE_BINDINGS_VTK_MEASURED_SAMPLES_H
 
 #include "Image_pieces.h"
 #include "Ranks.h"

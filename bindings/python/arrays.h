@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Arrays of numpy as data of the library, and data of the library as arrays that share their memory.
-#ifndef EQUIAFFINE_PYTHON_ARRAYS_H
-#define EQUIAFFINE_PYTHON_ARRAYS_H
+#ifndef EQUIAFFINE_BINDINGS_PYTHON_ARRAYS_H
+#define EQUIAFFINE_BINDINGS_PYTHON_ARRAYS_H
 
 #include "system/kernel.h"
 #include <equiaffine/mesh/Annotated_mesh_3.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The surface that the functions of the module share, and what becomes of errors.
-#ifndef EQUIAFFINE_BROWSER_MODULE_H
-#define EQUIAFFINE_BROWSER_MODULE_H
+#ifndef EQUIAFFINE_BINDINGS_BROWSER_MODULE_H
+#define EQUIAFFINE_BINDINGS_BROWSER_MODULE_H
 
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/Progress_observer.h>

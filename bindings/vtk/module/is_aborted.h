@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_VTK_IS_ABORTED_H
-#define EQUIAFFINE_VTK_IS_ABORTED_H
+#ifndef EQUIAFFINE_BINDINGS_VTK_IS_ABORTED_H
+#define EQUIAFFINE_BINDINGS_VTK_IS_ABORTED_H
 
 #include <vtkAlgorithm.h>
 #include <vtkVersionMacros.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_VTK_SURFACE_ARRAYS_H
-#define EQUIAFFINE_VTK_SURFACE_ARRAYS_H
+#ifndef EQUIAFFINE_BINDINGS_VTK_SURFACE_ARRAYS_H
+#define EQUIAFFINE_BINDINGS_VTK_SURFACE_ARRAYS_H
 
 #include "Attribute_arrays.h"
 #include "Doubt.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_VTK_DOUBT_H
-#define EQUIAFFINE_VTK_DOUBT_H
+#ifndef EQUIAFFINE_BINDINGS_VTK_DOUBT_H
+#define EQUIAFFINE_BINDINGS_VTK_DOUBT_H
 
 #include "Ranks.h"
 #include <equiaffine/attributes/Attribute_selection.h>
