@@ -5,6 +5,7 @@
 #include "fit_samples.h"
 #include "measure.h"
 #include "peers/curvature_peers.h"
+#include <equiaffine/base/internal/Point_tree.h>
 #include <equiaffine/fit/Fitted_function_traits_3.h>
 
 #include <CGAL/Monge_via_jet_fitting.h>
