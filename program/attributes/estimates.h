@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_ATTRIBUTES_ESTIMATES_H
-#define EQUIAFFINE_SRC_ATTRIBUTES_ESTIMATES_H
+#ifndef EQUIAFFINE_PROGRAM_ATTRIBUTES_ESTIMATES_H
+#define EQUIAFFINE_PROGRAM_ATTRIBUTES_ESTIMATES_H
 
 #include "attributes/estimate_names.h"
 #include "source/Fit_statistics.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_CLI_OPTION_READER_H
-#define EQUIAFFINE_SRC_CLI_OPTION_READER_H
+#ifndef EQUIAFFINE_PROGRAM_CLI_OPTION_READER_H
+#define EQUIAFFINE_PROGRAM_CLI_OPTION_READER_H
 
 #include "cli/Draft.h"
 #include "cli/command_line.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of options. A row says everything about one option, from its help to where its value goes. For a new option
 // add a row to source_options.cpp, surface_options.cpp, map_options.cpp or output_options.cpp.
-#ifndef EQUIAFFINE_SRC_CLI_OPTION_ROW_H
-#define EQUIAFFINE_SRC_CLI_OPTION_ROW_H
+#ifndef EQUIAFFINE_PROGRAM_CLI_OPTION_ROW_H
+#define EQUIAFFINE_PROGRAM_CLI_OPTION_ROW_H
 
 #include "cli/Draft.h"
 #include "cli/option_values.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_CLI_COMMAND_LINE_H
-#define EQUIAFFINE_SRC_CLI_COMMAND_LINE_H
+#ifndef EQUIAFFINE_PROGRAM_CLI_COMMAND_LINE_H
+#define EQUIAFFINE_PROGRAM_CLI_COMMAND_LINE_H
 
 #include "cli/Option_row.h"
 #include "cli/option_values.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_CLI_FORMULA_FILE_H
-#define EQUIAFFINE_SRC_CLI_FORMULA_FILE_H
+#ifndef EQUIAFFINE_PROGRAM_CLI_FORMULA_FILE_H
+#define EQUIAFFINE_PROGRAM_CLI_FORMULA_FILE_H
 
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_CLI_HELP_TEXTS_H
-#define EQUIAFFINE_SRC_CLI_HELP_TEXTS_H
+#ifndef EQUIAFFINE_PROGRAM_CLI_HELP_TEXTS_H
+#define EQUIAFFINE_PROGRAM_CLI_HELP_TEXTS_H
 
 namespace equiaffine {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Turns words of the command line into values. Every function throws `Input_error`, with the name of the option.
-#ifndef EQUIAFFINE_SRC_CLI_OPTION_VALUES_H
-#define EQUIAFFINE_SRC_CLI_OPTION_VALUES_H
+#ifndef EQUIAFFINE_PROGRAM_CLI_OPTION_VALUES_H
+#define EQUIAFFINE_PROGRAM_CLI_OPTION_VALUES_H
 
 #include "system/kernel.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_CLI_PARSE_OPTIONS_H
-#define EQUIAFFINE_SRC_CLI_PARSE_OPTIONS_H
+#ifndef EQUIAFFINE_PROGRAM_CLI_PARSE_OPTIONS_H
+#define EQUIAFFINE_PROGRAM_CLI_PARSE_OPTIONS_H
 
 #include "request/options.h"
 

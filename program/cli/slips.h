@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What somebody meant who gave a command a file, a formula or an option that belongs to another command or place.
-#ifndef EQUIAFFINE_SRC_CLI_SLIPS_H
-#define EQUIAFFINE_SRC_CLI_SLIPS_H
+#ifndef EQUIAFFINE_PROGRAM_CLI_SLIPS_H
+#define EQUIAFFINE_PROGRAM_CLI_SLIPS_H
 
 #include "cli/command_line.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_COMMANDS_COMMANDS_H
-#define EQUIAFFINE_SRC_COMMANDS_COMMANDS_H
+#ifndef EQUIAFFINE_PROGRAM_COMMANDS_COMMANDS_H
+#define EQUIAFFINE_PROGRAM_COMMANDS_COMMANDS_H
 
 #include "request/options.h"
 #include "system/progress.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_COMMANDS_FIND_SYMMETRIES_H
-#define EQUIAFFINE_SRC_COMMANDS_FIND_SYMMETRIES_H
+#ifndef EQUIAFFINE_PROGRAM_COMMANDS_FIND_SYMMETRIES_H
+#define EQUIAFFINE_PROGRAM_COMMANDS_FIND_SYMMETRIES_H
 
 #include "commands/Surface_to_register.h"
 #include "output/maps.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_COMMANDS_FOREWARN_OF_GRID_H
-#define EQUIAFFINE_SRC_COMMANDS_FOREWARN_OF_GRID_H
+#ifndef EQUIAFFINE_PROGRAM_COMMANDS_FOREWARN_OF_GRID_H
+#define EQUIAFFINE_PROGRAM_COMMANDS_FOREWARN_OF_GRID_H
 
 #include "request/options.h"
 #include "source/source.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // These functions make the meshes by which pages, pictures and files show maps of surfaces.
-#ifndef EQUIAFFINE_SRC_COMMANDS_MAPS_VIEW_H
-#define EQUIAFFINE_SRC_COMMANDS_MAPS_VIEW_H
+#ifndef EQUIAFFINE_PROGRAM_COMMANDS_MAPS_VIEW_H
+#define EQUIAFFINE_PROGRAM_COMMANDS_MAPS_VIEW_H
 
 #include "commands/Surface_to_register.h"
 #include <equiaffine/mesh/Annotated_mesh_3.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_COMMANDS_PROGRAM_H
-#define EQUIAFFINE_SRC_COMMANDS_PROGRAM_H
+#ifndef EQUIAFFINE_PROGRAM_COMMANDS_PROGRAM_H
+#define EQUIAFFINE_PROGRAM_COMMANDS_PROGRAM_H
 
 #include <ostream>
 #include <string>

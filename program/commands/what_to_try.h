@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_COMMANDS_WHAT_TO_TRY_H
-#define EQUIAFFINE_SRC_COMMANDS_WHAT_TO_TRY_H
+#ifndef EQUIAFFINE_PROGRAM_COMMANDS_WHAT_TO_TRY_H
+#define EQUIAFFINE_PROGRAM_COMMANDS_WHAT_TO_TRY_H
 
 #include "commands/find_map.h"
 #include "output/maps.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_ENGINE_ENGINE_H
-#define EQUIAFFINE_SRC_ENGINE_ENGINE_H
+#ifndef EQUIAFFINE_PROGRAM_ENGINE_ENGINE_H
+#define EQUIAFFINE_PROGRAM_ENGINE_ENGINE_H
 
 #include "source/source_function.h"
 #include <equiaffine/attributes/Attribute_selection.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The entries of engine_entry.cpp, which is compiled once per instruction set. The names are those of C, so that the
 // build can tell them from everything else in the object files, see CMakeLists.txt.
-#ifndef EQUIAFFINE_SRC_ENGINE_ENGINE_ENTRIES_H
-#define EQUIAFFINE_SRC_ENGINE_ENGINE_ENTRIES_H
+#ifndef EQUIAFFINE_PROGRAM_ENGINE_ENGINE_ENTRIES_H
+#define EQUIAFFINE_PROGRAM_ENGINE_ENGINE_ENTRIES_H
 
 #include "engine/Engine.h"
 

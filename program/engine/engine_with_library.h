@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The engines call the library, compiled for the instruction set of the file that includes this.
-#ifndef EQUIAFFINE_SRC_ENGINE_ENGINE_WITH_LIBRARY_H
-#define EQUIAFFINE_SRC_ENGINE_ENGINE_WITH_LIBRARY_H
+#ifndef EQUIAFFINE_PROGRAM_ENGINE_ENGINE_WITH_LIBRARY_H
+#define EQUIAFFINE_PROGRAM_ENGINE_ENGINE_WITH_LIBRARY_H
 
 #include "engine/Engine.h"
 #include <equiaffine/attributes/attributes.h>

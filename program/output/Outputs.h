@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_OUTPUT_OUTPUTS_H
-#define EQUIAFFINE_SRC_OUTPUT_OUTPUTS_H
+#ifndef EQUIAFFINE_PROGRAM_OUTPUT_OUTPUTS_H
+#define EQUIAFFINE_PROGRAM_OUTPUT_OUTPUTS_H
 
 #include "request/options.h"
 #include "system/atomic_file.h"

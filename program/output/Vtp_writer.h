@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_OUTPUT_VTP_WRITER_H
-#define EQUIAFFINE_SRC_OUTPUT_VTP_WRITER_H
+#ifndef EQUIAFFINE_PROGRAM_OUTPUT_VTP_WRITER_H
+#define EQUIAFFINE_PROGRAM_OUTPUT_VTP_WRITER_H
 
 #include "output/Part_writer.h"
 #include "system/kernel.h"

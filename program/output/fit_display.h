@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files, pages and pictures of a fit say its scale, its noise and what is known.
-#ifndef EQUIAFFINE_SRC_OUTPUT_FIT_DISPLAY_H
-#define EQUIAFFINE_SRC_OUTPUT_FIT_DISPLAY_H
+#ifndef EQUIAFFINE_PROGRAM_OUTPUT_FIT_DISPLAY_H
+#define EQUIAFFINE_PROGRAM_OUTPUT_FIT_DISPLAY_H
 
 #include "output/surface_output.h"
 #include "picture/Surface_note.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_OUTPUT_JSON_TEXT_H
-#define EQUIAFFINE_SRC_OUTPUT_JSON_TEXT_H
+#ifndef EQUIAFFINE_PROGRAM_OUTPUT_JSON_TEXT_H
+#define EQUIAFFINE_PROGRAM_OUTPUT_JSON_TEXT_H
 
 #include <nlohmann/json.hpp>
 

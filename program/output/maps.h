@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_OUTPUT_MAPS_H
-#define EQUIAFFINE_SRC_OUTPUT_MAPS_H
+#ifndef EQUIAFFINE_PROGRAM_OUTPUT_MAPS_H
+#define EQUIAFFINE_PROGRAM_OUTPUT_MAPS_H
 
 #include "system/kernel.h"
 #include <equiaffine/registration/Affine_symmetries_3.h>

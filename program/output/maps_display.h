@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // These functions make the texts by which pages and pictures say what maps were found.
-#ifndef EQUIAFFINE_SRC_OUTPUT_MAPS_DISPLAY_H
-#define EQUIAFFINE_SRC_OUTPUT_MAPS_DISPLAY_H
+#ifndef EQUIAFFINE_PROGRAM_OUTPUT_MAPS_DISPLAY_H
+#define EQUIAFFINE_PROGRAM_OUTPUT_MAPS_DISPLAY_H
 
 #include "output/maps.h"
 #include "output/surface_output.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_OUTPUT_READ_MAPPINGS_H
-#define EQUIAFFINE_SRC_OUTPUT_READ_MAPPINGS_H
+#ifndef EQUIAFFINE_PROGRAM_OUTPUT_READ_MAPPINGS_H
+#define EQUIAFFINE_PROGRAM_OUTPUT_READ_MAPPINGS_H
 
 #include <equiaffine/display/Color_mapping.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_OUTPUT_STATISTICS_H
-#define EQUIAFFINE_SRC_OUTPUT_STATISTICS_H
+#ifndef EQUIAFFINE_PROGRAM_OUTPUT_STATISTICS_H
+#define EQUIAFFINE_PROGRAM_OUTPUT_STATISTICS_H
 
 #include "source/Close_sheets.h"
 #include "source/Fit_statistics.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_OUTPUT_SURFACE_OUTPUT_H
-#define EQUIAFFINE_SRC_OUTPUT_SURFACE_OUTPUT_H
+#ifndef EQUIAFFINE_PROGRAM_OUTPUT_SURFACE_OUTPUT_H
+#define EQUIAFFINE_PROGRAM_OUTPUT_SURFACE_OUTPUT_H
 
 #include "output/Outputs.h"
 #include "picture/Surface_note.h"

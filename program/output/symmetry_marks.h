@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_OUTPUT_SYMMETRY_MARKS_H
-#define EQUIAFFINE_SRC_OUTPUT_SYMMETRY_MARKS_H
+#ifndef EQUIAFFINE_PROGRAM_OUTPUT_SYMMETRY_MARKS_H
+#define EQUIAFFINE_PROGRAM_OUTPUT_SYMMETRY_MARKS_H
 
 #include "system/kernel.h"
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_OUTPUT_WARN_OF_LOST_POINTS_H
-#define EQUIAFFINE_SRC_OUTPUT_WARN_OF_LOST_POINTS_H
+#ifndef EQUIAFFINE_PROGRAM_OUTPUT_WARN_OF_LOST_POINTS_H
+#define EQUIAFFINE_PROGRAM_OUTPUT_WARN_OF_LOST_POINTS_H
 
 #include "system/kernel.h"
 #include "system/progress.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_OUTPUT_WRITE_VTP_H
-#define EQUIAFFINE_SRC_OUTPUT_WRITE_VTP_H
+#ifndef EQUIAFFINE_PROGRAM_OUTPUT_WRITE_VTP_H
+#define EQUIAFFINE_PROGRAM_OUTPUT_WRITE_VTP_H
 
 #include "system/kernel.h"
 #include <equiaffine/surface/parabolic_curves.h>

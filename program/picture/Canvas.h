@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_PICTURE_CANVAS_H
-#define EQUIAFFINE_SRC_PICTURE_CANVAS_H
+#ifndef EQUIAFFINE_PROGRAM_PICTURE_CANVAS_H
+#define EQUIAFFINE_PROGRAM_PICTURE_CANVAS_H
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_PICTURE_LINE_DRAWING_H
-#define EQUIAFFINE_SRC_PICTURE_LINE_DRAWING_H
+#ifndef EQUIAFFINE_PROGRAM_PICTURE_LINE_DRAWING_H
+#define EQUIAFFINE_PROGRAM_PICTURE_LINE_DRAWING_H
 
 #include "picture/Camera.h"
 #include "picture/Canvas.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_PICTURE_SURFACE_PAINT_H
-#define EQUIAFFINE_SRC_PICTURE_SURFACE_PAINT_H
+#ifndef EQUIAFFINE_PROGRAM_PICTURE_SURFACE_PAINT_H
+#define EQUIAFFINE_PROGRAM_PICTURE_SURFACE_PAINT_H
 
 #include "picture/Canvas.h"
 #include "picture/Surface_view.h"

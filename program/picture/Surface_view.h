@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_PICTURE_SURFACE_VIEW_H
-#define EQUIAFFINE_SRC_PICTURE_SURFACE_VIEW_H
+#ifndef EQUIAFFINE_PROGRAM_PICTURE_SURFACE_VIEW_H
+#define EQUIAFFINE_PROGRAM_PICTURE_SURFACE_VIEW_H
 
 #include "picture/Surface_note.h"
 #include <equiaffine/display/Color_mapping.h>

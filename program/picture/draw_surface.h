@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_PICTURE_DRAW_SURFACE_H
-#define EQUIAFFINE_SRC_PICTURE_DRAW_SURFACE_H
+#ifndef EQUIAFFINE_PROGRAM_PICTURE_DRAW_SURFACE_H
+#define EQUIAFFINE_PROGRAM_PICTURE_DRAW_SURFACE_H
 
 #include "picture/Canvas.h"
 #include "picture/Surface_note.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_PICTURE_WRITE_PNG_H
-#define EQUIAFFINE_SRC_PICTURE_WRITE_PNG_H
+#ifndef EQUIAFFINE_PROGRAM_PICTURE_WRITE_PNG_H
+#define EQUIAFFINE_PROGRAM_PICTURE_WRITE_PNG_H
 
 #include "picture/draw_surface.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_REQUEST_RAW_LAYOUT_H
-#define EQUIAFFINE_SRC_REQUEST_RAW_LAYOUT_H
+#ifndef EQUIAFFINE_PROGRAM_REQUEST_RAW_LAYOUT_H
+#define EQUIAFFINE_PROGRAM_REQUEST_RAW_LAYOUT_H
 
 #include <array>
 #include <cstddef>

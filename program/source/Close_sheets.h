@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_SOURCE_CLOSE_SHEETS_H
-#define EQUIAFFINE_SRC_SOURCE_CLOSE_SHEETS_H
+#ifndef EQUIAFFINE_PROGRAM_SOURCE_CLOSE_SHEETS_H
+#define EQUIAFFINE_PROGRAM_SOURCE_CLOSE_SHEETS_H
 
 #include "request/options.h"
 #include "source/source_function.h"

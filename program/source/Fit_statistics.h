@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_SOURCE_FIT_STATISTICS_H
-#define EQUIAFFINE_SRC_SOURCE_FIT_STATISTICS_H
+#ifndef EQUIAFFINE_PROGRAM_SOURCE_FIT_STATISTICS_H
+#define EQUIAFFINE_PROGRAM_SOURCE_FIT_STATISTICS_H
 
 #include <equiaffine/attributes/internal/error_table.h>
 #include <equiaffine/fit/Fitted_structure_3.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_SOURCE_FIT_TRAITS_H
-#define EQUIAFFINE_SRC_SOURCE_FIT_TRAITS_H
+#ifndef EQUIAFFINE_PROGRAM_SOURCE_FIT_TRAITS_H
+#define EQUIAFFINE_PROGRAM_SOURCE_FIT_TRAITS_H
 
 #include "system/kernel.h"
 #include <equiaffine/fit/Fitted_structure_3.h>

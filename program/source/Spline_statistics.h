@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_SOURCE_SPLINE_STATISTICS_H
-#define EQUIAFFINE_SRC_SOURCE_SPLINE_STATISTICS_H
+#ifndef EQUIAFFINE_PROGRAM_SOURCE_SPLINE_STATISTICS_H
+#define EQUIAFFINE_PROGRAM_SOURCE_SPLINE_STATISTICS_H
 
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_scheme.h>

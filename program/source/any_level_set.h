@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_SOURCE_ANY_LEVEL_SET_H
-#define EQUIAFFINE_SRC_SOURCE_ANY_LEVEL_SET_H
+#ifndef EQUIAFFINE_PROGRAM_SOURCE_ANY_LEVEL_SET_H
+#define EQUIAFFINE_PROGRAM_SOURCE_ANY_LEVEL_SET_H
 
 #include "source/source_function.h"
 #include <equiaffine/function/Any_function_3.h>

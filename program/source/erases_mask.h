@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_SOURCE_ERASES_MASK_H
-#define EQUIAFFINE_SRC_SOURCE_ERASES_MASK_H
+#ifndef EQUIAFFINE_PROGRAM_SOURCE_ERASES_MASK_H
+#define EQUIAFFINE_PROGRAM_SOURCE_ERASES_MASK_H
 
 #include "source/source_function.h"
 #include "system/kernel.h"

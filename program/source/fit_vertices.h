@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_SOURCE_FIT_VERTICES_H
-#define EQUIAFFINE_SRC_SOURCE_FIT_VERTICES_H
+#ifndef EQUIAFFINE_PROGRAM_SOURCE_FIT_VERTICES_H
+#define EQUIAFFINE_PROGRAM_SOURCE_FIT_VERTICES_H
 
 #include "request/options.h"
 #include "source/source_function.h"

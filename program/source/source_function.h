@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_SOURCE_SOURCE_FUNCTION_H
-#define EQUIAFFINE_SRC_SOURCE_SOURCE_FUNCTION_H
+#ifndef EQUIAFFINE_PROGRAM_SOURCE_SOURCE_FUNCTION_H
+#define EQUIAFFINE_PROGRAM_SOURCE_SOURCE_FUNCTION_H
 
 #include "source/Fit_traits.h"
 #include "system/kernel.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_SOURCE_WARNINGS_H
-#define EQUIAFFINE_SRC_SOURCE_WARNINGS_H
+#ifndef EQUIAFFINE_PROGRAM_SOURCE_WARNINGS_H
+#define EQUIAFFINE_PROGRAM_SOURCE_WARNINGS_H
 
 #include "source/Close_sheets.h"
 #include "source/Fit_statistics.h"

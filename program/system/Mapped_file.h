@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_SYSTEM_MAPPED_FILE_H
-#define EQUIAFFINE_SRC_SYSTEM_MAPPED_FILE_H
+#ifndef EQUIAFFINE_PROGRAM_SYSTEM_MAPPED_FILE_H
+#define EQUIAFFINE_PROGRAM_SYSTEM_MAPPED_FILE_H
 
 #include <cstddef>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_SYSTEM_FOREWARN_H
-#define EQUIAFFINE_SRC_SYSTEM_FOREWARN_H
+#ifndef EQUIAFFINE_PROGRAM_SYSTEM_FOREWARN_H
+#define EQUIAFFINE_PROGRAM_SYSTEM_FOREWARN_H
 
 #include "system/progress.h"
 

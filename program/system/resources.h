@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_SYSTEM_RESOURCES_H
-#define EQUIAFFINE_SRC_SYSTEM_RESOURCES_H
+#ifndef EQUIAFFINE_PROGRAM_SYSTEM_RESOURCES_H
+#define EQUIAFFINE_PROGRAM_SYSTEM_RESOURCES_H
 
 #include <array>
 #include <cstddef>

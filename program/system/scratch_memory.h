@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Memory that lies in a file without a name. Its pages can be given back at any time: what they hold stays in the file,
 // or in what the system keeps of it.
-#ifndef EQUIAFFINE_SRC_SYSTEM_SCRATCH_MEMORY_H
-#define EQUIAFFINE_SRC_SYSTEM_SCRATCH_MEMORY_H
+#ifndef EQUIAFFINE_PROGRAM_SYSTEM_SCRATCH_MEMORY_H
+#define EQUIAFFINE_PROGRAM_SYSTEM_SCRATCH_MEMORY_H
 
 #include <cstddef>
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_VOLUME_NIFTI_HEADER_H
-#define EQUIAFFINE_SRC_VOLUME_NIFTI_HEADER_H
+#ifndef EQUIAFFINE_PROGRAM_VOLUME_NIFTI_HEADER_H
+#define EQUIAFFINE_PROGRAM_VOLUME_NIFTI_HEADER_H
 
 #include "system/kernel.h"
 #include <equiaffine/volume/Lattice_3.h>

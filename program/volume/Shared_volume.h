@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_VOLUME_SHARED_VOLUME_H
-#define EQUIAFFINE_SRC_VOLUME_SHARED_VOLUME_H
+#ifndef EQUIAFFINE_PROGRAM_VOLUME_SHARED_VOLUME_H
+#define EQUIAFFINE_PROGRAM_VOLUME_SHARED_VOLUME_H
 
 #include "system/Shared_memory.h"
 #include "system/kernel.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_VOLUME_HEADER_CHECKS_H
-#define EQUIAFFINE_SRC_VOLUME_HEADER_CHECKS_H
+#ifndef EQUIAFFINE_PROGRAM_VOLUME_HEADER_CHECKS_H
+#define EQUIAFFINE_PROGRAM_VOLUME_HEADER_CHECKS_H
 
 // The readers of ITK, VTK and CGAL believe what a header says. These functions read it before them and throw
 // `Input_error`, which names the field, for what makes these readers crash, run forever or return another volume.

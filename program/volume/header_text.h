@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_VOLUME_HEADER_TEXT_H
-#define EQUIAFFINE_SRC_VOLUME_HEADER_TEXT_H
+#ifndef EQUIAFFINE_PROGRAM_VOLUME_HEADER_TEXT_H
+#define EQUIAFFINE_PROGRAM_VOLUME_HEADER_TEXT_H
 
 #include <cstddef>
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_VOLUME_ITK_IMAGE_H
-#define EQUIAFFINE_SRC_VOLUME_ITK_IMAGE_H
+#ifndef EQUIAFFINE_PROGRAM_VOLUME_ITK_IMAGE_H
+#define EQUIAFFINE_PROGRAM_VOLUME_ITK_IMAGE_H
 
 // What the readers of single files and of DICOM series ask of ITK.
 

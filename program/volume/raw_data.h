@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_VOLUME_RAW_DATA_H
-#define EQUIAFFINE_SRC_VOLUME_RAW_DATA_H
+#ifndef EQUIAFFINE_PROGRAM_VOLUME_RAW_DATA_H
+#define EQUIAFFINE_PROGRAM_VOLUME_RAW_DATA_H
 
 #include "volume/Shared_volume.h"
 #include "volume/volume_formats.h"

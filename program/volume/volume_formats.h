@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_VOLUME_VOLUME_FORMATS_H
-#define EQUIAFFINE_SRC_VOLUME_VOLUME_FORMATS_H
+#ifndef EQUIAFFINE_PROGRAM_VOLUME_VOLUME_FORMATS_H
+#define EQUIAFFINE_PROGRAM_VOLUME_VOLUME_FORMATS_H
 
 // The readers and writers that volume_io.h chooses from. Those of a library exist only in a program built with it.
 

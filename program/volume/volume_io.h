@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_SRC_VOLUME_VOLUME_IO_H
-#define EQUIAFFINE_SRC_VOLUME_VOLUME_IO_H
+#ifndef EQUIAFFINE_PROGRAM_VOLUME_VOLUME_IO_H
+#define EQUIAFFINE_PROGRAM_VOLUME_VOLUME_IO_H
 
 #include "request/Volume_selection.h"
 #include "system/atomic_file.h"
