@@ -5,6 +5,7 @@
 #ifndef HEADERS_ALONE
 #include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/registration/affine_symmetries.h>
 #endif
 
@@ -29,6 +30,8 @@ int main() {
   for (const Vertex_index v : mesh.vertices())
     if (!(std::abs(curvature[v] - 0.5) < 1e-12)) return EXIT_FAILURE;
 #ifndef HEADERS_ALONE
+  const equiaffine::Expression_3 ellipsoid("x^2/4 + y^2 + z^2 = 1");
+  if (ellipsoid(2.0, 0.0, 0.0) != 0 || ellipsoid.taylor(2.0, 0.0, 0.0).value() != 0) return EXIT_FAILURE;
   if (!equiaffine::delaunay_surface(traits).is_certified) return EXIT_FAILURE;
   const std::vector<Kernel::Point_3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const std::vector<std::vector<int>> faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};

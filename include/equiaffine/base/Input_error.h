@@ -8,6 +8,10 @@
 #include <string>
 #include <utility>
 
+// A program catches what the shared library throws.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
 namespace equiaffine {
 
 /// The exception for a text or a file that cannot be used.
@@ -27,5 +31,8 @@ private:
 };
 
 } // namespace equiaffine
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
 
 #endif

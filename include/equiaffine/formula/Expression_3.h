@@ -2,9 +2,11 @@
 #ifndef EQUIAFFINE_FORMULA_EXPRESSION_3_H
 #define EQUIAFFINE_FORMULA_EXPRESSION_3_H
 
-#include <equiaffine/formula/internal/expression_parser.h>
-#include <equiaffine/formula/internal/expression_shortening.h>
-#include <equiaffine/formula/internal/expression_taylor.h>
+#include <equiaffine/formula/Unknown_name_error.h> // IWYU pragma: export
+#include <equiaffine/formula/internal/expression_evaluation.h>
+#include <equiaffine/formula/internal/expression_tape.h>
+#include <equiaffine/number/Interval.h>
+#include <equiaffine/number/Jet_3.h>
 
 #include <CGAL/assertions.h>
 
@@ -54,7 +56,7 @@ namespace equiaffine {
 ///
 /// Equal subexpressions are evaluated once. Evaluation costs one instruction per remaining operation. It takes no
 /// memory on the heap if T is trivially default constructible and 32 slots for intermediate results are enough. Calls
-/// from several threads are safe.
+/// from several threads are safe. The library has what parses the text, so that a program links to it.
 class Expression_3 {
 public:
   /// Parses n characters in O(n log n). Throws Input_error, with the column in what() and a caret under it in
@@ -62,11 +64,8 @@ public:
   /// for a name that is neither a variable nor among `constants`; also Input_error for an entry
   /// of `constants` that is not finite or whose name is not an identifier or has a meaning already.
   explicit Expression_3(std::string_view text, const std::map<std::string, double>& constants = {})
-      : text_(std::make_shared<const std::string>(text)) {
-    internal::expression::check_constants(constants);
-    tape_ = internal::expression::Parser(*text_, constants).parse();
-    has_choices_ = internal::expression::has_choices(tape_);
-  }
+      : Expression_3(std::make_shared<const std::string>(text),
+                     internal::expression::parse_expression(text, constants)) {}
 
   /// The value at (x, y, z).
   template <class T>
@@ -111,7 +110,7 @@ public:
   std::optional<Expression_3> restricted(const Interval& x, const Interval& y, const Interval& z) const {
     constexpr std::size_t worth_it = 24; // a shorter tape takes less time than it takes to shorten it
     if (!has_choices_ || tape_.instructions.size() < worth_it) return std::nullopt;
-    auto tape = internal::expression::shortened(tape_, {x, y, z});
+    auto tape = internal::expression::shorten_tape(tape_, {x, y, z});
     return tape ? std::optional(Expression_3(text_, *std::move(tape))) : std::nullopt;
   }
 
@@ -140,7 +139,7 @@ private:
 
   std::shared_ptr<const std::string> text_; ///< is shared by copies
   internal::expression::Tape tape_;
-  bool has_choices_ = false;
+  bool has_choices_;
   /// Copies are equal and share it.
   std::shared_ptr<internal::expression::Lazy_taylor_tape> taylor_ =
       std::make_shared<internal::expression::Lazy_taylor_tape>();

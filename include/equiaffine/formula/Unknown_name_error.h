@@ -7,6 +7,10 @@
 #include <string>
 #include <utility>
 
+// A program catches what the shared library throws.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
 namespace equiaffine {
 
 /// The error of an expression with a name that is neither a variable nor among the constants. Who has a value for it, or
@@ -24,5 +28,8 @@ private:
 };
 
 } // namespace equiaffine
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
 
 #endif

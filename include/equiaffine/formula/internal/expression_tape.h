@@ -2,7 +2,15 @@
 #ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAPE_H
 #define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAPE_H
 
+#include <equiaffine/number/Interval.h>
+
+#include <array>
 #include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 /// The instruction list behind `Expression_3`.
@@ -69,6 +77,41 @@ struct Tape {
   std::vector<Instruction> instructions;
   std::vector<std::uint32_t> results; ///< the operands that hold the results after the last instruction
   std::uint32_t number_of_slots = 0;
+};
+
+// The library defines these functions, which make tapes.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
+
+/// Parses a text as the constructor of Expression_3 does.
+Tape parse_expression(std::string_view text, const std::map<std::string, double>& constants);
+
+/// Whether there is an instruction that chooses an operand: min, max or abs.
+bool has_choices(const Tape& tape);
+
+/// Returns a shorter tape, if there is one, whose results in double have the same bits at the points of the box with
+/// the given sides, as numbers and as jets of order 1.
+std::optional<Tape> shorten_tape(const Tape& tape, const std::array<Interval, number_of_variables>& sides);
+
+/// The tape whose results are the Taylor coefficients of total order 4, in the order of the monomials.
+Tape taylor_tape(const Tape& tape);
+
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
+
+/// The tape of the Taylor coefficients, which is made when it is needed first: most expressions never need it.
+class Lazy_taylor_tape {
+public:
+  const Tape& get(const Tape& values) {
+    std::call_once(is_made_, [&] { tape_ = taylor_tape(values); });
+    return tape_;
+  }
+
+private:
+  std::once_flag is_made_;
+  Tape tape_;
 };
 
 } // namespace equiaffine::internal::expression

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_PARSER_H
-#define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_PARSER_H
-
+#include "formula/Tape_builder.h"
+#include "formula/expression_words.h"
 #include <equiaffine/base/internal/from_chars.h>
 #include <equiaffine/formula/Unknown_name_error.h>
-#include <equiaffine/formula/internal/expression_errors.h>
-#include <equiaffine/formula/internal/expression_tape_builder.h>
+#include <equiaffine/formula/internal/expression_tape.h>
 
 #include <cmath>
 #include <cstddef>
@@ -16,6 +14,8 @@
 #include <vector>
 
 namespace equiaffine::internal::expression {
+
+namespace {
 
 /// Parses the grammar in Expression_3.h by recursive descent, with one function per rule.
 class Parser {
@@ -248,6 +248,11 @@ private:
   int depth_ = 0;
 };
 
-} // namespace equiaffine::internal::expression
+} // namespace
 
-#endif
+Tape parse_expression(std::string_view text, const std::map<std::string, double>& constants) {
+  check_constants(constants);
+  return Parser(text, constants).parse();
+}
+
+} // namespace equiaffine::internal::expression

@@ -2,20 +2,20 @@
 // Makes a tape that computes the Taylor coefficients of an expression. The expression is evaluated once on jets of
 // symbols, which leaves out what its structure makes zero or equal, as compile-time sparsity does for functions that
 // are written as code.
-#ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAYLOR_H
-#define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAYLOR_H
-
-#include <equiaffine/formula/internal/expression_tape_builder.h>
+#include "formula/Tape_builder.h"
+#include <equiaffine/formula/internal/expression_evaluation.h>
+#include <equiaffine/formula/internal/expression_tape.h>
 #include <equiaffine/number/Jet_3.h>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
 #include <vector>
 
 namespace equiaffine::internal::expression {
+
+namespace {
 
 /// A number type that computes with constants and records everything else as nodes of a builder. The constants zero and
 /// one act as in exact arithmetic: 0 * a is 0 whatever the value of a.
@@ -124,8 +124,9 @@ private:
   double value_ = 0;
 };
 
-/// The tape whose results are the Taylor coefficients of total order 4, in the order of the monomials.
-inline Tape taylor_tape(const Tape& tape) {
+} // namespace
+
+Tape taylor_tape(const Tape& tape) {
   using Jet = Jet_3<Symbol>;
   Tape_builder builder;
   std::vector<Jet> jets(number_of_variables + tape.number_of_slots);
@@ -142,19 +143,4 @@ inline Tape taylor_tape(const Tape& tape) {
   return builder.tape(roots);
 }
 
-/// The tape of the Taylor coefficients, which is made when it is needed first: most expressions never need it.
-class Lazy_taylor_tape {
-public:
-  const Tape& get(const Tape& values) {
-    std::call_once(is_made_, [&] { tape_ = taylor_tape(values); });
-    return tape_;
-  }
-
-private:
-  std::once_flag is_made_;
-  Tape tape_;
-};
-
 } // namespace equiaffine::internal::expression
-
-#endif

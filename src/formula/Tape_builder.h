@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAPE_BUILDER_H
-#define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_TAPE_BUILDER_H
+#ifndef EQUIAFFINE_SRC_FORMULA_TAPE_BUILDER_H
+#define EQUIAFFINE_SRC_FORMULA_TAPE_BUILDER_H
 
 #include <equiaffine/base/internal/bit_cast.h>
 #include <equiaffine/formula/internal/expression_evaluation.h>

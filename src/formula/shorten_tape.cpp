@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shortens a tape for a box, as Keeter does (Massively parallel rendering of complex closed-form implicit surfaces,
 // 2020, section 3.2): where intervals decide which operand min, max or abs returns, the others are not needed.
-#ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_SHORTENING_H
-#define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_SHORTENING_H
-
-#include <equiaffine/formula/internal/expression_tape_builder.h>
+#include "formula/Tape_builder.h"
+#include <equiaffine/formula/internal/expression_evaluation.h>
+#include <equiaffine/formula/internal/expression_tape.h>
 #include <equiaffine/number/Interval.h>
 
 #include <algorithm>
@@ -19,12 +18,10 @@
 
 namespace equiaffine::internal::expression {
 
-inline bool is_choice(const Instruction& i) {
-  return i.opcode == Opcode::MIN || i.opcode == Opcode::MAX || i.opcode == Opcode::ABS;
-}
+namespace {
 
-inline bool has_choices(const Tape& tape) {
-  return std::any_of(tape.instructions.begin(), tape.instructions.end(), is_choice);
+bool is_choice(const Instruction& i) {
+  return i.opcode == Opcode::MIN || i.opcode == Opcode::MAX || i.opcode == Opcode::ABS;
 }
 
 /// What is known of an operand on a box: the node that computes it, the interval of its values, and whether it has a
@@ -36,10 +33,10 @@ struct Operand_on_box {
 };
 
 /// Whether no way to compute a number overflows: jets compute quotients by reciprocals and lengths by squares.
-inline bool is_moderate(const Interval& values) { return values.lower() > -1e150 && values.upper() < 1e150; }
+bool is_moderate(const Interval& values) { return values.lower() > -1e150 && values.upper() < 1e150; }
 
 /// Whether an instruction has a moderate value on all of a box if its operands have one.
-inline bool is_total(const Instruction& i, const Interval& a, const Interval& b, const Interval& result) {
+bool is_total(const Instruction& i, const Interval& a, const Interval& b, const Interval& result) {
   if (!is_moderate(result)) return false;
   switch (i.opcode) {
   case Opcode::SQRT: return a.lower() >= 0;
@@ -59,7 +56,7 @@ inline bool is_total(const Instruction& i, const Interval& a, const Interval& b,
 
 /// Returns how many rounding errors the value of an instruction may have beyond those that its interval follows: a
 /// whole power is a product of many factors, and jets compute some functions from others.
-inline double further_roundings(const Instruction& i) {
+double further_roundings(const Instruction& i) {
   switch (i.opcode) {
   case Opcode::INTEGER_POWER: return i.constant;
   case Opcode::POWER:
@@ -73,7 +70,7 @@ inline double further_roundings(const Instruction& i) {
 }
 
 /// Returns an interval that contains the values of an instruction as numbers and as values of jets.
-inline Interval values_on_box(const Instruction& i, const Interval& a, const Interval& b) {
+Interval values_on_box(const Instruction& i, const Interval& a, const Interval& b) {
   Interval result;
   execute<1>(i, &a, &b, &result, 1);
   using Limits = std::numeric_limits<double>;
@@ -88,7 +85,7 @@ inline Interval values_on_box(const Instruction& i, const Interval& a, const Int
 /// Returns the operand that a choice returns at every point of the box, if it is always the same. Both operands must
 /// have moderate values everywhere: min and max are NaN where one of them is, and intervals do not follow signed
 /// infinities.
-inline std::optional<std::uint32_t> decided(const Instruction& i, const Operand_on_box& a, const Operand_on_box& b) {
+std::optional<std::uint32_t> decided(const Instruction& i, const Operand_on_box& a, const Operand_on_box& b) {
   if (!a.is_total || !b.is_total) return std::nullopt;
   if (i.opcode == Opcode::ABS) return a.values.lower() > 0 ? std::optional(a.node) : std::nullopt;
   const bool is_a_less = a.values.upper() < b.values.lower(), is_b_less = b.values.upper() < a.values.lower();
@@ -96,9 +93,13 @@ inline std::optional<std::uint32_t> decided(const Instruction& i, const Operand_
   return is_a_less == (i.opcode == Opcode::MIN) ? a.node : b.node;
 }
 
-/// Returns a shorter tape, if there is one, whose results in double have the same bits at the points of the box with
-/// the given sides, as numbers and as jets of order 1.
-inline std::optional<Tape> shortened(const Tape& tape, const std::array<Interval, number_of_variables>& sides) {
+} // namespace
+
+bool has_choices(const Tape& tape) {
+  return std::any_of(tape.instructions.begin(), tape.instructions.end(), is_choice);
+}
+
+std::optional<Tape> shorten_tape(const Tape& tape, const std::array<Interval, number_of_variables>& sides) {
   std::vector<Operand_on_box> operands(number_of_variables + tape.number_of_slots);
   std::vector<Instruction> nodes(number_of_variables, Instruction{Opcode::VARIABLE, 0, 0, 0, 0});
   for (std::uint32_t v = 0; v < number_of_variables; ++v) operands[v] = {v, sides[v], is_moderate(sides[v])};
@@ -122,5 +123,3 @@ inline std::optional<Tape> shortened(const Tape& tape, const std::array<Interval
 }
 
 } // namespace equiaffine::internal::expression
-
-#endif
