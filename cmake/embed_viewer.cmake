@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Writes the header that has the files of viewer/ as texts, for pages that are single files. The lines of a file up to its
+# Writes the private header of the library that has the files of viewer/ as texts, for pages that are single files. The lines of a file up to its
 # first blank one are its own.
 
 set(EQUIAFFINE_GENERATED_DIR ${PROJECT_BINARY_DIR}/generated)
@@ -37,8 +37,8 @@ read_viewer_file(style page.css)
 read_viewer_file(stage stage.html)
 read_viewer_file(controls controls.html)
 set(header "// Made of the files of viewer/ by cmake/embed_viewer.cmake.
-#ifndef EQUIAFFINE_DISPLAY_INTERNAL_VIEWER_FILES_H
-#define EQUIAFFINE_DISPLAY_INTERNAL_VIEWER_FILES_H
+#ifndef EQUIAFFINE_SRC_DISPLAY_VIEWER_FILES_H
+#define EQUIAFFINE_SRC_DISPLAY_VIEWER_FILES_H
 
 #include <string_view>
 
@@ -55,5 +55,5 @@ inline constexpr std::string_view viewer_script[] = {${script}
 
 #endif
 ")
-set(viewer_files ${EQUIAFFINE_GENERATED_DIR}/equiaffine/display/internal/viewer_files.h)
+set(viewer_files ${EQUIAFFINE_GENERATED_DIR}/display/viewer_files.h)
 file(CONFIGURE OUTPUT ${viewer_files} CONTENT "@header@" @ONLY)

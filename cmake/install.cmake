@@ -21,8 +21,7 @@ endforeach()" COMPONENT development)
 
 set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/equiaffine)
 install(TARGETS equiaffine_headers EXPORT equiaffineTargets
-        FILE_SET public COMPONENT development FILE_SET internal COMPONENT development
-        FILE_SET generated COMPONENT development)
+        FILE_SET public COMPONENT development FILE_SET internal COMPONENT development)
 install(EXPORT equiaffineTargets NAMESPACE equiaffine:: DESTINATION ${package_dir} COMPONENT development)
 
 configure_package_config_file(cmake/equiaffineConfig.cmake.in equiaffineConfig.cmake INSTALL_DESTINATION ${package_dir})

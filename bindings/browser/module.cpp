@@ -3,8 +3,7 @@
 // next one; arrays of it are read from the memory of the module.
 #include "sample.h"
 #include <equiaffine/display/internal/Parabolic_parts.h>
-#include <equiaffine/display/internal/page_arrays.h>
-#include <equiaffine/display/internal/page_facts.h>
+#include <equiaffine/display/internal/page.h>
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/function/Level_set_traits_3.h>
@@ -56,8 +55,8 @@ EXPORTED int eq_page() {
     namespace internal = equiaffine::internal;
     const auto center = internal::center_of(surface.mesh.points);
     const equiaffine::Parabolic_parts parabolic(surface.mesh.triangles, surface.attributes);
-    surface.facts =
-        internal::page_facts(surface.mesh, surface.attributes, equiaffine::Html_options(), center, parabolic);
+    const equiaffine::Numbers_of_mesh numbers(surface.mesh, surface.attributes);
+    surface.facts = internal::page_facts(numbers, surface.attributes, equiaffine::Html_options(), center, parabolic);
     surface.floats.clear();
     surface.floats.reserve(surface.mesh.points.size() * (3 + surface.attributes.columns.size()));
     for (const auto& p : surface.mesh.points)

@@ -46,7 +46,7 @@ def faults_of_style(viewer, node, modules):
 
 def unused_rules(viewer):
     """The elements, names and classes for which there is a rule and nothing else."""
-    head = (viewer.parent / "include/equiaffine/display/internal/html_page.h").read_text()
+    head = (viewer.parent / "src/display/write_page.cpp").read_text()
     elements, script = text_of(viewer, ".html") + head, text_of(viewer, ".js")
     quoted = " ".join(re.findall(r"'[^'\n]*'|\"[^\"\n]*\"|`[^`]*`", script)) + " ".join(re.findall(r'"[^"\n]*"', elements))
     style = re.sub(r"/\*.*?\*/|\[[^\]]*\]|:+[\w-]+", "", (viewer / "page.css").read_text(), flags=re.DOTALL)

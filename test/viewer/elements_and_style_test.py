@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 VIEWER, *TOOLS = sys.argv[1:5]
-HEADER = "include/equiaffine/display/internal/html_page.h"
+SOURCE = "src/display/write_page.cpp"
 
 
 def answer(name, old, new, tools):
@@ -16,8 +16,8 @@ def answer(name, old, new, tools):
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         shutil.copytree(VIEWER, root / "viewer")
-        (root / HEADER).parent.mkdir(parents=True)
-        shutil.copy(pathlib.Path(VIEWER).parent / HEADER, root / HEADER)
+        (root / SOURCE).parent.mkdir(parents=True)
+        shutil.copy(pathlib.Path(VIEWER).parent / SOURCE, root / SOURCE)
         text = (root / "viewer" / name).read_text()
         if old not in text:
             raise ValueError(f"{old} is not in {name}")

@@ -2,19 +2,12 @@
 #ifndef EQUIAFFINE_DISPLAY_COLOR_MAP_H
 #define EQUIAFFINE_DISPLAY_COLOR_MAP_H
 
-#include <equiaffine/base/internal/quantile.h>
-#include <equiaffine/display/internal/oklab.h>
 #include <equiaffine/geometry/Point_status.h>
 
 #include <CGAL/IO/Color.h>
-#include <CGAL/assertions.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <iterator>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 /// \file
@@ -23,6 +16,10 @@
 /// sRGB. The maps are straight paths in Oklab (B. Ottosson, "A perceptual color space for image processing", 2020):
 /// lightness alone, which no form of color blindness takes away, tells the order.
 
+// The library defines the functions below that have no body here.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
 namespace equiaffine {
 
 /// The ways from a number to its place between the end colors.
@@ -59,13 +56,7 @@ constexpr std::string_view to_string(Color_scale scale) {
 }
 
 /// The absolute values of ascending numbers, ascending.
-inline std::vector<double> sorted_magnitudes(const std::vector<double>& sorted) {
-  const auto zero = std::lower_bound(sorted.begin(), sorted.end(), 0.);
-  std::vector<double> negative(std::make_reverse_iterator(zero), sorted.rend()), result(sorted.size());
-  for (double& value : negative) value = -value;
-  std::merge(negative.begin(), negative.end(), zero, sorted.end(), result.begin());
-  return result;
-}
+std::vector<double> sorted_magnitudes(const std::vector<double>& sorted);
 
 /// The range of a column of numbers; infinities and NaNs do not count. For numbers of both signs the bounds are +-(the
 /// (100 - clip_percent)-quantile of |value|), for numbers of one sign the quantiles at clip_percent and 100 -
@@ -77,93 +68,40 @@ inline std::vector<double> sorted_magnitudes(const std::vector<double>& sorted) 
 /// what the numbers are typically off: a half-width is at least 8 errors, so that numbers that are equal within their
 /// errors have one color. It does not take the range of numbers of one sign across zero.
 /// \pre `sorted` is ascending and finite, `magnitudes` has its absolute values, ascending
-inline Color_range color_range_of_sorted(const std::vector<double>& sorted, const std::vector<double>& magnitudes,
-                                         double clip_percent, double resolution, double error = 0) {
-  CGAL_precondition(clip_percent >= 0 && clip_percent < 50 && resolution >= 0 && error >= 0);
-  const double least_half_width = std::max(resolution, 8 * error);
-  constexpr double relative_resolution = 1e-6;
-  constexpr double resolutions_of_rounding = 1e3, resolutions_of_unit = 1e9;
-  const double unit = resolution > 0 ? resolutions_of_unit * resolution : 1;
-  const Color_range range_of_zero = {-unit, unit, unit, true};
-  if (sorted.empty()) return range_of_zero;
-
-  double largest = quantile_of_sorted(magnitudes, 100 - clip_percent);
-  if (largest == 0) largest = magnitudes.back();
-  const double median = quantile_of_sorted(magnitudes, 50);
-  if (median <= resolution && largest <= resolutions_of_rounding * resolution) return range_of_zero;
-  const double knee = std::max({median, resolution, relative_resolution * largest});
-
-  const double negligible = relative_resolution * largest;
-  const bool has_both_signs = -negligible > sorted.front() && negligible < sorted.back();
-  if (has_both_signs) {
-    const double end = std::max(largest, least_half_width);
-    return {-end, end, knee, true};
-  }
-  const auto bound = [&](double percent) {
-    const double number = quantile_of_sorted(sorted, percent);
-    return std::abs(number) < negligible ? 0 : number;
-  };
-  double lower = bound(clip_percent), upper = bound(100 - clip_percent);
-  if (lower == 0 && upper == 0) std::tie(lower, upper) = std::minmax({0., sorted.front(), sorted.back()});
-  const double middle = lower + (upper - lower) / 2;
-  const double half_width = std::max({(upper - lower) / 2, least_half_width, relative_resolution * std::abs(middle)});
-  if (lower >= 0 && middle < half_width) return {0, 2 * half_width, knee, false};
-  if (upper <= 0 && -middle < half_width) return {-2 * half_width, 0, knee, false};
-  return {middle - half_width, middle + half_width, knee, false};
-}
+Color_range color_range_of_sorted(const std::vector<double>& sorted, const std::vector<double>& magnitudes,
+                                  double clip_percent, double resolution, double error = 0);
 
 /// The same of numbers in any order.
-inline Color_range color_range(std::vector<double> values, double clip_percent = default_clip_percent,
-                               double resolution = 0) {
-  std::erase_if(values, [](double value) { return !std::isfinite(value); });
-  std::sort(values.begin(), values.end());
-  return color_range_of_sorted(values, sorted_magnitudes(values), clip_percent, resolution);
-}
+Color_range color_range(std::vector<double> values, double clip_percent = default_clip_percent, double resolution = 0);
 
 /// A range that was typed: it depends on nothing but its bounds, so that pictures that share it can be compared.
-inline Color_range given_range(double lower, double upper) {
-  CGAL_precondition(lower < upper);
-  constexpr double knees = 100;
-  return {lower, upper, std::max(std::abs(lower), std::abs(upper)) / knees, lower == -upper};
-}
+Color_range given_range(double lower, double upper);
 
 /// The color of a number that does not exist.
-inline CGAL::IO::Color undefined_color() { return CGAL::IO::Color(157, 157, 163); }
+CGAL::IO::Color undefined_color();
 
 /// The color of a surface without a quantity, and of regular points where the status is shown.
-inline CGAL::IO::Color plain_color() { return CGAL::IO::Color(201, 209, 220); }
+CGAL::IO::Color plain_color();
 
 /// The gray of colors that say nothing, in legends: a color in doubt keeps its own lightness.
-inline CGAL::IO::Color doubt_color() { return CGAL::IO::Color(136, 136, 136); }
+CGAL::IO::Color doubt_color();
 
 /// The color of regions where a number does not exist because the Gaussian curvature is zero within its error: the hue
 /// of parabolic points, too pale to be taken for a curve.
-inline CGAL::IO::Color parabolic_region_color() { return CGAL::IO::Color(166, 205, 178); }
+CGAL::IO::Color parabolic_region_color();
 
 /// The diverging map, for t in [-1, 1]: blue, near-white at 0, red; gray for NaN.
-inline CGAL::IO::Color diverging_color(double t) {
-  CGAL_precondition(!(std::abs(t) > 1));
-  return std::isnan(t) ? undefined_color() : internal::color_from_linear_rgb(internal::diverging_linear_rgb(t));
-}
+CGAL::IO::Color diverging_color(double t);
 
 /// The sequential map, for t in [0, 1]: pale yellow to dark violet; gray for NaN.
-inline CGAL::IO::Color sequential_color(double t) {
-  CGAL_precondition(!(t < 0 || t > 1));
-  return std::isnan(t) ? undefined_color() : internal::color_from_linear_rgb(internal::sequential_linear_rgb(t));
-}
+CGAL::IO::Color sequential_color(double t);
 
 /// The color of a point by its status: hues and darkness that neither map has.
-inline CGAL::IO::Color status_color(Point_status status) {
-  switch (status) {
-  case Point_status::PARABOLIC: return CGAL::IO::Color(18, 161, 80);
-  case Point_status::SINGULAR: return CGAL::IO::Color(17, 17, 17);
-  case Point_status::OUTSIDE: return CGAL::IO::Color(160, 124, 60);
-  case Point_status::UNCONVERGED: return CGAL::IO::Color(0, 194, 214);
-  case Point_status::REGULAR: break;
-  }
-  return plain_color();
-}
+CGAL::IO::Color status_color(Point_status status);
 
 } // namespace equiaffine
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
 
 #endif

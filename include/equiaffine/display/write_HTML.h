@@ -3,7 +3,7 @@
 #define EQUIAFFINE_DISPLAY_WRITE_HTML_H
 
 #include <equiaffine/display/Html_options.h>
-#include <equiaffine/display/internal/html_page.h>
+#include <equiaffine/display/internal/page.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/assertions.h>
@@ -27,7 +27,7 @@ void write_HTML(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, 
   CGAL_precondition(internal::is_offered(options.color, attributes));
   CGAL_precondition(!options.range || (*options.range)[0] < (*options.range)[1]);
   CGAL_precondition(options.up[0] != 0 || options.up[1] != 0 || options.up[2] != 0);
-  internal::write_page(out, mesh, attributes, options);
+  internal::write_page(out, internal::Page_surface(mesh, attributes), attributes, options);
 }
 
 } // namespace equiaffine

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_DISPLAY_INTERNAL_PAGE_FACTS_H
-#define EQUIAFFINE_DISPLAY_INTERNAL_PAGE_FACTS_H
-
+#include "display/html_text.h"
+#include "display/page_columns.h"
 #include <equiaffine/display/Html_options.h>
 #include <equiaffine/display/color_map.h>
+#include <equiaffine/display/internal/Column_numbers.h>
 #include <equiaffine/display/internal/Parabolic_parts.h>
-#include <equiaffine/display/internal/html_text.h>
-#include <equiaffine/display/internal/page_columns.h>
+#include <equiaffine/display/internal/page.h>
 #include <equiaffine/display/internal/trust.h>
+#include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <locale>
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace equiaffine::internal {
+
+namespace {
 
 /// The colors of a map at `size` equally spaced places of [first, 1], as a JSON array.
 template <class Function>
@@ -31,7 +33,7 @@ std::string color_table(Function function, double first) {
 }
 
 /// The words and colors of the statuses, as JSON.
-inline void write_status_facts(std::ostream& json) {
+void write_status_facts(std::ostream& json) {
   for (std::size_t i = 0; i < number_of_point_statuses; ++i) {
     const auto status = static_cast<Point_status>(i);
     json << (i == 0 ? "" : ",") << "{\"word\":" << json_string(to_string(status)) << ",\"color\":\""
@@ -39,11 +41,10 @@ inline void write_status_facts(std::ostream& json) {
   }
 }
 
-/// Everything that the page has to know besides the arrays, as JSON.
-template <class Kernel>
-std::string page_facts(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                       const Html_options& options, const std::array<double, 3>& center,
-                       const Parabolic_parts& parabolic) {
+} // namespace
+
+std::string page_facts(const Numbers_of_mesh& numbers, const Vertex_attributes& attributes, const Html_options& options,
+                       const std::array<double, 3>& center, const Parabolic_parts& parabolic) {
   std::ostringstream json;
   json.imbue(std::locale::classic());
   json.precision(17);
@@ -59,10 +60,10 @@ std::string page_facts(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex
        << "\",\"clip\":" << default_clip_percent << ",\"clipSteps\":";
   write_numbers(json, clip_steps);
   json << ",\n\"columns\":[";
-  write_column_facts(json, attributes, options, Numbers_of_mesh(mesh, attributes), parabolic);
+  write_column_facts(json, attributes, options, numbers, parabolic);
   json << "],\n\"spotSides\":";
   const auto* curvatures = find_column(attributes, "gaussian_curvature");
-  write_spots(json, curvatures ? parabolic.sides(curvatures->values) : std::vector<double>(mesh.points.size()),
+  write_spots(json, curvatures ? parabolic.sides(curvatures->values) : std::vector<double>(parabolic.parts().size()),
               parabolic);
   json << ",\n\"doubts\":[";
   const char* separator = "";
@@ -81,5 +82,3 @@ std::string page_facts(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex
 }
 
 } // namespace equiaffine::internal
-
-#endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_DISPLAY_INTERNAL_BASE64_H
-#define EQUIAFFINE_DISPLAY_INTERNAL_BASE64_H
+#ifndef EQUIAFFINE_SRC_DISPLAY_BASE64_H
+#define EQUIAFFINE_SRC_DISPLAY_BASE64_H
 
 #include <cstdint>
 #include <ostream>

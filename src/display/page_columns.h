@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_DISPLAY_INTERNAL_PAGE_COLUMNS_H
-#define EQUIAFFINE_DISPLAY_INTERNAL_PAGE_COLUMNS_H
+#ifndef EQUIAFFINE_SRC_DISPLAY_PAGE_COLUMNS_H
+#define EQUIAFFINE_SRC_DISPLAY_PAGE_COLUMNS_H
 
+#include "display/html_text.h"
 #include <equiaffine/attributes/internal/quantities.h>
 #include <equiaffine/base/internal/quantile.h>
 #include <equiaffine/display/Color_mapping.h>
 #include <equiaffine/display/Html_options.h>
 #include <equiaffine/display/internal/Column_numbers.h>
 #include <equiaffine/display/internal/Parabolic_parts.h>
-#include <equiaffine/display/internal/html_text.h>
 #include <equiaffine/display/internal/trust.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
