@@ -107,11 +107,15 @@ def faults_of_example(path, text):
         yield f"{path} uses internal::{name}: that name is internal"
 
 
-def faults_of_reach(library, callers):
+def faults_of_reach(library, sources, callers):
     """One line for each header that no public one and no caller, a program or a binding, includes: what the sources of
-    the library alone need is not installed."""
+    one module alone need is not installed. Headers of src serve one module, so that what sources of several modules need
+    has no other place."""
     reached = set()
     next_ones = {path for path in library if is_public(path)}
+    users = {(path, module_of(source)) for source, text in sources.items() for path, _ in INCLUDE.findall(text)}
+    needed = [path for path, _ in users]
+    next_ones |= {path for path in needed if path in library and needed.count(path) > 1}
     next_ones |= {path for text in callers for path, _ in INCLUDE.findall(text) if path in library}
     while next_ones:
         reached |= next_ones
@@ -158,7 +162,7 @@ def find_faults(root):
         faults += faults_of_library_file(modules, path, text)
     faults += faults_of_circles(library)
     callers = [text for folder in ("program", "bindings", "reproduce") for text in read_files(root / folder).values()]
-    faults += faults_of_reach(library, callers)
+    faults += faults_of_reach(library, sources, callers)
     for path, text in sources.items():
         faults += (f"src/{fault}" for fault in faults_of_source(modules, path, text))
     for path, text in program.items():

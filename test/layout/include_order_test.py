@@ -132,6 +132,11 @@ class IncludeOrder(unittest.TestCase):
                           include__equiaffine__low__internal__c_h="class C {};\n",
                           src__high__mesh_h="#include <equiaffine/low/internal/c.h>\n")
 
+    def test_a_header_that_sources_of_two_modules_need(self):
+        include = "#include <equiaffine/low/internal/c.h>\n"
+        self.assertEqual(self.faults(include__equiaffine__low__internal__c_h="class C {};\n", src__low__a_cpp=include,
+                                     src__high__b_cpp=include), [])
+
     def test_a_header_that_a_program_or_a_binding_needs(self):
         for name in ("program__below__file_h", "bindings__python__core_cpp"):
             self.assertEqual([], self.faults(include__equiaffine__low__internal__c_h="class C {};\n",

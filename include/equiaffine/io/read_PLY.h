@@ -2,9 +2,8 @@
 #ifndef EQUIAFFINE_IO_READ_PLY_H
 #define EQUIAFFINE_IO_READ_PLY_H
 
-#include <equiaffine/io/internal/ply_elements.h>
+#include <equiaffine/io/internal/mesh_readers.h>
 #include <equiaffine/mesh/Annotated_mesh_3.h>
-#include <equiaffine/mesh/internal/triangles_of_polygon.h>
 
 #include <istream>
 #include <string>
@@ -16,8 +15,9 @@ namespace equiaffine {
 /// out. `name` stands for the file in messages. Throws `Input_error` for what is not a complete PLY file.
 template <class Kernel>
 Annotated_mesh_3<Kernel> read_PLY(std::istream& stream, const std::string& name) {
-  return internal::read_PLY_with<Kernel>(
-      stream, name, [](auto& mesh, const auto& face) { add_triangles_of_polygon(mesh.points, face, mesh.triangles); });
+  Annotated_mesh_3<Kernel> result;
+  result.attributes = internal::read_PLY_elements(stream, name, internal::receiver_of(result.mesh));
+  return result;
 }
 
 } // namespace equiaffine

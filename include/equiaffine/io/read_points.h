@@ -5,21 +5,16 @@
 
 // Reads points from CSV, PLY, OFF and XYZ with all that came with them, and writes them to CSV with more columns.
 
-#include <equiaffine/io/internal/Csv_scanner.h>
-#include <equiaffine/io/internal/Off_scanner.h>
 #include <equiaffine/io/internal/buffered_output.h>
-#include <equiaffine/io/internal/csv_columns.h>
 #include <equiaffine/io/internal/csv_rows.h>
-#include <equiaffine/io/internal/fail_to_read.h>
 #include <equiaffine/io/internal/input_file.h>
-#include <equiaffine/io/internal/text_input.h>
+#include <equiaffine/io/internal/mesh_readers.h>
 #include <equiaffine/io/read_OFF.h>
 #include <equiaffine/io/read_PLY.h>
 #include <equiaffine/io/read_XYZ.h>
 #include <equiaffine/io/write_CSV.h>
 #include <equiaffine/mesh/Annotated_mesh_3.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <fstream>
 #include <iostream>
@@ -48,19 +43,12 @@ struct Point_table_3 : Annotated_mesh_3<Kernel> {
 /// nan and inf are numbers: no function has a value at such a point.
 template <class Kernel>
 Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
-  const std::string text = internal::read_all(stream);
-  internal::Csv_scanner scanner(text, name);
   Point_table_3<Kernel> table;
-  table.separator = scanner.separator();
-  for (const std::string_view cell : scanner.next_row()) table.header.emplace_back(cell);
-  const auto coordinates = internal::find_coordinates(scanner, table.header);
-  for (auto row = scanner.next_row(); !row.empty(); row = scanner.next_row()) {
-    internal::check_length(scanner, row, table.header);
-    const auto [x, y, z] = internal::parse_point(scanner, row, coordinates);
-    table.mesh.points.emplace_back(x, y, z);
-    table.cells.insert(table.cells.end(), row.begin(), row.end());
-  }
-  table.attributes.columns = internal::numeric_columns(table.header, table.cells, coordinates);
+  internal::Csv_cells file = internal::read_CSV_elements(stream, name, internal::receiver_of(table.mesh));
+  table.attributes.columns = std::move(file.columns);
+  table.header = std::move(file.header);
+  table.cells = std::move(file.cells);
+  table.separator = file.separator;
   return table;
 }
 
@@ -80,9 +68,7 @@ template <class Kernel>
 Point_table_3<Kernel> read_points(const std::string& path) {
   if (path == "-") {
     std::string text = internal::read_all(std::cin);
-    std::string_view rest = text;
-    const std::string_view word = internal::take_word(rest);
-    const char* const extension = word == "ply" ? ".ply" : internal::end_of_OFF_keyword(word) > 0 ? ".off" : ".csv";
+    const char* const extension = internal::extension_of_text(text);
     std::istringstream stream(std::move(text));
     return read_points<Kernel>(stream, "standard input", extension);
   }
@@ -90,22 +76,18 @@ Point_table_3<Kernel> read_points(const std::string& path) {
   return read_points<Kernel>(file, path, path);
 }
 
+// The library defines this function.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
+
 /// The columns of `first` that `second` does not have, then those of `second`; the status of `second` if it has one.
 /// Comments likewise: those with the same text before the colon are replaced.
-inline Vertex_attributes merge_attributes(Vertex_attributes first, const Vertex_attributes& second) {
-  std::erase_if(first.columns, [&](const auto& old) {
-    return std::any_of(second.columns.begin(), second.columns.end(), [&](const auto& c) { return c.name == old.name; });
-  });
-  first.columns.insert(first.columns.end(), second.columns.begin(), second.columns.end());
-  if (second.status) first.status = second.status;
-  const auto name = [](const std::string& comment) { return comment.substr(0, comment.find(':')); };
-  std::erase_if(first.comments, [&](const auto& old) {
-    return std::any_of(second.comments.begin(), second.comments.end(),
-                       [&](const auto& c) { return name(c) == name(old); });
-  });
-  first.comments.insert(first.comments.end(), second.comments.begin(), second.comments.end());
-  return first;
-}
+Vertex_attributes merge_attributes(Vertex_attributes first, const Vertex_attributes& second);
+
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
 
 /// Writes the rows of `table` as they came, with their separator, then the columns of `attributes` and the status;
 /// these replace columns of the same names.

@@ -20,6 +20,10 @@
 #include <string_view>
 #include <vector>
 
+// The library defines the member that has no body here.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
 namespace equiaffine {
 
 /// Writes binary PLY part by part: the header, then all vertices in any number of parts, then all faces.
@@ -80,22 +84,7 @@ private:
   /// So many rows with their attributes fit into the cache nearest to a processor.
   static constexpr std::size_t rows_at_once = 256;
 
-  void write_header(std::size_t vertices, std::size_t faces, const Vertex_attributes& layout) {
-    out_ << "ply\nformat binary_little_endian 1.0\ncomment made by equiaffine";
-    if (layout.status) {
-      out_ << "; status:";
-      for (std::size_t i = 0; i < number_of_point_statuses; ++i) out_ << ' ' << i << ' ' << to_string(Point_status(i));
-    }
-    for (std::string line : layout.comments) {
-      std::replace_if(
-          line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-      out_ << "\ncomment " << line;
-    }
-    out_ << "\nelement vertex " << vertices << "\nproperty double x\nproperty double y\nproperty double z\n";
-    for (const auto& column : layout.columns) out_ << "property double " << column.name << '\n';
-    if (layout.status) out_ << "property uchar status\n";
-    out_ << "element face " << faces << "\nproperty list uchar int vertex_indices\nend_header\n";
-  }
+  void write_header(std::size_t vertices, std::size_t faces, const Vertex_attributes& layout);
 
   /// Stores a number at a place of the block, the least significant byte first.
   template <class Number>
@@ -110,5 +99,8 @@ private:
 };
 
 } // namespace equiaffine
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
 
 #endif

@@ -2,23 +2,20 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_BUFFERED_OUTPUT_H
 #define EQUIAFFINE_IO_INTERNAL_BUFFERED_OUTPUT_H
 
-#include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/base/internal/bit_cast.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
-#include <cmath>
 #include <cstddef>
-#include <iomanip>
-#include <locale>
 #include <ostream>
-#include <sstream>
 #include <string>
 #include <string_view>
-#include <version>
 
+// The library defines the members that have no body here.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
 namespace equiaffine::internal {
 
 /// Writes text and little-endian binary numbers to a stream, in large blocks. Text does not depend on the stream's
@@ -36,33 +33,12 @@ public:
   Buffered_output& operator<<(char character) { return *this << std::string_view(&character, 1); }
 
   /// Writes a number with 17 significant digits, which give every double back; `nan` and zero get no sign.
-  Buffered_output& operator<<(double number) {
-    if (std::isnan(number)) return *this << "nan";
-#ifdef __cpp_lib_to_chars
-    std::array<char, 32> digits;
-    const auto end =
-        std::to_chars(digits.data(), digits.data() + digits.size(), number + 0., std::chars_format::general, 17);
-    return *this << std::string_view(digits.data(), std::size_t(end.ptr - digits.data()));
-#else // as libc++ before version 14
-    std::ostringstream digits;
-    digits.imbue(std::locale::classic());
-    digits << std::setprecision(17) << number + 0.;
-    return *this << digits.str();
-#endif
-  }
+  Buffered_output& operator<<(double number);
 
-  Buffered_output& operator<<(std::size_t number) {
-    std::array<char, 24> digits;
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
-    return *this << std::string_view(digits.data(), std::size_t(end.ptr - digits.data()));
-  }
+  Buffered_output& operator<<(std::size_t number);
 
   /// Writes a large text, which the buffer does not delay.
-  void write_block(std::string_view text) {
-    if (!buffer_.empty()) flush();
-    Progress_observer::step();
-    stream_.write(text.data(), std::streamsize(text.size()));
-  }
+  void write_block(std::string_view text);
 
   template <class Number>
   void write_binary(Number number) {
@@ -71,11 +47,7 @@ public:
     *this << std::string_view(bytes.data(), bytes.size());
   }
 
-  void flush() {
-    Progress_observer::step();
-    stream_.write(buffer_.data(), std::streamsize(buffer_.size()));
-    buffer_.clear();
-  }
+  void flush();
 
 private:
   static constexpr std::size_t block_size = std::size_t(1) << 16;
@@ -85,5 +57,8 @@ private:
 };
 
 } // namespace equiaffine::internal
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
 
 #endif

@@ -9,14 +9,14 @@
 
 #include <cstddef>
 
+// The library defines the function that has no body here.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
 namespace equiaffine::internal {
 
 /// Writes the rest of the header line.
-inline void write_CSV_names(Buffered_output& out, const Vertex_attributes& attributes, char separator) {
-  for (const auto& column : attributes.columns) out << separator << column.name;
-  if (attributes.status) out << separator << "status";
-  out << '\n';
-}
+void write_CSV_names(Buffered_output& out, const Vertex_attributes& attributes, char separator);
 
 /// Writes rows: `write(row)` writes what comes first in a line; the numbers of `attributes` and the word for the status
 /// follow.
@@ -34,5 +34,8 @@ void write_CSV_rows(Buffered_output& out, std::size_t number_of_rows, const Vert
 }
 
 } // namespace equiaffine::internal
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
 
 #endif

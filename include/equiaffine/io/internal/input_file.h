@@ -2,82 +2,43 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_INPUT_FILE_H
 #define EQUIAFFINE_IO_INTERNAL_INPUT_FILE_H
 
-#include <equiaffine/io/internal/fail_to_read.h>
+#include <equiaffine/base/Input_error.h>
 
-#include <algorithm>
-#include <cctype>
-#include <cstddef>
-#include <fcntl.h>
-#include <filesystem>
 #include <fstream>
-#include <optional>
-#include <poll.h>
+#include <istream>
 #include <string>
 #include <string_view>
-#include <system_error>
-#include <unistd.h>
 
+// The library defines these functions.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
 namespace equiaffine {
 
 /// Whether a path ends with an extension such as ".ply". The extension is given in lower case; the path may have it in
 /// lower or upper case.
-inline bool has_extension(std::string_view path, std::string_view extension) {
-  return path.size() >= extension.size() &&
-         std::equal(extension.begin(), extension.end(), path.end() - std::ptrdiff_t(extension.size()),
-                    [](char a, unsigned char b) { return a == char(std::tolower(b)); });
-}
-
-namespace internal {
-
-/// Keeps both ends of a named pipe open while somebody opens it for reading, which would wait for a program that writes,
-/// forever if that has written all and is gone.
-class Open_pipe {
-public:
-  /// Throws if no program writes to the pipe within ten seconds.
-  explicit Open_pipe(const std::string& path) : for_reading_(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
-    if (for_reading_ < 0) return; // open_input() says why
-    pollfd request = {for_reading_, POLLIN, 0};
-    char byte;
-    const bool has_writer = poll(&request, 1, 10'000) > 0 || read(for_reading_, &byte, 1) < 0;
-    if (!has_writer) {
-      close(for_reading_);
-      fail_to_read(path, "it is a pipe to which no program writes", "start that program first");
-    }
-    for_writing_ = open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-  }
-  Open_pipe(const Open_pipe&) = delete;
-  Open_pipe& operator=(const Open_pipe&) = delete;
-  ~Open_pipe() {
-    close(for_reading_);
-    close(for_writing_);
-  }
-
-private:
-  int for_reading_, for_writing_ = -1;
-};
-
-} // namespace internal
+bool has_extension(std::string_view path, std::string_view extension);
 
 /// Opens a file that is not empty for reading bytes.
 /// \throws Input_error that says why there is nothing to read: no such file, a folder, a device, a pipe to which nothing
 /// writes, no permission, an empty file
-inline std::ifstream open_input(const std::string& path) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found)
-    internal::fail_to_read(path, "there is no such file", "check the path");
-  if (std::filesystem::is_directory(status)) internal::fail_to_read(path, "it is a folder", "name a file");
-  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
-    internal::fail_to_read(path, "it is a device", "name a file");
-  std::optional<internal::Open_pipe> pipe;
-  if (std::filesystem::is_fifo(status)) pipe.emplace(path);
-  std::ifstream file(path, std::ios::binary);
-  pipe.reset();
-  if (!file) internal::fail_to_read(path, "permission denied", "make it readable");
-  if (file.peek() == std::ifstream::traits_type::eof()) internal::fail_to_read(path, "it is empty", "check the path");
-  return file;
-}
+std::ifstream open_input(const std::string& path);
+
+namespace internal {
+
+/// Throws the error of a file that cannot be read: what is wrong with it and what the user can do. The middle of a long
+/// reason, which quotes the file, is left out.
+[[noreturn]] void fail_to_read(const std::string& name, std::string reason, const std::string& advice);
+
+/// The rest of a stream.
+/// \throw std::bad_alloc if it would take more than half of the memory of the computer
+std::string read_all(std::istream& stream);
+
+} // namespace internal
 
 } // namespace equiaffine
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
 
 #endif

@@ -6,7 +6,7 @@
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/io/internal/Named_maps.h>
 #include <equiaffine/io/internal/columns_of_tags.h>
-#include <equiaffine/io/internal/fail_to_read.h>
+#include <equiaffine/io/internal/input_file.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>

@@ -7,10 +7,12 @@
 #include <CGAL/number_utils.h>
 
 #include <array>
-#include <cmath>
-#include <cstddef>
 #include <string_view>
 
+// The library defines the functions that have no body here.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
 namespace equiaffine::internal {
 
 /// The coordinates of a point as they are written.
@@ -20,23 +22,14 @@ std::array<double, 3> coordinates(const Point_3& p) {
 }
 
 /// Writes a keyword and three numbers as a line.
-inline void write_line(Buffered_output& out, std::string_view keyword, const std::array<double, 3>& numbers) {
-  out << keyword << numbers[0] << ' ' << numbers[1] << ' ' << numbers[2] << '\n';
-}
+void write_line(Buffered_output& out, std::string_view keyword, const std::array<double, 3>& numbers);
 
 /// The unit normal of a triangle, or zero if it has none.
-inline std::array<double, 3> unit_normal(const std::array<std::array<double, 3>, 3>& corners) {
-  std::array<double, 3> u{}, v{}, normal{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    u[i] = corners[1][i] - corners[0][i];
-    v[i] = corners[2][i] - corners[0][i];
-  }
-  for (std::size_t i = 0; i < 3; ++i) normal[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
-  const double length = std::hypot(normal[0], normal[1], normal[2]);
-  for (double& component : normal) component = length > 0 ? component / length : 0;
-  return normal;
-}
+std::array<double, 3> unit_normal(const std::array<std::array<double, 3>, 3>& corners);
 
 } // namespace equiaffine::internal
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
 
 #endif

@@ -2,11 +2,8 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_POLYGONS_OF_FILE_H
 #define EQUIAFFINE_IO_INTERNAL_POLYGONS_OF_FILE_H
 
-#include <equiaffine/io/internal/fail_to_read.h>
 #include <equiaffine/io/internal/input_file.h>
-#include <equiaffine/io/read_OFF.h>
-#include <equiaffine/io/read_PLY.h>
-#include <equiaffine/mesh/Annotated_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/boost/graph/Euler_operations.h>
@@ -15,9 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -29,20 +24,17 @@ struct Polygons_of_file {
   Vertex_attributes attributes = {};
 };
 
+// The library defines this function.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
+
 /// Reads PLY or OFF, as the extension says.
-inline Polygons_of_file polygons_of_file(const std::string& path) {
-  using Kernel = CGAL::Simple_cartesian<double>;
-  Polygons_of_file result;
-  const auto add_face = [&](const auto&, const auto& face) { result.polygons.push_back(face); };
-  std::ifstream file = open_input(path);
-  if (has_extension(path, ".ply")) {
-    auto [mesh, attributes] = read_PLY_with<Kernel>(file, path, add_face);
-    result.points = std::move(mesh.points);
-    result.attributes = std::move(attributes);
-  } else if (has_extension(path, ".off")) result.points = read_OFF_with<Kernel>(file, path, add_face).points;
-  else fail_to_read(path, "its extension is not known", "use one of .ply .off");
-  return result;
-}
+Polygons_of_file polygons_of_file(const std::string& path);
+
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
 
 /// Adds the points and polygons to a mesh, and returns its new vertices in the order of the points.
 template <class Graph, class Point_map>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_CSV_COLUMNS_H
-#define EQUIAFFINE_IO_INTERNAL_CSV_COLUMNS_H
-
-#include <equiaffine/io/internal/Csv_scanner.h>
-#include <equiaffine/io/internal/text_input.h>
+#include "io/Csv_scanner.h"
+#include "io/text_input.h"
+#include <equiaffine/io/internal/input_file.h>
+#include <equiaffine/io/internal/mesh_readers.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <istream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,8 +17,10 @@
 
 namespace equiaffine::internal {
 
+namespace {
+
 /// The columns named x, y and z, or else X, Y and Z. Fails unless there is one of each.
-inline std::array<std::size_t, 3> find_coordinates(const Csv_scanner& scanner, const std::vector<std::string>& header) {
+std::array<std::size_t, 3> find_coordinates(const Csv_scanner& scanner, const std::vector<std::string>& header) {
   std::array<std::size_t, 3> places{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto columns = [&](const std::string& name) {
@@ -37,8 +39,8 @@ inline std::array<std::size_t, 3> find_coordinates(const Csv_scanner& scanner, c
 }
 
 /// Fails unless the row taken last has as many cells as the header.
-inline void check_length(const Csv_scanner& scanner, const std::vector<std::string_view>& row,
-                         const std::vector<std::string>& header) {
+void check_length(const Csv_scanner& scanner, const std::vector<std::string_view>& row,
+                  const std::vector<std::string>& header) {
   const std::string line = "line " + std::to_string(scanner.line_number());
   if (row.size() < header.size())
     scanner.fail(line + ", column '" + unquote(header[row.size()]) + "': the cell is missing",
@@ -49,8 +51,8 @@ inline void check_length(const Csv_scanner& scanner, const std::vector<std::stri
 }
 
 /// The point in the row taken last, whose coordinates are in the columns `places`.
-inline std::array<double, 3> parse_point(const Csv_scanner& scanner, const std::vector<std::string_view>& row,
-                                         const std::array<std::size_t, 3>& places) {
+std::array<double, 3> parse_point(const Csv_scanner& scanner, const std::vector<std::string_view>& row,
+                                  const std::array<std::size_t, 3>& places) {
   std::array<double, 3> p{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::string cell = unquote(row[places[axis]]);
@@ -65,9 +67,9 @@ inline std::array<double, 3> parse_point(const Csv_scanner& scanner, const std::
 }
 
 /// The columns of numbers other than the coordinates: those all of whose cells are numbers.
-inline std::vector<Vertex_attributes::Column> numeric_columns(const std::vector<std::string>& header,
-                                                              const std::vector<std::string>& cells,
-                                                              const std::array<std::size_t, 3>& coordinates) {
+std::vector<Vertex_attributes::Column> numeric_columns(const std::vector<std::string>& header,
+                                                       const std::vector<std::string>& cells,
+                                                       const std::array<std::size_t, 3>& coordinates) {
   std::vector<Vertex_attributes::Column> columns;
   for (std::size_t column = 0; column < header.size(); ++column) {
     if (std::find(coordinates.begin(), coordinates.end(), column) != coordinates.end()) continue;
@@ -82,20 +84,23 @@ inline std::vector<Vertex_attributes::Column> numeric_columns(const std::vector<
   return columns;
 }
 
-/// The columns of a file that stay when `attributes` are written beside them: those of other names.
-inline std::vector<std::size_t> columns_to_keep(const std::vector<std::string>& header,
-                                                const Vertex_attributes& attributes) {
-  std::vector<std::size_t> kept;
-  for (std::size_t column = 0; column < header.size(); ++column) {
-    const std::string name = unquote(header[column]);
-    const bool is_replaced =
-        (name == "status" && attributes.status) || std::any_of(attributes.columns.begin(), attributes.columns.end(),
-                                                               [&](const auto& c) { return c.name == name; });
-    if (!is_replaced) kept.push_back(column);
+} // namespace
+
+Csv_cells read_CSV_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver) {
+  const std::string text = read_all(stream);
+  Csv_scanner scanner(text, name);
+  Csv_cells table;
+  table.separator = scanner.separator();
+  for (const std::string_view cell : scanner.next_row()) table.header.emplace_back(cell);
+  const auto coordinates = find_coordinates(scanner, table.header);
+  for (auto row = scanner.next_row(); !row.empty(); row = scanner.next_row()) {
+    check_length(scanner, row, table.header);
+    const auto [x, y, z] = parse_point(scanner, row, coordinates);
+    receiver.add_point(x, y, z);
+    table.cells.insert(table.cells.end(), row.begin(), row.end());
   }
-  return kept;
+  table.columns = numeric_columns(table.header, table.cells, coordinates);
+  return table;
 }
 
 } // namespace equiaffine::internal
-
-#endif

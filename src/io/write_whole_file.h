@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_WRITE_WHOLE_FILE_H
-#define EQUIAFFINE_IO_INTERNAL_WRITE_WHOLE_FILE_H
+#ifndef EQUIAFFINE_SRC_IO_WRITE_WHOLE_FILE_H
+#define EQUIAFFINE_SRC_IO_WRITE_WHOLE_FILE_H
 
 #include <equiaffine/base/Input_error.h>
 

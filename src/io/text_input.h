@@ -1,32 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_TEXT_INPUT_H
-#define EQUIAFFINE_IO_INTERNAL_TEXT_INPUT_H
+#ifndef EQUIAFFINE_SRC_IO_TEXT_INPUT_H
+#define EQUIAFFINE_SRC_IO_TEXT_INPUT_H
 
 #include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/base/internal/from_chars.h>
 
 #include <cstddef>
-#include <istream>
-#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <unistd.h>
 
 namespace equiaffine::internal {
-
-/// The rest of a stream.
-/// \throw std::bad_alloc if it would take more than half of the memory of the computer
-inline std::string read_all(std::istream& stream) {
-  const std::size_t most = std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGESIZE)) / 2;
-  std::string text, chunk(1 << 20, '\0');
-  while (stream.read(chunk.data(), std::streamsize(chunk.size())) || stream.gcount() > 0) {
-    text.append(chunk, 0, std::size_t(stream.gcount()));
-    if (text.size() > most) throw std::bad_alloc();
-  }
-  return text;
-}
 
 /// The text without blanks and line ends at either end.
 inline std::string_view trim(std::string_view text) {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_XYZ_LINE_H
-#define EQUIAFFINE_IO_INTERNAL_XYZ_LINE_H
-
-#include <equiaffine/io/internal/fail_to_read.h>
-#include <equiaffine/io/internal/text_input.h>
+#include "io/text_input.h"
+#include <equiaffine/base/internal/printable.h>
+#include <equiaffine/io/internal/input_file.h>
+#include <equiaffine/io/internal/mesh_readers.h>
 #include <equiaffine/io/internal/xyz_colors_note.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <istream>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -18,8 +18,10 @@
 
 namespace equiaffine::internal {
 
+namespace {
+
 /// The numbers in a line. Fails if there is a word that is none.
-inline std::vector<double> numbers_of_line(std::string_view line, const std::string& where, const std::string& name) {
+std::vector<double> numbers_of_line(std::string_view line, const std::string& where, const std::string& name) {
   std::vector<double> numbers;
   for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
     const std::optional<double> number = parse_number<double>(word);
@@ -30,7 +32,7 @@ inline std::vector<double> numbers_of_line(std::string_view line, const std::str
 }
 
 /// The text of a line that is a comment, behind // or #; nothing for another one.
-inline std::optional<std::string_view> xyz_comment(std::string_view line) {
+std::optional<std::string_view> xyz_comment(std::string_view line) {
   line = trim(line);
   if (line.starts_with('#')) return line.substr(1);
   if (line.starts_with("//")) return line.substr(2);
@@ -39,7 +41,7 @@ inline std::optional<std::string_view> xyz_comment(std::string_view line) {
 
 /// The names of the columns behind x, y, z, if a comment is a list of names as CloudCompare writes it, X Y Z R G B. Normals
 /// are called nx, ny, nz, and colors red, green, blue, as in PLY.
-inline std::optional<std::vector<std::string>> xyz_column_names(std::string_view comment) {
+std::optional<std::vector<std::string>> xyz_column_names(std::string_view comment) {
   constexpr std::string_view usual[][2] = {{"x", "x"},   {"y", "y"},   {"z", "z"},     {"nx", "nx"}, {"ny", "ny"},
                                            {"nz", "nz"}, {"r", "red"}, {"g", "green"}, {"b", "blue"}};
   std::vector<std::string> names;
@@ -59,7 +61,7 @@ inline std::optional<std::vector<std::string>> xyz_column_names(std::string_view
 /// Tells what three columns without names are, and names them. They are normals if these have the length 1, as written
 /// with two decimals or more; some may be missing, which is written as zeros. Otherwise they are colors. Fails if they
 /// are neither.
-inline void name_xyz_columns(Vertex_attributes& attributes, const std::string& name) {
+void name_xyz_columns(Vertex_attributes& attributes, const std::string& name) {
   constexpr double rounding = 0.01, brightest = 65535;
   auto& columns = attributes.columns;
   bool has_normal = false, has_another = false, are_colors = true;
@@ -81,6 +83,42 @@ inline void name_xyz_columns(Vertex_attributes& attributes, const std::string& n
   if (!are_normals) attributes.comments.emplace_back(xyz_colors_note);
 }
 
-} // namespace equiaffine::internal
+} // namespace
 
-#endif
+Vertex_attributes read_XYZ_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver) {
+  const std::string text = read_all(stream);
+  Vertex_attributes attributes;
+  auto& columns = attributes.columns;
+  std::size_t line_number = 0, points = 0;
+  bool has_names = false;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view line = take_line(rest, line_number);
+    if (const auto comment = xyz_comment(line)) {
+      const auto names = xyz_column_names(*comment);
+      if (!names || has_names || points > 0) continue;
+      has_names = true;
+      for (const std::string& column : *names) {
+        if (std::any_of(columns.begin(), columns.end(), [&](const auto& other) { return other.name == column; }))
+          fail_to_read(name, "two columns have the name '" + printable(column) + "'", "rename one of them");
+        columns.push_back({column, {}});
+      }
+      continue;
+    }
+    const std::string where = "line " + std::to_string(line_number);
+    const std::vector<double> numbers = numbers_of_line(line, where, name);
+    if (numbers.empty()) continue;
+    if (points == 0 && !has_names && numbers.size() == 6) columns.resize(3);
+    if (numbers.size() != 3 + columns.size())
+      fail_to_read(name, where + " has " + std::to_string(numbers.size()) + " numbers",
+                   has_names ? "write as many as there are names in the first line"
+                             : "write x y z in every line, or x y z nx ny nz in every line, or name the "
+                               "columns in a first line such as //X Y Z R G B");
+    receiver.add_point(numbers[0], numbers[1], numbers[2]);
+    ++points;
+    for (std::size_t c = 0; c < columns.size(); ++c) columns[c].values.push_back(numbers[3 + c]);
+  }
+  if (!has_names && !columns.empty()) name_xyz_columns(attributes, name);
+  return attributes;
+}
+
+} // namespace equiaffine::internal

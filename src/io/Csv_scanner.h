@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_CSV_SCANNER_H
-#define EQUIAFFINE_IO_INTERNAL_CSV_SCANNER_H
+#ifndef EQUIAFFINE_SRC_IO_CSV_SCANNER_H
+#define EQUIAFFINE_SRC_IO_CSV_SCANNER_H
 
+#include "io/text_input.h"
 #include <equiaffine/base/Progress_observer.h>
-#include <equiaffine/io/internal/fail_to_read.h>
-#include <equiaffine/io/internal/text_input.h>
+#include <equiaffine/io/internal/input_file.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_IO_INTERNAL_PLY_NUMBERS_H
-#define EQUIAFFINE_IO_INTERNAL_PLY_NUMBERS_H
+#ifndef EQUIAFFINE_SRC_IO_PLY_NUMBERS_H
+#define EQUIAFFINE_SRC_IO_PLY_NUMBERS_H
 
+#include "io/Ply_header.h"
+#include "io/text_input.h"
 #include <equiaffine/base/internal/bit_cast.h>
-#include <equiaffine/io/internal/Ply_header.h>
-#include <equiaffine/io/internal/fail_to_read.h>
-#include <equiaffine/io/internal/text_input.h>
+#include <equiaffine/io/internal/input_file.h>
 
 #include <algorithm>
 #include <array>
