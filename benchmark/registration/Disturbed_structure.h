@@ -3,7 +3,7 @@
 #ifndef EQUIAFFINE_BENCHMARK_REGISTRATION_DISTURBED_STRUCTURE_H
 #define EQUIAFFINE_BENCHMARK_REGISTRATION_DISTURBED_STRUCTURE_H
 
-#include "registration/Framed_function_3.h"
+#include "registration/Framed_surface_3.h"
 #include "support/registration_cases.h"
 #include <equiaffine/number/Jet_3.h>
 

@@ -2,13 +2,19 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_AFFINE_MAP_3_H
 #define EQUIAFFINE_SRC_REGISTRATION_AFFINE_MAP_3_H
 
+#include <equiaffine/registration/Affine_slippage_3.h>
 #include <equiaffine/registration/Map_kind.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
 
 namespace equiaffine::internal {
 
@@ -62,6 +68,44 @@ inline double condition(const Eigen::Matrix3d& matrix) {
   const Eigen::Vector3d values = matrix.jacobiSvd().singularValues();
   return values[0] / values[2];
 }
+
+/// Coordinates in which points have mean 0 and covariance 1: the choice of points alone fixes them up to an orthogonal
+/// map.
+struct Whitening {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d matrix, inverse; ///< x -> matrix (x - mean)
+
+  explicit Whitening(const std::vector<Eigen::Vector3d>& points) {
+    for (const auto& p : points) mean += p / double(points.size());
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (const auto& p : points) covariance += (p - mean) * (p - mean).transpose() / double(points.size());
+    inverse = covariance.llt().matrixL();
+    matrix = inverse.inverse();
+  }
+
+  Eigen::Vector3d operator()(const Eigen::Vector3d& p) const { return matrix * (p - mean); }
+
+  Affine_map_3 to() const { return {matrix, -(matrix * mean)}; } ///< the map to these coordinates
+  Affine_map_3 from() const { return {inverse, mean}; }          ///< the map back
+};
+
+/// A map of one mesh onto another one, or of parts of them, with its evidence.
+struct Shape_match {
+  Affine_map_3 map;
+  double rms; ///< of the distances of points that lie on the other surface, in the unit of the target
+  std::array<double, 2> inliers; ///< the parts of the area of the source, and of the target, that lie on the other one
+  double log10_false_alarms;     ///< of the number of maps as good as this one that chance would make
+  std::array<double, 2> contradictions; ///< the parts of points off the other surface although that does not end there
+};
+
+/// The maps between meshes that a search found.
+struct Shape_matches {
+  std::vector<Shape_match> maps = {}; ///< the best first
+  std::size_t hypotheses = 0;         ///< the number of maps that were tried
+  double size = 0;                    ///< of the target
+  Affine_slippage_3 slippage = {};    ///< of the source; if it slips, each map is one of a continuous family
+  std::string reason = {};            ///< why none of the hypotheses is accepted
+};
 
 } // namespace equiaffine::internal
 

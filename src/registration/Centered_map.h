@@ -5,14 +5,21 @@
 #include "registration/Centered_surface_3.h"
 #include "registration/Rotation_search.h"
 #include "registration/refine_map.h"
+#include "registration/without_near.h"
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/registration/Affine_slippage_3.h>
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -181,6 +188,194 @@ inline Affine_map_3 refined(const Centered_pair& surfaces, Affine_map_3 map, con
     if (length < std::max(1e-12, 1e-4 * distances.rms())) break;
   }
   return map;
+}
+
+/// Returns rotations about the centroid near all that may move one surface to within an rms distance of another one, or
+/// of itself.
+inline Rotation_candidates candidate_rotations(bool in_threads, const Centered_surface_3& source,
+                                               const Centered_surface_3& target, double tolerance,
+                                               bool allows_reflections) {
+  constexpr int most_points = 80;
+  const double radius = 1.02 * std::max(source.samples.radius(), target.samples.radius());
+  const auto grid = Distance_grid::of(in_threads, *target.distances, radius);
+  const auto& points = source.samples.points;
+  const Eigen::Vector3d extents = source.extents();
+  const Rotation_search search(in_threads, grid, {points.begin(), points.begin() + most_points},
+                               extents.tail<2>().norm());
+  const double error = target.is_exact ? target.samples.spacing() / 2 : 0; // of the nearest sample
+  Rotation_candidates candidates = search.run(tolerance + error, allows_reflections);
+  candidates.complete_to -= error;
+  return candidates;
+}
+
+/// Maps that differ by less than this are the same one.
+constexpr double same_map = 0.03;
+
+constexpr std::size_t points_of_rms = 1500;
+
+/// Returns the maps below an rms, by their rms, without those that are the same as better ones.
+inline std::vector<Centered_map> different(std::vector<Centered_map> maps, double greatest_rms) {
+  std::stable_sort(maps.begin(), maps.end(),
+                   [](const Centered_map& a, const Centered_map& b) { return a.rms < b.rms; });
+  std::erase_if(maps, [&](const Centered_map& map) { return !(map.rms < greatest_rms); });
+  return without_near(maps, maps.size(),
+                      [](const Centered_map& a, const Centered_map& b) { return difference(a, b) < same_map; });
+}
+
+/// A map refined by least squares, judged by many points. A map between meshes keeps the centroid if it is as good then.
+inline Centered_map refined_and_judged(const Centered_pair& surfaces, const Affine_map_3& map, Map_kind kind) {
+  const auto refined_map = [&](const Affine_map_3& m, bool keeps_center) {
+    const Centered_refinement how = {.kind = kind, .most_steps = 10, .points = 300, .keeps_center = keeps_center};
+    return judged(surfaces, refined(surfaces, m, how), points_of_rms);
+  };
+  const Centered_map first = refined_map(map, surfaces.is_mesh_itself());
+  if (surfaces.is_mesh_itself() || !surfaces.are_meshes()) return first;
+  const Centered_map fixed = refined_map({first.map.matrix}, true);
+  const double rounding = exact_distance(std::max(surfaces.source.rounding, surfaces.target.rounding));
+  return fixed.rms <= first.rms + rounding ? fixed : first;
+}
+
+/// Maps that were refined.
+struct Refined_maps {
+  std::vector<Centered_map> maps; ///< the different ones, by their rms
+  /// The least rms of a map that was given up since there were too many: about the rms that it would have.
+  double least_left_out = std::numeric_limits<double>::infinity();
+
+  void keep(std::size_t most) {
+    if (maps.size() <= most) return;
+    least_left_out = std::min(least_left_out, maps[most].rms);
+    maps.resize(most);
+  }
+};
+
+/// Returns what rotations, times a `scale`, become by refinement, below an rms. A few steps with a few points decide
+/// which of them are worth more, the best few hundreds of them unless all are asked for.
+inline Refined_maps refined_candidates(bool in_threads, const Centered_pair& surfaces,
+                                       const std::vector<Rotation_candidate>& rotations, double scale, Map_kind kind,
+                                       double greatest_rms, bool are_all_asked_for = false) {
+  constexpr std::size_t most_after_first = 600, most_after_second = 250;
+  Refined_maps result;
+  auto& maps = result.maps;
+  for (const Rotation_candidate& rotation : rotations) maps.push_back({{scale * rotation.matrix}});
+  const auto refine = [&](int steps, std::size_t points, double gate) {
+    const Centered_refinement how = {
+        .kind = Map_kind::RIGID, .most_steps = steps, .points = points, .keeps_center = surfaces.is_mesh_itself()};
+    parallel_for(in_threads, 0, maps.size(),
+                 [&](std::size_t i) { maps[i] = judged(surfaces, refined(surfaces, maps[i].map, how), points); });
+    maps = different(std::move(maps), gate);
+  };
+  refine(3, 40, 2 * greatest_rms);
+  if (!are_all_asked_for) result.keep(most_after_first);
+  refine(6, 100, greatest_rms);
+  if (!are_all_asked_for) result.keep(most_after_second);
+  parallel_for(in_threads, 0, maps.size(),
+               [&](std::size_t i) { maps[i] = refined_and_judged(surfaces, maps[i].map, kind); });
+  maps = different(std::move(maps), greatest_rms);
+  return result;
+}
+
+/// An axis about which a surface turns with little change, judged by rotations of finite angles: small ones would find
+/// that a fine gear turns, too.
+struct Slipping_rotation {
+  Infinitesimal_map_3 generator; ///< in the coordinates of the Centered_surface_3
+  double rms;                    ///< the largest of the rotations
+  double own_rms;                ///< the same in the proportions of the surface
+};
+
+/// The axis of the rotation that a map nearly is, by the part of it that is antisymmetric.
+inline Eigen::Vector3d axis_of(const Eigen::Matrix3d& m) {
+  return Eigen::Vector3d(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)).normalized();
+}
+
+/// Returns three axes about which rotations move points away from the surface least, or in proportion, by their rms. The
+/// rotations of a mesh keep its centroid, which is exact, and are about an axis that was refined once: refinement of each
+/// would fit them to the facets.
+inline std::vector<Slipping_rotation> slipping_rotations(bool in_threads, const Centered_surface_3& surface,
+                                                         Map_kind kind) {
+  constexpr std::array<double, 4> angles = {1.0, 0.381966, 1.618034, 2.618034};
+  constexpr std::size_t points = 3000;
+  constexpr double greatest_change = 0.1;
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  const auto& samples = surface.samples;
+  for (std::size_t i = 0; i < std::min(points, samples.points.size()); ++i) {
+    const Eigen::Vector3d moment = samples.points[i].cross(samples.normals[i]);
+    squares += moment * moment.transpose();
+  }
+  const Centered_pair itself(surface);
+  const bool is_mesh = itself.is_mesh_itself();
+  Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares).eigenvectors();
+  // A rotation about an axis, changed by refinement, or as it is where it was drawn to a symmetry nearby.
+  const auto refined_rotation = [&](double angle, const Eigen::Vector3d& axis) -> Affine_map_3 {
+    const Affine_map_3 rotation = {Eigen::AngleAxisd(angle, axis).toRotationMatrix()};
+    const Affine_map_3 map = refined(itself, rotation, {kind, 8, 400, axis, is_mesh});
+    return difference(map.matrix, rotation.matrix) < greatest_change ? map : rotation;
+  };
+  if (is_mesh)
+    parallel_for(in_threads, 0, 3, [&](std::size_t i) {
+      const Eigen::Vector3d axis = axes.col(Eigen::Index(i));
+      axes.col(Eigen::Index(i)) = axis_of(refined_rotation(angles[0], axis).matrix);
+    });
+  std::array<Centered_map, 3 * angles.size()> maps;
+  std::array<double, maps.size()> own;
+  parallel_for(in_threads, 0, maps.size(), [&](std::size_t i) {
+    const Eigen::Vector3d axis = axes.col(Eigen::Index(i / angles.size()));
+    const double angle = angles[i % angles.size()];
+    const Affine_map_3 rotation = {Eigen::AngleAxisd(angle, axis).toRotationMatrix()};
+    maps[i] = judged(itself, is_mesh ? rotation : refined_rotation(angle, axis), points);
+    own[i] = own_rms(itself, maps[i].map, points, maps[i].rms);
+  });
+  std::vector<Slipping_rotation> result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Slipping_rotation slipping = {};
+    for (std::size_t k = axis * angles.size(); k < (axis + 1) * angles.size(); ++k) {
+      slipping.rms = std::max(slipping.rms, maps[k].rms);
+      slipping.own_rms = std::max(slipping.own_rms, own[k]);
+    }
+    const Affine_map_3 turn = maps[axis * angles.size()].map, back = turn.inverse();
+    const double sine = std::sin(angles[0]);
+    slipping.generator.matrix = (turn.matrix - back.matrix) / (2 * sine);
+    // The points that the rotation fixes are those that its generator does not move.
+    slipping.generator.translation = (turn.translation - back.translation) / (2 * sine);
+    result.push_back(slipping);
+  }
+  std::stable_sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.rms < b.rms; });
+  return result;
+}
+
+/// Whether rotations of a mesh move no point further off it than facets are off the surface that they stand for, or than
+/// `rounding`. A part that is not one of revolution moves further, and the rms may not tell.
+inline bool keeps_to_facets(bool in_threads, const Centered_surface_3& surface, const Slipping_rotation& rotation,
+                            double rounding) {
+  constexpr std::array<double, 3> angles = {0.381966, 1.618034, 2.618034};
+  constexpr std::size_t points = 20000;
+  constexpr double factor = 3; // that of regular triangles on a sphere is 8 / 3
+  const Eigen::Vector3d axis = axis_of(rotation.generator.matrix);
+  std::array<double, angles.size()> greatest;
+  parallel_for(in_threads, 0, angles.size(), [&](std::size_t i) {
+    const Affine_map_3 map = {Eigen::AngleAxisd(angles[i], axis).toRotationMatrix()};
+    greatest[i] = distances_of_moved(surface, map, points).greatest;
+  });
+  return *std::max_element(greatest.begin(), greatest.end()) < rounding + factor * surface.samples.greatest_facet_error;
+}
+
+/// The generators, in the coordinates of the surface, of the rotations whose rms is below a limit. Rotations about two
+/// axes generate those about a third one, so that two that are small alone are less than what they would have to be.
+inline Affine_slippage_3 continuous_symmetries(const Centered_surface_3& surface,
+                                               const std::vector<Slipping_rotation>& rotations, double greatest_rms) {
+  auto count = std::count_if(rotations.begin(), rotations.end(),
+                             [&](const Slipping_rotation& r) { return r.rms < greatest_rms; });
+  if (count == 2) count = 1;
+  if (count == 0) return {};
+  const Affine_map_3& to = surface.map;
+  const Eigen::Matrix3d from = to.matrix.inverse();
+  Affine_slippage_3 result;
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const Infinitesimal_map_3& generator = rotations[std::size_t(i)].generator;
+    result.rms = std::max(result.rms, rotations[std::size_t(i)].own_rms);
+    result.generators.push_back(
+        {from * generator.matrix * to.matrix, from * (generator.matrix * to.translation + generator.translation)});
+  }
+  return result;
 }
 
 } // namespace equiaffine::internal

@@ -2,25 +2,236 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_FRAMED_SURFACE_3_H
 #define EQUIAFFINE_SRC_REGISTRATION_FRAMED_SURFACE_3_H
 
-#include "registration/Framed_function_3.h"
-#include "registration/Framed_point_3.h"
-#include "registration/random_elements.h"
+#include "registration/Affine_map_3.h"
 #include <equiaffine/base/internal/Point_tree.h>
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/internal/quantile.h>
+#include <equiaffine/base/internal/random_subset.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/geometry/Monge_chart_3.h>
+#include <equiaffine/geometry/affine_frame.h>
+#include <equiaffine/geometry/euclidean_structure.h>
+#include <equiaffine/number/Jet_3.h>
+#include <equiaffine/surface/internal/jet_derivatives.h>
 
+#include <CGAL/Bbox_3.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <random>
 #include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
+
+/// The signature of a point, which no map changes, and the logarithm of a power of the scale of its frame, which maps
+/// of determinant 1 and -1 do not change either.
+using Invariants = Eigen::Matrix<double, 5, 1>;
+using Gradient_of_invariants = Eigen::Matrix<double, 5, 2>;
+
+/// The number of invariants of maps of a kind.
+inline int number_of_invariants(Map_kind kind) { return keeps_volume(kind) ? 5 : 4; }
+
+/// A point of a surface with a frame that maps carry along, and the invariants around it: the affine frame, or, for
+/// maps that keep angles, the Euclidean one. The scale of the frame is such that a map with the matrix A carries the tangent
+/// vectors e1 and e2 to A e1 and A e2 without a weight, and the gradient, the derivatives along them, does not change.
+struct Framed_point_3 {
+  Eigen::Vector3d point;
+  Eigen::Matrix3d basis; ///< columns e1, e2 and a transversal vector
+  Invariants invariants;
+  Gradient_of_invariants gradient;
+  double quality = 0;       ///< 0 for a point without a frame
+  double certainty = 1;     ///< of the curvatures
+  bool is_elliptic = false; ///< only the affine frames of elliptic and hyperbolic points are of different kinds
+
+  bool has_frame() const { return quality > 0; }
+};
+
+inline Eigen::Vector3d vector_of(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
+
+/// The map of the kind that carries one frame to the other, and its point to the other's.
+inline Affine_map_3 map_between(const Framed_point_3& p, const Framed_point_3& q, Map_kind kind) {
+  const Eigen::Matrix3d matrix = nearest_of_kind(q.basis * p.basis.inverse(), kind);
+  return {matrix, q.point - matrix * p.point};
+}
+
+/// The principal curvatures of a level set, the greater one first, and how they change along their directions. Not finite
+/// where the gradient is zero; arbitrary at umbilics. Units: 1/length and 1/length^2.
+struct Derivatives_of_curvature {
+  Eigen::Vector2d k;
+  Eigen::Matrix2d gradient;               ///< row i is that of k[i]
+  Eigen::Matrix<double, 3, 2> directions; ///< unit vectors
+  Eigen::Vector3d normal;                 ///< along the gradient of the function
+};
+
+/// The derivatives of f are those of the level set as a graph over its tangent plane by the chain rule: with f = g h + A /
+/// 2 + h B + T / 6 + ..., of which A, B and T are forms of degree 2, 1 and 3, the height is h = -A / (2 g) - (T - 3 A B /
+/// g) / (6 g) + ...
+inline Derivatives_of_curvature derivatives_of_curvature(const Jet_3<double>& jet) {
+  const Euclidean_structure_3<double> s = euclidean_structure(Monge_chart_3<double>(jet));
+  Derivatives_of_curvature result;
+  result.k << s.k1, s.k2;
+  result.directions << vector_of(s.direction1), vector_of(s.direction2);
+  result.normal = vector_of(s.normal);
+  const double slope = eigen_gradient(jet).stableNorm();
+  const Eigen::Vector2d mixed = result.directions.transpose() * eigen_hessian(jet) * result.normal / slope;
+  std::array<Eigen::Matrix2d, 2> third = {Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero()};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Matrix2d along =
+        result.directions.transpose() * eigen_hessian_along(jet, axis) * result.directions / slope;
+    for (int d = 0; d < 2; ++d) third[std::size_t(d)] += result.directions(axis, d) * along;
+  }
+  for (int i = 0; i < 2; ++i)
+    for (int d = 0; d < 2; ++d)
+      result.gradient(i, d) = -(third[std::size_t(d)](i, i) + (i == d ? 3 : 1) * result.k[i] * mixed[d]);
+  return result;
+}
+
+// Computes the frame at a point that maps of a kind carry along, with its invariants and their gradient.
+
+/// The point with its affine frame e1 / sqrt(scale), e2 / sqrt(scale), xi / scale.
+inline Framed_point_3 affine_framed_point(const Jet_3<double>& jet, const Eigen::Vector3d& p) {
+  Framed_point_3 result;
+  result.point = p;
+  const auto structure = regular_structure<double>(jet, {p[0], p[1], p[2]});
+  if (!structure.is_regular) return result;
+  const Affine_frame_3<double> frame = affine_frame(structure.structure.affine);
+  const double root = std::sqrt(frame.scale);
+  result.basis << vector_of(frame.e1) / root, vector_of(frame.e2) / root, vector_of(frame.xi) / frame.scale;
+  result.invariants << Eigen::Map<const Eigen::Vector4d>(frame.signature.data()), std::log(root);
+  result.is_elliptic = frame.is_elliptic;
+  result.quality = result.basis.allFinite() && result.invariants.allFinite() ? frame.quality : 0;
+  return result;
+}
+
+/// The point with its Euclidean frame: the two principal directions, and the normal to whose side the surface is curved
+/// along the first, times the length L = 1 / |(k1, k2)|, which decreases along both. The first direction is that of the
+/// curvature of larger magnitude if L decreases equally fast along both, or that along which L decreases faster if both
+/// magnitudes are equal, as on minimal surfaces. The signature is the other curvature, the slopes of -L along both, and
+/// that of the angle of (k1, k2) along the first, all times powers of L.
+inline Framed_point_3 euclidean_framed_point(const Jet_3<double>& jet, const Eigen::Vector3d& p) {
+  Framed_point_3 result;
+  result.point = p;
+  const Derivatives_of_curvature s = derivatives_of_curvature(jet);
+  const double length = 1 / s.k.norm();
+  const Eigen::Vector2d k = length * s.k;
+  const Eigen::Matrix2d change = length * length * s.gradient;
+  const Eigen::Vector2d growth = change.transpose() * k;
+  const double order = k[0] * k[0] - k[1] * k[1] + growth[0] * growth[0] - growth[1] * growth[1];
+  const Eigen::Index first = order < 0 ? 1 : 0, second = 1 - first;
+  const auto sign_of = [](double x) { return x < 0 ? -1. : 1.; };
+  const double sign = sign_of(growth[first]), side = sign_of(k[first]);
+  const double turn = sign * (k[first] * change(second, first) - k[second] * change(first, first));
+  result.basis << sign * s.directions.col(first), sign_of(growth[second]) * s.directions.col(second), side * s.normal;
+  result.basis *= length;
+  result.invariants << side * k[second], std::abs(growth[first]), std::abs(growth[second]), turn, std::log(length);
+  if (result.basis.allFinite() && result.invariants.allFinite())
+    result.quality = std::min({std::abs(order), std::abs(k[first]), k[0] - k[1], growth.cwiseAbs().minCoeff()});
+  return result;
+}
+
+/// The point with its frame, but without the gradient.
+inline Framed_point_3 framed_point_of(const Jet_3<double>& jet, const Eigen::Vector3d& p, Map_kind kind) {
+  return keeps_angles(kind) ? euclidean_framed_point(jet, p) : affine_framed_point(jet, p);
+}
+
+/// The step of differences in units of the tangent vectors of `Framed_point_3::basis`. Errors of gradients are some
+/// 1e-5 of their size: they only choose between candidates and direct Newton's steps.
+constexpr double step_of_gradient = 0x1p-8;
+
+/// Computes the point with its frame and gradient, by 5 expansions taylor(p). A map carries the points of these
+/// differences along.
+template <class Taylor>
+Framed_point_3 framed_point(const Taylor& taylor, const Eigen::Vector3d& p, Map_kind kind) {
+  Framed_point_3 result = framed_point_of(taylor(p), p, kind);
+  for (int i = 0; i < 2 && result.has_frame(); ++i) {
+    const Eigen::Vector3d step = step_of_gradient * result.basis.col(i);
+    const Framed_point_3 ahead = framed_point_of(taylor(p + step), p + step, kind);
+    const Framed_point_3 behind = framed_point_of(taylor(p - step), p - step, kind);
+    const bool is_smooth = ahead.has_frame() && behind.has_frame() && ahead.is_elliptic == result.is_elliptic &&
+                           behind.is_elliptic == result.is_elliptic;
+    if (!is_smooth) result.quality = 0;
+    else result.gradient.col(i) = (ahead.invariants - behind.invariants) / (2 * step_of_gradient);
+  }
+  return result;
+}
+
+/// The distance from a point to the surface to first order, and the direction in which it grows. The distance is NaN
+/// where the function is not defined.
+struct Signed_distance_3 {
+  double distance;
+  Eigen::Vector3d normal;
+};
+
+/// A function whose domain is its box, with frames on its zero set and distances from it.
+class Framed_function_3 {
+public:
+  explicit Framed_function_3(Any_function_3 function) : function_(std::move(function)), box_(function_.bbox()) {}
+  virtual ~Framed_function_3() = default;
+
+  /// A benchmark overrides this to make frames wrong.
+  virtual Framed_point_3 framed_point(const Eigen::Vector3d& p, Map_kind kind) const {
+    return internal::framed_point([this](const Eigen::Vector3d& q) { return taylor(q); }, p, kind);
+  }
+
+  Jet_3<double, 1> first_order(const Eigen::Vector3d& p) const {
+    if (!contains(p)) return Jet_3<double, 1>(std::numeric_limits<double>::quiet_NaN());
+    return function_.first_order(point(p));
+  }
+
+  double certainty(const Eigen::Vector3d& p) const { return function_.certainty(point(p)); }
+
+  Signed_distance_3 distance(const Eigen::Vector3d& p) const {
+    const auto jet = first_order(p);
+    const Eigen::Vector3d gradient = eigen_gradient(jet);
+    const double length = gradient.stableNorm();
+    return {jet.value() / length, gradient / length};
+  }
+
+  /// Moves a point towards the surface by Newton's steps along the gradient.
+  Eigen::Vector3d moved_to_surface(Eigen::Vector3d p, int steps) const {
+    for (int step = 0; step < steps; ++step) {
+      const auto [distance, normal] = this->distance(p);
+      p -= distance * normal;
+    }
+    return p;
+  }
+
+  /// Whether a point is in the box of the function.
+  bool contains(const Eigen::Vector3d& p) const {
+    for (int a = 0; a < 3; ++a)
+      if (!(p[a] >= box_.min(a) && p[a] <= box_.max(a))) return false;
+    return true;
+  }
+
+private:
+  using Point_3 = Any_function_3::Point_3;
+
+  Jet_3<double> taylor(const Eigen::Vector3d& p) const {
+    if (!contains(p)) return Jet_3<double>(std::numeric_limits<double>::quiet_NaN());
+    return function_.taylor(point(p));
+  }
+
+  static Point_3 point(const Eigen::Vector3d& p) { return Point_3(p[0], p[1], p[2]); }
+
+  Any_function_3 function_;
+  CGAL::Bbox_3 box_;
+};
+
+/// Returns `count` elements, or all of them, in random order.
+template <class T>
+std::vector<T> random_elements(const std::vector<T>& elements, std::size_t count, unsigned seed) {
+  std::vector<T> result;
+  for (const std::size_t i : random_subset(elements.size(), count, seed)) result.push_back(elements[i]);
+  return result;
+}
 
 /// The root of the mean squared distance of points from their mean.
 inline double size_of_points(const std::vector<Eigen::Vector3d>& points) {

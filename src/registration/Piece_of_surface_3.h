@@ -2,16 +2,22 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_PIECE_OF_SURFACE_3_H
 #define EQUIAFFINE_SRC_REGISTRATION_PIECE_OF_SURFACE_3_H
 
-#include "registration/Area_samples_3.h"
+#include "registration/Affine_map_3.h"
+#include "registration/map_evidence.h"
 #include "registration/mesh_samples.h"
-#include "registration/nearest_triangle.h"
+#include "registration/refine_map.h"
+#include <equiaffine/base/internal/parallel_for.h>
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -80,6 +86,210 @@ private:
   double border_width_;
   bool is_oriented_;
 };
+
+// Tells which points of two pieces of surfaces are in contact, and which contradict a map between them.
+
+/// Whether a point of one piece speaks for a map, or against it.
+enum class Contact {
+  NONE,         ///< nothing, since the other piece may end there
+  TOUCHING,     ///< the point is on the other surface
+  CONTRADICTING ///< the other surface passes by the point
+};
+
+/// The distances below which points touch, and below which a surface that passes by is the same one, displaced.
+struct Contact_distances {
+  double touching, passing_by;
+};
+
+/// A surface that passes by at less than this, beside the size of the smaller piece, is the same one.
+constexpr double greatest_displacement = 0.1;
+
+/// A point of one piece, with its normal, in the coordinates of the other one. A solid has another sheet between two
+/// with the same side, which is beyond the pieces if the two are as far apart as these are large, and two that are near
+/// each other have opposite sides.
+inline Contact contact_of(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, const Point_of_piece& nearest,
+                          bool is_other_closed, const Contact_distances& distances) {
+  constexpr double similar = 0.7, parallel = 0.85, opposite = -0.5;
+  const Eigen::Vector3d way = p - nearest.point;
+  const double distance = way.norm(), cosine = normal.dot(nearest.normal);
+  if (distance <= distances.touching) return cosine > similar ? Contact::TOUCHING : Contact::NONE;
+  if (is_other_closed) return Contact::CONTRADICTING;
+  if (nearest.is_on_border) return Contact::NONE;
+  if (distance < distances.passing_by && cosine > opposite) return Contact::CONTRADICTING;
+  if (distance > distances.passing_by / greatest_displacement) return Contact::NONE;
+  const bool is_across = std::abs(way.dot(nearest.normal)) > parallel * distance;
+  return is_across && cosine > parallel ? Contact::CONTRADICTING : Contact::NONE;
+}
+
+/// A sample of one of two pieces that a map brings together, in the coordinates of the target.
+struct Mapped_sample {
+  Eigen::Vector3d point;
+  Eigen::Vector3d nearest, normal; ///< of the other surface
+  Contact contact;
+};
+
+/// The samples of the source and those of the target.
+using Mapped_samples = std::array<std::vector<Mapped_sample>, 2>;
+
+/// A similarity, with its inverse and its scale.
+struct Similarity_3 {
+  Affine_map_3 map, inverse;
+  double scale;
+
+  explicit Similarity_3(const Affine_map_3& m)
+      : map(m), inverse(m.inverse()), scale(std::cbrt(std::abs(m.matrix.determinant()))) {}
+};
+
+/// Brings the first `count` samples of both pieces together.
+inline Mapped_samples mapped_samples(const Piece_of_surface_3& source, const Piece_of_surface_3& target,
+                                     const Affine_map_3& map, std::size_t count, const Contact_distances& distances) {
+  const Similarity_3 s(map);
+  Mapped_samples result;
+  const auto& a = source.samples();
+  for (std::size_t i = 0; i < std::min(count, a.points.size()); ++i) {
+    const Eigen::Vector3d p = map(a.points[i]);
+    const Point_of_piece q = target.nearest(p, distances.touching);
+    const Contact contact = contact_of(p, s.map.matrix * a.normals[i] / s.scale, q, target.is_closed(), distances);
+    result[0].push_back({p, q.point, q.normal, contact});
+  }
+  const auto& b = target.samples();
+  const Contact_distances at_source = {distances.touching / s.scale, distances.passing_by / s.scale};
+  for (std::size_t i = 0; i < std::min(count, b.points.size()); ++i) {
+    const Eigen::Vector3d p = s.inverse(b.points[i]);
+    const Point_of_piece q = source.nearest(p, at_source.touching);
+    const Eigen::Vector3d normal = s.inverse.matrix * b.normals[i] * s.scale;
+    const Contact contact = contact_of(p, normal, q, source.is_closed(), at_source);
+    result[1].push_back({b.points[i], map(q.point), s.map.matrix * q.normal / s.scale, contact});
+  }
+  return result;
+}
+
+inline std::size_t count_of(const std::vector<Mapped_sample>& samples, Contact contact) {
+  return std::size_t(std::count_if(samples.begin(), samples.end(),
+                                   [=](const Mapped_sample& sample) { return sample.contact == contact; }));
+}
+
+/// The nearest points of a piece from the cells of a cube around the origin: fast, and good to about a cell.
+class Nearest_of_cells {
+public:
+  static Nearest_of_cells of(bool in_threads, const Piece_of_surface_3& piece) {
+    Nearest_of_cells result(1.1 * piece.samples().radius());
+    parallel_for(in_threads, 0, cells * cells, [&](std::size_t row) {
+      for (std::size_t i = 0; i < cells; ++i) {
+        const Eigen::Vector3d center(double(i) + 0.5, double(row % cells) + 0.5, double(row / cells) + 0.5);
+        const auto [point, normal, is_on_border] =
+            piece.nearest(center / result.scale_ - Eigen::Vector3d::Constant(result.radius_), 0);
+        result.points_[row * cells + i] = {point.cast<float>(), normal.cast<float>(), is_on_border};
+      }
+    });
+    return result;
+  }
+
+  Point_of_piece operator()(const Eigen::Vector3d& p) const {
+    std::size_t cell = 0;
+    for (int a = 2; a >= 0; --a)
+      cell = cells * cell + std::size_t(std::clamp((p[a] + radius_) * scale_, 0.0, double(cells) - 0.5));
+    const auto& [point, normal, is_on_border] = points_[cell];
+    return {point.cast<double>(), normal.cast<double>(), is_on_border};
+  }
+
+private:
+  static constexpr std::size_t cells = 44;
+  struct Point {
+    Eigen::Vector3f point, normal;
+    bool is_on_border;
+  };
+
+  explicit Nearest_of_cells(double radius)
+      : radius_(radius), scale_(double(cells) / (2 * radius)), points_(cells * cells * cells) {}
+
+  double radius_, scale_;
+  std::vector<Point> points_;
+};
+
+// Judges a map between two pieces of surfaces by the points in contact and those that contradict it.
+
+/// The evidence that the contacts of two pieces are for a map, and against it.
+struct Contact_evidence {
+  std::array<double, 2> inliers{};        ///< the parts of the samples of source and target in contact
+  std::array<double, 2> contradictions{}; ///< those of the samples that say something
+  double area = 0;                        ///< in contact
+  double rms = std::numeric_limits<double>::infinity();
+  double log10_false_alarms = 0;
+  double rigidity = 0;        ///< by how much small motions of the kind move points off the other surface, beside them
+  double affine_rigidity = 0; ///< the same for affine maps, one of which may be free
+};
+
+/// The parts of the samples of source and target that contradict the map, of those that say something.
+inline std::array<double, 2> contradictions_of(const Mapped_samples& samples) {
+  std::array<double, 2> result;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto hits = double(count_of(samples[side], Contact::TOUCHING));
+    const auto misses = double(count_of(samples[side], Contact::CONTRADICTING));
+    result[side] = misses / std::max(1.0, hits + misses);
+  }
+  return result;
+}
+
+/// The distances of samples that touch or contradict; others count as outside of the domain.
+inline std::vector<Mapped_point> informative_points(const std::vector<Mapped_sample>& samples) {
+  std::vector<Mapped_point> result;
+  for (const Mapped_sample& s : samples) {
+    const bool is_informative = s.contact != Contact::NONE;
+    const double distance = (s.point - s.nearest).norm();
+    result.push_back({s.point, {is_informative ? distance : std::numeric_limits<double>::quiet_NaN(), s.normal}});
+  }
+  return result;
+}
+
+/// The root mean squares, in increasing order, by which infinitesimal maps of a kind move the points in contact off the
+/// other surface, in units of the size of these points.
+inline Eigen::VectorXd rigidities(const Mapped_samples& samples, Map_kind kind) {
+  Moment_sums_3 sums(samples[0].front().point);
+  std::vector<const Mapped_sample*> touching;
+  for (const auto& side : samples)
+    for (const Mapped_sample& s : side)
+      if (s.contact == Contact::TOUCHING) touching.push_back(&s), sums.add_point(s.point);
+  const Eigen::MatrixXd maps = infinitesimal_maps(kind);
+  if (touching.empty()) return Eigen::VectorXd::Zero(maps.cols());
+  const Moments_3 moments = sums.moments();
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(12, 12);
+  for (const Mapped_sample* s : touching) {
+    const Eigen::Vector3d x = (s->point - moments.centroid) / moments.size();
+    Eigen::Matrix<double, 12, 1> row;
+    for (int i = 0; i < 3; ++i) row.segment<3>(3 * i) = s->normal[i] * x;
+    row.tail<3>() = s->normal;
+    squares += row * row.transpose() / double(touching.size());
+  }
+  const Eigen::MatrixXd of_maps = maps.transpose() * squares * maps;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(of_maps, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+}
+
+/// Judges a map by the contacts of both pieces. `chances` are the parts of the space within a unit of distance from the
+/// source and the target.
+inline Contact_evidence contact_evidence(const Mapped_samples& samples, Map_kind kind,
+                                         const std::array<double, 2>& areas, const std::array<double, 2>& chances,
+                                         const Judgement& how) {
+  Contact_evidence result;
+  Map_evidence evidence;
+  double sum = 0, count = 0;
+  result.contradictions = contradictions_of(samples);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto hits = double(count_of(samples[side], Contact::TOUCHING));
+    const auto all = double(samples[side].size());
+    result.inliers[side] = hits / all;
+    result.area += areas[side] * hits / all / 2;
+    judge_one_way(Sorted_distances(informative_points(samples[side]), 1), chances[1 - side], how, evidence);
+    for (const Mapped_sample& s : samples[side])
+      if (s.contact == Contact::TOUCHING) sum += (s.point - s.nearest).squaredNorm(), count += 1;
+  }
+  if (count > 0) result.rms = std::sqrt(sum / count);
+  result.log10_false_alarms = std::min(0.0, evidence.log10_false_alarms + std::log10(2 * most_tolerances * how.tests));
+  result.rigidity = rigidities(samples, kind)[0];
+  result.affine_rigidity = rigidities(samples, Map_kind::AFFINE)[1];
+  return result;
+}
 
 } // namespace equiaffine::internal
 

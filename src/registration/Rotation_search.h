@@ -2,21 +2,70 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_ROTATION_SEARCH_H
 #define EQUIAFFINE_SRC_REGISTRATION_ROTATION_SEARCH_H
 
-#include "registration/Distance_grid.h"
+#include "registration/Affine_map_3.h"
+#include "registration/Surface_distances.h"
 #include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/base/internal/parallel_for.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
+
+/// The distances from a surface at the nodes of a cube around the origin, interpolated linearly between them: fast and
+/// good to about a third of a step, which is what a search for rotations needs.
+class Distance_grid {
+public:
+  static Distance_grid of(bool in_threads, const Surface_distances& distances, double radius) {
+    Distance_grid grid(radius);
+    parallel_for(in_threads, 0, nodes * nodes, [&](std::size_t row) {
+      for (std::size_t i = 0; i < nodes; ++i) {
+        const Eigen::Vector3d p = Eigen::Vector3d(double(i), double(row % nodes), double(row / nodes)) / grid.scale_;
+        grid.values_[row * nodes + i] = float(distances.about(p - Eigen::Vector3d::Constant(radius)));
+      }
+    });
+    return grid;
+  }
+
+  double step() const { return 1 / scale_; }
+
+  double operator()(const Eigen::Vector3d& p) const {
+    std::size_t cell[3];
+    float part[3];
+    for (int a = 0; a < 3; ++a) {
+      const double x = std::clamp((p[a] + radius_) * scale_, 0.0, double(nodes - 1) - 1e-6);
+      cell[a] = std::size_t(x);
+      part[a] = float(x - double(cell[a]));
+    }
+    const float* v = &values_[(cell[2] * nodes + cell[1]) * nodes + cell[0]];
+    const auto along_x = [&](const float* w) { return w[0] + part[0] * (w[1] - w[0]); };
+    const auto in_plane = [&](const float* w) {
+      const float a = along_x(w), b = along_x(w + nodes);
+      return a + part[1] * (b - a);
+    };
+    const float low = in_plane(v), high = in_plane(v + nodes * nodes);
+    return double(low + part[2] * (high - low));
+  }
+
+private:
+  static constexpr std::size_t nodes = 64;
+
+  explicit Distance_grid(double radius)
+      : radius_(radius), scale_(double(nodes - 1) / (2 * radius)), values_(nodes * nodes * nodes) {}
+
+  double radius_, scale_;
+  std::vector<float> values_;
+};
 
 /// About the angle between two maps in radians: 2 at most for rotations, or for two reflections.
 inline double difference(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) { return (a - b).norm() / std::sqrt(2.0); }
@@ -154,6 +203,69 @@ private:
   std::vector<Eigen::Vector3d> points_;
   double spread_;
 };
+
+/// Maps that are a finite group up to errors, with the numbers of their products.
+struct Finite_group {
+  std::vector<Affine_map_3> maps;
+  std::vector<std::vector<std::size_t>> products; ///< products[i][j] is the number of maps[i] * maps[j]
+};
+
+/// The number of the map whose matrix is nearest, and how far it is.
+struct Nearest_map {
+  std::size_t index = 0;
+  double difference = std::numeric_limits<double>::infinity();
+};
+
+inline Nearest_map nearest_map(const std::vector<Affine_map_3>& maps, const Eigen::Matrix3d& matrix) {
+  Nearest_map best;
+  for (std::size_t i = 0; i < maps.size(); ++i)
+    if (const double d = difference(maps[i].matrix, matrix); d < best.difference) best = {i, d};
+  return best;
+}
+
+/// Returns maps as a group, if the product of any two is near to one of them, and multiplication by each map permutes
+/// them.
+inline std::optional<Finite_group> as_group(const std::vector<Affine_map_3>& maps, double tolerance) {
+  Finite_group group{maps, std::vector(maps.size(), std::vector<std::size_t>(maps.size()))};
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    std::vector<bool> is_taken(maps.size());
+    for (std::size_t j = 0; j < maps.size(); ++j) {
+      const auto [index, distance] = nearest_map(maps, maps[i].matrix * maps[j].matrix);
+      if (!(distance < tolerance) || is_taken[index]) return std::nullopt;
+      is_taken[index] = true;
+      group.products[i][j] = index;
+    }
+  }
+  return group;
+}
+
+/// Changes the maps of a group slightly, so that their products are right up to rounding: g becomes the mean of
+/// (g h) h^-1 over all h, some times, and all maps have the fixed point that is the mean image of the origin. Returns
+/// whether they are right.
+inline bool make_exact(Finite_group& group) {
+  constexpr int most_steps = 12;
+  auto& maps = group.maps;
+  const auto order = double(maps.size());
+  for (int step = 0; step < most_steps; ++step) {
+    std::vector<Eigen::Matrix3d> inverses;
+    for (const Affine_map_3& map : maps) inverses.push_back(map.matrix.inverse());
+    std::vector<Eigen::Matrix3d> means(maps.size(), Eigen::Matrix3d::Zero());
+    double change = 0;
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      for (std::size_t j = 0; j < maps.size(); ++j) means[i] += maps[group.products[i][j]].matrix * inverses[j] / order;
+      change = std::max(change, (means[i] - maps[i].matrix).norm());
+    }
+    for (std::size_t i = 0; i < maps.size(); ++i) maps[i].matrix = means[i];
+    if (change < 1e-14) break;
+  }
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const Affine_map_3& map : maps) center += map.translation / order;
+  for (Affine_map_3& map : maps) map.translation = center - map.matrix * center;
+  for (std::size_t i = 0; i < maps.size(); ++i)
+    for (std::size_t j = 0; j < maps.size(); ++j)
+      if (!(difference(maps[i].matrix * maps[j].matrix, maps[group.products[i][j]].matrix) < 1e-10)) return false;
+  return true;
+}
 
 } // namespace equiaffine::internal
 

@@ -2,20 +2,132 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_SURFACE_DISTANCES_H
 #define EQUIAFFINE_SRC_REGISTRATION_SURFACE_DISTANCES_H
 
-#include "registration/Area_samples_3.h"
-#include "registration/Framed_function_3.h"
-#include "registration/Mapped_function_3.h"
+#include "registration/Affine_map_3.h"
+#include "registration/Framed_surface_3.h"
 #include "registration/mesh_samples.h"
-#include "registration/nearest_triangle.h"
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/function/internal/sign_change.h>
+#include <equiaffine/surface/internal/jet_derivatives.h>
 
+#include <CGAL/Bbox_3.h>
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
+
+/// A function in other coordinates, on its box, which is a parallelepiped there.
+class Mapped_function_3 {
+public:
+  /// `map` goes from the coordinates of the function to the other ones.
+  Mapped_function_3(Any_function_3 function, const Affine_map_3& map)
+      : function_(std::move(function)), map_(map), inverse_(map.inverse()), box_(function_.bbox()) {
+    for (int a = 0; a < 3; ++a) {
+      lower_[a] = box_.min(a);
+      sides_[a] = box_.max(a) - box_.min(a);
+    }
+  }
+
+  const Affine_map_3& map() const { return map_; }
+  Eigen::Vector3d center() const { return map_(lower_ + sides_ / 2); }
+
+  /// The radius of the ball around the center that holds the box.
+  double radius() const {
+    double result = 0;
+    for (int corner = 0; corner < 8; ++corner)
+      result = std::max(
+          result,
+          (map_(lower_ + sides_.cwiseProduct(Eigen::Vector3d(corner & 1, corner >> 1 & 1, corner >> 2 & 1))) - center())
+              .norm());
+    return result;
+  }
+
+  /// The value at parts, from 0 to 1, of the sides of the box.
+  double value_in_box(const Eigen::Vector3d& parts) const {
+    return function_.value(to_CGAL(lower_ + sides_.cwiseProduct(parts)));
+  }
+
+  std::vector<double> values(const std::vector<Eigen::Vector3d>& points) const {
+    std::vector<Point_3> at;
+    at.reserve(points.size());
+    for (const Eigen::Vector3d& p : points) at.push_back(to_CGAL(inverse_(p)));
+    std::vector<double> result(points.size());
+    function_.values(at, result);
+    return result;
+  }
+
+  /// The part of a line that is in the box: its first and its last parameter.
+  std::pair<double, double> part_in_box(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+    const Eigen::Vector3d from = inverse_(origin) - lower_, along = inverse_.matrix * direction;
+    double first = -std::numeric_limits<double>::infinity(), last = -first;
+    for (int a = 0; a < 3; ++a) {
+      const double s = -from[a] / along[a], t = (sides_[a] - from[a]) / along[a];
+      first = std::max(first, std::min(s, t));
+      last = std::min(last, std::max(s, t));
+    }
+    return {first, last};
+  }
+
+  /// The value, and the gradient in the coordinates of this function. They are NaN outside of the box. Where two parts
+  /// of a maximum are the same, the expansion of it is not finite, and differences take its place.
+  std::pair<double, Eigen::Vector3d> first_order(const Eigen::Vector3d& p) const {
+    const Eigen::Vector3d q = inverse_(p);
+    if (!contains(q)) {
+      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+      return {nan, Eigen::Vector3d::Constant(nan)};
+    }
+    const auto jet = function_.first_order(to_CGAL(q));
+    Eigen::Vector3d gradient = eigen_gradient(jet);
+    if (!gradient.allFinite()) gradient = differences(q);
+    return {jet.value(), inverse_.matrix.transpose() * gradient};
+  }
+
+  Eigen::Vector3d gradient(const Eigen::Vector3d& p) const { return first_order(p).second; }
+
+  /// A zero on a segment at whose ends the signs differ, or nothing where there is a pole or a jump.
+  std::optional<Eigen::Vector3d> zero_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
+    const Point_3 p = to_CGAL(inverse_(a)), q = to_CGAL(inverse_(b));
+    const double f = function_.value(p), g = function_.value(q);
+    if (!is_sign_change(f, g)) return std::nullopt;
+    const auto found = function_.intersect_segment(p, q, f, g);
+    if (!found.has_converged) return std::nullopt;
+    return map_(Eigen::Vector3d(found.point.x(), found.point.y(), found.point.z()));
+  }
+
+private:
+  using Point_3 = Any_function_3::Point_3;
+
+  Eigen::Vector3d differences(const Eigen::Vector3d& q) const {
+    const double step = 1e-6 * sides_.maxCoeff();
+    const auto value = [&](const Eigen::Vector3d& p) { return function_.value(to_CGAL(p)); };
+    Eigen::Vector3d result;
+    for (int a = 0; a < 3; ++a) {
+      const Eigen::Vector3d shift = step * Eigen::Vector3d::Unit(a);
+      result[a] = (value(q + shift) - value(q - shift)) / (2 * step);
+    }
+    return result;
+  }
+
+  static Point_3 to_CGAL(const Eigen::Vector3d& p) { return Point_3(p[0], p[1], p[2]); }
+
+  bool contains(const Eigen::Vector3d& p) const {
+    return (p.array() >= lower_.array()).all() && ((p - lower_).array() <= sides_.array()).all();
+  }
+
+  Any_function_3 function_;
+  Affine_map_3 map_, inverse_;
+  CGAL::Bbox_3 box_;
+  Eigen::Vector3d lower_, sides_;
+};
 
 /// The distance of any point from a surface, and the direction in which it grows.
 class Surface_distances {
@@ -106,6 +218,152 @@ private:
   Mapped_function_3 function_;
   double spacing_;
 };
+
+struct Ball_3 {
+  Eigen::Vector3d center;
+  double radius;
+};
+
+/// The signs of a function on the faces of its box.
+struct Signs_on_box {
+  bool has_positive = false, has_negative = false, has_zero = false;
+  bool has_change = false; ///< between points that are neighbors: a function may be undefined between others
+
+  /// Whether the zero set meets the box. It may do so along edges, on whose faces the sign does not change.
+  bool are_cut() const { return has_change || (has_zero && has_positive && has_negative); }
+};
+
+inline Signs_on_box signs_on_box(const Mapped_function_3& function) {
+  constexpr int steps = 48;
+  Signs_on_box signs;
+  std::array<double, steps + 1> row; // for each j the last value that is not zero
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      row.fill(0);
+      for (int i = 0; i <= steps; ++i) {
+        double last = 0;
+        for (int j = 0; j <= steps; ++j) {
+          Eigen::Vector3d part(side, double(i) / steps, double(j) / steps);
+          std::rotate(part.begin(), part.begin() + axis, part.end());
+          const double value = function.value_in_box(part);
+          signs.has_positive |= value > 0;
+          signs.has_negative |= value < 0;
+          double& above = row[std::size_t(j)];
+          signs.has_zero |= value == 0;
+          signs.has_change |= (value > 0 && std::min(above, last) < 0) || (value < 0 && std::max(above, last) > 0);
+          if (value != 0) above = last = std::isnan(value) ? 0 : value;
+        }
+      }
+    }
+  return signs;
+}
+
+/// The points in which a line meets a surface, and its segments inside of the solid that this bounds.
+struct Line_of_samples {
+  std::vector<Eigen::Vector3d> points, normals;
+  std::vector<std::array<Eigen::Vector3d, 2>> inside;
+};
+
+/// Random lines meet a surface uniformly in its area (M. Crofton; see L. Santalo, Integral Geometry and Geometric
+/// Probability, 1976, 14.5). The lines are those through a ball.
+class Sampling_lines {
+public:
+  Sampling_lines(const Mapped_function_3& function, bool is_inside_positive, const Ball_3& ball)
+      : function_(function), inside_(is_inside_positive ? 1 : -1), ball_(ball) {}
+
+  /// The area of a surface that lines meet `hits` times.
+  double area(double hits, double lines) const {
+    return 2 * std::numbers::pi * ball_.radius * ball_.radius * hits / lines;
+  }
+
+  Line_of_samples operator()(std::size_t n) const {
+    const auto [u, v, w, x] = quasirandom<4>(n);
+    const double z = 2 * u - 1, r = std::sqrt(1 - z * z), angle = 2 * std::numbers::pi * v;
+    const Eigen::Vector3d direction(r * std::cos(angle), r * std::sin(angle), z);
+    const Eigen::Vector3d across = direction.unitOrthogonal(), other = direction.cross(across);
+    const double distance = ball_.radius * std::sqrt(w), turn = 2 * std::numbers::pi * x;
+    const Eigen::Vector3d origin = ball_.center + distance * (std::cos(turn) * across + std::sin(turn) * other);
+    return march(origin, direction);
+  }
+
+private:
+  static constexpr double steps_per_radius = 64;
+
+  Line_of_samples march(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+    Line_of_samples result;
+    const auto in_box = function_.part_in_box(origin, direction);
+    const double half = std::sqrt(std::max(0.0, std::pow(ball_.radius, 2) - (origin - ball_.center).squaredNorm()));
+    const double first = std::max(in_box.first, -half), last = std::min(in_box.second, half);
+    if (!(last > first)) return result;
+    const auto steps = std::size_t(std::ceil((last - first) / ball_.radius * steps_per_radius));
+    std::vector<Eigen::Vector3d> points;
+    for (std::size_t i = 0; i <= steps; ++i)
+      points.push_back(origin + (first + (last - first) * double(i) / double(steps)) * direction);
+    const std::vector<double> values = function_.values(points);
+    for (std::size_t i = 0; i < steps; ++i) {
+      const double a = inside_ * values[i], b = inside_ * values[i + 1];
+      if (a >= 0 && b >= 0) result.inside.push_back({points[i], points[i + 1]});
+      if (!((a < 0) != (b < 0)) || std::isnan(a) || std::isnan(b)) continue;
+      const auto zero = function_.zero_between(points[i], points[i + 1]);
+      if (!zero) continue;
+      result.inside.push_back({*zero, a < 0 ? points[i + 1] : points[i]});
+      const Eigen::Vector3d normal = -inside_ * function_.gradient(*zero);
+      if (!(normal.norm() > 0)) continue;
+      result.points.push_back(*zero);
+      result.normals.push_back(normal.normalized());
+    }
+    return result;
+  }
+
+  const Mapped_function_3& function_;
+  double inside_;
+  Ball_3 ball_;
+};
+
+/// Samples the zero set of a function by lines through a ball, until there are `count` points, or few after very many
+/// lines.
+inline Area_samples_3 function_samples(bool in_threads, const Mapped_function_3& function, const Ball_3& ball,
+                                       std::size_t count) {
+  constexpr std::size_t lines_at_once = 4000, most_lines = 1000000;
+  const Signs_on_box signs = signs_on_box(function);
+  const Sampling_lines lines(function, signs.has_negative, ball);
+  Area_samples_3 result;
+  result.is_cut = signs.are_cut();
+  Moment_sums_3 area(ball.center), volume(ball.center);
+  bool has_inside = false;
+  std::size_t done = 0;
+  while (result.points.size() < count && done < most_lines) {
+    std::vector<Line_of_samples> found(lines_at_once);
+    parallel_for(
+        in_threads, 0, found.size(), [&](std::size_t i) { found[i] = lines(done + i); }, 16);
+    for (const Line_of_samples& line : found) {
+      for (const Eigen::Vector3d& p : line.points) area.add_point(p);
+      for (const auto& [a, b] : line.inside) volume.add_segment(a, b);
+      has_inside |= !line.inside.empty();
+      result.points.insert(result.points.end(), line.points.begin(), line.points.end());
+      result.normals.insert(result.normals.end(), line.normals.begin(), line.normals.end());
+    }
+    done += lines_at_once;
+  }
+  if (result.points.empty()) return result;
+  result.area = area.moments();
+  result.area.measure = lines.area(double(result.points.size()), double(done));
+  if (has_inside && !(signs.has_positive && signs.has_negative)) result.volume = volume.moments();
+  return result;
+}
+
+/// Samples the zero set of a function twice: a ball around the box of the function may be much larger than the surface,
+/// and one around the first samples is not.
+inline Area_samples_3 function_samples(bool in_threads, const Mapped_function_3& function, std::size_t count) {
+  constexpr double margin = 1.25;
+  const Ball_3 all = {function.center(), function.radius()};
+  const auto first = function_samples(in_threads, function, all, count / 4);
+  if (first.points.empty()) return first;
+  if (first.is_cut) return function_samples(in_threads, function, all, count);
+  Ball_3 ball = {first.area.centroid, 0};
+  for (const Eigen::Vector3d& p : first.points) ball.radius = std::max(ball.radius, margin * (p - ball.center).norm());
+  return function_samples(in_threads, function, ball, count);
+}
 
 } // namespace equiaffine::internal
 

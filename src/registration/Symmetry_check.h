@@ -3,7 +3,7 @@
 #define EQUIAFFINE_SRC_REGISTRATION_SYMMETRY_CHECK_H
 
 #include "registration/Framed_surface_3.h"
-#include "registration/function_samples.h"
+#include "registration/Surface_distances.h"
 #include "registration/slippage.h"
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/registration/Affine_slippage_3.h>

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "registration/Contact_evidence.h"
 #include "registration/Piece_of_surface_3.h"
-#include "registration/contacts.h"
 #include "registration/mesh_samples.h"
 #include "registration/tolerances_of_meshes.h"
 #include <equiaffine/registration/internal/searches.h>

@@ -2,9 +2,11 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_MESH_SAMPLES_H
 #define EQUIAFFINE_SRC_REGISTRATION_MESH_SAMPLES_H
 
-#include "registration/Area_samples_3.h"
+#include "registration/Affine_map_3.h"
 #include <equiaffine/mesh/internal/Triangles_3.h>
+#include <equiaffine/volume/internal/Triangle_tree.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -13,11 +15,136 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
+
+/// The moments of a measure in space, of an area or a volume.
+struct Moments_3 {
+  double measure = 0;
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+
+  /// The root of the mean squared distance from the centroid.
+  double size() const { return std::sqrt(covariance.trace()); }
+};
+
+/// The integrals of 1, x and x x^T, summed up part by part. Positions are taken relative to `origin`, so that little
+/// cancels.
+class Moment_sums_3 {
+public:
+  explicit Moment_sums_3(const Eigen::Vector3d& origin) : origin_(origin) {}
+
+  void add_point(const Eigen::Vector3d& p) {
+    const Eigen::Vector3d x = p - origin_;
+    add(1, x, x * x.transpose());
+  }
+
+  void add_segment(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    const Eigen::Vector3d x = (a + b) / 2 - origin_, half = (b - a) / 2;
+    add(2 * half.norm(), x, x * x.transpose() + half * half.transpose() / 3);
+  }
+
+  /// Adds the area of a triangle.
+  void add_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+    const Eigen::Vector3d x = a - origin_, y = b - origin_, z = c - origin_, sum = x + y + z;
+    add((b - a).cross(c - a).norm() / 2, sum / 3, (squares(x, y, z) + sum * sum.transpose()) / 12);
+  }
+
+  /// Adds the signed volume between the origin and a triangle.
+  void add_cone(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+    const Eigen::Vector3d x = a - origin_, y = b - origin_, z = c - origin_, sum = x + y + z;
+    add(x.dot(y.cross(z)) / 6, sum / 4, (squares(x, y, z) + sum * sum.transpose()) / 20);
+  }
+
+  /// Adds the sums of another measure about the same origin, or subtracts them.
+  void add(const Moment_sums_3& other, double sign) {
+    measure_ += sign * other.measure_;
+    first_ += sign * other.first_;
+    second_ += sign * other.second_;
+  }
+
+  double measure() const { return measure_; }
+
+  Moments_3 moments() const {
+    const Eigen::Vector3d mean = first_ / measure_;
+    return {measure_, origin_ + mean, second_ / measure_ - mean * mean.transpose()};
+  }
+
+private:
+  static Eigen::Matrix3d squares(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const Eigen::Vector3d& z) {
+    return x * x.transpose() + y * y.transpose() + z * z.transpose();
+  }
+
+  void add(double measure, const Eigen::Vector3d& mean, const Eigen::Matrix3d& mean_square) {
+    measure_ += measure;
+    first_ += measure * mean;
+    second_ += measure * mean_square;
+  }
+
+  Eigen::Vector3d origin_, first_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second_ = Eigen::Matrix3d::Zero();
+  double measure_ = 0;
+};
+
+/// Points that are uniform in the area of a surface, the first n of them, too, with unit normals to either side.
+struct Area_samples_3 {
+  std::vector<Eigen::Vector3d> points, normals;
+  Moments_3 area;
+  std::optional<Moments_3> volume = {}; ///< of a function whose surface bounds a solid
+  double facet_error = 0; ///< the rms distance of the triangles from the smooth surface that they stand for
+  double greatest_facet_error = 0;
+  bool is_cut = false; ///< whether the surface ends at its box, so that symmetries of the whole keep no centroid
+
+  double spacing() const { return std::sqrt(area.measure / double(points.size())); }
+
+  /// The largest distance of a point from the origin.
+  double radius() const {
+    double result = 0;
+    for (const Eigen::Vector3d& p : points) result = std::max(result, p.norm());
+    return result;
+  }
+};
+
+/// A random point of the ball with a radius around a surface is nearer to it than t with the probability of this times t.
+inline double chance_of_nearness(double area, double radius) {
+  return 2 * area / (4 * std::numbers::pi / 3 * std::pow(radius, 3));
+}
+
+/// The point n of a sequence of low discrepancy in a cube (M. Roberts, The unreasonable effectiveness of quasirandom
+/// sequences, 2018).
+template <std::size_t Dimension>
+std::array<double, Dimension> quasirandom(std::size_t n) {
+  static const double root = [] { // x^(d + 1) = x + 1 has it as its root, and this iteration as its limit
+    double x = 1.5;
+    for (int step = 0; step < 40; ++step) x = std::pow(1 + x, 1 / (1.0 + double(Dimension)));
+    return x;
+  }();
+  std::array<double, Dimension> result;
+  double x = double(n + 1);
+  for (double& coordinate : result) {
+    x /= root;
+    coordinate = x + 0.5 - std::floor(x + 0.5);
+  }
+  return result;
+}
+
+/// The map to coordinates in which a measure has centroid 0 and covariance 1. Affine symmetries of the solid are
+/// orthogonal there.
+inline Affine_map_3 whitening_map(const Moments_3& moments) {
+  const Eigen::Matrix3d factor = moments.covariance.llt().matrixL();
+  const Eigen::Matrix3d matrix = factor.inverse();
+  return {matrix, -(matrix * moments.centroid)};
+}
+
+/// The map to coordinates in which an area has centroid 0 and size 1.
+inline Affine_map_3 centering_map(const Moments_3& area) {
+  return {Eigen::Matrix3d::Identity() / area.size(), -area.centroid / area.size()};
+}
 
 inline Triangles_3 turned_inside_out(Triangles_3 mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
@@ -146,6 +273,70 @@ inline Area_samples_3 mesh_samples(const Triangles_3& mesh, const std::vector<Ed
     result.normals.push_back(mesh.double_area(t).normalized());
   }
   return result;
+}
+
+inline Distance_kernel::Point_3 to_CGAL(const Eigen::Vector3d& p) { return {p[0], p[1], p[2]}; }
+inline Eigen::Vector3d to_Eigen(const Distance_kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
+
+/// A tree of triangles, which is to have two of them at least.
+inline Triangle_tree tree_of(std::vector<Triangle_tree::Triangle_3> triangles) {
+  if (triangles.size() == 1) triangles.push_back(triangles.front());
+  return Triangle_tree(std::move(triangles), 0);
+}
+
+/// The triangles that have an area beside the largest one, since others have no normal.
+/// \pre the mesh has an area.
+inline std::vector<Triangle_tree::Triangle_3> triangles_with_area(const Triangles_3& mesh) {
+  constexpr double rounding = 1e-14;
+  double greatest = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) greatest = std::max(greatest, mesh.double_area(t).norm());
+  std::vector<Triangle_tree::Triangle_3> result;
+  result.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (mesh.double_area(t).norm() > rounding * greatest)
+      result.emplace_back(to_CGAL(mesh.corner(t, 0)), to_CGAL(mesh.corner(t, 1)), to_CGAL(mesh.corner(t, 2)));
+  return result;
+}
+
+inline Eigen::Vector3d unit_normal(const Triangle_tree::Triangle_3& t) {
+  const Eigen::Vector3d a = to_Eigen(t[0]);
+  return (to_Eigen(t[1]) - a).cross(to_Eigen(t[2]) - a).normalized();
+}
+
+/// The point of a tree's triangles that is nearest to another point.
+struct Nearest_triangle {
+  Triangle_tree::Part part = 0; ///< the triangle
+  Distance_kernel::Point_3 point;
+  double squared_distance = std::numeric_limits<double>::infinity();
+};
+
+/// Finds the nearest triangle, by the nearer one of two children first. The depth of a tree that is halved by medians
+/// is below 64.
+/// \pre the tree has at least two triangles.
+inline Nearest_triangle nearest_triangle(const Triangle_tree& tree, const Distance_kernel::Point_3& p) {
+  Nearest_triangle best;
+  const auto try_triangle = [&](Triangle_tree::Part part, const Distance_kernel::Point_3& q, double d) {
+    if (d < best.squared_distance) best = {part, q, d};
+  };
+  std::array<std::pair<Triangle_tree::Part, double>, 128> stack;
+  std::size_t size = 0;
+  stack[size++] = {0, 0.0};
+  while (size > 0) {
+    const auto [box, box_distance] = stack[--size];
+    if (box_distance >= best.squared_distance) continue;
+    std::array<std::pair<Triangle_tree::Part, double>, 2> open;
+    std::size_t count = 0;
+    for (const Triangle_tree::Part child : tree.children(box)) {
+      const auto q = tree.nearest_point(child, p);
+      const double d = (p - q).squared_length();
+      if (Triangle_tree::is_triangle(child)) try_triangle(child, q, d);
+      else open[count++] = {child, d};
+    }
+    if (count == 2 && open[0].second < open[1].second) std::swap(open[0], open[1]);
+    for (std::size_t i = 0; i < count; ++i)
+      if (open[i].second < best.squared_distance) stack[size++] = open[i];
+  }
+  return best;
 }
 
 } // namespace equiaffine::internal

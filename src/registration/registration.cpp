@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "registration/Affine_map_3.h"
+#include "registration/Centered_map.h"
 #include "registration/Centered_surface_3.h"
-#include "registration/Framed_function_3.h"
 #include "registration/Framed_surface_3.h"
-#include "registration/Shape_matches.h"
 #include "registration/Symmetry_check.h"
 #include "registration/mesh_samples.h"
 #include "registration/register_pieces.h"
 #include "registration/register_wholes.h"
 #include "registration/registration_of_framed.h"
-#include "registration/registration_of_wholes.h"
 #include "registration/slippage.h"
 #include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/registration/Map_kind.h>
 #include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/searches.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -74,6 +78,16 @@ Surface_registration_3<Kernel_of_searches> registration_of_triangles(bool in_thr
   pieces.hypotheses += wholes.hypotheses;
   pieces.slippage = std::move(wholes.slippage);
   return to_CGAL(std::move(pieces), request);
+}
+
+bool differ_as_wholes(bool in_threads, const Any_function_3& source, const Any_function_3& target, Map_kind kind,
+                      bool allows_reflections) {
+  constexpr double difference = 0.03; // of what is equal, a part of the size
+  const auto a = centered_surface(in_threads, source, kind), b = centered_surface(in_threads, target, kind);
+  if (!a.reason_against.empty() || !b.reason_against.empty()) return false;
+  const double ratio = std::cbrt(std::abs(a.map.matrix.determinant() / b.map.matrix.determinant()));
+  if (keeps_volume(kind) && std::abs(std::log(ratio)) > difference) return true;
+  return candidate_rotations(in_threads, a, b, difference, allows_reflections).rotations.empty();
 }
 
 } // namespace equiaffine::internal

@@ -4,24 +4,231 @@
 
 #include "registration/Centered_surface_3.h"
 #include "registration/Framed_surface_3.h"
-#include "registration/Registration_search.h"
+#include "registration/candidate_pairs.h"
+#include "registration/map_evidence.h"
 #include "registration/map_of_quadrics.h"
-#include "registration/part_on_surface.h"
-#include "registration/registration_of_wholes.h"
+#include "registration/refine_map.h"
+#include "registration/register_wholes.h"
 #include "registration/slippage.h"
+#include "registration/without_near.h"
 #include <equiaffine/registration/Affine_slippage_3.h>
+#include <equiaffine/registration/internal/Frame_thresholds.h>
+#include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/searches.h>
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
+
+/// The points of the source and of the target whose frames give a map.
+using Pair_of_points = std::array<Framed_point_3, 2>;
+
+/// A map that was refined, and what is known of it.
+struct Judged_map {
+  Affine_map_3 map;
+  Map_evidence evidence;
+  std::optional<Pair_of_points> pair;
+};
+
+/// The search for maps from the source to the target: each pair of points with the same invariants makes one
+/// hypothesis. Pairs are matched in parallel, and judged one after the other in a fixed order.
+class Registration_search {
+public:
+  Registration_search(bool in_threads, const Framed_surface_3& source, const Framed_surface_3& target,
+                      const Registration_request& request)
+      : in_threads_(in_threads), source_(source), target_(target), request_(request), thresholds_(request.thresholds),
+        tolerance_(request.tolerance.value_or(std::clamp(
+            8 * std::max(source.noise, target.noise), thresholds_.exact_tolerance, thresholds_.greatest_tolerance))) {}
+
+  /// Tries pairs that are alike, then, as long as no map is accepted, others that may be alike where structure is wrong.
+  void run() {
+    const auto points = points_to_try(in_threads_, source_, request_.kind, thresholds_.most_points_to_try, thresholds_);
+    try_all(points, thresholds_.usual);
+    if (first_accepted_ == 0) try_all(points, thresholds_.wrong_structure);
+  }
+
+  /// Refines a map and keeps it if it becomes as good as a right one would after so many steps.
+  void try_map(const Affine_map_3& map, const std::optional<Pair_of_points>& pair = {}) {
+    ++hypotheses_;
+    const Map_evidence first = rough_evidence(map, thresholds_.greatest_first_tolerance);
+    if (first.log10_by_volume > thresholds_.first_log10) return;
+    const double tolerance = std::clamp(30 * first.tolerance, 1e-3, 0.05);
+    const auto improved = refined_map(map, {request_.kind, tolerance, 8, thresholds_.probes_at_first});
+    if (!improved) return;
+    const Map_evidence second =
+        rough_evidence(*improved, std::min(thresholds_.greatest_first_tolerance, 10 * tolerance_));
+    if (second.log10_by_volume > thresholds_.second_log10) return;
+    const auto refined = refined_map(*improved, {request_.kind, std::clamp(30 * second.tolerance, 1e-3, 0.05)});
+    if (refined && !is_known(*refined, 1e-4)) keep({*refined, evidence(*refined), pair});
+  }
+
+  /// Tries all other images of the point that gave the best map: where the target has symmetries, others fit as well.
+  void find_equally_good() {
+    const auto best = accepted();
+    if (best.empty() || !best.front().pair) return;
+    const Framed_point_3 point = (*best.front().pair)[0];
+    const auto source = std::find_if(source_.points.begin(), source_.points.end(),
+                                     [&](const Framed_point_3& p) { return p.point == point.point; });
+    const auto index = std::size_t(source - source_.points.begin());
+    const Candidate_limits limits = {3000, 3000, thresholds_.usual.greatest_mismatch};
+    auto pairs = pairs_of_point(source_, target_, index, request_.kind, limits, thresholds_);
+    pairs = without_near(pairs, most_images, [&](const Candidate_pair& a, const Candidate_pair& b) {
+      return (target_.points[a.target].point - target_.points[b.target].point).norm() < 1.5 * target_.spacing;
+    });
+    std::vector<Counterpart> found(pairs.size());
+    parallel_for(in_threads_, 0, pairs.size(), [&](std::size_t n) {
+      found[n] = find_counterpart(source_, target_, pairs[n], request_.kind, thresholds_);
+    });
+    const std::size_t hypotheses = hypotheses_;
+    for (const Counterpart& c : found)
+      if (c.cost < 1) try_counterpart(c);
+    hypotheses_ = hypotheses; // of the search for a map
+  }
+
+  /// The number of maps beside the best that move as many points onto the other surface, as near.
+  std::size_t equally_good() const {
+    constexpr double part = 0.98, factor = 3;
+    const auto maps = accepted();
+    if (maps.empty()) return 0;
+    const Map_evidence& best = maps.front().evidence;
+    return std::size_t(std::count_if(maps.begin() + 1, maps.end(), [&](const Judged_map& m) {
+      const double limit = factor * best.rms + thresholds_.rounding * target_.size;
+      return m.evidence.rms <= limit && m.evidence.inliers[0] >= part * best.inliers[0] &&
+             m.evidence.inliers[1] >= part * best.inliers[1];
+    }));
+  }
+
+  std::size_t hypotheses() const { return hypotheses_; }
+  double tolerance() const { return tolerance_; } ///< in the unit of distances
+
+  /// The maps that are no accident, and different from each other, the best first.
+  std::vector<Judged_map> accepted() const {
+    std::vector<Judged_map> result;
+    for (const Judged_map& m : maps_)
+      if (is_accepted(m) && std::none_of(result.begin(), result.end(), [&](const Judged_map& better) {
+            return difference_of(m.map, better.map) < same;
+          }))
+        result.push_back(m);
+    return result;
+  }
+
+  /// The rms of the best map, accepted or not, that is not the first accepted one.
+  std::optional<double> next_best_rms() const {
+    const auto maps = accepted();
+    for (const Judged_map& m : maps_)
+      if (maps.empty() || difference_of(m.map, maps.front().map) >= same) return m.evidence.rms;
+    return {};
+  }
+
+private:
+  static constexpr std::size_t most_images = 200;
+  static constexpr double same = 0.02; ///< maps that differ by less are one
+
+  bool is_accepted(const Judged_map& m) const { return m.evidence.log10_false_alarms < thresholds_.accepted_log10; }
+
+  bool is_done() const {
+    if (hypotheses_ >= thresholds_.most_hypotheses) return true;
+    if (first_accepted_ == 0 || request_.number_of_maps > 1) return false;
+    const Map_evidence& best = maps_.front().evidence;
+    const bool has_noise = tolerance_ > thresholds_.exact_tolerance,
+               has_all = std::max(best.inliers[0], best.inliers[1]) > 0.8;
+    const bool is_within_noise =
+        has_noise ? has_all || best.tolerance <= tolerance_ / 3 : best.tolerance <= thresholds_.rounding;
+    return is_within_noise || hypotheses_ >= first_accepted_ + thresholds_.more_hypotheses;
+  }
+
+  void try_all(const std::vector<std::size_t>& points, const Candidate_limits& limits) {
+    for (std::size_t begin = 0; begin < points.size() && !is_done(); begin += thresholds_.points_per_batch) {
+      const std::size_t count = std::min(thresholds_.points_per_batch, points.size() - begin);
+      try_points(std::span(points).subspan(begin, count), limits);
+    }
+  }
+
+  void try_points(std::span<const std::size_t> points, const Candidate_limits& limits) {
+    auto pairs = candidate_pairs(in_threads_, source_, target_, points, request_.kind, limits, thresholds_);
+    std::erase_if(pairs, [&](const Candidate_pair& p) { return !tried_.insert({p.source, p.target}).second; });
+    for (std::size_t begin = 0; begin < pairs.size() && !is_done(); begin += thresholds_.pairs_at_once) {
+      const std::size_t count = std::min(thresholds_.pairs_at_once, pairs.size() - begin);
+      std::vector<Counterpart> found(count);
+      parallel_for(in_threads_, 0, count, [&](std::size_t n) {
+        found[n] = find_counterpart(source_, target_, pairs[begin + n], request_.kind, thresholds_);
+      });
+      std::stable_sort(found.begin(), found.end(),
+                       [](const Counterpart& a, const Counterpart& b) { return a.cost < b.cost; });
+      for (const Counterpart& c : found)
+        if (!is_done()) try_counterpart(c);
+    }
+  }
+
+  void try_counterpart(const Counterpart& pair) {
+    const Framed_point_3& p = source_.points[pair.source];
+    const Affine_map_3 map = map_between(p, pair.target, request_.kind);
+    const double determinant = map.matrix.determinant();
+    if (!map.matrix.allFinite() || !(condition(map.matrix) < greatest_condition)) return;
+    if (determinant < 0 && !request_.allows_reflections) return;
+    if (is_known(map, same)) return;
+    try_map(map, Pair_of_points{p, pair.target});
+  }
+
+  std::optional<Affine_map_3> refined_map(const Affine_map_3& map, const Refinement& how) const {
+    return refine_map(in_threads_, source_, target_, map, how);
+  }
+
+  Map_evidence rough_evidence(const Affine_map_3& map, double tolerance) const {
+    const Judgement how{tolerance, request_.least_overlap, 0, 1, thresholds_.probes_at_first};
+    return evidence_of_map(in_threads_, source_, target_, map, how);
+  }
+
+  Map_evidence evidence(const Affine_map_3& map) const {
+    Judgement how{tolerance_, request_.least_overlap, degrees_of_freedom(request_.kind), double(hypotheses_)};
+    how.are_exact = has_exact_frames(source_) && has_exact_frames(target_);
+    return evidence_of_map(in_threads_, source_, target_, map, how);
+  }
+
+  /// Keeps the maps in the order of their evidence.
+  void keep(const Judged_map& m) {
+    if (is_accepted(m) && first_accepted_ == 0) first_accepted_ = hypotheses_;
+    const auto is_better = [this](const Judged_map& a, const Judged_map& b) {
+      if (is_accepted(a) != is_accepted(b)) return is_accepted(a);
+      return a.evidence.log10_by_volume < b.evidence.log10_by_volume;
+    };
+    maps_.insert(std::upper_bound(maps_.begin(), maps_.end(), m, is_better), m);
+  }
+
+  /// Whether a map differs from one that is accepted by less than a part of the size of the moved source.
+  bool is_known(const Affine_map_3& map, double part) const {
+    return std::any_of(maps_.begin(), maps_.end(),
+                       [&](const Judged_map& m) { return is_accepted(m) && difference_of(map, m.map) < part; });
+  }
+
+  /// The mean distance between images of points, beside the size of the moved source.
+  double difference_of(const Affine_map_3& a, const Affine_map_3& b) const {
+    const std::size_t count = std::min<std::size_t>(20, source_.probes.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i) sum += (a(source_.probes[i]) - b(source_.probes[i])).norm() / double(count);
+    return sum / unit_of_distances(source_, target_, b);
+  }
+
+  bool in_threads_;
+  const Framed_surface_3 &source_, &target_;
+  Registration_request request_;
+  Frame_thresholds thresholds_;
+  double tolerance_; ///< in the unit of distances: surfaces that are nearer may be equal
+  std::size_t hypotheses_ = 0, first_accepted_ = 0;
+  std::vector<Judged_map> maps_;
+  std::set<std::array<std::size_t, 2>> tried_; ///< pairs of points of the source and of the target
+};
 
 inline Registered_map_3<Kernel_of_searches> registered_map(const Judged_map& m) {
   Registered_map_3<Kernel_of_searches> result{m.map.to_CGAL<Kernel_of_searches::Aff_transformation_3>(),

@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_SLIPPAGE_H
 #define EQUIAFFINE_SRC_REGISTRATION_SLIPPAGE_H
 
+#include "registration/Affine_map_3.h"
 #include "registration/Framed_surface_3.h"
-#include "registration/Whitening.h"
 #include "registration/refine_map.h"
 #include <equiaffine/registration/Affine_slippage_3.h>
 

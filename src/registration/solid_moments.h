@@ -2,8 +2,6 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_SOLID_MOMENTS_H
 #define EQUIAFFINE_SRC_REGISTRATION_SOLID_MOMENTS_H
 
-#include "registration/Area_samples_3.h"
-#include "registration/Moments_3.h"
 #include "registration/mesh_samples.h"
 #include <equiaffine/base/internal/disjoint_sets.h>
 

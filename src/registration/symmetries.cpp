@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "registration/Affine_map_3.h"
 #include "registration/Centered_symmetry_search.h"
 #include "registration/Framed_surface_3.h"
 #include "registration/Symmetry_check.h"
 #include "registration/Symmetry_search.h"
-#include "registration/Whitening.h"
-#include "registration/exact_symmetries.h"
 #include "registration/slippage.h"
 #include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/registration/Affine_symmetries_3.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "registration/Framed_function_3.h"
-#include "registration/derivatives_of_curvature.h"
+#include "registration/Framed_surface_3.h"
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
 
