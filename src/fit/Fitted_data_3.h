@@ -2,11 +2,22 @@
 #ifndef EQUIAFFINE_SRC_FIT_FITTED_DATA_3_H
 #define EQUIAFFINE_SRC_FIT_FITTED_DATA_3_H
 
-#include "fit/Normalization_3.h"
-#include "fit/choose_fit.h"
+#include "fit/Curvature_fit_3.h"
+#include "fit/Data_points_3.h"
+#include "fit/Fit_choices_3.h"
+#include "fit/Fitted_numbers.h"
+#include "fit/fit_height.h"
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/base/internal/random_subset.h>
+#include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/number/Jet_3.h>
 #include <equiaffine/number/internal/Linear_substitution_3.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -14,11 +25,184 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <optional>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
+
+/// The standard deviation of the points around one from a small height of degree 4: what no smooth surface explains. It
+/// is not a number where there are too few points.
+inline double noise_at_point(const Data_points_3& data, Data_points_3::Index center) {
+  constexpr int degree = 4;
+  constexpr double radius_in_spacings = 6, growth = 1.2;
+  constexpr std::size_t enough = 33; // points: twice the number of coefficients, and some more
+  double radius = radius_in_spacings * data.spacing[center];
+  auto ball = connected_ball(data, center, radius);
+  for (int step = 0; step < 4 && ball.size() < enough; ++step) ball = connected_ball(data, center, radius *= growth);
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (const auto i : ball) normal += data.normals[i];
+  normal.normalize();
+  const Height_system system = height_system(data, ball, radius, normal, degree);
+  const auto count = double(system.rows.rows()), points = double(ball.size());
+  if (points < count + 8) return std::numeric_limits<double>::quiet_NaN();
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(system.rows * system.rows.transpose());
+  const Eigen::VectorXd rest = system.heights - system.rows.transpose() * cholesky.solve(system.rows * system.heights);
+  return radius * rest.norm() / std::sqrt(system.roots_of_weights.squaredNorm() * (1 - count / points));
+}
+
+/// The noise of every point; the mean of the others where it is not known.
+inline std::vector<double> point_noise(bool in_threads, const Data_points_3& data) {
+  std::vector<double> noise(data.size());
+  parallel_for(
+      in_threads, 0, data.size(), [&](std::size_t i) { noise[i] = noise_at_point(data, Data_points_3::Index(i)); }, 64);
+  double sum = 0, known = 0;
+  for (const double number : noise)
+    if (std::isfinite(number)) {
+      sum += number;
+      ++known;
+    }
+  for (double& number : noise)
+    if (!std::isfinite(number)) number = known > 0 ? sum / known : 0;
+  return noise;
+}
+
+/// The diagonal of the box of the points in their own coordinates.
+inline double diagonal_of_data(const Normalized_data& normalized) {
+  const Eigen::Matrix3d inverse = normalized.normalization.matrix.inverse();
+  Eigen::AlignedBox3d box;
+  for (const auto& p : normalized.data.points) box.extend(inverse * p);
+  return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+/// Whether at half of the sample centers the ball of the scale has the points that a polynomial needs.
+inline bool has_enough_points(const Data_points_3& data, const std::vector<Data_points_3::Index>& centers,
+                              const Fit_choices_3& choices) {
+  const Way_to_fit& way = choices.at(Eigen::Vector3d::Zero())->way;
+  const std::array degree = {way.degree};
+  const auto enough = std::count_if(centers.begin(), centers.end(), [&](auto i) {
+    return greatest_degree(way.family, degree, connected_ball(data, i, way.radius).size()) > 0;
+  });
+  return 2 * std::size_t(enough) >= centers.size();
+}
+
+/// Refuses a scale beyond a third of the size of the data, and one below what has enough points at most of them.
+inline void check_scale(const Normalized_data& normalized, Fit_choices_3 choices) {
+  const Data_points_3& data = normalized.data;
+  const Way_to_fit way = choices.at(Eigen::Vector3d::Zero())->way;
+  if (greatest_degree(way.family, std::array{way.degree}, data.size()) == 0) return; // nothing is known then
+  const double unit = normalized.normalization.scale(), scale = *choices.scale() / unit;
+  const double diagonal = diagonal_of_data(normalized);
+  const double unit_of_third_digit = std::pow(10, std::floor(std::log10(diagonal)) - 3);
+  const auto text = [](const auto&... words) {
+    std::ostringstream stream;
+    stream.precision(3);
+    (stream << ... << words);
+    return stream.str();
+  };
+  if (scale > diagonal / 3)
+    throw std::invalid_argument(text("the scale ", scale, " is more than a third of the size ", diagonal,
+                                     " of the data; give at most ",
+                                     std::floor(diagonal / 3 / unit_of_third_digit) * unit_of_third_digit));
+  constexpr std::size_t most_centers = 200;
+  const auto centers = random_subset<Data_points_3::Index>(data.size(), std::min(data.size(), most_centers), 3);
+  double least = scale;
+  for (; !has_enough_points(data, centers, choices) && least < diagonal; least *= 1.1)
+    choices.set_scale(1.1 * least * unit);
+  if (least != scale && least < diagonal / 3)
+    throw std::invalid_argument(text("within the scale ", scale, " most points have fewer others than a polynomial ",
+                                     "needs; give at least ",
+                                     std::ceil(least / unit_of_third_digit) * unit_of_third_digit));
+}
+
+/// Whether noise leaves K of a fit at a scale known to within a part of |K| + H^2.
+inline bool is_gaussian_known(const Curvature_fit_3& fit, double part) {
+  const auto& numbers = fit.numbers.components;
+  const double size = std::abs(numbers[AFFINE_GAUSSIAN]) + numbers[AFFINE_MEAN] * numbers[AFFINE_MEAN];
+  return std::isfinite(fit.accuracy.error[AFFINE_GAUSSIAN]) &&
+         fit.accuracy.noise[AFFINE_GAUSSIAN] * fit.numbers.sizes()[AFFINE_GAUSSIAN] <= part * size;
+}
+
+/// Whether the surface of a fit is flat along a direction, within the error: it has no affine curvature to be known.
+inline bool is_flat(const Curvature_fit_3& fit) {
+  const Number_errors sizes = fit.numbers.sizes();
+  return std::abs(fit.numbers.components[GAUSSIAN]) <= fit.accuracy.error[GAUSSIAN] * sizes[GAUSSIAN] &&
+         fit.accuracy.error[GAUSSIAN] <= 0.01;
+}
+
+/// Returns the part of centers at which `is_settled(fit)` holds.
+template <class Is_settled>
+double part_settled(bool in_threads, const Data_points_3& data, const Fit_choices_3& choices,
+                    const std::vector<Data_points_3::Index>& centers, const Is_settled& is_settled) {
+  std::vector<char> settled(centers.size());
+  parallel_for(in_threads, 0, centers.size(), [&](std::size_t c) {
+    const auto& choice = choices.at(data.points[centers[c]]);
+    const auto fit = choice ? curvature_fit(data, centers[c], *choice, choices, Fit_use::BLEND) : std::nullopt;
+    settled[c] = fit && is_settled(*fit);
+  });
+  return centers.empty() ? 1 : double(std::count(settled.begin(), settled.end(), 1)) / double(centers.size());
+}
+
+/// The diagonal of the box of points along their principal axes: in normal coordinates it is the same for all affine
+/// images of the points, but where axes are not determined.
+inline double principal_diagonal(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& p : points) mean += p / double(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const auto& p : points) spread += (p - mean) * (p - mean).transpose();
+  const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().transpose();
+  Eigen::Vector3d lower = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+  for (const auto& p : points) {
+    lower = lower.cwiseMin(axes * p);
+    upper = upper.cwiseMax(axes * p);
+  }
+  return points.empty() ? 0 : (upper - lower).norm();
+}
+
+/// Sets the smallest scale at which noise leaves K known to 20 % at half of the points, from 1/64 to 1/8 of the diagonal;
+/// or the largest of these, where it never does.
+inline void set_known_scale(bool in_threads, const Normalized_data& normalized, Fit_choices_3& choices) {
+  const Data_points_3& data = normalized.data;
+  constexpr std::size_t most_centers = 200;
+  constexpr int quarters_of_octave = 12;
+  const auto centers = random_subset<Data_points_3::Index>(data.size(), std::min(data.size(), most_centers), 3);
+  const double greatest =
+      std::min(principal_diagonal(data.points), normalized.normalization.scale() * diagonal_of_data(normalized)) / 8;
+  for (int step = quarters_of_octave; step >= 0; --step) {
+    choices.set_scale(greatest * std::pow(2, -0.25 * step));
+    if (step > 0 && part_settled(in_threads, data, choices, centers,
+                                 [](const auto& fit) { return is_gaussian_known(fit, 0.2); }) >= 0.5)
+      return;
+  }
+}
+
+/// Chooses how to fit. A scale of 0 asks for the surface's own curvature. Without a scale that is chosen where K is
+/// known to 50 % at half of the points, or does not exist since the surface is flat.
+inline Fit_choices_3 choose_fit(bool in_threads, const Normalized_data& normalized, const Fit_request& request) {
+  const Data_points_3& data = normalized.data;
+  const Eigen::Matrix3d& matrix = normalized.normalization.matrix;
+  if (!request.scale || *request.scale == 0) {
+    Fit_trials_3 trials(in_threads, data, request);
+    const auto centers = trials.centers();
+    Fit_choices_3 own(data, matrix, request, std::move(trials));
+    const auto is_settled = [](const Curvature_fit_3& fit) {
+      return fit.accuracy.error[AFFINE_GAUSSIAN] <= 0.5 || is_flat(fit);
+    };
+    if (request.scale || part_settled(in_threads, data, own, centers, is_settled) >= 0.5) return own;
+  }
+  auto noise = request.noise ? std::vector<double>(data.size(), *request.noise) : point_noise(in_threads, data);
+  Fit_choices_3 at_scale(data, matrix, request, std::move(noise));
+  if (!request.scale) {
+    set_known_scale(in_threads, normalized, at_scale);
+    return at_scale;
+  }
+  at_scale.set_scale(*request.scale);
+  check_scale(normalized, at_scale);
+  return at_scale;
+}
 
 /// Data points with the way to fit them. It stays where it is, since the choice refers to the data.
 class Fitted_data_3 {
@@ -83,6 +267,60 @@ private:
   Fit_choices_3 choices_;
   Linear_substitution_3<double> substitution_;
 };
+
+/// The errors of second derivatives that roundings make; infinity where K_e is zero within its estimated error, and no
+/// more than that of a sphere whose radius is ten times that of the fit: an error may be large beside any curvature.
+inline double rounding_of(const Jet_3<double>& jet, const Fitted_data_3& fit, const Fit_accuracy& accuracy) {
+  const Fitted_numbers numbers(jet);
+  const double curvature = std::abs(numbers.components[GAUSSIAN]);
+  const bool is_flat = curvature <= accuracy.error[GAUSSIAN] * numbers.sizes()[GAUSSIAN] &&
+                       curvature * accuracy.radius * accuracy.radius <= 0.01;
+  return is_flat ? std::numeric_limits<double>::infinity() : fit.rounding(fit.to_space(jet), accuracy.radius);
+}
+
+/// The errors of the numbers of a structure that exist, from errors relative to their sizes. Angles are in degrees.
+inline Local_structure_error_3<double> structure_error(const Number_errors& relative, const Number_errors& sizes,
+                                                       Point_status status) {
+  Number_errors e = relative * sizes;
+  e.tail<2>() = (e.tail<2>() * (180 / std::numbers::pi)).min(180);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  if (status != Point_status::REGULAR) e[AFFINE_GAUSSIAN] = e[AFFINE_MEAN] = e[PICK] = e[AFFINE_NORMAL] = nan;
+  if (status != Point_status::REGULAR && status != Point_status::PARABOLIC) e.setConstant(nan);
+  return {{e[AFFINE_GAUSSIAN], e[AFFINE_MEAN]},
+          e[PICK],
+          e[AREA_DENSITY],
+          e[AFFINE_NORMAL],
+          e[NORMAL],
+          e[GAUSSIAN],
+          e[MEAN],
+          e[K1],
+          e[K2]};
+}
+
+inline Fitted_structure_3<double> structure_without_fit() {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  auto structure = local_structure(Jet_3<double>(nan));
+  structure.status = Point_status::OUTSIDE;
+  const Local_structure_error_3<double> unknown =
+      structure_error(Number_errors::Constant(nan), Number_errors::Ones(), structure.status);
+  return {structure, unknown, unknown, unknown, nan, false, nan};
+}
+
+/// The structure of the level set through a point, from the expansion there of a fit, or of a blend of fits.
+inline Fitted_structure_3<double> structure_of(const Jet_3<double>& jet, const Fitted_data_3& fit,
+                                               const Fit_accuracy& accuracy, Orientation_of_level_set orientation) {
+  Fitted_structure_3<double> result;
+  const double sign = orientation == Orientation_of_level_set::AGAINST_GRADIENT ? -1 : 1;
+  result.structure = local_structure(fit.to_space(jet) * sign, {0, 0, 0}, rounding_of(jet, fit, accuracy));
+  const Number_errors sizes = Fitted_numbers(fit.to_space(jet)).sizes();
+  result.error = structure_error(accuracy.error, sizes, result.structure.status);
+  result.noise = structure_error(accuracy.noise, sizes, result.structure.status);
+  result.detail = structure_error(accuracy.detail, sizes, result.structure.status);
+  result.scale = fit.scale().value_or(accuracy.radius / fit.normalization().scale());
+  result.is_at_scale = fit.scale().has_value();
+  result.deviation = accuracy.deviation / fit.normalization().scale();
+  return result;
+}
 
 } // namespace equiaffine::internal
 

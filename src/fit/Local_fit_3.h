@@ -4,19 +4,185 @@
 
 #include "fit/Data_points_3.h"
 #include "fit/Fitted_numbers.h"
-#include "fit/Patch_3.h"
 #include <equiaffine/geometry/affine_structure.h>
 #include <equiaffine/number/Jet_3.h>
 
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace equiaffine::internal {
+
+/// The kinds of polynomials that are fitted to points.
+enum class Fit_family {
+  HEIGHT, ///< w = p(u, v) in a frame whose third axis is a normal
+  SPACE   ///< f(x, y, z) = 0
+};
+
+constexpr std::size_t number_of_coefficients(Fit_family family, int degree) {
+  return std::size_t(family == Fit_family::HEIGHT ? (degree + 1) * (degree + 2) / 2
+                                                  : (degree + 1) * (degree + 2) * (degree + 3) / 6);
+}
+
+/// Returns the greatest of the degrees for which there are at least 1.2 points to a coefficient, or 0.
+inline int greatest_degree(Fit_family family, std::span<const int> degrees, std::size_t points) {
+  int greatest = 0;
+  for (const int degree : degrees)
+    if (double(points) >= 1.2 * double(number_of_coefficients(family, degree))) greatest = std::max(greatest, degree);
+  return greatest;
+}
+
+/// A polynomial whose zero set is the surface near a center, in units of `radius` about it. Its value is about the
+/// signed distance from the surface, in the unit of the points.
+struct Patch_3 {
+  using Vector = Eigen::Vector3d;
+
+  Fit_family family = Fit_family::HEIGHT;
+  int degree = 0;
+  double radius = 1;
+  Vector center = Vector::Zero();
+  /// The axes of u, v, w as rows. A patch of Fit_family::SPACE has those of space.
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
+  double slope_factor = 1; ///< 1 / |gradient of w - p(u, v)| at the center
+  /// A height has those of u^i v^j with ascending i for ascending j, a polynomial in space those of x^i y^j z^k with
+  /// ascending k for ascending j for ascending i.
+  std::vector<double> coefficients;
+
+  double value(const Vector& p) const;
+
+  /// The expansion of order 1 or 4.
+  template <int Order = default_order>
+  Jet_3<double, Order> taylor(const Vector& p) const;
+};
+
+/// Replaces a polynomial c_0 + c_1 t + ... + c_n t^n by the first `count` coefficients of its expansion at t.
+inline void expand_at(double t, double* c, int degree, int count) {
+  for (int k = 0; k < count; ++k)
+    for (int i = degree - 1; i >= k; --i) c[i] += t * c[i + 1];
+}
+
+/// Returns the coefficients of u^i v^j, i + j <= Order, of the expansion of p at (u, v), in row i.
+template <int Order>
+auto expand_height(const Patch_3& patch, double u, double v) {
+  constexpr std::size_t most = 13, orders = std::size_t(Order) + 1;
+  std::array<std::array<double, most>, orders> rows = {}; // row i: the coefficients of the powers of v beside du^i
+  const double* c = patch.coefficients.data();
+  for (int j = 0; j <= patch.degree; ++j) {
+    const int degree = patch.degree - j, count = std::min(degree, Order) + 1;
+    std::array<double, most> line;
+    for (int i = 0; i <= degree; ++i) line[std::size_t(i)] = *c++;
+    expand_at(u, line.data(), degree, count);
+    for (int i = 0; i < count; ++i) rows[std::size_t(i)][std::size_t(j)] = line[std::size_t(i)];
+  }
+  std::array<std::array<double, orders>, orders> expansion = {};
+  for (int i = 0; i <= Order; ++i) {
+    const int count = Order - i + 1;
+    expand_at(v, rows[std::size_t(i)].data(), patch.degree - i, count);
+    for (int j = 0; j < count; ++j) expansion[std::size_t(i)][std::size_t(j)] = rows[std::size_t(i)][std::size_t(j)];
+  }
+  return expansion;
+}
+
+/// Returns the jet of w - p(u, v) at a point, in units of the radius, in the coordinates of space.
+template <int Order>
+Jet_3<double, Order> height_taylor(const Patch_3& patch, const Eigen::Vector3d& local) {
+  const auto p = expand_height<Order>(patch, local[0], local[1]);
+  constexpr Monomial_set linear = all_monomials(1) & ~Monomial_set(1);
+  const auto axis = [&](int row) {
+    Jet_3<double, Order, linear> form;
+    for (std::size_t n = 0; n < 3; ++n) form.coefficients()[n] = patch.frame(row, Eigen::Index(n));
+    return form;
+  };
+  const auto u = axis(0), v = axis(1), w = axis(2);
+  const auto one = w - u * p[1][0] - v * p[0][1] + (local[2] - p[0][0]);
+  if constexpr (Order == 1) return one;
+  else {
+    const auto uu = square(u), uv = u * v, vv = square(v);
+    const auto two = uu * p[2][0] + uv * p[1][1] + vv * p[0][2];
+    const auto three = uu * (u * p[3][0] + v * p[2][1]) + vv * (u * p[1][2] + v * p[0][3]);
+    const auto four = uu * (uu * p[4][0] + uv * p[3][1] + vv * p[2][2]) + vv * (uv * p[1][3] + vv * p[0][4]);
+    return one - two - three - four;
+  }
+}
+
+/// Returns the jet of a polynomial in space at a point in units of the radius.
+template <int Order>
+Jet_3<double, Order> space_taylor(const Patch_3& patch, const Eigen::Vector3d& local) {
+  constexpr std::size_t most = 8, orders = std::size_t(Order) + 1;
+  const int d = patch.degree;
+  // planes[k][j] has the coefficients of the powers of x beside dy^j dz^k.
+  std::array<std::array<std::array<double, most>, orders>, orders> planes;
+  const double* c = patch.coefficients.data();
+  for (int i = 0; i <= d; ++i) {
+    std::array<std::array<double, most>, orders> rows = {}; // rows[k] has those of the powers of y beside x^i dz^k
+    for (int j = 0; i + j <= d; ++j) {
+      const int degree = d - i - j, count = std::min(degree, Order) + 1;
+      std::array<double, most> line{};
+      for (int k = 0; k <= degree; ++k) line[std::size_t(k)] = *c++;
+      expand_at(local[2], line.data(), degree, count);
+      for (int k = 0; k < count; ++k) rows[std::size_t(k)][std::size_t(j)] = line[std::size_t(k)];
+    }
+    for (int k = 0; k <= std::min(d - i, Order); ++k) {
+      const int count = std::min(d - i - k, Order - k) + 1;
+      expand_at(local[1], rows[std::size_t(k)].data(), d - i - k, count);
+      for (int j = 0; j < count; ++j)
+        planes[std::size_t(k)][std::size_t(j)][std::size_t(i)] = rows[std::size_t(k)][std::size_t(j)];
+    }
+  }
+  Jet_3<double, Order> jet(0.);
+  for (int k = 0; k <= Order; ++k)
+    for (int j = 0; j + k <= Order; ++j) {
+      auto& line = planes[std::size_t(k)][std::size_t(j)];
+      const int count = Order - j - k + 1;
+      expand_at(local[0], line.data(), d - j - k, count);
+      for (int i = 0; i < count; ++i)
+        jet.coefficients()[std::size_t(Jet_3<double>::index(i, j, k))] = line[std::size_t(i)];
+    }
+  return jet;
+}
+
+template <int Order>
+Jet_3<double, Order> Patch_3::taylor(const Vector& p) const {
+  const Vector local = (family == Fit_family::HEIGHT ? Vector(frame * (p - center)) : Vector(p - center)) / radius;
+  auto jet = family == Fit_family::HEIGHT ? height_taylor<Order>(*this, local) : space_taylor<Order>(*this, local);
+  double scale = radius * slope_factor;
+  std::size_t n = 0;
+  for (int order = 0; order <= Order; ++order, scale /= radius)
+    for (; n < std::size_t(number_of_monomials(order)); ++n) jet.coefficients()[n] *= scale;
+  return jet;
+}
+
+inline double Patch_3::value(const Vector& p) const {
+  const double* c = coefficients.data() + coefficients.size();
+  if (family == Fit_family::HEIGHT) {
+    const Vector local = frame * (p - center) / radius;
+    double sum = 0;
+    for (int j = degree; j >= 0; --j) {
+      double line = 0;
+      for (int i = degree - j; i >= 0; --i) line = line * local[0] + *--c;
+      sum = sum * local[1] + line;
+    }
+    return (local[2] - sum) * radius * slope_factor;
+  }
+  const Vector local = (p - center) / radius;
+  double sum = 0;
+  for (int i = degree; i >= 0; --i) {
+    double plane = 0;
+    for (int j = degree - i; j >= 0; --j) {
+      double line = 0;
+      for (int k = degree - i - j; k >= 0; --k) line = line * local[2] + *--c;
+      plane = plane * local[1] + line;
+    }
+    sum = sum * local[0] + plane;
+  }
+  return sum * radius * slope_factor;
+}
 
 struct Fitted_curvatures {
   double gaussian, mean; ///< the affine ones

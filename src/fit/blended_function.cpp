@@ -2,7 +2,6 @@
 #include "fit/Blend_3.h"
 #include "fit/Fitted_data_3.h"
 #include "fit/fit_input.h"
-#include "fit/structure_of_jet.h"
 #include <equiaffine/fit/Fitted_structure_3.h>
 #include <equiaffine/fit/internal/Band_margin.h>
 #include <equiaffine/fit/internal/Fit_request.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/Data_points_3.h"
 #include "fit/Fitted_data_3.h"
-#include "fit/Point_tree_3.h"
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/fit/internal/fits.h>
 

@@ -2,18 +2,29 @@
 #ifndef EQUIAFFINE_SRC_FIT_FIT_INPUT_H
 #define EQUIAFFINE_SRC_FIT_FIT_INPUT_H
 
-#include "fit/data_of_mesh.h"
-#include "fit/data_of_points.h"
+#include "fit/Data_points_3.h"
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/fit/Normal_orientation.h>
+#include <equiaffine/fit/internal/Creased_polygons_3.h>
 #include <equiaffine/fit/internal/Fit_data_3.h>
 #include <equiaffine/mesh/internal/indexed_polygons.h>
 
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Simple_cartesian.h>
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <optional>
+#include <queue>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -29,6 +40,212 @@
 #endif
 
 namespace equiaffine::internal {
+
+/// The mean of the neighbors of a point.
+inline Eigen::Vector3d mean_of_neighbors(const Data_points_3& data, Data_points_3::Index i) {
+  const auto around = data.neighbors_of(i);
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto j : around) mean += data.points[j] / double(around.size());
+  return mean;
+}
+
+/// Whether a point is an outlier: away from the mean of its neighbors and theirs by more than 1.5 times their mean distance
+/// from it, and from each neighbor by more than 1.5 times the median distance between these and theirs. A corner of a
+/// solid, the apex of a flat cone, the center of a fan of long triangles and a point at a border are none.
+inline bool is_outlier(const Data_points_3& data, Data_points_3::Index i) {
+  constexpr double much = 1.5;
+  constexpr std::size_t enough = 3; // neighbors
+  const auto& points = data.points;
+  std::vector<Data_points_3::Index> around(data.neighbors_of(i).begin(), data.neighbors_of(i).end());
+  if (around.size() < enough) return false;
+  double nearest = std::numeric_limits<double>::infinity();
+  std::vector<double> distances;
+  for (const auto j : data.neighbors_of(i)) {
+    nearest = std::min(nearest, (points[j] - points[i]).norm());
+    for (const auto k : data.neighbors_of(j)) {
+      if (k == i) continue;
+      distances.push_back((points[j] - points[k]).norm());
+      around.push_back(k);
+    }
+  }
+  if (distances.empty()) return false;
+  const auto median = distances.begin() + std::ptrdiff_t(distances.size() / 2);
+  std::nth_element(distances.begin(), median, distances.end());
+  if (!(nearest > much * *median)) return false;
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto j : around) mean += points[j] / double(around.size());
+  double radius = 0;
+  for (const auto j : around) radius += (points[j] - mean).norm() / double(around.size());
+  return (points[i] - mean).norm() > much * radius;
+}
+
+/// One flag for each point.
+inline std::vector<char> outliers(const Data_points_3& data) {
+  std::vector<char> result(data.size());
+  for (std::size_t i = 0; i < data.size(); ++i) result[i] = is_outlier(data, Data_points_3::Index(i));
+  return result;
+}
+
+/// Leaves the edges between points that are no outliers, and returns whether there were others. Points without neighbors
+/// get no fit and count in none.
+inline bool drop_outliers(const std::vector<char>& is_outlier, std::vector<Data_points_3::Edge>& edges) {
+  return std::erase_if(edges, [&](const auto& edge) {
+           const auto is_one = [&](Data_points_3::Index i) { return i < is_outlier.size() && is_outlier[i]; };
+           return is_one(edge.first) || is_one(edge.second);
+         }) > 0;
+}
+
+/// The edges of polygons, once each.
+inline std::vector<Data_points_3::Edge> edges_of(const std::vector<std::vector<Data_points_3::Index>>& faces) {
+  std::vector<Data_points_3::Edge> edges;
+  for (const auto& face : faces)
+    for (std::size_t k = 0; k < face.size(); ++k)
+      edges.push_back(std::minmax<Data_points_3::Index>(face[k], face[(k + 1) % face.size()]));
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+/// Vertices of a mesh with the polygons between them. Neighbors are the ends of edges, and normals are the sums of
+/// those of the faces around, weighted by area. The surface comes apart at creases, edges that bend by more than an angle
+/// in degrees: the points on them are data of each side, those of all sides but the largest one behind the vertices.
+/// Outliers have no neighbors.
+inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices,
+                                    const std::vector<std::vector<Data_points_3::Index>>& faces,
+                                    std::optional<double> feature_angle) {
+  std::vector<Data_points_3::Edge> edges = edges_of(faces);
+  Normalized_data result;
+  result.normalization = normalization_of(vertices, edges);
+  Data_points_3& data = result.data;
+  for (const auto& p : vertices) data.points.push_back(result.normalization(p));
+  set_neighbors(data, edges);
+  const std::vector<char> is_outlier = outliers(data);
+  std::vector<Eigen::Vector3d> without_outliers = vertices; // which would bend faces and make creases around them
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (is_outlier[i])
+      without_outliers[i] = result.normalization.inverse(mean_of_neighbors(data, Data_points_3::Index(i)));
+  Creased_polygons_3 mesh(without_outliers, faces);
+  if (feature_angle) data.charts = mesh.split(mesh.creases(*feature_angle));
+  data.points.clear();
+  for (const auto& p : mesh.points()) data.points.push_back(result.normalization(p));
+  data.normals.assign(data.size(), Eigen::Vector3d::Zero());
+  for (const auto& face : mesh.faces()) {
+    const Eigen::Vector3d area = double_area_of_polygon(data.points, face);
+    for (const auto i : face) data.normals[i] += area;
+  }
+  for (auto& normal : data.normals) normal.normalize();
+  const bool has_creases = !data.charts.empty();
+  if (has_creases) edges = edges_of(mesh.faces());
+  if (drop_outliers(is_outlier, edges) || has_creases) set_neighbors(data, std::move(edges));
+  set_spacing(data, 1);
+  const std::vector<char> is_on_border = mesh.borders();
+  data.is_at_border = is_on_border;
+  for (Data_points_3::Index i = 0; i < data.size(); ++i)
+    if (is_on_border[i])
+      for (const auto j : connected_ball(data, i, data.spacing[i])) data.is_at_border[j] = 1;
+  return result;
+}
+
+/// Replaces the normals that the faces around the vertices have by given ones, but for those that differ by more than 60
+/// degrees: at a crease a vertex has one normal, and two sides.
+inline void improve_normals(Normalized_data& normalized, const std::vector<Eigen::Vector3d>& given) {
+  constexpr double least_cosine = 0.5;
+  const Eigen::Matrix3d inverse_transpose = normalized.normalization.matrix.inverse().transpose();
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const Eigen::Vector3d normal = (inverse_transpose * given[i]).normalized();
+    if (normal.dot(normalized.data.normals[i]) > least_cosine) normalized.data.normals[i] = normal;
+  }
+}
+
+constexpr std::size_t number_of_nearest = 16;
+
+/// The length of the edges of a triangulation of equilateral triangles, where 1 is the radius of a disk that has as
+/// many points as vertices: the square root of 2 pi / sqrt(3). The mean distance to the n nearest points is 2/3
+/// sqrt(n).
+constexpr double mesh_edge = 1.9046;
+
+/// Returns the edges from every point to its nearest others.
+inline std::vector<Data_points_3::Edge> edges_to_nearest(bool in_threads, const std::vector<Eigen::Vector3d>& points) {
+  const Point_tree_3 tree(points);
+  std::vector<std::vector<Data_points_3::Index>> nearest(points.size());
+  parallel_for(
+      in_threads, 0, points.size(), [&](std::size_t i) { nearest[i] = tree.nearest(points[i], number_of_nearest + 1); },
+      256);
+  std::vector<Data_points_3::Edge> edges;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (const auto j : nearest[i])
+      if (j != i) edges.emplace_back(Data_points_3::Index(i), j);
+  return edges;
+}
+
+/// Sets the normals to the directions in which the neighbors are spread the least.
+inline void set_normals_by_neighbors(bool in_threads, Data_points_3& data) {
+  data.normals.assign(data.size(), Eigen::Vector3d::Zero());
+  parallel_for(
+      in_threads, 0, data.size(),
+      [&](std::size_t i) {
+        const auto around = data.neighbors_of(Data_points_3::Index(i));
+        Eigen::Vector3d mean = data.points[i];
+        for (const auto j : around) mean += data.points[j];
+        mean /= double(around.size() + 1);
+        Eigen::Matrix3d spread = (data.points[i] - mean) * (data.points[i] - mean).transpose();
+        for (const auto j : around) spread += (data.points[j] - mean) * (data.points[j] - mean).transpose();
+        data.normals[i] = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+      },
+      256);
+}
+
+/// Turns normals so that those of neighbors agree, along a spanning tree of least differences of direction for each
+/// component, from its highest point, whose normal points up (Hoppe et al. 1992, section 3.3).
+inline void orient_normals(Data_points_3& data) {
+  using Index = Data_points_3::Index;
+  std::vector<Index> highest_first(data.size());
+  std::iota(highest_first.begin(), highest_first.end(), Index(0));
+  std::stable_sort(highest_first.begin(), highest_first.end(),
+                   [&](Index i, Index j) { return data.points[i][2] > data.points[j][2]; });
+  std::vector<bool> is_oriented(data.size());
+  using Step = std::tuple<double, Index, Index>; // the difference, the point, the one it is reached from
+  std::priority_queue<Step, std::vector<Step>, std::greater<Step>> steps;
+  for (const Index start : highest_first) {
+    if (is_oriented[start]) continue;
+    if (data.normals[start][2] < 0) data.normals[start] *= -1;
+    steps.emplace(0., start, start);
+    while (!steps.empty()) {
+      const auto [difference, i, from] = steps.top();
+      steps.pop();
+      if (is_oriented[i]) continue;
+      is_oriented[i] = true;
+      if (data.normals[i].dot(data.normals[from]) < 0) data.normals[i] *= -1;
+      for (const Index j : data.neighbors_of(i))
+        if (!is_oriented[j]) steps.emplace(1 - std::abs(data.normals[i].dot(data.normals[j])), j, i);
+    }
+  }
+}
+
+/// Points without faces, all different. Neighbors are the nearest points, first as they are given and then in the
+/// coordinates in which the edges found at first have no preferred direction. Outliers have no neighbors. Normals that
+/// are not given are estimated.
+inline Normalized_data data_of_points(bool in_threads, const std::vector<Eigen::Vector3d>& points,
+                                      const std::vector<Eigen::Vector3d>& normals = {},
+                                      Normal_orientation orientation = Normal_orientation::UNORIENTED) {
+  Normalized_data result;
+  Data_points_3& data = result.data;
+  result.normalization = normalization_of(points, edges_to_nearest(in_threads, points));
+  for (const auto& p : points) data.points.push_back(result.normalization(p));
+  std::vector<Data_points_3::Edge> edges = edges_to_nearest(in_threads, data.points);
+  set_neighbors(data, edges);
+  if (drop_outliers(outliers(data), edges)) set_neighbors(data, std::move(edges));
+  set_spacing(data, mesh_edge / (2. / 3 * std::sqrt(double(number_of_nearest))));
+  if (normals.empty()) set_normals_by_neighbors(in_threads, data);
+  else {
+    const Eigen::Matrix3d inverse_transpose = result.normalization.matrix.inverse().transpose();
+    for (const auto& normal : normals) data.normals.push_back((inverse_transpose * normal).normalized());
+  }
+  if (normals.empty() || orientation == Normal_orientation::UNORIENTED) orient_normals(data);
+  return result;
+}
 
 /// The data points, and which of them each given point is: none for a mesh, whose vertices come first, in their order,
 /// and behind them others at creases.

@@ -2,11 +2,9 @@
 #ifndef EQUIAFFINE_SRC_FIT_FIT_SPACE_H
 #define EQUIAFFINE_SRC_FIT_FIT_SPACE_H
 
-#include "fit/Bombieri_basis_3.h"
 #include "fit/Data_points_3.h"
 #include "fit/Local_fit_3.h"
 #include "fit/foot_on_surface.h"
-#include "fit/monomial_moments.h"
 #include <equiaffine/number/internal/monomials_3.h>
 
 #include <Eigen/Cholesky>
@@ -22,6 +20,151 @@
 #include <vector>
 
 namespace equiaffine::internal {
+
+/// The weight of a point in a fit, at a distance from the center given in radii: 1 - distance^2, and not quite zero.
+inline double fit_weight(double squared_distance) { return std::max(1e-9, 1 - squared_distance); }
+
+/// The number of monomials x^i y^j z^k of total degree up to `degree`.
+constexpr Eigen::Index number_of_monomials_3(int degree) {
+  return Eigen::Index((degree + 1) * (degree + 2) * (degree + 3) / 6);
+}
+
+/// The position of x^i y^j z^k among monomials that are ordered by degree, then by descending i and j.
+constexpr Eigen::Index position_of_monomial(int i, int j, int k) {
+  const int n = i + j + k, s = n - i;
+  return (n > 0 ? number_of_monomials_3(n - 1) : 0) + Eigen::Index(s * (s + 1) / 2 + k);
+}
+
+/// Sums over the points of a ball, of weights times monomials and products of components of the normal, from which
+/// polynomials of degree d have their normal equations. There are far fewer of them than products of pairs of monomials.
+struct Monomial_moments {
+  Eigen::VectorXd of_points; ///< of monomials up to degree 2 d
+  /// These are of monomials up to degree 2 d - 2 times n_x n_x, n_x n_y, n_x n_z, n_y n_y, n_y n_z, n_z n_z, n_x, n_y
+  /// and n_z.
+  Eigen::Matrix<double, Eigen::Dynamic, 9> of_normals;
+};
+
+/// The moments for polynomials of that degree, with coordinates in radii about the center.
+inline Monomial_moments monomial_moments(const Data_points_3& data, std::span<const Data_points_3::Index> ball,
+                                         const Eigen::Vector3d& center, double radius, int degree) {
+  constexpr Eigen::Index block = 64;
+  const Eigen::Index all = number_of_monomials_3(2 * degree), with_normals = number_of_monomials_3(2 * degree - 2);
+  Eigen::Matrix<double, block, Eigen::Dynamic> values(block, all);
+  Eigen::Matrix<double, block, 3> local;
+  Eigen::Matrix<double, block, 9> normals;
+  Monomial_moments moments{Eigen::VectorXd::Zero(all), Eigen::MatrixXd::Zero(with_normals, 9)};
+  for (std::size_t begin = 0; begin < ball.size(); begin += std::size_t(block)) {
+    const Eigen::Index count = std::min(block, Eigen::Index(ball.size() - begin));
+    if (count < block) local.setZero(), normals.setZero(), values.col(0).setZero();
+    for (Eigen::Index l = 0; l < count; ++l) {
+      const auto i = ball[begin + std::size_t(l)];
+      const Eigen::Vector3d p = (data.points[i] - center) / radius, &n = data.normals[i];
+      local.row(l) = p;
+      normals.row(l) << n[0] * n[0], n[0] * n[1], n[0] * n[2], n[1] * n[1], n[1] * n[2], n[2] * n[2], n[0], n[1], n[2];
+      values(l, 0) = fit_weight(p.squaredNorm());
+    }
+    Eigen::Index next = 1, before = 0; // the first monomials of this degree and of the one before
+    for (Eigen::Index n = 1; n <= 2 * degree; ++n) {
+      const auto raise = [&](Eigen::Index from, Eigen::Index axis) {
+        values.col(next++) = values.col(from).cwiseProduct(local.col(axis));
+      };
+      const Eigen::Index first = next, of_plane = n * (n + 1) / 2;
+      for (Eigen::Index q = 0; q < of_plane; ++q) raise(before + q, 0);
+      for (Eigen::Index q = of_plane - n; q < of_plane; ++q) raise(before + q, 1);
+      raise(first - 1, 2);
+      before = first;
+    }
+    moments.of_points += values.colwise().sum().transpose();
+    moments.of_normals.noalias() += values.leftCols(with_normals).transpose() * normals;
+  }
+  return moments;
+}
+
+constexpr int maximal_space_degree = 7;
+
+/// The monomials x^i y^j z^k of total degree n up to 7, ordered by degree, each times the root of n! / (i! j! k!). Sums
+/// of squares of coefficients beside them do not change when space is rotated (Bombieri's norm).
+class Bombieri_basis_3 {
+public:
+  static constexpr std::size_t size = number_of_coefficients(Fit_family::SPACE, maximal_space_degree);
+
+  struct Element {
+    int i, j, k;
+    double factor;
+  };
+
+  Bombieri_basis_3() {
+    std::size_t m = 0;
+    for (int n = 0; n <= maximal_space_degree; ++n)
+      for (int i = n; i >= 0; --i)
+        for (int j = n - i; j >= 0; --j, ++m)
+          elements_[m] = {i, j, n - i - j, std::sqrt(binomial(n, i) * binomial(n - i, j))};
+  }
+
+  static double binomial(int n, int k) {
+    double result = 1;
+    for (int i = 0; i < k; ++i) result = result * (n - i) / (i + 1);
+    return result;
+  }
+
+  const Element& operator[](std::size_t m) const { return elements_[m]; }
+
+  /// Returns the weighted sums of products of values of the elements up to a degree.
+  Eigen::MatrixXd products(const Monomial_moments& moments, int degree) const {
+    return symmetric_matrix(degree, [&](const Element& a, const Element& b) {
+      return moments.of_points[position_of_monomial(a.i + b.i, a.j + b.j, a.k + b.k)];
+    });
+  }
+
+  /// Returns the weighted sums of products of derivatives along the normals.
+  Eigen::MatrixXd products_of_derivatives(const Monomial_moments& moments, int degree) const {
+    return symmetric_matrix(degree, [&](const Element& a, const Element& b) {
+      const std::array<int, 3> p = {a.i, a.j, a.k}, q = {b.i, b.j, b.k};
+      double sum = 0;
+      for (std::size_t u = 0; u < 3; ++u)
+        for (std::size_t v = 0; v < 3; ++v) {
+          if (p[u] * q[v] == 0) continue;
+          std::array<int, 3> power = {p[0] + q[0], p[1] + q[1], p[2] + q[2]};
+          --power[u];
+          --power[v];
+          const auto [low, high] = std::minmax(u, v);
+          sum += p[u] * q[v] *
+                 moments.of_normals(position_of_monomial(power[0], power[1], power[2]),
+                                    Eigen::Index(low == 0 ? high : 2 * low + high - (low == 2)));
+        }
+      return sum;
+    });
+  }
+
+  /// Returns the weighted sums of derivatives along the normals.
+  Eigen::VectorXd derivatives(const Monomial_moments& moments, int degree) const {
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(number_of_monomials_3(degree));
+    for (Eigen::Index m = 0; m < result.size(); ++m) {
+      const auto& [i, j, k, factor] = elements_[std::size_t(m)];
+      if (i > 0) result[m] += factor * i * moments.of_normals(position_of_monomial(i - 1, j, k), 6);
+      if (j > 0) result[m] += factor * j * moments.of_normals(position_of_monomial(i, j - 1, k), 7);
+      if (k > 0) result[m] += factor * k * moments.of_normals(position_of_monomial(i, j, k - 1), 8);
+    }
+    return result;
+  }
+
+private:
+  template <class Entry>
+  Eigen::MatrixXd symmetric_matrix(int degree, const Entry& entry) const {
+    const Eigen::Index count = number_of_monomials_3(degree);
+    Eigen::MatrixXd result(count, count);
+    for (Eigen::Index m = 0; m < count; ++m)
+      for (Eigen::Index n = 0; n <= m; ++n) {
+        const auto &a = elements_[std::size_t(m)], &b = elements_[std::size_t(n)];
+        result(m, n) = result(n, m) = a.factor * b.factor * entry(a, b);
+      }
+    return result;
+  }
+
+  std::array<Element, size> elements_;
+};
+
+inline const Bombieri_basis_3 bombieri_basis_3;
 
 /// The rows of points of a ball: that f is zero there, and that its derivative along the normal is 1.
 struct Space_system {

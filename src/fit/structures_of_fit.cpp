@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/Curvature_fit_3.h"
 #include "fit/Fitted_data_3.h"
-#include "fit/Patch_cover_3.h"
 #include "fit/fit_input.h"
 #include "fit/foot_on_surface.h"
-#include "fit/structure_of_jet.h"
 #include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
