@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_SRC_DELAUNAY_ANGLE_IMPROVEMENT_3_H
 #define EQUIAFFINE_SRC_DELAUNAY_ANGLE_IMPROVEMENT_3_H
 
-#include "delaunay/Facet_sizing_field.h"
+#include "delaunay/Surface_criteria_3.h"
 #include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/delaunay/Delaunay_surface_3.h>
 #include <equiaffine/function/capabilities.h>

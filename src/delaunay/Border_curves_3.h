@@ -2,26 +2,249 @@
 #ifndef EQUIAFFINE_SRC_DELAUNAY_BORDER_CURVES_3_H
 #define EQUIAFFINE_SRC_DELAUNAY_BORDER_CURVES_3_H
 
-#include "delaunay/Border_curve_tracer_3.h"
-#include "delaunay/Domain_border_3.h"
 #include <equiaffine/delaunay/internal/Seed_grid_3.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/function/concepts.h>
 #include <equiaffine/function/internal/sign_change.h>
 #include <equiaffine/mesh/Polyline_3.h>
+#include <equiaffine/number/Jet_3.h>
 #include <equiaffine/surface/Clip_domain_3.h>
+#include <equiaffine/surface/internal/curve_step.h>
 #include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
+
+/// The border of a clip domain: the faces of a box, or a sphere, onto which the faces of a cube are projected from the
+/// center of the sphere.
+template <class Kernel>
+class Domain_border_3 {
+  using Point_3 = typename Kernel::Point_3;
+
+public:
+  struct Face {
+    int axis; ///< normal to the face
+    bool is_upper;
+  };
+
+  explicit Domain_border_3(const Clip_domain_3& domain) : domain_(domain), box_(domain.bbox()) {}
+
+  bool is_sphere() const { return domain_.is_ball(); }
+  const CGAL::Bbox_3& box() const { return box_; }
+
+  /// The point of a face with parameters u and v, which go from 0 to 1 from side to side.
+  Point_3 point(const Face& face, double u, double v) const {
+    return is_sphere() ? point_of_sphere(face, u, v) : point_of_box(face, u, v);
+  }
+
+  /// The jet of a function that vanishes on the sphere, or on the plane of the nearer face normal to `axis`.
+  Jet_3<double, 1> function(const Point_3& p, int axis) const {
+    Jet_3<double, 1> g(0.0);
+    if (is_sphere()) {
+      double squared = 0;
+      for (int a = 0; a < 3; ++a) {
+        const double d = p[a] - domain_.center()[std::size_t(a)];
+        squared += d * d;
+        g.coefficients()[std::size_t(1 + a)] = d;
+      }
+      g.template at<0>() = (squared - domain_.radius() * domain_.radius()) / 2;
+    } else {
+      g.coefficients()[std::size_t(1 + axis)] = 1;
+      g.template at<0>() = p[axis] - nearer_plane(p, axis);
+    }
+    return g;
+  }
+
+  /// p, moved into the plane of the nearer face normal to `axis`; on a sphere p itself.
+  Point_3 snap(const Point_3& p, int axis) const {
+    if (is_sphere()) return p;
+    std::array<double, 3> x = {p.x(), p.y(), p.z()};
+    at(x, axis) = nearer_plane(p, axis);
+    return Point_3(x[0], x[1], x[2]);
+  }
+
+  /// Returns the axes other than `axis` along which p is outside of the box. There are none for a sphere.
+  std::vector<int> axes_beyond(const Point_3& p, int axis) const {
+    std::vector<int> axes;
+    for (int b = 0; b < 3 && !is_sphere(); ++b)
+      if (b != axis && !(p[b] >= box_.min(b) && p[b] <= box_.max(b))) axes.push_back(b);
+    return axes;
+  }
+
+  static double& at(std::array<double, 3>& p, int a) { return p[std::size_t(a)]; }
+
+private:
+  double nearer_plane(const Point_3& p, int axis) const {
+    const bool is_upper = 2 * p[axis] > box_.min(axis) + box_.max(axis);
+    return is_upper ? box_.max(axis) : box_.min(axis);
+  }
+
+  Point_3 point_of_box(const Face& face, double u, double v) const {
+    const int b = (face.axis + 1) % 3, c = (face.axis + 2) % 3;
+    std::array<double, 3> p;
+    at(p, face.axis) = face.is_upper ? box_.max(face.axis) : box_.min(face.axis);
+    at(p, b) = std::lerp(box_.min(b), box_.max(b), u);
+    at(p, c) = std::lerp(box_.min(c), box_.max(c), v);
+    return Point_3(p[0], p[1], p[2]);
+  }
+
+  Point_3 point_of_sphere(const Face& face, double u, double v) const {
+    const int b = (face.axis + 1) % 3, c = (face.axis + 2) % 3;
+    std::array<double, 3> p;
+    const auto slope = [](double t) { return std::tan(std::numbers::pi / 2 * (t - 0.5)); };
+    const double x = slope(u), y = slope(v), scale = domain_.radius() / std::sqrt(1 + x * x + y * y);
+    at(p, face.axis) = domain_.center()[std::size_t(face.axis)] + (face.is_upper ? scale : -scale);
+    at(p, b) = domain_.center()[std::size_t(b)] + x * scale;
+    at(p, c) = domain_.center()[std::size_t(c)] + y * scale;
+    return Point_3(p[0], p[1], p[2]);
+  }
+
+  const Clip_domain_3& domain_;
+  const CGAL::Bbox_3 box_;
+};
+
+/// Follows a curve in which a surface meets the border of a clip domain, from a point of it by short steps along the
+/// tangent. On a box a curve belongs to a face, normal to an axis, and ends on its edges; the curves of both faces at
+/// an edge get the same end.
+template <ImplicitFunctionTraits_3 Traits>
+class Border_curve_tracer_3 {
+  using Kernel = Kernel_of<Traits>;
+  using Point_3 = typename Traits::Point_3;
+  using Vector_3 = typename Traits::Vector_3;
+  using Border = Domain_border_3<Kernel>;
+
+public:
+  /// Steps have at most the length `step`. A projection moves a point by at most `reach`.
+  Border_curve_tracer_3(const Traits& traits, const Border& border, double step, double reach)
+      : traits_(traits), border_(border), step_(step), reach_(reach) {}
+
+  /// Returns the point of the curve near p, or nothing if there is none within reach.
+  std::optional<Point_3> project(Point_3 p, int axis) const {
+    constexpr int maximal_iterations = 20;
+    constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+    const Point_3 start = p;
+    for (int n = 0; n < maximal_iterations; ++n) {
+      const Vector_3 step = step_to_curve<Vector_3>(first_order(traits_, p), border_.function(p, axis));
+      p = p + step;
+      if (!(CGAL::squared_distance(p, start) <= reach_ * reach_)) return std::nullopt; // also NaN
+      if (step.squared_length() <= rounding * rounding * (p - CGAL::ORIGIN).squared_length())
+        return border_.snap(p, axis);
+    }
+    return std::nullopt;
+  }
+
+  Vector_3 gradient(const Point_3& p) const { return gradient_of<Vector_3>(first_order(traits_, p)); }
+
+  /// The unit tangent of the curve.
+  Vector_3 tangent(const Point_3& p, int axis) const {
+    const Vector_3 t = CGAL::cross_product(gradient_of<Vector_3>(border_.function(p, axis)), gradient(p));
+    return t / std::sqrt(t.squared_length());
+  }
+
+  /// The whole curve through a point of it.
+  Polyline_3<Kernel> trace(const Point_3& start, int axis) {
+    auto [points, is_closed] = follow(start, axis, 1);
+    if (is_closed) {
+      points.push_back(start);
+      return {std::move(points), true};
+    }
+    const auto backward = follow(start, axis, -1).points;
+    std::reverse(points.begin(), points.end());
+    points.push_back(start);
+    points.insert(points.end(), backward.begin(), backward.end());
+    return {std::move(points), false};
+  }
+
+private:
+  struct Half_curve {
+    std::vector<Point_3> points; // the start is left out
+    bool leads_back;             // whether the end is the start
+  };
+
+  /// Goes from a point in one direction along the tangent to an end of the curve, or around it.
+  Half_curve follow(const Point_3& start, int axis, double direction) {
+    std::vector<Point_3> points;
+    Point_3 p = start;
+    Vector_3 t = direction * tangent(p, axis);
+    double length = 0;
+    for (double h = step_; h > step_ / 100 && t == t;) { // a tangent of NaN ends the curve
+      const Point_3 guess = p + h * t;
+      const auto q = project(guess, axis);
+      if (!q) // f may have no value outside of the box
+        for (const int b : border_.axes_beyond(guess, axis))
+          if (const auto end = end_on_edge(p, guess, axis, b)) {
+            points.push_back(*end);
+            return {std::move(points), false};
+          }
+      const Vector_3 next = q ? direction * tangent(*q, axis) : t;
+      if (!q || !is_good_step(guess, *q, t, next, h)) {
+        h /= 2;
+        continue;
+      }
+      if (const auto beyond = border_.axes_beyond(*q, axis); !beyond.empty()) {
+        if (const auto end = end_on_edge(p, *q, axis, beyond.front())) points.push_back(*end);
+        return {std::move(points), false};
+      }
+      if (length > 2 * step_ && CGAL::squared_distance(*q, start) < step_ * step_ / 2) return {std::move(points), true};
+      length += h;
+      points.push_back(*q);
+      p = *q;
+      t = next;
+      h = std::min(2 * h, step_);
+    }
+    return {std::move(points), false};
+  }
+
+  /// Whether a step along tangent t ended near the curve and the tangent of the curve there is nearly t.
+  static bool is_good_step(const Point_3& guess, const Point_3& q, const Vector_3& t, const Vector_3& next, double h) {
+    constexpr double smallest_cosine = 0.95;
+    return CGAL::squared_distance(q, guess) < h * h / 16 && next * t > smallest_cosine;
+  }
+
+  /// The end of the curve between p and q, which is outside of the box along axis b: Newton's method for f on the edge
+  /// of the box. Curves that end at the same place get the same point.
+  std::optional<Point_3> end_on_edge(const Point_3& p, const Point_3& q, int axis, int b) {
+    constexpr int maximal_iterations = 20;
+    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+    const double limit = q[b] > border_.box().max(b) ? border_.box().max(b) : border_.box().min(b);
+    const int c = 3 - axis - b; // along the edge
+    Point_3 end = p + (limit - p[b]) / (q[b] - p[b]) * (q - p);
+    for (int n = 0; n < maximal_iterations; ++n) {
+      const auto jet = first_order(traits_, end);
+      const double step = -jet.value() / jet.coefficients()[std::size_t(1 + c)];
+      end = border_.snap(end, axis);
+      std::array<double, 3> x = {end.x(), end.y(), end.z()};
+      Border::at(x, b) = limit;
+      Border::at(x, c) += step;
+      end = Point_3(x[0], x[1], x[2]);
+      if (!(CGAL::squared_distance(end, p) <= 4 * step_ * step_)) return std::nullopt;
+      if (n > 0 && std::abs(step) <= rounding * std::abs(Border::at(x, c))) break;
+    }
+    if (!border_.axes_beyond(end, axis).empty()) return std::nullopt; // the curve leaves the box elsewhere
+    for (const Point_3& known : ends_)
+      if (CGAL::squared_distance(known, end) < 1e-12 * step_ * step_) return known;
+    ends_.push_back(end);
+    return end;
+  }
+
+  const Traits& traits_;
+  const Border& border_;
+  const double step_, reach_;
+  std::vector<Point_3> ends_; // on edges of the box
+};
 
 template <class Kernel>
 struct Border_curve_3 : Polyline_3<Kernel> {

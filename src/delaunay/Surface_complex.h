@@ -2,13 +2,98 @@
 #ifndef EQUIAFFINE_SRC_DELAUNAY_SURFACE_COMPLEX_H
 #define EQUIAFFINE_SRC_DELAUNAY_SURFACE_COMPLEX_H
 
-#include "delaunay/Memoized_function_3.h"
+#include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/delaunay/Implicit_mesh_domain_3.h>
+#include <equiaffine/function/Any_function_3.h>
 
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
 
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
 namespace equiaffine::internal {
+
+/// A function that remembers its latest values and counts its evaluations: the mesher asks for each circumcenter up to
+/// four times. Copies share the memory, which must outlive them. They are for one thread only.
+class Memoized_function_3 {
+public:
+  using FT = Any_function_3::FT;
+  using Point_3 = Any_function_3::Point_3;
+  using Vector_3 = Any_function_3::Vector_3;
+
+  class Memory {
+  public:
+    explicit Memory(const Any_function_3& function) : function_(function), entries_(size) {}
+    std::size_t evaluations() const { return evaluations_; }
+
+  private:
+    friend Memoized_function_3;
+    static constexpr std::size_t size = 1 << 15;
+
+    struct Entry {
+      Point_3 point = Point_3(std::numeric_limits<double>::quiet_NaN(), 0, 0);
+      double value = 0;
+    };
+
+    const Any_function_3 function_;
+    std::vector<Entry> entries_;
+    std::size_t evaluations_ = 0;
+  };
+
+  explicit Memoized_function_3(Memory& memory) : memory_(&memory) {}
+
+  double value(const Point_3& p) const {
+    Progress_observer::step(); // CGAL's mesher has no other place to end its work
+    auto& entry = memory_->entries_[slot(p)];
+    if (!(entry.point == p)) {
+      entry = {p, memory_->function_.value(p)};
+      ++memory_->evaluations_;
+    }
+    return entry.value;
+  }
+
+  Jet_3<double, 1> first_order(const Point_3& p) const {
+    ++memory_->evaluations_;
+    return memory_->function_.first_order(p);
+  }
+
+  Jet_3<double> taylor(const Point_3& p) const {
+    ++memory_->evaluations_;
+    return memory_->function_.taylor(p);
+  }
+
+  /// `equiaffine::intersect_segment` calls this. The model iterates itself, and only the number of evaluations is kept.
+  Surface_point_3<Any_function_3::Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa,
+                                                            double fb) const {
+    const auto found = memory_->function_.intersect_segment(a, b, fa, fb);
+    memory_->evaluations_ += found.evaluations;
+    return found;
+  }
+
+  Interval bounds(const CGAL::Bbox_3& box) const { return memory_->function_.bounds(box); }
+  Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const {
+    return memory_->function_.first_order_bounds(box);
+  }
+  Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const {
+    return memory_->function_.tight_first_order_bounds(box);
+  }
+  Known_bounds known_bounds() const { return memory_->function_.known_bounds(); }
+  CGAL::Bbox_3 bbox() const { return memory_->function_.bbox(); }
+
+private:
+  static std::size_t slot(const Point_3& p) {
+    std::uint64_t hash = std::bit_cast<std::uint64_t>(p.x()) * 0x9E3779B97F4A7C15U;
+    hash = (hash ^ std::bit_cast<std::uint64_t>(p.y())) * 0xC2B2AE3D27D4EB4FU;
+    hash = (hash ^ std::bit_cast<std::uint64_t>(p.z())) * 0x165667B19E3779F9U;
+    return std::size_t(hash >> 32) & (Memory::size - 1);
+  }
+
+  Memory* memory_;
+};
 
 /// The domain for CGAL's mesher. It has a surface and no interior, so that the mesher never asks on which side of the
 /// surface a point is.

@@ -1,28 +1,70 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The only translation unit of the library that instantiates CGAL's mesher.
 #include "delaunay/Angle_improvement_3.h"
-#include "delaunay/End_curves_3.h"
 #include "delaunay/Facet_mesh.h"
-#include "delaunay/Facet_sizing_field.h"
 #include "delaunay/Feature_curve_3.h"
-#include "delaunay/Memoized_function_3.h"
-#include "delaunay/Silent_messages.h"
 #include "delaunay/Surface_complex.h"
 #include "delaunay/Surface_criteria_3.h"
 #include "delaunay/initial_points.h"
-#include "delaunay/insert_points.h"
-#include "delaunay/lost_points.h"
-#include "delaunay/missing_facets.h"
 #include "delaunay/refine_facets.h"
-#include "delaunay/straddling_triangles.h"
+#include <equiaffine/delaunay/Delaunay_surface_3.h>
 #include <equiaffine/delaunay/internal/mesh_surface.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/surface/parabolic_curves.h>
 
 #include <CGAL/Real_timer.h>
+#include <CGAL/assertions_behaviour.h>
 #include <CGAL/exceptions.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
+
+namespace equiaffine::internal {
+
+/// Silences CGAL's messages during its lifetime: on the standard error stream the mesher warns of a triangulation that
+/// does not meet the surface, and with some compilers it says there what it throws.
+class Silent_messages {
+public:
+  Silent_messages()
+      : warning_handler_(CGAL::set_warning_handler(ignore)), error_handler_(CGAL::set_error_handler(ignore)) {}
+  ~Silent_messages() {
+    CGAL::set_warning_handler(warning_handler_);
+    CGAL::set_error_handler(error_handler_);
+  }
+  Silent_messages(const Silent_messages&) = delete;
+  Silent_messages& operator=(const Silent_messages&) = delete;
+
+private:
+  static void ignore(const char*, const char*, const char*, int, const char*) {}
+
+  CGAL::Failure_function warning_handler_, error_handler_;
+};
+
+/// The sign of the Gaussian curvature of the surface at a point. It is 0 where the curvature is negligible beside k1
+/// and k2, or beside the curvature 1/radius of a facet's ball.
+inline int sign_of_gaussian_curvature(const Any_function_3& function, const Any_function_3::Point_3& p, double radius) {
+  constexpr double negligible = 1e-8;
+  const auto e = local_structure(function.taylor(p)).euclidean;
+  const double least = negligible * (e.k1 * e.k1 + e.k2 * e.k2 + negligible / (radius * radius));
+  return (e.gaussian_curvature > least) - (e.gaussian_curvature < -least);
+}
+
+/// Adds undecided boxes for triangles with vertices on both sides of a parabolic curve, so that the mesh is not
+/// certified.
+inline void report_straddling_triangles(const Any_function_3& function, double radius,
+                                        Delaunay_surface_3<Any_function_3::Kernel>& mesh) {
+  std::vector<int> sign;
+  for (const auto& p : mesh.points) sign.push_back(sign_of_gaussian_curvature(function, p, radius));
+  for (const auto& [a, b, c] : mesh.triangles) {
+    if (std::min({sign[a], sign[b], sign[c]}) >= 0 || std::max({sign[a], sign[b], sign[c]}) <= 0) continue;
+    mesh.undecided_boxes.push_back(mesh.points[a].bbox() + mesh.points[b].bbox() + mesh.points[c].bbox());
+    mesh.is_certified = false;
+  }
+}
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 
