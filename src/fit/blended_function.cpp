@@ -3,8 +3,8 @@
 #include "fit/Fitted_data_3.h"
 #include "fit/fit_input.h"
 #include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/fit/internal/Band_margin.h>
 #include <equiaffine/fit/internal/Fit_request.h>
+#include <equiaffine/fit/internal/Fitted_function_3.h>
 #include <equiaffine/fit/internal/fits.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/number/Jet_3.h>

@@ -11,9 +11,7 @@
 #include "registration/refine_map.h"
 #include <equiaffine/base/internal/quantile.h>
 #include <equiaffine/registration/Affine_symmetries_3.h>
-#include <equiaffine/registration/internal/Frame_thresholds.h>
-#include <equiaffine/registration/internal/Registration_request.h>
-#include <equiaffine/registration/internal/Symmetry_request.h>
+#include <equiaffine/registration/internal/requests.h>
 #include <equiaffine/registration/internal/searches.h>
 
 #include <Eigen/Core>

@@ -6,7 +6,7 @@
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/internal/quantile.h>
 #include <equiaffine/base/internal/random_subset.h>
-#include <equiaffine/registration/internal/Frame_thresholds.h>
+#include <equiaffine/registration/internal/requests.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

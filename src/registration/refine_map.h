@@ -7,7 +7,7 @@
 #include "registration/candidate_pairs.h"
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/internal/quantile.h>
-#include <equiaffine/registration/internal/Frame_thresholds.h>
+#include <equiaffine/registration/internal/requests.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -9,7 +9,7 @@
 #include "registration/tolerances_of_meshes.h"
 #include "registration/without_near.h"
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/requests.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

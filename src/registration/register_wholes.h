@@ -7,7 +7,7 @@
 #include "registration/Centered_surface_3.h"
 #include "registration/map_evidence.h"
 #include "registration/tolerances_of_meshes.h"
-#include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/requests.h>
 #include <equiaffine/registration/internal/searches.h>
 
 #include <Eigen/Core>

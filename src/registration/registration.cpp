@@ -12,7 +12,7 @@
 #include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/registration/Map_kind.h>
-#include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/requests.h>
 #include <equiaffine/registration/internal/searches.h>
 
 #include <Eigen/LU>

@@ -12,8 +12,7 @@
 #include "registration/slippage.h"
 #include "registration/without_near.h"
 #include <equiaffine/registration/Affine_slippage_3.h>
-#include <equiaffine/registration/internal/Frame_thresholds.h>
-#include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/requests.h>
 #include <equiaffine/registration/internal/searches.h>
 
 #include <Eigen/Core>

@@ -4,7 +4,7 @@
 #define EQUIAFFINE_SRC_REGISTRATION_TOLERANCES_OF_MESHES_H
 
 #include "registration/Centered_map.h"
-#include <equiaffine/registration/internal/Registration_request.h>
+#include <equiaffine/registration/internal/requests.h>
 
 #include <algorithm>
 

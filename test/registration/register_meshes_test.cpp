@@ -6,7 +6,7 @@
 #include "support/solids.h"
 #include <equiaffine/registration/affine_symmetries.h>
 #include <equiaffine/registration/contradictions_of_meshes.h>
-#include <equiaffine/registration/internal/in_kernel.h>
+#include <equiaffine/registration/internal/registration_of.h>
 #include <equiaffine/registration/is_affinely_equivalent.h>
 #include <equiaffine/registration/register_surfaces.h>
 

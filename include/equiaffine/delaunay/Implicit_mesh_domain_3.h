@@ -7,7 +7,6 @@
 #include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/delaunay/internal/Cgal_optional.h>
 #include <equiaffine/delaunay/internal/Segment_oracle_3.h>
-#include <equiaffine/delaunay/internal/border_points.h>
 #include <equiaffine/delaunay/internal/certified_seeding.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

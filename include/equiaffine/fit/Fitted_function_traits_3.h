@@ -5,11 +5,9 @@
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/fit/internal/Band_margin.h>
 #include <equiaffine/fit/internal/Fit_data_3.h>
 #include <equiaffine/fit/internal/Fit_request.h>
 #include <equiaffine/fit/internal/Fitted_function_3.h>
-#include <equiaffine/fit/internal/certainty_of_fit.h>
 #include <equiaffine/fit/internal/fit_data_of.h>
 #include <equiaffine/fit/internal/fits.h>
 #include <equiaffine/function/concepts.h>

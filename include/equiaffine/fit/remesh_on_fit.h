@@ -5,8 +5,6 @@
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/Fit_outcome.h>
 #include <equiaffine/fit/Fitted_function_traits_3.h>
-#include <equiaffine/fit/internal/Deviation_3.h>
-#include <equiaffine/fit/internal/Whole_remesh_3.h>
 #include <equiaffine/fit/internal/motion_to_fit.h>
 #include <equiaffine/fit/internal/remesh_of_mesh.h>
 #include <equiaffine/mesh/internal/Face_graph.h>

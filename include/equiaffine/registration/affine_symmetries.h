@@ -11,10 +11,9 @@
 #include <equiaffine/mesh/internal/triangles_of.h>
 #include <equiaffine/registration/Affine_symmetries_3.h>
 #include <equiaffine/registration/Map_kind.h>
-#include <equiaffine/registration/internal/Symmetry_request.h>
-#include <equiaffine/registration/internal/in_kernel.h>
+#include <equiaffine/registration/internal/registration_of.h>
+#include <equiaffine/registration/internal/requests.h>
 #include <equiaffine/registration/internal/searches.h>
-#include <equiaffine/registration/internal/vectors_of.h>
 
 #include <CGAL/Kernel_traits.h>
 #include <CGAL/boost/graph/properties.h>

@@ -6,8 +6,8 @@
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/registration/internal/Registration_request.h>
 #include <equiaffine/registration/internal/registration_of.h>
+#include <equiaffine/registration/internal/requests.h>
 #include <equiaffine/registration/internal/searches.h>
 
 #include <CGAL/Uncertain.h>

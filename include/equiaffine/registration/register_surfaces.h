@@ -11,9 +11,8 @@
 #include <equiaffine/mesh/internal/triangles_of.h>
 #include <equiaffine/registration/Map_kind.h>
 #include <equiaffine/registration/Surface_registration_3.h>
-#include <equiaffine/registration/internal/Registration_request.h>
-#include <equiaffine/registration/internal/in_kernel.h>
 #include <equiaffine/registration/internal/registration_of.h>
+#include <equiaffine/registration/internal/requests.h>
 #include <equiaffine/registration/internal/searches.h>
 
 #include <CGAL/Kernel_traits.h>

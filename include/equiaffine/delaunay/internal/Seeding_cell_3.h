@@ -2,8 +2,6 @@
 #ifndef EQUIAFFINE_DELAUNAY_INTERNAL_SEEDING_CELL_3_H
 #define EQUIAFFINE_DELAUNAY_INTERNAL_SEEDING_CELL_3_H
 
-#include <equiaffine/delaunay/internal/Octree_3.h>
-#include <equiaffine/delaunay/internal/acute_gradients.h>
 #include <equiaffine/function/capabilities.h>
 
 #include <CGAL/Bbox_3.h>
@@ -13,9 +11,113 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace equiaffine::internal {
+
+/// Computes the places of the cells of an octree. The root, at level 0, is a cube that contains a box and has its lower
+/// corner in common with it. The cells of level n have sides 2^n times smaller, and are cut off where the box ends.
+class Octree_3 {
+public:
+  using Position = std::array<std::uint32_t, 3>; ///< number of the cell of its level along x, y and z
+
+  explicit Octree_3(const CGAL::Bbox_3& box) : box_(box), side_(std::max({box.x_span(), box.y_span(), box.z_span()})) {}
+
+  const CGAL::Bbox_3& box() const { return box_; }
+  double side(int level) const { return std::ldexp(side_, -level); }
+
+  CGAL::Bbox_3 box_of(const Position& p, int level) const {
+    const double h = side(level);
+    const auto at = [&](int a, std::uint32_t n) { return std::min(box_.min(a) + n * h, box_.max(a)); };
+    return CGAL::Bbox_3(at(0, p[0]), at(1, p[1]), at(2, p[2]), at(0, p[0] + 1), at(1, p[1] + 1), at(2, p[2] + 1));
+  }
+
+  /// Calls visit(position) for the children, on the next level, of a cell of a level; those outside of the box are left
+  /// out.
+  template <class Visit>
+  void for_each_child(const Position& parent, int level, const Visit& visit) const {
+    const double h = side(level) / 2;
+    for (std::uint32_t c = 0; c < 8; ++c) {
+      Position child;
+      bool is_in_box = true;
+      for (std::uint32_t a = 0; a < 3; ++a) {
+        child[a] = 2 * parent[a] + (c >> a & 1);
+        is_in_box = is_in_box && (box_.min(int(a)) + child[a] * h < box_.max(int(a)));
+      }
+      if (is_in_box) visit(child);
+    }
+  }
+
+private:
+  const CGAL::Bbox_3 box_;
+  const double side_;
+};
+
+/// Whether any two gradients that `jet` bounds have projections to the plane or line of some axes that form an acute
+/// angle.
+inline bool has_acute_gradients(const Jet_3<Interval, 1>& jet, const std::array<bool, 3>& axes) {
+  double largest = 0;
+  for (std::size_t a = 0; a < 3; ++a) largest = std::max(largest, abs(jet.coefficients()[1 + a]).upper());
+  if (!(largest > 0 && std::isfinite(largest))) return false;
+  const Interval scale(std::ldexp(1.0, -std::ilogb(largest))); // so that no product overflows or underflows
+  Interval product(0);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Interval g = jet.coefficients()[1 + a] * scale, independent = g; // bounds of two gradients, not of one twice
+    if (axes[a]) product += g * independent;
+  }
+  return product.lower() > 0;
+}
+
+/// A face, an edge or a corner of a cell, or the cell itself: its extent along each axis.
+struct Cell_side_3 {
+  enum Extent { WHOLE, LOWER, UPPER };
+  std::array<Extent, 3> extents;
+
+  /// Side n of the 27, of which number 0 is the cell itself.
+  static Cell_side_3 number(int n) { return {{Extent(n % 3), Extent(n / 3 % 3), Extent(n / 9)}}; }
+
+  std::array<bool, 3> axes() const {
+    return {extents[0] == WHOLE, extents[1] == WHOLE, extents[2] == WHOLE}; // the axes along which this part extends
+  }
+
+  bool is_corner() const { return axes() == std::array<bool, 3>{false, false, false}; }
+
+  CGAL::Bbox_3 box(const CGAL::Bbox_3& cell) const {
+    std::array<double, 3> lower, upper;
+    for (int a = 0; a < 3; ++a) {
+      lower[std::size_t(a)] = extents[std::size_t(a)] == UPPER ? cell.max(a) : cell.min(a);
+      upper[std::size_t(a)] = extents[std::size_t(a)] == LOWER ? cell.min(a) : cell.max(a);
+    }
+    return CGAL::Bbox_3(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]);
+  }
+
+  /// Whether this part of a cell lies in the same side of another box.
+  bool touches(const CGAL::Bbox_3& cell, const CGAL::Bbox_3& outer) const {
+    for (int a = 0; a < 3; ++a) {
+      const Extent extent = extents[std::size_t(a)];
+      if (extent == LOWER && cell.min(a) != outer.min(a)) return false;
+      if (extent == UPPER && cell.max(a) != outer.max(a)) return false;
+    }
+    return true;
+  }
+};
+
+/// Whether any two gradients in a cell form an acute angle, and so do their projections to every face and edge of the
+/// outer box that the cell touches and the surface meets. `jet` bounds f on the cell.
+template <ImplicitFunctionTraits_3 Traits>
+bool has_acute_gradients(const Traits& traits, const Jet_3<Interval, 1>& jet, const CGAL::Bbox_3& cell,
+                         const CGAL::Bbox_3& outer) {
+  if (!has_acute_gradients(jet, {true, true, true})) return false;
+  for (int n = 1; n < 27; ++n) {
+    const auto side = Cell_side_3::number(n);
+    if (side.is_corner() || !side.touches(cell, outer) || has_acute_gradients(jet, side.axes())) continue;
+    const auto jet_there = tight_first_order_bounds(traits, side.box(cell));
+    if (jet_there.value().contains(0) && !has_acute_gradients(jet_there, side.axes())) return false;
+  }
+  return true;
+}
 
 /// A cell of the octree, and what is known about f in it, which its children inherit.
 struct Seeding_cell_3 {

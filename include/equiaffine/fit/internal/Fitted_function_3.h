@@ -3,15 +3,21 @@
 #define EQUIAFFINE_FIT_INTERNAL_FITTED_FUNCTION_3_H
 
 #include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/fit/internal/Band_margin.h>
 #include <equiaffine/number/Jet_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <Eigen/Core>
 
+#include <cmath>
 #include <optional>
 
 namespace equiaffine::internal {
+
+/// The margin of a band holds points up to a height, and lets them be farther across the higher they are, as above a
+/// crease.
+struct Band_margin {
+  double height = 0, slope = 0;
+};
 
 class Fitted_data_3;
 
@@ -43,6 +49,16 @@ public:
   /// The data with the way to fit them.
   virtual const Fitted_data_3& data() const = 0;
 };
+
+/// How far the affine curvatures of a fit at a point can be trusted, from 0 to 1: 1 / (1 + 10 e) for an estimated error e
+/// of the affine Gaussian curvature K as a part of |K| + H^2, which affine maps keep.
+template <class FT>
+double certainty_of_fit(const Fitted_structure_3<FT>& fit) {
+  const auto& affine = fit.structure.affine;
+  const FT size = std::abs(affine.gaussian_curvature) + affine.mean_curvature * affine.mean_curvature;
+  const FT part = fit.error.affine_gaussian_curvature / size;
+  return std::isfinite(part) ? double(1 / (1 + 10 * part)) : 0;
+}
 
 } // namespace equiaffine::internal
 

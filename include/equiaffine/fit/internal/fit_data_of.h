@@ -2,18 +2,31 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_FIT_DATA_OF_H
 #define EQUIAFFINE_FIT_INTERNAL_FIT_DATA_OF_H
 
+#include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/internal/Fit_data_3.h>
-#include <equiaffine/fit/internal/feature_angle.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
 #include <equiaffine/mesh/internal/indexed_polygons.h>
 #include <equiaffine/mesh/internal/points_of_range.h>
 
 #include <CGAL/property_map.h>
 
+#include <optional>
 #include <ranges>
 #include <type_traits>
 #include <utility>
+
+namespace equiaffine::internal {
+
+/// The angle in degrees of creases, over which fits do not reach and which a remesh keeps; nothing for no creases.
+template <class Parameters>
+std::optional<double> feature_angle(const Parameters& parameters) {
+  const auto angle = get_parameter<Feature_angle_tag>(parameters, std::optional<double>(60.));
+  check_argument(!angle || (*angle >= 0 && *angle <= 180), "the angle of creases is from 0 to 180 degrees");
+  return angle;
+}
+
+} // namespace equiaffine::internal
 
 // Meshes and points of CGAL become arrays.
 namespace equiaffine::internal {

@@ -8,9 +8,7 @@
 #include <equiaffine/registration/Map_kind.h>
 #include <equiaffine/registration/Mesh_contradictions.h>
 #include <equiaffine/registration/Surface_registration_3.h>
-#include <equiaffine/registration/internal/Map_request.h>
-#include <equiaffine/registration/internal/Registration_request.h>
-#include <equiaffine/registration/internal/Symmetry_request.h>
+#include <equiaffine/registration/internal/requests.h>
 
 #include <Eigen/Core>
 

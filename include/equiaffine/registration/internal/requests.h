@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_FRAME_THRESHOLDS_H
-#define EQUIAFFINE_REGISTRATION_INTERNAL_FRAME_THRESHOLDS_H
+#ifndef EQUIAFFINE_REGISTRATION_INTERNAL_REQUESTS_H
+#define EQUIAFFINE_REGISTRATION_INTERNAL_REQUESTS_H
+
+#include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/registration/Map_kind.h>
 
 #include <cstddef>
+#include <optional>
 
 namespace equiaffine::internal {
 
@@ -56,6 +61,68 @@ struct Frame_thresholds {
   /// common can be moved onto each other to within 1e-2 of their size, and large parts of them to within 1e-3 or less.
   double exact_tolerance = 1e-5, greatest_tolerance = 3e-3, rounding = 1e-8;
 };
+
+/// The named parameters of every search for maps.
+struct Map_request {
+  Map_kind kind = Map_kind::AFFINE;
+  bool allows_reflections = true;
+  std::optional<double> tolerance = {}; ///< a part of a size; if there is none, the data tell
+};
+
+template <class Parameters, class... OtherTags>
+constexpr void check_map_parameters() {
+  check_parameters<Parameters, Map_kind_tag, Reflections_tag, Tolerance_tag, Geom_traits_tag, Verbose_tag,
+                   OtherTags...>();
+}
+
+template <class Parameters>
+Map_request map_request(const Parameters& parameters) {
+  Map_request request;
+  request.kind = get_parameter<Map_kind_tag>(parameters, request.kind);
+  request.allows_reflections = get_parameter<Reflections_tag>(parameters, request.allows_reflections);
+  if constexpr (has_parameter<Tolerance_tag, Parameters>)
+    request.tolerance = given_parameter<Tolerance_tag>(parameters);
+  check_argument(!request.tolerance || (*request.tolerance > 0 && *request.tolerance < 0.1),
+                 "the tolerance of maps is a part of a size, from 0 to 0.1");
+  return request;
+}
+
+/// The named parameters of register_surfaces, and thresholds that benchmarks vary. The tolerance is beside the size of
+/// the target.
+struct Registration_request : Map_request {
+  std::size_t number_of_maps = 1;
+  double least_overlap = 0.05;
+  Frame_thresholds thresholds = {};
+};
+
+template <class Parameters, class... OtherTags>
+constexpr void check_registration_parameters() {
+  check_map_parameters<Parameters, Number_of_maps_tag, Least_overlap_tag, OtherTags...>();
+}
+
+template <class Parameters>
+Registration_request registration_request(const Parameters& parameters) {
+  Registration_request request = {map_request(parameters)};
+  request.number_of_maps = get_parameter<Number_of_maps_tag>(parameters, request.number_of_maps);
+  request.least_overlap = get_parameter<Least_overlap_tag>(parameters, request.least_overlap);
+  check_argument(request.number_of_maps > 0, "the number of maps to find is at least 1");
+  check_argument(request.least_overlap >= 0 && request.least_overlap <= 1,
+                 "the least overlap is a part of a surface, from 0 to 1");
+  return request;
+}
+
+/// The default tolerance of symmetries of a function, a part of its size.
+constexpr double default_tolerance = 1e-8;
+
+/// The named parameters of affine_symmetries() of a function.
+struct Symmetry_request : Map_request {
+  bool is_complete = false; ///< whether all rotations are searched where frames have decided, too
+};
+
+template <class Parameters>
+Symmetry_request symmetry_request(const Parameters& parameters) {
+  return {map_request(parameters), get_parameter<Complete_tag>(parameters, false)};
+}
 
 } // namespace equiaffine::internal
 
