@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/marching_cubes/internal/sign_word.h>
+#include <equiaffine/marching_cubes/internal/node_signs.h>
 
 #include <gtest/gtest.h>
 

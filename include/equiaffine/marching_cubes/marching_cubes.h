@@ -6,7 +6,7 @@
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
-#include <equiaffine/marching_cubes/internal/marching_cubes_of.h>
+#include <equiaffine/marching_cubes/internal/lattice_isosurface.h>
 #include <equiaffine/mesh/Isosurface_3.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
 #include <equiaffine/mesh/internal/copy_to_graph.h>

@@ -7,8 +7,7 @@
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/marching_cubes/Isosurface_slab_3.h>
 #include <equiaffine/marching_cubes/internal/isosurface_in_slabs.h>
-#include <equiaffine/marching_cubes/internal/isosurface_of_block.h>
-#include <equiaffine/marching_cubes/internal/marching_cubes_of.h>
+#include <equiaffine/marching_cubes/internal/lattice_isosurface.h>
 #include <equiaffine/volume/Cell_block.h>
 
 #include <CGAL/tags.h>

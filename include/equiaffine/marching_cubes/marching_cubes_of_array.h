@@ -4,7 +4,6 @@
 
 #include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/marching_cubes/Array_isosurface_3.h>
-#include <equiaffine/marching_cubes/internal/array_grid.h>
 #include <equiaffine/marching_cubes/internal/array_isosurface.h>
 
 #include <CGAL/tags.h>

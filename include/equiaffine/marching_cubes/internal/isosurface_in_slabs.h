@@ -2,17 +2,147 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_IN_SLABS_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_IN_SLABS_H
 
+#include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/marching_cubes/Isosurface_slab_3.h>
+#include <equiaffine/marching_cubes/Vertex_id.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
 #include <equiaffine/marching_cubes/internal/lattice_function.h>
 #include <equiaffine/marching_cubes/internal/lattice_isosurface.h>
+#include <equiaffine/volume/Cell_block.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <stdexcept>
+#include <unordered_map>
 #include <utility>
 #include <vector>
+
+namespace equiaffine {
+
+/// So many cells around a block of cells must be known for its part of a mesh.
+inline constexpr std::size_t cells_around_block = 4;
+
+namespace internal {
+
+/// \throw std::invalid_argument unless a block has cells of a lattice, and those around it are known
+inline void check_block(const Cell_block& all, const Cell_block& block, const Cell_block& known) {
+  const Cell_block needed = widened(block, cells_around_block, all);
+  for (std::size_t a = 0; a < 3; ++a) {
+    check_argument(block.first[a] < block.end[a] && block.end[a] <= all.end[a],
+                   "a block has no cells, or has some beyond the lattice: choose cells of the lattice");
+    check_argument(known.first[a] <= needed.first[a] && needed.end[a] <= known.end[a] && known.end[a] <= all.end[a],
+                   "less cells of the lattice are known than the mesh of a block needs: let `cells_around_block` "
+                   "around it be known");
+  }
+}
+
+/// Makes the part of a surface that belongs to a block of cells, in slabs. To which cell a triangle belongs follows from
+/// the ids of its vertices, whatever it was repaired to, so that blocks need not know of each other. A slab is made with
+/// some cells more on all sides, as many as the repairs beside it look at.
+template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
+class Isosurface_of_block {
+  using Kernel = Kernel_of<Traits>;
+  using Point_3 = typename Traits::Point_3;
+  using Part = Isosurface_in_layers<Kernel>;
+
+public:
+  /// The function may be evaluated in the cells that are `known`.
+  Isosurface_of_block(const Lattice_function<Traits>& function, Vertex_position position, std::size_t layers_per_slab,
+                      const Cell_block& block, const Cell_block& known)
+      : function_(function), position_(position), layers_per_slab_(layers_per_slab), block_(block), known_(known) {}
+
+  template <class Visit>
+  Isosurface_totals run(const Visit& visit) {
+    for (std::size_t first = block_.first[2]; first < block_.end[2]; first += layers_per_slab_) {
+      Cell_block layers = block_;
+      layers.first[2] = first;
+      layers.end[2] = std::min(first + layers_per_slab_, block_.end[2]);
+      visit(slab(layers));
+    }
+    return totals_;
+  }
+
+private:
+  /// A vertex of slabs before that the next one may have, too.
+  struct Shared_vertex {
+    std::size_t number;
+    Point_3 point;
+  };
+
+  Isosurface_slab_3<Kernel> slab(const Cell_block& layers) {
+    for (std::size_t margin = cells_around_block;; margin *= 2) {
+      const Cell_block cells = widened(layers, margin, known_);
+      const Part part = isosurface_on_lattice<ConcurrencyTag, SkipsEmptySpace, true>(
+          function_.part(cells.first, {cells.end[0] + 1, cells.end[1] + 1, cells.end[2] + 1}), position_);
+      totals_.function_evaluations += part.surface.function_evaluations;
+      if (!part.is_undecided && agrees_with_slabs_before(part)) return taken_from(part, layers);
+      const Cell_block more = widened(layers, 2 * margin, known_);
+      if (more == cells) return taken_from(part, layers);
+    }
+  }
+
+  /// Whether the vertices that slabs before have are the same here, or are not here.
+  bool agrees_with_slabs_before(const Part& part) const {
+    if (shared_.empty()) return true;
+    for (std::size_t v = 0; v < part.ids.size(); ++v)
+      if (const auto found = shared_.find(part.ids[v]);
+          found != shared_.end() && found->second.point != part.surface.points[v])
+        return false;
+    return true;
+  }
+
+  Isosurface_slab_3<Kernel> taken_from(const Part& part, const Cell_block& layers) {
+    constexpr std::size_t unused = std::numeric_limits<std::size_t>::max(), used = unused - 1;
+    Isosurface_slab_3<Kernel> slab{layers.first[2], layers.end[2], totals_.vertices, totals_.triangles, {}, {}, {}};
+    const auto& nodes = function_.lattice().size();
+    std::vector<std::size_t> number(part.ids.size(), unused);
+    std::vector<Vertex_id> least_ids = part.ids;
+    for (const auto& triangle : part.surface.triangles) {
+      const auto& [a, b, c] = triangle;
+      const Vertex_id least = std::min({part.ids[a], part.ids[b], part.ids[c]});
+      for (const auto v : triangle) least_ids[v] = std::min(least_ids[v], least);
+      if (!layers.contains(cell_of(least, nodes))) continue;
+      slab.triangles.push_back({a, b, c});
+      number[a] = number[b] = number[c] = used;
+    }
+    std::unordered_map<Vertex_id, Shared_vertex> shared;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+      if (number[v] == unused) continue;
+      const auto& p = part.surface.points[v];
+      if (const auto found = shared_.find(part.ids[v]); found != shared_.end()) {
+        number[v] = found->second.number;
+      } else {
+        number[v] = totals_.vertices + slab.points.size();
+        slab.points.push_back(p);
+        slab.vertex_status.push_back(part.surface.vertex_status[v]);
+        slab.vertex_ids.push_back(part.ids[v]);
+        slab.least_ids.push_back(least_ids[v]);
+      }
+      if (cell_of(part.ids[v], nodes)[2] >= layers.end[2]) shared.try_emplace(part.ids[v], Shared_vertex{number[v], p});
+    }
+    for (auto& triangle : slab.triangles)
+      for (std::size_t& v : triangle) v = number[v];
+    shared_ = std::move(shared);
+    totals_.vertices += slab.points.size();
+    totals_.triangles += slab.triangles.size();
+    return slab;
+  }
+
+  const Lattice_function<Traits>& function_;
+  const Vertex_position position_;
+  const std::size_t layers_per_slab_;
+  const Cell_block block_, known_;
+  Isosurface_totals totals_;
+  std::unordered_map<Vertex_id, Shared_vertex> shared_;
+};
+
+} // namespace internal
+
+} // namespace equiaffine
 
 namespace equiaffine::internal {
 

@@ -2,7 +2,6 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_NUMBERING_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_NUMBERING_H
 
-#include <equiaffine/marching_cubes/internal/Grid_rows.h>
 #include <equiaffine/marching_cubes/internal/grid_elements.h>
 #include <equiaffine/marching_cubes/internal/node_signs.h>
 
@@ -19,6 +18,37 @@
 #include <vector>
 
 namespace equiaffine::internal {
+
+/// A selection of the rows of nodes along i of a grid. Different threads may add rows of different planes. A row may be
+/// added more than once, and is kept once if no other row of its plane is added in between.
+class Grid_rows {
+public:
+  explicit Grid_rows(std::size_t number_of_planes) : planes_(number_of_planes) {}
+
+  void add(std::size_t j, std::size_t k) {
+    auto& plane = planes_[k];
+    if (plane.empty() || plane.back() != j) plane.push_back(j);
+  }
+
+  void add(const Grid_rows& other) {
+    for (std::size_t k = 0; k < planes_.size(); ++k)
+      planes_[k].insert(planes_[k].end(), other.planes_[k].begin(), other.planes_[k].end());
+  }
+
+  bool is_empty() const {
+    return std::all_of(planes_.begin(), planes_.end(), [](const auto& plane) { return plane.empty(); });
+  }
+
+  /// Calls visit(j, k) for every row.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::size_t k = 0; k < planes_.size(); ++k)
+      for (const std::size_t j : planes_[k]) visit(j, k);
+  }
+
+private:
+  std::vector<std::vector<std::size_t>> planes_; // the j of the rows in every plane
+};
 
 /// The numbers of the vertices and triangles of a surface in a grid. The vertices of a row of nodes are those on its
 /// edges along i, then j, then k, each in the order of i: the number of a vertex is that of its row and kind plus the

@@ -6,22 +6,60 @@
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LINEAR_ISOSURFACE_H
 
 #include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/function/internal/sign_change.h>
 #include <equiaffine/marching_cubes/internal/grid_elements.h>
-#include <equiaffine/marching_cubes/internal/inner_vertex.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
-#include <equiaffine/marching_cubes/internal/remove_from_mesh.h>
+#include <equiaffine/marching_cubes/internal/marching_cubes_cases.h>
 #include <equiaffine/marching_cubes/internal/vertex_place.h>
 #include <equiaffine/marching_cubes/internal/zero_area_repair.h>
+#include <equiaffine/mesh/Isosurface_3.h>
 #include <equiaffine/mesh/Isosurface_repairs.h>
 #include <equiaffine/mesh/internal/split_fans.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
+
+/// Value and partial derivative along `axis` of the trilinear interpolant of f at p in the unit cell.
+template <class FT>
+std::pair<FT, FT> trilinear(const std::array<FT, 8>& f, const std::array<FT, 3>& p, std::size_t axis) {
+  std::array<FT, 2> ends{FT(0), FT(0)};
+  for (std::size_t c = 0; c < 8; ++c) {
+    FT weight(1);
+    for (std::size_t a = 0; a < 3; ++a)
+      if (a != axis) weight *= c >> a & 1 ? p[a] : FT(1) - p[a];
+    ends[c >> axis & 1] += weight * f[c];
+  }
+  const FT slope = ends[1] - ends[0];
+  return {ends[0] + p[axis] * slope, slope};
+}
+
+/// The place of a vertex amid those on some edges of a cell, in the coordinates of the cell: their mean, moved along
+/// the axis of the steepest slope onto the surface of the trilinear interpolant if that is within the cell.
+template <class FT>
+std::array<FT, 3> inner_vertex(const std::array<FT, 8>& f, std::span<const std::uint8_t> edges) {
+  using std::abs;
+  std::array<FT, 3> p{FT(0), FT(0), FT(0)};
+  for (const int edge : edges) {
+    const int c = first_corner(edge);
+    const FT t = linear_zero(f[std::size_t(c)], f[std::size_t(second_corner(edge))]);
+    for (int a = 0; a < 3; ++a) p[std::size_t(a)] += edge / 4 == a ? t : FT(c >> a & 1);
+  }
+  for (FT& x : p) x /= FT(double(edges.size()));
+  std::size_t steepest = 0;
+  for (std::size_t a = 1; a < 3; ++a)
+    if (abs(trilinear(f, p, a).second) > abs(trilinear(f, p, steepest).second)) steepest = a;
+  const auto [value, slope] = trilinear(f, p, steepest);
+  const FT moved = p[steepest] - value / slope;
+  if (moved > FT(0) && moved < FT(1)) p[steepest] = moved;
+  return p;
+}
 
 /// Writes the points of the vertices on edges. Returns the rows of nodes at which a vertex lies.
 template <class ConcurrencyTag, class Grid>
@@ -134,6 +172,26 @@ Repair_report repair_mesh(const Grid& grid, const Isosurface_plan& plan,
       repair_zero_areas(grid, plan.numbering, inner_vertices, suspects, bounds, triangles, points, properties...);
   if (plan.has_undefined) split_parts(bounds, triangles, points, properties...);
   return report;
+}
+
+/// Removes the vertices at poles, one mark per vertex, with the triangles around them. Parts of the surface that then
+/// touch in a vertex get vertices of their own. `properties` are arrays with an entry per vertex.
+template <class Kernel, class... Properties>
+void remove_poles(Isosurface_3<Kernel>& surface, const std::vector<std::uint8_t>& is_at_pole, Layer_bounds& bounds,
+                  Properties&... properties) {
+  std::vector<std::size_t> removed_triangles;
+  std::vector<bool> is_used(surface.points.size(), false);
+  for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
+    const auto& t = surface.triangles[n];
+    if (is_at_pole[t[0]] || is_at_pole[t[1]] || is_at_pole[t[2]]) removed_triangles.push_back(n);
+    else is_used[t[0]] = is_used[t[1]] = is_used[t[2]] = true;
+  }
+  std::vector<std::uint32_t> removed_vertices;
+  for (std::size_t v = 0; v < is_used.size(); ++v)
+    if (!is_used[v]) removed_vertices.push_back(std::uint32_t(v));
+  remove_from_mesh(removed_vertices, removed_triangles, bounds, surface.triangles, surface.points,
+                   surface.vertex_status, properties...);
+  split_parts(bounds, surface.triangles, surface.points, surface.vertex_status, properties...);
 }
 
 } // namespace equiaffine::internal

@@ -3,15 +3,18 @@
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_VERTEX_PROJECTION_H
 
 #include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
+#include <equiaffine/function/internal/intersect_segments.h>
 #include <equiaffine/function/internal/point_blocks.h>
-#include <equiaffine/marching_cubes/internal/intersect_edges.h>
+#include <equiaffine/function/internal/sign_change.h>
+#include <equiaffine/marching_cubes/internal/grid_elements.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
 #include <equiaffine/marching_cubes/internal/lattice_function.h>
-#include <equiaffine/marching_cubes/internal/project_within_cell.h>
-#include <equiaffine/marching_cubes/internal/vertex_blocks.h>
 #include <equiaffine/marching_cubes/internal/zero_area_repair.h>
 #include <equiaffine/mesh/Isosurface_3.h>
+#include <equiaffine/surface/project_to_surface.h>
+#include <equiaffine/volume/Cell_block.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 
@@ -21,11 +24,144 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
+
+/// Finds a zero of the function near a vertex inside a cell. It is looked for along each axis, between the vertex and
+/// a wall a little within the cell, so that the vertex stays inside.
+template <class Traits>
+Surface_point_3<Kernel_of<Traits>> project_within_cell(const Lattice_function<Traits>& function,
+                                                       const Inner_vertex<typename Traits::FT>& vertex) {
+  using FT = typename Traits::FT;
+  using Point_3 = typename Traits::Point_3;
+  const auto& traits = function.traits();
+  const Point_3 p = function.point(vertex.cell, vertex.offset);
+  Surface_point_3<Kernel_of<Traits>> best{p, false, 1};
+  FT best_distance(1); // in squared steps of the lattice
+  const FT value = traits.value(p);
+  if (value == FT(0)) return {p, true, 1};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const FT& wall : {FT(0.0625), FT(0.9375)}) {
+      auto end = vertex.offset;
+      end[axis] = wall;
+      const Point_3 q = function.point(vertex.cell, end);
+      const FT end_value = traits.value(q);
+      ++best.evaluations;
+      if (!is_sign_change(value, end_value) || p == q) continue;
+      const auto found = intersect_segment(traits, p, q, value, end_value);
+      best.evaluations += found.evaluations;
+      const FT distance = (found.point - p).squared_length() / function.lattice().steps()[axis].squared_length();
+      if (!found.has_converged || !(distance < best_distance)) continue;
+      best.point = found.point;
+      best.has_converged = true;
+      best_distance = distance;
+    }
+  return best;
+}
+
+/// Finds a zero of a spline on an edge at whose ends the samples have different signs. The spline need not have these
+/// signs: without a change of its own sign, a zero is looked for nearby.
+template <class Traits>
+Surface_point_3<Kernel_of<Traits>> intersect_edge_of_samples(const Traits& traits,
+                                                             const typename Lattice_function<Traits>::Edge& edge) {
+  using FT = typename Traits::FT;
+  using std::sqrt;
+  const auto& [a, b] = edge.ends;
+  const FT fa = traits.value(a), fb = traits.value(b);
+  auto result = is_sign_change(fa, fb)
+                    ? intersect_segment(traits, a, b, fa, fb)
+                    : project_to_surface(traits, edge.linear_intersection(), FT(sqrt((b - a).squared_length())));
+  result.evaluations += 2;
+  return result;
+}
+
+/// Finds a zero of f on each edge of a lattice.
+template <class Traits>
+std::vector<Surface_point_3<Kernel_of<Traits>>>
+intersect_edges(const Batch_function_traits_3<Traits>& traits,
+                std::span<const typename Lattice_function<Traits>::Edge> edges) {
+  if constexpr (Lattice_function<Traits>::has_samples) {
+    std::vector<Surface_point_3<Kernel_of<Traits>>> results;
+    results.reserve(edges.size());
+    for (const auto& edge : edges) results.push_back(intersect_edge_of_samples<Traits>(traits, edge));
+    return results;
+  } else {
+    return intersect_segments(traits, edges);
+  }
+}
+
+// The blocks of nodes whose vertices a thread projects, one after the other.
+
+/// The number of planes whose vertices are projected together. Where tiles are few, those of more planes are, for
+/// threads to have something to do.
+template <class Traits>
+std::size_t planes_of_slab(const Node_signs::Size& size) {
+  constexpr std::size_t planes = cells_of_tile[2], enough_tiles = 64;
+  if constexpr (!CellwiseImplicitFunctionTraits_3<Traits>) return planes;
+  const std::size_t tiles = ((size[0] - 1) / cells_of_tile[0] + 1) * ((size[1] - 1) / cells_of_tile[1] + 1);
+  return planes * std::max<std::size_t>(1, enough_tiles / tiles);
+}
+
+/// The blocks of nodes of some planes: tiles for a function that can be restricted to cells, else planes.
+template <class Traits>
+std::vector<Node_block> blocks_of_slab(const Isosurface_plan& plan, const Index_range& planes) {
+  std::vector<Node_block> blocks;
+  if constexpr (CellwiseImplicitFunctionTraits_3<Traits>) {
+    const auto& size = plan.signs.size();
+    for (std::size_t k = planes.first; k < planes.end; k += cells_of_tile[2])
+      for (std::size_t j = 0; j < size[1]; j += cells_of_tile[1])
+        for (std::size_t i = 0; i < size[0]; i += cells_of_tile[0])
+          blocks.push_back({{{i, std::min(i + cells_of_tile[0], size[0])},
+                             {j, std::min(j + cells_of_tile[1], size[1])},
+                             {k, std::min(k + cells_of_tile[2], planes.end)}}});
+  } else {
+    for (std::size_t k = planes.first; k < planes.end; ++k) blocks.push_back(plane_of_nodes(plan, k));
+  }
+  return blocks;
+}
+
+/// Calls visit(v, inner_vertex) for every vertex inside a cell that begins at a node of a block.
+template <class FT, class Visit>
+void for_each_inner_vertex(const Isosurface_plan& plan, const std::vector<Inner_vertex<FT>>& inner_vertices,
+                           const Node_block& block, const Visit& visit) {
+  for (std::size_t k = block[2].first; k < block[2].end; ++k) {
+    const Index_range numbers = plan.numbering.inner_vertices_of_layer(k); // ordered like their cells
+    const auto of_layer =
+        std::span(inner_vertices).subspan(plan.numbering.place_of_inner(numbers.first, k), numbers.size());
+    auto vertex = std::partition_point(of_layer.begin(), of_layer.end(),
+                                       [&](const auto& inner) { return inner.cell[1] < block[1].first; });
+    for (; vertex != of_layer.end() && vertex->cell[1] < block[1].end; ++vertex)
+      if (block[0].first <= vertex->cell[0] && vertex->cell[0] < block[0].end)
+        visit(numbers.first + std::size_t(vertex - of_layer.begin()), *vertex);
+  }
+}
+
+/// The cells around the vertices at the nodes of a block, if it has vertices. Rounding may move a vertex to another
+/// cell at its edge, or beyond an end of the edge.
+template <class FT>
+std::optional<Cell_block> cells_with_vertices(const Isosurface_plan& plan,
+                                              const std::vector<Inner_vertex<FT>>& inner_vertices,
+                                              const Node_block& block) {
+  constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+  const auto& size = plan.signs.size();
+  Cell_block cells{{most, most, most}, {0, 0, 0}};
+  const auto add = [&](const std::array<std::size_t, 3>& node) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      cells.first[a] = std::min(cells.first[a], node[a] - std::min<std::size_t>(node[a], 1));
+      cells.end[a] = std::max(cells.end[a], std::min(node[a] + 2, size[a] - 1));
+    }
+  };
+  for_each_vertex(plan, block, [&](std::size_t, std::size_t i, std::size_t j, std::size_t k, std::size_t) {
+    add({i, j, k});
+  });
+  for_each_inner_vertex(plan, inner_vertices, block,
+                        [&](std::size_t, const Inner_vertex<FT>& inner) { add(inner.cell); });
+  return cells.end[0] > 0 ? std::optional(cells) : std::nullopt;
+}
 
 struct Projection_report {
   std::size_t evaluations;        ///< the number of evaluations of the function
