@@ -7,7 +7,7 @@
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/formula/analytic_functions.h>
 #include <equiaffine/geometry/reference_estimators.h>
-#include <equiaffine/volume/internal/bspline_value.h>
+#include <equiaffine/volume/internal/bspline.h>
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/volume/internal/bspline_value.h>
+#include <equiaffine/volume/internal/bspline.h>
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,6 @@
 #include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Volume_survey.h>
 #include <equiaffine/volume/Volume_view_3.h>
-#include <equiaffine/volume/internal/Coefficient_source.h>
 #include <equiaffine/volume/internal/Spline_coefficients.h>
 #include <equiaffine/volume/internal/Spline_support_3.h>
 #include <equiaffine/volume/internal/border_degree.h>

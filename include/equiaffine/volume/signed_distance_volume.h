@@ -3,7 +3,6 @@
 #define EQUIAFFINE_VOLUME_SIGNED_DISTANCE_VOLUME_H
 
 #include <equiaffine/volume/Volume_3.h>
-#include <equiaffine/volume/internal/check_bounds_volume.h>
 #include <equiaffine/volume/internal/signed_distances.h>
 
 #include <CGAL/boost/graph/copy_face_graph.h>

@@ -26,10 +26,7 @@ std::optional<double> feature_angle(const Parameters& parameters) {
   return angle;
 }
 
-} // namespace equiaffine::internal
-
 // Meshes and points of CGAL become arrays.
-namespace equiaffine::internal {
 
 /// The points are the vertices in their order.
 template <Face_graph Graph, class Parameters>

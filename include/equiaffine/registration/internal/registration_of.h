@@ -27,10 +27,7 @@ std::vector<Eigen::Vector3d> vectors_of(const Points& points) {
   return result;
 }
 
-} // namespace equiaffine::internal
-
 // Results of searches become those of another kernel.
-namespace equiaffine::internal {
 
 template <class Kernel>
 typename Kernel::Aff_transformation_3 in_kernel(const Kernel_of_searches::Aff_transformation_3& map) {

@@ -3,7 +3,7 @@
 #define EQUIAFFINE_VOLUME_INTERNAL_SPLINE_SUPPORT_3_H
 
 #include <equiaffine/volume/Lattice_3.h>
-#include <equiaffine/volume/internal/Bspline_on_box.h>
+#include <equiaffine/volume/internal/bspline_bounds.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions.h>

@@ -3,15 +3,45 @@
 #define EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_H
 
 #include <equiaffine/volume/internal/Line_part.h>
-#include <equiaffine/volume/internal/Spline_pack.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstring>
+
+namespace equiaffine::internal {
+
+/// A pack has as many numbers as one register of the target holds, by the vector extension that g++ and clang share.
+template <class FT>
+struct Spline_pack {
+#if defined(__AVX512F__)
+  static constexpr int bytes = 64;
+#elif defined(__AVX__)
+  static constexpr int bytes = 32;
+#else
+  static constexpr int bytes = 16;
+#endif
+  static constexpr int lanes = bytes / int(sizeof(FT));
+  typedef FT type __attribute__((vector_size(bytes)));
+
+  static type load(const FT* from) {
+    type pack;
+    std::memcpy(&pack, from, sizeof pack);
+    return pack;
+  }
+  static void store(const type& pack, FT* to) { std::memcpy(to, &pack, sizeof pack); }
+
+  /// The least multiple of `lanes` that is >= n.
+  static constexpr int round_up(int n) { return (n + lanes - 1) / lanes * lanes; }
+};
+
+/// The number of entries beyond the last coefficient that an evaluation may read, whose values have no influence. It is
+/// the size of the largest pack of any target.
+inline constexpr std::size_t overread = 16;
 
 // Centered cardinal B-splines of odd degree n in one variable: their polynomials on a cell, and the local filters that
 // turn samples at the integers into spline coefficients. Lengths are in steps of the grid.
-namespace equiaffine::internal {
 
 /// The number of coefficients beyond each border of the samples: with floor(n / 2), every cell has n + 1 coefficients.
 constexpr int spline_padding(int degree) { return degree / 2; }
@@ -249,5 +279,22 @@ private:
 };
 
 } // namespace equiaffine::internal
+
+namespace equiaffine {
+
+/// The centered cardinal B-spline of odd degree n <= 9 at t. Its knots are the integers from -(n + 1) / 2 to
+/// (n + 1) / 2, beyond which it is 0; its shifts by integers sum to 1. It is evaluated by the polynomials on cells of
+/// which the splines of this library are made.
+template <int Degree, class FT>
+FT bspline(FT t) {
+  static constexpr auto basis = internal::bspline_basis_polynomials<FT, Degree, Degree + 1>();
+  const int cell = int(std::floor(t)), r = internal::spline_padding(Degree) - cell;
+  if (r < 0 || r > Degree) return 0;
+  FT value = 0;
+  for (int p = Degree; p >= 0; --p) value = value * (t - FT(cell) - FT(0.5)) + basis[std::size_t(p)][std::size_t(r)];
+  return value;
+}
+
+} // namespace equiaffine
 
 #endif

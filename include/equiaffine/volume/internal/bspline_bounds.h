@@ -3,20 +3,236 @@
 #define EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_BOUNDS_H
 
 #include <equiaffine/number/Interval.h>
-#include <equiaffine/volume/internal/Bspline_on_box.h>
-#include <equiaffine/volume/internal/Range.h>
 #include <equiaffine/volume/internal/bspline_evaluation.h>
 #include <equiaffine/volume/internal/bspline_interpolation.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
+
+namespace equiaffine::internal {
+
+/// Collects the least and the greatest of many numbers, a pack at a time. A NaN among them changes neither and is
+/// remembered; infinities are not expected.
+template <class FT>
+class Range {
+  using Lanes = Spline_pack<FT>;
+
+public:
+  /// Adds `count` numbers. `number(load)` computes the next one, or the next pack of them, from what `load(p)` returns
+  /// for pointers p to the operands of the first.
+  template <class F>
+  void add(std::size_t count, const F& number) {
+    std::size_t x = 0;
+    for (; x + Lanes::lanes <= count; x += Lanes::lanes) {
+      const auto d = number([x](const FT* p) { return Lanes::load(p + x); });
+      least_of_lanes_ = d < least_of_lanes_ ? d : least_of_lanes_;
+      greatest_of_lanes_ = d > greatest_of_lanes_ ? d : greatest_of_lanes_;
+      zero_or_nan_of_lanes_ += d - d;
+    }
+    for (; x < count; ++x) {
+      const FT d = number([x](const FT* p) { return p[x]; });
+      least_of_rest_ = d < least_of_rest_ ? d : least_of_rest_;
+      greatest_of_rest_ = d > greatest_of_rest_ ? d : greatest_of_rest_;
+      zero_or_nan_of_rest_ += d - d;
+    }
+  }
+
+  FT least() const {
+    FT least = least_of_rest_;
+    for (int lane = 0; lane < Lanes::lanes; ++lane) least = std::min(least, least_of_lanes_[lane]);
+    return least;
+  }
+  FT greatest() const {
+    FT greatest = greatest_of_rest_;
+    for (int lane = 0; lane < Lanes::lanes; ++lane) greatest = std::max(greatest, greatest_of_lanes_[lane]);
+    return greatest;
+  }
+  FT greatest_magnitude() const { return std::max(std::abs(least()), std::abs(greatest())); }
+  bool is_empty() const { return least() > greatest(); }
+  bool has_nan() const {
+    FT zero_or_nan = zero_or_nan_of_rest_;
+    for (int lane = 0; lane < Lanes::lanes; ++lane) zero_or_nan += zero_or_nan_of_lanes_[lane];
+    return zero_or_nan != 0;
+  }
+
+  /// An interval that contains all numbers even if each is wrong by `error`.
+  Interval widened(FT error) const {
+    return Interval::widened(double(least()) - double(error), double(greatest()) + double(error));
+  }
+
+private:
+  using Pack = typename Lanes::type;
+
+  // The numbers that fill whole packs are collected per lane, the rest of each call one by one.
+  FT least_of_rest_ = std::numeric_limits<FT>::infinity(), greatest_of_rest_ = -least_of_rest_,
+     zero_or_nan_of_rest_ = 0;
+  Pack least_of_lanes_ = least_of_rest_ - Pack{}, greatest_of_lanes_ = -least_of_lanes_, zero_or_nan_of_lanes_ = {};
+};
+
+/// A box of the lattice: the cells that it meets, and where it begins in the first and ends in the last cell of each
+/// axis, in [0, 1].
+template <class FT>
+struct Bspline_box {
+  std::array<FT, 3> begin, end;
+  std::array<std::size_t, 3> first, cells;
+
+  /// Whether the box meets at most `count` cells along each axis.
+  bool has_at_most(std::size_t count) const { return *std::max_element(cells.begin(), cells.end()) <= count; }
+};
+
+/// The spline restricted to a box: its coefficients over knots that end at the sides of the box.
+///
+/// These coefficients are values of the spline's blossom (polar form) at arguments inside the box. Hence their range
+/// exceeds that of the values by the square of the side only, and coefficients beyond the border of the lattice, which
+/// extrapolation makes large, have no influence.
+///
+/// The sides t and s of the box are inserted as knots, n times each (Boehm: Inserting new knots into B-spline curves,
+/// 1980). Every step is a convex combination of two coefficients. For one axis, n = 3 and a box that meets the two
+/// cells [0, 1] and [1, 2]:
+///
+///     knots           -2   -1    0 . t . 1 . s . 2    3    4
+///                                   [---------]               the box
+///     coefficient                  0        1        2        3        4
+///     its arguments            -2 -1 0   -1 0 1    0 1 2    1 2 3    2 3 4
+///     t inserted once          -1  0 t    0 1 t    1 2 t    1 2 3    2 3 4
+///     t inserted twice          0  t t    1 t t    1 2 t    1 2 3    2 3 4
+///     t inserted three times    t  t t    1 t t    1 2 t    1 2 3    2 3 4
+///     s inserted three times    t  t t    1 t t    1 s t    1 s s    s s s
+template <int Degree, class FT>
+class Bspline_on_box {
+  using Lanes = Spline_pack<FT>;
+  using Pack = typename Lanes::type;
+
+public:
+  static constexpr std::size_t most_cells = 9;
+  /// The rounding error of a coefficient on the box, relative to the largest of those that it is made of, after 2n
+  /// steps per axis.
+  static constexpr FT relative_error = 3 * 2 * Degree * 8 * std::numeric_limits<FT>::epsilon();
+
+  /// `*c` is the first coefficient of the lattice that counts in the box, which has at most `most_cells` cells per
+  /// axis; coefficients are 1, `row` and `slab` apart along x, y and z. Where the box has less than 2^-12 of a cell, it
+  /// is taken as wide as that, which keeps the error of differences small.
+  Bspline_on_box(const FT* c, std::size_t row, std::size_t slab, const Bspline_box<FT>& box) : cells_(box.cells) {
+    constexpr FT thin = FT(1) / FT(1 << 12);
+    for (std::size_t a = 0; a < 3; ++a) {
+      count_[a] = cells_[a] + Degree;
+      begin_[a] = std::min(box.begin[a], 1 - thin);
+      end_[a] = std::max(box.end[a], cells_[a] == 1 ? begin_[a] + thin : thin);
+    }
+    std::array<FT, capacity> other;
+    FT* line = other.data();
+    for (std::size_t z = 0; z < count_[2]; ++z)
+      for (std::size_t y = 0; y < count_[1]; ++y, line += count_[0])
+        std::copy_n(c + z * slab + y * row, count_[0], line);
+    insert_sides(2, other, coefficients_);
+    insert_sides(1, coefficients_, other);
+    insert_sides(0, other, coefficients_);
+  }
+
+  /// Contains the values, also as computed with an error of at most `error`.
+  Interval value(FT error) const {
+    Range<FT> range;
+    range.add(count_[0] * count_[1] * count_[2], [this](const auto& load) { return load(coefficients_.data()); });
+    return range.widened(error);
+  }
+
+  /// Contains the derivatives along axis a, in lattice coordinates, also as computed with an error of at most `error`
+  /// from coefficients on the box with errors of at most `error_of_coefficient`.
+  Interval derivative(std::size_t a, FT error, FT error_of_coefficient) const {
+    const std::array<std::size_t, 3> stride = {1, count_[0], count_[0] * count_[1]};
+    const auto weights = difference_weights(a);
+    Range<FT> range;
+    if (a == 0) {
+      for (std::size_t first = 0; first < count_[2] * stride[2]; first += stride[1])
+        range.add(count_[0] - 1, [&, p = &coefficients_[first]](const auto& load) {
+          return load(weights.data()) * (load(p + 1) - load(p));
+        });
+    } else {
+      for (std::size_t slab = 0; slab < (a == 1 ? count_[2] : 1); ++slab)
+        for (std::size_t n = 0; n + 1 < count_[a]; ++n)
+          range.add(stride[a], [&, p = &coefficients_[slab * stride[2] + n * stride[a]],
+                                w = weights[n]](const auto& load) { return w * (load(p + stride[a]) - load(p)); });
+    }
+    return range.widened(error + 2 * error_of_coefficient * *std::max_element(weights.begin(), weights.end()));
+  }
+
+private:
+  static constexpr std::size_t most_coefficients = most_cells + Degree; // along an axis
+  static constexpr std::size_t capacity =
+      most_coefficients * most_coefficients * most_coefficients + std::size_t(Lanes::lanes);
+  using Coefficients = std::array<FT, capacity>;
+  using Insertion_weights = std::array<Pack, std::size_t(Degree*(Degree + 1) / 2)>; // of a triangle, row by row
+
+  /// The weights by which a knot is inserted n times in the first cell of a line, as in the figure. The k-th time,
+  /// k = 1 .. n, coefficient i exchanges its least argument, u = i + k - n, for the knot, by a convex combination with
+  /// coefficient i + 1, which has v = i + 1 instead. No knot lies beyond the end of the line, where v is cut off.
+  static Insertion_weights insertion_weights(FT knot, FT end_of_line) {
+    Insertion_weights weights;
+    std::size_t n = 0;
+    for (int k = 1; k <= Degree; ++k)
+      for (int i = 0; i <= Degree - k; ++i) {
+        const FT u = FT(i + k - Degree), v = std::min(FT(i + 1), end_of_line);
+        weights[n++] = (knot - u) / (v - u) + Pack{};
+      }
+    return weights;
+  }
+
+  /// Inserts a knot n times at one end of a pack of lines; `coefficient(i)` is the i-th one counted from that end.
+  template <class F>
+  static void insert_knot(const Insertion_weights& weights, const F& coefficient) {
+    std::array<Pack, Degree + 1> c;
+    unrolled<Degree + 1>([&](auto i) { c[i] = coefficient(i); });
+    unrolled<Degree>([&](auto k) {
+      constexpr int first = k * Degree - k * (k - 1) / 2;
+      unrolled<Degree - k>([&](auto i) { c[i] += weights[first + i] * (c[i + 1] - c[i]); });
+    });
+    unrolled<Degree>([&](auto i) { coefficient(i) = c[i]; });
+  }
+
+  /// Inserts both sides of the box in the lines along `axis`. In `from` this axis is the slowest, so that neighboring
+  /// lines fill a pack; in `to` it is the fastest, and three calls bring the axes back into their order.
+  void insert_sides(std::size_t axis, Coefficients& from, Coefficients& to) const {
+    const std::size_t count = count_[axis], lines = count_[(axis + 1) % 3] * count_[(axis + 2) % 3];
+    const auto weights_of_begin = insertion_weights(begin_[axis], std::numeric_limits<FT>::infinity());
+    const auto weights_of_end =
+        insertion_weights(1 - end_[axis], FT(cells_[axis]) - begin_[axis]);         // from the other end
+    std::fill_n(from.begin() + std::ptrdiff_t(count * lines), Lanes::lanes, FT(0)); // the last pack reads that far
+    for (std::size_t first = 0; first < lines; first += Lanes::lanes) {
+      std::array<Pack, most_coefficients> pack_of_lines;
+      for (std::size_t n = 0; n < count; ++n) pack_of_lines[n] = Lanes::load(&from[n * lines + first]);
+      insert_knot(
+          weights_of_begin, [&](std::size_t i) -> auto& { return pack_of_lines[i]; });
+      insert_knot(
+          weights_of_end, [&](std::size_t i) -> auto& { return pack_of_lines[count - 1 - i]; });
+      const std::size_t used_lanes = std::min(lines - first, std::size_t(Lanes::lanes));
+      for (std::size_t lane = 0; lane < used_lanes; ++lane)
+        for (std::size_t i = 0; i < count; ++i) to[(first + lane) * count + i] = pack_of_lines[i][lane];
+    }
+  }
+
+  /// The factors that turn differences of neighboring coefficients into coefficients of the derivative along axis a: n
+  /// over the distance from the least argument of the one to the greatest argument of the other.
+  std::array<FT, most_coefficients> difference_weights(std::size_t a) const {
+    const FT last = FT(cells_[a] - 1) + end_[a];
+    std::array<FT, most_coefficients> weights{};
+    for (std::size_t i = 0; i + 1 < count_[a]; ++i) {
+      const FT from = i < Degree ? begin_[a] : FT(i + 1 - Degree), to = i + 1 < cells_[a] ? FT(i + 1) : last;
+      weights[i] = Degree / (to - from);
+    }
+    return weights;
+  }
+
+  std::array<std::size_t, 3> cells_, count_; ///< of cells and of coefficients along each axis
+  std::array<FT, 3> begin_, end_;            ///< as in Bspline_box
+  Coefficients coefficients_;
+};
 
 // Bounds of a tensor product spline and of its gradient on boxes come from its coefficients: B-splines are not negative
 // and sum to one, so values lie in the range of the coefficients that count in a box, and derivatives in the range of
 // differences of coefficients.
-namespace equiaffine::internal {
 
 /// The rounding error of a value computed by `contract`, relative to the largest coefficient; that of a d-th derivative
 /// in lattice coordinates is at most (2n)^d times as large. The sum of the magnitudes of all terms is largest at |s| =

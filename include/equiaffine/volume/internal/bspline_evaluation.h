@@ -3,7 +3,6 @@
 #define EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_EVALUATION_H
 
 #include <equiaffine/number/internal/monomials_3.h>
-#include <equiaffine/volume/internal/Spline_pack.h>
 #include <equiaffine/volume/internal/bspline.h>
 
 #include <array>
