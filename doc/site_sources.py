@@ -15,8 +15,7 @@ import sys
 LIBRARY = "include/equiaffine/"
 # Internal headers that a public header passes on, with what they define; users do not include them.
 PASSED_ON = {"number/internal/jet.h": "number/Jet_3.h", "number/internal/Jet_functions_3.h": "number/Jet_3.h",
-             "number/internal/Jet_ordering_3.h": "number/Jet_3.h", "number/internal/Jet_trigonometry_3.h": "number/Jet_3.h",
-             "number/internal/interval.h": "number/Interval.h", "number/internal/Interval_functions.h": "number/Interval.h",
+             "number/internal/interval.h": "number/Interval.h",
              "geometry/internal/affine_estimate.h": "geometry/reference_estimators.h",
              "mesh/internal/Face_graph.h": "attributes/annotate.h"}
 PAGE_FOLDERS = ("doc", "doc/manual", "doc/concepts")

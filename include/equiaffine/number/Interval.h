@@ -3,7 +3,6 @@
 #ifndef EQUIAFFINE_NUMBER_INTERVAL_H
 #define EQUIAFFINE_NUMBER_INTERVAL_H
 
-#include <equiaffine/number/internal/Interval_functions.h> // IWYU pragma: export
-#include <equiaffine/number/internal/interval.h>           // IWYU pragma: export
+#include <equiaffine/number/internal/interval.h> // IWYU pragma: export
 
 #endif

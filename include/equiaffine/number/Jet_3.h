@@ -3,10 +3,8 @@
 #ifndef EQUIAFFINE_NUMBER_JET_3_H
 #define EQUIAFFINE_NUMBER_JET_3_H
 
-#include <equiaffine/number/internal/Jet_functions_3.h>    // IWYU pragma: export
-#include <equiaffine/number/internal/Jet_ordering_3.h>     // IWYU pragma: export
-#include <equiaffine/number/internal/Jet_steps_3.h>        // IWYU pragma: export
-#include <equiaffine/number/internal/Jet_trigonometry_3.h> // IWYU pragma: export
-#include <equiaffine/number/internal/jet.h>                // IWYU pragma: export
+#include <equiaffine/number/internal/Jet_functions_3.h> // IWYU pragma: export
+#include <equiaffine/number/internal/Jet_steps_3.h>     // IWYU pragma: export
+#include <equiaffine/number/internal/jet.h>             // IWYU pragma: export
 
 #endif

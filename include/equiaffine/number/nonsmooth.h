@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Derivatives where functions have kinks and jumps. Argument-dependent lookup finds the overloads of
-// Interval_functions.h, whose ranges may contain kinks and jumps, and those of Pack.h.
+// Derivatives where functions have kinks and jumps. Argument-dependent lookup finds the overloads of interval.h, whose
+// ranges may contain kinks and jumps, and those of Pack.h.
 #ifndef EQUIAFFINE_NUMBER_NONSMOOTH_H
 #define EQUIAFFINE_NUMBER_NONSMOOTH_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The error function, and functions with steps: floor, sign and fmod, of numbers, packs and jets. Intervals have theirs
-// in Interval_functions.h.
+// in interval.h.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_JET_STEPS_3_H
 #define EQUIAFFINE_NUMBER_INTERNAL_JET_STEPS_3_H
 

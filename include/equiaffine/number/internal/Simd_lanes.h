@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_SIMD_LANES_H
 #define EQUIAFFINE_NUMBER_INTERNAL_SIMD_LANES_H
 
+#include <equiaffine/number/internal/Pack_fwd.h>
 #include <equiaffine/number/internal/elementary_functions.h>
-#include <equiaffine/number/internal/native_lanes.h>
 
 #if defined(__GNUC__) && !defined(EQUIAFFINE_WITHOUT_SIMD) // has_simd
 
