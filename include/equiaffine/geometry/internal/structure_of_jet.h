@@ -3,20 +3,60 @@
 #ifndef EQUIAFFINE_GEOMETRY_INTERNAL_STRUCTURE_OF_JET_H
 #define EQUIAFFINE_GEOMETRY_INTERNAL_STRUCTURE_OF_JET_H
 
+#include <equiaffine/geometry/Affine_structure_3.h>
+#include <equiaffine/geometry/Euclidean_structure_3.h>
 #include <equiaffine/geometry/Monge_chart_3.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/geometry/Regular_structure_3.h>
 #include <equiaffine/geometry/affine_structure.h>
 #include <equiaffine/geometry/euclidean_structure.h>
 #include <equiaffine/geometry/internal/Natural_units_3.h>
-#include <equiaffine/geometry/internal/missing_structure.h>
+#include <equiaffine/number/select.h>
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <optional>
 
 namespace equiaffine::internal {
+
+// Structures of NaN for numbers that do not exist, and the test whether all numbers are finite.
+
+template <class FT>
+Euclidean_structure_3<FT> no_euclidean_structure() {
+  const FT nan = std::numeric_limits<FT>::quiet_NaN();
+  return {{nan, nan, nan}, nan, nan, {nan, nan, nan}, {nan, nan, nan}, nan, nan};
+}
+
+template <class FT>
+Affine_structure_3<FT> no_affine_structure() {
+  const FT nan = std::numeric_limits<FT>::quiet_NaN();
+  return {{{nan, nan, nan}, {nan, nan, nan}, nan, nan, nan, {nan, nan, nan, nan}, {nan, nan}, {nan, nan, nan, nan}},
+          false,
+          nan,
+          nan,
+          {nan, nan, nan, nan, nan, nan},
+          nan,
+          {nan, nan, nan},
+          {nan, nan, nan},
+          {nan, nan, nan},
+          {nan, nan, nan, nan}};
+}
+
+/// Whether all numbers are finite. Only some are tested, but every coefficient of the jet, and every power of d, takes
+/// part in one of these.
+template <class FT>
+Mask_of<FT> is_finite(const Affine_invariants_3<FT>& s) {
+  FT sum = s.gaussian_curvature + s.mean_curvature + s.pick_invariant;
+  for (std::size_t i = 0; i < 3; ++i) sum += s.conormal[i] + s.normal[i];
+  return is_finite_number(sum);
+}
+
+template <class FT>
+Mask_of<FT> is_finite(const Euclidean_structure_3<FT>& s) {
+  return is_finite_number(FT(s.k1 + s.gaussian_curvature));
+}
 
 /// Returns the rounding if it is positive, else nothing.
 template <class FT>
