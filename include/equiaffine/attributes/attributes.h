@@ -5,7 +5,6 @@
 
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/attributes/internal/compute_columns.h>
-#include <equiaffine/attributes/internal/structure_by.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>

@@ -6,7 +6,6 @@
 #define EQUIAFFINE_BASE_NAMED_PARAMETERS_H
 
 #include <equiaffine/base/internal/Named_parameters.h>
-#include <equiaffine/base/internal/joined_parameters.h>
 #include <equiaffine/base/internal/named_parameter_list.h>
 
 #include <array>

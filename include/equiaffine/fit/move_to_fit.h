@@ -8,8 +8,8 @@
 #include <equiaffine/fit/internal/motion_to_fit.h>
 #include <equiaffine/function/internal/explain_misuse.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
+#include <equiaffine/mesh/internal/Triangle_array_3.h>
 #include <equiaffine/mesh/internal/crossing_triangles.h>
-#include <equiaffine/mesh/internal/triangle_array_of.h>
 
 #include <CGAL/tags.h>
 

@@ -9,7 +9,6 @@
 #include <equiaffine/fit/internal/remesh_of_mesh.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
 #include <equiaffine/mesh/internal/Triangle_array_3.h>
-#include <equiaffine/mesh/internal/triangle_array_of.h>
 
 #include <CGAL/tags.h>
 

@@ -7,8 +7,6 @@
 #include <equiaffine/mesh/Isosurface_3.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
 #include <equiaffine/mesh/internal/copy_to_graph.h>
-#include <equiaffine/mesh/internal/copy_to_soup.h>
-#include <equiaffine/mesh/internal/surface_mesh_of.h>
 
 #include <CGAL/Surface_mesh.h>
 

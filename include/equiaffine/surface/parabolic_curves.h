@@ -8,10 +8,9 @@
 #include <equiaffine/mesh/internal/Face_graph.h>
 #include <equiaffine/mesh/internal/indexed_polygons.h>
 #include <equiaffine/mesh/internal/points_of_range.h>
-#include <equiaffine/mesh/internal/triangle_mesh_of.h>
+#include <equiaffine/mesh/internal/triangles_of.h>
 #include <equiaffine/surface/Parabolic_curves_3.h>
 #include <equiaffine/surface/internal/Parabolic_curve_finder_3.h>
-#include <equiaffine/surface/internal/parabolic_function.h>
 
 #include <CGAL/tags.h>
 

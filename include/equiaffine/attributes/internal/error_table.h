@@ -2,14 +2,45 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_ERROR_TABLE_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_ERROR_TABLE_H
 
-#include <equiaffine/attributes/internal/error_sizes.h>
 #include <equiaffine/geometry/Local_structure_error_3.h>
 #include <equiaffine/geometry/Regular_structure_3.h>
 #include <equiaffine/geometry/affine_area_density.h>
+#include <equiaffine/geometry/euclidean_structure.h>
 
 #include <array>
 #include <cmath>
 #include <string_view>
+
+namespace equiaffine::internal {
+
+// The numbers of which errors are called parts.
+
+/// An angle is known to 100 % within this many degrees.
+inline constexpr double whole_angle = 30;
+
+template <class FT>
+FT affine_size(const Local_structure_3<FT>& s) {
+  return std::abs(s.affine.gaussian_curvature) + s.affine.mean_curvature * s.affine.mean_curvature;
+}
+
+/// An error of an affine curvature that does not matter: 1e-9 of the size that is natural beside K_e, a power of |K_e|.
+/// A K that is zero is known to within this, but not to within any part of itself.
+template <class FT>
+FT negligible_error(const FT& euclidean_gaussian_curvature, const FT& power) {
+  return FT(1e-9) * std::pow(std::abs(euclidean_gaussian_curvature), power);
+}
+
+template <class FT>
+FT curved_size(const Local_structure_3<FT>& s) {
+  return curvedness(s.euclidean.k1, s.euclidean.k2);
+}
+
+template <class FT>
+FT angle_size(const Local_structure_3<FT>&) {
+  return whole_angle;
+}
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 

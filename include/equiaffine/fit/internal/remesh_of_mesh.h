@@ -11,7 +11,6 @@
 #include <equiaffine/mesh/internal/Triangle_tree_3.h>
 #include <equiaffine/mesh/internal/crossing_triangles.h>
 #include <equiaffine/mesh/internal/indexed_polygons.h>
-#include <equiaffine/mesh/internal/triangle_array_of.h>
 #include <equiaffine/mesh/mesh_topology.h>
 
 #include <CGAL/Bbox_3.h>

@@ -2,7 +2,9 @@
 #ifndef EQUIAFFINE_MESH_INTERNAL_TRIANGLE_ARRAY_3_H
 #define EQUIAFFINE_MESH_INTERNAL_TRIANGLE_ARRAY_3_H
 
+#include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/mesh/internal/crossing_triangles.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -74,6 +76,19 @@ private:
   std::vector<std::size_t> begin_;
   std::vector<std::uint32_t> neighbors_;
 };
+
+/// The points and triangles of a mesh, vertices in their order.
+/// \throw std::invalid_argument if a face is not a triangle, or a coordinate is not finite.
+template <class Mesh, class Parameters>
+Triangle_array_3 triangle_array_of(const Mesh& mesh, const Parameters& parameters) {
+  Indexed_polygons faces = indexed_polygons_of_graph(mesh, parameters);
+  std::vector<Index_triangle> triangles;
+  for (const auto& face : faces.polygons) {
+    check_argument(face.size() == 3, "a face of the mesh is not a triangle: cut faces into triangles before");
+    triangles.push_back({face[0], face[1], face[2]});
+  }
+  return Triangle_array_3(std::move(faces.points), std::move(triangles));
+}
 
 } // namespace equiaffine::internal
 

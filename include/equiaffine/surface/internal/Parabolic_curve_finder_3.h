@@ -6,16 +6,17 @@
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/function/internal/sign_change.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+#include <equiaffine/number/Jet_3.h>
+#include <equiaffine/number/internal/monomials_3.h>
 #include <equiaffine/surface/Parabolic_curves_3.h>
 #include <equiaffine/surface/internal/curve_step.h>
 #include <equiaffine/surface/internal/jet_derivatives.h>
-#include <equiaffine/surface/internal/parabolic_crossings.h>
-#include <equiaffine/surface/internal/parabolic_function.h>
 #include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <array>
@@ -28,7 +29,71 @@
 #include <utility>
 #include <vector>
 
+namespace equiaffine {
+
+/// K_e |grad f|^4, a polynomial in the derivatives of f of order 1 and 2 (Goldman: Curvature formulas for implicit
+/// curves and surfaces, 2005), with its derivatives up to order 1 or 2. \pre the jet is finite.
+template <int Order = 1, class FT>
+requires(Order >= 1 && Order <= 2) Jet_3<FT, Order> parabolic_function(const Jet_3<FT>& f) {
+  const auto derivative = [&](int i, int j, int k) {
+    Jet_3<FT, Order> jet;
+    for (std::size_t n = 0; n < jet.size; ++n) {
+      const auto& m = internal::monomials[n];
+      const int factorials = (m.i == 2 || m.j == 2 || m.k == 2) ? 2 : 1;
+      jet.coefficients()[n] = f.derivative(i + m.i, j + m.j, k + m.k) / FT(factorials);
+    }
+    return jet;
+  };
+  const auto x = derivative(1, 0, 0), y = derivative(0, 1, 0), z = derivative(0, 0, 1);
+  const auto xx = derivative(2, 0, 0), yy = derivative(0, 2, 0), zz = derivative(0, 0, 2);
+  const auto xy = derivative(1, 1, 0), xz = derivative(1, 0, 1), yz = derivative(0, 1, 1);
+  return (yy * zz - yz * yz) * x * x + (xx * zz - xz * xz) * y * y + (xx * yy - xy * xy) * z * z +
+         FT(2) * ((xz * xy - xx * yz) * y * z + (xy * yz - yy * xz) * x * z + (yz * xz - zz * xy) * x * y);
+}
+
+} // namespace equiaffine
+
 namespace equiaffine::internal {
+
+/// Finds a point where two branches of the curve f = d = 0 cross, not further than `reach` from `start`. It is a saddle
+/// of d on f = 0, found by Newton's method for f = 0, grad d = m grad f. `jets(p)` is the pair of the jets of f and d,
+/// of order 2 at least.
+template <class Point_3, class Vector_3, class Jets>
+std::optional<Point_3> crossing_near(const Point_3& start, double reach, const Jets& jets) {
+  constexpr int maximal_iterations = 20;
+  Point_3 p = start;
+  std::optional<double> multiplier;
+  for (int n = 0; n < maximal_iterations; ++n) {
+    const auto [f, d] = jets(p);
+    const Eigen::Vector3d f1 = eigen_gradient(f), d1 = eigen_gradient(d);
+    const double norm = f1.norm();
+    if (!multiplier) multiplier = f1.dot(d1) / (norm * norm);
+    const Eigen::Matrix3d hessian = eigen_hessian(d) - *multiplier * eigen_hessian(f);
+    Eigen::Matrix4d jacobian = Eigen::Matrix4d::Zero();
+    jacobian.topLeftCorner<3, 3>() = hessian;
+    jacobian.topRightCorner<3, 1>() = -f1;
+    jacobian.bottomLeftCorner<1, 3>() = f1.transpose();
+    Eigen::Vector4d defect;
+    defect << d1 - *multiplier * f1, CGAL::to_double(f.value());
+    const Eigen::Vector4d step = -jacobian.fullPivLu().solve(defect);
+    p = p + Vector_3(step[0], step[1], step[2]);
+    *multiplier += step[3];
+    if (!(CGAL::to_double(CGAL::squared_distance(p, start)) <= reach * reach)) return std::nullopt; // also NaN
+    const double length = step.head<3>().norm();
+    if (length > 1e-9 * reach) continue;
+    // If the gradient of f is replaced by the unit normal, minus the determinant is that of the Hessian of d within the
+    // tangent plane, which is negative at a saddle.
+    jacobian.topRightCorner<3, 1>() = f1 / norm;
+    jacobian.bottomLeftCorner<1, 3>() = f1.transpose() / norm;
+    const double scale = hessian.norm(), determinant = -jacobian.determinant();
+    // Both are relative: to the square of the Hessian, and to what d is at the distance `reach`.
+    constexpr double least_determinant = 1e-4, negligible_value = 1e-6;
+    if (!(determinant < -least_determinant * scale * scale)) return std::nullopt;
+    if (!(std::abs(CGAL::to_double(d.value())) <= negligible_value * scale * reach * reach)) return std::nullopt;
+    return p;
+  }
+  return std::nullopt;
+}
 
 /// Returns the solution of f = 0, d = 0 that Newton's method with steps of least length finds from p, or nothing if a
 /// step leads too far away.
