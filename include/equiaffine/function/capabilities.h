@@ -12,7 +12,6 @@
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/function/internal/box_intervals.h>
 #include <equiaffine/function/internal/bracketed_roots.h>
-#include <equiaffine/function/internal/mean_value_bounds.h>
 
 #include <CGAL/Bbox_3.h>
 
