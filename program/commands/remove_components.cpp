@@ -3,7 +3,7 @@
 
 #include "source/source.h"
 #include <equiaffine/base/internal/disjoint_sets.h>
-#include <equiaffine/mesh/internal/remove_isolated_vertices.h>
+#include <equiaffine/mesh/Isosurface_3.h>
 #include <equiaffine/mesh/internal/vertex_links.h>
 
 #include <CGAL/Aff_transformation_3.h>
@@ -37,6 +37,25 @@ Disjoint_sets<std::uint32_t> components_of(const Isosurface_3<Kernel>& surface) 
   Disjoint_sets<std::uint32_t> components(surface.points.size());
   for (const auto& [a, b, c] : surface.triangles) components.unite(a, b), components.unite(a, c);
   return components;
+}
+
+/// Removes the vertices that are in no triangle, and keeps the order of the others.
+void remove_isolated_vertices(Isosurface_3<Kernel>& surface) {
+  std::vector<bool> is_used(surface.points.size(), false);
+  for (const auto& triangle : surface.triangles)
+    for (const std::uint32_t v : triangle) is_used[v] = true;
+  std::vector<std::uint32_t> number(surface.points.size());
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < surface.points.size(); ++v) {
+    if (!is_used[v]) continue;
+    surface.points[kept] = surface.points[v];
+    surface.vertex_status[kept] = surface.vertex_status[v];
+    number[v] = kept++;
+  }
+  surface.points.erase(surface.points.begin() + std::ptrdiff_t(kept), surface.points.end());
+  surface.vertex_status.resize(kept);
+  for (auto& triangle : surface.triangles)
+    for (std::uint32_t& v : triangle) v = number[v];
 }
 
 } // namespace
