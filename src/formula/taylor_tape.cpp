@@ -15,10 +15,9 @@
 
 namespace equiaffine::internal::expression {
 
-namespace {
-
 /// A number type that computes with constants and records everything else as nodes of a builder. The constants zero and
-/// one act as in exact arithmetic: 0 * a is 0 whatever the value of a.
+/// one act as in exact arithmetic: 0 * a is 0 whatever the value of a. It is in no unnamed namespace, in which GCC 12
+/// merges functions of jets of different supports that have the same code, and then warns that they read out of bounds.
 class Symbol {
 public:
   using Node = Tape_builder::Node;
@@ -123,8 +122,6 @@ private:
   Node node_ = 0;
   double value_ = 0;
 };
-
-} // namespace
 
 Tape taylor_tape(const Tape& tape) {
   using Jet = Jet_3<Symbol>;
