@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Writes the private header of the library that has the files of viewer/ as texts, for pages that are single files. The lines of a file up to its
-# first blank one are its own.
+# Writes the private header of the library that has the files of viewer/ as texts, for pages that are single files. The
+# lines of a file up to its first blank one are its own.
 
 set(EQUIAFFINE_GENERATED_DIR ${PROJECT_BINARY_DIR}/generated)
 
