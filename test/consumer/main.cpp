@@ -3,6 +3,8 @@
 #include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/marching_cubes/marching_cubes.h>
 #ifndef HEADERS_ALONE
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/formula/Expression_3.h>
@@ -39,6 +41,20 @@ int main() {
   std::vector<Kernel::Point_3> points;
   for (int i = 0; i < 64; ++i) points.emplace_back(i % 8, i / 8, 0.01 * (i % 8) * (i / 8));
   if (equiaffine::fitted_structures(points).size() != points.size()) return EXIT_FAILURE;
+
+  // Exceptions and the observer of a thread pass between this program and the library, shared or not.
+  try {
+    const equiaffine::Expression_3 unknown_name("x + q");
+    return EXIT_FAILURE;
+  } catch (const equiaffine::Input_error&) {
+  }
+  struct Cancelled {};
+  const equiaffine::Progress_observer observer([](const auto&) { throw Cancelled(); }, {});
+  try {
+    equiaffine::fitted_structures(points);
+    return EXIT_FAILURE;
+  } catch (const Cancelled&) {
+  }
 #endif
   return mesh.number_of_vertices() > 1000 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace dicom_test {
 
 namespace fs = std::filesystem;
 
@@ -219,8 +219,6 @@ TEST_F(Program_dicom, slices_that_do_not_belong_together_are_named) {
   expect_error(series(), "'c.dcm' is damaged; get the complete");
 }
 
-} // namespace
+} // namespace dicom_test
 
 #endif
-
-namespace dicom_test {} // namespace dicom_test

@@ -22,7 +22,7 @@
 #include <thread>
 #include <vector>
 
-namespace {
+namespace memory_limit_test {
 
 using namespace equiaffine;
 using Words = std::vector<std::string>;
@@ -295,8 +295,6 @@ TEST_F(Scratch_memory_DeathTest, needs_a_folder) {
   EXPECT_THROW(open_scratch_memory(folder_ / "none", 0), Input_error);
 }
 
-} // namespace
+} // namespace memory_limit_test
 
 #endif
-
-namespace memory_limit_test {} // namespace memory_limit_test

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace write_VTP_test {
 
 using equiaffine::Kernel;
 using equiaffine::Point_status;
@@ -94,8 +94,6 @@ TEST(Program_write_VTP, closed_curves_end_with_their_first_point_and_open_ones_d
   }
 }
 
-} // namespace
+} // namespace write_VTP_test
 
 #endif
-
-namespace write_VTP_test {} // namespace write_VTP_test

@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_DISPLAY_COLOR_MAP_H
 #define EQUIAFFINE_DISPLAY_COLOR_MAP_H
 
+#include <equiaffine/base/internal/check_flags.h>
 #include <equiaffine/geometry/Point_status.h>
 
 #include <CGAL/IO/Color.h>

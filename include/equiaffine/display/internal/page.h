@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_DISPLAY_INTERNAL_PAGE_H
 #define EQUIAFFINE_DISPLAY_INTERNAL_PAGE_H
 
+#include <equiaffine/base/internal/check_flags.h>
 #include <equiaffine/display/Html_options.h>
 #include <equiaffine/display/internal/Column_numbers.h>
 #include <equiaffine/display/internal/Parabolic_parts.h>

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_IO_INTERNAL_BUFFERED_OUTPUT_H
 
 #include <equiaffine/base/internal/bit_cast.h>
+#include <equiaffine/base/internal/check_flags.h>
 
 #include <algorithm>
 #include <array>

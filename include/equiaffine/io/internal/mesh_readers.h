@@ -2,6 +2,7 @@
 #ifndef EQUIAFFINE_IO_INTERNAL_MESH_READERS_H
 #define EQUIAFFINE_IO_INTERNAL_MESH_READERS_H
 
+#include <equiaffine/base/internal/check_flags.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/mesh/internal/triangles_of_polygon.h>
 
