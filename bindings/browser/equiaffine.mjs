@@ -46,7 +46,7 @@ export class Equiaffine {
     return this.#surface();
   }
 
-  // As mesh(), levelSet() and annotate(), for page().
+  // Computes what mesh(), levelSet() and annotate() do, and leaves it for page().
   sample(formula, {constants, box, resolution, level, attributes}) {
     check(box?.length === 6 && [...box].every(isFinite), 'a box has six numbers: xmin, xmax, ymin, ymax, zmin, zmax');
     check(Number.isInteger(resolution) && resolution >= 2 && resolution <= MOST_PER_AXIS,
@@ -76,7 +76,7 @@ export class Equiaffine {
                                                      scale ?? -1, this.#text(pointers, attributes)));
   }
 
-  // What a page of the library shows of the last surface: its facts as JSON, and arrays of single precision.
+  // Returns what a page of the library shows of the last surface: its facts as JSON, and arrays of single precision.
   page() {
     this.#call(() => this.#module._eq_page());
     const {_eq_facts, _eq_number_of_columns, _eq_size} = this.#module, size = _eq_size(POINTS);

@@ -25,7 +25,7 @@
 
 using Kernel = CGAL::Simple_cartesian<double>;
 
-/// What the last call found.
+/// The surface that the last call found.
 struct Surface {
   equiaffine::Isosurface_3<Kernel> mesh;
   equiaffine::Vertex_attributes attributes;

@@ -34,7 +34,7 @@ function runNext() {
   Object.assign(running, {id: ++count, begin: performance.now(), progress: ''});
   worker.postMessage(messageOf(running));
 }
-// What the worker gets: a file only if it has not read it.
+// Returns the message to the worker, which has the file only if the worker has not read it.
 function messageOf({id, file, kind, formula, constants, box, resolution, level, smoothing, attributes}) {
   if (!file) return {id, kind, formula, constants, box, resolution, level, attributes};
   const isThere = file.worker === worker;

@@ -11,7 +11,7 @@ function refuse(name, reason) {
   throw new Mistake(`cannot read the volume '${name}': ${reason}`, '', '');
 }
 
-// At most `most` bytes of the decompressed ones, so that a small file cannot fill the memory.
+// Decompresses at most `most` bytes, so that a small file cannot fill the memory.
 async function decompressed(name, bytes, format, most) {
   const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format)).getReader();
   const result = new Uint8Array(most);
@@ -146,7 +146,7 @@ async function readNIfTI(name, given) {
   const values = numbersOf(name, bytes.subarray(begin), type, isLittle, nodes, float(112) || 1, (float(112) && float(116)) || 0);
   const spacings = [80, 84, 88].map(float);
   let rows = [0, 1, 2].map(axis => [...times(spacings[axis], axis), 0]);
-  // Of two frames the program takes the second one if that is the scanner's.
+  // If a file has two frames, the program takes the second one if it is the scanner's.
   const hasSecond = short(254) > 0 && (short(252) <= 0 || short(254) === 1);
   if (hasSecond) {
     rows = [280, 296, 312].map(at => [0, 4, 8, 12].map(k => float(at + k)));

@@ -6,7 +6,7 @@ const library = new Promise(resolve => { use = resolve; });
 const report = (stage, done, total) => self.postMessage({id: current, progress: {stage, done, total}});
 const taken = {volume: null, smoothing: 0};  // the volume of the module, and the scale of its smoothing
 
-// Where a level set of a volume is to be, as long as nobody says: at 0, or half-way if all numbers are on one side.
+// Returns the default level of a volume: 0, or the middle of its numbers if all are on one side of it.
 function levelIn(values) {
   let least = Infinity, greatest = -Infinity;
   for (const value of values) {

@@ -46,7 +46,7 @@ struct Fit {
 /// A formula and the numbers of its names.
 using Formula = std::pair<std::string, std::map<std::string, double>>;
 
-/// What a source is made of.
+/// A source is made of one of these.
 using Given = std::variant<Formula, Volume_array, std::shared_ptr<const Fit>>;
 
 /// Parses a command, which is of that type, and calls `compute(options, progress)` as observed() does.
