@@ -17,7 +17,7 @@ namespace marching_cubes_topology_test {
 using namespace equiaffine;
 using internal::Marching_cubes_cases;
 
-/// A whole number from the environment, where scripts/topology asks for more grids and other seeds.
+/// A whole number from the environment, where test/long/topology asks for more grids and other seeds.
 std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
   const char* text = std::getenv(name);
   return text ? std::strtoull(text, nullptr, 10) : otherwise;

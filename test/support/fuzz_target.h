@@ -6,8 +6,8 @@
 //
 //     EQUIAFFINE_FUZZ_TARGET(name) { read(input); }
 //
-// Compiled with EQUIAFFINE_FUZZING it is the entry point of libFuzzer, which scripts/fuzz runs. Otherwise it is a test
-// that gives it the files of its corpus, test/data/fuzz/NAME, and all their beginnings.
+// Compiled with EQUIAFFINE_FUZZING it is the entry point of libFuzzer, which test/long/fuzz runs. Otherwise it is a
+// test that gives it the files of its corpus, test/data/fuzz/NAME, and all their beginnings.
 
 #include <equiaffine/base/Input_error.h>
 
