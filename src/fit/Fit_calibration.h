@@ -30,8 +30,8 @@ inline Source_of_error source_of_error(double noise) {
 }
 
 /// The factors with which estimates of errors cover the errors at 95 % of the points where they are below a half, and at
-/// 91.5 % on all meshes but one, up to a factor of 4. scripts/calibrate-fits makes them, from surfaces whose numbers are
-/// known, with noise and without, and for a scale from halves of scans.
+/// 91.5 % on all meshes but one, up to a factor of 4. benchmark/fit/calibrate-fits makes them, from surfaces whose
+/// numbers are known, with noise and without, and for a scale from halves of scans.
 inline Number_errors calibration(Source_of_error source) {
   // of K, H, J, |K_e|^(1/4), K_e, H_e, k1, k2, the affine normal and the normal
   using Row = std::array<double, std::size_t(number_of_fitted_numbers)>;

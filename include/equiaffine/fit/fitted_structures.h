@@ -28,7 +28,7 @@ namespace equiaffine {
 /// estimation in Gaussian white noise, 1991), and whose residuals leave the least deviation. The estimated error is a
 /// factor times the root of the sum of two squares: of the greatest difference to other fits there and around, and of
 /// the standard deviation of the number if residuals are white noise. The factor depends on the quantity and the noise;
-/// scripts/calibrate-fits makes it, such that estimates below a half cover the errors at 95 % of the vertices of
+/// benchmark/fit/calibrate-fits makes it, such that estimates below a half cover the errors at 95 % of the vertices of
 /// surfaces whose curvatures are known. Among the others around is the next degree of the same parity, since a shape
 /// with a center of symmetry that lies in one ball looks the same to the degrees 4 and 5, whatever they miss. For K the
 /// differences around count with the power 0.88, and those at the vertex with the rest. On exact data, whose noise is
