@@ -111,7 +111,8 @@ void times() {
          }
        },
        double(repetitions * jets.size())},
-      {"transformation", estimated([](const auto& jet) { return transformation_estimate(jet); }), double(jets.size())},
+      {"transformation", estimated([](const auto& jet) { return internal::transformation_estimate(jet); }),
+       double(jets.size())},
       {"direct", estimated([](const auto& jet) { return affine_estimate(jet, Estimator::DIRECT); }),
        double(jets.size())}};
   std::printf("Kernel alone, per point, %zu lanes\n", Lanes::size);

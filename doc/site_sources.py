@@ -14,10 +14,7 @@ import sys
 
 LIBRARY = "include/equiaffine/"
 # Internal headers that a public header passes on, with what they define; users do not include them.
-PASSED_ON = {"number/internal/jet.h": "number/Jet_3.h", "number/internal/Jet_functions_3.h": "number/Jet_3.h",
-             "number/internal/interval.h": "number/Interval.h",
-             "geometry/internal/affine_estimate.h": "geometry/reference_estimators.h",
-             "mesh/internal/Face_graph.h": "attributes/annotate.h"}
+PASSED_ON = {"number/internal/jet.h": "number/Jet_3.h", "mesh/internal/Face_graph.h": "attributes/annotate.h"}
 PAGE_FOLDERS = ("doc", "doc/manual", "doc/concepts")
 DECLARATION = re.compile(r"^(?:class|struct|concept|enum class) (\w+)(?![\w;])", re.MULTILINE)
 # What signatures show in the place of names that are internal.
@@ -78,8 +75,8 @@ def with_names_for_users(text):
 def in_group(text, group):
     """The header with references to concepts, and with all in its outer namespaces in the group by an alias of doc/Doxyfile."""
     text = re.sub(r"^ *///.*", lambda match: with_references(match[0]), text, flags=re.MULTILINE)
-    text = re.sub(r"^(namespace equiaffine(?:::(?:parameters|IO))? \{)$", rf"\1 /** \\begin{{{group}}} */", text, flags=re.MULTILINE)
-    return re.sub(r"^\n(\} // namespace equiaffine(?:::(?:parameters|IO))?)$", r"/** @} */\n\1", text, flags=re.MULTILINE)
+    text = re.sub(r"^(namespace equiaffine(?:::(?:parameters|IO|vectorized))? \{)$", rf"\1 /** \\begin{{{group}}} */", text, flags=re.MULTILINE)
+    return re.sub(r"^\n(\} // namespace equiaffine(?:::(?:parameters|IO|vectorized))?)$", r"/** @} */\n\1", text, flags=re.MULTILINE)
 
 
 @functools.cache
@@ -88,13 +85,13 @@ def public_headers():
     root = pathlib.Path(LIBRARY)
     names = [path.relative_to(root).as_posix() for path in sorted(root.rglob("*.h"), key=lambda p: (p.name.lower(), p))]
     texts = {name: (root / name).read_text() for name in names if "/internal/" not in name or name in PASSED_ON}
-    return [(name, re.sub(r"^namespace internal \{.*?^\} // namespace internal", "", text, flags=re.M | re.S))
-            for name, text in texts.items()]
+    hidden = re.compile(r"^/// \\cond.*?^/// \\endcond$|^namespace ((?:equiaffine::)?internal) \{.*?^\} // namespace \1$", re.M | re.S)
+    return [(name, hidden.sub("", text)) for name, text in texts.items()]
 
 
 def names_in(text):
     """The classes, concepts and functions of a header as they are called in equiaffine, each once, in its order."""
-    namespace = "IO::" if "namespace equiaffine::IO" in text else ""
+    namespace = "".join(name + "::" for name in ("IO", "vectorized") if f"namespace equiaffine::{name}" in text)
     if "namespace analytic_functions" in text or "namespace equiaffine::parameters" in text:
         return []
     found = [(match.start(), match[1]) for match in DECLARATION.finditer(text)]

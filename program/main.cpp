@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/program.h"
-#include "system/signals.h"
+#include "commands/commands.h"
+#include "system/process.h"
 
 #include <CGAL/assertions.h>
 #include <CGAL/assertions_behaviour.h>

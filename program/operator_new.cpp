@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The `operator new` of this executable, which has large arrays in scratch memory where a limit says so.
+#include "system/file_memory.h"
 #include "system/memory_limit.h"
-#include "system/scratch_memory.h"
 
 #include <cstddef>
 #include <cstdlib>

@@ -198,7 +198,7 @@ function quantile(sorted, percent) {
 const givenRange = (lower, upper) => ({lower, upper, knee: Math.max(Math.abs(lower), Math.abs(upper)) / 100,
                                        isDiverging: lower === -upper, scale: 'linear'});
 
-// The place in [-1, 1] of a number among ascending ones: an Equalization of display/Color_mapping.h.
+// The place in [-1, 1] of a number among ascending ones: an Equalization of display/color_map.h.
 function rankAmong(knots, number) {
   const last = knots.length - 1;
   let first = 0, end = last + 1;
@@ -215,7 +215,7 @@ function rankAmong(knots, number) {
 }
 
 // The function from numbers to places along the bar: 0 and 1 at the ends of the range, not clipped beyond. Inside, this
-// is Color_mapping of display/Color_mapping.h, with [-1, 1] of the diverging map brought to [0, 1].
+// is Color_mapping of display/color_map.h, with [-1, 1] of the diverging map brought to [0, 1].
 function placesAlong({lower, upper, knee, isDiverging}, scale, knots) {
   const scaled = {linear: x => x, logarithmic: x => Math.asinh(x / knee), equalized: x => rankAmong(knots, x)}[scale];
   const part = (begin, end) => {

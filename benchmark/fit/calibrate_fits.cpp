@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibrate_fits MESH...: the rows of Fit_calibration.h that would be right for the fits as they are, on standard output;
+// calibrate_fits MESH...: the rows of Fitted_numbers.h that would be right for the fits as they are, on standard output;
 // what the present rows cover goes to standard error. Surfaces whose numbers are known come with noise of 0 to 5 % of an
 // edge, on coarse and fine grids; of each mesh, two halves of the vertices tell the errors at the scale that is chosen.
 #include "fit/Curvature_fit_3.h"
-#include "fit/Fit_calibration.h"
 #include "fit/Fitted_data_3.h"
 #include "fit/Fitted_numbers.h"
 #include "fit/fit_input.h"

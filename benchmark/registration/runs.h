@@ -8,7 +8,6 @@
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
 #include <equiaffine/base/internal/quantile.h>
-#include <equiaffine/registration/internal/registration_of.h>
 #include <equiaffine/registration/register_surfaces.h>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // next one; arrays of it are read from the memory of the module.
 #include "sample.h"
 #include <equiaffine/display/internal/Parabolic_parts.h>
-#include <equiaffine/display/internal/page.h>
+#include <equiaffine/display/write_HTML.h>
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/function/Level_set_traits_3.h>

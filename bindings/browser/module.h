@@ -5,8 +5,8 @@
 
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/Progress_observer.h>
-#include <equiaffine/formula/Unknown_name_error.h>
-#include <equiaffine/mesh/Isosurface_3.h>
+#include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 

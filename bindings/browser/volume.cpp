@@ -5,8 +5,7 @@
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/function/Sampled_function_traits_3.h>
 #include <equiaffine/volume/Sample_noise.h>
-#include <equiaffine/volume/Volume_view_3.h>
-#include <equiaffine/volume/few_values.h>
+#include <equiaffine/volume/Volume_3.h>
 
 #include <cstddef>
 #include <limits>

@@ -4,9 +4,8 @@
 #define EQUIAFFINE_BINDINGS_PYTHON_ARRAYS_H
 
 #include "system/kernel.h"
-#include <equiaffine/mesh/Annotated_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/volume/Volume_3.h>
-#include <equiaffine/volume/Volume_view_3.h>
 
 #include <cstddef>
 #include <cstdint>

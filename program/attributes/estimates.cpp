@@ -2,7 +2,7 @@
 #include "attributes/estimates.h"
 
 #include "source/source.h"
-#include <equiaffine/attributes/internal/quantities.h>
+#include <equiaffine/attributes/internal/attribute_table.h>
 #include <equiaffine/display/internal/trust.h>
 #include <equiaffine/function/internal/point_blocks.h>
 

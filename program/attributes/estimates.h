@@ -2,20 +2,60 @@
 #ifndef EQUIAFFINE_PROGRAM_ATTRIBUTES_ESTIMATES_H
 #define EQUIAFFINE_PROGRAM_ATTRIBUTES_ESTIMATES_H
 
-#include "attributes/estimate_names.h"
 #include "source/Fit_statistics.h"
 #include "system/kernel.h"
 #include "system/progress.h"
 #include <equiaffine/attributes/Attribute_selection.h>
-#include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace equiaffine {
+
+/// What an estimate is of: the error; what noise makes; or what detail makes that a scale leaves out.
+enum class Estimate_kind { ERROR, NOISE, DETAIL };
+
+/// A column with estimates.
+struct Estimate_attribute {
+  std::string name;
+  Estimate_kind kind;
+  const Error_row<double>* row;
+  bool is_of_splines; ///< whether splines have it, too, and not fits alone
+};
+
+/// All of them, in the order of the columns of a file.
+inline const std::vector<Estimate_attribute>& estimate_attributes() {
+  static const std::vector<Estimate_attribute> attributes = [] {
+    constexpr std::size_t of_splines = 2; // the affine curvatures, of which there are all kinds
+    std::vector<Estimate_attribute> result;
+    const auto add = [&](Estimate_kind kind, const std::string& suffix, std::size_t count) {
+      for (std::size_t n = 0; n < count; ++n) {
+        const auto& row = error_table<double>[n];
+        result.push_back(
+            {std::string(row.attribute) + suffix, kind, &row, kind == Estimate_kind::ERROR && n < of_splines});
+      }
+    };
+    add(Estimate_kind::ERROR, "_error", error_table<double>.size());
+    add(Estimate_kind::NOISE, "_noise", of_splines);
+    add(Estimate_kind::DETAIL, "_detail", of_splines);
+    return result;
+  }();
+  return attributes;
+}
+
+/// The names of the columns with estimates of errors.
+inline std::vector<std::string> error_attributes() {
+  std::vector<std::string> names;
+  for (const auto& attribute : estimate_attributes())
+    if (attribute.kind == Estimate_kind::ERROR) names.push_back(attribute.name);
+  return names;
+}
 
 struct Source;
 struct Source_options;

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/Option_reader.h"
 
+#include "cli/option_values.h"
+#include "cli/suggestions.h"
+#include "volume/volume_io.h"
 #include <equiaffine/base/Input_error.h>
+#include <equiaffine/io/internal/input_file.h>
+
+#include <filesystem>
+#include <set>
+#include <system_error>
+#include <utility>
 
 namespace equiaffine {
 
@@ -28,6 +37,176 @@ void Option_reader::refuse(std::initializer_list<const char*> options, const std
 
 void Option_reader::need(const std::string& option, const std::string& advice) const {
   if (!has(option)) throw Input_error("the option " + option + " is missing; " + advice);
+}
+
+namespace {
+
+/// Makes names of the same file equal, whatever links and dots lead there.
+std::filesystem::path canonical_path(const std::string& path) {
+  if (path == "-") return path;
+  std::error_code error;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, error),
+                              canonical = std::filesystem::weakly_canonical(absolute, error);
+  return error ? absolute.lexically_normal() : canonical;
+}
+
+/// Whether two paths lead to the same file, by symbolic or hard links, too.
+bool are_same_file(const std::string& path, const std::string& other) {
+  std::error_code error;
+  return canonical_path(path) == canonical_path(other) || std::filesystem::equivalent(path, other, error);
+}
+
+} // namespace
+
+std::vector<std::string> input_files(const Option_reader& reader) {
+  std::vector<std::string> files;
+  for (const char* option :
+       {"FILE", "--volume", "--distance-to", "--fit", "--points", "--range-of", "MESH.ply", "MESH"})
+    if (reader.has(option)) files.push_back(reader.word(option));
+  if (const Source_options& source = reader.draft().source; source.kind == Source_kind::VOLUME && !source.raw)
+    for (std::string& file : files_read_with(source.text)) files.push_back(std::move(file));
+  if (reader.has("--function"))
+    if (const auto file = formula_file(reader.word("--function"))) files.push_back(*file);
+  return files;
+}
+
+void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::optional<std::string>>& outputs) {
+  std::set<std::filesystem::path> paths;
+  for (const auto& path : outputs) {
+    if (!path) continue;
+    if (!paths.insert(canonical_path(*path)).second)
+      throw Input_error("two outputs go to " + (path == "-" ? "standard output" : "'" + *path + "'") +
+                        "; give each its own name");
+    for (const std::string& input : inputs)
+      if (path != "-" && input != "-" && are_same_file(*path, input))
+        throw Input_error("the output '" + *path + "' would replace the file that is read; give it another name");
+  }
+}
+
+void need_output(const Option_reader& reader) { reader.need("--output", "name the file to write, -o FILE"); }
+
+void refuse_picture_options(const Option_reader& reader) {
+  if (!reader.has("--png"))
+    reader.refuse({"--size", "--arrows"}, "it is for the picture of --png", "add --png or leave it out");
+}
+
+void refuse_page_options(const Option_reader& reader) {
+  if (!reader.has("--html") && !reader.has("--png"))
+    reader.refuse({"--color", "--up", "--colors", "--range", "--range-of"},
+                  "it is for the page of --html and the picture of --png", "add one of them or leave it out");
+}
+
+namespace {
+
+[[noreturn]] void fail_without_source(Command command) {
+  const std::string options =
+      command == SAMPLE ? "--function, --distance-to or --fit" : "--function, --volume, --distance-to or --fit";
+  throw Input_error("no source is given" + (command == REGISTER
+                                                ? " on one side of the word 'to'; name a file there or use " + options
+                                            : command == SYMMETRIES ? "; name a file or use " + options
+                                                                    : "; use " + options));
+}
+
+/// Throws for an option of fits with a source that is none.
+void refuse_fit_options(const Option_reader& reader) {
+  const auto refuse = [&](const std::string& reason, const std::string& advice) {
+    reader.refuse({"--scale", "--noise", "--degree", "--feature-angle"},
+                  "it is for the polynomials of --fit, and " + reason, advice);
+  };
+  const Source_options& source = reader.draft().source;
+  switch (source.kind) {
+  case Source_kind::FUNCTION: return refuse("a formula has no points to fit", "leave it out");
+  case Source_kind::VOLUME:
+    return refuse("a volume gets a spline", "leave it out, and smooth the samples with --smoothing auto");
+  case Source_kind::DISTANCE:
+    return refuse("a distance gets a spline", "use --fit " + source.text + " in place of --distance-to");
+  case Source_kind::FIT: return;
+  }
+}
+
+void read_kind(Option_reader& reader) {
+  std::string given;
+  for (const char* option : {"FILE", "--function", "--volume", "--distance-to", "--fit"}) {
+    if (!reader.has(option)) continue;
+    if (!given.empty()) throw Input_error(given + " and " + option + " are both given; give one source");
+    given = option == std::string("FILE") ? "'" + reader.word(option) + "'" : option;
+    reader.read({option});
+  }
+  if (given.empty()) fail_without_source(reader.command());
+  if (reader.has("FILE")) check_is_no_formula(reader.word("FILE"));
+  Source_options& source = reader.draft().source;
+  const bool has_derivatives = source.kind == Source_kind::FUNCTION || source.kind == Source_kind::FIT;
+  source.derivatives = has_derivatives ? Derivatives::JETS : Derivatives::SPLINE;
+}
+
+/// Checks that the source has what was read of it, and that a formula has a box where it is sampled.
+void check_kind(const Option_reader& reader) {
+  const Source_options& source = reader.draft().source;
+  if (source.kind != Source_kind::FUNCTION) reader.refuse({"--set"}, "only a --function has constants", "leave it out");
+  if (source.kind == Source_kind::VOLUME)
+    reader.refuse({"--box", "--resolution"}, "a --volume has its own", "leave it out");
+  const bool is_sampled_only = source.kind == Source_kind::VOLUME || source.kind == Source_kind::DISTANCE;
+  if (source.kind == Source_kind::FIT && source.derivatives == Derivatives::SPLINE)
+    fail_option("--derivatives", "a fit is known near its points only, which is too little for a spline",
+                "leave it out: a fit has derivatives of its own");
+  if (is_sampled_only && source.derivatives == Derivatives::JETS)
+    fail_option("--derivatives", "jets need a formula, and this source is known by samples only",
+                "leave it out or use spline");
+  const bool is_sampled = reader.command() != EVALUATE || source.derivatives == Derivatives::SPLINE;
+  if (source.kind == Source_kind::FUNCTION && is_sampled)
+    reader.need("--box", "say where the --function is to be sampled, such as --box -2 2 -2 2 -2 2");
+}
+
+void read_spline(Option_reader& reader) {
+  if (reader.draft().source.derivatives == Derivatives::JETS)
+    reader.refuse({"--spline-degree", "--spline-scheme", "--smoothing"},
+                  "it is for splines, and the derivatives are those of the formula or the fit",
+                  reader.draft().source.kind == Source_kind::FIT ? "leave it out"
+                                                                 : "add --derivatives spline or leave it out");
+  reader.read({"--spline-scheme", "--spline-degree"});
+  const Spline_options& spline = reader.draft().source.spline;
+  if (spline.scheme == Spline_scheme::PAPER && spline.degree != 5)
+    fail_option("--spline-degree", "the paper's spline has degree 5", "leave it out or use another --spline-scheme");
+  reader.read({"--smoothing"});
+}
+
+/// Reads what a file `.raw` does not say itself; the options are refused for others.
+void read_raw_layout(Option_reader& reader) {
+  if (reader.command() == SAMPLE) return; // its --type is the type that it writes
+  const Source_options& source = reader.draft().source;
+  const bool is_raw = source.kind == Source_kind::VOLUME && has_extension(source.text, ".raw");
+  if (!is_raw)
+    return reader.refuse({"--dims", "--spacing", "--origin", "--type"},
+                         "it is for a --volume FILE.raw, which has no header", "leave it out");
+  for (const char* option : {"--dims", "--type"})
+    reader.need(option, "a .raw has no header, say for instance --dims 256 256 128 --type int16");
+  reader.read({"--dims", "--spacing", "--origin", "--type"});
+}
+
+/// Reads what is to be read of a volume; the options are refused for other sources.
+void read_selection(Option_reader& reader) {
+  const Source_options& source = reader.draft().source;
+  if (source.kind != Source_kind::VOLUME)
+    reader.refuse({"--component", "--time", "--allow-outside"}, "it is for a --volume", "leave it out");
+  if (source.raw)
+    reader.refuse({"--component", "--time", "--allow-outside"},
+                  "it is for a --volume with a header, and a .raw has none", "leave it out");
+  reader.read({"--component", "--time", "--allow-outside"});
+}
+
+} // namespace
+
+void read_source(Option_reader& reader) {
+  read_kind(reader);
+  reader.read({"--set", "--box", "--resolution", "--transform", "--derivatives"});
+  check_kind(reader);
+  read_spline(reader);
+  read_raw_layout(reader);
+  read_selection(reader);
+  if (reader.draft().source.kind != Source_kind::DISTANCE)
+    reader.refuse({"--narrow-band"}, "it is for --distance-to", "leave it out");
+  refuse_fit_options(reader);
+  reader.read({"--narrow-band", "--scale", "--noise", "--degree", "--feature-angle"});
 }
 
 } // namespace equiaffine

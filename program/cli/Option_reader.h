@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// How the words of a command line become a request, by way of a draft.
 #ifndef EQUIAFFINE_PROGRAM_CLI_OPTION_READER_H
 #define EQUIAFFINE_PROGRAM_CLI_OPTION_READER_H
 
-#include "cli/Draft.h"
 #include "cli/command_line.h"
 
 #include <initializer_list>
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace equiaffine {
 
@@ -43,6 +45,30 @@ private:
   std::set<std::string> names_read_;
   Draft draft_;
 };
+
+/// The paths of the files that the command line says to read, and of those that the headers of volumes among them name.
+std::vector<std::string> input_files(const Option_reader& reader);
+
+/// Throws if an output would replace what is read, or another output.
+void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::optional<std::string>>& outputs);
+
+/// Throws if there is no `--output`.
+void need_output(const Option_reader& reader);
+
+/// Throws for options of a picture without `--png`.
+void refuse_picture_options(const Option_reader& reader);
+
+/// Throws for options of a page and of a picture without either.
+void refuse_page_options(const Option_reader& reader);
+
+/// Reads the options of the source, and checks that they go together.
+void read_source(Option_reader& reader);
+
+/// Reads the command line of `register`: one source stands before the word `to`, the other one after it, and options
+/// that belong to neither may stand on both sides. Throws `Input_error`.
+Options parse_register_options(const Words& arguments);
+
+Symmetries_options read_symmetries_options(Option_reader& reader);
 
 } // namespace equiaffine
 

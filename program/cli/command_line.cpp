@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/command_line.h"
 
-#include "cli/Option_row.h"
 #include "cli/help_texts.h"
-#include "cli/slips.h"
+#include "cli/suggestions.h"
 #include <equiaffine/base/Input_error.h>
 
 #include <CLI/App.hpp>
@@ -17,6 +16,14 @@
 #include <vector>
 
 namespace equiaffine {
+
+std::vector<const Option_row*> options_of(Command command) {
+  std::vector<const Option_row*> rows;
+  for (const auto& part : {source_options(), surface_options(), map_options(), output_options()})
+    for (const Option_row& row : part)
+      if (row.commands & command) rows.push_back(&row);
+  return rows;
+}
 
 namespace {
 

@@ -1,16 +1,106 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The table of options, the draft that their values go to, and the words of a command line.
 #ifndef EQUIAFFINE_PROGRAM_CLI_COMMAND_LINE_H
 #define EQUIAFFINE_PROGRAM_CLI_COMMAND_LINE_H
 
-#include "cli/Option_row.h"
 #include "cli/option_values.h"
+#include "request/options.h"
 
+#include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace equiaffine {
+
+/// The ways to make a mesh.
+enum class Mesh_method { MARCHING_CUBES, DELAUNAY, REMESH };
+
+/// The values of the options of all commands; each command takes its part. The defaults that the structs of requests do
+/// not have are here.
+struct Draft {
+  std::optional<std::size_t> threads, memory;
+  Source_options source;
+  double isovalue = 0;
+  Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
+  Mesh_method method = Mesh_method::MARCHING_CUBES;
+  Marching_cubes_options marching_cubes;
+  Remesh_options remesh;
+  Delaunay_options delaunay;
+  std::optional<std::size_t> largest;
+  Attribute_selection attributes = select_attributes("basic");
+  std::vector<std::string> estimates; ///< the columns of errors and of noise that are asked for
+  Estimator estimator = Estimator::COMPACT;
+  Display_options display;
+  bool samples_are_float = false;
+  Map_options maps;
+  std::optional<std::size_t> number_of_maps;
+  double least_overlap = 0.05;
+  std::optional<double> tolerance;
+  bool is_complete = false;
+  std::string mesh, points; ///< the files that `view` and `annotate`, and that `evaluate` reads
+  std::optional<std::string> output, moved, curves, stats;
+};
+
+/// Formulas and volumes have z up unless something else is asked for; the shapes of data tell what is up.
+inline void choose_up(Source_kind kind, Display_options& display) {
+  const bool is_data = kind == Source_kind::FIT || kind == Source_kind::DISTANCE;
+  if (!is_data && !display.up) display.up = {0, 0, 1};
+}
+
+/// The commands of the program, as bits: an option of several commands has their sum.
+enum Command : unsigned { MESH = 1, EVALUATE = 2, SAMPLE = 4, VIEW = 8, ANNOTATE = 16, REGISTER = 32, SYMMETRIES = 64 };
+using Commands = unsigned;
+
+/// The commands that look for maps.
+inline constexpr Commands registering = REGISTER | SYMMETRIES;
+
+/// Says below which heading of the help an option stands. The words of the heading depend on the command: title_of() in
+/// command_line.cpp has them.
+enum class Option_group { INPUT, SOURCE, BOX, FIT, SURFACE, SAMPLING, MARCHING_CUBES, DELAUNAY, REMESH, MAPS, OUTPUT };
+
+/// Whether the options of the group belong to the source or to its surface. Others of `register`, which has two sources,
+/// may stand on either side of the word `to`.
+inline bool belongs_to_source(Option_group group) {
+  return group != Option_group::MAPS && group != Option_group::OUTPUT;
+}
+
+/// How many words follow the name of an option.
+struct Number_of_words {
+  int least, most; ///< `most` is unlimited if it is 0 and `least` is not
+
+  constexpr Number_of_words(int exactly) : least(exactly), most(exactly) {}
+  constexpr Number_of_words(int at_least, int at_most) : least(at_least), most(at_most) {}
+};
+
+constexpr int unlimited = 0;
+
+/// A row of the table says everything about one option, from its help to where its value goes. For a new option add a
+/// row to source_options.cpp, surface_options.cpp or output_options.cpp.
+struct Option_row {
+  std::string names; ///< such as "-o,--output"; a positional argument has a name without dashes
+  Commands commands;
+  Option_group group;
+  Number_of_words words;
+  std::string type; ///< how the help writes the words
+  std::string help;
+  /// Reads the words and puts their value into the draft. Throws `Input_error` if it cannot read them.
+  void (*read)(const Option_words& option, Draft& draft);
+
+  /// The last of the names, by which messages call the option.
+  std::string name() const { return names.substr(names.find(',') + 1); }
+};
+
+/// The parts of the table, in the order of the help.
+std::span<const Option_row> source_options();
+std::span<const Option_row> surface_options();
+std::span<const Option_row> map_options();
+std::span<const Option_row> output_options();
+
+/// The rows of a command in the order of its help.
+std::vector<const Option_row*> options_of(Command command);
 
 /// The words on the command line: those of every option that is given, before their meaning is read.
 struct Command_line {

@@ -3,14 +3,17 @@
 
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/formula/Expression_3.h>
+#include <equiaffine/io/internal/input_file.h>
 
 #include <CGAL/determinant.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <iterator>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <system_error>
 
@@ -28,23 +31,6 @@ std::optional<Number> parse_number(std::string_view word) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
   if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
   return number;
-}
-
-/// The number of insertions, deletions, replacements and swaps of neighbors that turn one word into the other.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
-  std::iota(last.begin(), last.end(), std::size_t(0));
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      row[j + 1] = std::min({last[j + 1] + 1, row[j] + 1, last[j] + (a[i] == b[j] ? 0 : 1)});
-      if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j])
-        row[j + 1] = std::min(row[j + 1], before_last[j - 1] + 1);
-    }
-    before_last = last;
-    last = row;
-  }
-  return last.back();
 }
 
 } // namespace
@@ -167,18 +153,26 @@ std::size_t parse_choice(const Option_words& option, std::span<const std::string
   return std::size_t(choice - choices.begin());
 }
 
-std::string suggestion(const std::string& word, const Words& candidates) {
-  const auto starts_so = [&](const std::string& candidate) { return candidate.starts_with(word); };
-  if (std::count_if(candidates.begin(), candidates.end(), starts_so) == 1)
-    return ", did you mean '" + *std::find_if(candidates.begin(), candidates.end(), starts_so) + "'?";
-  const std::string* best = nullptr;
-  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const std::string& candidate : candidates)
-    if (const std::size_t distance = edit_distance(word, candidate); distance < least) {
-      least = distance;
-      best = &candidate;
-    }
-  return best ? ", did you mean '" + *best + "'?" : "";
+std::optional<std::string> formula_file(const std::string& word) {
+  if (!word.starts_with('@')) return std::nullopt;
+  return word.substr(1);
+}
+
+std::string read_formula(const std::string& path) {
+  constexpr std::size_t most = 1'000'000; // bytes, far more than anybody writes
+  if (path.empty()) throw Input_error("--function: there is no file name after the @; write --function @FILE");
+  std::ifstream file = open_input(path);
+  std::string text(most + 1, '\0');
+  text.resize(std::size_t(file.read(text.data(), std::streamsize(text.size())).gcount()));
+  if (text.size() > most)
+    throw Input_error("cannot read '" + path + "': it has more than a million bytes; give a file with one formula");
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3); // the byte order mark of editors
+  std::erase(text, '\r');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  text.erase(std::find_if(text.rbegin(), text.rend(), [](char c) { return c != ' '; }).base(), text.end());
+  if (text.empty()) throw Input_error("cannot read '" + path + "': it holds no formula; write one into it");
+  return text;
 }
 
 } // namespace equiaffine

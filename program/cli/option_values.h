@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -76,9 +77,12 @@ Value parse_choice(const Option_words& option, std::initializer_list<std::pair<s
   return (choices.begin() + parse_choice(option, names))->second;
 }
 
-/// ", did you mean 'candidate'?" for the only candidate that begins with the word, or else the one with the fewest
-/// typing errors, if they are few; else nothing.
-std::string suggestion(const std::string& word, const Words& candidates);
+/// The path after the @ if the word of --function is `@FILE`, or nothing if it is a formula.
+std::optional<std::string> formula_file(const std::string& word);
+
+/// The formula in a file, with spaces for its line breaks. Throws `Input_error` if there is none, or none that could
+/// be a formula.
+std::string read_formula(const std::string& path);
 
 } // namespace equiaffine
 

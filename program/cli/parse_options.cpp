@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/parse_options.h"
 
-#include "attributes/estimate_names.h"
+#include "attributes/estimates.h"
 #include "cli/Option_reader.h"
-#include "cli/check_outputs.h"
-#include "cli/read_registration.h"
-#include "cli/read_source.h"
-#include "cli/slips.h"
+#include "cli/suggestions.h"
 #include <equiaffine/base/Input_error.h>
 
 #include <algorithm>

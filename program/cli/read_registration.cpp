@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/read_registration.h"
-
-#include "cli/check_outputs.h"
-#include "cli/read_source.h"
+#include "cli/Option_reader.h"
 #include <equiaffine/base/Input_error.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/Option_row.h"
-#include "cli/formula_file.h"
+#include "cli/command_line.h"
+#include "cli/option_values.h"
 #include "volume/volume_io.h"
 
 #include <optional>

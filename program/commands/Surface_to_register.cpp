@@ -2,14 +2,25 @@
 #include "commands/Surface_to_register.h"
 
 #include "commands/extract_surface.h"
-#include "commands/fail_without_surface.h"
-#include "source/any_level_set.h"
+#include "output/maps.h"
+#include "output/maps_display.h"
 #include "source/source.h"
+#include "source/source_function.h"
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/mesh/internal/Triangle_tree_3.h>
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/tags.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -18,8 +29,12 @@ namespace equiaffine {
 
 namespace {
 
-Indexed_triangle_mesh_3<Kernel> extract(const Source_function& function, const Surface_options& options,
-                                        Progress& progress) {
+using Map = CGAL::Aff_transformation_3<Kernel>;
+using Point = Kernel::Point_3;
+using Vector = Kernel::Vector_3;
+using Mesh = Indexed_triangle_mesh_3<Kernel>;
+
+Mesh extract(const Source_function& function, const Surface_options& options, Progress& progress) {
   progress.begin("extracting the surface");
   auto surface = extract_surface(function, options.isovalue, options.source, Vertex_position::PROJECTED);
   if (surface.triangles.empty() && (options.source.kind != Source_kind::FIT || options.isovalue != 0))
@@ -57,6 +72,150 @@ Surface_to_register make_surface_to_register(const Surface_options& options, boo
   else surface.mesh = extract(source.function, options, progress);
   if (is_shown && surface.mesh.triangles.empty()) surface.extracted = extract(source.function, options, progress);
   return surface;
+}
+
+namespace {
+
+bool contains(const CGAL::Bbox_3& box, const Point& p) {
+  return box.xmin() <= p.x() && p.x() <= box.xmax() && box.ymin() <= p.y() && p.y() <= box.ymax() &&
+         box.zmin() <= p.z() && p.z() <= box.zmax();
+}
+
+/// The distances of points from the image of a surface under the inverse of `back`, to first order; NaN outside of the
+/// image of its domain.
+std::vector<double> distances(const std::vector<Point>& points, const Any_function_3& surface, const Map& back) {
+  const CGAL::Bbox_3 box = surface.bbox();
+  std::vector<double> result(points.size(), std::numeric_limits<double>::quiet_NaN());
+  parallel_for<CGAL::Parallel_if_available_tag>(
+      0, points.size(),
+      [&](std::size_t i) {
+        const Point p = back(points[i]);
+        if (!contains(box, p)) return;
+        const auto jet = surface.first_order(p);
+        const auto& c = jet.coefficients();
+        std::array<double, 3> gradient{};
+        for (int k = 0; k < 3; ++k)
+          gradient[std::size_t(k)] = c[1] * back.m(0, k) + c[2] * back.m(1, k) + c[3] * back.m(2, k);
+        result[i] = std::abs(c[0]) / std::hypot(gradient[0], gradient[1], gradient[2]);
+      },
+      64);
+  return result;
+}
+
+/// Several meshes as one, with columns for all.
+class Joined_meshes {
+public:
+  void add(const Mesh& mesh, double number, std::vector<double> distances) {
+    const auto first = std::uint32_t(result_.mesh.points.size());
+    result_.mesh.points.insert(result_.mesh.points.end(), mesh.points.begin(), mesh.points.end());
+    for (const auto& [a, b, c] : mesh.triangles) result_.mesh.triangles.push_back({a + first, b + first, c + first});
+    distances.resize(mesh.points.size(), std::numeric_limits<double>::quiet_NaN());
+    auto& all = result_.attributes.columns;
+    all[0].values.insert(all[0].values.end(), distances.begin(), distances.end());
+    all[1].values.insert(all[1].values.end(), mesh.points.size(), number);
+  }
+
+  Annotated_mesh_3<Kernel> result() && { return std::move(result_); }
+
+private:
+  Annotated_mesh_3<Kernel> result_ = {{}, {{{"distance", {}}, {"surface", {}}}, {}}};
+};
+
+/// Adds the frames of the pair as arrows, the longest one of a fifth of the diagonal.
+void add_frames(const Registered_map_3<Kernel>& registered, double diagonal, Joined_meshes& all) {
+  const auto& [points, frames] = *registered.pair;
+  const Point p = registered.map(points[0]), q = points[1];
+  std::array<Vector, 3> moved_frame = frames[0];
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    moved_frame[k] = registered.map(moved_frame[k]);
+    for (const Vector& v : {moved_frame[k], frames[1][k]}) longest = std::max(longest, std::sqrt(v.squared_length()));
+  }
+  const double scale = 0.2 * diagonal / longest, radius = 0.004 * diagonal;
+  for (std::size_t k = 0; k < 3; ++k) {
+    all.add(arrow_mesh(q, scale * frames[1][k], radius), 2, {});
+    all.add(arrow_mesh(p, scale * moved_frame[k], radius), 3, {});
+  }
+}
+
+} // namespace
+
+double diagonal_of(const std::vector<Kernel::Point_3>& points) {
+  CGAL::Bbox_3 box;
+  for (const Point& p : points) box += p.bbox();
+  return std::hypot(box.x_span(), box.y_span(), box.z_span());
+}
+
+Mesh moved(Mesh mesh, const Map& map) {
+  for (Point& p : mesh.points) p = map(p);
+  if (determinant_of(map) < 0)
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  return mesh;
+}
+
+Annotated_mesh_3<Kernel> moved_source(const Surface_to_register& source, const Distances_of_points& from_target,
+                                      const Map& map) {
+  Annotated_mesh_3<Kernel> result{moved(source.mesh, map), {}};
+  result.attributes.columns.push_back({"distance", from_target(result.mesh.points)});
+  return result;
+}
+
+Annotated_mesh_3<Kernel> registered_surfaces(const Surface_to_register& source, const Surface_to_register& target,
+                                             const std::array<Distances_of_points, 2>& from_source_and_target,
+                                             const Surface_registration_3<Kernel>& registration) {
+  const auto& [from_source, from_target] = from_source_and_target;
+  const Map map = registration.found() ? registration.best().map : Map(CGAL::IDENTITY);
+  const Mesh image = moved(source.shown(), map);
+  Joined_meshes all;
+  all.add(target.shown(), 0, from_source(target.shown().points));
+  all.add(image, 1, from_target(image.points));
+  if (registration.found() && registration.best().pair) add_frames(registration.best(), diagonal_of(image.points), all);
+  return std::move(all).result();
+}
+
+Distances_of_points distances_from(const Any_function_3& surface, const Map& back) {
+  return [&surface, back](const std::vector<Point>& points) { return distances(points, surface, back); };
+}
+
+Distances_of_points distances_from(const Mesh& mesh) {
+  static constexpr auto in_tree = [](const Point& p) { return Triangle_tree_3::Point_3(p.x(), p.y(), p.z()); };
+  const auto tree = std::make_shared<const Triangle_tree_3>(mesh.points, mesh.triangles, in_tree);
+  return [tree](const std::vector<Point>& points) {
+    std::vector<double> result(points.size());
+    parallel_for<CGAL::Parallel_if_available_tag>(
+        0, points.size(), [&](std::size_t i) { result[i] = tree->distance(in_tree(points[i])); }, 64);
+    return result;
+  };
+}
+
+Annotated_mesh_3<Kernel> surface_with_symmetries(const Mesh& surface, const Affine_symmetries_3<Kernel>& symmetries,
+                                                 const Distances_of_points& distances) {
+  std::vector<double> greatest(surface.points.size(), std::numeric_limits<double>::quiet_NaN());
+  for (const auto& symmetry : symmetries.maps) {
+    const auto images = distances(moved(surface, symmetry.map).points);
+    for (std::size_t i = 0; i < images.size(); ++i) greatest[i] = std::fmax(greatest[i], images[i]);
+  }
+  const double diagonal = diagonal_of(surface.points);
+  const Symmetry_marks marks = marks_of(symmetries);
+  Joined_meshes all;
+  all.add(surface, 0, std::move(greatest));
+  all.add(mesh_of_planes(marks.planes, surface, 0.002 * diagonal), 1, {});
+  all.add(mesh_of_axes(marks.axes, surface, 0.004 * diagonal), marks.planes.empty() ? 1 : 2, {});
+  Annotated_mesh_3<Kernel> result = std::move(all).result();
+  auto& columns = result.attributes.columns;
+  const auto& generators = symmetries.continuous.generators;
+  for (std::size_t n = 0; n < generators.size(); ++n)
+    for (int k = 0; k < 3; ++k) {
+      const auto& [matrix, translation] = generators[n];
+      auto& column = columns.emplace_back();
+      column.name = "generator" + std::to_string(n + 1) + '_' + "xyz"[k];
+      column.values.assign(result.mesh.points.size(), std::numeric_limits<double>::quiet_NaN());
+      for (std::size_t i = 0; i < surface.points.size(); ++i) {
+        const Point& p = surface.points[i];
+        column.values[i] = matrix(k, 0) * p.x() + matrix(k, 1) * p.y() + matrix(k, 2) * p.z() + translation[k];
+      }
+    }
+  return result;
 }
 
 } // namespace equiaffine

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "attributes/estimates.h"
 #include "commands/commands.h"
-#include "output/fit_display.h"
+#include "output/displays.h"
 #include "output/statistics.h"
-#include "output/surface_output.h"
-#include "source/fit_vertices.h"
-#include "source/read_triangle_mesh.h"
-#include "source/read_vertices.h"
+#include "source/read_mesh.h"
+#include "source/source_function.h"
 #include "source/warnings.h"
-#include "system/atomic_file.h"
-#include "system/name_of_file.h"
+#include "system/files.h"
 #include <equiaffine/base/Input_error.h>
 
 #include <cstddef>

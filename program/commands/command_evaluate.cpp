@@ -1,19 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The commands `evaluate` and `sample`: a source at given points, and at the nodes of a grid.
+#include "attributes/estimates.h"
 #include "commands/commands.h"
-#include "commands/evaluate_points.h"
 #include "output/statistics.h"
+#include "source/evaluate_source.h"
 #include "source/source.h"
 #include "source/warnings.h"
-#include "system/atomic_file.h"
+#include "system/files.h"
+#include "volume/volume_io.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/io/read_points.h>
 #include <equiaffine/io/write_mesh.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 namespace equiaffine {
 
 namespace {
+
+/// Makes points with infinite or NaN coordinates OUTSIDE, whatever the function returns for them.
+void mark_points_at_infinity(std::span<const Kernel::Point_3> points, Vertex_attributes& attributes) {
+  if (!attributes.status) return;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Kernel::Point_3& p = points[i];
+    if (std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z())) continue;
+    (*attributes.status)[i] = Point_status::OUTSIDE;
+    for (auto& column : attributes.columns) column.values[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
 
 Mesh_format output_format(const std::string& path) {
   if (path == "-") return Mesh_format::CSV;
@@ -24,6 +41,17 @@ Mesh_format output_format(const std::string& path) {
 }
 
 } // namespace
+
+Vertex_attributes evaluate_points(const Evaluate_options& options, const Source& source,
+                                  std::span<const Kernel::Point_3> points, Progress& progress) {
+  progress.begin("computing attributes");
+  Vertex_attributes attributes =
+      attributes_of_source(source.function, options.orientation, points, options.attributes, options.estimator);
+  if (options.source.estimates_errors)
+    add_estimates(estimates_at(source, options.source, points, progress), options.estimates, attributes);
+  mark_points_at_infinity(points, attributes);
+  return attributes;
+}
 
 void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& progress) {
   const Mesh_format format = output_format(options.output);
@@ -48,6 +76,23 @@ void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& 
     for (std::size_t i = 0; i < counts.size(); ++i)
       if (counts[i] > 0) out << ", " << counts[i] << ' ' << to_string(Point_status(i));
   }
+  out << '\n';
+  report_written(out, {&output, 1});
+}
+
+void run_sample(const Sample_options& options, std::ostream& out, Progress& progress) {
+  check_volume_output(options.output);
+  Output_file output(options.output);
+  const Volume_3<Kernel> volume = sample_source(options.source, progress);
+  progress.begin("writing");
+  write_volume(output, volume, options.as_float);
+  progress.end();
+  output.commit();
+  const auto [nx, ny, nz] = volume.lattice.size();
+  out << nx << " x " << ny << " x " << nz << " nodes";
+  const auto unknown =
+      std::count_if(volume.values.begin(), volume.values.end(), [](double v) { return std::isnan(v); });
+  if (unknown > 0) out << ", " << unknown << " without a value";
   out << '\n';
   report_written(out, {&output, 1});
 }

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/commands.h"
 #include "commands/make_surface.h"
+#include "output/Outputs.h"
 #include "output/Part_writer.h"
-#include "output/fit_display.h"
+#include "output/displays.h"
 #include "output/statistics.h"
-#include "output/surface_output.h"
-#include "output/warn_of_lost_points.h"
 #include "source/source.h"
-#include "system/Background_work.h"
-#include "system/atomic_file.h"
+#include "system/files.h"
 #include <equiaffine/mesh/mesh_topology.h>
 #include <equiaffine/surface/parabolic_curves.h>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/task_group.h>
+#endif
 
 #include <algorithm>
 #include <cstddef>
@@ -22,6 +24,43 @@
 namespace equiaffine {
 
 namespace {
+
+/// Work that one of the threads that TBB may use does while this thread goes on. Where there are no others, it is done at
+/// once or by wait().
+class Background_work {
+public:
+  Background_work() = default;
+  Background_work(const Background_work&) = delete;
+  Background_work& operator=(const Background_work&) = delete;
+  ~Background_work() {
+    try {
+      wait();
+    } catch (...) { // there is an exception already, or nobody has waited for the result
+    }
+  }
+
+  /// Starts f().
+  template <class F>
+  void start(F f) {
+#ifdef CGAL_LINKED_WITH_TBB
+    tasks_.run(std::move(f));
+#else
+    f();
+#endif
+  }
+
+  /// Waits for all work that was started, and throws the exception that ended it, if one did.
+  void wait() {
+#ifdef CGAL_LINKED_WITH_TBB
+    tasks_.wait();
+#endif
+  }
+
+private:
+#ifdef CGAL_LINKED_WITH_TBB
+  tbb::task_group tasks_;
+#endif
+};
 
 Statistics make_statistics(const Mesh_options& options, const Annotated_surface& surface, const Source& source,
                            const Mesh_topology& topology) {
@@ -71,8 +110,7 @@ Description make_description(const Mesh_options& options, const Statistics& stat
     description.emplace_back("Normals", "against the gradient");
   description.emplace_back("Vertices", std::to_string(statistics.vertices));
   description.emplace_back("Triangles", std::to_string(statistics.faces));
-  description.emplace_back("Components",
-                           std::to_string(statistics.topology.components) + left_out_text(statistics));
+  description.emplace_back("Components", std::to_string(statistics.topology.components) + left_out_text(statistics));
   description.emplace_back("Euler characteristic", std::to_string(statistics.topology.euler_characteristic));
   description.insert(description.end(), fit.begin(), fit.end());
   return description;

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The commands `register` and `symmetries`.
+#include "commands/Surface_to_register.h"
 #include "commands/commands.h"
-#include "commands/find_map.h"
-#include "commands/maps_view.h"
+#include "commands/find_maps.h"
+#include "output/Outputs.h"
+#include "output/displays.h"
 #include "output/maps.h"
 #include "output/maps_display.h"
-#include "output/surface_output.h"
-#include "output/warn_of_lost_points.h"
-#include "system/atomic_file.h"
+#include "picture/draw_surface.h"
+#include "system/files.h"
+#include <equiaffine/base/Input_error.h>
 
 #include <array>
+#include <string>
 
 namespace equiaffine {
 
 namespace {
+
+using Map = CGAL::Aff_transformation_3<Kernel>;
 
 Outputs outputs_of(const Register_options& options) {
   check_maps_output(options.output);
@@ -23,9 +29,14 @@ Outputs outputs_of(const Register_options& options) {
   return outputs;
 }
 
+Outputs outputs_of(const Symmetries_options& options) {
+  check_maps_output(options.output);
+  check_display_outputs(options.display);
+  return Outputs(options.output, options.display);
+}
+
 /// The distances of points from the moved source, or the source as it is if there is no map, and from the target.
 std::array<Distances_of_points, 2> distances_from_surfaces(const Found_map& found) {
-  using Map = CGAL::Aff_transformation_3<Kernel>;
   const Map map = found.registration.found() ? found.registration.best().map : Map(CGAL::IDENTITY);
   const Surface_to_register &source = found.source, &target = found.target;
   if (found.is_by_triangles) return {distances_from(moved(source.mesh, map)), distances_from(target.mesh)};
@@ -56,6 +67,29 @@ void run_register(const Register_options& options, std::ostream& out, Progress& 
         moved_source(source, distances_from_surfaces(found)[1], report.registration.best().map);
     write_surface(*file, mesh, attributes);
     warn_of_lost_points(file->path(), mesh.points, progress);
+  }
+  progress.end();
+  outputs.commit();
+  if (outputs.use_standard_output()) return;
+  out << summary(report);
+  outputs.report(out);
+}
+
+void run_symmetries(const Symmetries_options& options, std::ostream& out, Progress& progress) {
+  Outputs outputs = outputs_of(options);
+  Found_symmetries found = find_symmetries(options, progress);
+  const Symmetries_report report = report_of(options, found);
+  progress.begin("writing");
+  outputs[Output_kind::RESULT].stream() << to_JSON(report);
+  if (options.display.shows_something()) {
+    const auto [mesh, attributes] = found.shown();
+    if (!options.display.arrows.empty() && !vector_columns(attributes, options.display.arrows))
+      throw Input_error("--arrows: there is no vector '" + options.display.arrows +
+                        "'; a continuous symmetry has generator1, and more of them if there are more dimensions");
+    const Display_options display = display_of(report, options.display);
+    write_displays(
+        outputs, mesh, attributes, display,
+        {page_title(options.output, "Symmetries"), description_of(report, display), notes_of(report, display)});
   }
   progress.end();
   outputs.commit();

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/commands.h"
-#include "commands/show.h"
-#include "output/fit_display.h"
-#include "output/surface_output.h"
+#include "output/displays.h"
 #include "picture/draw_surface.h"
-#include "system/atomic_file.h"
-#include "system/name_of_file.h"
+#include "system/files.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/io/internal/input_file.h>
-#include <equiaffine/io/read_PLY.h>
+#include <equiaffine/io/read_points.h>
 
 #include <algorithm>
 #include <fstream>

@@ -1,13 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The program, its commands, and those parts of them that bindings call, too.
 #ifndef EQUIAFFINE_PROGRAM_COMMANDS_COMMANDS_H
 #define EQUIAFFINE_PROGRAM_COMMANDS_COMMANDS_H
 
+#include "output/Outputs.h"
 #include "request/options.h"
+#include "source/source.h"
 #include "system/progress.h"
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <ostream>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace equiaffine {
+
+/// The streams for texts that people read. Data for standard output are written elsewhere.
+struct Streams {
+  std::ostream& out;
+  std::ostream& error;
+  bool error_is_terminal = false; ///< if true, a long computation shows its progress there
+};
+
+/// Runs the program with the arguments (without the program's name) and returns the exit status. It is 0 for success, 2
+/// for an error of the user, which is written to `error` in one line, or in more lines if they show the place, and 1
+/// for a defect of the program.
+int run(const std::vector<std::string>& arguments, const Streams& streams);
 
 // Each command writes its outputs, all of them or none, and on `out` a summary unless an output goes there. They throw
 // Input_error.
@@ -18,6 +37,14 @@ void run_annotate(const Annotate_options& options, std::ostream& out, Progress& 
 void run_register(const Register_options& options, std::ostream& out, Progress& progress);
 void run_symmetries(const Symmetries_options& options, std::ostream& out, Progress& progress);
 void run_view(const View_options& options, std::ostream& out);
+
+/// The attributes of a source at points, and the estimates that are asked for. Points at infinity are OUTSIDE.
+Vertex_attributes evaluate_points(const Evaluate_options& options, const Source& source,
+                                  std::span<const Kernel::Point_3> points, Progress& progress);
+
+/// Writes the page and the picture that are asked for of a mesh of that name, and returns them. Throws `Input_error`, also
+/// for a mesh without faces, and for an attribute that it has not.
+Outputs show(const Annotated_mesh_3<Kernel>& surface, const std::string& name, const View_options& options);
 
 } // namespace equiaffine
 

@@ -1,22 +1,285 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/extract_surface.h"
 
-#include "engine/Engine.h"
+#include "source/evaluate_source.h"
 #include "source/source.h"
+#include "source/source_function.h"
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/internal/index_sets.h>
+#include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/function/sample_on_lattice.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/mesh_topology.h>
 
+#include <CGAL/Aff_transformation_3.h>
+#include <CGAL/Bbox_3.h>
+#include <CGAL/tags.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 namespace equiaffine {
 
 Isosurface_3<Kernel> extract_surface(const Source_function& function, double isovalue, const Source_options& options,
                                      Vertex_position vertices) {
   const auto nodes = options.resolution.value_or(default_resolution(options.kind));
-  return std::visit(
-      [&]<class Traits>(const Traits& f) {
-        return engine<Traits>().marching_cubes(Level_set_traits_3(f, isovalue), nodes, vertices);
-      },
-      function);
+  return isosurface_of_source(function, isovalue, nodes, vertices);
+}
+
+namespace {
+
+/// The least and the greatest value of f at the nodes of a grid. If all values are NaN, they are infinity and
+/// -infinity.
+template <class Traits>
+std::pair<double, double> range_on_grid(const Traits& function) {
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  const auto add = [&](const std::vector<double>& values) {
+    for (const double value : values) {
+      if (value < least) least = value; // std::min would keep a NaN
+      if (value > greatest) greatest = value;
+    }
+  };
+  if constexpr (LatticeImplicitFunctionTraits_3<Traits>) {
+    const auto [nx, ny, nz] = function.lattice().size();
+    std::vector<double> row(nx);
+    for (std::size_t k = 0; k < nz; ++k)
+      for (std::size_t j = 0; j < ny; ++j) {
+        samples(function, {0, j, k}, {nx, 1, 1}, row);
+        add(row);
+      }
+  } else {
+    add(sample_on_lattice<CGAL::Parallel_if_available_tag>(function, sampling_lattice(function, {33, 33, 33})).values);
+  }
+  return {least, greatest};
+}
+
+/// |f|, or infinity where f is undefined.
+double size_at(const Any_function_3& f, const Kernel::Point_3& p) {
+  const double size = std::abs(f.value(p));
+  return std::isnan(size) ? std::numeric_limits<double>::infinity() : size;
+}
+
+/// A place near p where |f| is least: a search in steps along the axes that become shorter, within the box of f. Along
+/// a curved valley it would take as many steps as it likes, and ends.
+Kernel::Point_3 least_near(const Any_function_3& f, Kernel::Point_3 p) {
+  constexpr double first_step = 1. / 32, shortest_step = 1e-12; // in sides of the box
+  constexpr int most_rounds = 2000;
+  const CGAL::Bbox_3 box = f.bbox();
+  double least = size_at(f, p), step = first_step;
+  for (int round = 0; round < most_rounds && step > shortest_step && least > 0; ++round) {
+    const double before = least;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double sign : {-1., 1.}) {
+        std::array<double, 3> q = {p.x(), p.y(), p.z()};
+        q[std::size_t(axis)] += sign * step * (box.max(axis) - box.min(axis));
+        const Kernel::Point_3 moved(q[0], q[1], q[2]);
+        if (!CGAL::do_overlap(box, moved.bbox())) continue;
+        if (const double size = size_at(f, moved); size < least) least = size, p = moved;
+      }
+    if (least == before) step /= 2;
+  }
+  return p;
+}
+
+/// Returns a clause that names zeros beside which f is of one sign. It is empty if f has both signs at the nodes of a
+/// grid, or if no zero to within rounding was found from the nodes where |f| is least.
+std::string zeros_without_change_of_sign(const Any_function_3& f) {
+  constexpr std::size_t starts = 20;
+  constexpr double rounding = 1e-14;
+  const auto grid = sample_on_lattice<CGAL::Parallel_if_available_tag>(f, sampling_lattice(f, {33, 33, 33}));
+  const auto& values = grid.values;
+  std::vector<std::size_t> nodes;
+  for (std::size_t n = 0; n < values.size(); ++n)
+    if (std::isfinite(values[n])) nodes.push_back(n);
+  if (nodes.empty()) return {};
+  const auto by_value = [&](std::size_t m, std::size_t n) { return values[m] < values[n]; };
+  const auto [least, greatest] = std::minmax_element(nodes.begin(), nodes.end(), by_value);
+  if (values[*least] < 0 && values[*greatest] > 0) return {};
+  const double size = std::max(-values[*least], values[*greatest]);
+  if (size == 0) return "f is that at all nodes of a grid";
+  const auto last = nodes.begin() + std::ptrdiff_t(std::min(starts, nodes.size()));
+  std::partial_sort(nodes.begin(), last, nodes.end(),
+                    [&](std::size_t m, std::size_t n) { return std::abs(values[m]) < std::abs(values[n]); });
+  const auto [nx, ny, nz] = grid.lattice.size();
+  for (auto node = nodes.begin(); node != last; ++node) {
+    const std::size_t row = *node / nx;
+    const auto p = least_near(f, grid.lattice.point(double(*node % nx), double(row % ny), double(row / ny)));
+    if (size_at(f, p) > rounding * size) continue;
+    std::ostringstream text;
+    text.precision(3);
+    text << "f has zeros without a change of sign, as near " << p;
+    return text.str();
+  }
+  return {};
+}
+
+/// Throws the error that says why a fit has no surface, and what to choose instead: it has one beside the data only.
+[[noreturn]] void fail_without_surface_of_fit(const Fit_traits& fit, const Source_options& source, double isovalue,
+                                              const Vain_search& search) {
+  const CGAL::Bbox_3 box = fit.bbox(), band = fit.band_box();
+  const std::string fitted = describe(source);
+  std::ostringstream text;
+  if (!CGAL::do_overlap(box, band)) {
+    text << "no part of " << fitted << " is in the " << search.place << ": it lies in " << band.xmin() << ' '
+         << band.xmax() << ' ' << band.ymin() << ' ' << band.ymax() << ' ' << band.zmin() << ' ' << band.zmax()
+         << "; choose a --box that meets that, or leave it out";
+  } else if (isovalue != 0) {
+    text << "no surface f = " << isovalue << ": " << fitted
+         << " is about the distance from the data, and known within some two spacings of them only; choose an "
+            "--isovalue nearer to 0, or leave it out";
+  } else {
+    text << "no part of the surface of " << fitted << " was found in the " << search.place
+         << "; choose a --box that has more of the data, or "
+         << (search.refinement.empty() ? "leave it out" : search.refinement);
+  }
+  throw Input_error(text.str());
+}
+
+template <class Traits>
+bool changes_sign_at_poles_only(const Traits& function) {
+  const auto surface =
+      marching_cubes<CGAL::Parallel_if_available_tag>(function, parameters::number_of_nodes({32, 32, 32}));
+  const auto& status = surface.vertex_status;
+  return surface.repairs.vertices_at_poles + status.size() > 0 &&
+         std::count(status.begin(), status.end(), Point_status::UNCONVERGED) == std::ptrdiff_t(status.size());
+}
+
+} // namespace
+
+bool changes_sign_at_poles_only(const Source_function& function, double isovalue) {
+  // Splines have the grid of their samples, which a function of any type does not know.
+  if (const auto* const spline = std::get_if<Spline_function>(&function))
+    return changes_sign_at_poles_only(Level_set_traits_3(*spline, isovalue));
+  return changes_sign_at_poles_only(any_level_set(function, isovalue));
+}
+
+void fail_without_surface(const Source_function& function, const Source_options& source, double isovalue,
+                          const Vain_search& search) {
+  if (const auto* const fit = std::get_if<Fit_function>(&function))
+    fail_without_surface_of_fit(fit->base(), source, isovalue, search);
+  const auto [least, greatest] = std::visit([](const auto& f) { return range_on_grid(f); }, function);
+  const bool is_defined = least <= greatest, has_both_signs = least < isovalue && greatest > isovalue;
+  const Any_function_3 level_set = any_level_set(function, isovalue);
+  const bool is_proved = search.is_certified || !level_set.bounds(level_set.bbox()).contains(0);
+  const std::string zeros = is_proved || has_both_signs ? std::string() : zeros_without_change_of_sign(level_set);
+  const bool may_be_erased = source.derivatives == Derivatives::SPLINE && source.spline.smoothing != 0.;
+  const bool may_help = !search.refinement.empty() && !search.met_poles && !is_proved && zeros.empty();
+  std::ostringstream text;
+  text << (is_proved ? "no surface f = " : "no part of the surface f = ") << isovalue << (is_proved ? "" : " was found")
+       << " in the " << search.place << ": ";
+  if (!zeros.empty()) text << zeros;
+  else if (is_defined)
+    text << "at the nodes of a grid f" << (may_be_erased ? ", smoothed," : "") << " lies between " << least << " and "
+         << greatest;
+  else text << "at the nodes of a grid f is undefined";
+  if (source.narrow_band) text << " in the band of --narrow-band " << *source.narrow_band;
+  if (search.met_poles) text << ", and changes its sign at poles or jumps only";
+  text << "; choose ";
+  if (!zeros.empty()) text << "another --isovalue, or a function that changes its sign there";
+  else if (may_help && has_both_signs) text << search.refinement;
+  else
+    text << (may_be_erased ? "a smaller --smoothing, which erases what is thin, " : "")
+         << (source.narrow_band ? "a wider band, " : "") << "another --isovalue or box"
+         << (may_help ? ", or " + search.refinement : "");
+  throw Input_error(text.str());
+}
+
+namespace {
+
+double diagonal(const CGAL::Bbox_3& box) { return std::hypot(box.x_span(), box.y_span(), box.z_span()); }
+
+/// Whether the inner box comes within a step of the grid to the sides of the outer one, where it may be cut off.
+bool is_cut_off(const CGAL::Bbox_3& inner, const CGAL::Bbox_3& outer, const std::array<std::size_t, 3>& nodes) {
+  for (int a = 0; a < 3; ++a) {
+    const double step = (outer.max(a) - outer.min(a)) / double(nodes[std::size_t(a)] - 1);
+    if (inner.min(a) < outer.min(a) + step || inner.max(a) > outer.max(a) - step) return true;
+  }
+  return false;
+}
+
+Disjoint_sets<std::uint32_t> components_of(const Isosurface_3<Kernel>& surface) {
+  Disjoint_sets<std::uint32_t> components(surface.points.size());
+  for (const auto& [a, b, c] : surface.triangles) components.unite(a, b), components.unite(a, c);
+  return components;
+}
+
+/// Removes the vertices that are in no triangle, and keeps the order of the others.
+void remove_isolated_vertices(Isosurface_3<Kernel>& surface) {
+  std::vector<bool> is_used(surface.points.size(), false);
+  for (const auto& triangle : surface.triangles)
+    for (const std::uint32_t v : triangle) is_used[v] = true;
+  std::vector<std::uint32_t> number(surface.points.size());
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < surface.points.size(); ++v) {
+    if (!is_used[v]) continue;
+    surface.points[kept] = surface.points[v];
+    surface.vertex_status[kept] = surface.vertex_status[v];
+    number[v] = kept++;
+  }
+  surface.points.erase(surface.points.begin() + std::ptrdiff_t(kept), surface.points.end());
+  surface.vertex_status.resize(kept);
+  for (auto& triangle : surface.triangles)
+    for (std::uint32_t& v : triangle) v = number[v];
+}
+
+} // namespace
+
+void remove_crumbs(Isosurface_3<Kernel>& surface, const Fit_traits& fit, const Source_options& options) {
+  constexpr double reach = 2.5; // in spacings, from side to side
+  const std::size_t n = surface.points.size();
+  auto parts = components_of(surface);
+  std::vector<CGAL::Bbox_3> boxes(n);
+  std::vector<bool> have_border(n, false), are_crumbs(n, false);
+  const auto back =
+      options.transformation ? options.transformation->inverse() : CGAL::Aff_transformation_3<Kernel>(CGAL::IDENTITY);
+  const auto to_data = [&](const Kernel::Point_3& p) { return options.transformation ? back(p) : p; };
+  const auto nodes = options.resolution.value_or(default_resolution(options.kind));
+  for (std::uint32_t v = 0; v < n; ++v) boxes[parts.find(v)] += to_data(surface.points[v]).bbox();
+  internal::for_each_vertex_link(surface.triangles, n, [&](const auto& link) {
+    link.for_each_neighbor([&](std::uint32_t, std::size_t triangles_at_edge) {
+      if (triangles_at_edge == 1) have_border[parts.find(link.vertex())] = true;
+    });
+  });
+  for (std::uint32_t v = 0; v < n; ++v)
+    are_crumbs[v] = parts.find(v) == v && have_border[v] &&
+                    diagonal(boxes[v]) < reach * fit.spacing(to_data(surface.points[v])) &&
+                    !is_cut_off(boxes[v], fit.bbox(), nodes);
+  if (std::find(are_crumbs.begin(), are_crumbs.end(), true) == are_crumbs.end()) return;
+  std::erase_if(surface.triangles, [&](const auto& t) { return are_crumbs[parts.find(t[0])]; });
+  remove_isolated_vertices(surface);
+}
+
+std::size_t keep_largest(Isosurface_3<Kernel>& surface, std::size_t count, std::vector<double>& values) {
+  auto components = components_of(surface);
+  std::map<std::uint32_t, double> areas;
+  for (const auto& [a, b, c] : surface.triangles)
+    areas[components.find(a)] +=
+        std::sqrt(CGAL::cross_product(surface.points[b] - surface.points[a], surface.points[c] - surface.points[a])
+                      .squared_length());
+  if (areas.size() <= count) return 0;
+  std::vector<std::pair<double, std::uint32_t>> sorted;
+  for (const auto& [component, area] : areas) sorted.emplace_back(-area, component);
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = count; i < sorted.size(); ++i) areas.erase(sorted[i].second);
+  const auto is_left_out = [&](std::uint32_t v) { return !areas.contains(components.find(v)); };
+  std::erase_if(surface.triangles, [&](const auto& t) { return is_left_out(t[0]); });
+  std::uint32_t v = 0;
+  std::erase_if(values, [&](double) { return is_left_out(v++); });
+  remove_isolated_vertices(surface);
+  return sorted.size() - count;
 }
 
 } // namespace equiaffine

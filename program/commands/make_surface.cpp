@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/make_surface.h"
 
-#include "commands/check_delaunay_surface.h"
 #include "commands/extract_surface.h"
-#include "commands/fail_without_surface.h"
-#include "commands/forewarn_of_grid.h"
-#include "commands/remesh_fit.h"
-#include "commands/remove_components.h"
-#include "engine/Engine.h"
-#include "source/any_level_set.h"
+#include "request/options.h"
+#include "source/evaluate_source.h"
+#include "source/source.h"
+#include "source/source_function.h"
 #include "source/warnings.h"
-#include "system/forewarn.h"
-#include "system/resources.h"
+#include "system/expected_duration.h"
+#include "system/memory_limit.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 
+#include <CGAL/Bbox_3.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <variant>
@@ -30,6 +32,44 @@ namespace {
 
 constexpr const char* extracting = "extracting the surface";
 
+/// Throws `Input_error` if `delaunay_surface` would refuse the box.
+void check_box_of_delaunay_surface(const CGAL::Bbox_3& box) {
+  const internal::Delaunay_range range(box);
+  if (range.has_box()) return;
+  std::ostringstream text;
+  text << "the box of the function has the diagonal " << range.diagonal() << ", and coordinates to "
+       << std::max(range.diagonal(), range.greatest_coordinate()) << "; --method delaunay works with numbers from "
+       << internal::Delaunay_range::least << " to " << internal::Delaunay_range::greatest << ": choose another unit";
+  throw Input_error(text.str());
+}
+
+/// Throws `Input_error` if `delaunay_surface` would refuse the radius.
+void check_radius_of_delaunay_surface(const CGAL::Bbox_3& box, double radius) {
+  const internal::Delaunay_range range(box);
+  if (radius >= range.least_radius()) return;
+  std::ostringstream text;
+  text << "a radius of " << radius << " is too small beside coordinates to " << range.greatest_coordinate()
+       << ", which takes " << range.least_radius() << ": choose a larger --radius, or an origin nearer to the box";
+  throw Input_error(text.str());
+}
+
+/// Says how long a stage will take that calls `run(options)` for the grid of the source, if that is minutes. It is called
+/// for coarser grids here.
+template <class Run>
+void announce_duration_on_grid(const std::string& stage, const Source_options& options, Progress& progress,
+                               const Run& run) {
+  if (options.kind == Source_kind::VOLUME) return; // the volume has the grid
+  const std::array<std::size_t, 3> size = options.resolution.value_or(default_resolution(options.kind));
+  const double fineness = double(*std::max_element(size.begin(), size.end()));
+  announce_duration(stage, "a smaller --resolution", fineness, true, progress, [&](double coarse) {
+    Source_options with_grid = options;
+    with_grid.resolution = size;
+    for (std::size_t& n : *with_grid.resolution)
+      n = std::size_t(std::max(2., std::round(double(n) * coarse / fineness)));
+    run(with_grid);
+  });
+}
+
 /// Samples the surface; annotated_surface() adds attributes. The mesh is made from f whatever the orientation is, which
 /// then only decides to which side triangles are turned.
 Annotated_surface sample(const Source_function& function, const Mesh_options& options,
@@ -38,7 +78,7 @@ Annotated_surface sample(const Source_function& function, const Mesh_options& op
     return extract_surface(function, options.isovalue, source, method.vertices);
   };
   if (options.source.derivatives == Derivatives::JETS) // splines have the grid of their samples
-    forewarn_of_grid(extracting, options.source, progress, extract);
+    announce_duration_on_grid(extracting, options.source, progress, extract);
   progress.begin(extracting);
   Annotated_surface surface;
   surface.mesh = extract(options.source);
@@ -63,7 +103,7 @@ Annotated_surface sample(const Source_function& function, const Mesh_options& op
   check_radius_of_delaunay_surface(box, criteria.radius);
   const auto parameters = parameters::clip(domain).facet_sizing(method.sizing);
   const double fineness = diagonal / std::min(criteria.radius, std::sqrt(criteria.distance * diagonal));
-  forewarn(extracting, "a larger --radius or --distance", fineness, false, progress, [&](double coarse) {
+  announce_duration(extracting, "a larger --radius or --distance", fineness, false, progress, [&](double coarse) {
     const double factor = fineness / coarse, radius = std::min(factor * criteria.radius, diagonal),
                  distance = std::min(factor * factor * criteria.distance, diagonal);
     delaunay_surface(level_set, {criteria.angle, radius, distance}, parameters);
@@ -116,29 +156,6 @@ Annotated_surface sample(const Source_function& function, const Mesh_options& op
   return surface;
 }
 
-template <class Traits>
-void for_each_attribute_block(const Traits& function, const Mesh_options& options, Annotated_surface& surface,
-                              std::size_t vertices_of_block,
-                              const std::function<void(std::size_t, Vertex_attributes&&)>& visit) {
-  const Level_set_traits_3<Traits> level_set(function, options.isovalue, options.orientation);
-  const std::span<const Kernel::Point_3> points(surface.mesh.points);
-  const std::span<const Point_status> sampled_status(surface.mesh.vertex_status);
-  surface.max_distance = engine<Traits>().max_distance_to_surface(level_set, points, sampled_status);
-  Attribute_selection selection = options.attributes;
-  selection.has_status = true;
-  for (std::size_t first = 0; first < points.size(); first += vertices_of_block) {
-    const std::size_t count = std::min(vertices_of_block, points.size() - first);
-    Vertex_attributes attributes = engine<Traits>().compute_attributes(
-        {function, options.orientation, points.subspan(first, count), selection, options.estimator,
-         sampled_status.empty() ? sampled_status : sampled_status.subspan(first, count)});
-    const auto counts = equiaffine::count(*attributes.status);
-    for (std::size_t s = 0; s < counts.size(); ++s) surface.status[s] += counts[s];
-    if (!options.attributes.has_status) attributes.status.reset();
-    visit(first, std::move(attributes));
-  }
-  surface.mesh.function_evaluations += 3 * points.size();
-}
-
 /// Samples the surface and computes its attributes, unless that is done later.
 Annotated_surface annotated_surface(const Source& source, const Mesh_options& options, Remesh remesh,
                                     Attribute_time time, Progress& progress) {
@@ -178,9 +195,23 @@ Annotated_surface annotated_surface(const Source& source, const Mesh_options& op
 void for_each_attribute_block(const Source& source, const Mesh_options& options, Annotated_surface& surface,
                               std::size_t vertices_of_block,
                               const std::function<void(std::size_t, Vertex_attributes&&)>& visit) {
-  std::visit(
-      [&](const auto& function) { for_each_attribute_block(function, options, surface, vertices_of_block, visit); },
-      source.function);
+  const std::span<const Kernel::Point_3> points(surface.mesh.points);
+  const std::span<const Point_status> sampled_status(surface.mesh.vertex_status);
+  surface.max_distance =
+      max_distance_to_source(source.function, options.isovalue, options.orientation, points, sampled_status);
+  Attribute_selection selection = options.attributes;
+  selection.has_status = true;
+  for (std::size_t first = 0; first < points.size(); first += vertices_of_block) {
+    const std::size_t count = std::min(vertices_of_block, points.size() - first);
+    Vertex_attributes attributes = attributes_of_source(
+        source.function, options.orientation, points.subspan(first, count), selection, options.estimator,
+        sampled_status.empty() ? sampled_status : sampled_status.subspan(first, count));
+    const auto counts = equiaffine::count(*attributes.status);
+    for (std::size_t s = 0; s < counts.size(); ++s) surface.status[s] += counts[s];
+    if (!options.attributes.has_status) attributes.status.reset();
+    visit(first, std::move(attributes));
+  }
+  surface.mesh.function_evaluations += 3 * points.size();
 }
 
 void check_memory(const Mesh_options& options) {

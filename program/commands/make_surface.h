@@ -8,7 +8,7 @@
 #include "source/source.h"
 #include "system/kernel.h"
 #include "system/progress.h"
-#include <equiaffine/mesh/Isosurface_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/surface/parabolic_curves.h>
 
 #include <array>
@@ -66,6 +66,19 @@ void warn_of(const Annotated_surface& surface, const Source& source, const Mesh_
 
 /// Makes a surface of a source that was made before.
 Annotated_surface surface_of(const Source& source, const Mesh_options& options, Progress& progress);
+
+/// The data of a fit, remeshed and moved onto it.
+struct Remeshed_fit {
+  Isosurface_3<Kernel> mesh;    ///< vertices beside the fit are UNCONVERGED
+  std::vector<double> outcomes; ///< the number of the Fit_outcome of each vertex
+  Remesh_statistics statistics;
+};
+
+/// Remeshes the data of a fit. Where they choose its scale, and many vertices would be beside the fit, that scale is too
+/// large for the shape: smaller ones are tried while they leave fewer vertices beside the fit and numbers known at about
+/// as many, and `source` becomes a fit at such a scale if it leaves a third fewer. Throws `Input_error` if the data have no
+/// faces, or if they are no mesh.
+Remeshed_fit remesh_fit(Source& source, Source_options options, const Remesh_options& how, Progress& progress);
 
 } // namespace equiaffine
 

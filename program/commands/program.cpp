@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/program.h"
-
 #include "cli/parse_options.h"
 #include "commands/commands.h"
 #include "request/options.h"
-#include "system/limit_threads.h"
+#include "system/file_memory.h"
 #include "system/memory_limit.h"
 #include "system/progress.h"
-#include "system/scratch_memory.h"
 #include <equiaffine/base/Input_error.h>
-#include <equiaffine/base/internal/printable.h>
 
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#endif
+
+#include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -21,6 +23,15 @@
 namespace equiaffine {
 
 namespace {
+
+#ifdef CGAL_LINKED_WITH_TBB
+/// No more threads than these compute while what it returns lives.
+auto limit_threads(std::size_t threads) {
+  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+}
+#else
+std::unique_ptr<int> limit_threads(std::size_t) { return nullptr; } // without TBB there is one thread
+#endif
 
 /// The folder of the first output, or that for temporary files.
 std::filesystem::path folder_of_output(const Options& options) {

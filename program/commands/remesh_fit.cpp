@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/remesh_fit.h"
-
-#include "commands/maps_view.h"
-#include "source/read_triangle_mesh.h"
+#include "commands/Surface_to_register.h"
+#include "commands/make_surface.h"
+#include "source/read_mesh.h"
 #include <equiaffine/attributes/internal/error_table.h>
 #include <equiaffine/base/Input_error.h>
-#include <equiaffine/base/internal/random_subset.h>
+#include <equiaffine/base/internal/index_sets.h>
 #include <equiaffine/fit/Fitted_function_traits_3.h>
 #include <equiaffine/fit/remesh_on_fit.h>
 

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/Outputs.h"
 
+#include "output/Part_writer.h"
+#include "system/files.h"
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/io/write_curves.h>
+#include <equiaffine/io/write_mesh.h>
+
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace equiaffine {
@@ -40,5 +47,92 @@ void Outputs::close_results() {
 }
 
 void Outputs::commit() { commit_all(files_); }
+
+namespace {
+
+constexpr const char *surface_extensions = ".ply .off .obj .stl .vtp .csv", *vertices_extensions = ".ply .csv .vtp";
+#ifdef EQUIAFFINE_WITH_VTK
+constexpr bool has_vtk = true;
+constexpr const char* curves_extensions = ".obj .vtp";
+#else
+constexpr bool has_vtk = false;
+constexpr const char* curves_extensions = ".obj";
+#endif
+
+bool is_VTP(const std::string& path) { return file_format(path) == File_format::VTP; }
+
+void check_output(const std::string& path, bool is_known, const std::string& known_extensions) {
+  if (path == "-" || is_known) return;
+  throw Input_error("cannot write '" + path + "': its extension is not known; use one of " + known_extensions);
+}
+
+template <class Number>
+std::size_t number_of_distinct(const std::vector<Kernel::Point_3>& points) {
+  std::vector<std::array<Number, 3>> rounded;
+  for (const auto& p : points) rounded.push_back({Number(p.x()), Number(p.y()), Number(p.z())});
+  std::sort(rounded.begin(), rounded.end());
+  return std::size_t(std::unique(rounded.begin(), rounded.end()) - rounded.begin());
+}
+
+} // namespace
+
+void check_format(const std::string& path, File_format right, const std::string& kind, const std::string& advised) {
+  const File_format format = file_format(path);
+  if (path == "-" || format == right || format == File_format::UNNAMED) return;
+  throw Input_error("cannot write '" + path + "': it is to be " + kind + "; give it the extension " + advised);
+}
+
+void check_surface_output(const std::string& path) {
+  check_output(path, mesh_format(path).has_value() || is_VTP(path), surface_extensions);
+}
+
+void check_curves_output(const std::string& path) {
+  if (is_VTP(path) && !has_vtk)
+    throw Input_error("cannot write '" + path + "': this equiaffine was built without VTK; use one of .obj");
+  check_output(path, file_format(path) == File_format::OBJ || is_VTP(path), curves_extensions);
+}
+
+void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh,
+                   const Vertex_attributes& attributes) {
+  if (!is_VTP(file.path()))
+    return write_mesh(file.stream(), mesh_format(file.path()).value_or(Mesh_format::OFF), mesh, attributes);
+  const auto writer = part_writer(file.path(), file.stream(), mesh.points.size(), mesh.triangles.size(), attributes);
+  writer->write_vertices(mesh.points, attributes);
+  writer->write_faces(mesh.triangles);
+}
+
+void check_vertices_output(const std::string& path) {
+  const auto format = mesh_format(path);
+  if (format && format != Mesh_format::PLY && format != Mesh_format::CSV)
+    throw Input_error("cannot write '" + path + "': its format has no attributes; use one of " + vertices_extensions);
+  check_output(path, format.has_value() || is_VTP(path), vertices_extensions);
+}
+
+void write_vertices(Output_file& file, const Point_table_3<Kernel>& table, const Vertex_attributes& attributes) {
+  if (file.path() == "-" || mesh_format(file.path()) == Mesh_format::CSV)
+    return write_CSV(file.stream(), table, attributes);
+  write_surface(file, table.mesh, merge_attributes(table.attributes, attributes));
+}
+
+void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves) {
+#ifdef EQUIAFFINE_WITH_VTK
+  if (is_VTP(file.path())) return write_VTP(file.stream(), curves);
+#endif
+  write_OBJ(file.stream(), curves);
+}
+
+void check_statistics_output(const std::string& path) {
+  check_format(path, File_format::JSON, "a file of statistics", ".json");
+}
+
+void check_maps_output(const std::string& path) { check_format(path, File_format::JSON, "a file of maps", ".json"); }
+
+void warn_of_lost_points(const std::string& path, const std::vector<Kernel::Point_3>& points, Progress& progress) {
+  if (file_format(path) != File_format::STL) return;
+  const std::size_t given = number_of_distinct<double>(points), left = number_of_distinct<float>(points);
+  if (100 * (given - left) < given || given == left) return;
+  progress.warn("STL has single precision, in which " + std::to_string(given - left) + " of " + std::to_string(given) +
+                " vertices are at the place of another; write .ply, .off or .obj, or move the surface to the origin");
+}
 
 } // namespace equiaffine

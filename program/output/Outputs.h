@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The output files of a command, and those of them that hold surfaces, points and curves.
 #ifndef EQUIAFFINE_PROGRAM_OUTPUT_OUTPUTS_H
 #define EQUIAFFINE_PROGRAM_OUTPUT_OUTPUTS_H
 
 #include "request/options.h"
-#include "system/atomic_file.h"
+#include "system/files.h"
+#include "system/kernel.h"
+#include "system/progress.h"
+#include <equiaffine/io/read_points.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+#include <equiaffine/surface/parabolic_curves.h>
 
 #include <CGAL/assertions.h>
 
@@ -61,6 +67,39 @@ private:
   std::vector<Output_kind> kinds_;
   std::vector<Output_file> files_;
 };
+
+/// Throws `Input_error` if the file has the extension of another format: what looks like a mesh is not to become a
+/// page.
+void check_format(const std::string& path, File_format right, const std::string& kind, const std::string& advised);
+
+/// Throws `Input_error` unless `write_surface` knows the extension of the path, or it is "-".
+void check_surface_output(const std::string& path);
+
+/// Writes the mesh in the format of the path's extension, OFF for "-", without committing.
+void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes);
+
+/// Throws `Input_error` unless `write_vertices` knows the extension of the path, or it is "-".
+void check_vertices_output(const std::string& path);
+
+/// Writes a mesh or points as they came with more attributes in the format of the path's extension, CSV for "-", without
+/// committing. Computed columns replace those of the same name.
+void write_vertices(Output_file& file, const Point_table_3<Kernel>& table, const Vertex_attributes& attributes);
+
+/// Throws `Input_error` unless `write_curves` knows the extension of the path, or it is "-".
+void check_curves_output(const std::string& path);
+
+/// Writes the curves in the format of the path's extension, OBJ for "-", without committing.
+void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves);
+
+/// Throws `Input_error` if the path has an extension that is not .json.
+void check_statistics_output(const std::string& path);
+
+/// Throws `Input_error` if the path has an extension that is not .json.
+void check_maps_output(const std::string& path);
+
+/// Warns if the format of a file that the points of a mesh were written to cannot tell a hundredth of them from others:
+/// STL, which has single precision.
+void warn_of_lost_points(const std::string& path, const std::vector<Kernel::Point_3>& points, Progress& progress);
 
 } // namespace equiaffine
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "output/decimate.h"
+#include "output/displays.h"
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions_3.h>

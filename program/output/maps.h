@@ -3,8 +3,8 @@
 #define EQUIAFFINE_PROGRAM_OUTPUT_MAPS_H
 
 #include "system/kernel.h"
-#include <equiaffine/registration/Affine_symmetries_3.h>
-#include <equiaffine/registration/Surface_registration_3.h>
+#include <equiaffine/registration/affine_symmetries.h>
+#include <equiaffine/registration/register_surfaces.h>
 
 #include <string>
 #include <vector>

@@ -1,14 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// These functions make the texts by which pages and pictures say what maps were found.
+// How pages and pictures show maps: by arrows, planes and axes, and in texts.
 #ifndef EQUIAFFINE_PROGRAM_OUTPUT_MAPS_DISPLAY_H
 #define EQUIAFFINE_PROGRAM_OUTPUT_MAPS_DISPLAY_H
 
+#include "output/displays.h"
 #include "output/maps.h"
-#include "output/surface_output.h"
+#include "system/kernel.h"
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+#include <equiaffine/registration/affine_symmetries.h>
 
 #include <vector>
 
 namespace equiaffine {
+
+/// An arrow from a point along a vector, as a closed mesh: a shaft of that radius, and a cone for the last quarter.
+Indexed_triangle_mesh_3<Kernel> arrow_mesh(const Kernel::Point_3& base, const Kernel::Vector_3& arrow, double radius);
+
+/// What symmetries leave in its place.
+struct Symmetry_marks {
+  std::vector<Kernel::Plane_3> planes; ///< of reflections, which need not be perpendicular
+  std::vector<Kernel::Line_3> axes;    ///< of rotations, each once
+};
+
+Symmetry_marks marks_of(const Affine_symmetries_3<Kernel>& symmetries);
+
+/// The curves in which planes cut the surface, as a mesh of rods.
+Indexed_triangle_mesh_3<Kernel> mesh_of_planes(const std::vector<Kernel::Plane_3>& planes,
+                                               const Indexed_triangle_mesh_3<Kernel>& surface, double radius);
+
+/// The axes as rods that stick out of the surface.
+Indexed_triangle_mesh_3<Kernel> mesh_of_axes(const std::vector<Kernel::Line_3>& axes,
+                                             const Indexed_triangle_mesh_3<Kernel>& surface, double radius);
 
 /// The options with which the two surfaces are shown: by the color of each unless another one or a range is given.
 Display_options display_of(const Registration_report& report, Display_options options);

@@ -2,7 +2,7 @@
 #include "output/statistics.h"
 
 #include "output/json_text.h"
-#include <equiaffine/io/internal/xyz_colors_note.h>
+#include <equiaffine/io/read_points.h>
 
 #include <algorithm>
 #include <cmath>
@@ -69,8 +69,8 @@ void add(const Fit_statistics& fit, Json& json) {
 
 void add_topology(const Mesh_facts& facts, std::ostream& text) {
   text << facts.vertices << " vertices, " << facts.faces << " triangles, " << facts.topology.components
-       << (facts.topology.components == 1 ? " component" : " components") << left_out_text(facts) << ", Euler characteristic "
-       << facts.topology.euler_characteristic << ", ";
+       << (facts.topology.components == 1 ? " component" : " components") << left_out_text(facts)
+       << ", Euler characteristic " << facts.topology.euler_characteristic << ", ";
   if (!facts.topology.is_manifold) text << "not a manifold, ";
   if (facts.topology.boundary_edges == 0) text << "closed\n";
   else text << facts.topology.boundary_edges << " boundary edges\n";

@@ -2,9 +2,8 @@
 #ifndef EQUIAFFINE_PROGRAM_OUTPUT_STATISTICS_H
 #define EQUIAFFINE_PROGRAM_OUTPUT_STATISTICS_H
 
-#include "source/Close_sheets.h"
 #include "source/Fit_statistics.h"
-#include "source/Spline_statistics.h"
+#include "source/source.h"
 #include <equiaffine/fit/Fit_outcome.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/mesh/mesh_topology.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "output/write_VTP.h"
+#include "output/Part_writer.h"
 #include "system/write_vtk_xml.h"
 
 #include <vtkCellArray.h>

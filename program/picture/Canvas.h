@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What draws a picture: a canvas, the camera, and strokes on surfaces.
 #ifndef EQUIAFFINE_PROGRAM_PICTURE_CANVAS_H
 #define EQUIAFFINE_PROGRAM_PICTURE_CANVAS_H
+
+#include "system/kernel.h"
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+
+#include <CGAL/Bbox_3.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <span>
 #include <vector>
 
 namespace equiaffine {
@@ -99,6 +108,105 @@ void Canvas::draw_triangle(const std::array<Screen_point, 3>& corners, Shade sha
       light_[sample] = shade(weights, area < 0); // y points downwards
     }
 }
+
+inline Kernel::Vector_3 unit(const Kernel::Vector_3& v) { return v / std::sqrt(v.squared_length()); }
+
+inline CGAL::Bbox_3 box_of(const std::vector<Kernel::Point_3>& points) {
+  CGAL::Bbox_3 box;
+  for (const Kernel::Point_3& p : points) box += p.bbox();
+  return box;
+}
+
+/// Arrows are spread over a grid of this many cells per diameter of the surface, and that much longer than a cell.
+inline constexpr double arrow_cells = 16, arrow_length = 1.5;
+
+/// The first view of the page, with room around the surface for arrows where there are some.
+class Camera {
+public:
+  using Vector = Kernel::Vector_3;
+
+  Camera(const std::vector<Kernel::Point_3>& points, const std::array<double, 3>& up_direction, std::size_t width,
+         std::size_t height, bool has_arrows)
+      : width_(double(width)), height_(double(height)),
+        margin_(1.05 + (has_arrows ? 2 * arrow_length / arrow_cells : 0)) {
+    const CGAL::Bbox_3 box = box_of(points);
+    center_ =
+        Kernel::Point_3((box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2, (box.zmin() + box.zmax()) / 2);
+    const Vector axis(up_direction[0], up_direction[1], up_direction[2]);
+    const Vector front = unit(cross_product(std::abs(axis.x()) < 0.9 ? Vector(1, 0, 0) : Vector(0, 1, 0), axis));
+    back_ = unit(front + 0.5 * cross_product(axis, front) + 0.62 * axis);
+    right_ = unit(cross_product(axis, back_));
+    up_ = cross_product(back_, right_);
+    fit(points);
+  }
+
+  Screen_point operator()(const Kernel::Point_3& p) const {
+    const Vector v = p - center_;
+    const double nearness = 1 / (distance_ - back_ * v), scale = 0.5 * height_ / half_view * nearness;
+    return {0.5 * width_ + scale * (right_ * v), 0.5 * height_ - scale * (up_ * v), nearness};
+  }
+
+  /// Gives the components of a vector to the right, upwards and towards the eye.
+  Vector turned(const Vector& v) const { return {right_ * v, up_ * v, back_ * v}; }
+  Vector towards_eye(const Kernel::Point_3& p) const { return unit(center_ + distance_ * back_ - p); }
+  double radius() const { return radius_; }
+  const Kernel::Point_3& center() const { return center_; }
+
+private:
+  /// Sets the least distance from which everything and a margin is seen.
+  void fit(const std::vector<Kernel::Point_3>& points) {
+    double least = 0;
+    for (const Kernel::Point_3& p : points) {
+      const Vector v = p - center_;
+      const double across = std::abs(right_ * v) * height_ / width_, along = std::abs(up_ * v);
+      least = std::max(least, back_ * v + margin_ * std::max(across, along) / half_view);
+      radius_ = std::max(radius_, std::sqrt(v.squared_length()));
+    }
+    distance_ = std::max(least, 1.2 * radius_);
+    if (!(distance_ > 0)) distance_ = 1;
+  }
+
+  static inline const double half_view = std::tan(std::numbers::pi / 14); // the tangent of half the angle of view
+  double width_, height_, margin_, distance_ = 1, radius_ = 0;
+  Kernel::Point_3 center_;
+  Vector right_, up_, back_;
+};
+
+/// Straight strokes on or above a surface.
+class Line_drawing {
+public:
+  void add(const Screen_point& a, const Screen_point& b, double first, double last) {
+    strokes_.push_back({a, b, first, last});
+  }
+
+  /// Draws them dark with a white rim, so that they are seen on any color.
+  void draw_with_rim(Canvas& canvas) const;
+
+  void draw(Canvas& canvas, const Light& light) const;
+
+private:
+  static constexpr double lift = 2e-3;
+
+  struct Stroke {
+    Screen_point a, b;
+    double first, last; // half-widths
+  };
+  std::vector<Stroke> strokes_;
+};
+
+Line_drawing curve_strokes(const Camera& camera, std::span<const Polyline_3<Kernel>> curves);
+
+/// Returns whether the linear interpolation of a number per vertex changes its sign in a triangle. Where the number of
+/// a corner is not known, it returns false.
+bool changes_sign(const std::vector<double>& numbers, const std::array<std::uint32_t, 3>& triangle);
+
+/// The lines on which that interpolation changes its sign; none without numbers.
+Line_drawing zero_strokes(const Camera& camera, const Indexed_triangle_mesh_3<Kernel>& mesh,
+                          const std::vector<double>& numbers);
+
+/// Arrows at vertices that are spread evenly in space: one in each cell of a grid.
+Line_drawing arrow_strokes(const Camera& camera, const std::vector<Kernel::Point_3>& points,
+                           const std::array<const std::vector<double>*, 3>& columns);
 
 } // namespace equiaffine
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture/Surface_paint.h"
 
-#include "picture/Line_drawing.h"
-#include <equiaffine/attributes/internal/quantities.h>
+#include "picture/Canvas.h"
+#include <equiaffine/attributes/internal/attribute_table.h>
 #include <equiaffine/display/internal/Parabolic_parts.h>
 #include <equiaffine/display/internal/trust.h>
 

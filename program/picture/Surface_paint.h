@@ -3,21 +3,41 @@
 #define EQUIAFFINE_PROGRAM_PICTURE_SURFACE_PAINT_H
 
 #include "picture/Canvas.h"
-#include "picture/Surface_view.h"
 #include "system/kernel.h"
-#include <equiaffine/display/Color_mapping.h>
+#include <equiaffine/display/color_map.h>
 #include <equiaffine/display/internal/Column_numbers.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace equiaffine {
+
+/// A line of text below a picture, beside the color of a number if it has one.
+struct Surface_note {
+  std::optional<double> number;
+  std::string text;
+};
+
+/// Options that say how a surface is shown.
+struct Surface_view {
+  std::string color;                             ///< a column, `status`, `plain`, or empty for the page's choice
+  std::array<double, 3> up = {0, 0, 1};          ///< the direction that points up
+  std::array<std::size_t, 2> size;               ///< in pixels
+  std::optional<std::array<double, 2>> range;    ///< the numbers of the end colors, instead of quantiles
+  std::string arrows;                            ///< a vector among the columns, or empty
+  std::optional<Color_scale> scale;              ///< instead of the one that suits the numbers
+  std::map<std::string, Color_mapping> mappings; ///< of columns whose colors do not depend on their own numbers
+  std::string label_suffix = {};                 ///< what follows the labels of the library's quantities
+  std::vector<Surface_note> notes = {};          ///< below the surface, from the top to the bottom
+};
 
 /// The numbers that the colors of a picture stand for.
 struct Color_legend {

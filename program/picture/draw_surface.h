@@ -3,16 +3,14 @@
 #define EQUIAFFINE_PROGRAM_PICTURE_DRAW_SURFACE_H
 
 #include "picture/Canvas.h"
-#include "picture/Surface_note.h"
 #include "picture/Surface_paint.h"
-#include "picture/Surface_view.h"
 #include "system/kernel.h"
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
-#include <equiaffine/mesh/Polyline_3.h>
 
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <ostream>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,6 +36,13 @@ std::optional<std::array<const std::vector<double>*, 3>> vector_columns(const Ve
 /// lines.
 Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
                              const Surface_view& view, std::span<const Polyline_3<Kernel>> curves = {});
+
+/// Guesses which axis of a scan points up: y, as in most files of scans, unless the shape stands along z. It does if the
+/// convex hull of its lowest points along z covers a tenth of its box or more, and twice the part that they cover along y.
+std::array<double, 3> natural_up(const std::vector<Kernel::Point_3>& points);
+
+/// Writes the picture, with a bar of its colors in the lower left corner if they are those of a number, as a PNG file.
+void write_PNG(std::ostream& stream, Surface_picture picture);
 
 } // namespace equiaffine
 

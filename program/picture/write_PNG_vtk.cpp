@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "picture/write_PNG.h"
+#include "picture/draw_surface.h"
 
 #include <vtkFreeTypeTools.h>
 #include <vtkImageData.h>

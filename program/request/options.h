@@ -2,76 +2,23 @@
 #ifndef EQUIAFFINE_PROGRAM_REQUEST_OPTIONS_H
 #define EQUIAFFINE_PROGRAM_REQUEST_OPTIONS_H
 
-#include "request/Raw_layout.h"
-#include "request/Volume_selection.h"
-#include "system/kernel.h"
-#include "system/resources.h"
+#include "request/source_options.h"
 #include <equiaffine/attributes/Attribute_selection.h>
-#include <equiaffine/delaunay/Facet_sizing.h>
+#include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/display/color_map.h>
 #include <equiaffine/function/Level_set_traits_3.h>
-#include <equiaffine/geometry/Estimator.h>
+#include <equiaffine/geometry/reference_estimators.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
-#include <equiaffine/mesh/Annotated_mesh_3.h>
 #include <equiaffine/registration/Map_kind.h>
-#include <equiaffine/volume/Spline_scheme.h>
-#include <equiaffine/volume/Volume_view_3.h>
-
-#include <CGAL/Aff_transformation_3.h>
-#include <CGAL/Bbox_3.h>
 
 #include <array>
 #include <cstddef>
-#include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace equiaffine {
-
-enum class Source_kind { FUNCTION, VOLUME, DISTANCE, FIT };
-
-/// The origin of derivatives: the formula or the fit itself, or a spline through samples.
-enum class Derivatives { JETS, SPLINE };
-
-/// How samples become a function.
-struct Spline_options {
-  int degree = 7;
-  Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
-  std::optional<double> smoothing = 0; ///< a scale in voxels; without a value the noise decides
-  std::optional<double> isovalue;      ///< noise is measured beside this level set, or everywhere
-};
-
-/// The parameters of a fit that a user gave; the data decide the others.
-struct Fit_options {
-  std::optional<double> scale, noise; ///< lengths
-  std::optional<int> degree;
-  double feature_angle = 60; ///< in degrees: fits do not reach over edges that bend by more
-};
-
-/// SOURCE of the command line, with what changes the function itself.
-struct Source_options {
-  Source_kind kind = Source_kind::FUNCTION;
-  std::string text; ///< the expression, or the path of the volume, mesh or points
-  std::map<std::string, double> constants;
-  std::optional<CGAL::Bbox_3> box;
-  std::optional<std::array<std::size_t, 3>> resolution;
-  Derivatives derivatives = Derivatives::JETS;
-  Spline_options spline;
-  Fit_options fit;
-  bool estimates_errors = false; ///< whether the errors of affine curvatures are estimated
-  bool is_registered = false;    ///< whether few data are no error, and registration needs an unsmoothed spline, too
-  std::optional<Raw_layout> raw; ///< is set for a volume without a header
-  Volume_selection selection;    ///< what is read of a volume with a header
-  Memory_use memory_use = Memory_use::HALF;
-  std::optional<double> narrow_band; ///< distances are not needed beyond so many voxels
-  std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
-  /// These return data that are in memory already: then `text` is only their name, and no file is read.
-  std::function<Volume_view_3<Kernel>()> volume;
-  std::function<Annotated_mesh_3<Kernel>()> data;
-};
 
 /// The page and the picture that are asked for, and their first view.
 struct Display_options {

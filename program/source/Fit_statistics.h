@@ -2,8 +2,10 @@
 #ifndef EQUIAFFINE_PROGRAM_SOURCE_FIT_STATISTICS_H
 #define EQUIAFFINE_PROGRAM_SOURCE_FIT_STATISTICS_H
 
+#include "request/source_options.h"
+#include "source/source_function.h"
 #include <equiaffine/attributes/internal/error_table.h>
-#include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/fit/fitted_structures.h>
 
 #include <array>
 #include <cstddef>
@@ -49,6 +51,16 @@ Known_quantity first_known(const Fit_statistics& fit);
 std::string table_of_known(const Fit_statistics& fit);
 
 Fit_statistics statistics_of(std::span<const Fitted_structure_3<double>> structures);
+
+/// Sheets of the data of a fit that are nearer to each other than the steps of a grid, which does not tell them apart.
+struct Close_sheets {
+  std::size_t points = 0;     ///< the data that have another sheet so near
+  double distance = 0;        ///< that a tenth of them are nearer than, in the unit of the data; NaN without points
+  std::size_t resolution = 0; ///< of a grid that tells the others apart
+};
+
+/// For the grid on which Marching Cubes samples the fit.
+Close_sheets close_sheets(const Fit_traits& fit, const Source_options& options);
 
 } // namespace equiaffine
 

@@ -1,30 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/source.h"
 
-#include "source/erases_mask.h"
-#include "source/fit_vertices.h"
-#include "source/read_triangle_mesh.h"
-#include "source/read_vertices.h"
+#include "source/read_mesh.h"
+#include "source/source_function.h"
 #include "source/warnings.h"
-#include "system/name_of_file.h"
-#include "system/resources.h"
-#include "volume/raw_volume.h"
+#include "system/files.h"
+#include "system/kernel.h"
+#include "system/memory_limit.h"
 #include "volume/volume_io.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/formula/Expression_3.h>
-#include <equiaffine/formula/Unknown_name_error.h>
 #include <equiaffine/function/sample_on_lattice.h>
-#include <equiaffine/io/internal/xyz_colors_note.h>
+#include <equiaffine/io/read_points.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_function_3.h>
-#include <equiaffine/volume/Volume_parts_3.h>
-#include <equiaffine/volume/few_values.h>
+#include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/choose_smoothing.h>
 #include <equiaffine/volume/signed_distance_volume.h>
 
 #include <CGAL/tags.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -185,6 +184,36 @@ struct Fitted_spline {
   std::optional<Curvature_error_3<Kernel>> errors = {};
   std::optional<Spline_traits> unsmoothed = {};
 };
+
+/// Calls f(node, sample) for the nodes of a volume.
+template <class F>
+void for_each_node(const Volume_view_3<Kernel>& volume, const F& f) {
+  const auto [nx, ny, nz] = volume.lattice().size();
+  std::vector<double> row(nx);
+  for (std::size_t k = 0; k < nz; ++k)
+    for (std::size_t j = 0; j < ny; ++j) {
+      volume.copy_line({0, j, k}, 0, row);
+      for (std::size_t i = 0; i < nx; ++i) f(std::array{i, j, k}, row[i]);
+    }
+}
+
+/// Whether a spline has on the same side of an isovalue less than nine tenths of the samples that are on the rarer side of
+/// it; judged by some of them.
+bool erases_mask(const Spline_traits& spline, const Volume_view_3<Kernel>& mask, double isovalue) {
+  constexpr std::size_t enough = 1000;
+  std::array<std::size_t, 2> sizes{};
+  for_each_node(mask, [&](const auto&, double sample) { ++sizes[sample > isovalue]; });
+  const bool is_above = sizes[1] < sizes[0];
+  const std::size_t step = 1 + sizes[is_above] / enough;
+  std::size_t seen = 0, tried = 0, kept = 0;
+  for_each_node(mask, [&](const std::array<std::size_t, 3>& node, double sample) {
+    if ((sample > isovalue) != is_above || seen++ % step != 0) return;
+    ++tried;
+    kept +=
+        (spline.value(mask.lattice().point(double(node[0]), double(node[1]), double(node[2]))) > isovalue) == is_above;
+  });
+  return 10 * kept < 9 * tried;
+}
 
 Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
   const Volume_view_3<Kernel> volume = [&]() -> Volume_view_3<Kernel> {

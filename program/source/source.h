@@ -2,13 +2,14 @@
 #ifndef EQUIAFFINE_PROGRAM_SOURCE_SOURCE_H
 #define EQUIAFFINE_PROGRAM_SOURCE_SOURCE_H
 
-#include "request/options.h"
-#include "source/Spline_statistics.h"
+#include "request/source_options.h"
 #include "source/source_function.h"
 #include "system/kernel.h"
 #include "system/progress.h"
 #include <equiaffine/attributes/Curvature_error_3.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+#include <equiaffine/volume/Sample_noise.h>
+#include <equiaffine/volume/Spline_parameters.h>
 
 #include <array>
 #include <cstddef>
@@ -16,6 +17,17 @@
 #include <string>
 
 namespace equiaffine {
+
+/// The facts about samples, and about the spline that was made from them, that the program reports.
+struct Spline_statistics {
+  int degree = 0;
+  Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
+  double smoothing = 0;
+  bool is_smoothing_chosen = false; ///< by the noise, and not given
+  Sample_noise noise = {};
+  std::size_t least_nodes = 0;                     ///< along the axis that has the fewest
+  std::optional<std::size_t> distinct_values = {}; ///< the number of those of the samples, if they are at most 256
+};
 
 struct Source {
   Source_function function;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/warnings.h"
 
-#include "source/fit_vertices.h"
+#include "source/source_function.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,11 @@
 #ifndef EQUIAFFINE_PROGRAM_SOURCE_WARNINGS_H
 #define EQUIAFFINE_PROGRAM_SOURCE_WARNINGS_H
 
-#include "source/Close_sheets.h"
 #include "source/Fit_statistics.h"
 #include "source/source.h"
 #include "system/progress.h"
-#include <equiaffine/mesh/Annotated_mesh_3.h>
+#include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <cstddef>
 #include <string>

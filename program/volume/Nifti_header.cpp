@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume/Nifti_header.h"
 
+#include "volume/Shared_volume.h"
 #include "volume/header_text.h"
-#include "volume/sample_type.h"
 #include "volume/volume_formats.h"
 
 #include <algorithm>

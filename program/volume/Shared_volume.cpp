@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume/Shared_volume.h"
 
-#include "system/Mapped_file.h"
-#include "volume/sample_type.h"
+#include "system/file_memory.h"
 #include "volume/volume_formats.h"
 
 #include <array>

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Where a volume has its data: in files that its header names, and at a place in one of them.
 #ifndef EQUIAFFINE_PROGRAM_VOLUME_DATA_FILES_H
 #define EQUIAFFINE_PROGRAM_VOLUME_DATA_FILES_H
 
+#include "volume/Shared_volume.h"
 #include "volume/volume_formats.h"
 
 #include <cstddef>
@@ -35,6 +37,12 @@ double size_of_volume(const std::string& path, std::optional<Volume_format> form
 
 /// The paths of the files that are read with a volume: those that its header names, or all in a folder.
 std::vector<std::string> files_of_volume(const std::string& path, std::optional<Volume_format> format);
+
+/// Finds so many samples of a MetaImage, NRRD, NIfTI-1 or VTI file, if they are neither compressed nor in another byte
+/// order than that of this computer, nor to be scaled, and lie in one file. `type` is a position in raw_types. The
+/// header has been checked.
+std::optional<Raw_data> find_raw_data(const std::string& path, Volume_format format, std::size_t type,
+                                      std::size_t count);
 
 } // namespace equiaffine
 

@@ -2,7 +2,7 @@
 #include "volume/header_text.h"
 
 #include "volume/volume_formats.h"
-#include <equiaffine/base/internal/printable.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <zlib.h>
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What the readers of single files, in whose source it is defined, and of DICOM series ask of ITK.
 #ifndef EQUIAFFINE_PROGRAM_VOLUME_ITK_IMAGE_H
 #define EQUIAFFINE_PROGRAM_VOLUME_ITK_IMAGE_H
-
-// What the readers of single files and of DICOM series ask of ITK.
 
 #include <itkImageIOBase.h>
 

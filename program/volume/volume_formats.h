@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The readers and writers that volume_io.h chooses from, and what they have in common. Those of a library exist only in
+// a program built with it.
 #ifndef EQUIAFFINE_PROGRAM_VOLUME_VOLUME_FORMATS_H
 #define EQUIAFFINE_PROGRAM_VOLUME_VOLUME_FORMATS_H
 
-// The readers and writers that volume_io.h chooses from. Those of a library exist only in a program built with it.
-
-#include "request/Volume_selection.h"
+#include "request/source_options.h"
 #include "system/kernel.h"
 #include "volume/Shared_volume.h"
 #include <equiaffine/volume/Volume_3.h>
@@ -26,7 +26,6 @@ void read_itk_volume(const std::string& path, Volume_format format, Samples_in w
 void read_inr_volume(const std::string& path, const Volume_selection& selection, Shared_volume& volume);
 void read_vti_volume(const std::string& path, Samples_in where, const Volume_selection& selection,
                      Shared_volume& volume);
-
 void read_nifti_volume(const std::string& path, Samples_in where, const Volume_selection& selection,
                        Shared_volume& volume);
 
@@ -36,6 +35,21 @@ void read_dicom_volume(const std::string& path, const Volume_selection& selectio
 
 void write_itk_volume(const std::string& path, Volume_format format, const Volume_3<Kernel>& volume, bool as_float);
 void write_vti_volume(std::ostream& stream, const Volume_3<Kernel>& volume, bool as_float);
+
+// The readers of ITK, VTK and CGAL believe what a header says. These functions read it before them and throw
+// `Input_error`, which names the field, for what makes these readers crash, run forever or return another volume.
+
+/// Checks the fields of an INRIMAGE-4 header, and that the data, decompressed, are as long as it says.
+void check_inr_header(const std::string& path);
+
+/// Checks the numbers of axes and nodes of a MetaImage, and its frame.
+void check_meta_header(const std::string& path);
+
+/// Checks the frame of a NIfTI-1 file, and that the data, decompressed, are as long as its header says.
+void check_nifti_header(const std::string& path);
+
+/// Checks the extent and the frame of a VTI file, and the types of its arrays.
+void check_vti_header(const std::string& path);
 
 /// Throws `Input_error`: "cannot read the volume 'path': reason; advice".
 [[noreturn]] void fail_to_read_volume(const std::string& path, const std::string& reason, const std::string& advice);

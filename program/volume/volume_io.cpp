@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume/volume_io.h"
 
-#include "system/child_process.h"
-#include "system/resources.h"
+#include "system/file_memory.h"
+#include "system/memory_limit.h"
+#include "system/process.h"
 #include "volume/Shared_volume.h"
 #include "volume/data_files.h"
 #include "volume/volume_formats.h"
@@ -12,9 +13,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string_view>
@@ -291,6 +294,36 @@ void write_volume(const std::string& path, const Volume_3<Kernel>& volume, bool 
   Output_file file(path);
   write_volume(file, volume, as_float);
   file.commit();
+}
+
+Volume_view_3<Kernel> read_raw_volume(const std::string& path, const Raw_layout& layout) {
+  const auto& [dx, dy, dz] = layout.spacing;
+  const auto& [x, y, z] = layout.origin;
+  const Lattice_3<Kernel> lattice =
+      make_lattice(path, layout.dims, Kernel::Point_3(x, y, z),
+                   {Kernel::Vector_3(dx, 0, 0), Kernel::Vector_3(0, dy, 0), Kernel::Vector_3(0, 0, dz)},
+                   size_of_sample(layout.type));
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) fail_to_read_volume(path, "there is no such file", "check the path");
+  const std::size_t width = size_of_sample(layout.type);
+  const double expected = double(layout.dims[0]) * double(layout.dims[1]) * double(layout.dims[2]) * double(width);
+  if (double(size) != expected)
+    fail_to_read_volume(path,
+                        "it has " + std::to_string(size) + " bytes, and " + std::to_string(layout.dims[0]) + " x " +
+                            std::to_string(layout.dims[1]) + " x " + std::to_string(layout.dims[2]) + " samples of " +
+                            std::string(raw_types[layout.type]) + " have " + std::to_string(std::uint64_t(expected)),
+                        "correct --dims or --type");
+  std::shared_ptr<const Mapped_file> file;
+  try {
+    file = std::make_shared<const Mapped_file>(path);
+  } catch (const std::bad_alloc&) {
+    fail_to_read_volume(path, "it does not fit into memory", "crop it");
+  }
+  if (file->size() != size) fail_to_read_volume(path, "it cannot be read", "check its permissions");
+  return with_sample_type(layout.type, [&](auto number) {
+    return Volume_view_3<Kernel>(lattice, reinterpret_cast<const decltype(number)*>(file->data()), file);
+  });
 }
 
 } // namespace equiaffine

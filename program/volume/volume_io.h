@@ -2,12 +2,11 @@
 #ifndef EQUIAFFINE_PROGRAM_VOLUME_VOLUME_IO_H
 #define EQUIAFFINE_PROGRAM_VOLUME_VOLUME_IO_H
 
-#include "request/Volume_selection.h"
-#include "system/atomic_file.h"
+#include "request/source_options.h"
+#include "system/files.h"
 #include "system/kernel.h"
 #include "volume/Shared_volume.h"
 #include <equiaffine/volume/Volume_3.h>
-#include <equiaffine/volume/Volume_view_3.h>
 
 #include <string>
 #include <vector>
@@ -22,6 +21,10 @@ namespace equiaffine {
 /// Throws `Input_error` for everything that is not a complete volume with two nodes or more per axis.
 Volume_view_3<Kernel> read_volume(const std::string& path, Samples_in where = Samples_in::FILE,
                                   const Volume_selection& selection = {});
+
+/// Reads samples one after the other, the first index fastest, in the byte order of this computer. Throws `Input_error`
+/// unless the file has exactly the size that the layout says.
+Volume_view_3<Kernel> read_raw_volume(const std::string& path, const Raw_layout& layout);
 
 /// The paths of the files that are read with a volume: those that its header names, or all in a folder.
 std::vector<std::string> files_read_with(const std::string& path);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/write_vtk_xml.h"
-#include "volume/header_checks.h"
-#include "volume/raw_data.h"
-#include "volume/sample_type.h"
+#include "volume/Shared_volume.h"
+#include "volume/data_files.h"
 #include "volume/volume_formats.h"
 
 #include <vtkCallbackCommand.h>

@@ -4,10 +4,10 @@
 
 #include "delaunay/Surface_criteria_3.h"
 #include <equiaffine/delaunay/Delaunay_criteria.h>
-#include <equiaffine/delaunay/Delaunay_surface_3.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/function/capabilities.h>
 #include <equiaffine/surface/Clip_domain_3.h>
-#include <equiaffine/surface/internal/curve_step.h>
+#include <equiaffine/surface/internal/jet_derivatives.h>
 #include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/Kernel/global_functions_3.h>

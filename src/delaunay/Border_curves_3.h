@@ -3,13 +3,13 @@
 #define EQUIAFFINE_SRC_DELAUNAY_BORDER_CURVES_3_H
 
 #include <equiaffine/delaunay/internal/Seed_grid_3.h>
+#include <equiaffine/function/Surface_point_3.h>
 #include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/function/internal/sign_change.h>
-#include <equiaffine/mesh/Polyline_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/surface/Clip_domain_3.h>
-#include <equiaffine/surface/internal/curve_step.h>
+#include <equiaffine/surface/internal/jet_derivatives.h>
 #include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/Bbox_3.h>

@@ -5,10 +5,9 @@
 #include "delaunay/Surface_complex.h"
 #include "delaunay/initial_points.h"
 #include <equiaffine/base/Progress_observer.h>
-#include <equiaffine/delaunay/Delaunay_surface_3.h>
-#include <equiaffine/mesh/internal/vertex_links.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/mesh/mesh_topology.h>
-#include <equiaffine/surface/internal/curve_step.h>
+#include <equiaffine/surface/internal/jet_derivatives.h>
 
 #include <CGAL/Kernel/global_functions_3.h>
 #include <CGAL/spatial_sort.h>

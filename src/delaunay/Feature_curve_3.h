@@ -3,12 +3,11 @@
 #define EQUIAFFINE_SRC_DELAUNAY_FEATURE_CURVE_3_H
 
 #include <equiaffine/delaunay/Implicit_mesh_domain_3.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/delaunay/internal/Seed_grid_3.h>
-#include <equiaffine/delaunay/internal/mesh_surface.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
-#include <equiaffine/mesh/Polyline_3.h>
 #include <equiaffine/surface/Clip_domain_3.h>
-#include <equiaffine/surface/internal/curve_step.h>
+#include <equiaffine/surface/internal/jet_derivatives.h>
 #include <equiaffine/surface/parabolic_curves.h>
 #include <equiaffine/surface/project_to_surface.h>
 

@@ -3,8 +3,7 @@
 #define EQUIAFFINE_SRC_DELAUNAY_SURFACE_CRITERIA_3_H
 
 #include <equiaffine/delaunay/Delaunay_criteria.h>
-#include <equiaffine/delaunay/Facet_sizing.h>
-#include <equiaffine/delaunay/internal/Cgal_optional.h>
+#include <equiaffine/delaunay/Implicit_mesh_domain_3.h>
 #include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/surface/Clip_domain_3.h>

@@ -6,9 +6,7 @@
 #include "delaunay/Surface_complex.h"
 #include "delaunay/Surface_criteria_3.h"
 #include "delaunay/initial_points.h"
-#include "delaunay/refine_facets.h"
-#include <equiaffine/delaunay/Delaunay_surface_3.h>
-#include <equiaffine/delaunay/internal/mesh_surface.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/surface/parabolic_curves.h>
@@ -63,12 +61,6 @@ inline void report_straddling_triangles(const Any_function_3& function, double r
     mesh.is_certified = false;
   }
 }
-
-} // namespace equiaffine::internal
-
-namespace equiaffine {
-
-namespace internal {
 
 namespace {
 
@@ -195,14 +187,11 @@ Mesh follow_parabolic_curves(const Mesh& last, const Any_function_3& function, c
 
 } // namespace
 
-} // namespace internal
-
 Delaunay_surface_3<Any_function_3::Kernel> mesh_surface(const Any_function_3& function,
                                                         const Meshing_request_3& request) {
-  using namespace internal;
   auto features = given_features(function, request);
   Mesh mesh = mesh_to_the_ends(function, request, features);
   return request.has_parabolic_features ? follow_parabolic_curves(mesh, function, request, features) : mesh;
 }
 
-} // namespace equiaffine
+} // namespace equiaffine::internal

@@ -10,7 +10,7 @@
 #include <equiaffine/delaunay/internal/certified_seeding.h>
 #include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/mesh/Polyline_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/surface/Clip_domain_3.h>
 #include <equiaffine/surface/internal/jet_derivatives.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/attributes/internal/quantities.h>
+#include <equiaffine/attributes/internal/attribute_table.h>
 #include <equiaffine/base/internal/quantile.h>
 #include <equiaffine/display/internal/Column_numbers.h>
 #include <equiaffine/display/internal/trust.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/base/internal/disjoint_sets.h>
+#include <equiaffine/base/internal/index_sets.h>
 #include <equiaffine/display/internal/Parabolic_parts.h>
 
 #include <algorithm>

@@ -1,26 +1,142 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "display/html_text.h"
-#include "display/page_columns.h"
-#include <equiaffine/display/Html_options.h>
+// What a page knows besides its arrays: the words of its columns, how their numbers become colors, and the colors.
+#include "display/page_text.h"
+#include <equiaffine/attributes/internal/attribute_table.h>
+#include <equiaffine/base/internal/quantile.h>
 #include <equiaffine/display/color_map.h>
 #include <equiaffine/display/internal/Column_numbers.h>
 #include <equiaffine/display/internal/Parabolic_parts.h>
-#include <equiaffine/display/internal/page.h>
 #include <equiaffine/display/internal/trust.h>
+#include <equiaffine/display/write_HTML.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <locale>
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace equiaffine::internal {
 
 namespace {
+
+/// JSON has no number that does not exist, and null in its place.
+void write_number(std::ostream& json, double number) {
+  if (std::isfinite(number)) json << number;
+  else json << "null";
+}
+
+template <class Range>
+void write_numbers(std::ostream& json, const Range& numbers) {
+  const char* separator = "[";
+  for (const double number : numbers) {
+    json << separator;
+    write_number(json, number);
+    separator = ",";
+  }
+  json << (separator[0] == '[' ? "[]" : "]");
+}
+
+/// The range for each clip step, with the scale that suits it, or one range if the mapping is given.
+void write_mapping(std::ostream& json, const Column_numbers& numbers, const Color_mapping* given) {
+  const Equalization equalization = given ? given->equalization : numbers.equalization();
+  const auto write_range = [&](const Color_mapping& mapping) {
+    const auto& [lower, upper, knee, is_diverging] = mapping.range;
+    json << "{\"lower\":" << lower << ",\"upper\":" << upper << ",\"knee\":" << knee
+         << ",\"isDiverging\":" << (is_diverging ? "true" : "false") << ",\"scale\":\"" << to_string(mapping.scale)
+         << "\"}";
+  };
+  json << ",\"ranges\":[";
+  if (given) write_range(*given);
+  else
+    for (const double& percent : clip_steps) {
+      json << (&percent == clip_steps.data() ? "" : ",");
+      write_range(numbers.mapping(percent, equalization));
+    }
+  json << "],\"knots\":";
+  write_numbers(json, equalization.knots());
+}
+
+/// The error of the number in the column that is nearest to that one.
+double error_nearest(double number, const Vertex_attributes::Column& column, const Vertex_attributes::Column& errors) {
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < column.values.size(); ++i)
+    if (const double distance = std::abs(column.values[i] - number); distance < least) {
+      nearest = i;
+      least = distance;
+    }
+  return errors.values.empty() ? NAN : errors.values[nearest];
+}
+
+/// The least, median and greatest of the numbers that are known, each with its error if there is one, and the part that
+/// is not known.
+void write_statistics(std::ostream& json, const Vertex_attributes::Column& column,
+                      const Vertex_attributes::Column* errors, const Column_numbers& numbers) {
+  json << ",\"unknown\":" << numbers.part_unknown() << ",\"statistics\":[";
+  for (const double percent : {0., 50., 100.}) {
+    const auto& sorted = numbers.sorted();
+    const double number = sorted.empty() ? NAN : quantile_of_sorted(sorted, percent);
+    const double error = errors == nullptr ? NAN : error_nearest(number, column, *errors);
+    json << (percent == 0 ? "" : ",");
+    write_numbers(json, std::array{number, error});
+  }
+  json << ']';
+}
+
+/// Whether a column is a quantity of its own, and no part of a vector or of the metric.
+bool is_quantity(const std::string& name, const Vertex_attributes& attributes) {
+  if (name.starts_with("metric_") && name.size() == 9) return false;
+  const char axis = name.empty() ? ' ' : name.back();
+  const std::string stem = name.substr(0, name.empty() ? 0 : name.size() - 1);
+  if ((axis != 'x' && axis != 'y' && axis != 'z') || (stem != "n" && (!stem.ends_with('_') || stem.size() == 1)))
+    return true;
+  constexpr std::string_view axes = "xyz";
+  return std::any_of(axes.begin(), axes.end(),
+                     [&](char other) { return find_column(attributes, stem + other) == nullptr; });
+}
+
+/// The numbers of the vertices in spots.
+void write_spots(std::ostream& json, const std::vector<double>& numbers, const Parabolic_parts& parabolic) {
+  std::vector<double> spots;
+  for (const std::uint32_t vertex : parabolic.spots()) spots.push_back(numbers[vertex]);
+  write_numbers(json, spots);
+}
+
+/// The names of the columns, what the library knows about the quantities among them, and what their colors mean.
+void write_column_facts(std::ostream& json, const Vertex_attributes& attributes, const Html_options& options,
+                        const Numbers_of_mesh& numbers_of, const Parabolic_parts& parabolic) {
+  const char* separator = "";
+  for (const auto& column : attributes.columns) {
+    const Quantity* const known = find_quantity(column.name);
+    json << separator << "{\"name\":" << json_string(column.name)
+         << ",\"label\":" << json_string(known ? known->label : column.name)
+         << ",\"symbol\":" << json_string(known ? std::string(known->symbol) + options.label_suffix : "")
+         << ",\"group\":" << json_string(known ? known->group : "") << ",\"weight\":" << (known ? known->weight : 0)
+         << ",\"meaning\":" << json_string(known ? known->meaning : "")
+         << ",\"isUndefinedAtParabolicPoints\":" << (is_undefined_at_parabolic_points(column.name) ? "true" : "false")
+         << ",\"order\":" << rank_of_quantity(column.name);
+    if (is_quantity(column.name, attributes) || column.name == options.color) {
+      const auto* errors = find_errors(attributes, column.name);
+      const auto given = options.mappings.find(column.name);
+      const Column_numbers numbers = numbers_of(column);
+      write_mapping(json, numbers, given == options.mappings.end() ? nullptr : &given->second);
+      write_statistics(json, column, errors, numbers);
+      json << ",\"spots\":";
+      write_spots(json, parabolic.filled(column.values), parabolic);
+    }
+    json << '}';
+    separator = ",\n";
+  }
+}
 
 /// The colors of a map at `size` equally spaced places of [first, 1], as a JSON array.
 template <class Function>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <equiaffine/attributes/internal/attribute_table.h>
 #include <equiaffine/attributes/internal/error_table.h>
-#include <equiaffine/attributes/internal/quantities.h>
 #include <equiaffine/display/internal/trust.h>
 #include <equiaffine/geometry/euclidean_structure.h>
 

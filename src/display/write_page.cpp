@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "display/base64.h"
-#include "display/html_text.h"
+#include "display/page_text.h"
 #include "display/viewer_files.h"
-#include <equiaffine/base/internal/bit_cast.h>
-#include <equiaffine/display/Html_options.h>
+#include <equiaffine/base/internal/compiler.h>
 #include <equiaffine/display/internal/Parabolic_parts.h>
-#include <equiaffine/display/internal/page.h>
+#include <equiaffine/display/write_HTML.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 

@@ -3,8 +3,8 @@
 #define EQUIAFFINE_SRC_FIT_BAND_3_H
 
 #include "fit/Data_points_3.h"
+#include <equiaffine/fit/Fitted_function_traits_3.h>
 #include <equiaffine/fit/internal/Charts_3.h>
-#include <equiaffine/fit/internal/Fitted_function_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <Eigen/Core>

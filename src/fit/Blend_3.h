@@ -5,7 +5,7 @@
 #include "fit/Band_3.h"
 #include "fit/Curvature_fit_3.h"
 #include "fit/Data_points_3.h"
-#include "fit/foot_on_surface.h"
+#include "fit/Local_fit_3.h"
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/fit/internal/Charts_3.h>
 #include <equiaffine/number/Jet_3.h>

@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_SRC_FIT_CURVATURE_FIT_3_H
 #define EQUIAFFINE_SRC_FIT_CURVATURE_FIT_3_H
 
-#include "fit/Fit_calibration.h"
 #include "fit/Fit_choices_3.h"
+#include "fit/Fitted_numbers.h"
+#include <equiaffine/base/internal/index_sets.h>
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/base/internal/random_subset.h>
 
 #include <algorithm>
 #include <array>

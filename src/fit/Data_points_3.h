@@ -3,7 +3,7 @@
 #define EQUIAFFINE_SRC_FIT_DATA_POINTS_3_H
 
 #include <equiaffine/base/internal/Point_tree.h>
-#include <equiaffine/base/internal/random_subset.h>
+#include <equiaffine/base/internal/index_sets.h>
 #include <equiaffine/fit/internal/Charts_3.h>
 
 #include <Eigen/Core>

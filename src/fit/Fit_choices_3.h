@@ -3,13 +3,13 @@
 #define EQUIAFFINE_SRC_FIT_FIT_CHOICES_3_H
 
 #include "fit/Data_points_3.h"
-#include "fit/Fit_calibration.h"
+#include "fit/Fitted_numbers.h"
 #include "fit/Local_fit_3.h"
 #include "fit/fit_height.h"
 #include "fit/fit_space.h"
+#include <equiaffine/base/internal/index_sets.h>
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/base/internal/random_subset.h>
-#include <equiaffine/fit/internal/Fit_request.h>
+#include <equiaffine/fit/fitted_structures.h>
 
 #include <Eigen/Core>
 

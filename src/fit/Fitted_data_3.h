@@ -7,9 +7,9 @@
 #include "fit/Fit_choices_3.h"
 #include "fit/Fitted_numbers.h"
 #include "fit/fit_height.h"
+#include <equiaffine/base/internal/index_sets.h>
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/base/internal/random_subset.h>
-#include <equiaffine/fit/Fitted_structure_3.h>
+#include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/number/Jet_3.h>

@@ -4,9 +4,8 @@
 
 #include "fit/Data_points_3.h"
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/fit/Normal_orientation.h>
+#include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/fit/internal/Creased_polygons_3.h>
-#include <equiaffine/fit/internal/Fit_data_3.h>
 #include <equiaffine/mesh/internal/indexed_polygons.h>
 
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>

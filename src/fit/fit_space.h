@@ -4,7 +4,6 @@
 
 #include "fit/Data_points_3.h"
 #include "fit/Local_fit_3.h"
-#include "fit/foot_on_surface.h"
 #include <equiaffine/number/internal/monomials_3.h>
 
 #include <Eigen/Cholesky>

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/Curvature_fit_3.h"
 #include "fit/Fitted_data_3.h"
+#include "fit/Local_fit_3.h"
 #include "fit/fit_input.h"
-#include "fit/foot_on_surface.h"
-#include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/fit/internal/Extent_of_fit.h>
-#include <equiaffine/fit/internal/fits.h>
+#include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_SRC_FORMULA_TAPE_BUILDER_H
 #define EQUIAFFINE_SRC_FORMULA_TAPE_BUILDER_H
 
-#include <equiaffine/base/internal/bit_cast.h>
+#include <equiaffine/base/internal/compiler.h>
 #include <equiaffine/formula/internal/expression_evaluation.h>
 
 #include <algorithm>

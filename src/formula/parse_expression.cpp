@@ -2,7 +2,7 @@
 #include "formula/Tape_builder.h"
 #include "formula/expression_words.h"
 #include <equiaffine/base/internal/from_chars.h>
-#include <equiaffine/formula/Unknown_name_error.h>
+#include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/formula/internal/expression_tape.h>
 
 #include <cmath>

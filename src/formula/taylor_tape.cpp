@@ -93,7 +93,7 @@ public:
 
   friend Symbol natural_power(const Symbol& a, unsigned n) { return apply(Opcode::POWER, a, double(n)); }
 
-  /// Chooses between the coefficients a and b by the order of u and v, as number/nonsmooth.h does for ordered numbers,
+  /// Chooses between the coefficients a and b by the order of u and v, as number/select.h does for ordered numbers,
   /// but at run time. The value of the jet needs no choice here, see taylor_tape().
   friend Symbol branch_or_kink(const Symbol& u, const Symbol& v, const Symbol& a, const Symbol& b, int) {
     if (a.is_constant(0) && b.is_constant(0)) return a;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/Csv_scanner.h"
+// Tables of points as CSV, and what becomes of their columns when others are written beside them.
 #include "io/text_input.h"
+#include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/io/internal/input_file.h>
-#include <equiaffine/io/internal/mesh_readers.h>
+#include <equiaffine/io/read_points.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>
@@ -18,6 +19,100 @@
 namespace equiaffine::internal {
 
 namespace {
+
+/// The text of a cell, without the quotes around it; two quotes within them stand for one.
+std::string unquote(std::string_view cell) {
+  cell = trim(cell);
+  if (cell.size() < 2 || cell.front() != '"' || cell.back() != '"') return std::string(cell);
+  std::string text;
+  for (std::size_t i = 1; i + 1 < cell.size(); ++i) {
+    text += cell[i];
+    if (cell[i] == '"' && cell[i + 1] == '"') ++i;
+  }
+  return text;
+}
+
+/// The character that separates the cells of a file with this header: the one of comma, semicolon and tab that it has
+/// most often.
+char separator_of(std::string_view header) {
+  const auto count = [&](char c) { return std::count(header.begin(), header.end(), c); };
+  char separator = ',';
+  for (const char c : {';', '\t'})
+    if (count(c) > count(separator)) separator = c;
+  return separator;
+}
+
+/// Takes the rows off the text of a CSV file. A quoted cell may hold separators and line ends.
+class Csv_scanner {
+public:
+  Csv_scanner(std::string_view text, const std::string& name) : rest_(text), name_(name) {
+    if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
+    const std::size_t first = std::min(rest_.find_first_not_of("\r\n"), rest_.size());
+    separator_ = separator_of(rest_.substr(first, rest_.find('\n', first) - first));
+  }
+
+  /// The character between cells.
+  char separator() const { return separator_; }
+
+  [[noreturn]] void fail(const std::string& reason, const std::string& advice) const {
+    fail_to_read(name_, reason, advice);
+  }
+
+  /// The line in which the row taken last begins.
+  std::size_t line_number() const { return line_number_; }
+
+  /// Takes the next row that is not blank: its cells as they are written; none at the end of the file.
+  std::vector<std::string_view> next_row() {
+    Progress_observer::step();
+    std::size_t end = 0;
+    do {
+      line_number_ = next_line_number_;
+      rest_.remove_prefix(end);
+      end = end_of_row();
+    } while (end > 0 && trim(rest_.substr(0, end)).empty());
+    const std::string_view text = rest_.substr(0, end);
+    rest_.remove_prefix(end);
+    return split(text);
+  }
+
+private:
+  /// The length of the next row, with its line end.
+  std::size_t end_of_row() {
+    bool is_quoted = false;
+    for (std::size_t i = 0; i < rest_.size(); ++i) {
+      if (rest_[i] == '"') is_quoted = !is_quoted;
+      if (rest_[i] != '\n') continue;
+      ++next_line_number_;
+      if (!is_quoted) return i + 1;
+    }
+    if (is_quoted) fail("line " + std::to_string(line_number_) + " opens a quote that is never closed", "close it");
+    return rest_.size();
+  }
+
+  /// The cells between the separators of a row.
+  std::vector<std::string_view> split(std::string_view text) const {
+    if (text.ends_with('\n')) text.remove_suffix(1);
+    if (text.ends_with('\r')) text.remove_suffix(1);
+    std::vector<std::string_view> cells;
+    if (text.empty()) return cells;
+    bool is_quoted = false;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      if (text[i] == '"') is_quoted = !is_quoted;
+      if (text[i] != separator_ || is_quoted) continue;
+      cells.push_back(text.substr(begin, i - begin));
+      begin = i + 1;
+    }
+    cells.push_back(text.substr(begin));
+    return cells;
+  }
+
+  std::string_view rest_;
+  const std::string& name_;
+  char separator_ = ',';
+  std::size_t line_number_ = 1;
+  std::size_t next_line_number_ = 1;
+};
 
 /// The columns named x, y and z, or else X, Y and Z. Fails unless there is one of each.
 std::array<std::size_t, 3> find_coordinates(const Csv_scanner& scanner, const std::vector<std::string>& header) {
@@ -103,4 +198,35 @@ Csv_cells read_CSV_elements(std::istream& stream, const std::string& name, const
   return table;
 }
 
+std::vector<std::size_t> columns_to_keep(const std::vector<std::string>& header, const Vertex_attributes& attributes) {
+  std::vector<std::size_t> kept;
+  for (std::size_t column = 0; column < header.size(); ++column) {
+    const std::string name = unquote(header[column]);
+    const bool is_replaced =
+        (name == "status" && attributes.status) || std::any_of(attributes.columns.begin(), attributes.columns.end(),
+                                                               [&](const auto& c) { return c.name == name; });
+    if (!is_replaced) kept.push_back(column);
+  }
+  return kept;
+}
+
 } // namespace equiaffine::internal
+
+namespace equiaffine {
+
+Vertex_attributes merge_attributes(Vertex_attributes first, const Vertex_attributes& second) {
+  std::erase_if(first.columns, [&](const auto& old) {
+    return std::any_of(second.columns.begin(), second.columns.end(), [&](const auto& c) { return c.name == old.name; });
+  });
+  first.columns.insert(first.columns.end(), second.columns.begin(), second.columns.end());
+  if (second.status) first.status = second.status;
+  const auto name = [](const std::string& comment) { return comment.substr(0, comment.find(':')); };
+  std::erase_if(first.comments, [&](const auto& old) {
+    return std::any_of(second.comments.begin(), second.comments.end(),
+                       [&](const auto& c) { return name(c) == name(old); });
+  });
+  first.comments.insert(first.comments.end(), second.comments.begin(), second.comments.end());
+  return first;
+}
+
+} // namespace equiaffine

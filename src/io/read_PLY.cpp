@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The elements of a PLY file become points with columns, and faces.
-#include "io/Ply_header.h"
-#include "io/Ply_numbers.h"
+// A PLY file is a header, which says how numbers are written, and lists elements with their properties, and the numbers.
+// Elements become points with columns, and faces.
+#include "io/text_input.h"
 #include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/base/internal/compiler.h>
 #include <equiaffine/io/internal/input_file.h>
-#include <equiaffine/io/internal/mesh_readers.h>
+#include <equiaffine/io/read_points.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +25,196 @@
 namespace equiaffine::internal {
 
 namespace {
+
+enum class Ply_encoding { ASCII, BINARY_LITTLE_ENDIAN, BINARY_BIG_ENDIAN };
+
+enum class Ply_type { INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT, DOUBLE };
+
+struct Ply_property {
+  std::string name;
+  Ply_type type;
+  std::optional<Ply_type> count_type; ///< the type of the length of a list; none for a single number
+};
+
+struct Ply_element {
+  std::string name;
+  std::size_t count;
+  std::vector<Ply_property> properties;
+};
+
+struct Ply_header {
+  Ply_encoding encoding;
+  std::vector<Ply_element> elements;
+  std::vector<std::string> comments; ///< all but the one that names this program
+};
+
+/// Takes the header off the text of a PLY file, line by line.
+class Ply_header_parser {
+public:
+  /// The parser moves the beginning of `text`; `name` stands for the file in messages.
+  Ply_header_parser(std::string_view& text, const std::string& name) : text_(text), name_(name) {}
+
+  Ply_header parse() {
+    if (take_line(text_, line_number_) != "ply") fail_to_read(name_, "it is not a PLY file", "check the path");
+    std::optional<Ply_encoding> encoding;
+    std::vector<Ply_element> elements;
+    std::vector<std::string> comments;
+    while (true) {
+      if (text_.empty()) fail_to_read(name_, "it ends within its PLY header", "get the complete file again");
+      std::string_view line = take_line(text_, line_number_);
+      const std::string_view keyword = take_word(line);
+      if (keyword == "end_header") break;
+      if (keyword == "format") encoding = parse_encoding(take_word(line));
+      else if (keyword == "element") {
+        Ply_element element = parse_element(line);
+        if (std::any_of(elements.begin(), elements.end(), [&](const auto& e) { return e.name == element.name; }))
+          fail("a second element '" + element.name + "'");
+        elements.push_back(std::move(element));
+      } else if (keyword == "property") {
+        if (elements.empty()) fail("a property before the first element");
+        Ply_property property = parse_property(line);
+        auto& properties = elements.back().properties;
+        if (properties.size() == most_properties)
+          fail("more than " + std::to_string(most_properties) + " properties of an element");
+        if (std::any_of(properties.begin(), properties.end(), [&](const auto& p) { return p.name == property.name; }))
+          fail("a second property '" + property.name + "'");
+        properties.push_back(std::move(property));
+      } else if (keyword == "comment") {
+        if (!trim(line).starts_with("made by equiaffine")) comments.emplace_back(trim(line));
+      } else if (!keyword.empty() && keyword != "obj_info") fail("the word '" + std::string(keyword) + "'");
+    }
+    if (!encoding) fail("no format");
+    return {*encoding, std::move(elements), std::move(comments)};
+  }
+
+private:
+  static constexpr std::size_t most_properties = 10000;
+
+  [[noreturn]] void fail(const std::string& what) const {
+    fail_to_read(name_, what + " in line " + std::to_string(line_number_) + " of its PLY header", "correct the header");
+  }
+
+  Ply_encoding parse_encoding(std::string_view word) const {
+    if (word == "ascii") return Ply_encoding::ASCII;
+    if (word == "binary_little_endian") return Ply_encoding::BINARY_LITTLE_ENDIAN;
+    if (word == "binary_big_endian") return Ply_encoding::BINARY_BIG_ENDIAN;
+    fail("the format '" + std::string(word) + "'");
+  }
+
+  /// Parses what follows the word `element`: a name and a number.
+  Ply_element parse_element(std::string_view line) const {
+    const std::string element_name(take_word(line));
+    const auto count = parse_number<std::size_t>(line);
+    if (!count) fail("the number of '" + element_name + "' is not understood");
+    return {element_name, *count, {}};
+  }
+
+  /// Parses what follows the word `property`: a type or `list` with two types, and a name.
+  Ply_property parse_property(std::string_view line) const {
+    std::string_view type = take_word(line);
+    std::optional<Ply_type> count_type;
+    if (type == "list") {
+      count_type = parse_type(take_word(line));
+      type = take_word(line);
+    }
+    const Ply_type number_type = parse_type(type);
+    return {std::string(trim(line)), number_type, count_type};
+  }
+
+  Ply_type parse_type(std::string_view word) const {
+    constexpr std::array<std::array<std::string_view, 2>, 8> words = {{{"char", "int8"},
+                                                                       {"uchar", "uint8"},
+                                                                       {"short", "int16"},
+                                                                       {"ushort", "uint16"},
+                                                                       {"int", "int32"},
+                                                                       {"uint", "uint32"},
+                                                                       {"float", "float32"},
+                                                                       {"double", "float64"}}};
+    for (std::size_t i = 0; i < words.size(); ++i)
+      if (word == words[i][0] || word == words[i][1]) return static_cast<Ply_type>(i);
+    fail("the type '" + std::string(word) + "'");
+  }
+
+  std::string_view& text_;
+  const std::string& name_;
+  std::size_t line_number_ = 0;
+};
+
+/// The numbers after the header of a PLY file, read from the first to the last. Each comes out as a double, which holds
+/// the numbers of all types of PLY exactly.
+class Ply_numbers {
+public:
+  Ply_numbers(std::string_view text, Ply_encoding encoding, const std::string& name)
+      : rest_(text), encoding_(encoding), name_(name) {}
+
+  [[noreturn]] void fail(const std::string& reason, const std::string& advice) const {
+    fail_to_read(name_, reason, advice);
+  }
+
+  /// Fails before memory is taken if the rest of the file cannot hold as many elements as the header announces.
+  void check_length(const Ply_element& element) const {
+    if (!element.properties.empty() && element.count > rest_.size()) fail_at_end();
+  }
+
+  double next(Ply_type type) {
+    if (encoding_ == Ply_encoding::ASCII) return next_word();
+    switch (type) {
+    case Ply_type::INT8: return next_binary<std::int8_t>();
+    case Ply_type::UINT8: return next_binary<std::uint8_t>();
+    case Ply_type::INT16: return next_binary<std::int16_t>();
+    case Ply_type::UINT16: return next_binary<std::uint16_t>();
+    case Ply_type::INT32: return next_binary<std::int32_t>();
+    case Ply_type::UINT32: return next_binary<std::uint32_t>();
+    case Ply_type::FLOAT: return double(next_binary<float>());
+    default: return next_binary<double>();
+    }
+  }
+
+  /// Replaces `list` by the numbers of a list property.
+  void next_list(const Ply_property& property, std::vector<double>& list) {
+    const double count = next(*property.count_type);
+    if (!(count >= 0 && count <= double(rest_.size()))) fail_at_end();
+    list.clear();
+    for (double i = 0; i < count; ++i) list.push_back(next(property.type));
+  }
+
+  /// Passes over all elements of a kind that nobody asks for.
+  void skip(const Ply_element& element) {
+    std::vector<double> list;
+    for (std::size_t i = 0; i < element.count; ++i)
+      for (const Ply_property& property : element.properties)
+        if (property.count_type) next_list(property, list);
+        else next(property.type);
+  }
+
+private:
+  [[noreturn]] void fail_at_end() const {
+    fail("it ends before all the numbers that its header announces", "get the complete file again");
+  }
+
+  double next_word() {
+    const std::string_view word = take_word(rest_);
+    if (word.empty()) fail_at_end();
+    const std::optional<double> value = parse_number<double>(word);
+    if (!value) fail(std::string("'").append(word).append("' is not a number"), "correct the file");
+    return *value;
+  }
+
+  template <class Number>
+  Number next_binary() {
+    std::array<char, sizeof(Number)> bytes;
+    if (rest_.size() < bytes.size()) fail_at_end();
+    std::copy_n(rest_.begin(), bytes.size(), bytes.begin());
+    rest_.remove_prefix(bytes.size());
+    const bool is_big_endian = encoding_ == Ply_encoding::BINARY_BIG_ENDIAN;
+    if (is_big_endian != (std::endian::native == std::endian::big)) std::reverse(bytes.begin(), bytes.end());
+    return bit_cast<Number>(bytes);
+  }
+
+  std::string_view rest_;
+  Ply_encoding encoding_;
+  const std::string& name_;
+};
 
 /// The use of each property of a vertex.
 struct Ply_vertex_layout {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/text_input.h"
-#include <equiaffine/base/internal/printable.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/io/internal/input_file.h>
-#include <equiaffine/io/internal/mesh_readers.h>
-#include <equiaffine/io/internal/xyz_colors_note.h>
+#include <equiaffine/io/read_points.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>

@@ -2,8 +2,7 @@
 #include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/io/internal/Ply_writer.h>
 #include <equiaffine/io/internal/buffered_output.h>
-#include <equiaffine/io/internal/csv_rows.h>
-#include <equiaffine/io/internal/mesh_text.h>
+#include <equiaffine/io/write_CSV.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>

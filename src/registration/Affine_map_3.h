@@ -2,8 +2,8 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_AFFINE_MAP_3_H
 #define EQUIAFFINE_SRC_REGISTRATION_AFFINE_MAP_3_H
 
-#include <equiaffine/registration/Affine_slippage_3.h>
 #include <equiaffine/registration/Map_kind.h>
+#include <equiaffine/registration/slippage_of_mesh.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

@@ -5,9 +5,8 @@
 #include "registration/Centered_surface_3.h"
 #include "registration/Rotation_search.h"
 #include "registration/refine_map.h"
-#include "registration/without_near.h"
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/registration/Affine_slippage_3.h>
+#include <equiaffine/registration/slippage_of_mesh.h>
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>

@@ -9,7 +9,7 @@
 #include "registration/solid_moments.h"
 #include <equiaffine/base/internal/Point_tree.h>
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/mesh/internal/Triangles_3.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>

@@ -5,8 +5,8 @@
 #include "registration/Centered_map.h"
 #include "registration/Rotation_search.h"
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/registration/Affine_slippage_3.h>
-#include <equiaffine/registration/Affine_symmetries_3.h>
+#include <equiaffine/registration/affine_symmetries.h>
+#include <equiaffine/registration/slippage_of_mesh.h>
 
 #include <algorithm>
 #include <cmath>

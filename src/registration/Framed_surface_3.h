@@ -4,9 +4,9 @@
 
 #include "registration/Affine_map_3.h"
 #include <equiaffine/base/internal/Point_tree.h>
+#include <equiaffine/base/internal/index_sets.h>
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/internal/quantile.h>
-#include <equiaffine/base/internal/random_subset.h>
 #include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/geometry/Monge_chart_3.h>

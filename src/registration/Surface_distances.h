@@ -7,7 +7,7 @@
 #include "registration/mesh_samples.h"
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/function/Any_function_3.h>
-#include <equiaffine/function/internal/sign_change.h>
+#include <equiaffine/function/Surface_point_3.h>
 #include <equiaffine/surface/internal/jet_derivatives.h>
 
 #include <CGAL/Bbox_3.h>

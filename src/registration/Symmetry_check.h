@@ -6,7 +6,7 @@
 #include "registration/Surface_distances.h"
 #include "registration/slippage.h"
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/registration/Affine_slippage_3.h>
+#include <equiaffine/registration/slippage_of_mesh.h>
 
 #include <CGAL/Bbox_3.h>
 #include <Eigen/Core>

@@ -10,9 +10,7 @@
 #include "registration/map_evidence.h"
 #include "registration/refine_map.h"
 #include <equiaffine/base/internal/quantile.h>
-#include <equiaffine/registration/Affine_symmetries_3.h>
-#include <equiaffine/registration/internal/requests.h>
-#include <equiaffine/registration/internal/searches.h>
+#include <equiaffine/registration/affine_symmetries.h>
 
 #include <Eigen/Core>
 

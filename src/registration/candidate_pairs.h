@@ -3,10 +3,10 @@
 #define EQUIAFFINE_SRC_REGISTRATION_CANDIDATE_PAIRS_H
 
 #include "registration/Framed_surface_3.h"
+#include <equiaffine/base/internal/index_sets.h>
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/internal/quantile.h>
-#include <equiaffine/base/internal/random_subset.h>
-#include <equiaffine/registration/internal/requests.h>
+#include <equiaffine/registration/register_surfaces.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

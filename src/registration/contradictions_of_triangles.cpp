@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "registration/Centered_surface_3.h"
 #include "registration/Piece_of_surface_3.h"
 #include "registration/mesh_samples.h"
-#include "registration/tolerances_of_meshes.h"
-#include <equiaffine/registration/internal/searches.h>
+#include <equiaffine/registration/contradictions_of_meshes.h>
 
 #include <algorithm>
 #include <cmath>

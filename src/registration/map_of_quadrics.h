@@ -6,7 +6,7 @@
 
 #include "registration/Affine_map_3.h"
 #include "registration/Framed_surface_3.h"
-#include <equiaffine/registration/internal/requests.h>
+#include <equiaffine/registration/register_surfaces.h>
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>

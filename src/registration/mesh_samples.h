@@ -3,7 +3,8 @@
 #define EQUIAFFINE_SRC_REGISTRATION_MESH_SAMPLES_H
 
 #include "registration/Affine_map_3.h"
-#include <equiaffine/mesh/internal/Triangles_3.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
+#include <equiaffine/registration/register_surfaces.h>
 #include <equiaffine/volume/internal/Triangle_tree.h>
 
 #include <Eigen/Cholesky>
@@ -214,6 +215,22 @@ inline Facet_error facet_error(const Triangles_3& mesh, const std::vector<Edge_o
     greatest = std::max(greatest, sagitta);
   }
   return {area > 0 ? std::sqrt(sum / (3 * area)) : 0, greatest};
+}
+
+/// Returns a usual tolerance, or less for the facets of solids with planes only: they are flat to the rounding of their
+/// coordinates, and so are their distances.
+inline double tolerance_of_facets(double facet_error, double usual) {
+  constexpr double rounding = 2e-5, distance_per_error = 1000;
+  return std::min(usual, std::max(rounding, distance_per_error * facet_error));
+}
+
+/// The least and the greatest distance between points in contact where nothing is known of noise.
+constexpr double usual_contact = 1e-3, greatest_contact = 1e-2;
+
+/// The distance up to which points of two pieces are in contact.
+inline double tolerance_of_contact(double facet_error, const Registration_request& request) {
+  if (request.tolerance) return *request.tolerance;
+  return tolerance_of_facets(facet_error, std::clamp(4 * facet_error, usual_contact, greatest_contact));
 }
 
 /// How far coordinates may be from those that were meant: half a unit of the last decimal place of the largest ones if

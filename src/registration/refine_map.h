@@ -7,7 +7,7 @@
 #include "registration/candidate_pairs.h"
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/internal/quantile.h>
-#include <equiaffine/registration/internal/requests.h>
+#include <equiaffine/registration/internal/searches.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -212,6 +212,18 @@ inline std::optional<Affine_map_3> refine_map(bool in_threads, const Framed_surf
     if (difference < 1e-13) break;
   }
   return map;
+}
+
+/// Returns elements in their order, the first `most` of those that are not near one before them.
+template <class T, class Is_near>
+std::vector<T> without_near(const std::vector<T>& elements, std::size_t most, const Is_near& is_near) {
+  std::vector<T> result;
+  for (const T& element : elements) {
+    if (result.size() == most) break;
+    if (std::none_of(result.begin(), result.end(), [&](const T& other) { return is_near(element, other); }))
+      result.push_back(element);
+  }
+  return result;
 }
 
 } // namespace equiaffine::internal

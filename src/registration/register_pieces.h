@@ -6,10 +6,8 @@
 #include "registration/Piece_of_surface_3.h"
 #include "registration/mesh_samples.h"
 #include "registration/refine_map.h"
-#include "registration/tolerances_of_meshes.h"
-#include "registration/without_near.h"
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/registration/internal/requests.h>
+#include <equiaffine/registration/register_surfaces.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

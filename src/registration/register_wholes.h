@@ -6,9 +6,8 @@
 #include "registration/Centered_map.h"
 #include "registration/Centered_surface_3.h"
 #include "registration/map_evidence.h"
-#include "registration/tolerances_of_meshes.h"
-#include <equiaffine/registration/internal/requests.h>
-#include <equiaffine/registration/internal/searches.h>
+#include "registration/mesh_samples.h"
+#include <equiaffine/registration/register_surfaces.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -21,6 +20,25 @@
 #include <vector>
 
 namespace equiaffine::internal {
+
+/// The rms distances of whole surfaces.
+struct Tolerances_of_wholes {
+  double equal; ///< up to which they are equal
+  double alone; ///< up to which they are alike by one map if all others are twice as far
+  double tried; ///< up to which rotations are tried
+};
+
+/// Triangles are off a smooth surface, and thin surfaces are nearer to others. Two samplings of one object, such as a
+/// scan and its coarse version, are alike without being equal; solids with planes only have no such versions.
+inline Tolerances_of_wholes tolerances_of_wholes(const Centered_pair& surfaces, const Registration_request& request) {
+  constexpr double least = 3e-3, greatest = 0.01, alike = 0.015;
+  const double facet_error = surfaces.source.samples.facet_error + surfaces.target.samples.facet_error;
+  const double thickness = std::min(surfaces.source.thickness(), surfaces.target.thickness());
+  const double usual = std::clamp(1.2 * facet_error, least, greatest) * thickness;
+  if (request.tolerance) return {*request.tolerance, 0, std::max(*request.tolerance, least * thickness)};
+  const double equal = tolerance_of_facets(facet_error, usual);
+  return {equal, equal < usual ? 0 : alike * thickness, usual};
+}
 
 /// A map between centered surfaces with its evidence, in the coordinates of the surfaces. Points further from the other
 /// surface than `touching` contradict it, and the others lie on it.

@@ -9,11 +9,11 @@
 #include "registration/register_wholes.h"
 #include "registration/registration_of_framed.h"
 #include "registration/slippage.h"
-#include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/registration/Map_kind.h>
-#include <equiaffine/registration/internal/requests.h>
-#include <equiaffine/registration/internal/searches.h>
+#include <equiaffine/registration/is_affinely_equivalent.h>
+#include <equiaffine/registration/register_surfaces.h>
 
 #include <Eigen/LU>
 

@@ -10,10 +10,8 @@
 #include "registration/refine_map.h"
 #include "registration/register_wholes.h"
 #include "registration/slippage.h"
-#include "registration/without_near.h"
-#include <equiaffine/registration/Affine_slippage_3.h>
-#include <equiaffine/registration/internal/requests.h>
-#include <equiaffine/registration/internal/searches.h>
+#include <equiaffine/registration/register_surfaces.h>
+#include <equiaffine/registration/slippage_of_mesh.h>
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>

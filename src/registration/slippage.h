@@ -5,7 +5,7 @@
 #include "registration/Affine_map_3.h"
 #include "registration/Framed_surface_3.h"
 #include "registration/refine_map.h"
-#include <equiaffine/registration/Affine_slippage_3.h>
+#include <equiaffine/registration/slippage_of_mesh.h>
 
 #include <Eigen/Core>
 #include <Eigen/SVD>

@@ -4,9 +4,8 @@
 #include "registration/Piece_of_surface_3.h"
 #include "registration/refine_map.h"
 #include "registration/slippage.h"
-#include <equiaffine/registration/Affine_slippage_3.h>
 #include <equiaffine/registration/Map_kind.h>
-#include <equiaffine/registration/internal/searches.h>
+#include <equiaffine/registration/slippage_of_mesh.h>
 
 #include <Eigen/Core>
 

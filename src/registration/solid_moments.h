@@ -3,7 +3,7 @@
 #define EQUIAFFINE_SRC_REGISTRATION_SOLID_MOMENTS_H
 
 #include "registration/mesh_samples.h"
-#include <equiaffine/base/internal/disjoint_sets.h>
+#include <equiaffine/base/internal/index_sets.h>
 
 #include <Eigen/Core>
 

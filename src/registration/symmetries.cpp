@@ -5,9 +5,8 @@
 #include "registration/Symmetry_check.h"
 #include "registration/Symmetry_search.h"
 #include "registration/slippage.h"
-#include <equiaffine/base/internal/check_argument.h>
-#include <equiaffine/registration/Affine_symmetries_3.h>
-#include <equiaffine/registration/internal/searches.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/registration/affine_symmetries.h>
 
 #include <algorithm>
 #include <cmath>

@@ -95,7 +95,7 @@ void expect_same_surface(const Traits& function) {
                         max_distance_to_surface<Parallel>(whole, points, surface.vertex_status)));
 }
 
-TEST(Cellwise, surfaces_and_attributes_have_the_bits_of_those_of_the_whole_function) {
+TEST(Cellwise_long, surfaces_and_attributes_have_the_bits_of_those_of_the_whole_function) {
   for (const auto& volume : volumes()) expect_same_surface(Sampled_function_traits_3<Kernel>(volume));
 }
 

@@ -101,7 +101,7 @@ TEST(Removed_elements, annotations_are_those_of_the_mesh_without_them) {
   EXPECT_EQ(numbers_of(mesh, "v:mean_curvature_error"), numbers_of(without, "v:mean_curvature_error"));
 }
 
-TEST(Removed_elements, fits_are_those_of_the_mesh_without_them) {
+TEST(Removed_elements_long, fits_are_those_of_the_mesh_without_them) {
   Mesh mesh = mesh_with_garbage(), without = without_garbage(mesh);
   const auto structures = fitted_structures(mesh), expected = fitted_structures(without);
   ASSERT_EQ(structures.size(), expected.size());
@@ -118,7 +118,7 @@ TEST(Removed_elements, fits_are_those_of_the_mesh_without_them) {
   EXPECT_GT(double(report.number_on_fit()), 0.99 * mesh.number_of_vertices());
 }
 
-TEST(Removed_elements, maps_between_meshes_are_those_of_the_meshes_without_them) {
+TEST(Removed_elements_long, maps_between_meshes_are_those_of_the_meshes_without_them) {
   const Mesh mesh = mesh_with_garbage(), without = without_garbage(mesh);
   const auto rigid = parameters::map_kind(Map_kind::RIGID);
   const auto found = register_surfaces(mesh, without, rigid), expected = register_surfaces(without, without, rigid);

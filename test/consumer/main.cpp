@@ -6,6 +6,7 @@
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/delaunay/delaunay_surface.h>
+#include <equiaffine/engine/vectorized.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/registration/affine_symmetries.h>
@@ -35,6 +36,9 @@ int main() {
   const equiaffine::Expression_3 ellipsoid("x^2/4 + y^2 + z^2 = 1");
   if (ellipsoid(2.0, 0.0, 0.0) != 0 || ellipsoid.taylor(2.0, 0.0, 0.0).value() != 0) return EXIT_FAILURE;
   if (!equiaffine::delaunay_surface(traits).is_certified) return EXIT_FAILURE;
+  const equiaffine::vectorized::Formula formula(equiaffine::make_analytic_traits<Kernel>(ellipsoid, traits.bbox()));
+  const equiaffine::Level_set_traits_3 level_set(formula, 0.0);
+  if (equiaffine::vectorized::marching_cubes(level_set).points.size() < 1000) return EXIT_FAILURE;
   const std::vector<Kernel::Point_3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const std::vector<std::vector<int>> faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
   if (equiaffine::affine_symmetries(corners, faces).order() != 24) return EXIT_FAILURE;
@@ -52,6 +56,11 @@ int main() {
   const equiaffine::Progress_observer observer([](const auto&) { throw Cancelled(); }, {});
   try {
     equiaffine::fitted_structures(points);
+    return EXIT_FAILURE;
+  } catch (const Cancelled&) {
+  }
+  try {
+    equiaffine::vectorized::marching_cubes(level_set);
     return EXIT_FAILURE;
   } catch (const Cancelled&) {
   }

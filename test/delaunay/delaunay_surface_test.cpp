@@ -406,7 +406,7 @@ TEST(Delaunay_surface, a_surface_that_touches_the_box_in_an_edge_ends) {
     EXPECT_FALSE(delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box)).is_certified) << text;
 }
 
-TEST(Delaunay_surface, what_is_lost_is_not_certified) {
+TEST(Delaunay_surface_long, what_is_lost_is_not_certified) {
   const CGAL::Bbox_3 slice(-2, -2, -0.0005, 2, 2, 0.0005); // less than a fiftieth of the facets' radius thick
   const auto surface = delaunay_surface(make_analytic_traits<Kernel>(functions::Sphere(), slice));
   EXPECT_FALSE(surface.is_certified);

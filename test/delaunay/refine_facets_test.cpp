@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "delaunay/refine_facets.h"
+#include "delaunay/Surface_complex.h"
 #include "support/Scratch_file.h"
 
 #include <gtest/gtest.h>

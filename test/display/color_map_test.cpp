@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "display/oklab.h"
 #include <equiaffine/base/internal/quantile.h>
-#include <equiaffine/display/Color_mapping.h>
 #include <equiaffine/display/color_map.h>
 #include <equiaffine/display/internal/Column_numbers.h>
 #include <equiaffine/display/internal/trust.h>

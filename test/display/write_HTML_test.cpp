@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "display/base64.h"
-#include <equiaffine/attributes/internal/quantities.h>
+#include "display/page_text.h"
+#include <equiaffine/attributes/internal/attribute_table.h>
 #include <equiaffine/display/write_HTML.h>
 
 #include <CGAL/Simple_cartesian.h>

@@ -190,7 +190,7 @@ TEST(Continuous_fit, expansions_of_smooth_surfaces_have_all_orders_and_the_value
   }
 }
 
-TEST(Continuous_fit, the_surface_is_whole_where_the_density_of_the_data_jumps) {
+TEST(Continuous_fit_long, the_surface_is_whole_where_the_density_of_the_data_jumps) {
   const Mesh mesh = grid(80, 40, true, true, [](double s, double t) {
     const double part = s < .5 ? .1 * s : .05 + .95 * (2 * s - 1); // half of the points are in a twentieth of the torus
     const double u = 2 * std::numbers::pi * part, v = 2 * std::numbers::pi * t, r = 1 + .4 * std::cos(v);

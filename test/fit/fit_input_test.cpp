@@ -4,7 +4,6 @@
 #include "support/fit_data.h"
 #include <equiaffine/fit/Fitted_function_traits_3.h>
 #include <equiaffine/fit/fitted_structures.h>
-#include <equiaffine/fit/internal/fit_data_of.h>
 
 #include <gtest/gtest.h>
 
@@ -133,7 +132,7 @@ void expect_parabolic(const std::vector<Fitted_structure_3<double>>& structures)
   }
 }
 
-TEST(Fit_input, points_in_a_plane_are_parabolic) {
+TEST(Fit_input_long, points_in_a_plane_are_parabolic) {
   for (const double slope : {0., 1.}) {
     const Fit_mesh mesh = height_field(20, [slope](double x, double y) { return slope * (2 * x - y); });
     for (const auto& structures : {fitted_structures(mesh), fitted_structures(points_of(mesh))}) {

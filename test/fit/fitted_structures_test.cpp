@@ -42,7 +42,7 @@ TEST(Fitted_structures, affine_curvature_at_exact_vertices_has_four_digits) {
   EXPECT_LE(double(errors.trusted_but_wrong), 0.03 * double(errors.trusted));
 }
 
-TEST(Fitted_structures, points_without_faces_are_as_good_as_a_mesh) {
+TEST(Fitted_structures_long, points_without_faces_are_as_good_as_a_mesh) {
   const Fit_mesh mesh = metaballs_mesh(50);
   const auto points = points_of(mesh);
   const auto of_mesh = errors_of_fit(fitted_structures<CGAL::Parallel_if_available_tag>(mesh), points);
@@ -190,7 +190,7 @@ TEST(Fitted_structures, errors_at_a_scale_are_those_of_the_polynomials_of_exact_
   }
 }
 
-TEST(Fitted_structures, a_scale_is_chosen_where_the_data_do_not_resolve_the_surface_and_for_affine_images_alike) {
+TEST(Fitted_structures_long, a_scale_is_chosen_where_the_data_do_not_resolve_the_surface_and_for_affine_images_alike) {
   const Fit_mesh exact = metaballs_mesh(30);
   const auto by_data = parameters::scale(std::nullopt);
   EXPECT_FALSE(fitted_structures<CGAL::Parallel_if_available_tag>(exact, by_data).front().is_at_scale);
@@ -280,7 +280,7 @@ TEST(Fitted_function_traits_3, the_blend_is_a_smooth_function_whose_zero_set_has
   EXPECT_LT(errors[errors.size() / 2], 2e-4);
 }
 
-TEST(Fitted_function_traits_3, estimates_cover_the_errors_of_the_blend_between_the_data) {
+TEST(Fitted_function_traits_3_long, estimates_cover_the_errors_of_the_blend_between_the_data) {
   for (const double noise : {0., 0.01}) {
     Fit_mesh mesh = metaballs_mesh(50);
     add_noise(mesh, noise * mean_edge(mesh));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes whose vertices are moved to a fit stay whole.
 #include "support/fit_meshes.h"
-#include <equiaffine/fit/internal/motion_to_fit.h>
 #include <equiaffine/fit/move_to_fit.h>
 
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>

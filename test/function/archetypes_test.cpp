@@ -5,9 +5,9 @@
 #include <equiaffine/attributes/attributes.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/function/Any_function_3.h>
-#include <equiaffine/function/Batch_function_traits_3.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/function/Transformed_function_traits_3.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/isosurfacing_fields.h>
 #include <equiaffine/function/sample_on_lattice.h>
 #include <equiaffine/marching_cubes/marching_cubes.h>

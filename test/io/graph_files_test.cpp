@@ -215,7 +215,7 @@ TEST_F(Graph_files, a_file_that_cannot_become_a_mesh_gets_a_sentence) {
   const std::string many = text_file("many.ply", header + "element face 18446744073709551615\nend_header\n0 0 0\n");
   EXPECT_EQ(read(many), "no error") << "faces without properties are not counted one by one";
   EXPECT_NE(read(path("none.ply")).find("there is no such file"), std::string::npos);
-  EXPECT_NE(read(text_file("a.stl", "solid")).find("use one of .ply .off"), std::string::npos);
+  EXPECT_NE(read(text_file("a.txt", "solid")).find("use one of .ply .off .obj .stl"), std::string::npos);
 }
 
 TEST_F(Graph_files, a_file_that_cannot_be_written_leaves_nothing_behind) {

@@ -45,6 +45,16 @@ Mesh off(const std::string& text) {
   return equiaffine::read_OFF<Kernel>(stream, "in.off");
 }
 
+Mesh obj(const std::string& text) {
+  std::istringstream stream(text);
+  return equiaffine::read_OBJ<Kernel>(stream, "in.obj");
+}
+
+Mesh stl(const std::string& text) {
+  std::istringstream stream(text);
+  return equiaffine::read_STL<Kernel>(stream, "in.stl");
+}
+
 template <class Read>
 std::string error_of(const Read& read, const std::string& text) {
   try {
@@ -245,6 +255,76 @@ TEST(Read_points, mistakes_in_off_are_told_with_the_line) {
   for (const char* empty : {"", " \n\n"}) EXPECT_NE(error_of(off, empty).find("it is empty"), std::string::npos);
 }
 
+TEST(Read_points, obj_and_stl_come_back_as_they_were_written) {
+  std::ostringstream obj_stream, stl_stream;
+  equiaffine::write_OBJ(obj_stream, square());
+  EXPECT_EQ(obj(obj_stream.str()).points, square().points);
+  EXPECT_EQ(obj(obj_stream.str()).triangles, square().triangles);
+  equiaffine::write_STL(stl_stream, square());
+  const Mesh copy = stl(stl_stream.str());
+  ASSERT_EQ(copy.triangles.size(), square().triangles.size());
+  for (std::size_t t = 0; t < copy.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(copy.points[copy.triangles[t][k]], square().points[square().triangles[t][k]]);
+}
+
+TEST(Read_points, obj_may_have_textures_groups_polygons_and_relative_vertices) {
+  const std::string head = "# by hand\r\nmtllib a.mtl\no square\nv 0 0 0\nv 1 0 0 1 0 0 # red\nvt 0 0\nvn 0 0 1\n";
+  const Mesh mesh = obj(head + "v 1 1 0\ng side\nv +0 1e0 \\\n 0\nusemtl b\nf 1/1/1 2//1 3/1 4\nf -4 -3 -2\nl 1 2\n");
+  EXPECT_EQ(mesh.points, (std::vector<Point_3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
+  EXPECT_EQ(obj("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0").triangles, (Triangles{{0, 1, 2}})) << "vertices behind a face";
+}
+
+TEST(Read_points, mistakes_in_obj_are_told_with_the_line) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const auto expect = [&](const std::string& text, const std::string& reason) {
+    EXPECT_NE(error_of(obj, text).find(reason), std::string::npos) << text << error_of(obj, text);
+  };
+  for (const char* face : {"f 1 2 2.5\n", "f 1/1/1 2//2 3x\n", "f 1 - 2\n", "f 1 2 99999999999999999999\n"})
+    expect(points + face, "line 4 has a face with a vertex that is no integer");
+  for (const char* face : {"f 1 2 0\n", "f 1 2 -4\n"})
+    expect(points + face, "line 4 has a face with a vertex that does not exist");
+  expect(points + "f 1 2 3\nf 1 2 4\n", "face 1, counted from 0, has a vertex that does not exist");
+  expect("v 0 0\n", "line 1 has a missing or unreadable coordinate");
+  expect("v 0 0 \\\n z\n", "line 2 has a missing or unreadable coordinate");
+  expect(points + "this is no mesh\n", "line 4 begins with 'this', which is no statement of OBJ");
+  expect("# nothing\n", "it has no vertices");
+}
+
+const std::string text_stl = "solid facet a\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n"
+                             "   vertex 0 1e0 0\n  endloop\n endfacet\n FACET normal 0 0 1 outer loop VERTEX 1 0 0\n"
+                             "   vertex 1 1 0 vertex -0 1 0\n  endloop\n endfacet\nendsolid facet a\n";
+
+TEST(Read_points, stl_as_text_has_vertices_with_the_same_coordinates_once) {
+  const Mesh mesh = stl(text_stl + "solid b\nendsolid\n");
+  EXPECT_EQ(mesh.points, (std::vector<Point_3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}));
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {1, 3, 2}}));
+}
+
+TEST(Read_points, binary_stl_may_begin_with_the_word_solid) {
+  std::ostringstream stream;
+  equiaffine::write_STL(stream, square());
+  std::string bytes = stream.str();
+  bytes.replace(0, 6, "solid ");
+  EXPECT_EQ(stl(bytes).triangles.size(), square().triangles.size());
+  EXPECT_EQ(stl("header" + stream.str().substr(6) + "more").triangles.size(), square().triangles.size());
+}
+
+TEST(Read_points, no_beginning_of_an_stl_file_is_taken_for_the_whole) {
+  const std::size_t last_word = text_stl.rfind("endsolid");
+  for (std::size_t size = 1; size < last_word; ++size)
+    EXPECT_NE(error_of(stl, text_stl.substr(0, size)), "no error") << size;
+  std::ostringstream stream;
+  equiaffine::write_STL(stream, square());
+  for (std::size_t size = 1; size < stream.str().size(); ++size)
+    EXPECT_NE(error_of(stl, stream.str().substr(0, size)), "no error") << size;
+  EXPECT_NE(error_of(stl, "this is no mesh").find("it is no STL file"), std::string::npos);
+  EXPECT_NE(error_of(stl, "solid\nfacet\nvertex 0 0\n").find("line 3 has a missing"), std::string::npos);
+  EXPECT_NE(error_of(stl, "solid\nvertex 0 0 0\nendfacet\n").find("line 3 ends a facet that is no triangle"),
+            std::string::npos);
+}
+
 TEST(Read_points, attributes_with_the_same_name_are_replaced) {
   const Vertex_attributes merged = equiaffine::merge_attributes({{{"a", {1}}, {"b", {2}}}, {{Point_status::OUTSIDE}}},
                                                                 {{{"b", {3}}, {"c", {4}}}, {}});
@@ -264,7 +344,7 @@ TEST(Read_points, unknown_and_missing_files_are_told) {
   EXPECT_NE(error_of(read, "/absent/points.csv").find("'/absent/points.csv': there is no such file"),
             std::string::npos);
   EXPECT_NE(error_of(read, "/dev/null").find("'/dev/null': it is a device"), std::string::npos);
-  EXPECT_NE(error_of(read, EQUIAFFINE_TEST_DATA "/../CMakeLists.txt").find("use one of .csv .ply .off .xyz"),
+  EXPECT_NE(error_of(read, EQUIAFFINE_TEST_DATA "/../CMakeLists.txt").find("use one of .csv .ply .off .obj .stl .xyz"),
             std::string::npos);
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/io/read_PLY.h>
 #include <equiaffine/io/read_points.h>
 #include <equiaffine/io/write_mesh.h>
 

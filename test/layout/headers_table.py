@@ -12,7 +12,7 @@ LIBRARY = "include/equiaffine"
 BEGINNING = """# Headers
 
 These headers are the interface of the library: documented, tested, and kept as [versions.md](versions.md) promises. What is in a
-folder `internal` may change at any time.
+folder or a namespace `internal` may change at any time.
 
 `equiaffine/MODULE/x.h` is what the module has for its users: functions, classes, and the types of their arguments and
 results. A header brings the types that it needs.

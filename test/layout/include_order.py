@@ -77,8 +77,6 @@ def only_forwards(path, text):
 def faults_of_library_file(modules, path, text):
     if only_forwards(path, text):
         yield f"{path} only forwards: a header has one path"
-    if is_public(path) and re.search(r"^namespace (equiaffine::)?internal\b", text, re.MULTILINE):
-        yield f"{path} is public, and users see no namespace internal"
     for library, quoted in INCLUDE.findall(text):
         if quoted:
             yield f'{path} includes "{quoted}": write <equiaffine/...>'

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/Option_row.h"
+#include "cli/command_line.h"
 #include "support/run_program.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes are a soup of polygons in OBJ or STL or refused, whose readers are CGAL's, and of triangles CGAL makes a
 // valid mesh. Other faces are left out: CGAL cuts them in a child process, because it may crash there.
-#include "source/read_triangle_mesh.h"
+#include "source/read_mesh.h"
 #include "support/Scratch_file.h"
 #include "support/fuzz_target.h"
 

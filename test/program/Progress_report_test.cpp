@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/run_program.h"
-#include "system/Progress_report.h"
+#include "system/progress.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "system/Shared_memory.h"
+#include "system/process.h"
 #include <equiaffine/base/Input_error.h>
 
 #include <gtest/gtest.h>

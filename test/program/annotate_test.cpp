@@ -53,6 +53,7 @@ protected:
     EXPECT_GE(double(right), 0.93 * double(found.size()));
   }
 };
+using Program_annotate_long = Program_annotate;
 
 TEST_F(Program_annotate, vertices_and_faces_stay_and_attributes_come) {
   make_surface("in.ply", "quadric_defect");
@@ -306,7 +307,7 @@ TEST_F(Program_annotate, points_that_are_too_few_are_outside_and_a_warning_says_
   EXPECT_TRUE(Json::parse(file("stats.json")).at("fit").at("noise").is_null());
 }
 
-TEST_F(Program_annotate, doubts_of_affine_curvatures_are_left_out_where_none_are_written) {
+TEST_F(Program_annotate_long, doubts_of_affine_curvatures_are_left_out_where_none_are_written) {
   std::ostringstream noisy;
   for (int i = 0; i < 900; ++i) // a bowl with dents of a tenth of its depth, as long as the points are apart
     noisy << i % 30 << ' ' << i / 30 << ' ' << 0.02 * (i % 30) * (i % 30) + 0.7 * ((7 * i * i + i / 30) % 3) << '\n';
@@ -319,7 +320,7 @@ TEST_F(Program_annotate, doubts_of_affine_curvatures_are_left_out_where_none_are
   for (const char* attributes : {"none", "mean_curvature", "status"}) EXPECT_EQ(warnings(attributes), "") << attributes;
 }
 
-TEST_F(Program_annotate, normals_that_contradict_are_warned_of) {
+TEST_F(Program_annotate_long, normals_that_contradict_are_warned_of) {
   make_surface("in.ply", "normal", "24");
   const Mesh exact = mesh("in.ply");
   const auto nx = column(exact, "nx"), ny = column(exact, "ny"), nz = column(exact, "nz");
@@ -341,7 +342,7 @@ TEST_F(Program_annotate, normals_that_contradict_are_warned_of) {
   }
 }
 
-TEST_F(Program_annotate, many_points_in_one_place_take_no_longer_than_one) {
+TEST_F(Program_annotate_long, many_points_in_one_place_take_no_longer_than_one) {
   std::string text;
   for (int i = 0; i < 1000000; ++i) text += "1 2 3\n";
   write_file(folder_ / "place.xyz", text);

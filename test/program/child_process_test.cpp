@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "system/Shared_memory.h"
-#include "system/child_process.h"
-#include "system/resources.h"
+#include "system/memory_limit.h"
+#include "system/process.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/Progress_observer.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "output/decimate.h"
+#include "output/displays.h"
 #include <equiaffine/mesh/mesh_topology.h>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/program.h"
+#include "commands/commands.h"
 #include "support/run_program.h"
-#include "system/child_process.h"
+#include "system/process.h"
 #include <equiaffine/base/Input_error.h>
 
 #include <CGAL/version.h>
@@ -61,6 +61,7 @@ protected:
 
   Arguments before_;
 };
+using Program_errors_long = Program_errors;
 
 TEST_F(Program_errors, no_command_is_told_in_one_line) {
   expect_error({}, {"no command is given; use mesh, evaluate, sample, view, annotate, register or symmetries",
@@ -293,7 +294,7 @@ TEST_F(Program_errors, a_surface_outside_the_box_is_none) {
   expect_error(mesh_of("log(-1 - x^2)") + box, {"undefined"});
 }
 
-TEST_F(Program_errors, it_is_not_said_that_there_is_no_surface_where_none_was_found) {
+TEST_F(Program_errors_long, it_is_not_said_that_there_is_no_surface_where_none_was_found) {
   const Arguments found = {"no part of the surface f = 0 was found"};
   const Arguments unseen = mesh_of("log(1e-6-(x-1.31)^2-(y-.73)^2-(z-.1)^2)+14") + box;
   expect_error(unseen, found + Arguments{"is undefined", "a finer --resolution"});

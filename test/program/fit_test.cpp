@@ -41,6 +41,7 @@ protected:
     EXPECT_GE(double(known), 0.5 * double(found.size()));
   }
 };
+using Program_fit_long = Program_fit;
 
 const Arguments errors = {"--attributes", "basic,affine_gaussian_curvature_error"};
 
@@ -71,7 +72,7 @@ TEST_F(Program_fit, an_affine_map_takes_curvatures_and_errors_along) {
   expect_right("image.ply", map);
 }
 
-TEST_F(Program_fit, box_and_resolution_are_those_of_distances) {
+TEST_F(Program_fit_long, box_and_resolution_are_those_of_distances) {
   for (const Arguments& resolution : {Arguments{"--resolution", "9"}, {}}) {
     run_well(Arguments{"sample", "--distance-to", "s.ply", "--type", "float", "-o", "distance.vti"} + resolution);
     run_well(Arguments{"sample", "--fit", "s.ply", "--type", "float", "-o", "fit.vti"} + resolution);
@@ -124,7 +125,7 @@ TEST_F(Program_fit, pages_show_what_can_be_trusted) {
   EXPECT_NE(file("fit.ply").find("affine_gaussian_curvature_error"), std::string::npos);
 }
 
-TEST_F(Program_fit, an_open_surface_ends_with_the_data_and_has_no_crumbs) {
+TEST_F(Program_fit_long, an_open_surface_ends_with_the_data_and_has_no_crumbs) {
   const Arguments torus = {"--function", "(sqrt(x^2+y^2)-1)^2+z^2-0.16", "--box", "-1.5", "1.5", "0", "1.5", "-0.5",
                            "0.5"};
   run_well(Arguments{"mesh", "--resolution", "40", "--attributes", "none", "-o", "open.ply"} + torus);
@@ -150,7 +151,7 @@ TEST_F(Program_fit, a_hole_of_the_data_stays_open) {
   EXPECT_EQ(statistics["status"]["unconverged"], 0);
 }
 
-TEST_F(Program_fit, sheets_that_the_grid_does_not_tell_apart_are_warned_of) {
+TEST_F(Program_fit_long, sheets_that_the_grid_does_not_tell_apart_are_warned_of) {
   run_well({"mesh", "--function", "(z-0.3*x^2)^2 = 0.0009", "--box", "-1", "1", "-1", "1", "-0.1", "0.4",
             "--resolution", "40", "--attributes", "none", "-o", "sheets.ply"});
   const Arguments remesh = {"mesh", "--fit", "sheets.ply", "-o", "fit.ply", "--stats", "fit.json", "--resolution"};
@@ -173,7 +174,7 @@ TEST_F(Program_fit, sheets_that_the_grid_does_not_tell_apart_are_warned_of) {
   EXPECT_EQ(statistics["euler_characteristic"], 2);
 }
 
-TEST_F(Program_fit, every_reason_for_no_surface_has_its_sentence) {
+TEST_F(Program_fit_long, every_reason_for_no_surface_has_its_sentence) {
   expect_error({"mesh", "--fit", "s.ply", "--isovalue", "7", "-o", "a.ply"},
                {"no surface f = 7", "'s.ply'", "two spacings", "nearer to 0"});
   expect_error({"mesh", "--fit", "s.ply", "--box", "5", "6", "5", "6", "5", "6", "-o", "a.ply"},

@@ -2,10 +2,9 @@
 #ifdef __linux__
 
 #include "support/run_program.h"
-#include "system/child_process.h"
+#include "system/file_memory.h"
 #include "system/memory_limit.h"
-#include "system/reclaimable_memory.h"
-#include "system/scratch_memory.h"
+#include "system/process.h"
 #include <equiaffine/base/Input_error.h>
 
 #include <algorithm>
@@ -69,20 +68,21 @@ protected:
                         "-1",   "1",          "--resolution"};
   std::set<std::string> known_; ///< files that are there before the program is started
 };
+using Program_memory_long = Program_memory;
 
 Words joined(Words words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
 
-TEST_F(Program_memory, of_a_mesh_is_limited_for_the_same_bytes) {
+TEST_F(Program_memory_long, of_a_mesh_is_limited_for_the_same_bytes) {
   const Words mesh = joined(sphere, {"640"});
   expect_same_with(190, mesh, ".ply");
   expect_same_with(190, joined(mesh, {"--attributes", "normal,k1,k2"}), ".vtp");
   EXPECT_EQ(names(), (Words{"free.ply", "free.vtp", "limited.ply", "limited.vtp"}));
 }
 
-TEST_F(Program_memory, of_volumes_is_limited_and_mapped_files_count) {
+TEST_F(Program_memory_long, of_volumes_is_limited_and_mapped_files_count) {
   run_well({"sample", "--function", "x^2+y^2+z^2-1", "--box", "-1.2", "1.2", "-1.2", "1.2", "-1.2", "1.2",
             "--resolution", "300", "--type", "double", "--memory", "220M", "-o", "v.mha"});
   expect_same_with(200, {"mesh", "--volume", "v.mha", "--attributes", "none"}, ".ply");

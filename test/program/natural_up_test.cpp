@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "picture/natural_up.h"
+#include "picture/draw_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes are a mesh in PLY or OFF or refused. What is accepted, CGAL makes a valid mesh of triangles.
-#include "source/read_triangle_mesh.h"
+#include "source/read_mesh.h"
 #include "support/Scratch_file.h"
 #include "support/fuzz_target.h"
 

@@ -56,6 +56,7 @@ protected:
     return Json::parse(file("maps.json"));
   }
 };
+using Program_register_long = Program_register;
 
 TEST_F(Program_register, a_formula_and_its_image_give_the_map_and_what_there_is_to_trust_it) {
   const Json found = registered(surface, image);
@@ -81,7 +82,7 @@ TEST_F(Program_register, samples_are_matched_smoothed_and_refined_unsmoothed) {
   EXPECT_LT(error_of(smoothed), 1e-6) << "smoothing does not commute with the map";
 }
 
-TEST_F(Program_register, vertices_and_points_are_registered_by_fits) {
+TEST_F(Program_register_long, vertices_and_points_are_registered_by_fits) {
   run_well(Arguments{"mesh", "-o", "a.ply", "--attributes", "none"} + surface);
   run_well(Arguments{"mesh", "-o", "b.off"} + image);
   run_well(Arguments{"mesh", "-o", "b.csv", "--attributes", "none"} + image);
@@ -120,7 +121,7 @@ TEST_F(Program_register, all_maps_are_listed_when_asked) {
   EXPECT_LT(found["next_best_rms"], 1e-9);
 }
 
-TEST_F(Program_register, kinds_and_reflections_are_obeyed) {
+TEST_F(Program_register_long, kinds_and_reflections_are_obeyed) {
   const Arguments mirror = {"--transform", "-1", "0", "0", "0", "1", "0", "0", "0", "1"};
   const Json mirrored = registered(surface, surface + mirror, {"--kind", "rigid"});
   EXPECT_NEAR(mirrored["determinant"], -1, 1e-12);
@@ -227,7 +228,7 @@ TEST_F(Program_register, how_equal_surfaces_are_to_be_is_up_to_the_user) {
   EXPECT_LT(double(found["rms"]), 1e-2 * double(found["size"]));
 }
 
-TEST_F(Program_register, a_search_of_all_rotations_says_how_far_it_went) {
+TEST_F(Program_register_long, a_search_of_all_rotations_says_how_far_it_went) {
   const Arguments long_one = Arguments{"--function", "x^4+2*y^4+4*z^4+.3*x*y*z=1", "--kind", "rigid"} + box;
   EXPECT_TRUE(symmetries(long_one)["complete_to"].is_null());
   const std::string text = run_well(Arguments{"symmetries"} + long_one + Arguments{"-o", "maps.json", "--complete"});
@@ -336,7 +337,7 @@ TEST_F(Program_register, symmetries_of_a_formula_are_a_group) {
   EXPECT_EQ(symmetries(surface)["order"], 1);
 }
 
-TEST_F(Program_register, symmetries_are_of_the_kind_that_is_asked_for) {
+TEST_F(Program_register_long, symmetries_are_of_the_kind_that_is_asked_for) {
   const Arguments resolution = {"--resolution", "32"}, rigid = {"--kind", "rigid"}, proper = {"--no-reflection"};
   const Arguments ellipsoid = Arguments{"--function", "x^2+2*y^2+3*z^2-1"} + box + resolution,
                   cube = Arguments{"--function", "x^4+y^4+z^4-1"} + box + resolution,
@@ -375,7 +376,7 @@ TEST_F(Program_register, continuous_symmetries_have_generators_and_no_order) {
   EXPECT_NE(file("torus.html").find("generator1_x"), std::string::npos);
 }
 
-TEST_F(Program_register, symmetries_of_samples_and_vertices_are_found_within_their_accuracy) {
+TEST_F(Program_register_long, symmetries_of_samples_and_vertices_are_found_within_their_accuracy) {
   const Arguments quartic = Arguments{"--function", "x^4+y^4/2+z^4+.5*x*y*z+x^2+y^2+z^2=1"} + box;
   run_well(Arguments{"sample", "-o", "s.vti", "--resolution", "60"} + quartic);
   run_well(Arguments{"mesh", "-o", "s.ply", "--resolution", "40", "--attributes", "none"} + quartic);
@@ -473,7 +474,7 @@ std::string prism_mesh(int sides, double part = 0, bool is_mirrored = false) {
          faces.str();
 }
 
-TEST_F(Program_register, solids_with_other_numbers_of_sides_are_not_equal) {
+TEST_F(Program_register_long, solids_with_other_numbers_of_sides_are_not_equal) {
   write_file(folder_ / "17.off", prism_mesh(17));
   write_file(folder_ / "18.off", prism_mesh(18));
   write_file(folder_ / "left.off", prism_mesh(17, .3));
@@ -486,7 +487,7 @@ TEST_F(Program_register, solids_with_other_numbers_of_sides_are_not_equal) {
   EXPECT_EQ(mirrored["equally_good"], 33) << "it has 34 symmetries";
 }
 
-TEST_F(Program_register, contact_along_a_curve_is_no_overlap) {
+TEST_F(Program_register_long, contact_along_a_curve_is_no_overlap) {
   const Arguments nodes = {"--box", "-2", "2", "-2", "2", "-2", "2", "--resolution", "31"};
   EXPECT_EQ(registered(Arguments{"--function", "x^2+2*y^2+3*z^2=1"} + nodes,
                        Arguments{"--function", "x^2+2*y^2+3.01*z^2=1"} + nodes, {"--kind", "rigid"})["found"],

@@ -38,6 +38,7 @@ protected:
     return Json::parse(file("s.json"));
   }
 };
+using Program_remesh_long = Program_remesh;
 
 TEST_F(Program_remesh, a_closed_mesh_stays_closed_and_says_what_became_of_its_vertices) {
   const Json statistics = statistics_of_remesh({"--edge-length", ".1"});
@@ -62,7 +63,7 @@ TEST_F(Program_remesh, a_closed_mesh_stays_closed_and_says_what_became_of_its_ve
   }
 }
 
-TEST_F(Program_remesh, a_transformation_moves_the_remesh) {
+TEST_F(Program_remesh_long, a_transformation_moves_the_remesh) {
   statistics_of_remesh({"--attributes", "none"});
   const Mesh plain = mesh("out.ply");
   const Json statistics =
@@ -75,7 +76,7 @@ TEST_F(Program_remesh, a_transformation_moves_the_remesh) {
     EXPECT_NEAR(moved.mesh.points[i].x(), 2 * plain.mesh.points[i].x() + 1, 1e-12);
 }
 
-TEST_F(Program_remesh, a_closed_mesh_stays_closed_although_two_of_its_points_coincide) {
+TEST_F(Program_remesh_long, a_closed_mesh_stays_closed_although_two_of_its_points_coincide) {
   run_well({"mesh", "-o", "torus.ply", "--fit", "torus.off", "--attributes", "none"});
   Mesh torus = mesh("torus.ply");
   const auto& triangles = torus.mesh.triangles;
@@ -97,7 +98,7 @@ TEST_F(Program_remesh, a_closed_mesh_stays_closed_although_two_of_its_points_coi
   EXPECT_EQ(statistics["euler_characteristic"], 0);
 }
 
-TEST_F(Program_remesh, what_has_no_faces_or_no_fit_is_refused) {
+TEST_F(Program_remesh_long, what_has_no_faces_or_no_fit_is_refused) {
   expect_error({"mesh", "-o", "out.ply", "--function", "x^2+y^2+z^2=1", "--box", "-2", "2", "-2", "2", "-2", "2",
                 "--method", "remesh"},
                {"--method", "remesh", "--fit FILE"});
@@ -160,7 +161,7 @@ std::string tori() {
   return "OFF\n" + std::to_string(count) + ' ' + std::to_string(2 * count) + " 0\n" + points.str() + triangles.str();
 }
 
-TEST_F(Program_remesh, a_scale_that_is_too_large_for_the_shape_becomes_smaller) {
+TEST_F(Program_remesh_long, a_scale_that_is_too_large_for_the_shape_becomes_smaller) {
   write_file(folder_ / "tori.off", tori());
   const auto statistics = [&](const Arguments& options) {
     EXPECT_EQ(run(Arguments{"mesh", "--fit", "tori.off", "-o", "out.ply", "--stats", "s.json"} + options).status, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "system/Temporary_folder.h"
-#include "system/signals.h"
+#include "system/files.h"
+#include "system/process.h"
 
 #include <gtest/gtest.h>
 #ifdef CGAL_LINKED_WITH_TBB

@@ -3,7 +3,7 @@
 #include "support/Scratch_file.h"
 #include "support/fuzz_target.h"
 #include "volume/data_files.h"
-#include "volume/header_checks.h"
+#include "volume/volume_formats.h"
 
 namespace volume_headers_fuzz_test {
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "system/child_process.h"
+#include "system/process.h"
 #include "volume/Shared_volume.h"
 #include "volume/data_files.h"
-#include "volume/raw_data.h"
-#include "volume/sample_type.h"
 #include "volume/volume_formats.h"
 #include "volume/volume_io.h"
 #include <equiaffine/base/Input_error.h>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #ifdef EQUIAFFINE_WITH_VTK
 
-#include "output/Vtp_writer.h"
-#include "output/write_VTP.h"
+#include "output/Part_writer.h"
 #include "support/Scratch_file.h"
 
 #include <gtest/gtest.h>

@@ -62,7 +62,7 @@ TEST(Affine_symmetries, a_group_is_complete_where_the_box_cuts_off_images_of_gen
 }
 
 // Moments of lines are off by more than it differs from an ellipsoid.
-TEST(Affine_symmetries, a_near_ellipsoid_has_those_of_what_tells_it_from_one) {
+TEST(Affine_symmetries_long, a_near_ellipsoid_has_those_of_what_tells_it_from_one) {
   const auto result = symmetries({"x^2+2*y^2+3*z^2-1+1e-3*(x^4+4*y^4)", cube(2), 16}, {}, 30);
   EXPECT_EQ(result.order(), 16u);
   EXPECT_EQ(result.verdict, Symmetry_verdict::EXACT);
@@ -95,7 +95,7 @@ Affine_symmetries_3<Kernel> symmetries_of_kind(const Expected& e, Map_kind kind,
                            parameters::map_kind(kind).reflections(with_reflections));
 }
 
-TEST(Affine_symmetries, rigid_ones_are_finite_groups_where_affine_ones_are_continuous_or_more) {
+TEST(Affine_symmetries_long, rigid_ones_are_finite_groups_where_affine_ones_are_continuous_or_more) {
   const CGAL::Bbox_3 scherk(-1.4, -1.4, -1.4, 1.4, 1.4, 1.4), octant(.3, .3, .3, 2, 2, 2);
   const std::vector<Expected> cases = {{"x^2+2*y^2+3*z^2-1", cube(1.2), 8},
                                        {"x^2+2*y^2-z^2-.5", cube(1.2), 8},
@@ -149,7 +149,7 @@ TEST(Affine_symmetries, generators_are_tangent_to_the_surface) {
   EXPECT_LT(translation.norm(), 1e-12 * matrix.norm());
 }
 
-TEST(Affine_symmetries, a_slightly_disturbed_surface_has_those_within_the_tolerance) {
+TEST(Affine_symmetries_long, a_slightly_disturbed_surface_has_those_within_the_tolerance) {
   const Expected disturbed = {"x^6+2*y^6+.5*z^6-1+.0001*(x^3+.7*y^3*x-.4*z^3*y+.5*x*y*z)", cube(1.3), 48};
   EXPECT_EQ(symmetries(disturbed, {}, 30).order(), 1u);
   const Formula formula = Surface{"", disturbed.formula, disturbed.box}.traits();
@@ -207,7 +207,7 @@ TEST(Affine_symmetries, a_round_surface_with_a_small_detail_slides_in_the_ways_t
   }
 }
 
-TEST(Affine_symmetries, parts_on_both_sides_of_a_jump_do_not_slide_onto_each_other) {
+TEST(Affine_symmetries_long, parts_on_both_sides_of_a_jump_do_not_slide_onto_each_other) {
   const auto torus = symmetries({"(hypot(x,y)-1)^2+z^2-.09+.01*sign(y)", cube(2), 4}, {}, 31);
   EXPECT_EQ(torus.continuous.dimension(), 0u);
   EXPECT_EQ(torus.order(), 4u);

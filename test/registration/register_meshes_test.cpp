@@ -6,7 +6,6 @@
 #include "support/solids.h"
 #include <equiaffine/registration/affine_symmetries.h>
 #include <equiaffine/registration/contradictions_of_meshes.h>
-#include <equiaffine/registration/internal/registration_of.h>
 #include <equiaffine/registration/is_affinely_equivalent.h>
 #include <equiaffine/registration/register_surfaces.h>
 
@@ -78,11 +77,11 @@ TEST(Register_meshes, a_whole_without_curvature_is_found_by_every_kind_of_map) {
 }
 
 template <class Kernel_of_points>
-class Register_meshes_of_kernels : public testing::Test {};
+class Register_meshes_of_kernels_long : public testing::Test {};
 using Kernels = testing::Types<CGAL::Exact_predicates_inexact_constructions_kernel, CGAL::Simple_cartesian<float>>;
-TYPED_TEST_SUITE(Register_meshes_of_kernels, Kernels);
+TYPED_TEST_SUITE(Register_meshes_of_kernels_long, Kernels);
 
-TYPED_TEST(Register_meshes_of_kernels, results_are_of_the_kernel_of_the_points) {
+TYPED_TEST(Register_meshes_of_kernels_long, results_are_of_the_kernel_of_the_points) {
   using FT = typename TypeParam::FT;
   const Solid solid = cube_without_corner(.75); // whose coordinates are floats
   std::vector<typename TypeParam::Point_3> points;
@@ -126,7 +125,7 @@ TYPED_TEST(Register_meshes_of_kernels, results_are_of_the_kernel_of_the_points) 
   }
 }
 
-TYPED_TEST(Register_meshes_of_kernels, frames_and_slippage_are_those_that_were_found) {
+TYPED_TEST(Register_meshes_of_kernels_long, frames_and_slippage_are_those_that_were_found) {
   using FT = typename TypeParam::FT;
   Surface_registration_3<Kernel> found;
   auto& m = found.maps.emplace_back(Registered_map_3<Kernel>{Map(), -9, {0.5, 0.25}, 0.125, {}, {}});
@@ -189,7 +188,7 @@ TEST(Register_meshes, small_units_are_as_good_as_large_ones) {
   }
 }
 
-TEST(Register_meshes, small_differences_of_planes_are_seen_unless_they_are_tolerated) {
+TEST(Register_meshes_long, small_differences_of_planes_are_seen_unless_they_are_tolerated) {
   const auto rigid = parameters::map_kind(Map_kind::RIGID);
   for (const double difference : {.001, .005})
     EXPECT_FALSE(registered(box(1, .7, .4), box(1, .7, .4 + difference), rigid).found()) << difference;
@@ -229,7 +228,7 @@ TEST(Register_meshes, points_of_vertices_may_be_anywhere) {
   EXPECT_LT(CGAL::squared_distance(back.best().map(center + Vector_3(5, 6, 7)), center), 1e-18);
 }
 
-TEST(Register_meshes, a_coarse_scan_of_the_same_object_is_alike_by_the_one_map_that_stands_out) {
+TEST(Register_meshes_long, a_coarse_scan_of_the_same_object_is_alike_by_the_one_map_that_stands_out) {
   const auto similar = parameters::map_kind(Map_kind::SIMILARITY);
   Random random(3);
   const Map map = map_of(9.8 * random_rotation(random), Eigen::Vector3d(1, 2, 3));
@@ -273,7 +272,7 @@ TEST(Register_meshes, reflections_and_sizes_are_as_asked_for) {
   EXPECT_TRUE(registered(source, larger, parameters::map_kind(Map_kind::SIMILARITY)).found());
 }
 
-TEST(Register_meshes, solids_that_differ_have_no_map) {
+TEST(Register_meshes_long, solids_that_differ_have_no_map) {
   for (const auto& [source, target] : {std::pair(box(1, .7, .4), box(1, .75, .4)),
                                        {L(), cube_without_corner(.5)},
                                        {tetrahedron(), prism(regular(6), 1.3)}})
@@ -347,7 +346,7 @@ Solid wedge() { return L(.8); }
 
 const Vector_3 oblique(.6, .64, .48);
 
-TEST(Register_pieces, a_piece_is_found_in_the_whole) {
+TEST(Register_pieces_long, a_piece_is_found_in_the_whole) {
   Random random(3);
   const Solid piece = clipped(wedge(), oblique, .9);
   const Eigen::Vector3d shift(3, -1, 2);
@@ -380,7 +379,7 @@ TEST(Register_pieces, two_pieces_are_joined) {
   EXPECT_LT(found.best().inliers[1], .95);
 }
 
-TEST(Register_pieces, those_of_other_solids_contradict_every_map) {
+TEST(Register_pieces_long, those_of_other_solids_contradict_every_map) {
   const Solid piece = clipped(wedge(), oblique, .9);
   for (const auto& [kind, other] : {std::pair(Map_kind::RIGID, box(1, .7, .4)),
                                     {Map_kind::SIMILARITY, box(1, .7, .4)},
@@ -474,7 +473,7 @@ TEST(Register_pieces, other_kinds_of_maps_are_refused_with_a_reason) {
   EXPECT_NE(found.reason.find("similarities"), std::string::npos) << found.reason;
 }
 
-TEST(Register_pieces, threads_give_the_same_bits) {
+TEST(Register_pieces_long, threads_give_the_same_bits) {
   const Solid piece = clipped(wedge(), oblique, .9);
   const auto rigid = parameters::map_kind(Map_kind::RIGID);
   const auto a = registered<CGAL::Sequential_tag>(piece, wedge(), rigid), b = registered(piece, wedge(), rigid);

@@ -83,7 +83,7 @@ TEST(Register_surfaces, maps_of_fewer_parameters_are_of_their_kind) {
   }
 }
 
-TEST(Register_surfaces, a_mirror_image_is_found_by_a_reflection_only) {
+TEST(Register_surfaces_long, a_mirror_image_is_found_by_a_reflection_only) {
   const Pair mirrored(named("quartic"), map_of(-Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()));
   expect_map(mirrored.result(), mirrored.map);
   const Result none = mirrored.result(parameters::reflections(false));
@@ -115,7 +115,7 @@ TEST(Register_surfaces, each_pair_of_points_is_tried_once_where_none_gives_a_map
   EXPECT_LT(result.hypotheses, 250u) << "there are 218 of different pairs, and 286 if those that are alike come twice";
 }
 
-TEST(Register_surfaces, much_noise_makes_no_map_between_surfaces_that_have_nothing_in_common) {
+TEST(Register_surfaces_long, much_noise_makes_no_map_between_surfaces_that_have_nothing_in_common) {
   const auto surfaces = generic_surfaces();
   for (const std::size_t i : {std::size_t(0), surfaces.size() - 2}) {
     const auto source = surfaces[i].traits(), target = surfaces[i + 1].traits();
@@ -142,7 +142,7 @@ TEST(Register_surfaces, a_piece_is_found_in_the_whole_with_few_points) {
   EXPECT_LT(result.best().inliers[1], 0.6) << "the piece covers a part of the target";
 }
 
-TEST(Register_surfaces, wrong_derivatives_take_more_hypotheses_but_change_no_map) {
+TEST(Register_surfaces_long, wrong_derivatives_take_more_hypotheses_but_change_no_map) {
   Random random(500);
   for (const char* name : {"ellipsoid+", "heart+"}) {
     SCOPED_TRACE(name);

@@ -87,7 +87,7 @@ std::optional<std::size_t> exact_order(const Solid& solid, const std::string& na
   return result.order();
 }
 
-TEST(Solid_symmetries, solids_with_many_sides_have_those_of_their_corners) {
+TEST(Solid_symmetries_long, solids_with_many_sides_have_those_of_their_corners) {
   for (const std::size_t n : {14u, 17u, 24u, 60u}) {
     const std::string name = std::to_string(n);
     EXPECT_EQ(exact_order(prism(regular(n), 1), name), 4 * n) << "prism";
@@ -118,7 +118,7 @@ TEST(Solid_symmetries, coordinates_with_few_digits_have_exact_ones_to_within_the
   EXPECT_EQ(result.verdict, Symmetry_verdict::EXACT);
 }
 
-TEST(Solid_symmetries, formulas_with_edges_have_theirs) {
+TEST(Solid_symmetries_long, formulas_with_edges_have_theirs) {
   struct Case {
     const char* formula;
     std::size_t rigid;
@@ -152,7 +152,7 @@ TEST(Solid_symmetries, all_rotations_are_searched_where_that_is_asked_for) {
   }
 }
 
-TEST(Solid_symmetries, a_greater_tolerance_never_finds_fewer) {
+TEST(Solid_symmetries_long, a_greater_tolerance_never_finds_fewer) {
   const Solid cube = cube_without_corner(.5);
   const auto all = symmetries(cube, parameters::map_kind(Map_kind::RIGID));
   ASSERT_EQ(all.levels.size(), 2u);
@@ -169,7 +169,7 @@ TEST(Solid_symmetries, a_greater_tolerance_never_finds_fewer) {
   EXPECT_EQ(before, 48u);
 }
 
-TEST(Solid_symmetries, nothing_is_said_of_a_tolerance_that_other_maps_reach) {
+TEST(Solid_symmetries_long, nothing_is_said_of_a_tolerance_that_other_maps_reach) {
   const Solid nearly_square = box(1, 1.08, .3);
   const auto order = [&](double tolerance) {
     return symmetries(nearly_square, parameters::map_kind(Map_kind::RIGID).tolerance(tolerance)).order();
@@ -197,7 +197,7 @@ Solid star(double height) {
   return solid;
 }
 
-TEST(Solid_symmetries, rotations_that_are_drawn_to_a_symmetry_nearby_are_no_slipping) {
+TEST(Solid_symmetries_long, rotations_that_are_drawn_to_a_symmetry_nearby_are_no_slipping) {
   for (const double height : {.48, .5, .52})
     EXPECT_EQ(symmetries(star(height), parameters::map_kind(Map_kind::RIGID)).order(), 48u) << height;
 }
@@ -283,7 +283,7 @@ TEST(Solid_symmetries, open_tubes_are_flipped_exactly) {
   }
 }
 
-TEST(Solid_symmetries, short_coordinates_are_what_they_say_unless_many_look_rounded) {
+TEST(Solid_symmetries_long, short_coordinates_are_what_they_say_unless_many_look_rounded) {
   const auto rigid = parameters::map_kind(Map_kind::RIGID);
   EXPECT_EQ(symmetries(box(1, 1, 1.00001), rigid).order(), 16u);
   Solid bumped = box(1, 1, 1);

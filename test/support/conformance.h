@@ -10,12 +10,11 @@
 #include "support/contraction.h"
 #include "support/same_bits.h"
 #include <equiaffine/function/Any_function_3.h>
-#include <equiaffine/function/Batch_function_traits_3.h>
 #include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Surface_point_3.h>
 #include <equiaffine/function/Transformed_function_traits_3.h>
 #include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/function/internal/sign_change.h>
 
 #include <gtest/gtest.h>
 

@@ -29,8 +29,9 @@ inline Operation_counts operation_counts() {
     return Counting_number::operations();
   };
   return {count([&] { internal::Simplifying_map_3<Counting_number>{f}; }),
-          count([&] { internal::mapped_derivatives(f, inverse); }), count([&] { transformation_estimate(jet); }),
-          count([&] { direct_estimate(jet, 2); }), count([&] { affine_invariants(Monge_chart_3(jet)); })};
+          count([&] { internal::mapped_derivatives(f, inverse); }),
+          count([&] { internal::transformation_estimate(jet); }), count([&] { internal::direct_estimate(jet, 2); }),
+          count([&] { affine_invariants(Monge_chart_3(jet)); })};
 }
 
 #endif

@@ -4,7 +4,7 @@
 #define EQUIAFFINE_TEST_SUPPORT_WRITTEN_MESHES_H
 
 #include "support/run_program.h"
-#include <equiaffine/io/read_PLY.h>
+#include <equiaffine/io/read_points.h>
 
 #include <CGAL/Simple_cartesian.h>
 

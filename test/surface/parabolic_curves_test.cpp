@@ -97,7 +97,9 @@ TEST(Parabolic_curves, the_function_is_the_gaussian_curvature_times_a_power_of_t
     using std::sin;
     return x * x * y + sin(z * x) + 2.0 * z - y * y * y;
   };
-  const auto at = [&](double x, double y, double z) { return parabolic_function(expand<4, double>(f, x, y, z)); };
+  const auto at = [&](double x, double y, double z) {
+    return internal::parabolic_function(expand<4, double>(f, x, y, z));
+  };
   const double x = 0.4, y = -0.7, z = 0.3, h = 1e-5;
   const auto jet = expand<4, double>(f, x, y, z);
   const double g2 = std::pow(jet.coefficient(1, 0, 0), 2) + std::pow(jet.coefficient(0, 1, 0), 2) +

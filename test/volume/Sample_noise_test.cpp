@@ -2,6 +2,7 @@
 #include "support/sample_volume.h"
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_function_3.h>
+#include <equiaffine/volume/choose_smoothing.h>
 #include <equiaffine/volume/smooth_volume.h>
 
 #include <CGAL/Simple_cartesian.h>

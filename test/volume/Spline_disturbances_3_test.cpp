@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/volume/Spline_function_3.h>
-#include <equiaffine/volume/internal/Spline_disturbances_3.h>
+#include <equiaffine/volume/internal/spline_errors.h>
 
 #include <CGAL/Simple_cartesian.h>
 

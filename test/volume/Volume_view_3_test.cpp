@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/volume/Volume_view_3.h>
+#include <equiaffine/volume/Volume_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -3,7 +3,7 @@
 
 #include "exchange_ghost_levels.h"
 #include <equiaffine/marching_cubes/marching_cubes_in_slabs.h>
-#include <equiaffine/volume/cells_to_know.h>
+#include <equiaffine/volume/Spline_function_3.h>
 
 #include <vtkCellData.h>
 #include <vtkCompositeDataIterator.h>

@@ -6,7 +6,7 @@
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Lattice_3.h>
 #include <equiaffine/volume/Spline_parameters.h>
-#include <equiaffine/volume/Volume_view_3.h>
+#include <equiaffine/volume/Volume_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Measured_samples.h"
 
-#include <equiaffine/volume/Volume_parts_3.h>
-#include <equiaffine/volume/few_values.h>
+#include <equiaffine/volume/Sample_noise.h>
+#include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/choose_smoothing.h>
 
 #include <CGAL/tags.h>
 

@@ -6,7 +6,7 @@
 #include "Ranks.h"
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_parameters.h>
-#include <equiaffine/volume/Volume_view_3.h>
+#include <equiaffine/volume/Volume_3.h>
 
 #include <cstddef>
 #include <optional>

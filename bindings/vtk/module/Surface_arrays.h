@@ -7,7 +7,7 @@
 #include "Growing_array.h"
 #include "Ranks.h"
 #include <equiaffine/attributes/Attribute_selection.h>
-#include <equiaffine/marching_cubes/Isosurface_slab_3.h>
+#include <equiaffine/marching_cubes/marching_cubes_in_slabs.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/volume/Cell_block.h>
 

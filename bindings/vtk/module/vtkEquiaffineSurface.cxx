@@ -8,15 +8,16 @@
 #include "Surface_arrays.h"
 #include "is_aborted.h"
 #include <equiaffine/attributes/Curvature_error_3.h>
-#include <equiaffine/attributes/attributes.h>
 #include <equiaffine/attributes/internal/error_table.h>
 #include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/engine/vectorized.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/function/Sampled_function_traits_3.h>
 #include <equiaffine/function/internal/point_blocks.h>
 #include <equiaffine/marching_cubes/marching_cubes_in_slabs.h>
 #include <equiaffine/volume/Sample_noise.h>
-#include <equiaffine/volume/cells_to_know.h>
+#include <equiaffine/volume/Spline_function_3.h>
+#include <equiaffine/volume/choose_smoothing.h>
 
 #include <CGAL/tags.h>
 
@@ -189,6 +190,7 @@ void mesh_pieces(const std::vector<Traits>& functions, const Views& views, const
   const Lattice_3<equiaffine::Kernel>& lattice = *pieces.lattice;
   for (std::size_t n = 0; n < functions.size(); ++n) {
     const Level_set_traits_3<Traits> function(functions[n], task.isovalue, task.orientation);
+    const Level_set_traits_3 vectorized_function(vectorized::Spline(functions[n]), task.isovalue, task.orientation);
     const Cell_block all = cells_of(lattice.size()), own = pieces.pieces[n].cells,
                      block = widened(own, std::size_t(task.request.ghost_levels), all);
     const Cell_block known = known_cells(block, views[n].cells(), pieces, task.spline);
@@ -198,12 +200,12 @@ void mesh_pieces(const std::vector<Traits>& functions, const Views& views, const
     marching_cubes_in_slabs<Tag>(
         function,
         [&](const Isosurface_slab_3<equiaffine::Kernel>& slab) {
-          arrays.add(slab,
-                     [&](std::span<const equiaffine::Kernel::Point_3> points, std::span<const Point_status> status) {
-                       auto attributes = compute_attributes<Tag>(function, points, task.selection, status);
-                       add_errors(errors, points, task.errors, attributes);
-                       return attributes;
-                     });
+          arrays.add(
+              slab, [&](std::span<const equiaffine::Kernel::Point_3> points, std::span<const Point_status> status) {
+                auto attributes = vectorized::compute_attributes(vectorized_function, points, task.selection, status);
+                add_errors(errors, points, task.errors, attributes);
+                return attributes;
+              });
           const double of_piece = double(slab.end_plane - block.first[2]) / double(block.end[2] - block.first[2]);
           advance((double(n) + of_piece) / double(functions.size()));
         },

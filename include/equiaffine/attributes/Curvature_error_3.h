@@ -3,12 +3,11 @@
 #define EQUIAFFINE_ATTRIBUTES_CURVATURE_ERROR_3_H
 
 #include <equiaffine/function/Sampled_function_traits_3.h>
-#include <equiaffine/geometry/Affine_curvature_error.h>
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_function_3.h>
-#include <equiaffine/volume/Volume_view_3.h>
-#include <equiaffine/volume/internal/Spline_disturbances_3.h>
+#include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/internal/spline_errors.h>
 
 #include <CGAL/tags.h>
 

@@ -1,12 +1,90 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Input_error, the exception for a text or a file that cannot be used, and what makes its message safe for a terminal.
 #ifndef EQUIAFFINE_BASE_INPUT_ERROR_H
 #define EQUIAFFINE_BASE_INPUT_ERROR_H
 
-#include <equiaffine/base/internal/printable.h>
+#include <equiaffine/base/internal/compiler.h>
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
+
+namespace equiaffine::internal {
+
+/// A character and the number of its bytes; no bytes if there is no valid UTF-8.
+struct Utf8_character {
+  char32_t code = 0;
+  std::size_t bytes = 0;
+};
+
+/// The bytes of a character whose first byte is `lead`, or 0 if none starts with it.
+inline std::size_t number_of_bytes(unsigned lead) {
+  if (lead < 0x80) return 1;
+  if (lead >= 0xC2 && lead < 0xE0) return 2;
+  if (lead >= 0xE0 && lead < 0xF0) return 3;
+  return lead >= 0xF0 && lead < 0xF5 ? 4 : 0;
+}
+
+inline Utf8_character first_character(std::string_view text) {
+  const unsigned lead = static_cast<unsigned char>(text.front());
+  const std::size_t bytes = number_of_bytes(lead);
+  if (bytes == 1) return {lead, 1};
+  if (bytes == 0 || bytes > text.size()) return {};
+  char32_t code = lead & (0x7Fu >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) {
+    const unsigned next = static_cast<unsigned char>(text[i]);
+    if (next >> 6 != 2) return {};
+    code = code << 6 | (next & 0x3F);
+  }
+  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool is_surrogate = code >= 0xD800 && code < 0xE000;
+  return code < least[bytes] || code > 0x10FFFF || is_surrogate ? Utf8_character{} : Utf8_character{code, bytes};
+}
+
+/// Whether a terminal shows the character and stays as it is.
+inline bool is_harmless(char32_t code) {
+  const bool is_control = code < 0x20 || (code >= 0x7F && code < 0xA0);
+  const bool breaks_lines = code == 0x2028 || code == 0x2029;
+  const bool turns_direction =
+      code == 0x200E || code == 0x200F || (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+  return !is_control && !breaks_lines && !turns_direction;
+}
+
+} // namespace equiaffine::internal
+
+namespace equiaffine {
+
+/// \cond for internal use
+/// The text as it may go to a terminal, in one line. Line ends and tabs become spaces. Bytes of control characters, of
+/// characters that change the direction of writing, and bytes that are not UTF-8 become `\x` and two digits.
+inline std::string printable(std::string_view text) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string result;
+  while (!text.empty()) {
+    const auto [code, bytes] = internal::first_character(text);
+    const std::size_t taken = bytes == 0 ? 1 : bytes;
+    if (bytes == 1 && (code == '\n' || code == '\r' || code == '\t')) result += ' ';
+    else if (bytes > 0 && internal::is_harmless(code)) result += text.substr(0, bytes);
+    else
+      for (const char c : text.substr(0, taken)) {
+        const auto byte = static_cast<unsigned char>(c);
+        result += {'\\', 'x', digits[byte / 16], digits[byte % 16]};
+      }
+    text.remove_prefix(taken);
+  }
+  return result;
+}
+
+/// Throws std::invalid_argument unless an argument is valid, in every build: for sizes, boxes and lengths that the
+/// caller may have from a user. `sentence` says what is wrong and what to do.
+inline void check_argument(bool is_valid, const char* sentence) {
+  if (!is_valid) throw std::invalid_argument(sentence);
+}
+/// \endcond
+
+} // namespace equiaffine
 
 // A program catches what the shared library throws.
 #ifdef EQUIAFFINE_SHARED

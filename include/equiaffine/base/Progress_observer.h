@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_BASE_PROGRESS_OBSERVER_H
 #define EQUIAFFINE_BASE_PROGRESS_OBSERVER_H
 
-#include <equiaffine/base/internal/check_flags.h>
+#include <equiaffine/base/internal/compiler.h>
 
 #include <algorithm>
 #include <atomic>

@@ -5,13 +5,255 @@
 #ifndef EQUIAFFINE_BASE_NAMED_PARAMETERS_H
 #define EQUIAFFINE_BASE_NAMED_PARAMETERS_H
 
-#include <equiaffine/base/internal/Named_parameters.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/named_parameter_list.h>
+
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/version.h>
 
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <type_traits>
+#include <utility>
+
+namespace equiaffine::internal {
+
+/// The value of a named parameter that counts something. \throw std::invalid_argument if it is negative
+template <class Count, class Number>
+Count count_of(const Number& number) {
+  static_assert(std::is_integral_v<Number>, "this named parameter counts something: give it a whole number");
+  if constexpr (std::is_signed_v<Number>)
+    check_argument(number >= 0,
+                   "a named parameter that counts something, such as number_of_nodes, is negative: give it "
+                   "a positive number");
+  return static_cast<Count>(number);
+}
+
+/// Tags: the types by which a function asks for its parameters.
+struct Number_of_nodes_tag {};
+struct Vertex_position_tag {};
+struct Planes_per_slab_tag {};
+struct Cell_block_tag {};
+struct Known_cells_tag {};
+struct Skip_empty_space_tag {};
+struct Estimator_tag {};
+struct Clip_tag {};
+struct Feature_curves_tag {};
+struct Parabolic_features_tag {};
+struct Facet_sizing_tag {};
+struct Vertex_point_tag {};
+struct Point_tag {};
+struct Normal_tag {};
+struct Normal_orientation_tag {};
+struct Noise_tag {};
+struct Scale_tag {};
+struct Degree_tag {};
+struct Orientation_tag {};
+struct Map_kind_tag {};
+struct Reflections_tag {};
+struct Number_of_maps_tag {};
+struct Least_overlap_tag {};
+struct Refined_functions_tag {};
+struct Tolerance_tag {};
+struct Complete_tag {};
+struct Target_edge_length_tag {};
+struct Number_of_iterations_tag {};
+struct Edge_is_constrained_tag {};
+struct Feature_angle_tag {};
+struct Vertex_outcome_tag {};
+struct Vertex_normal_tag {};
+struct Ball_radius_tag {};
+struct Geom_traits_tag {};
+struct Verbose_tag {};
+struct Comments_tag {};
+struct Vertex_status_tag {};
+struct Vertex_structure_tag {};
+struct Vertex_unit_normal_tag {};
+struct Vertex_mean_curvature_tag {};
+struct Vertex_Gaussian_curvature_tag {};
+struct Vertex_principal_curvatures_tag {};
+struct Vertex_affine_mean_curvature_tag {};
+struct Vertex_affine_Gaussian_curvature_tag {};
+struct Vertex_affine_normal_tag {};
+struct Vertex_conormal_tag {};
+struct Vertex_pick_invariant_tag {};
+struct Vertex_affine_metric_tag {};
+struct Vertex_affine_area_density_tag {};
+struct Vertex_affine_mean_curvature_error_tag {};
+struct Vertex_affine_Gaussian_curvature_error_tag {};
+struct Vertex_affine_normal_error_tag {};
+struct Vertex_conormal_error_tag {};
+struct Vertex_pick_invariant_error_tag {};
+struct Vertex_affine_area_density_error_tag {};
+struct Vertex_mean_curvature_error_tag {};
+struct Vertex_Gaussian_curvature_error_tag {};
+struct Vertex_unit_normal_error_tag {};
+
+/// The empty chain of parameters.
+struct No_parameters {};
+
+template <class Value, class Tag, class Base>
+struct Named_parameters;
+
+template <class Tag, class Value, class Base>
+Named_parameters<Value, Tag, Base> add_parameter(const Value& value, const Base& base) {
+  return {value, base};
+}
+
+/// One parameter and those given before it.
+template <class Value, class Tag, class Base>
+struct Named_parameters {
+  Value value;
+  Base base;
+
+  EQUIAFFINE_NAMED_PARAMETERS(const, *this)
+};
+
+template <class Tag, class Default>
+Default get_parameter(const No_parameters&, const Default& otherwise) {
+  return otherwise;
+}
+
+/// The parameter with the given tag, the last one given if there are several.
+template <class Tag, class Default, class Value, class OtherTag, class Base>
+Default get_parameter(const Named_parameters<Value, OtherTag, Base>& parameters, const Default& otherwise) {
+  if constexpr (std::is_same_v<Tag, OtherTag>) return parameters.value;
+  else return get_parameter<Tag>(parameters.base, otherwise);
+}
+
+/// The value of a parameter whose type the caller chooses. Precondition: it is given.
+template <class Tag, class Value, class OtherTag, class Base>
+const auto& given_parameter(const Named_parameters<Value, OtherTag, Base>& parameters) {
+  if constexpr (std::is_same_v<Tag, OtherTag>) return parameters.value;
+  else return given_parameter<Tag>(parameters.base);
+}
+
+/// Whether a parameter was given.
+template <class Tag, class Parameters>
+inline constexpr bool has_parameter = false;
+template <class Tag, class Value, class OtherTag, class Base>
+inline constexpr bool has_parameter<Tag, Named_parameters<Value, OtherTag, Base>> =
+    std::is_same_v<Tag, OtherTag> || has_parameter<Tag, Base>;
+
+/// The compiler's message shows the tag of the unknown parameter as `Given`.
+template <class Given, class... Known>
+constexpr void check_parameter() {
+  static_assert((std::is_same_v<Given, Known> || ...),
+                "this function does not know one of the named parameters that it is given");
+}
+
+template <class... Known>
+constexpr void check_each_parameter(const No_parameters*) {}
+
+template <class... Known, class Value, class Tag, class Base>
+constexpr void check_each_parameter(const Named_parameters<Value, Tag, Base>*) {
+  check_parameter<Tag, Known...>();
+  check_each_parameter<Known...>(static_cast<const Base*>(nullptr));
+}
+
+/// Every function with named parameters begins with this call, which does not compile when `Parameters` has one that is
+/// not among the tags `Known`.
+template <class Parameters, class... Known>
+constexpr void check_parameters() {
+  check_each_parameter<Known...>(static_cast<const Parameters*>(nullptr));
+}
+
+/// The tag of ours that stands for a parameter of CGAL with the same meaning.
+template <class Cgal_tag>
+struct Tag_for {
+  static_assert(!std::is_same_v<Cgal_tag, Cgal_tag>,
+                "equiaffine does not know one of the named parameters of CGAL that it is given");
+};
+
+#define EQUIAFFINE_TAG_FOR(CGAL_TAG, TAG)                                                                              \
+  template <>                                                                                                          \
+  struct Tag_for<CGAL::internal_np::CGAL_TAG> {                                                                        \
+    using type = TAG;                                                                                                  \
+  };
+EQUIAFFINE_TAG_FOR(vertex_point_t, Vertex_point_tag)
+EQUIAFFINE_TAG_FOR(vertex_normal_map_t, Vertex_normal_tag)
+EQUIAFFINE_TAG_FOR(point_t, Point_tag)
+EQUIAFFINE_TAG_FOR(normal_t, Normal_tag)
+EQUIAFFINE_TAG_FOR(geom_traits_t, Geom_traits_tag)
+EQUIAFFINE_TAG_FOR(verbose_t, Verbose_tag)
+EQUIAFFINE_TAG_FOR(edge_is_constrained_t, Edge_is_constrained_tag)
+EQUIAFFINE_TAG_FOR(number_of_iterations_t, Number_of_iterations_tag)
+#if CGAL_VERSION_NR >= 1060000000
+EQUIAFFINE_TAG_FOR(ball_radius_t, Ball_radius_tag)
+EQUIAFFINE_TAG_FOR(vertex_mean_curvature_map_t, Vertex_mean_curvature_tag)
+EQUIAFFINE_TAG_FOR(vertex_Gaussian_curvature_map_t, Vertex_Gaussian_curvature_tag)
+EQUIAFFINE_TAG_FOR(vertex_principal_curvatures_and_directions_map_t, Vertex_principal_curvatures_tag)
+#endif
+#undef EQUIAFFINE_TAG_FOR
+
+template <class Chain>
+Chain appended(const Chain& chain, const No_parameters&) {
+  return chain;
+}
+
+template <class Value, class Tag, class Base>
+Named_parameters<Value, Tag, Base> appended(const No_parameters&, const Named_parameters<Value, Tag, Base>& given) {
+  return given;
+}
+
+/// The chain followed by parameters of ours, in their order.
+template <class Chain, class Value, class Tag, class Base>
+auto appended(const Chain& chain, const Named_parameters<Value, Tag, Base>& given) {
+  return add_parameter<Tag>(given.value, appended(chain, given.base));
+}
+
+/// The chain followed by parameters of CGAL, in their order.
+template <class Chain>
+Chain appended(const Chain& chain, const CGAL::internal_np::No_property&) {
+  return chain;
+}
+template <class Chain, class Value, class Tag, class Base>
+auto appended(const Chain& chain, const CGAL::Named_function_parameters<Value, Tag, Base>& given) {
+  if constexpr (std::is_same_v<Tag, CGAL::internal_np::all_default_t>) return chain;
+  else if constexpr (std::is_same_v<Base, CGAL::internal_np::No_property>)
+    return add_parameter<typename Tag_for<Tag>::type>(given.v, chain);
+  else return add_parameter<typename Tag_for<Tag>::type>(given.v, appended(chain, static_cast<const Base&>(given)));
+}
+
+template <class T>
+inline constexpr bool is_parameter_chain = false;
+template <>
+inline constexpr bool is_parameter_chain<No_parameters> = true;
+template <class Value, class Tag, class Base>
+inline constexpr bool is_parameter_chain<Named_parameters<Value, Tag, Base>> = true;
+template <class Value, class Tag, class Base>
+inline constexpr bool is_parameter_chain<CGAL::Named_function_parameters<Value, Tag, Base>> = true;
+
+/// Named parameters, of equiaffine or of CGAL.
+template <class T>
+concept Parameter_chain = is_parameter_chain<T>;
+
+/// Does not compile unless all arguments are named parameters. A public function has an overload for what it does not
+/// take, whose body is a call of such an explanation: the first line of the compiler says then what is missing, and not
+/// which candidates there are.
+template <class... Arguments>
+constexpr void explain_parameters() {
+  static_assert((Parameter_chain<Arguments> && ...),
+                "an argument is no named parameter: write parameters::NAME(value), of equiaffine or of CGAL");
+}
+
+/// All named parameters of a call in one chain, those of CGAL under the tags of ours. Of two with the same name the last
+/// one counts.
+template <Parameter_chain Chain = No_parameters>
+auto joined_parameters(const Chain& chain = {}) {
+  return appended(No_parameters(), chain);
+}
+template <Parameter_chain First, Parameter_chain Second, Parameter_chain... Others>
+auto joined_parameters(const First& first, const Second& second, const Others&... others) {
+  return joined_parameters(appended(appended(No_parameters(), first), second), others...);
+}
+
+/// The type of that chain.
+template <class... Given>
+using Joined_parameters = decltype(joined_parameters(std::declval<const Given&>()...));
+
+} // namespace equiaffine::internal
 
 namespace equiaffine::parameters {
 

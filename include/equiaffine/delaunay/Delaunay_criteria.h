@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What a Delaunay mesh is asked for: its criteria, and how the size of its facets varies.
 #ifndef EQUIAFFINE_DELAUNAY_DELAUNAY_CRITERIA_H
 #define EQUIAFFINE_DELAUNAY_DELAUNAY_CRITERIA_H
 
@@ -22,6 +23,13 @@ struct Delaunay_criteria {
     if (result.distance == 0) result.distance = result.radius / 10;
     return result;
   }
+};
+
+/// How the size of facets varies over a surface.
+enum class Facet_sizing {
+  UNIFORM,   ///< the same size everywhere
+  EUCLIDEAN, ///< at most a quarter of the smaller radius of curvature
+  AFFINE     ///< equal affine area: proportional to |K_e|^(-1/8), since the affine area is |K_e|^(1/4) dA
 };
 
 } // namespace equiaffine

@@ -1,18 +1,168 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Meshes the zero set of a function by Delaunay refinement.
 #ifndef EQUIAFFINE_DELAUNAY_DELAUNAY_SURFACE_H
 #define EQUIAFFINE_DELAUNAY_DELAUNAY_SURFACE_H
 
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/internal/convert_point.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/delaunay/Delaunay_criteria.h>
-#include <equiaffine/delaunay/Delaunay_surface_3.h>
-#include <equiaffine/delaunay/internal/delaunay_surface_of.h>
+#include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
-#include <equiaffine/mesh/internal/copy_to_graph.h>
 #include <equiaffine/mesh/to_face_graph.h>
+#include <equiaffine/surface/Clip_domain_3.h>
 #include <equiaffine/surface/internal/explain_sampler.h>
+#include <equiaffine/surface/parabolic_curves.h>
 
+#include <CGAL/Bbox_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
 #include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+/// A Delaunay mesh of the zero set of a function.
+template <class Kernel>
+struct Delaunay_surface_3 : Isosurface_3<Kernel> {
+  bool is_certified = false; ///< no component of the surface was missed: there are no undecided boxes
+  /// Boxes in which a part of the surface may have been missed, since neither its absence nor its regularity could be
+  /// proved: around singular points, where the surface touches the border of the box, beside points where f is not
+  /// defined, in noise that would need too many boxes, or everywhere if the function has no bounds of its gradient.
+  /// There are also boxes where a part of the surface got no triangle, or a feature no edge, because it is too near to
+  /// others, where points of features are nearer to each other than a thousandth of the radius, where the mesh is not a
+  /// manifold, and where a triangle straddles a parabolic curve that is a feature. The whole box is one of them if
+  /// CGAL's mesher gave up, because the surface has bends much smaller than facets: some triangles are then missing,
+  /// and others do not satisfy the criteria.
+  std::vector<CGAL::Bbox_3> undecided_boxes;
+  Parabolic_curves_3<Kernel> parabolic_curves; ///< if the mesh was asked to follow them
+};
+
+} // namespace equiaffine
+
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
+namespace equiaffine::internal {
+
+/// The arguments of `delaunay_surface`, apart from the function.
+struct Meshing_request_3 {
+  Clip_domain_3 domain;
+  Delaunay_criteria criteria; ///< all lengths are positive
+  Facet_sizing sizing;
+  std::vector<Polyline_3<Any_function_3::Kernel>> feature_curves;
+  bool has_parabolic_features; ///< the parabolic curves become features in a second mesh
+};
+
+/// The work of `delaunay_surface`, which does not depend on the type of the function. The library defines it.
+Delaunay_surface_3<Any_function_3::Kernel> mesh_surface(const Any_function_3& function,
+                                                        const Meshing_request_3& request);
+
+} // namespace equiaffine::internal
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
+
+namespace equiaffine::internal {
+
+/// Which boxes and radii Delaunay meshes work with, whatever the unit of the coordinates is.
+class Delaunay_range {
+public:
+  /// The mesher computes polynomials of degree 6 in lengths, which must neither overflow nor underflow.
+  static constexpr double least = 1e-40, greatest = 1e40;
+
+  explicit Delaunay_range(const CGAL::Bbox_3& box) : diagonal_(std::hypot(box.x_span(), box.y_span(), box.z_span())) {
+    for (int a = 0; a < 3; ++a)
+      greatest_coordinate_ = std::max({greatest_coordinate_, std::abs(box.min(a)), std::abs(box.max(a))});
+  }
+
+  double diagonal() const { return diagonal_; }
+  double greatest_coordinate() const { return greatest_coordinate_; }
+
+  bool has_box() const { return diagonal_ >= least && std::max(diagonal_, greatest_coordinate_) <= greatest; }
+
+  /// The rounding of coordinates would spoil the shape of facets smaller than about a thousand units in the last place.
+  double least_radius() const { return 1024 * std::numeric_limits<double>::epsilon() * greatest_coordinate_; }
+
+private:
+  double diagonal_, greatest_coordinate_ = 0;
+};
+
+template <class Kernel, class Point_3>
+std::vector<typename Kernel::Point_3> convert_points(const std::vector<Point_3>& points) {
+  std::vector<typename Kernel::Point_3> converted;
+  converted.reserve(points.size());
+  for (const Point_3& p : points) converted.push_back(convert_point<Kernel>(p));
+  return converted;
+}
+
+/// Returns a range of polylines as a vector of polylines of another kernel.
+template <class Kernel, class Polylines>
+std::vector<Polyline_3<Kernel>> convert_polylines(const Polylines& curves) {
+  std::vector<Polyline_3<Kernel>> converted;
+  for (const auto& curve : curves) converted.push_back({convert_points<Kernel>(curve.points), curve.is_closed});
+  return converted;
+}
+
+template <class Kernel, class Other>
+Delaunay_surface_3<Kernel> convert_surface(Delaunay_surface_3<Other> surface) {
+  if constexpr (std::is_same_v<Kernel, Other>) {
+    return surface;
+  } else {
+    Delaunay_surface_3<Kernel> converted;
+    converted.points = convert_points<Kernel>(surface.points);
+    converted.triangles = std::move(surface.triangles);
+    converted.vertex_status = std::move(surface.vertex_status);
+    converted.repairs = surface.repairs;
+    converted.function_evaluations = surface.function_evaluations;
+    converted.sampling_seconds = surface.sampling_seconds;
+    converted.projection_seconds = surface.projection_seconds;
+    converted.is_certified = surface.is_certified;
+    converted.undecided_boxes = std::move(surface.undecided_boxes);
+    converted.parabolic_curves.polylines = convert_polylines<Kernel>(surface.parabolic_curves.polylines);
+    converted.parabolic_curves.unconverged_points = surface.parabolic_curves.unconverged_points;
+    return converted;
+  }
+}
+
+template <class Parameters, class... OtherTags>
+constexpr void check_delaunay_parameters() {
+  check_parameters<Parameters, Clip_tag, Facet_sizing_tag, Feature_curves_tag, Parabolic_features_tag, Geom_traits_tag,
+                   Verbose_tag, OtherTags...>();
+}
+
+/// The function delaunay_surface() with all its named parameters in one chain, which may have others.
+template <class Traits, class Parameters>
+Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface_of(const Traits& traits, const Delaunay_criteria& criteria,
+                                                          const Parameters& parameters) {
+  const auto domain = get_parameter<Clip_tag>(parameters, Clip_domain_3(traits.bbox()));
+  const auto sizing = get_parameter<Facet_sizing_tag>(parameters, Facet_sizing::UNIFORM);
+  const auto curves = get_parameter<Feature_curves_tag>(parameters, std::vector<Polyline_3<Kernel_of<Traits>>>());
+  constexpr bool has_parabolic_features = has_parameter<Parabolic_features_tag, Parameters>;
+  const Delaunay_criteria completed = criteria.completed(domain);
+  check_argument(completed.angle >= 0 && completed.angle <= 30,
+                 "the least angle of a Delaunay mesh is not between 0 and 30 degrees: choose one that is");
+  check_argument(
+      completed.radius > 0 && std::isfinite(completed.radius) && completed.distance > 0 &&
+          std::isfinite(completed.distance),
+      "the radius or the distance of a Delaunay mesh is not a positive length: choose one, or 0 for the default");
+  const Delaunay_range range(domain.bbox());
+  check_argument(range.has_box(), "the box of a Delaunay mesh has a diagonal below 1e-40 or coordinates beyond 1e40: "
+                                  "choose another unit");
+  check_argument(completed.radius >= range.least_radius(),
+                 "the radius of a Delaunay mesh is less than 2.3e-13 of the greatest coordinate of the box: choose a "
+                 "larger one, or an origin nearer to the box");
+  return convert_surface<Kernel_of<Traits>>(mesh_surface(
+      Any_function_3::make(traits),
+      {domain, completed, sizing, convert_polylines<Any_function_3::Kernel>(curves), has_parabolic_features}));
+}
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 

@@ -1,14 +1,125 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Writes a web page that shows a surface, colored by its attributes.
 #ifndef EQUIAFFINE_DISPLAY_WRITE_HTML_H
 #define EQUIAFFINE_DISPLAY_WRITE_HTML_H
 
-#include <equiaffine/display/Html_options.h>
-#include <equiaffine/display/internal/page.h>
+#include <equiaffine/base/internal/compiler.h>
+#include <equiaffine/display/color_map.h>
+#include <equiaffine/display/internal/Column_numbers.h>
+#include <equiaffine/display/internal/Parabolic_parts.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>
+#include <CGAL/number_utils.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
 #include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+/// Options for a page of `write_HTML`: the text on it and what it shows first. All text is UTF-8.
+struct Html_options {
+  std::string title = "Equi-affine curvatures"; ///< files that are saved from the page are named after it
+  /// The attribute shown first, or `status`, or `plain`; empty: the first quantity of the library
+  /// that is there and trusted (`first_shown`).
+  std::string color = {};
+  /// The numbers of the end colors of the attribute shown first; nothing: quantiles of its numbers.
+  std::optional<std::array<double, 2>> range = {};
+  /// The scale of colors for all attributes; nothing: the one that suits the numbers of each.
+  std::optional<Color_scale> scale = {};
+  /// The attributes named here have these mappings, such as those of another page, whatever their own numbers are.
+  std::map<std::string, Color_mapping> mappings = {};
+  /// What follows the labels and symbols of the library's quantities, such as " at scale 0.1".
+  std::string label_suffix = {};
+  /// A table that says what the surface is and how it was made.
+  std::vector<std::pair<std::string, std::string>> description = {};
+  /// The direction that is up in the first view and around which dragging turns.
+  std::array<double, 3> up = {0, 0, 1};
+};
+
+} // namespace equiaffine
+
+namespace equiaffine::internal {
+
+/// The nearest float; an infinity beyond the largest.
+inline float nearest_float(double value) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  if (std::abs(value) > largest) value = std::copysign(std::numeric_limits<double>::infinity(), value);
+  return static_cast<float>(value);
+}
+
+/// The center of the bounding box of points, to which the positions of a page are relative.
+template <class Point_3>
+std::array<double, 3> center_of(const std::vector<Point_3>& points) {
+  if (points.empty()) return {0, 0, 0};
+  CGAL::Bbox_3 box;
+  for (const Point_3& point : points) box += point.bbox();
+  return {box.xmin() + (box.xmax() - box.xmin()) / 2, box.ymin() + (box.ymax() - box.ymin()) / 2,
+          box.zmin() + (box.zmax() - box.zmin()) / 2};
+}
+
+/// Whether columns and status are as long as the points, and all triangles have vertices that exist.
+template <class Kernel>
+bool is_consistent(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes) {
+  const std::size_t size = mesh.points.size();
+  return attributes.has_length(size) &&
+         std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& triangle) {
+           return std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t index) { return index < size; });
+         });
+}
+
+/// What a page shows of a mesh of any kernel.
+struct Page_surface {
+  template <class Kernel>
+  Page_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes)
+      : center(center_of(mesh.points)), triangles(mesh.triangles), numbers(mesh, attributes) {
+    positions.reserve(mesh.points.size());
+    for (const auto& point : mesh.points) {
+      const auto relative = [&](int i) {
+        return nearest_float(CGAL::to_double(point[i]) - center[static_cast<std::size_t>(i)]);
+      };
+      positions.push_back({relative(0), relative(1), relative(2)});
+    }
+  }
+
+  std::array<double, 3> center;
+  std::vector<std::array<float, 3>> positions; ///< relative to the center
+  const std::vector<std::array<std::uint32_t, 3>>& triangles;
+  Numbers_of_mesh numbers;
+};
+
+// The library defines these functions.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
+
+/// Whether the page can show what `Html_options::color` names.
+bool is_offered(const std::string& color, const Vertex_attributes& attributes);
+
+/// Everything that the page has to know besides the arrays, as JSON.
+std::string page_facts(const Numbers_of_mesh& numbers, const Vertex_attributes& attributes, const Html_options& options,
+                       const std::array<double, 3>& center, const Parabolic_parts& parabolic);
+
+/// The page of `write_HTML`: its elements, the facts and arrays of the surface, and the script that draws it.
+void write_page(std::ostream& out, const Page_surface& surface, const Vertex_attributes& attributes,
+                const Html_options& options);
+
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 

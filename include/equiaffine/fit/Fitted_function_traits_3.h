@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A smooth function whose zero set is the surface that the vertices of a mesh, or points, are samples of: a blend of
+// polynomials that are fitted to them.
 #ifndef EQUIAFFINE_FIT_FITTED_FUNCTION_TRAITS_3_H
 #define EQUIAFFINE_FIT_FITTED_FUNCTION_TRAITS_3_H
 
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
-#include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/fit/internal/Fit_data_3.h>
-#include <equiaffine/fit/internal/Fit_request.h>
-#include <equiaffine/fit/internal/Fitted_function_3.h>
-#include <equiaffine/fit/internal/fit_data_of.h>
-#include <equiaffine/fit/internal/fits.h>
+#include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
 #include <equiaffine/mesh/internal/indexed_polygons.h>
@@ -21,6 +18,7 @@
 #include <CGAL/tags.h>
 #include <Eigen/Core>
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <memory>
@@ -28,6 +26,75 @@
 #include <ranges>
 #include <utility>
 #include <vector>
+
+namespace equiaffine::internal {
+
+/// The margin of a band holds points up to a height, and lets them be farther across the higher they are, as above a
+/// crease.
+struct Band_margin {
+  double height = 0, slope = 0;
+};
+
+class Fitted_data_3;
+
+/// The interface through which Fitted_function_traits_3 evaluates a fit, in the coordinates of the data.
+class Fitted_function_3 {
+public:
+  using Vector = Eigen::Vector3d;
+
+  virtual ~Fitted_function_3() = default;
+
+  /// The value; not a number outside of the band.
+  virtual double value(const Vector& p, const Band_margin& margin) const = 0;
+  virtual Jet_3<double, 1> first_order(const Vector& p) const = 0;
+  /// The expansion; not a number where the value is not that of polynomials alone.
+  virtual Jet_3<double> taylor(const Vector& p) const = 0;
+  virtual double rounding(const Vector& p) const = 0;
+  virtual Fitted_structure_3<double> structure(const Vector& p) const = 0;
+  virtual double spacing(const Vector& p) const = 0;
+  virtual Vector on_tangent_plane(const Vector& p) const = 0;
+  virtual std::optional<double> scale() const = 0;
+  virtual CGAL::Bbox_3 box() const = 0;
+
+  /// Returns the margin up to a height over the surface.
+  virtual Band_margin margin(double height) const = 0;
+
+  /// Returns whether some point of a box may be in the band.
+  virtual bool may_meet(const CGAL::Bbox_3& box, const Band_margin& margin) const = 0;
+
+  /// The data with the way to fit them.
+  virtual const Fitted_data_3& data() const = 0;
+};
+
+// The library defines these functions. They run in the threads of TBB if `in_threads`.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
+
+/// Returns the blend of fits to the data.
+std::shared_ptr<const Fitted_function_3> fitted_function(bool in_threads, Fit_data_3 given, const Fit_request& request);
+
+/// The distances along the normals, in the coordinates of the data, between points and the next ones that are within a
+/// spacing of them across and on another sheet, where these are less than `greatest` and about ten spacings. Points that
+/// are not connected nearby are on different sheets, and points whose normals are opposed, as on both sides of a thin
+/// plate or tube.
+std::vector<double> distances_of_sheets(bool in_threads, const Fitted_data_3& fit, double greatest);
+
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
+
+/// How far the affine curvatures of a fit at a point can be trusted, from 0 to 1: 1 / (1 + 10 e) for an estimated error e
+/// of the affine Gaussian curvature K as a part of |K| + H^2, which affine maps keep.
+template <class FT>
+double certainty_of_fit(const Fitted_structure_3<FT>& fit) {
+  const auto& affine = fit.structure.affine;
+  const FT size = std::abs(affine.gaussian_curvature) + affine.mean_curvature * affine.mean_curvature;
+  const FT part = fit.error.affine_gaussian_curvature / size;
+  return std::isfinite(part) ? double(1 / (1 + 10 * part)) : 0;
+}
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 

@@ -1,18 +1,247 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The local structure at the vertices of a mesh or at points, from polynomials that are fitted to them.
 #ifndef EQUIAFFINE_FIT_FITTED_STRUCTURES_H
 #define EQUIAFFINE_FIT_FITTED_STRUCTURES_H
 
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
-#include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/fit/internal/Fit_request.h>
-#include <equiaffine/fit/internal/fitted_structures_of.h>
-#include <equiaffine/function/internal/explain_misuse.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
 
+#include <CGAL/assertions.h>
+#include <CGAL/number_utils.h>
+#include <CGAL/property_map.h>
 #include <CGAL/tags.h>
+#include <Eigen/Core>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <optional>
 #include <ranges>
+#include <type_traits>
+#include <utility>
 #include <vector>
+
+namespace equiaffine {
+
+/// The structure that a fit around a data point gives it. A point that no fit belongs to has the status OUTSIDE.
+///
+/// The error is that of what the numbers stand for: those of the surface that was sampled, or at a scale those of the
+/// polynomials of dense exact data, which noise and sampling alone make wrong. An infinite error means that nothing is
+/// known.
+template <class FT>
+struct Fitted_structure_3 {
+  Local_structure_3<FT> structure;   ///< the numbers
+  Local_structure_error_3<FT> error; ///< their estimated errors
+  Local_structure_error_3<FT> noise; ///< two standard deviations of what noise makes; at a scale, the error
+  Local_structure_error_3<FT>
+      detail; ///< at a scale: how much detail that the scale leaves out may make; else the error
+  FT scale;   ///< the scale of the curvatures if they are those at a scale, else the radius of the ball that was fitted
+  bool is_at_scale; ///< whether the curvatures are those at a scale, and not the surface's own
+  FT deviation;     ///< the standard deviation of data around the point from a smooth surface, a length
+};
+
+/// Says whether the normals that come with points agree about the side of the surface.
+enum class Normal_orientation {
+  ORIENTED,  ///< all point to the same side of the surface
+  UNORIENTED ///< each is right up to its sign
+};
+
+} // namespace equiaffine
+
+namespace equiaffine::internal {
+
+/// The diagonals of boxes of points whose curvatures fits give: affine curvatures, and what they are computed from, leave
+/// double precision in other units, where the function of a fit still exists. Points that are all equal have no
+/// curvatures in any unit.
+struct Extent_of_fit {
+  static constexpr double least = 1e-40, greatest = 1e40;
+
+  static constexpr bool has(double diagonal) { return diagonal == 0 || (least <= diagonal && diagonal <= greatest); }
+};
+
+/// The parameters of fits that a user gave; the data decide the others.
+struct Fit_request {
+  std::optional<double> noise;     ///< a length
+  std::optional<double> scale = 0; ///< a length, or 0 for the surface's own curvature; nothing for one by the data
+  std::optional<int> degree;
+};
+
+/// Refuses named parameters that are neither those of every fit nor among `OtherTags`.
+template <class Parameters, class... OtherTags>
+constexpr void check_fit_parameters() {
+  check_parameters<Parameters, Noise_tag, Scale_tag, Ball_radius_tag, Degree_tag, Geom_traits_tag, Verbose_tag,
+                   OtherTags...>();
+}
+
+/// The same for meshes.
+template <class Parameters, class... OtherTags>
+constexpr void check_mesh_fit_parameters() {
+  check_fit_parameters<Parameters, Vertex_point_tag, Vertex_normal_tag, Feature_angle_tag, OtherTags...>();
+}
+
+/// The same for points without faces.
+template <class Parameters, class... OtherTags>
+constexpr void check_point_fit_parameters() {
+  check_fit_parameters<Parameters, Point_tag, Normal_tag, Normal_orientation_tag, OtherTags...>();
+}
+
+/// Reads the named parameters of every fit, and checks their values.
+template <class Parameters>
+Fit_request fit_request(const Parameters& parameters) {
+  Fit_request request;
+  if constexpr (has_parameter<Noise_tag, Parameters>) {
+    request.noise = given_parameter<Noise_tag>(parameters);
+    check_argument(!request.noise || (*request.noise >= 0 && std::isfinite(*request.noise)),
+                   "the noise is a length, 0 or more");
+  }
+  if constexpr (has_parameter<Ball_radius_tag, Parameters>) {
+    const double radius = CGAL::to_double(given_parameter<Ball_radius_tag>(parameters));
+    check_argument(std::isfinite(radius), "the radius of a ball is a length, or -1 for the surface's own curvature");
+    request.scale = std::max(radius, 0.);
+  }
+  if constexpr (has_parameter<Scale_tag, Parameters>) {
+    request.scale = given_parameter<Scale_tag>(parameters);
+    check_argument(!request.scale || (*request.scale >= 0 && std::isfinite(*request.scale)),
+                   "the scale is a length, or 0 for the surface's own curvature");
+  }
+  if constexpr (has_parameter<Degree_tag, Parameters>) {
+    request.degree = given_parameter<Degree_tag>(parameters);
+    const int d = request.degree.value_or(4);
+    check_argument(d == 4 || d == 5 || d == 6 || d == 8 || d == 10, "the degree of a fit is 4, 5, 6, 8 or 10");
+  }
+  return request;
+}
+
+/// The data of a fit, as a user gave them.
+struct Fit_data_3 {
+  enum class Kind {
+    POINTS, ///< without polygons
+    MESH,   ///< vertices and faces of a manifold
+    SOUP    ///< polygons that may be anything
+  };
+
+  Kind kind;
+  std::vector<Eigen::Vector3d> points = {};
+  std::vector<std::vector<std::uint32_t>> polygons = {}; ///< of positions of points
+  std::vector<Eigen::Vector3d> normals = {};             ///< one for each point, or none if they are to be estimated
+  Normal_orientation orientation = Normal_orientation::ORIENTED; ///< of the normals of points without polygons
+  std::optional<double> feature_angle = {};                      ///< of creases between polygons, in degrees
+};
+
+/// The angle in degrees of creases, over which fits do not reach and which a remesh keeps; nothing for no creases.
+template <class Parameters>
+std::optional<double> feature_angle(const Parameters& parameters) {
+  const auto angle = get_parameter<Feature_angle_tag>(parameters, std::optional<double>(60.));
+  check_argument(!angle || (*angle >= 0 && *angle <= 180), "the angle of creases is from 0 to 180 degrees");
+  return angle;
+}
+
+// Meshes and points of CGAL become arrays.
+
+/// The points are the vertices in their order.
+template <Face_graph Graph, class Parameters>
+Fit_data_3 fit_data_of_graph(const Graph& graph, const Parameters& parameters) {
+  check_coordinates<Point_of_vertices<const Graph, Parameters>>();
+  Indexed_polygons mesh = indexed_polygons_of_graph(graph, parameters);
+  Fit_data_3 data = {Fit_data_3::Kind::MESH, std::move(mesh.points), std::move(mesh.polygons)};
+  data.feature_angle = feature_angle(parameters);
+  if constexpr (has_parameter<Vertex_normal_tag, Parameters>)
+    for (const auto v : vertices_of(graph))
+      data.normals.push_back(coordinates_of(get(given_parameter<Vertex_normal_tag>(parameters), v)));
+  return data;
+}
+
+template <std::ranges::input_range Points, class Parameters>
+Fit_data_3 fit_data_of_points(Points&& range, const Parameters& parameters) {
+  Fit_data_3 data = {Fit_data_3::Kind::POINTS};
+  const auto point_of = point_of_element(range, parameters);
+  check_coordinates<std::decay_t<decltype(point_of(*std::ranges::begin(range)))>>();
+  for (const auto& element : range) {
+    data.points.push_back(coordinates_of(point_of(element)));
+    if constexpr (has_parameter<Normal_tag, Parameters>)
+      data.normals.push_back(coordinates_of(get(given_parameter<Normal_tag>(parameters), element)));
+  }
+  check_points(data.points);
+  data.orientation = get_parameter<Normal_orientation_tag>(parameters, Normal_orientation::ORIENTED);
+  return data;
+}
+
+template <std::ranges::input_range Points, std::ranges::input_range Polygons, class Parameters>
+Fit_data_3 fit_data_of_soup(const Points& points, const Polygons& polygons, const Parameters& parameters) {
+  Fit_data_3 data = {Fit_data_3::Kind::SOUP};
+  data.feature_angle = feature_angle(parameters);
+  Indexed_polygons soup = indexed_polygons_of_soup(points, polygons);
+  data.points = std::move(soup.points);
+  data.polygons = std::move(soup.polygons);
+  return data;
+}
+
+// The library defines these functions, which do the work of fits. They run in the threads of TBB if `in_threads`. Their
+// parameters name no type of Eigen, whose namespace has another name in the library.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
+
+/// Returns the structure at each of the given points.
+std::vector<Fitted_structure_3<double>>
+structures_of_data(bool in_threads, Fit_data_3 given, const Fit_request& request, Orientation_of_level_set orientation);
+
+/// Returns the structure at one vertex of a mesh.
+Fitted_structure_3<double> structure_of_vertex(Fit_data_3 given, const Fit_request& request,
+                                               Orientation_of_level_set orientation, std::size_t i);
+
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
+
+// The functions below with all their named parameters in one chain, which may have others.
+
+template <class Parameters>
+Orientation_of_level_set orientation_of(const Parameters& parameters) {
+  return get_parameter<Orientation_tag>(parameters, Orientation_of_level_set::ALONG_GRADIENT);
+}
+
+template <class ConcurrencyTag, class Parameters>
+std::vector<Fitted_structure_3<double>> structures_by_request(Fit_data_3 data, const Parameters& parameters) {
+  return structures_of_data(runs_in_threads<ConcurrencyTag>(), std::move(data), fit_request(parameters),
+                            orientation_of(parameters));
+}
+
+template <class ConcurrencyTag, class Graph, class Parameters>
+std::vector<Fitted_structure_3<double>> fitted_structures_of_graph(const Graph& mesh, const Parameters& parameters) {
+  return structures_by_request<ConcurrencyTag>(fit_data_of_graph(mesh, parameters), parameters);
+}
+
+template <class Vertex, class Graph, class Parameters>
+Fitted_structure_3<double> fitted_structure_of_vertex(const Vertex& v, const Graph& mesh,
+                                                      const Parameters& parameters) {
+  const auto all = vertices_of(mesh);
+  const auto place = std::find(std::begin(all), std::end(all), v);
+  CGAL_precondition_msg(place != std::end(all), "the vertex is none of the mesh");
+  const auto i = std::size_t(std::distance(std::begin(all), place));
+  return structure_of_vertex(fit_data_of_graph(mesh, parameters), fit_request(parameters), orientation_of(parameters),
+                             i);
+}
+
+template <class ConcurrencyTag, class Points, class Parameters>
+std::vector<Fitted_structure_3<double>> fitted_structures_of_points(Points&& points, const Parameters& parameters) {
+  return structures_by_request<ConcurrencyTag>(fit_data_of_points(points, parameters), parameters);
+}
+
+template <class ConcurrencyTag, class Points, class Polygons, class Parameters>
+std::vector<Fitted_structure_3<double>> fitted_structures_of_soup(const Points& points, const Polygons& polygons,
+                                                                  const Parameters& parameters) {
+  return structures_by_request<ConcurrencyTag>(fit_data_of_soup(points, polygons, parameters), parameters);
+}
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 
@@ -140,7 +369,7 @@ std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, 
 }
 
 /// \cond
-// Calls that are mistaken, see explain_misuse.h.
+// Calls that are mistaken, see base/named_parameters.h.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Elements, class First, class... Others>
 void fitted_structures(const Elements&, const First&, const Others&...) requires(
     (Face_graph<Elements> || std::ranges::input_range<Elements>)&&!(

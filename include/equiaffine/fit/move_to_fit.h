@@ -1,17 +1,264 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Moves the vertices of a triangle mesh onto the zero set of a fit to it.
 #ifndef EQUIAFFINE_FIT_MOVE_TO_FIT_H
 #define EQUIAFFINE_FIT_MOVE_TO_FIT_H
 
+#include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/Fit_outcome.h>
 #include <equiaffine/fit/Fitted_function_traits_3.h>
-#include <equiaffine/fit/internal/motion_to_fit.h>
-#include <equiaffine/function/internal/explain_misuse.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
 #include <equiaffine/mesh/internal/Triangle_array_3.h>
-#include <equiaffine/mesh/internal/crossing_triangles.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
+#include <equiaffine/surface/internal/jet_derivatives.h>
+#include <equiaffine/surface/project_to_surface.h>
 
+#include <CGAL/number_utils.h>
 #include <CGAL/tags.h>
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// The move of a vertex of a mesh onto the zero set of a fit, if there is one.
+struct Zero_of_fit_3 {
+  Fit_outcome outcome;
+  Eigen::Vector3d move = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< the unit normal of the fit at the zero
+};
+
+/// Finds the zero of a fit for a vertex with a normal, which need not have length 1, and edges of a mean length. The
+/// search starts below or above the vertex where the fit has no derivatives at the vertex itself.
+template <class Fit>
+Zero_of_fit_3 zero_of_fit(const Fit& fit, const Eigen::Vector3d& vertex, const Eigen::Vector3d& normal, double edge) {
+  using FT = typename Fit::FT;
+  constexpr double least_cosine = 0.5; // of the angle between the normals of fit and mesh
+  constexpr double reach = 0.5;        // of a zero, a part of the edges or of the distance of the data
+  const auto is_known = [](const auto& jet) { return std::isfinite(CGAL::to_double(jet.value())); };
+  typename Fit::Point_3 start(vertex[0], vertex[1], vertex[2]);
+  auto jet = fit.first_order(start);
+  if (!is_known(jet)) {
+    start = fit.on_tangent_plane(start);
+    jet = fit.first_order(start);
+  }
+  if (!is_known(jet)) return {Fit_outcome::NO_VALUE};
+  const auto agrees = [&](const Eigen::Vector3d& g) {
+    return g.dot(normal) >= least_cosine * g.norm() * normal.norm();
+  };
+  if (!agrees(eigen_gradient(jet))) return {Fit_outcome::OTHER_SIDE};
+  const double farthest = reach * std::max(edge, CGAL::to_double(fit.spacing(start)));
+  const auto zero = project_to_surface(fit, start, FT(farthest), jet);
+  const Eigen::Vector3d move = coordinates_of(zero.point) - vertex;
+  if (!zero.has_converged || !(move.norm() <= farthest)) return {Fit_outcome::NO_ZERO};
+  const Eigen::Vector3d gradient = eigen_gradient(fit.first_order(zero.point));
+  if (!agrees(gradient)) return {Fit_outcome::OTHER_SIDE};
+  return {Fit_outcome::ON_FIT, move, gradient.normalized()};
+}
+
+/// Moves the vertices of a mesh to their zeros of a fit, as far as no triangle turns over or crosses another one that
+/// it did not cross before. Vertices without a zero follow their neighbors, and those on features stay. Where a
+/// triangle turns over or crosses another one, the vertices that follow stay where they were, and if that is not
+/// enough, those with a zero do, too. This ends, since nothing is wrong where no vertex moves; from some number of
+/// rounds on, whole neighborhoods stay, which grow.
+class Whole_motion_3 {
+public:
+  using Vector = Eigen::Vector3d;
+
+  /// Takes the pairs of triangles that cross each other in the mesh, in order.
+  Whole_motion_3(const Triangle_array_3& mesh, std::vector<Zero_of_fit_3> zeros, std::vector<Triangle_pair> crossings)
+      : mesh_(mesh), zeros_(std::move(zeros)), stays_(mesh.points().size()), moved_(mesh.points()),
+        tested_(mesh.points()), old_crossings_(std::move(crossings)), crossings_(old_crossings_) {
+    for (std::size_t v = 0; v < zeros_.size(); ++v) stays_[v] = is_on_feature(v);
+    keep_to_one_sheet();
+    while (true) {
+      follow();
+      if (!hold_turned_triangles() && !hold_crossing_triangles()) break;
+      ++rounds_;
+      widen();
+    }
+  }
+
+  const std::vector<Vector>& points() const { return moved_; }
+  Fit_outcome outcome(std::size_t v) const { return zeros_[v].outcome; }
+  std::size_t crossings() const { return crossings_.size(); }
+
+private:
+  bool is_on_fit(std::size_t v) const { return zeros_[v].outcome == Fit_outcome::ON_FIT; }
+  bool is_on_feature(std::size_t v) const { return zeros_[v].outcome == Fit_outcome::ON_FEATURE; }
+
+  /// Whether the moves of two neighbors go to the same sheet of the fit: they differ by little, or the new edge is as
+  /// oblique to the normals at both ends as a chord of a smooth surface, whose mean angle to them is a right one.
+  bool agree(std::size_t u, std::size_t v) const {
+    constexpr double slope = 0.35, chord_slope = 0.2;
+    const Vector edge = mesh_.points()[v] - mesh_.points()[u];
+    const Vector change = zeros_[v].move - zeros_[u].move, chord = edge + change;
+    if (change.norm() <= slope * edge.norm()) return true;
+    return std::abs(chord.dot(zeros_[u].normal + zeros_[v].normal)) <= 2 * chord_slope * chord.norm();
+  }
+
+  /// Whether a vertex leaves a neighbor on a feature, which does not move: the fit makes the feature round.
+  bool leaves(std::size_t v, std::size_t feature) const {
+    constexpr double slope = 0.2;
+    return zeros_[v].move.norm() > slope * (mesh_.points()[v] - mesh_.points()[feature]).norm();
+  }
+
+  /// Gives up the larger one of the moves of two neighbors that disagree, and the moves that leave a feature.
+  void keep_to_one_sheet() {
+    std::vector<std::size_t> torn;
+    for (std::size_t v = 0; v < zeros_.size(); ++v) {
+      if (!is_on_fit(v)) continue;
+      for (const auto u : mesh_.neighbors(v))
+        if (is_on_feature(u) && leaves(v, u)) torn.push_back(v);
+        else if (u < v && is_on_fit(u) && !agree(u, v))
+          torn.push_back(zeros_[u].move.squaredNorm() > zeros_[v].move.squaredNorm() ? u : v);
+    }
+    for (const auto v : torn) zeros_[v].outcome = Fit_outcome::TORN_AWAY;
+  }
+
+  /// Vertices without a zero take over the mean of the moves of their neighbors, less with every edge from the fit.
+  void follow() {
+    constexpr int rings = 20;
+    constexpr double loss = 0.03;
+    std::vector<Vector> moves(zeros_.size(), Vector::Zero());
+    std::vector<std::uint32_t> followers;
+    for (std::uint32_t v = 0; v < zeros_.size(); ++v)
+      if (is_on_fit(v)) moves[v] = zeros_[v].move;
+      else if (!stays_[v] && !mesh_.neighbors(v).empty()) followers.push_back(v);
+    std::vector<Vector> next(followers.size());
+    for (int n = 0; n < rings; ++n) {
+      for (std::size_t k = 0; k < followers.size(); ++k) {
+        const auto around = mesh_.neighbors(followers[k]);
+        next[k] = Vector::Zero();
+        for (const auto u : around) next[k] += moves[u];
+        next[k] /= double(around.size()) * (1 + loss);
+      }
+      for (std::size_t k = 0; k < followers.size(); ++k) moves[followers[k]] = next[k];
+    }
+    for (std::size_t v = 0; v < zeros_.size(); ++v) moved_[v] = mesh_.points()[v] + moves[v];
+  }
+
+  bool has_moved(const Index_triangle& t) const {
+    return std::any_of(t.begin(), t.end(), [&](auto v) { return moved_[v] != mesh_.points()[v]; });
+  }
+
+  /// Makes vertices of a triangle stay, unless it is where it was.
+  void hold(const Index_triangle& t, Fit_outcome why) {
+    bool follows = false;
+    for (const auto v : t)
+      if (!is_on_fit(v) && moved_[v] != mesh_.points()[v]) held_.emplace_back(v, why), follows = true;
+    if (follows) return;
+    for (const auto v : t)
+      if (moved_[v] != mesh_.points()[v]) held_.emplace_back(v, why);
+  }
+
+  /// Makes the vertices stay that were to be held. Returns whether there are any.
+  bool make_stay() {
+    for (const auto& [v, why] : held_) {
+      if (is_on_fit(v)) zeros_[v].outcome = why;
+      stays_[v] = 1;
+    }
+    return !held_.empty();
+  }
+
+  bool hold_turned_triangles() {
+    constexpr double least_cosine = 0.5;
+    held_.clear();
+    for (const auto& t : mesh_.triangles()) {
+      if (!has_moved(t)) continue;
+      const Vector before = mesh_.normal(t, mesh_.points()), after = mesh_.normal(t, moved_);
+      if (!(before.dot(after) > least_cosine * before.norm() * after.norm())) hold(t, Fit_outcome::TURNED);
+    }
+    return make_stay();
+  }
+
+  /// Tests the triangles that have moved since the last test.
+  bool hold_crossing_triangles() {
+    held_.clear();
+    const auto& triangles = mesh_.triangles();
+    std::vector<char> is_changed(triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      is_changed[t] =
+          std::any_of(triangles[t].begin(), triangles[t].end(), [&](auto v) { return moved_[v] != tested_[v]; });
+    std::erase_if(crossings_, [&](const auto& pair) { return is_changed[pair.first] || is_changed[pair.second]; });
+    const auto found = crossing_triangles(moved_, triangles, is_changed);
+    crossings_.insert(crossings_.end(), found.begin(), found.end());
+    tested_ = moved_;
+    for (const auto& pair : crossings_) {
+      if (std::binary_search(old_crossings_.begin(), old_crossings_.end(), pair)) continue;
+      hold(triangles[pair.first], Fit_outcome::CROSSING);
+      hold(triangles[pair.second], Fit_outcome::CROSSING);
+    }
+    return make_stay();
+  }
+
+  /// After many rounds, the vertices around those that were held stay, too: 1 ring of them, then 2, 4, and so on.
+  void widen() {
+    constexpr int many = 20;
+    if (rounds_ <= many) return;
+    std::vector<std::pair<std::uint32_t, Fit_outcome>> ring = std::move(held_);
+    for (std::size_t n = std::size_t(1) << std::min(rounds_ - many - 1, 30); n > 0 && !ring.empty(); --n) {
+      held_.clear();
+      for (const auto& [v, why] : ring)
+        for (const auto u : mesh_.neighbors(v))
+          if (!stays_[u]) stays_[u] = 1, held_.emplace_back(u, why);
+      make_stay();
+      ring = std::move(held_);
+    }
+  }
+
+  const Triangle_array_3& mesh_;
+  std::vector<Zero_of_fit_3> zeros_;
+  std::vector<char> stays_; ///< of vertices that do not move
+  std::vector<Vector> moved_, tested_;
+  std::vector<std::pair<std::uint32_t, Fit_outcome>> held_; ///< in this round
+  std::vector<Triangle_pair> old_crossings_, crossings_;
+  int rounds_ = 0;
+};
+
+/// Moves the vertices of a mesh whose triangles cross each other in some pairs, and no others. Those that are marked as
+/// features stay; without marks there are none.
+template <class ConcurrencyTag, class Fit>
+Whole_motion_3 motion_to_fit(const Triangle_array_3& mesh, const Fit& fit, std::vector<Triangle_pair> crossings,
+                             const std::vector<char>& is_feature = {}) {
+  const std::vector<Eigen::Vector3d> normals = mesh.vertex_normals();
+  std::vector<Zero_of_fit_3> zeros(normals.size());
+  parallel_for<ConcurrencyTag>(
+      0, zeros.size(),
+      [&](std::size_t v) {
+        zeros[v] = !is_feature.empty() && is_feature[v]
+                       ? Zero_of_fit_3{Fit_outcome::ON_FEATURE}
+                       : zero_of_fit(fit, mesh.points()[v], normals[v], mesh.mean_edge(v));
+      },
+      64);
+  return Whole_motion_3(mesh, std::move(zeros), std::move(crossings));
+}
+
+/// Gives the vertices of a mesh, in their order, their new points and outcomes.
+template <class Kernel, class Mesh, class Parameters>
+Fit_move_report apply_motion(Mesh& mesh, const Whole_motion_3& motion, const Parameters& parameters) {
+  const auto point_of = vertex_points(mesh, parameters);
+  Fit_move_report report;
+  report.crossings = motion.crossings();
+  std::size_t n = 0;
+  for (const auto v : vertices_of(mesh)) {
+    const Eigen::Vector3d& p = motion.points()[n];
+    const Fit_outcome outcome = motion.outcome(n++);
+    report.largest_move = std::max(report.largest_move, (p - coordinates_of(get(point_of, v))).norm());
+    ++report.number_of[std::size_t(outcome)];
+    put(point_of, v, typename Kernel::Point_3(p[0], p[1], p[2]));
+    if constexpr (has_parameter<Vertex_outcome_tag, Parameters>)
+      put(given_parameter<Vertex_outcome_tag>(parameters), v, outcome);
+  }
+  return report;
+}
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 
@@ -44,15 +291,6 @@ Fit_move_report move_to_fit(Mesh& mesh, const Fitted_function_traits_3<Kernel>& 
       array, fit, internal::crossing_triangles(array.points(), array.triangles()));
   return internal::apply_motion<Kernel>(mesh, motion, parameters);
 }
-
-/// \cond
-// A call that is mistaken, see explain_misuse.h.
-template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, class Kernel, class... Others>
-void move_to_fit(Mesh&, const Fitted_function_traits_3<Kernel>&,
-                 const Others&...) requires(!(internal::Parameter_chain<Others> && ...)) {
-  internal::explain_parameters<Others...>();
-}
-/// \endcond
 
 } // namespace equiaffine
 

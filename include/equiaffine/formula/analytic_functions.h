@@ -5,7 +5,7 @@
 #ifndef EQUIAFFINE_FORMULA_ANALYTIC_FUNCTIONS_H
 #define EQUIAFFINE_FORMULA_ANALYTIC_FUNCTIONS_H
 
-#include <equiaffine/formula/internal/centered_box.h>
+#include <equiaffine/base/internal/compiler.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -14,6 +14,16 @@
 #include <cstddef>
 #include <numbers>
 #include <utility>
+
+namespace equiaffine::internal {
+
+/// The box about the origin with the given half sides.
+inline CGAL::Bbox_3 centered_box(double x, double y, double z) { return CGAL::Bbox_3(-x, -y, -z, x, y, z); }
+
+/// The cube about the origin with the given half side.
+inline CGAL::Bbox_3 centered_cube(double half_side) { return centered_box(half_side, half_side, half_side); }
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 

@@ -2,11 +2,9 @@
 #ifndef EQUIAFFINE_FUNCTION_ANALYTIC_FUNCTION_TRAITS_3_H
 #define EQUIAFFINE_FUNCTION_ANALYTIC_FUNCTION_TRAITS_3_H
 
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/function/expand.h>
-#include <equiaffine/function/internal/box_intervals.h>
-#include <equiaffine/function/internal/evaluate_points.h>
-#include <equiaffine/function/internal/expand.h>
 #include <equiaffine/number/Pack.h>
 
 #include <CGAL/Algebraic_structure_traits.h>

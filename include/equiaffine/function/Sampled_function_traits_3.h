@@ -5,10 +5,9 @@
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Spline_function_3.h>
+#include <equiaffine/volume/Volume_3.h>
 #include <equiaffine/volume/Volume_survey.h>
-#include <equiaffine/volume/Volume_view_3.h>
-#include <equiaffine/volume/cells_to_know.h>
-#include <equiaffine/volume/internal/Spline_rounding_3.h>
+#include <equiaffine/volume/internal/spline_errors.h>
 #include <equiaffine/volume/smooth_volume.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -53,7 +52,7 @@ public:
   Sampled_function_traits_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters,
                             const Volume_part& part, ConcurrencyTag tag = {})
       : volume_(volume) {
-    Volume_survey survey = volume_survey<ConcurrencyTag>(volume, parameters, part.cells);
+    Volume_survey survey = internal::volume_survey<ConcurrencyTag>(volume, parameters, part.cells);
     part.reduce(survey);
     volume_ = smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing), survey.border_votes);
     spline_ = std::make_shared<const Spline_function_3<Kernel>>(volume_, parameters, survey, tag);

@@ -2,24 +2,80 @@
 // A model of ImplicitFunctionTraits_3 may do some things better than others can do for it. Each capability is an
 // optional member of the model and a free function, which calls the member or, where there is none, falls back on what
 // every model has. They have the same name, but for the member `lattice(size)` of sampling_lattice(). The wrappers
-// Level_set_traits_3, Transformed_function_traits_3, Batch_function_traits_3 and Any_function_3 have the capabilities
-// of what they wrap. doc/concepts/capabilities.md says what each promises, and what happens without the member;
+// Level_set_traits_3, Transformed_function_traits_3, Any_function_3 and, below, Batch_function_traits_3 have the
+// capabilities of what they wrap. doc/concepts/capabilities.md says what each promises, and what happens without the member;
 // test/support/conformance.h checks it for every model and wrapper.
 #ifndef EQUIAFFINE_FUNCTION_CAPABILITIES_H
 #define EQUIAFFINE_FUNCTION_CAPABILITIES_H
 
 #include <equiaffine/function/Surface_point_3.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/function/internal/box_intervals.h>
-#include <equiaffine/function/internal/bracketed_roots.h>
+#include <equiaffine/number/Interval.h>
+#include <equiaffine/number/Jet_3.h>
+#include <equiaffine/number/internal/monomials_3.h>
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/assertions.h>
 
 #include <array>
 #include <concepts>
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
+
+namespace equiaffine::internal {
+
+// Boxes as intervals, and bounds on them.
+
+/// The intervals of x, y and z over a box.
+inline std::array<Interval, 3> sides_of(const CGAL::Bbox_3& box) {
+  return {Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()), Interval(box.zmin(), box.zmax())};
+}
+
+inline std::array<double, 3> center_of(const CGAL::Bbox_3& box) {
+  return {(box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2, (box.zmin() + box.zmax()) / 2};
+}
+
+/// The box that contains the point only.
+inline CGAL::Bbox_3 box_of_point(const std::array<double, 3>& p) {
+  return CGAL::Bbox_3(p[0], p[1], p[2], p[0], p[1], p[2]);
+}
+
+/// The intervals of the vectors from the center to the points of a box.
+inline std::array<Interval, 3> offset_from_center(const CGAL::Bbox_3& box, const std::array<double, 3>& center) {
+  std::array<Interval, 3> offset = sides_of(box);
+  for (std::size_t axis = 0; axis < 3; ++axis) offset[axis] = offset[axis] - Interval(center[axis]);
+  return offset;
+}
+
+/// The index of the monomial that is the product of two coordinates.
+inline std::size_t index_of_product(std::size_t axis, std::size_t other_axis) {
+  std::array<int, 3> exponents = {};
+  ++exponents[axis];
+  ++exponents[other_axis];
+  return std::size_t(monomial_index(exponents[0], exponents[1], exponents[2]));
+}
+
+/// Bounds of value and gradient on a box by the mean value theorem: f lies in f(c) + sum of f_a offset_a, and its
+/// derivative f_a along axis a lies in f_a(c) + sum of f_ab offset_b. Here c is a point of the box, `at_point` has the
+/// bounds at c, `on_box` has the bounds on the box, and `offset` the vectors from c to the points of the box. The
+/// result is the intersection of these bounds with those in `on_box`.
+inline Jet_3<Interval, 1> mean_value_bounds(const Jet_3<Interval, 2>& on_box, const Jet_3<Interval, 1>& at_point,
+                                            const std::array<Interval, 3>& offset) {
+  const auto& derivatives = on_box.coefficients();
+  std::array<Interval, 4> sum = at_point.coefficients();
+  for (std::size_t a = 0; a < 3; ++a) {
+    sum[0] += derivatives[1 + a] * offset[a];
+    for (std::size_t b = 0; b < 3; ++b) // the Taylor coefficient of x_a^2 is half of f_aa
+      sum[1 + a] += derivatives[index_of_product(a, b)] * offset[b] * Interval(a == b ? 2 : 1);
+  }
+  Jet_3<Interval, 1> bounds;
+  for (std::size_t n = 0; n < 4; ++n) bounds.coefficients()[n] = Interval::intersection(derivatives[n], sum[n]);
+  return bounds;
+}
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 
@@ -201,6 +257,48 @@ void samples(const Traits& traits, const std::array<std::size_t, 3>& first, cons
         for (std::size_t i = 0; i < size[0]; ++i) out[n++] = traits.sample(first[0] + i, first[1] + j, first[2] + k);
   }
 }
+
+/// Makes any model of ImplicitFunctionTraits_3 a model of FirstOrderBatchImplicitFunctionTraits_3. It calls the batch
+/// members of a base that has them and loops over single calls otherwise. All other members of the base stay available.
+template <ImplicitFunctionTraits_3 Traits>
+class Batch_function_traits_3 : public Traits {
+public:
+  using typename Traits::FT;      ///< the number type
+  using typename Traits::Point_3; ///< points
+
+  explicit Batch_function_traits_3(Traits traits) : Traits(std::move(traits)) {} ///< wraps a copy of the model
+
+  /// values[i] = value(points[i]); the spans have the same size.
+  void values(std::span<const Point_3> points, std::span<FT> values) const {
+    CGAL_precondition(points.size() == values.size());
+    if constexpr (BatchImplicitFunctionTraits_3<Traits>) Traits::values(points, values);
+    else
+      for (std::size_t i = 0; i < points.size(); ++i) values[i] = Traits::value(points[i]);
+  }
+
+  /// jets[i] = first_order(points[i]); the spans have the same size.
+  void first_orders(std::span<const Point_3> points, std::span<Jet_3<FT, 1>> jets) const {
+    CGAL_precondition(points.size() == jets.size());
+    if constexpr (FirstOrderBatchImplicitFunctionTraits_3<Traits>) Traits::first_orders(points, jets);
+    else
+      for (std::size_t i = 0; i < points.size(); ++i)
+        jets[i] = equiaffine::first_order(static_cast<const Traits&>(*this), points[i]);
+  }
+
+  /// jets[i] = taylor(points[i]); the spans have the same size.
+  void taylors(std::span<const Point_3> points, std::span<Jet_3<FT>> jets) const {
+    CGAL_precondition(points.size() == jets.size());
+    if constexpr (BatchImplicitFunctionTraits_3<Traits>) Traits::taylors(points, jets);
+    else
+      for (std::size_t i = 0; i < points.size(); ++i) jets[i] = Traits::taylor(points[i]);
+  }
+
+  /// Wraps the model restricted to a block of cells.
+  Batch_function_traits_3
+  restricted_to_cells(const Cell_block& cells) const requires CellwiseImplicitFunctionTraits_3<Traits> {
+    return Batch_function_traits_3(Traits::restricted_to_cells(cells));
+  }
+};
 
 } // namespace equiaffine
 

@@ -7,7 +7,7 @@
 
 #include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
-#include <equiaffine/number/internal/Pack_fwd.h>
+#include <equiaffine/number/select.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Lattice_3.h>
 
@@ -146,6 +146,45 @@ concept CellwiseImplicitFunctionTraits_3 =
 /// The kernel of the points of a model.
 template <ImplicitFunctionTraits_3 Traits>
 using Kernel_of = typename CGAL::Kernel_traits<typename Traits::Point_3>::Kernel;
+
+namespace internal {
+
+/// Does not compile for a type that is no model of ImplicitFunctionTraits_3. See explain_parameters() in
+/// named_parameters.h.
+template <class Traits>
+constexpr void explain_traits() {
+  static_assert(
+      requires {
+        typename Traits::FT;
+        typename Traits::Point_3;
+        typename Traits::Vector_3;
+      },
+      "this function is no model of ImplicitFunctionTraits_3, since it has no types FT, Point_3 and Vector_3: "
+      "make_analytic_traits() makes one of f(x, y, z), and sample_on_lattice() with Sampled_function_traits_3 one of "
+      "f(p)");
+  static_assert(
+      requires(const Traits& t, const typename Traits::Point_3& p) {
+        { t.value(p) } -> std::convertible_to<typename Traits::FT>;
+      },
+      "this function is no model of ImplicitFunctionTraits_3, since it has no member value(p) const that returns an "
+      "FT");
+  static_assert(
+      requires(const Traits& t, const typename Traits::Point_3& p) {
+        { t.taylor(p) } -> std::same_as<Jet_3<typename Traits::FT>>;
+      },
+      "this function is no model of ImplicitFunctionTraits_3, since it has no member taylor(p) const that returns a "
+      "Jet_3<FT>: expand<4>() makes one of f(x, y, z)");
+  static_assert(
+      requires(const Traits& t) {
+        { t.bbox() } -> std::convertible_to<CGAL::Bbox_3>;
+      },
+      "this function is no model of ImplicitFunctionTraits_3, since it has no member bbox() const that returns a "
+      "CGAL::Bbox_3");
+  static_assert(std::copy_constructible<Traits>,
+                "this function is no model of ImplicitFunctionTraits_3, since it cannot be copied");
+}
+
+} // namespace internal
 
 } // namespace equiaffine
 

@@ -1,9 +1,67 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The Taylor expansion of a functor f(x, y, z) by automatic differentiation, at a point and at many.
 #ifndef EQUIAFFINE_FUNCTION_EXPAND_H
 #define EQUIAFFINE_FUNCTION_EXPAND_H
 
-#include <equiaffine/function/internal/expand.h>
+#include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
+#include <equiaffine/number/Pack.h>
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace equiaffine::internal {
+
+/// The jet of the coordinate along an axis. Its type holds two coefficients only, the value and the derivative along
+/// the axis, so that the compiler knows that all others are zero.
+template <class FT, int Order, int Axis>
+auto sparse_variable(const FT& value) {
+  constexpr Monomial_set constant = 1, coordinate = Monomial_set(2) << Axis;
+  Jet_3<FT, Order, (constant | coordinate)> jet(value);
+  jet.template at<1 + Axis>() = FT(1);
+  return jet;
+}
+
+template <class Function, class X, class Y, class Z>
+concept CallableWith = requires(const Function& f, const X& x, const Y& y, const Z& z) {
+  f(x, y, z);
+};
+
+// A sanitizer adds checks to every operation: inlined into one function, they would take too long to compile.
+#ifdef __SANITIZE_ADDRESS__
+#define EQUIAFFINE_FLATTEN
+#else
+#define EQUIAFFINE_FLATTEN [[gnu::flatten]]
+#endif
+
+/// Calls f(x, y, z) with everything inlined. A jet that is passed to a function goes through memory, which costs more
+/// than the arithmetic on it.
+template <class Result, class Function, class X, class Y, class Z>
+EQUIAFFINE_FLATTEN Result inlined_call(const Function& f, const X& x, const Y& y, const Z& z) {
+  return f(x, y, z);
+}
+
+#undef EQUIAFFINE_FLATTEN
+
+/// A function that may be a cheaper one, of the same type, on a box.
+template <class Function>
+concept HasRestriction = requires(const Function& f, const Interval& x) {
+  { f.restricted(x, x, x) } -> std::same_as<std::optional<Function>>;
+};
+
+/// A function that computes its Taylor polynomials itself, for numbers and for spans of packs.
+template <class Function, class FT>
+concept HasTaylor = requires(const Function& f, const FT& x, std::span<const Pack<FT>> packs,
+                             std::span<Jet_3<Pack<FT>>> jets) {
+  { f.taylor(x, x, x) } -> std::same_as<Jet_3<FT>>;
+  f.taylor(packs, packs, packs, jets);
+};
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 
@@ -29,5 +87,51 @@ Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z
 }
 
 } // namespace equiaffine
+
+namespace equiaffine::internal {
+
+/// A functor has a call on spans of coordinates and a span for the values.
+template <class Function, class FT>
+concept TakesSpans = requires(const Function& f, std::span<const FT> coordinates, std::span<FT> values) {
+  f(coordinates, coordinates, coordinates, values);
+};
+
+/// values[i] becomes f at points[i].
+template <class FT, class Function, class Point_3>
+void values_at(const Function& f, std::span<const Point_3> points, std::span<FT> values) {
+  if constexpr (TakesSpans<Function, FT>) {
+    constexpr std::size_t block = 64;
+    std::array<FT, block> x, y, z;
+    for (std::size_t first = 0; first < points.size(); first += block) {
+      const std::size_t count = std::min(block, points.size() - first);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Point_3& p = points[first + i];
+        x[i] = p.x(), y[i] = p.y(), z[i] = p.z();
+      }
+      const auto used = [&](const std::array<FT, block>& numbers) { return std::span(numbers).first(count); };
+      f(used(x), used(y), used(z), values.subspan(first, count));
+    }
+  } else {
+    for (std::size_t i = 0; i < points.size(); ++i) values[i] = f(points[i].x(), points[i].y(), points[i].z());
+  }
+}
+
+/// jets[i] becomes the expansion of f at points[i], computed in packs.
+/// \throw Lanes_disagree where f branches differently in the lanes of a pack.
+template <int Order, class FT, class Function, class Point_3>
+void expand_points(const Function& f, std::span<const Point_3> points, std::span<Jet_3<FT, Order>> jets) {
+  using Lanes = Pack<FT>;
+  for (std::size_t first = 0; first < points.size(); first += Lanes::size) {
+    const std::size_t last = std::min(first + Lanes::size, points.size()) - 1;
+    const auto lanes_of = [&](int axis) {
+      return Lanes::generate([&](std::size_t i) { return points[std::min(first + i, last)][axis]; });
+    };
+    const auto pack = expand<Order, Lanes>(f, lanes_of(0), lanes_of(1), lanes_of(2));
+    for (std::size_t i = first; i <= last; ++i)
+      for (std::size_t n = 0; n < pack.size; ++n) jets[i].coefficients()[n] = pack.coefficients()[n][i - first];
+  }
+}
+
+} // namespace equiaffine::internal
 
 #endif

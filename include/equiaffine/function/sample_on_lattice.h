@@ -3,7 +3,7 @@
 #define EQUIAFFINE_FUNCTION_SAMPLE_ON_LATTICE_H
 
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/function/Batch_function_traits_3.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/volume/Volume_3.h>
 
 #include <CGAL/tags.h>

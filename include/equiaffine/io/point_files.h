@@ -7,11 +7,9 @@
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/io/internal/columns_of_maps.h>
 #include <equiaffine/io/internal/input_file.h>
-#include <equiaffine/io/internal/maps_of_columns.h>
-#include <equiaffine/io/internal/write_polygon_file.h>
 #include <equiaffine/io/read_points.h>
+#include <equiaffine/io/write_mesh.h>
 #include <equiaffine/mesh/internal/indexed_polygons.h>
-#include <equiaffine/mesh/internal/points_of_range.h>
 
 #include <CGAL/Iterator_range.h>
 #include <CGAL/Simple_cartesian.h>

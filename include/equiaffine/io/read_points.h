@@ -1,29 +1,84 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads points, with or without faces, from CSV, XYZ, PLY or OFF, as the name of a file says.
+// Reads points, with or without faces, from CSV, XYZ, PLY or OFF, as the name of a file says, with all that came with
+// them, and writes them to CSV with more columns.
 #ifndef EQUIAFFINE_IO_READ_POINTS_H
 #define EQUIAFFINE_IO_READ_POINTS_H
 
-// Reads points from CSV, PLY, OFF and XYZ with all that came with them, and writes them to CSV with more columns.
-
+#include <equiaffine/base/internal/compiler.h>
 #include <equiaffine/io/internal/buffered_output.h>
-#include <equiaffine/io/internal/csv_rows.h>
 #include <equiaffine/io/internal/input_file.h>
-#include <equiaffine/io/internal/mesh_readers.h>
-#include <equiaffine/io/read_OFF.h>
-#include <equiaffine/io/read_PLY.h>
-#include <equiaffine/io/read_XYZ.h>
 #include <equiaffine/io/write_CSV.h>
-#include <equiaffine/mesh/Annotated_mesh_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/internal/triangles_of_polygon.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <fstream>
+#include <functional>
 #include <iostream>
+#include <istream>
 #include <ostream>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+namespace equiaffine::internal {
+
+/// What the readers of the library call with the elements of a file, so that a mesh of any kernel can be made of them.
+struct Mesh_receiver {
+  std::function<void(std::size_t points, std::size_t faces)> reserve; ///< before the points, with what is announced
+  std::function<void(double x, double y, double z)> add_point;
+  std::function<void(const std::vector<std::uint32_t>& face)> add_face; ///< positions of points that were added
+};
+
+/// Adds the points to a mesh, and the faces as triangles.
+template <class Kernel>
+Mesh_receiver receiver_of(Indexed_triangle_mesh_3<Kernel>& mesh) {
+  return {[&](std::size_t points, std::size_t faces) {
+            mesh.points.reserve(points);
+            mesh.triangles.reserve(faces);
+          },
+          [&](double x, double y, double z) { mesh.points.emplace_back(x, y, z); },
+          [&](const std::vector<std::uint32_t>& face) { add_triangles_of_polygon(mesh.points, face, mesh.triangles); }};
+}
+
+/// What a table of points has besides its points.
+struct Csv_cells {
+  std::vector<std::string> header, cells; ///< the cells are as they were written, row by row
+  char separator = ',';
+  std::vector<Vertex_attributes::Column> columns; ///< those all of whose cells are numbers
+};
+
+// The library defines these functions. `name` stands for the file in messages.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
+
+/// Reads PLY, and returns what comes with the points.
+Vertex_attributes read_PLY_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
+
+/// Reads OFF.
+void read_OFF_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
+
+/// Reads XYZ, and returns what comes with the points.
+Vertex_attributes read_XYZ_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
+
+/// Reads CSV.
+Csv_cells read_CSV_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
+
+/// The extension of a file that begins with this text: `.ply` or `.off` if the first word says so, otherwise `.csv`.
+const char* extension_of_text(std::string_view text);
+
+/// The columns of a file that stay when `attributes` are written beside them: those of other names.
+std::vector<std::size_t> columns_to_keep(const std::vector<std::string>& header, const Vertex_attributes& attributes);
+
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 
@@ -50,6 +105,40 @@ Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
   table.cells = std::move(file.cells);
   table.separator = file.separator;
   return table;
+}
+
+/// Reads PLY (text or binary): the points, every other scalar property of the vertices as a column, `uchar status` as
+/// the status, the comments, and the faces, if any, cut into triangles. Lists at vertices and other elements are left
+/// out. `name` stands for the file in messages. Throws `Input_error` for what is not a complete PLY file.
+template <class Kernel>
+Annotated_mesh_3<Kernel> read_PLY(std::istream& stream, const std::string& name) {
+  Annotated_mesh_3<Kernel> result;
+  result.attributes = internal::read_PLY_elements(stream, name, internal::receiver_of(result.mesh));
+  return result;
+}
+
+/// Reads OFF as text, a line for each vertex and face: points and faces, the latter cut into triangles. Normals and
+/// colors are left out. `name` stands for the file in messages. Throws `Input_error` for what is not a complete file.
+template <class Kernel>
+Indexed_triangle_mesh_3<Kernel> read_OFF(std::istream& stream, const std::string& name) {
+  Indexed_triangle_mesh_3<Kernel> mesh;
+  internal::read_OFF_elements(stream, name, internal::receiver_of(mesh));
+  return mesh;
+}
+
+/// The comment that points of an XYZ file get whose columns 4 to 6 have no names and are no normals.
+inline constexpr const char* xyz_colors_note = "columns 4 to 6 are colors, not normals, which would have the length 1";
+
+/// Reads points as lines of x y z, or of x y z and three numbers, with blanks between the numbers. The three numbers are
+/// normals, columns nx, ny, nz, if their lengths are 1 or nearly, else colors, columns red, green, blue, which a comment
+/// of the result says. A first line such as `//X Y Z R G B`, as CloudCompare writes it, or `# x y z intensity` names any
+/// columns. Other lines behind // or # and empty lines are left out. `name` stands for the file in messages. Throws
+/// `Input_error` for another line, and for numbers that are neither normals nor colors.
+template <class Kernel>
+Annotated_mesh_3<Kernel> read_XYZ(std::istream& stream, const std::string& name) {
+  Annotated_mesh_3<Kernel> result;
+  result.attributes = internal::read_XYZ_elements(stream, name, internal::receiver_of(result.mesh));
+  return result;
 }
 
 /// Reads points in the format that the end of `extension` stands for, `.csv`, `.ply`, `.off` or `.xyz`. `name` stands

@@ -1,15 +1,73 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Writes points and the numbers at them as CSV, at once or part by part.
 #ifndef EQUIAFFINE_IO_WRITE_CSV_H
 #define EQUIAFFINE_IO_WRITE_CSV_H
 
-#include <equiaffine/io/internal/Csv_writer.h>
+#include <equiaffine/io/internal/buffered_output.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
+#include <CGAL/assertions.h>
+
+#include <array>
+#include <cstddef>
 #include <ostream>
 #include <span>
 #include <vector>
 
+// The library defines the function that has no body here.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
+namespace equiaffine::internal {
+
+/// Writes the rest of the header line.
+void write_CSV_names(Buffered_output& out, const Vertex_attributes& attributes, char separator);
+
+/// Writes rows: `write(row)` writes what comes first in a line; the numbers of `attributes` and the word for the status
+/// follow.
+template <class WriteRow>
+void write_CSV_rows(Buffered_output& out, std::size_t number_of_rows, const Vertex_attributes& attributes,
+                    char separator, const WriteRow& write) {
+  CGAL_precondition(attributes.has_length(number_of_rows));
+  for (std::size_t row = 0; row < number_of_rows; ++row) {
+    write(row);
+    for (const auto& column : attributes.columns) out << separator << column.values[row];
+    if (attributes.status) out << separator << to_string((*attributes.status)[row]);
+    out << '\n';
+  }
+  out.flush();
+}
+
+} // namespace equiaffine::internal
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
+
 namespace equiaffine {
+
+/// Writes points with their attributes as CSV part by part: the header, then all points in any number of parts.
+class Csv_writer {
+public:
+  /// Writes the header. `layout` has the names of the columns, and whether there is a status; what numbers it has does
+  /// not matter.
+  Csv_writer(std::ostream& stream, const Vertex_attributes& layout) : out_(stream) {
+    out_ << "x,y,z";
+    internal::write_CSV_names(out_, layout, ',');
+    out_.flush();
+  }
+
+  /// Writes the next points.
+  template <class Point>
+  void write_points(std::span<const Point> points, const Vertex_attributes& attributes) {
+    internal::write_CSV_rows(out_, points.size(), attributes, ',', [&](std::size_t row) {
+      const std::array<double, 3> p = internal::coordinates(points[row]);
+      out_ << p[0] << ',' << p[1] << ',' << p[2];
+    });
+  }
+
+private:
+  internal::Buffered_output out_;
+};
 
 /// Writes a line per point after the header `x,y,z,<columns>,status`: numbers with 17 significant digits, `nan` for
 /// those that do not exist, the status as a word. Errors are in the state of the stream.

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes a mesh with its attributes as PLY, OFF, OBJ, STL or CSV, as the name of a file says.
+// Writes an indexed mesh and the numbers at its vertices as PLY, OFF, OBJ, STL or CSV, as the name of a file says. Text
+// has 17 significant digits and `nan` for numbers that do not exist. All functions write to a stream, which has to be
+// binary for PLY and STL. Errors are in its state.
 #ifndef EQUIAFFINE_IO_WRITE_MESH_H
 #define EQUIAFFINE_IO_WRITE_MESH_H
 
-// Writes an indexed triangle mesh and the numbers at its vertices. Text has 17 significant digits and `nan` for numbers
-// that do not exist. All functions write to a stream, which has to be binary for PLY and STL. Errors are in its state.
-
+#include <equiaffine/io/internal/Ply_writer.h>
 #include <equiaffine/io/internal/buffered_output.h>
 #include <equiaffine/io/internal/input_file.h>
-#include <equiaffine/io/internal/mesh_text.h>
-#include <equiaffine/io/internal/write_polygons.h>
 #include <equiaffine/io/write_CSV.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
@@ -19,8 +17,76 @@
 #include <cstdint>
 #include <optional>
 #include <ostream>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+namespace equiaffine {
+struct Indexed_polygons;
+} // namespace equiaffine
+
+namespace equiaffine::internal {
+
+// Formats that hold polygons. A polygon is a range of positions of points.
+
+template <class Point, class Polygon>
+void write_PLY_of(std::ostream& stream, const std::vector<Point>& points, const std::vector<Polygon>& polygons,
+                  const Vertex_attributes& attributes) {
+  Ply_writer writer(stream, points.size(), polygons.size(), attributes);
+  writer.write_vertices(std::span<const Point>(points), attributes);
+  writer.write_faces(polygons);
+  writer.flush();
+}
+
+template <class Point, class Polygon>
+void write_OFF_of(std::ostream& stream, const std::vector<Point>& points, const std::vector<Polygon>& polygons) {
+  Buffered_output out(stream);
+  out << "OFF\n" << points.size() << ' ' << polygons.size() << " 0\n";
+  for (const auto& p : points) write_line(out, "", coordinates(p));
+  for (const auto& polygon : polygons) {
+    out << std::size_t(polygon.size());
+    for (const std::uint32_t v : polygon) out << ' ' << std::size_t(v);
+    out << '\n';
+  }
+  out.flush();
+}
+
+template <class Point, class Polygon>
+void write_OBJ_of(std::ostream& stream, const std::vector<Point>& points, const std::vector<Polygon>& polygons,
+                  const Vertex_attributes& attributes) {
+  const std::array<const Vertex_attributes::Column*, 3> normal = {
+      find_column(attributes, "nx"), find_column(attributes, "ny"), find_column(attributes, "nz")};
+  const bool has_normals = normal[0] && normal[1] && normal[2];
+  Buffered_output out(stream);
+  for (const auto& p : points) write_line(out, "v ", coordinates(p));
+  if (has_normals)
+    for (std::size_t v = 0; v < points.size(); ++v)
+      write_line(out, "vn ", {normal[0]->values[v], normal[1]->values[v], normal[2]->values[v]});
+  for (const auto& polygon : polygons) {
+    out << 'f';
+    for (const std::uint32_t v : polygon) {
+      out << ' ' << std::size_t(v) + 1;
+      if (has_normals) out << "//" << std::size_t(v) + 1;
+    }
+    out << '\n';
+  }
+  out.flush();
+}
+
+// The library defines this function.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
+
+/// Writes polygons in the format that the extension of the path stands for, with those numbers that the format holds.
+void write_polygon_file(const std::string& path, const Indexed_polygons& mesh, const Vertex_attributes& attributes);
+
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 

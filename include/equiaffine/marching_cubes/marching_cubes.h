@@ -1,21 +1,310 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Meshes the zero set of a function by Marching Cubes on a lattice.
 #ifndef EQUIAFFINE_MARCHING_CUBES_MARCHING_CUBES_H
 #define EQUIAFFINE_MARCHING_CUBES_MARCHING_CUBES_H
 
+#include <equiaffine/base/internal/large_pages.h>
+#include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
-#include <equiaffine/marching_cubes/internal/lattice_isosurface.h>
-#include <equiaffine/mesh/Isosurface_3.h>
+#include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
+#include <equiaffine/marching_cubes/internal/isosurface_plan.h>
+#include <equiaffine/marching_cubes/internal/lattice_function.h>
+#include <equiaffine/marching_cubes/internal/linear_isosurface.h>
+#include <equiaffine/marching_cubes/internal/node_signs.h>
+#include <equiaffine/marching_cubes/internal/vertex_projection.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
-#include <equiaffine/mesh/internal/copy_to_graph.h>
 #include <equiaffine/mesh/to_face_graph.h>
+#include <equiaffine/number/Interval.h>
 #include <equiaffine/surface/internal/explain_sampler.h>
 
+#include <CGAL/Real_timer.h>
+#include <CGAL/number_utils.h>
 #include <CGAL/tags.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
 #include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// A box around the nodes of a block of the lattice and one node around them. Rounding is monotone: no coordinate of a
+/// node, as computed, is outside of those at the corners.
+template <class Kernel>
+CGAL::Bbox_3 box_around(const Lattice_3<Kernel>& lattice, const Node_block& block) {
+  using FT = typename Kernel::FT;
+  const auto coordinate = [&](int c, bool is_upper) {
+    std::array<FT, 3> node;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      node[axis] = (lattice.steps()[axis][c] > FT(0)) == is_upper ? FT(double(block[axis].end))
+                                                                  : FT(double(block[axis].first) - 1);
+    const auto bounds = CGAL::to_interval(lattice.point(node[0], node[1], node[2])[c]);
+    return is_upper ? bounds.second : bounds.first;
+  };
+  return {coordinate(0, false), coordinate(1, false), coordinate(2, false),
+          coordinate(0, true),  coordinate(1, true),  coordinate(2, true)};
+}
+
+/// Samples the signs at the nodes of blocks in one thread. Values are computed in batches and not kept.
+template <class Traits>
+class Block_sampler {
+  using FT = typename Traits::FT;
+  using Point_3 = typename Traits::Point_3;
+  using Function = Lattice_function<Traits>;
+  static constexpr bool has_samples = Function::has_samples;
+  static constexpr std::size_t batch = 64, smallest_block = 4; // the number of nodes in all, and along an axis
+
+public:
+  Block_sampler(const Function& function, Node_signs& signs) : function_(function), signs_(signs) {}
+
+  std::size_t evaluations() const { return evaluations_; }
+
+  /// Samples at all nodes of a block.
+  void sample_all(const Node_block& block) {
+    if constexpr (has_samples) return read_samples(block);
+    for (std::size_t k = block[2].first; k < block[2].end; ++k)
+      for (std::size_t j = block[1].first; j < block[1].end; ++j)
+        for (std::size_t i = block[0].first; i < block[0].end; i += batch)
+          sample_batch(function_.traits(), {{{i, std::min(i + batch, block[0].end)}, {j, j + 1}, {k, k + 1}}});
+  }
+
+  /// Halves a block along all its long axes until the function's bounds on the block and one node around it have one
+  /// sign, or the block is small and is sampled. The margin makes every cell that has a node in a skipped block free of
+  /// the surface, also if the function has no value at some nodes there, of which its bounds know nothing.
+  void sample_near_surface(const Node_block& block) { sample_part(function_.traits(), block); }
+
+private:
+  /// Takes the signs of the samples of a block, all planes at once for the sake of arrays in which k is fastest.
+  void read_samples(const Node_block& block) {
+    const std::size_t planes = block[2].size();
+    std::vector<FT> values(batch * planes);
+    for (std::size_t j = block[1].first; j < block[1].end; ++j)
+      for (std::size_t i = block[0].first; i < block[0].end; i += batch) {
+        const std::size_t n = std::min(batch, block[0].end - i);
+        function_.copy_samples({i, j, block[2].first}, {n, 1, planes}, std::span(values).first(n * planes));
+        for (std::size_t k = 0; k < planes; ++k)
+          signs_.set(i, j, block[2].first + k, sign_word(&values[k * n], n, FT(0)));
+      }
+  }
+
+  /// Samples a block of which `traits` has the values: deep in the recursion it is a part of the function.
+  void sample_part(const Batch_function_traits_3<Traits>& traits, const Node_block& block) {
+    Node_block in_whole = block;
+    for (std::size_t a = 0; a < 3; ++a) {
+      in_whole[a].first += function_.first()[a];
+      in_whole[a].end += function_.first()[a];
+    }
+    const auto box = box_around(function_.lattice(), in_whole);
+    const Interval bounds = traits.bounds(box);
+    if (bounds.upper() < 0) return;
+    if (bounds.lower() >= 0) return signs_.set_positive(block);
+    const std::size_t longest = std::max({block[0].size(), block[1].size(), block[2].size()});
+    if (longest <= smallest_block) return sample_batch(traits, block);
+    if constexpr (RestrictableImplicitFunctionTraits_3<Traits>)
+      if (auto part = traits.restricted(box))
+        return sample_parts(Batch_function_traits_3<Traits>(*std::move(part)), block, longest);
+    sample_parts(traits, block, longest);
+  }
+
+  /// Halves a block along its long axes.
+  void sample_parts(const Batch_function_traits_3<Traits>& traits, const Node_block& block, std::size_t longest) {
+    const std::size_t half = (longest / 2 + smallest_block - 1) / smallest_block * smallest_block;
+    for (std::size_t k = block[2].first; k < block[2].end; k += half)
+      for (std::size_t j = block[1].first; j < block[1].end; j += half)
+        for (std::size_t i = block[0].first; i < block[0].end; i += half)
+          sample_part(traits, {{{i, std::min(i + half, block[0].end)},
+                                {j, std::min(j + half, block[1].end)},
+                                {k, std::min(k + half, block[2].end)}}});
+  }
+
+  /// Samples a block that has no more nodes than a batch, and those of each row in one word of Node_signs.
+  void sample_batch(const Batch_function_traits_3<Traits>& traits, const Node_block& block) {
+    const std::size_t n = compute_values(traits, block), row = block[0].size();
+    Sign_word signs = sign_word(values_.data(), n, FT(0));
+    const auto first_bits = [&](Node_signs::Word word) { return Node_signs::within(word, 0, row); };
+    for (std::size_t k = block[2].first; k < block[2].end; ++k)
+      for (std::size_t j = block[1].first; j < block[1].end; ++j) {
+        signs_.set(block[0].first, j, k, {first_bits(signs.positive), first_bits(signs.undefined)});
+        signs.positive >>= row % 64; // a row of 64 is the only one
+        signs.undefined >>= row % 64;
+      }
+  }
+
+  /// Returns the number of values.
+  std::size_t compute_values(const Batch_function_traits_3<Traits>& traits, const Node_block& block) {
+    std::size_t n = 0;
+    for (std::size_t k = block[2].first; k < block[2].end; ++k)
+      for (std::size_t j = block[1].first; j < block[1].end; ++j)
+        for (std::size_t i = block[0].first; i < block[0].end; ++i) points_[n++] = function_.point({i, j, k});
+    traits.values(std::span<const Point_3>(points_).first(n), std::span(values_).first(n));
+    evaluations_ += n;
+    return n;
+  }
+
+  const Function& function_;
+  Node_signs& signs_;
+  std::size_t evaluations_ = 0;
+  std::array<Point_3, batch> points_{};
+  std::array<FT, batch> values_{};
+};
+
+/// The signs of a function at the nodes of a lattice, and the evaluations that they took.
+struct Sampled_signs {
+  Node_signs signs;
+  std::size_t evaluations;
+};
+
+/// If SkipsEmptySpace, the function is evaluated near its zero set only. This does not apply to functions that already
+/// have their values at the nodes.
+template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
+Sampled_signs sample_signs(const Lattice_function<Traits>& function) {
+  constexpr std::size_t planes_per_slab = Lattice_function<Traits>::has_samples ? 16 : 8;
+  const auto& size = function.size();
+  Node_signs signs(size);
+  std::vector<std::size_t> evaluations((size[2] + planes_per_slab - 1) / planes_per_slab); // per slab
+  parallel_for<ConcurrencyTag>(0, evaluations.size(), [&](std::size_t s) {
+    Block_sampler<Traits> sampler(function, signs);
+    const Index_range planes = {planes_per_slab * s, std::min(size[2], planes_per_slab * (s + 1))};
+    const Node_block slab = {{{0, size[0]}, {0, size[1]}, planes}};
+    if constexpr (SkipsEmptySpace && !Lattice_function<Traits>::has_samples) sampler.sample_near_surface(slab);
+    else sampler.sample_all(slab);
+    evaluations[s] = sampler.evaluations();
+  });
+  return {std::move(signs), std::accumulate(evaluations.begin(), evaluations.end(), std::size_t(0))};
+}
+
+/// Counts the cells that contain the given vertices, which are ordered like their cells.
+template <class FT>
+std::size_t number_of_cells(const std::vector<Inner_vertex<FT>>& vertices) {
+  std::size_t cells = 0;
+  for (std::size_t n = 0; n < vertices.size(); ++n)
+    if (n == 0 || vertices[n].cell != vertices[n - 1].cell) ++cells;
+  return cells;
+}
+
+/// Repairs the mesh, then removes the vertices at poles, which the repairs may renumber. `properties` are arrays with an
+/// entry per vertex.
+template <class Function, class FT, class Kernel, class... Properties>
+Repair_report repair_and_remove_poles(const Function& function, const Isosurface_plan& plan,
+                                      const std::vector<Inner_vertex<FT>>& inner_vertices, const Grid_rows& suspects,
+                                      const std::vector<std::size_t>& poles, Layer_bounds& bounds,
+                                      Isosurface_3<Kernel>& surface, Properties&... properties) {
+  auto& [points, triangles] = static_cast<Indexed_triangle_mesh_3<Kernel>&>(surface);
+  auto& status = surface.vertex_status;
+  if (poles.empty())
+    return repair_mesh(function, plan, inner_vertices, suspects, bounds, triangles, points, status, properties...);
+  std::vector<std::uint8_t> is_at_pole(points.size(), 0);
+  for (const std::size_t v : poles) is_at_pole[v] = 1;
+  Repair_report report = repair_mesh(function, plan, inner_vertices, suspects, bounds, triangles, points, status,
+                                     properties..., is_at_pole);
+  remove_poles(surface, is_at_pole, bounds, properties...);
+  report.vertices_at_poles = poles.size();
+  return report;
+}
+
+/// A surface, with what is needed to take it apart. Where the lattice is cut, `is_undecided` says that a larger part of
+/// it has to be known.
+template <class Kernel>
+struct Isosurface_in_layers {
+  Isosurface_3<Kernel> surface;
+  Layer_bounds bounds;
+  bool is_undecided;
+  std::vector<Vertex_id> ids; ///< of the vertices, if they were asked for
+};
+
+/// Computes the surface of a function on a lattice, or on a part of it: first the topology from the signs and values at
+/// the nodes, then the vertices.
+template <class ConcurrencyTag, bool SkipsEmptySpace, bool WithIds = false, class Traits>
+Isosurface_in_layers<Kernel_of<Traits>> isosurface_on_lattice(const Lattice_function<Traits>& function,
+                                                              Vertex_position position) {
+  using FT = typename Traits::FT;
+  using Cell = std::array<std::size_t, 3>;
+  CGAL::Real_timer timer;
+  timer.start();
+  const Sampled_signs sampled = sample_signs<ConcurrencyTag, SkipsEmptySpace>(function);
+  const Isosurface_plan plan = plan_isosurface<ConcurrencyTag>(sampled.signs, function, Case_table::instance());
+  const std::size_t vertices = plan.numbering.number_of_vertices();
+  const std::size_t inner = plan.numbering.number_of_inner_vertices(), edge_vertices = vertices - inner;
+
+  Isosurface_3<Kernel_of<Traits>> surface;
+  resize_with_large_pages(surface.points, vertices);
+  surface.vertex_status.assign(vertices, Point_status::REGULAR);
+  resize_with_large_pages(surface.triangles, plan.numbering.number_of_triangles());
+  std::vector<Inner_vertex<FT>> inner_vertices(inner);
+  const auto keep_inner = [&](std::size_t v, const Cell& cell, const std::array<FT, 3>& offset) {
+    inner_vertices[plan.numbering.place_of_inner(v, cell[2])] = {cell, offset};
+  };
+  Grid_rows suspects =
+      place_linearly<ConcurrencyTag>(function, plan, surface.points.data(), surface.triangles.data(), keep_inner);
+  const std::size_t evaluated_cells = plan.number_of_ambiguous_cells() + number_of_cells(inner_vertices);
+  surface.function_evaluations =
+      sampled.evaluations + Lattice_function<Traits>::evaluations(2 * edge_vertices + 8 * evaluated_cells);
+  surface.sampling_seconds = timer.time();
+
+  std::size_t flips_undone = 0;
+  std::vector<std::size_t> poles;
+  if (position == Vertex_position::PROJECTED) {
+    const Projection_report report = project_vertices<ConcurrencyTag>(function, plan, inner_vertices, surface);
+    surface.function_evaluations += report.evaluations;
+    suspects.add(report.suspects);
+    flips_undone = report.flips_undone;
+    poles = report.poles;
+  }
+  Layer_bounds bounds(plan.numbering);
+  std::vector<Vertex_id> ids;
+  const Repair_report report = [&] {
+    const auto repair = [&](auto&... properties) {
+      return repair_and_remove_poles(function, plan, inner_vertices, suspects, poles, bounds, surface, properties...);
+    };
+    if constexpr (!WithIds) return repair();
+    ids = vertex_ids<ConcurrencyTag>(function, plan, inner_vertices);
+    return repair(ids);
+  }();
+  tell_copies_apart(ids);
+  surface.repairs = report;
+  surface.repairs.flips_undone = flips_undone;
+  surface.projection_seconds = timer.time() - surface.sampling_seconds;
+  return {std::move(surface), std::move(bounds), report.is_undecided, std::move(ids)};
+}
+
+template <class Parameters, class... OtherTags>
+constexpr void check_marching_cubes_parameters() {
+  check_parameters<Parameters, Number_of_nodes_tag, Vertex_position_tag, Skip_empty_space_tag, Geom_traits_tag,
+                   Verbose_tag, OtherTags...>();
+}
+
+/// Returns run<SkipsEmptySpace>(function, position) for what the named parameters of marching_cubes() say.
+template <class Traits, class Parameters, class Run>
+auto with_marching_cubes_of(const Traits& traits, const Parameters& parameters, const Run& run) {
+  constexpr std::array<std::size_t, 3> default_number_of_nodes = {64, 64, 64};
+  constexpr bool skips_empty_space = has_parameter<Skip_empty_space_tag, Parameters>;
+  const auto position = get_parameter<Vertex_position_tag>(parameters, Vertex_position::PROJECTED);
+  const auto lattice = [&]() -> Lattice_3<Kernel_of<Traits>> {
+    if constexpr (LatticeImplicitFunctionTraits_3<Traits>) return traits.lattice();
+    else return sampling_lattice(traits, get_parameter<Number_of_nodes_tag>(parameters, default_number_of_nodes));
+  }();
+  return run.template operator()<skips_empty_space>(Lattice_function(traits, lattice), position);
+}
+
+/// The function marching_cubes() with all its named parameters in one chain, which may have others.
+template <class ConcurrencyTag, class Traits, class Parameters>
+Isosurface_3<Kernel_of<Traits>> marching_cubes_of(const Traits& traits, const Parameters& parameters) {
+  return with_marching_cubes_of(
+      traits, parameters, []<bool SkipsEmptySpace>(const auto& function, Vertex_position position) {
+        return isosurface_on_lattice<ConcurrencyTag, SkipsEmptySpace>(function, position).surface;
+      });
+}
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 

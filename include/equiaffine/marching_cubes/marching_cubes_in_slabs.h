@@ -1,18 +1,273 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Marching Cubes in slabs of a lattice, for meshes that are larger than memory, and in blocks of its cells.
 #ifndef EQUIAFFINE_MARCHING_CUBES_MARCHING_CUBES_IN_SLABS_H
 #define EQUIAFFINE_MARCHING_CUBES_MARCHING_CUBES_IN_SLABS_H
 
-#include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/marching_cubes/Isosurface_slab_3.h>
-#include <equiaffine/marching_cubes/internal/isosurface_in_slabs.h>
-#include <equiaffine/marching_cubes/internal/lattice_isosurface.h>
+#include <equiaffine/marching_cubes/Vertex_position.h>
+#include <equiaffine/marching_cubes/internal/lattice_function.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/volume/Cell_block.h>
 
 #include <CGAL/tags.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+/// The part of a mesh between planes of nodes: the vertices on edges that begin in the planes from `first_plane` to
+/// `end_plane` - 1, and in the cells above these, with the triangles of these cells. What a slab has follows in the
+/// whole mesh on what the slab before has.
+///
+/// Where the mesh of a block of cells was asked for, `first_plane` and `end_plane` number layers of cells, the triangles
+/// are those that belong to them, and the vertices are those of these triangles that no slab before has.
+template <class Kernel>
+struct Isosurface_slab_3 {
+  std::size_t first_plane;                      ///< the first plane of nodes, numbered along k
+  std::size_t end_plane;                        ///< the plane of nodes behind the last one
+  std::size_t first_vertex;                     ///< the number in the whole mesh of the first vertex
+  std::size_t first_triangle;                   ///< the number in the whole mesh of the first triangle
+  std::vector<typename Kernel::Point_3> points; ///< of the vertices
+  std::vector<Point_status> vertex_status;      ///< one per point, as in Isosurface_3
+  /// The numbers in the whole mesh of three vertices each, which are of this slab, of the next one, or of earlier ones.
+  std::vector<std::array<std::size_t, 3>> triangles;
+  /// One per point, where the mesh of a block of cells was asked for.
+  std::vector<Vertex_id> vertex_ids = {};
+  /// The least id in the triangles of the whole mesh at each point, with vertex ids. Of the blocks that have a vertex, one has
+  /// the cell of this id: to that block the vertex belongs.
+  std::vector<Vertex_id> least_ids = {};
+};
+
+/// The numbers of a mesh that was made slab by slab are counted here.
+struct Isosurface_totals {
+  std::size_t vertices = 0;             ///< of the whole mesh
+  std::size_t triangles = 0;            ///< of the whole mesh
+  std::size_t function_evaluations = 0; ///< of f, with or without derivatives; more than one for nodes near seams
+};
+
+/// So many cells around a block of cells must be known for its part of a mesh.
+inline constexpr std::size_t cells_around_block = 4;
+
+} // namespace equiaffine
+
+namespace equiaffine::internal {
+
+/// \throw std::invalid_argument unless a block has cells of a lattice, and those around it are known
+inline void check_block(const Cell_block& all, const Cell_block& block, const Cell_block& known) {
+  const Cell_block needed = widened(block, cells_around_block, all);
+  for (std::size_t a = 0; a < 3; ++a) {
+    check_argument(block.first[a] < block.end[a] && block.end[a] <= all.end[a],
+                   "a block has no cells, or has some beyond the lattice: choose cells of the lattice");
+    check_argument(known.first[a] <= needed.first[a] && needed.end[a] <= known.end[a] && known.end[a] <= all.end[a],
+                   "less cells of the lattice are known than the mesh of a block needs: let `cells_around_block` "
+                   "around it be known");
+  }
+}
+
+/// Makes the part of a surface that belongs to a block of cells, in slabs. To which cell a triangle belongs follows from
+/// the ids of its vertices, whatever it was repaired to, so that blocks need not know of each other. A slab is made with
+/// some cells more on all sides, as many as the repairs beside it look at.
+template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
+class Isosurface_of_block {
+  using Kernel = Kernel_of<Traits>;
+  using Point_3 = typename Traits::Point_3;
+  using Part = Isosurface_in_layers<Kernel>;
+
+public:
+  /// The function may be evaluated in the cells that are `known`.
+  Isosurface_of_block(const Lattice_function<Traits>& function, Vertex_position position, std::size_t layers_per_slab,
+                      const Cell_block& block, const Cell_block& known)
+      : function_(function), position_(position), layers_per_slab_(layers_per_slab), block_(block), known_(known) {}
+
+  template <class Visit>
+  Isosurface_totals run(const Visit& visit) {
+    for (std::size_t first = block_.first[2]; first < block_.end[2]; first += layers_per_slab_) {
+      Cell_block layers = block_;
+      layers.first[2] = first;
+      layers.end[2] = std::min(first + layers_per_slab_, block_.end[2]);
+      visit(slab(layers));
+    }
+    return totals_;
+  }
+
+private:
+  /// A vertex of slabs before that the next one may have, too.
+  struct Shared_vertex {
+    std::size_t number;
+    Point_3 point;
+  };
+
+  Isosurface_slab_3<Kernel> slab(const Cell_block& layers) {
+    for (std::size_t margin = cells_around_block;; margin *= 2) {
+      const Cell_block cells = widened(layers, margin, known_);
+      const Part part = isosurface_on_lattice<ConcurrencyTag, SkipsEmptySpace, true>(
+          function_.part(cells.first, {cells.end[0] + 1, cells.end[1] + 1, cells.end[2] + 1}), position_);
+      totals_.function_evaluations += part.surface.function_evaluations;
+      if (!part.is_undecided && agrees_with_slabs_before(part)) return taken_from(part, layers);
+      const Cell_block more = widened(layers, 2 * margin, known_);
+      if (more == cells) return taken_from(part, layers);
+    }
+  }
+
+  /// Whether the vertices that slabs before have are the same here, or are not here.
+  bool agrees_with_slabs_before(const Part& part) const {
+    if (shared_.empty()) return true;
+    for (std::size_t v = 0; v < part.ids.size(); ++v)
+      if (const auto found = shared_.find(part.ids[v]);
+          found != shared_.end() && found->second.point != part.surface.points[v])
+        return false;
+    return true;
+  }
+
+  Isosurface_slab_3<Kernel> taken_from(const Part& part, const Cell_block& layers) {
+    constexpr std::size_t unused = std::numeric_limits<std::size_t>::max(), used = unused - 1;
+    Isosurface_slab_3<Kernel> slab{layers.first[2], layers.end[2], totals_.vertices, totals_.triangles, {}, {}, {}};
+    const auto& nodes = function_.lattice().size();
+    std::vector<std::size_t> number(part.ids.size(), unused);
+    std::vector<Vertex_id> least_ids = part.ids;
+    for (const auto& triangle : part.surface.triangles) {
+      const auto& [a, b, c] = triangle;
+      const Vertex_id least = std::min({part.ids[a], part.ids[b], part.ids[c]});
+      for (const auto v : triangle) least_ids[v] = std::min(least_ids[v], least);
+      if (!layers.contains(cell_of(least, nodes))) continue;
+      slab.triangles.push_back({a, b, c});
+      number[a] = number[b] = number[c] = used;
+    }
+    std::unordered_map<Vertex_id, Shared_vertex> shared;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+      if (number[v] == unused) continue;
+      const auto& p = part.surface.points[v];
+      if (const auto found = shared_.find(part.ids[v]); found != shared_.end()) {
+        number[v] = found->second.number;
+      } else {
+        number[v] = totals_.vertices + slab.points.size();
+        slab.points.push_back(p);
+        slab.vertex_status.push_back(part.surface.vertex_status[v]);
+        slab.vertex_ids.push_back(part.ids[v]);
+        slab.least_ids.push_back(least_ids[v]);
+      }
+      if (cell_of(part.ids[v], nodes)[2] >= layers.end[2]) shared.try_emplace(part.ids[v], Shared_vertex{number[v], p});
+    }
+    for (auto& triangle : slab.triangles)
+      for (std::size_t& v : triangle) v = number[v];
+    shared_ = std::move(shared);
+    totals_.vertices += slab.points.size();
+    totals_.triangles += slab.triangles.size();
+    return slab;
+  }
+
+  const Lattice_function<Traits>& function_;
+  const Vertex_position position_;
+  const std::size_t layers_per_slab_;
+  const Cell_block block_, known_;
+  Isosurface_totals totals_;
+  std::unordered_map<Vertex_id, Shared_vertex> shared_;
+};
+
+/// Makes a surface in slabs. Each one is made with some planes more on both sides, as many as the repairs beside its
+/// seams look at. What it has at the seam to the slab before must be, bit for bit, what that one had found there.
+template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
+class Isosurface_in_slabs {
+  using Kernel = Kernel_of<Traits>;
+  using Point_3 = typename Traits::Point_3;
+
+public:
+  Isosurface_in_slabs(const Lattice_function<Traits>& function, Vertex_position position, std::size_t planes_per_slab)
+      : function_(function), position_(position), planes_per_slab_(planes_per_slab) {}
+
+  template <class Visit>
+  Isosurface_totals run(const Visit& visit) {
+    const std::size_t planes = function_.size()[2];
+    for (std::size_t first = 0; first < planes; first += planes_per_slab_)
+      visit(slab(first, std::min(first + planes_per_slab_, planes)));
+    return totals_;
+  }
+
+private:
+  /// A surface of some planes, with the number of the first of them.
+  struct Part {
+    std::size_t first_plane;
+    Isosurface_in_layers<Kernel> layers;
+
+    std::size_t first_vertex(std::size_t plane) const { return layers.bounds.vertices[plane - first_plane]; }
+    std::size_t first_triangle(std::size_t plane) const { return layers.bounds.triangles[plane - first_plane]; }
+
+    /// The points on edges that begin in a plane, and in the cells above.
+    std::span<const Point_3> points_at(std::size_t plane) const {
+      const std::size_t first = first_vertex(plane);
+      return std::span<const Point_3>(layers.surface.points).subspan(first, first_vertex(plane + 1) - first);
+    }
+  };
+
+  Part part_around(std::size_t first, std::size_t end, std::size_t margin) {
+    const std::size_t first_plane = first - std::min(first, margin);
+    const auto& [nx, ny, nz] = function_.size();
+    const std::size_t end_plane = std::min(end + margin, nz);
+    Part part{first_plane, isosurface_on_lattice<ConcurrencyTag, SkipsEmptySpace>(
+                               function_.part({0, 0, first_plane}, {nx, ny, end_plane}), position_)};
+    totals_.function_evaluations += part.layers.surface.function_evaluations;
+    return part;
+  }
+
+  bool agrees_at_seam(const Part& part, std::size_t plane) const {
+    if (plane == 0) return true;
+    const auto points = part.points_at(plane);
+    return std::equal(points.begin(), points.end(), seam_.begin(), seam_.end());
+  }
+
+  Isosurface_slab_3<Kernel> slab(std::size_t first, std::size_t end) {
+    constexpr std::size_t usual_margin = 4;
+    const std::size_t planes = function_.size()[2];
+    for (std::size_t margin = usual_margin;; margin *= 2) {
+      const Part part = part_around(first, end, margin);
+      if (!part.layers.is_undecided && agrees_at_seam(part, first)) return taken_from(part, first, end);
+      if (margin >= planes)
+        throw std::runtime_error("the surface is degenerate at a seam of slabs: choose more planes per slab");
+    }
+  }
+
+  Isosurface_slab_3<Kernel> taken_from(const Part& part, std::size_t first, std::size_t end) {
+    const auto& surface = part.layers.surface;
+    Isosurface_slab_3<Kernel> slab{first, end, totals_.vertices, totals_.triangles, {}, {}, {}};
+    const std::size_t vertex = part.first_vertex(first), end_vertex = part.first_vertex(end);
+    slab.points.assign(surface.points.begin() + std::ptrdiff_t(vertex),
+                       surface.points.begin() + std::ptrdiff_t(end_vertex));
+    slab.vertex_status.assign(surface.vertex_status.begin() + std::ptrdiff_t(vertex),
+                              surface.vertex_status.begin() + std::ptrdiff_t(end_vertex));
+    const std::size_t triangle = part.first_triangle(first), end_triangle = part.first_triangle(end);
+    slab.triangles.reserve(end_triangle - triangle);
+    for (std::size_t t = triangle; t < end_triangle; ++t) {
+      const auto& [a, b, c] = surface.triangles[t];
+      slab.triangles.push_back(
+          {a - vertex + totals_.vertices, b - vertex + totals_.vertices, c - vertex + totals_.vertices});
+    }
+    seam_.clear();
+    if (end < function_.size()[2]) seam_.assign(part.points_at(end).begin(), part.points_at(end).end());
+    totals_.vertices += slab.points.size();
+    totals_.triangles += slab.triangles.size();
+    return slab;
+  }
+
+  const Lattice_function<Traits>& function_;
+  const Vertex_position position_;
+  const std::size_t planes_per_slab_;
+  Isosurface_totals totals_;
+  std::vector<Point_3> seam_; // what the slab before has found in the first plane of the next one
+};
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 

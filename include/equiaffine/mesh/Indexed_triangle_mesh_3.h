@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Triangle meshes and polylines as plain arrays, what samplers tell of their meshes, and numbers attached to points.
 #ifndef EQUIAFFINE_MESH_INDEXED_TRIANGLE_MESH_3_H
 #define EQUIAFFINE_MESH_INDEXED_TRIANGLE_MESH_3_H
 
@@ -21,6 +22,35 @@ template <class Kernel>
 struct Indexed_triangle_mesh_3 {
   std::vector<typename Kernel::Point_3> points;        ///< the vertices
   std::vector<std::array<std::uint32_t, 3>> triangles; ///< three indices each
+};
+
+/// A chain of points, closed or not. A closed one does not repeat its first point.
+template <class Kernel>
+struct Polyline_3 {
+  std::vector<typename Kernel::Point_3> points; ///< in their order
+  bool is_closed = false;                       ///< whether the first point follows the last one
+};
+
+/// Counts of the repairs by which a surface remains a mesh of proper triangles.
+struct Isosurface_repairs {
+  std::size_t contracted_edges = 0;   ///< edges without length, contracted without change of topology
+  std::size_t dropped_components = 0; ///< closed parts without area, where the function only touches zero
+  std::size_t moved_vertices = 0;     ///< moved along their grid edge, by at most 1e-6 of it or a few roundings
+  std::size_t zero_area_left = 0;     ///< triangles for which none of this helped
+  std::size_t flips_undone = 0; ///< vertices put back to their linear position since projection turned a triangle over
+  std::size_t vertices_at_poles = 0; ///< removed with their triangles, at poles, jumps and ends of the function
+};
+
+/// The result of sampling the zero set of a function: a mesh and facts about it.
+template <class Kernel>
+struct Isosurface_3 : Indexed_triangle_mesh_3<Kernel> {
+  /// One per point: REGULAR, or UNCONVERGED if the point could not be put on the surface and stays at its linear
+  /// position.
+  std::vector<Point_status> vertex_status;
+  Isosurface_repairs repairs;           ///< what was repaired
+  std::size_t function_evaluations = 0; ///< of f, with or without derivatives
+  double sampling_seconds = 0,          ///< the time that it took to evaluate the function and to make the mesh
+      projection_seconds = 0;           ///< the time that it took to put vertices on the surface
 };
 
 /// Numbers attached to points, one column per scalar in the order of the file, and the status, if it was asked for. A
@@ -48,6 +78,13 @@ inline const Vertex_attributes::Column* find_column(const Vertex_attributes& att
     if (column.name == name) return &column;
   return nullptr;
 }
+
+/// A mesh, or points alone, with the numbers that came with the points.
+template <class Kernel>
+struct Annotated_mesh_3 {
+  Indexed_triangle_mesh_3<Kernel> mesh; ///< has no triangles if there are points alone
+  Vertex_attributes attributes;         ///< columns, status and comments
+};
 
 } // namespace equiaffine
 

@@ -3,11 +3,8 @@
 #ifndef EQUIAFFINE_NUMBER_PACK_H
 #define EQUIAFFINE_NUMBER_PACK_H
 
-#include <equiaffine/number/internal/Array_lanes.h>
-#include <equiaffine/number/internal/Pack_fwd.h>
-#include <equiaffine/number/internal/Simd_lanes.h>
 #include <equiaffine/number/internal/elementary_functions.h>
-#include <equiaffine/number/internal/natural_power.h>
+#include <equiaffine/number/internal/lanes.h>
 #include <equiaffine/number/select.h>
 
 #include <cmath>
@@ -68,7 +65,7 @@ struct Pack_mask {
 /// for processors that have them (see -ffp-contract): then both are equal to within rounding.
 ///
 /// `Lanes` says how lanes are kept: in a vector of the compiler if it has such, else in an array. Results are the same.
-template <class T, class Lanes> // a default is in Pack_fwd.h
+template <class T, class Lanes> // a default is in select.h
 struct Pack {
   using Vector = typename Lanes::Vector;           ///< the vector of numbers
   using Mask = Pack_mask<T, Lanes>;                ///< the result of a comparison
@@ -184,7 +181,7 @@ struct Pack {
     return generate([&](std::size_t i) { return internal::natural_power(a[i], n); });
   }
 
-  /// Does in each lane what branch_or_kink in nonsmooth.h does for a number.
+  /// Does in each lane what branch_or_kink in select.h does for a number.
   friend Pack branch_or_kink(const Pack& u, const Pack& v, const Pack& a, const Pack& b, int degree) {
     const Pack at_kink = degree == 0 ? select(u == v, a, u + v) : Pack(std::numeric_limits<T>::quiet_NaN());
     return select(u > v, a, select(v > u, b, at_kink));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Whether there is a map that moves each of two surfaces onto the other.
 #ifndef EQUIAFFINE_REGISTRATION_IS_AFFINELY_EQUIVALENT_H
 #define EQUIAFFINE_REGISTRATION_IS_AFFINELY_EQUIVALENT_H
 
@@ -6,14 +7,32 @@
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/registration/internal/registration_of.h>
-#include <equiaffine/registration/internal/requests.h>
+#include <equiaffine/registration/Map_kind.h>
 #include <equiaffine/registration/internal/searches.h>
+#include <equiaffine/registration/register_surfaces.h>
 
 #include <CGAL/Uncertain.h>
 #include <CGAL/tags.h>
 
 #include <ranges>
+
+// The library defines this function.
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility push(default)
+#endif
+namespace equiaffine::internal {
+
+/// Whether it was verified that no map of a kind moves one whole surface onto another. Such a map would keep the
+/// centroid of the area, and affine ones the moments of the solid inside, so that all rotations and reflections about
+/// the centroid are tried in the coordinates of the search for symmetries: each moves points of the first away from the
+/// second.
+bool differ_as_wholes(bool in_threads, const Any_function_3& source, const Any_function_3& target, Map_kind kind,
+                      bool allows_reflections);
+
+} // namespace equiaffine::internal
+#ifdef EQUIAFFINE_SHARED
+#pragma GCC visibility pop
+#endif
 
 namespace equiaffine {
 

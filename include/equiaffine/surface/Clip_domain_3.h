@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_SURFACE_CLIP_DOMAIN_3_H
 #define EQUIAFFINE_SURFACE_CLIP_DOMAIN_3_H
 
-#include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/base/Input_error.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>

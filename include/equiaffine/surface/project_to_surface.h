@@ -1,22 +1,68 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Puts points on the zero set of a function, along its gradient.
 #ifndef EQUIAFFINE_SURFACE_PROJECT_TO_SURFACE_H
 #define EQUIAFFINE_SURFACE_PROJECT_TO_SURFACE_H
 
 #include <equiaffine/function/Surface_point_3.h>
 #include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/surface/distance_estimate.h>
-#include <equiaffine/surface/internal/line_search.h>
+#include <equiaffine/number/Jet_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace equiaffine {
 
+/// |f| / |grad f|: to first order the distance from a point to the zero set. It is 0 where f is 0, infinite where only
+/// the gradient is 0, and NaN where f is undefined.
+template <class FT>
+FT distance_estimate(const Jet_3<FT, 1>& jet) {
+  using std::abs;
+  using std::sqrt;
+  const auto& c = jet.coefficients();
+  const FT scale = std::max({abs(c[1]), abs(c[2]), abs(c[3])});
+  if (c[0] == FT(0)) return FT(0);
+  if (scale == FT(0)) return std::numeric_limits<FT>::infinity();
+  const FT x = c[1] / scale, y = c[2] / scale, z = c[3] / scale;
+  return abs(c[0]) / scale / sqrt(x * x + y * y + z * z);
+}
+
 /// Finds the zero of f nearest to p along the line through p in the direction of the gradient, at most
-/// `maximal_distance` away. `jet` is the expansion of f at p, which does not count as an evaluation.
+/// `maximal_distance` away. `jet` is the expansion of f at p, which does not count as an evaluation. Looks for a change
+/// of sign at twice the estimated distance, then twice as far each time.
 template <ImplicitFunctionTraits_3 Traits>
 Surface_point_3<Kernel_of<Traits>> project_to_surface(const Traits& traits, const typename Traits::Point_3& p,
                                                       const typename Traits::FT& maximal_distance,
                                                       const Jet_3<typename Traits::FT, 1>& jet) {
-  return internal::search_along_gradient(traits, p, maximal_distance, jet);
+  using FT = typename Traits::FT;
+  using std::abs;
+  using std::sqrt;
+  const auto& c = jet.coefficients();
+  const FT magnitude = std::max({abs(p.x()), abs(p.y()), abs(p.z()), maximal_distance});
+  const FT rounding = FT(4) * std::numeric_limits<FT>::epsilon() * magnitude;
+  const FT distance = distance_estimate(jet);
+  if (distance <= rounding) return {p, true, 0}; // no point of the line is nearer, and signs there are noise
+  const typename Traits::Vector_3 gradient(c[1], c[2], c[3]);
+  const FT norm = sqrt(gradient.squared_length());
+  const bool is_finite = c[0] - c[0] == FT(0);
+  if (!(norm > FT(0)) || !is_finite) return {p, false, 0};
+  const auto towards_surface = gradient * ((c[0] > FT(0) ? FT(-1) : FT(1)) / norm);
+  std::size_t evaluations = 0;
+  FT reach = FT(2) * distance;
+  for (bool is_last = false; !is_last; reach = FT(2) * reach) {
+    is_last = !(reach < maximal_distance);
+    const auto end = p + std::min(reach, maximal_distance) * towards_surface;
+    const FT value = traits.value(end);
+    ++evaluations;
+    if (!(value == value)) break; // f is undefined there
+    if (!is_sign_change(c[0], value)) continue;
+    auto result = intersect_segment(traits, p, end, c[0], value);
+    result.evaluations += evaluations;
+    return result;
+  }
+  return {p, false, evaluations};
 }
 
 /// Does the same, but computes the expansion at p, which counts as an evaluation.

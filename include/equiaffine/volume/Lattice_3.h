@@ -3,7 +3,6 @@
 #define EQUIAFFINE_VOLUME_LATTICE_3_H
 
 #include <equiaffine/base/Input_error.h>
-#include <equiaffine/base/internal/check_argument.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Bbox_3.h>

@@ -1,32 +1,154 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The spline through the samples of a volume as a function, and which samples its values in a block of cells need.
 #ifndef EQUIAFFINE_VOLUME_SPLINE_FUNCTION_3_H
 #define EQUIAFFINE_VOLUME_SPLINE_FUNCTION_3_H
 
-#include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/number/Interval.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/number/internal/Linear_substitution_3.h>
 #include <equiaffine/volume/Cell_block.h>
+#include <equiaffine/volume/Lattice_3.h>
 #include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/Volume_3.h>
 #include <equiaffine/volume/Volume_survey.h>
-#include <equiaffine/volume/Volume_view_3.h>
 #include <equiaffine/volume/internal/Spline_coefficients.h>
-#include <equiaffine/volume/internal/Spline_support_3.h>
-#include <equiaffine/volume/internal/border_degree.h>
 #include <equiaffine/volume/internal/bspline_bounds.h>
 #include <equiaffine/volume/smooth_volume.h>
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/Kernel/global_functions.h>
 #include <CGAL/assertions.h>
 #include <CGAL/tags.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <type_traits>
 #include <utility>
+
+namespace equiaffine::internal {
+
+/// Finds the cells of a lattice that contain a point or meet a box. All points of the lattice are in the support, those
+/// at its border even if rounding moves them out.
+template <class Kernel>
+class Spline_support_3 {
+public:
+  using FT = typename Kernel::FT;
+  using Point_3 = typename Kernel::Point_3;
+  using Lattice = Lattice_3<Kernel>;
+  using Matrix = std::array<std::array<FT, 3>, 3>;
+
+  /// A point of the support: its cell, and its place in the cell, in [0, 1] up to rounding.
+  struct Place {
+    std::array<std::size_t, 3> cell;
+    std::array<FT, 3> offset;
+  };
+
+  /// The part of a box that is in the support.
+  struct Common_box {
+    Bspline_box<FT> box;
+    bool is_whole_box = true; ///< if false, a part of the box is outside of the support
+  };
+
+  explicit Spline_support_3(const Lattice& lattice) : lattice_(lattice), to_lattice_(inverse_matrix(lattice)) {
+    for (std::size_t a = 0; a < 3; ++a) slack_[a] = rounding_of_coordinate(a);
+  }
+
+  const Lattice& lattice() const { return lattice_; }
+
+  /// The linear part of the map from space to lattice coordinates.
+  const Matrix& to_lattice() const { return to_lattice_; }
+
+  /// The greatest change of the lattice coordinates of a point of the lattice by rounding.
+  const std::array<FT, 3>& slack() const { return slack_; }
+
+  /// The place of a point, if it is in the support.
+  std::optional<Place> locate(const Point_3& p) const {
+    Place place;
+    const auto d = p - lattice_.origin();
+    for (std::size_t a = 0; a < 3; ++a) {
+      const FT u = to_lattice_[a][0] * d.x() + to_lattice_[a][1] * d.y() + to_lattice_[a][2] * d.z();
+      if (!is_inside(u, a)) return std::nullopt;
+      place.cell[a] = cell(u, a);
+      place.offset[a] = u - FT(place.cell[a]);
+    }
+    return place;
+  }
+
+  /// The box of the lattice around what a box and the support have in common, if they meet. A side that only rounding
+  /// separates from a node is taken to be there.
+  std::optional<Common_box> locate(const CGAL::Bbox_3& box) const {
+    Common_box common;
+    for (std::size_t a = 0; a < 3; ++a) {
+      std::array<FT, 2> sides = sides_in_lattice(box, a);
+      const FT last = FT(lattice_.size()[a] - 1);
+      if (sides[1] < -slack_[a] || sides[0] > last + slack_[a]) return std::nullopt;
+      common.is_whole_box = common.is_whole_box && is_inside(sides[0], a) && is_inside(sides[1], a);
+      for (FT& u : sides) {
+        if (std::abs(u - std::round(u)) <= slack_[a]) u = std::round(u);
+        u = std::clamp(u, FT(0), last);
+      }
+      const std::size_t first = cell(sides[0], a);
+      const std::size_t end = std::max(first + 1, std::size_t(std::ceil(sides[1])));
+      common.box.first[a] = first;
+      common.box.cells[a] = end - first;
+      common.box.begin[a] = sides[0] - FT(first);
+      common.box.end[a] = sides[1] - FT(end - 1);
+    }
+    return common;
+  }
+
+private:
+  /// Row a of the inverse is the cross product of the other two steps over the determinant.
+  static Matrix inverse_matrix(const Lattice& lattice) {
+    Matrix inverse;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto row = CGAL::cross_product(lattice.steps()[(a + 1) % 3], lattice.steps()[(a + 2) % 3]);
+      for (int b = 0; b < 3; ++b) inverse[a][std::size_t(b)] = row[b] / lattice.determinant();
+    }
+    return inverse;
+  }
+
+  FT rounding_of_coordinate(std::size_t a) const {
+    const CGAL::Bbox_3 box = lattice_.bbox();
+    FT sum = 0;
+    for (int b = 0; b < 3; ++b)
+      sum += std::abs(to_lattice_[a][std::size_t(b)]) * FT(std::max(std::abs(box.min(b)), std::abs(box.max(b))));
+    return 8 * std::numeric_limits<FT>::epsilon() * sum;
+  }
+
+  /// The least and the greatest lattice coordinate a of the points of a box.
+  std::array<FT, 2> sides_in_lattice(const CGAL::Bbox_3& box, std::size_t a) const {
+    constexpr FT infinity = std::numeric_limits<FT>::infinity();
+    std::array<FT, 2> sides{};
+    for (int b = 0; b < 3; ++b) {
+      const FT p = to_lattice_[a][std::size_t(b)] * (FT(box.min(b)) - lattice_.origin()[b]);
+      const FT q = to_lattice_[a][std::size_t(b)] * (FT(box.max(b)) - lattice_.origin()[b]);
+      sides[0] += std::min(p, q);
+      sides[1] += std::max(p, q);
+    }
+    if (!(sides[0] <= sides[1])) return {-infinity, infinity}; // 0 times infinity has made a NaN
+    return sides;
+  }
+
+  /// Whether a lattice coordinate is in the support; NaN is not.
+  bool is_inside(FT u, std::size_t a) const { return u >= -slack_[a] && u <= FT(lattice_.size()[a] - 1) + slack_[a]; }
+
+  std::size_t cell(FT u, std::size_t a) const {
+    return std::min(std::size_t(std::max(u, FT(0))), lattice_.size()[a] - 2);
+  }
+
+  Lattice lattice_;
+  Matrix to_lattice_;
+  std::array<FT, 3> slack_{};
+};
+
+} // namespace equiaffine::internal
 
 namespace equiaffine {
 
@@ -35,9 +157,10 @@ namespace equiaffine {
 ///
 /// The support is the whole lattice with its border. There the scheme keeps its order because it extends the samples by
 /// polynomials of degree n, that of the spline, or of degree n + 2 if the samples are smooth enough, or by constants if
-/// they are steps, as those of a mask (internal/border_degree.h). All numbers are NaN outside of the support, at every point whose samples include one
-/// that is not finite (all samples take part in interpolation), and everywhere if an axis has no more than `degree`
-/// nodes. Of a part of a volume (Volume_view_3::part) a cell has a value if all samples that it depends on are known.
+/// they are steps, as those of a mask (Volume_survey.h). All numbers are NaN outside of the support, at every point whose
+/// samples include one that is not finite (all samples take part in interpolation), and everywhere if an axis has no more
+/// than `degree` nodes. Of a part of a volume (Volume_view_3::part) a cell has a value if all samples that it depends on
+/// are known.
 ///
 /// Derivatives are computed in lattice coordinates and mapped to space by the inverse of the lattice's matrix, so that
 /// the lattice may have any rotation, shear and handedness, and steps from 1e-70 to 1e70. The rounding error of a k-th
@@ -47,8 +170,7 @@ namespace equiaffine {
 ///
 /// The function keeps the samples, as they are. It computes its coefficients, one number per node and per padding node,
 /// when it is first evaluated, or at once for interpolation; restricted_to_cells() makes functions that have only those of
-/// a block of cells. Copies
-/// share samples and coefficients. Const members may be called from many threads at once.
+/// a block of cells. Copies share samples and coefficients. Const members may be called from many threads at once.
 template <class Kernel>
 class Spline_function_3 {
 public:
@@ -237,6 +359,36 @@ Spline_function_3(const Volume_3<Kernel>&, const Spline_parameters& = {}) -> Spl
 /// The kernel is that of the volume.
 template <class Kernel, class ConcurrencyTag>
 Spline_function_3(const Volume_3<Kernel>&, const Spline_parameters&, ConcurrencyTag) -> Spline_function_3<Kernel>;
+
+/// The cells at whose nodes samples must be known so that a spline through them has its values in all cells of a block.
+/// `nodes` are the numbers of nodes of the lattice. Beside the border of the lattice these are more than elsewhere, since
+/// there the samples are extended. \throw std::invalid_argument unless the degree is 5, 7 or 9, and for interpolation,
+/// which needs all samples
+inline Cell_block cells_to_know(const Cell_block& cells, const std::array<std::size_t, 3>& nodes,
+                                const Spline_parameters& parameters) {
+  check_argument(parameters.scheme != Spline_scheme::INTERPOLATION,
+                 "spline interpolation needs all samples of a volume: choose quasi-interpolation");
+  const internal::Spline_fit fit = {internal::checked_degree(parameters.degree), parameters.scheme,
+                                    internal::greater_border_degree(parameters.degree)};
+  Cell_block known = cells;
+  fit.with_filter<double>([&](const auto& line) {
+    if constexpr (requires { line.samples_of({}, 0); })
+      for (std::size_t a = 0; a < 3; ++a) {
+        if (nodes[a] <= std::size_t(parameters.degree)) continue; // there is no spline
+        internal::Line_part used =
+            line.samples_of({cells.first[a], cells.end[a] + std::size_t(parameters.degree)}, nodes[a]);
+        // The votes on the border degree look at so many samples at an end of a line.
+        const auto voting = std::min(nodes[a], std::size_t(fit.border_degree) + 2);
+        if (cells.first[a] == 0) used.end = std::max(used.end, voting);
+        if (cells.end[a] + 1 == nodes[a]) used.first = std::min(used.first, nodes[a] - voting);
+        if (parameters.smoothing > 1)
+          used = internal::Smoothing_filter<double>(parameters.smoothing, nodes[a], fit.border_degree).samples_of(used);
+        known.first[a] = std::min(known.first[a], used.first);
+        known.end[a] = std::max(known.end[a], used.end - 1);
+      }
+  });
+  return known;
+}
 
 } // namespace equiaffine
 

@@ -1,13 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a spline asks about all samples of a volume.
+// What a spline asks about all samples of a volume: their greatest magnitude, their type, and the degree of the
+// polynomials by which they are extended beyond the border.
 #ifndef EQUIAFFINE_VOLUME_VOLUME_SURVEY_H
 #define EQUIAFFINE_VOLUME_VOLUME_SURVEY_H
 
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/volume/Cell_block.h>
+#include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/internal/bspline.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <span>
+#include <vector>
 
 namespace equiaffine {
 
@@ -49,5 +61,145 @@ struct Volume_part {
 };
 
 } // namespace equiaffine
+
+namespace equiaffine::internal {
+
+/// How far the polynomial of degree d through f_1 .. f_{d+1} is from f_0: the magnitude of the difference of order d + 1.
+template <class FT>
+FT error_of_prediction(std::span<const FT> f, int d) {
+  FT sum = 0, binomial = 1; // exact: small integers
+  for (int j = 0; j <= d + 1; ++j) {
+    sum += (j % 2 ? -binomial : binomial) * f[std::size_t(j)];
+    binomial = binomial * FT(d + 1 - j) / FT(j + 1);
+  }
+  return std::abs(sum);
+}
+
+/// Counts the vote of the end of a line that has the samples f from its end on. It is for constants if most samples are
+/// equal to the next one, but not all: they are steps. Else it is for the degree that predicts the sample at the end
+/// better than the other one; a short line has no samples for the greater one. There is no vote if the lesser one
+/// predicts it up to the rounding of the samples it takes, or if one of them is NaN.
+template <class FT>
+void add_vote(std::span<const FT> f, int lesser, int greater, Border_votes& votes) {
+  const FT of_lesser = error_of_prediction(f, lesser);
+  const FT of_greater = f.size() < std::size_t(greater) + 2 ? of_lesser : error_of_prediction(f, greater);
+  FT largest = 0; // the last sample alone may be nearly 0
+  std::size_t equals = 0;
+  for (std::size_t j = 0; j <= std::size_t(lesser) + 1; ++j) {
+    largest = std::max(largest, std::abs(f[j]));
+    equals += j > 0 && f[j] == f[j - 1];
+  }
+  if (!(of_lesser > 1000 * std::numeric_limits<FT>::epsilon() * largest)) return;
+  if (2 * equals > std::size_t(lesser) + 1) ++votes.constant;
+  else if (of_greater < of_lesser) ++votes.greater;
+  else ++votes.lesser;
+}
+
+/// The degree of a spline. \throw std::invalid_argument unless it is 5, 7 or 9
+inline int checked_degree(int degree) {
+  check_argument(degree == 5 || degree == 7 || degree == 9,
+                 "the degree of a spline is not 5, 7 or 9: choose one of these");
+  return degree;
+}
+
+/// The greater degree that the polynomials may have that extend a volume beyond the border for a spline of degree n.
+inline int greater_border_degree(int degree) { return std::min(degree + 2, greatest_border_degree); }
+
+/// The votes of the ends of lines that belong to a block of cells, where all samples that a vote looks at are known.
+/// \pre the samples of the block are known. Time: proportional to the number of samples
+/// in the n + 4 layers at the border.
+template <class Kernel>
+Border_votes border_votes(const Volume_view_3<Kernel>& volume, const Spline_parameters& spline,
+                          const Cell_block& cells) {
+  using FT = typename Kernel::FT;
+  const int greater = greater_border_degree(checked_degree(spline.degree));
+  Border_votes votes;
+  if (spline.scheme != Spline_scheme::QUASI_INTERPOLATION) return votes;
+  const std::array<std::size_t, 3>& size = volume.lattice().size();
+  std::array<FT, std::size_t(greatest_border_degree) + 2> samples;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (size[a] < std::size_t(spline.degree) + 2) continue;
+    const std::span f = std::span(samples).first(std::min(size[a], std::size_t(greater) + 2));
+    const std::size_t b = a == 0 ? 1 : 0, c = a == 2 ? 1 : 2; // in the order of the memory where i is fastest
+    const Line_part of_a = own_nodes_of(cells, a, size[a]), of_b = own_nodes_of(cells, b, size[b]),
+                    of_c = own_nodes_of(cells, c, size[c]), known = nodes_of(volume.cells(), a);
+    const bool has_first = of_a.first == 0 && f.size() <= known.end;
+    const bool has_last = of_a.end == size[a] && known.first + f.size() <= size[a];
+    std::array<std::size_t, 3> node;
+    for (node[c] = of_c.first; node[c] < of_c.end; ++node[c])
+      for (node[b] = of_b.first; node[b] < of_b.end; ++node[b]) {
+        if (has_first) {
+          node[a] = 0;
+          volume.copy_line(node, a, f);
+          add_vote<FT>(f, spline.degree, greater, votes);
+        }
+        if (has_last) {
+          node[a] = size[a] - 1;
+          volume.copy_line_backwards(node, a, f);
+          add_vote<FT>(f, spline.degree, greater, votes);
+        }
+      }
+  }
+  return votes;
+}
+
+/// The degree of the polynomials that extend a volume beyond the border for a spline of degree n (see Line_filter): the
+/// one with the most votes. Steps, as of a mask, go on as constants: polynomials through them rise beyond the border, and
+/// would move a surface that is a few samples away. Degree n wins for noise and for edges in a scan, which n + 2 would
+/// magnify.
+inline int elected_border_degree(const Border_votes& votes, int degree) {
+  if (votes.constant > std::max(votes.lesser, votes.greater)) return 0;
+  return votes.greater > votes.lesser ? greater_border_degree(degree) : degree;
+}
+
+/// The border degree of a volume in parts.
+template <class Kernel>
+int border_degree(const Volume_parts_3<Kernel>& volume, int degree, Spline_scheme scheme) {
+  Border_votes votes;
+  for (const auto& [part, cells] : volume.parts)
+    votes.add(border_votes(part, {.degree = degree, .scheme = scheme}, cells));
+  const std::vector<double> gathered =
+      volume.gather({double(votes.constant), double(votes.lesser), double(votes.greater)});
+  Border_votes of_all;
+  for (std::size_t n = 0; n < gathered.size(); n += 3)
+    of_all.add({std::int64_t(gathered[n]), std::int64_t(gathered[n + 1]), std::int64_t(gathered[n + 2])});
+  return elected_border_degree(of_all, degree);
+}
+
+/// The survey of the samples that belong to a block of cells, before they are smoothed. The spline has that degree and
+/// scheme. \throw std::invalid_argument unless samples are known in all of these cells
+template <class ConcurrencyTag, class Kernel>
+Volume_survey volume_survey(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters,
+                            const Cell_block& cells) {
+  using FT = typename Kernel::FT;
+  check_argument(
+      clamped(cells, volume.cells()) == cells,
+      "fewer samples of a volume are known than belong to a part of it: let more be known, see cells_to_know()");
+  constexpr std::size_t planes_at_once = Volume_view_3<Kernel>::planes_at_once;
+  const auto& size = volume.lattice().size();
+  const auto own = [&](std::size_t a) { return own_nodes_of(cells, a, size[a]); };
+  const Line_part i = own(0), j = own(1), k = own(2);
+  std::vector<Volume_survey> of_planes((k.size() + planes_at_once - 1) / planes_at_once);
+  parallel_for<ConcurrencyTag>(0, of_planes.size(), [&](std::size_t n) {
+    const std::size_t first = k.first + n * planes_at_once, planes = std::min(planes_at_once, k.end - first);
+    std::vector<FT> samples(i.size() * planes);
+    Volume_survey survey;
+    for (std::size_t row = j.first; row < j.end; ++row) {
+      volume.copy_block({i.first, row, first}, {i.size(), 1, planes}, samples);
+      for (const FT& x : samples) {
+        if (!std::isfinite(x)) continue;
+        survey.greatest = std::max(survey.greatest, double(std::abs(x)));
+        survey.are_floats = survey.are_floats && x == FT(float(x));
+      }
+    }
+    of_planes[n] = survey;
+  });
+  Volume_survey survey;
+  for (const Volume_survey& of_some : of_planes) survey.add(of_some);
+  survey.border_votes = border_votes(volume, parameters, cells);
+  return survey;
+}
+
+} // namespace equiaffine::internal
 
 #endif

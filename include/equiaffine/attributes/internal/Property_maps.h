@@ -5,6 +5,7 @@
 #include <equiaffine/attributes/internal/attribute_table.h>
 
 #include <CGAL/Kernel_traits.h>
+#include <CGAL/Surface_mesh/Surface_mesh_fwd.h>
 
 #include <cstddef>
 #include <string>
@@ -13,6 +14,11 @@
 #include <vector>
 
 namespace equiaffine::internal {
+
+template <class Mesh>
+inline constexpr bool is_surface_mesh = false;
+template <class Point>
+inline constexpr bool is_surface_mesh<CGAL::Surface_mesh<Point>> = true;
 
 /// Does not compile for a surface mesh that cannot have the maps `v:NAME`.
 template <class Mesh>

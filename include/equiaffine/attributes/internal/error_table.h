@@ -2,9 +2,8 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_ERROR_TABLE_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_ERROR_TABLE_H
 
-#include <equiaffine/geometry/Local_structure_error_3.h>
-#include <equiaffine/geometry/Regular_structure_3.h>
-#include <equiaffine/geometry/affine_area_density.h>
+#include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/geometry/affine_structure.h>
 #include <equiaffine/geometry/euclidean_structure.h>
 
 #include <array>

@@ -3,9 +3,9 @@
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_VERTEX_MAPS_H
 
 #include <equiaffine/base/named_parameters.h>
-#include <equiaffine/fit/Fitted_structure_3.h>
-#include <equiaffine/geometry/Regular_structure_3.h>
-#include <equiaffine/geometry/affine_area_density.h>
+#include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/geometry/Local_structure_3.h>
+#include <equiaffine/geometry/affine_structure.h>
 
 #include <CGAL/property_map.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The closed list of named parameters: a new one is one function here, and its tag in Named_parameters.h. Functions
+// The closed list of named parameters: a new one is one function here, and its tag in named_parameters.h. Functions
 // that take them have tables of types, defaults and meanings.
 #ifndef EQUIAFFINE_BASE_INTERNAL_NAMED_PARAMETER_LIST_H
 #define EQUIAFFINE_BASE_INTERNAL_NAMED_PARAMETER_LIST_H

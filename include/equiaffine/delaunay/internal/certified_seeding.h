@@ -2,15 +2,15 @@
 #ifndef EQUIAFFINE_DELAUNAY_INTERNAL_CERTIFIED_SEEDING_H
 #define EQUIAFFINE_DELAUNAY_INTERNAL_CERTIFIED_SEEDING_H
 
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/Progress_observer.h>
-#include <equiaffine/base/internal/check_argument.h>
 #include <equiaffine/delaunay/internal/Seed_grid_3.h>
 #include <equiaffine/delaunay/internal/Seeding_cell_3.h>
+#include <equiaffine/function/Surface_point_3.h>
 #include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/function/internal/sign_change.h>
 #include <equiaffine/surface/Clip_domain_3.h>
-#include <equiaffine/surface/internal/curve_step.h>
+#include <equiaffine/surface/internal/jet_derivatives.h>
 #include <equiaffine/surface/project_to_surface.h>
 
 #include <CGAL/Bbox_3.h>

@@ -2,7 +2,6 @@
 #ifndef EQUIAFFINE_DISPLAY_INTERNAL_COLUMN_NUMBERS_H
 #define EQUIAFFINE_DISPLAY_INTERNAL_COLUMN_NUMBERS_H
 
-#include <equiaffine/display/Color_mapping.h>
 #include <equiaffine/display/color_map.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_DISPLAY_INTERNAL_TRUST_H
 #define EQUIAFFINE_DISPLAY_INTERNAL_TRUST_H
 
-#include <equiaffine/display/Color_mapping.h>
+#include <equiaffine/display/color_map.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <string>

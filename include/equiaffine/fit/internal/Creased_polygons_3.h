@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_FIT_INTERNAL_CREASED_POLYGONS_3_H
 #define EQUIAFFINE_FIT_INTERNAL_CREASED_POLYGONS_3_H
 
-#include <equiaffine/base/internal/disjoint_sets.h>
+#include <equiaffine/base/internal/index_sets.h>
 #include <equiaffine/fit/internal/Charts_3.h>
 #include <equiaffine/mesh/internal/indexed_polygons.h>
 

@@ -2,9 +2,8 @@
 #ifndef EQUIAFFINE_FUNCTION_INTERNAL_INTERSECT_SEGMENTS_H
 #define EQUIAFFINE_FUNCTION_INTERNAL_INTERSECT_SEGMENTS_H
 
-#include <equiaffine/function/Batch_function_traits_3.h>
+#include <equiaffine/function/Surface_point_3.h>
 #include <equiaffine/function/capabilities.h>
-#include <equiaffine/function/internal/bracketed_roots.h>
 
 #include <CGAL/Bbox_3.h>
 

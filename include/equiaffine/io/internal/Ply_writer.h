@@ -3,7 +3,6 @@
 #define EQUIAFFINE_IO_INTERNAL_PLY_WRITER_H
 
 #include <equiaffine/io/internal/buffered_output.h>
-#include <equiaffine/io/internal/mesh_text.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/assertions.h>

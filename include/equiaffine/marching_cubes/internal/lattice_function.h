@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_LATTICE_FUNCTION_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LATTICE_FUNCTION_H
 
-#include <equiaffine/function/Batch_function_traits_3.h>
-#include <equiaffine/function/internal/sign_change.h>
-#include <equiaffine/marching_cubes/internal/grid_elements.h>
+#include <equiaffine/function/Surface_point_3.h>
+#include <equiaffine/function/capabilities.h>
+#include <equiaffine/marching_cubes/internal/isosurface_numbering.h>
 #include <equiaffine/volume/Lattice_3.h>
 
 #include <array>
@@ -15,7 +15,7 @@
 namespace equiaffine::internal {
 
 /// The values of a function at the nodes of a lattice, where samples are used if there are any: a Grid as in
-/// grid_elements.h.
+/// isosurface_numbering.h.
 template <class Traits>
 class Lattice_function {
 public:

@@ -6,15 +6,13 @@
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LINEAR_ISOSURFACE_H
 
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/function/internal/sign_change.h>
-#include <equiaffine/marching_cubes/internal/grid_elements.h>
+#include <equiaffine/function/Surface_point_3.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
+#include <equiaffine/marching_cubes/internal/isosurface_numbering.h>
 #include <equiaffine/marching_cubes/internal/marching_cubes_cases.h>
-#include <equiaffine/marching_cubes/internal/vertex_place.h>
 #include <equiaffine/marching_cubes/internal/zero_area_repair.h>
-#include <equiaffine/mesh/Isosurface_3.h>
-#include <equiaffine/mesh/Isosurface_repairs.h>
-#include <equiaffine/mesh/internal/split_fans.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+#include <equiaffine/mesh/mesh_topology.h>
 
 #include <array>
 #include <cmath>

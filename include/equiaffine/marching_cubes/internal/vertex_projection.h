@@ -3,16 +3,16 @@
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_VERTEX_PROJECTION_H
 
 #include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/function/Surface_point_3.h>
 #include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/function/internal/intersect_segments.h>
 #include <equiaffine/function/internal/point_blocks.h>
-#include <equiaffine/function/internal/sign_change.h>
-#include <equiaffine/marching_cubes/internal/grid_elements.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
+#include <equiaffine/marching_cubes/internal/isosurface_numbering.h>
 #include <equiaffine/marching_cubes/internal/lattice_function.h>
 #include <equiaffine/marching_cubes/internal/zero_area_repair.h>
-#include <equiaffine/mesh/Isosurface_3.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/surface/project_to_surface.h>
 #include <equiaffine/volume/Cell_block.h>
 

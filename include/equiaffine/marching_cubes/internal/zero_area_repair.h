@@ -3,7 +3,7 @@
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ZERO_AREA_REPAIR_H
 
 #include <equiaffine/marching_cubes/internal/isosurface_numbering.h>
-#include <equiaffine/mesh/Isosurface_repairs.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>
 #include <array>

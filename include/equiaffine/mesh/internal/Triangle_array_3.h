@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A triangle mesh with the neighbors of its points, and which of its triangles cross each other.
 #ifndef EQUIAFFINE_MESH_INTERNAL_TRIANGLE_ARRAY_3_H
 #define EQUIAFFINE_MESH_INTERNAL_TRIANGLE_ARRAY_3_H
 
-#include <equiaffine/base/internal/check_argument.h>
-#include <equiaffine/mesh/internal/crossing_triangles.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/mesh/internal/indexed_polygons.h>
 
+#include <CGAL/Bbox_3.h>
+#include <CGAL/Box_intersection_d/Box_with_info_d.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/box_intersection_d.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -18,6 +22,104 @@
 #include <vector>
 
 namespace equiaffine::internal {
+
+using Index_triangle = std::array<std::uint32_t, 3>;
+using Triangle_pair = std::pair<std::uint32_t, std::uint32_t>; ///< the smaller index is first
+
+/// Says whether two triangles have more in common than the corners and edges that they share. Predicates are exact.
+class Crossing_test_3 {
+public:
+  Crossing_test_3(std::span<const Eigen::Vector3d> points, std::span<const Index_triangle> triangles)
+      : points_(points), triangles_(triangles) {}
+
+  /// Triangles without area cross nothing.
+  bool operator()(std::uint32_t s, std::uint32_t t) const {
+    const auto [first, shared] = shared_first(triangles_[s], triangles_[t]);
+    const Index_triangle second = shared_first(triangles_[t], triangles_[s]).first;
+    if (shared == 3 || is_flat(first) || is_flat(second)) return shared == 3;
+    if (shared == 2) return is_fold(first, second[2]);
+    if (shared == 1) return meets(first, second[1], second[2]) || meets(second, first[1], first[2]);
+    return CGAL::do_intersect(triangle(first), triangle(second));
+  }
+
+private:
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+  Kernel::Point_3 point(std::uint32_t v) const { return {points_[v][0], points_[v][1], points_[v][2]}; }
+  Kernel::Triangle_3 triangle(const Index_triangle& t) const { return {point(t[0]), point(t[1]), point(t[2])}; }
+
+  /// The corners of a triangle, those that another one has, too, before the others, and the number of the former.
+  static std::pair<Index_triangle, int> shared_first(Index_triangle t, const Index_triangle& other) {
+    const auto is_shared = [&](std::uint32_t v) { return std::find(other.begin(), other.end(), v) != other.end(); };
+    const auto end = std::stable_partition(t.begin(), t.end(), is_shared);
+    return {t, int(end - t.begin())};
+  }
+
+  bool is_flat(const Index_triangle& t) const { return CGAL::collinear(point(t[0]), point(t[1]), point(t[2])); }
+
+  bool meets(const Index_triangle& t, std::uint32_t from, std::uint32_t to) const {
+    const Kernel::Segment_3 segment(point(from), point(to));
+    return !segment.is_degenerate() && CGAL::do_intersect(triangle(t), segment);
+  }
+
+  /// Whether two triangles with a common edge lie on each other.
+  bool is_fold(const Index_triangle& t, std::uint32_t apex) const {
+    const auto a = point(t[0]), b = point(t[1]), c = point(t[2]), d = point(apex);
+    return CGAL::coplanar(a, b, c, d) && CGAL::coplanar_orientation(a, b, c, d) == CGAL::POSITIVE;
+  }
+
+  std::span<const Eigen::Vector3d> points_;
+  std::span<const Index_triangle> triangles_;
+};
+
+using Triangle_box_3 = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
+
+inline Triangle_box_3 box_of(std::uint32_t t, std::span<const Eigen::Vector3d> points,
+                             std::span<const Index_triangle> triangles) {
+  CGAL::Bbox_3 box;
+  for (const auto v : triangles[t]) {
+    const Eigen::Vector3d& p = points[v];
+    box += CGAL::Bbox_3(p[0], p[1], p[2], p[0], p[1], p[2]);
+  }
+  return {box, t};
+}
+
+/// Returns all pairs of triangles that cross each other, in order. Takes about n log n time beside the pairs of boxes
+/// that meet.
+inline std::vector<Triangle_pair> crossing_triangles(std::span<const Eigen::Vector3d> points,
+                                                     std::span<const Index_triangle> triangles) {
+  std::vector<Triangle_box_3> boxes;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) boxes.push_back(box_of(t, points, triangles));
+  const Crossing_test_3 cross(points, triangles);
+  std::vector<Triangle_pair> found;
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Triangle_box_3& a, const Triangle_box_3& b) {
+    if (cross(a.info(), b.info())) found.push_back(std::minmax(a.info(), b.info()));
+  });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Does the same for the pairs of which one triangle is marked.
+inline std::vector<Triangle_pair> crossing_triangles(std::span<const Eigen::Vector3d> points,
+                                                     std::span<const Index_triangle> triangles,
+                                                     const std::vector<char>& is_marked) {
+  std::vector<Triangle_box_3> marked, all;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    all.push_back(box_of(t, points, triangles));
+    if (is_marked[t]) marked.push_back(all.back());
+  }
+  if (2 * marked.size() > all.size()) return crossing_triangles(points, triangles);
+  const Crossing_test_3 cross(points, triangles);
+  std::vector<Triangle_pair> found;
+  CGAL::box_intersection_d(marked.begin(), marked.end(), all.begin(), all.end(),
+                           [&](const Triangle_box_3& a, const Triangle_box_3& b) {
+                             const auto s = a.info(), t = b.info();
+                             if (s == t || (is_marked[t] && t < s)) return;
+                             if (cross(s, t)) found.push_back(std::minmax(s, t));
+                           });
+  std::sort(found.begin(), found.end());
+  return found;
+}
 
 /// Triangles between points with the neighbors of every point along edges.
 class Triangle_array_3 {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Meshes, polygon soups and points of CGAL become arrays of numbers.
 #ifndef EQUIAFFINE_MESH_INTERNAL_INDEXED_POLYGONS_H
 #define EQUIAFFINE_MESH_INTERNAL_INDEXED_POLYGONS_H
 
-#include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/named_parameters.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
+#include <equiaffine/mesh/internal/triangles_of_polygon.h>
 
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/properties.h>
@@ -26,8 +29,31 @@
 #include <utility>
 #include <vector>
 
-// Meshes and points of CGAL become arrays of numbers.
 namespace equiaffine {
+
+/// Does not compile for points whose coordinates are no floating-point numbers, else returns true, so that a static
+/// assertion can call it before anything else fails.
+template <class Point>
+constexpr bool check_coordinates() {
+  static_assert(
+      std::is_floating_point_v<std::decay_t<decltype(std::declval<const Point&>().x())>>,
+      "the points have coordinates that are not doubles, as those of Epeck: equiaffine works with kernels such "
+      "as Epick and Simple_cartesian<double>; CGAL::copy_face_graph copies a mesh to one of them");
+  return true;
+}
+
+/// Something from the elements of a range to their points: the map that is given, or that of the range, as
+/// CGAL::Point_set_3 has one, or nothing where the elements are the points.
+template <class Range, class Parameters>
+auto point_of_element([[maybe_unused]] const Range& range, const Parameters& parameters) {
+  if constexpr (internal::has_parameter<internal::Point_tag, Parameters>)
+    return [map = internal::given_parameter<internal::Point_tag>(parameters)](const auto& element) {
+      return get(map, element);
+    };
+  else if constexpr (requires { range.point_map(); })
+    return [map = range.point_map()](const auto& element) { return get(map, element); };
+  else return [](const auto& element) { return element; };
+}
 
 template <class Vector>
 Eigen::Vector3d coordinates_of(const Vector& v) {
@@ -113,5 +139,52 @@ inline std::vector<std::uint32_t> first_of_equal(const std::vector<Eigen::Vector
 }
 
 } // namespace equiaffine
+
+namespace equiaffine::internal {
+
+/// A triangle mesh in doubles.
+struct Triangles_3 {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  const Eigen::Vector3d& corner(std::size_t t, std::size_t k) const { return points[triangles[t][k % 3]]; }
+  Eigen::Vector3d double_area(std::size_t t) const {
+    return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
+  }
+};
+
+inline Triangles_3 triangles_of(Indexed_polygons mesh) {
+  Triangles_3 result;
+  for (const auto& polygon : mesh.polygons) add_triangles_of_polygon(mesh.points, polygon, result.triangles);
+  result.points = std::move(mesh.points);
+  return result;
+}
+
+template <class Graph, class Parameters>
+Triangles_3 triangles_of_graph(const Graph& graph, const Parameters& parameters) {
+  return triangles_of(indexed_polygons_of_graph(graph, parameters));
+}
+
+/// Triangles that share a corner are to know it, so that equal points become one.
+template <class Points, class Polygons>
+Triangles_3 triangles_of_soup(const Points& points, const Polygons& polygons) {
+  Triangles_3 mesh = triangles_of(indexed_polygons_of_soup(points, polygons));
+  const std::vector<std::uint32_t> first = first_of_equal(mesh.points);
+  for (auto& triangle : mesh.triangles)
+    for (auto& corner : triangle) corner = first[corner];
+  return mesh;
+}
+
+/// The vertices of a graph in their order, and its faces, cut into triangles.
+template <class Kernel, class Graph, class Parameters>
+Indexed_triangle_mesh_3<Kernel> triangle_mesh_of(const Graph& graph, const Parameters& parameters) {
+  const Indexed_polygons mesh = indexed_polygons_of_graph(graph, parameters);
+  Indexed_triangle_mesh_3<Kernel> result;
+  for (const auto& p : mesh.points) result.points.emplace_back(p.x(), p.y(), p.z());
+  for (const auto& polygon : mesh.polygons) add_triangles_of_polygon(mesh.points, polygon, result.triangles);
+  return result;
+}
+
+} // namespace equiaffine::internal
 
 #endif

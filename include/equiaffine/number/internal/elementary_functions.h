@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Computes exp, sin and cos by arithmetic alone: no lane of a pack needs a call of the C library, and a lane has the
-// bits of a single number whatever the instruction set is, unless the compiler contracts products and sums. The schemes
-// are those of Muller, Elementary Functions (2016): argument reduction after Cody and Waite (section 11.2), then a
-// Taylor polynomial.
+// Elementary functions of numbers and packs. exp, sin and cos are computed by arithmetic alone: no lane of a pack needs a
+// call of the C library, and a lane has the bits of a single number whatever the instruction set is, unless the compiler
+// contracts products and sums. The schemes are those of Muller, Elementary Functions (2016): argument reduction after Cody
+// and Waite (section 11.2), then a Taylor polynomial.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_ELEMENTARY_FUNCTIONS_H
 #define EQUIAFFINE_NUMBER_INTERNAL_ELEMENTARY_FUNCTIONS_H
 
-#include <equiaffine/base/internal/bit_cast.h>
+#include <equiaffine/base/internal/compiler.h>
 #include <equiaffine/number/internal/exponential_table.h>
 #include <equiaffine/number/select.h>
 
 #include <array>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -120,6 +121,42 @@ std::pair<T, T> sine_and_cosine(const T& x) {
     if (std::abs(x) <= circular_range) return sine_and_cosine_in_range(x);
   return {sin(x), cos(x)};
 }
+
+/// x^n by repeated squaring, which loses up to n / 2 units in the last place, unless the C library does better.
+template <class T>
+T natural_power(T x, unsigned n) {
+  if constexpr (std::is_floating_point_v<T>)
+    if (n > 8) return std::pow(x, T(n));
+  T r(1);
+  for (bool first = true; n > 0; n >>= 1) {
+    if (n & 1) {
+      r = first ? x : r * x;
+      first = false;
+    }
+    if (n > 1) x = x * x;
+  }
+  return r;
+}
+
+/// The types of numbers that have these functions, of their own or in the standard library.
+namespace own_steps {
+
+using std::erf, std::floor, std::fmod;
+
+template <class T>
+concept HasErf = requires(const T& a) {
+  { erf(a) } -> std::convertible_to<T>;
+};
+template <class T>
+concept HasFloor = requires(const T& a) {
+  { floor(a) } -> std::convertible_to<T>;
+};
+template <class T>
+concept HasFmod = requires(const T& a) {
+  { fmod(a, a) } -> std::convertible_to<T>;
+};
+
+} // namespace own_steps
 
 } // namespace equiaffine::internal
 

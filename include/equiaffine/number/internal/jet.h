@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Jet_3 with its arithmetic.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_JET_H
 #define EQUIAFFINE_NUMBER_INTERNAL_JET_H
 
@@ -285,6 +286,46 @@ auto operator/(const Jet_3<T, Order, A>& a, const S& s) {
   r.for_each_monomial([&](auto n)
                           __attribute__((always_inline)) { r.template at<n>() = a.template at<n>() / divisor; });
   return r;
+}
+/// @}
+
+/// phi(a) for a univariate function phi with Taylor coefficients t[k] = phi^(k)(a_0) / k! at the value a_0 of the jet.
+/// With the homogeneous parts n1, n2, n3 of a - a_0 the powers need 111 products for a full jet, fewer than one product
+/// of two full jets (210) of order 4: no power is formed beyond the total order.
+template <class T, int Order, Monomial_set A>
+auto compose(const Jet_3<T, Order, A>& a, const std::array<T, 6>& t) {
+  const auto n1 = internal::homogeneous_part<1>(a);
+  const auto n2 = internal::homogeneous_part<2>(a);
+  const auto n3 = internal::homogeneous_part<3>(a);
+  const auto n4 = internal::homogeneous_part<4>(a);
+  const auto n11 = square(n1);
+  const T t2 = T(2) * t[2], t3 = T(3) * t[3];
+  const auto sum = t[1] * (n1 + n2 + n3 + n4) + t[2] * n11 + n1 * (t2 * (n2 + n3) + t[3] * n11) +
+                   n2 * (t[2] * n2 + t3 * n11) + t[4] * square(n11);
+  using Result = Jet_3<T, Order, internal::closure(A & ~Monomial_set(1), Order)>;
+  if constexpr (Order < 5) return Result(Jet_3<T, Order, 1>(t[0]) + sum);
+  else
+    return Result(Jet_3<T, Order, 1>(t[0]) + sum + t[1] * internal::homogeneous_part<5>(a) +
+                  n1 * (t2 * n4 + t3 * square(n2) + n11 * (T(T(4) * t[4]) * n2 + t[5] * n11)) +
+                  n3 * (t2 * n2 + t3 * n11));
+}
+
+/// @{
+/// Division, by the power series of 1 / b.
+template <class T, int Order, Monomial_set A>
+auto reciprocal(const Jet_3<T, Order, A>& a) {
+  const T r = T(1) / a.value();
+  return compose(a * r, std::array<T, 6>{r, -r, r, -r, r, -r});
+}
+
+template <class T, int Order, Monomial_set A, Monomial_set B>
+auto operator/(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
+  return a * reciprocal(b);
+}
+
+template <class T, int Order, Monomial_set A, JetScalar<T> S>
+auto operator/(const S& s, const Jet_3<T, Order, A>& a) {
+  return T(s) * reciprocal(a);
 }
 /// @}
 

@@ -4,7 +4,7 @@
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_MONOMIALS_3_H
 #define EQUIAFFINE_NUMBER_INTERNAL_MONOMIALS_3_H
 
-#include <equiaffine/base/internal/check_flags.h>
+#include <equiaffine/base/internal/compiler.h>
 
 #include <array>
 #include <bit>

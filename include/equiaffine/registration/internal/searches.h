@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What all searches of maps share: their named parameters, the surfaces that they are given, and how their results become
+// those of another kernel. The functions of the library that search name no type of Eigen among their parameters, since
+// its namespace has another name in the library.
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_SEARCHES_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_SEARCHES_H
 
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/named_parameters.h>
 #include <equiaffine/function/Any_function_3.h>
-#include <equiaffine/mesh/internal/Triangles_3.h>
-#include <equiaffine/registration/Affine_symmetries_3.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
 #include <equiaffine/registration/Map_kind.h>
-#include <equiaffine/registration/Mesh_contradictions.h>
-#include <equiaffine/registration/Surface_registration_3.h>
-#include <equiaffine/registration/internal/requests.h>
 
+#include <CGAL/Aff_transformation_3.h>
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
-// The library defines these functions, which do the work of searches of maps. They run in the threads of TBB if
-// `in_threads`. Their parameters name no type of Eigen, whose namespace has another name in the library.
-#ifdef EQUIAFFINE_SHARED
-#pragma GCC visibility push(default)
-#endif
 namespace equiaffine::internal {
 
 using Kernel_of_searches = Any_function_3::Kernel;
@@ -29,52 +27,50 @@ struct Surface_with_points_3 {
   std::vector<Eigen::Vector3d> points;
 };
 
-/// A surface as register_surfaces() is given it, with a function with the same zero set on which maps are refined.
-struct Refined_surface_3 : Surface_with_points_3 {
-  Any_function_3 refined;
+/// The coordinates of a range of CGAL's points, as doubles.
+template <class Points>
+std::vector<Eigen::Vector3d> vectors_of(const Points& points) {
+  std::vector<Eigen::Vector3d> result;
+  for (const auto& p : points) result.push_back(coordinates_of(p));
+  return result;
+}
+
+/// The greatest condition of the linear part of a map between surfaces. With it, the rounding of coordinates to 1e-16 makes
+/// errors of 1e-12, as large as those that maps between formulas have anyway.
+inline constexpr double greatest_condition = 1e4;
+
+/// The named parameters of every search for maps.
+struct Map_request {
+  Map_kind kind = Map_kind::AFFINE;
+  bool allows_reflections = true;
+  std::optional<double> tolerance = {}; ///< a part of a size; if there is none, the data tell
 };
 
-/// The result of register_surfaces(), and whether the best map moves all of each surface onto the other.
-struct Registration_of_functions_3 {
-  Surface_registration_3<Kernel_of_searches> result;
-  bool is_equivalence = false;
-};
+template <class Parameters, class... OtherTags>
+constexpr void check_map_parameters() {
+  check_parameters<Parameters, Map_kind_tag, Reflections_tag, Tolerance_tag, Geom_traits_tag, Verbose_tag,
+                   OtherTags...>();
+}
 
-/// Whole surfaces of exact functions whose frames give no map are tried without frames.
-Registration_of_functions_3 registration_of_functions(bool in_threads, const Refined_surface_3& source,
-                                                      const Refined_surface_3& target,
-                                                      const Registration_request& request);
+template <class Parameters>
+Map_request map_request(const Parameters& parameters) {
+  Map_request request;
+  request.kind = get_parameter<Map_kind_tag>(parameters, request.kind);
+  request.allows_reflections = get_parameter<Reflections_tag>(parameters, request.allows_reflections);
+  if constexpr (has_parameter<Tolerance_tag, Parameters>)
+    request.tolerance = given_parameter<Tolerance_tag>(parameters);
+  check_argument(!request.tolerance || (*request.tolerance > 0 && *request.tolerance < 0.1),
+                 "the tolerance of maps is a part of a size, from 0 to 0.1");
+  return request;
+}
 
-/// Meshes are tried as wholes, and then as pieces.
-Surface_registration_3<Kernel_of_searches> registration_of_triangles(bool in_threads, const Triangles_3& source,
-                                                                     const Triangles_3& target,
-                                                                     const Registration_request& request);
-
-/// Whether it was verified that no map of a kind moves one whole surface onto another. Such a map would keep the
-/// centroid of the area, and affine ones the moments of the solid inside, so that all rotations and reflections about
-/// the centroid are tried in the coordinates of the search for symmetries: each moves points of the first away from the
-/// second.
-bool differ_as_wholes(bool in_threads, const Any_function_3& source, const Any_function_3& target, Map_kind kind,
-                      bool allows_reflections);
-
-/// Returns how the surface that the triangles of a mesh stand for slides over itself.
-Affine_slippage_3 slippage_of_triangles(bool in_threads, const Triangles_3& mesh, Map_kind kind);
-
-/// The symmetries of the zero set of a function, by affine frames at the points, and by rotations of the whole.
-Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(bool in_threads, const Surface_with_points_3& surface,
-                                                               const Symmetry_request& request);
-
-/// The symmetries of a mesh, by rotations of the whole.
-Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles(bool in_threads, const Triangles_3& mesh,
-                                                                const Map_request& request);
-
-/// Returns the contradictions with the side of the source by which more points are in contact. Meshes without an area
-/// have none.
-Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 target, double distance);
+/// The result of a search in another kernel.
+template <class Kernel>
+typename Kernel::Aff_transformation_3 in_kernel(const Kernel_of_searches::Aff_transformation_3& map) {
+  const auto m = [&](int i, int j) { return typename Kernel::FT(map.m(i, j)); };
+  return {m(0, 0), m(0, 1), m(0, 2), m(0, 3), m(1, 0), m(1, 1), m(1, 2), m(1, 3), m(2, 0), m(2, 1), m(2, 2), m(2, 3)};
+}
 
 } // namespace equiaffine::internal
-#ifdef EQUIAFFINE_SHARED
-#pragma GCC visibility pop
-#endif
 
 #endif

@@ -6,7 +6,6 @@
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/geometry/affine_frame.h>
-#include <equiaffine/geometry/internal/Natural_units_3.h>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,6 @@
 
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/function/internal/explain_misuse.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
 
 #include <concepts>

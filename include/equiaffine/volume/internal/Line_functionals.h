@@ -2,9 +2,9 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_LINE_FUNCTIONALS_H
 #define EQUIAFFINE_VOLUME_INTERNAL_LINE_FUNCTIONALS_H
 
+#include <equiaffine/volume/internal/bspline.h>
 #include <equiaffine/volume/internal/bspline_evaluation.h>
-#include <equiaffine/volume/internal/bspline_interpolation.h>
-#include <equiaffine/volume/internal/local_polynomial.h>
+#include <equiaffine/volume/smooth_volume.h>
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ template <class FT>
 struct Spline_rule {
   int degree;
   Spline_scheme scheme;
-  int border_degree; ///< the degree of the polynomials beyond the border, see border_degree.h
+  int border_degree; ///< the degree of the polynomials beyond the border, see Volume_survey.h
   FT smoothing;
 };
 

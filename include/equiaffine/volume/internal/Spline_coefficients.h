@@ -2,17 +2,15 @@
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SPLINE_COEFFICIENTS_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SPLINE_COEFFICIENTS_H
 
-#include <equiaffine/base/internal/check_argument.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/large_pages.h>
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/volume/Cell_block.h>
-#include <equiaffine/volume/Spline_scheme.h>
-#include <equiaffine/volume/Volume_view_3.h>
-#include <equiaffine/volume/internal/Line_part.h>
+#include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/Volume_3.h>
 #include <equiaffine/volume/internal/bspline.h>
 #include <equiaffine/volume/internal/bspline_evaluation.h>
-#include <equiaffine/volume/internal/bspline_interpolation.h>
 #include <equiaffine/volume/internal/separable_filter.h>
 
 #include <algorithm>
@@ -32,7 +30,7 @@
 namespace equiaffine::internal {
 
 /// How samples become coefficients: the degree of the spline, the scheme, and the degree of the polynomials that extend
-/// the samples beyond the border (border_degree.h).
+/// the samples beyond the border (Volume_survey.h).
 struct Spline_fit {
   int degree;
   Spline_scheme scheme;

@@ -3,8 +3,8 @@
 #define EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_BOUNDS_H
 
 #include <equiaffine/number/Interval.h>
+#include <equiaffine/volume/internal/bspline.h>
 #include <equiaffine/volume/internal/bspline_evaluation.h>
-#include <equiaffine/volume/internal/bspline_interpolation.h>
 
 #include <algorithm>
 #include <array>

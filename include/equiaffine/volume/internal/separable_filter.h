@@ -3,7 +3,7 @@
 #define EQUIAFFINE_VOLUME_INTERNAL_SEPARABLE_FILTER_H
 
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/volume/Volume_view_3.h>
+#include <equiaffine/volume/Volume_3.h>
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Chooses the scale by which to smooth the samples of a volume.
+#ifndef EQUIAFFINE_VOLUME_CHOOSE_SMOOTHING_H
+#define EQUIAFFINE_VOLUME_CHOOSE_SMOOTHING_H
+
+#include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/volume/Sample_noise.h>
+#include <equiaffine/volume/Spline_function_3.h>
+#include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/Volume_survey.h>
+#include <equiaffine/volume/internal/Line_functionals.h>
+#include <equiaffine/volume/smooth_volume.h>
+
+#include <CGAL/tags.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace equiaffine::internal {
+
+/// Measures a spline through smoothed samples in the middle of cells, without fitting it: its value and its fourth
+/// derivatives along x, y and z, in lattice coordinates, are weighted sums of the samples around the cell.
+template <class Kernel>
+class Spline_probe {
+  using FT = typename Kernel::FT;
+
+public:
+  using Cell = std::array<std::size_t, 3>;
+
+  Spline_probe(const Cell& size, const Spline_rule<FT>& rule) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Line_functionals<FT> line(size[a], rule);
+      weights_[a] = {line.kinds(), [&](std::size_t kind) { return Weights(line.rows(kind)); }};
+    }
+  }
+
+  /// The value and the fourth derivatives along x, y and z.
+  std::array<double, 4> measure(const Volume_view_3<Kernel>& volume, const Cell& cell) const {
+    std::vector<FT> samples(weights_[0][cell[0]].value.size());
+    const Weights &y = weights_[1][cell[1]], &z = weights_[2][cell[2]];
+    std::array<double, 4> sum{};
+    for (std::size_t k = 0; k < z.value.size(); ++k) {
+      double value = 0, along_x = 0, along_y = 0;
+      for (std::size_t j = 0; j < y.value.size(); ++j) {
+        const std::array<std::size_t, 3> node = {first(0, cell), first(1, cell) + j, first(2, cell) + k};
+        volume.copy_line(node, 0, samples);
+        const Pair line = measure_line(samples, cell[0]);
+        value += y.value[j] * line.value;
+        along_x += y.value[j] * line.derivative;
+        along_y += y.derivative[j] * line.value;
+      }
+      sum[0] += z.value[k] * value;
+      sum[1] += z.value[k] * along_x;
+      sum[2] += z.value[k] * along_y;
+      sum[3] += z.derivative[k] * value;
+    }
+    return sum;
+  }
+
+  /// A number for the value and one for the fourth derivative along x.
+  struct Pair {
+    double value, derivative;
+  };
+
+  /// The covariances of what this probe and another one measure in a cell, if the samples are white noise of standard
+  /// deviation 1.
+  Pair covariance(const Spline_probe& other, const Cell& cell) const {
+    Pair result{1, 1};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Pair along_axis = covariance_along(a, other, cell);
+      result.value *= along_axis.value;
+      result.derivative *= a == 0 ? along_axis.derivative : along_axis.value;
+    }
+    return result;
+  }
+
+  /// The variances of the difference between what this probe and another one measure, for the same noise.
+  Pair variance_of_difference(const Spline_probe& other, const Cell& cell) const {
+    const Pair p = covariance(*this, cell), q = other.covariance(other, cell), pq = covariance(other, cell);
+    return {std::max(0.0, p.value + q.value - 2 * pq.value),
+            std::max(0.0, p.derivative + q.derivative - 2 * pq.derivative)};
+  }
+
+private:
+  /// The weights of the samples along an axis, for the value and for the fourth derivative. Samples before `first` and
+  /// after the last one have no influence.
+  struct Weights {
+    explicit Weights(const typename Line_functionals<FT>::Rows& rows) {
+      const auto is_used = [&](std::size_t j) { return rows[0][j] != 0 || rows[4][j] != 0; };
+      std::size_t end = rows[0].size();
+      while (first + 1 < end && !is_used(first)) ++first;
+      while (end > first + 1 && !is_used(end - 1)) --end;
+      for (std::size_t j = first; j < end; ++j) {
+        value.push_back(double(rows[0][j]));
+        derivative.push_back(double(24 * rows[4][j]));
+      }
+    }
+
+    std::size_t first = 0; // in the line that represents this one
+    std::vector<double> value, derivative;
+  };
+
+  /// The value and the fourth derivative of a line along x, from its first sample that is used.
+  Pair measure_line(const std::vector<FT>& samples, std::size_t cell) const {
+    const Weights& x = weights_[0][cell];
+    Pair sum{0, 0};
+    for (std::size_t i = 0; i < x.value.size(); ++i) {
+      sum.value += x.value[i] * double(samples[i]);
+      sum.derivative += x.derivative[i] * double(samples[i]);
+    }
+    return sum;
+  }
+
+  /// The sums of products of weights of this probe and the other one, over the samples of a line that both use.
+  Pair covariance_along(std::size_t a, const Spline_probe& other, const Cell& cell) const {
+    const Weights &p = weights_[a][cell[a]], &q = other.weights_[a][cell[a]];
+    const std::size_t first_p = first(a, cell), first_q = other.first(a, cell);
+    Pair sum{0, 0};
+    for (std::size_t n = std::max(first_p, first_q); n - first_p < p.value.size() && n - first_q < q.value.size();
+         ++n) {
+      sum.value += p.value[n - first_p] * q.value[n - first_q];
+      sum.derivative += p.derivative[n - first_p] * q.derivative[n - first_q];
+    }
+    return sum;
+  }
+
+  /// The first sample that is used along an axis.
+  std::size_t first(std::size_t a, const Cell& cell) const {
+    return weights_[a][cell[a]].first + weights_[a].offset_from_representative(cell[a]);
+  }
+
+  std::array<Per_kind_of_cell<Weights>, 3> weights_;
+};
+
+/// The cells in which scales of smoothing are compared, and the standard deviation of the noise in the samples.
+template <class Kernel>
+class Smoothing_test_site {
+public:
+  using Cell = std::array<std::size_t, 3>;
+
+  using Numbers = std::array<double, 4>;
+
+  /// The cells are those of each part that is known here. All machines get all of them.
+  Smoothing_test_site(const Volume_parts_3<Kernel>& volume, const Nodes_of_parts& cells, double deviation)
+      : volume_(volume), own_cells_(cells), deviation_(deviation) {
+    const auto cells_and_slopes = measure([](const Volume_view_3<Kernel>& samples, const Cell& cell) -> Numbers {
+      const auto& [i, j, k] = cell;
+      const double slope = 0.5 * std::hypot(double(samples(i + 1, j, k) - samples(i - 1, j, k)),
+                                            double(samples(i, j + 1, k) - samples(i, j - 1, k)),
+                                            double(samples(i, j, k + 1) - samples(i, j, k - 1)));
+      return {double(i), double(j), double(k), slope};
+    });
+    for (const auto& [i, j, k, slope] : cells_and_slopes) {
+      cells_.push_back({std::size_t(i), std::size_t(j), std::size_t(k)});
+      slopes_.push_back(slope);
+    }
+  }
+
+  const std::array<std::size_t, 3>& size() const { return volume_.lattice.size(); } ///< the numbers of nodes
+  const std::vector<Cell>& cells() const { return cells_; }
+  const std::vector<double>& slopes() const { return slopes_; } ///< of the samples in each cell, per step
+  double deviation() const { return deviation_; }
+
+  /// Returns the numbers that measure_cell(samples, cell) finds, for all cells in their order.
+  template <class Measure_cell>
+  std::vector<Numbers> measure(const Measure_cell& measure_cell) const {
+    std::vector<double> own;
+    for (std::size_t p = 0; p < own_cells_.size(); ++p)
+      for (const Cell& cell : own_cells_[p]) {
+        Progress_observer::step();
+        const Numbers numbers = measure_cell(volume_.parts[p].volume, cell);
+        own.insert(own.end(), numbers.begin(), numbers.end());
+      }
+    const std::vector<double> all = volume_.gather(std::move(own));
+    std::vector<Numbers> result(all.size() / 4);
+    for (std::size_t n = 0; n < all.size(); ++n) result[n / 4][n % 4] = all[n];
+    return result;
+  }
+
+  /// The number of the first machine: others may have rounded differently, and have to decide as it does.
+  double agreed(double number) const { return volume_.gather({number}).front(); }
+
+private:
+  const Volume_parts_3<Kernel>& volume_;
+  Nodes_of_parts own_cells_;
+  double deviation_;
+  std::vector<Cell> cells_;
+  std::vector<double> slopes_;
+};
+
+/// A scale of smoothing, tried at a test site: value and fourth derivatives of the spline in each of its cells.
+template <class Kernel>
+class Smoothing_trial {
+public:
+  using Site = Smoothing_test_site<Kernel>;
+
+  Smoothing_trial(const Site& site, const Spline_rule<typename Kernel::FT>& rule) : probe_(site.size(), rule) {
+    measured_ = site.measure(
+        [&](const Volume_view_3<Kernel>& samples, const auto& cell) { return probe_.measure(samples, cell); });
+  }
+
+  /// The number of cells in which the spline has a value: there is no sample that is not finite in their windows.
+  std::size_t number_of_values() const {
+    return std::size_t(
+        std::count_if(measured_.begin(), measured_.end(), [](const auto& cell) { return std::isfinite(cell[0]); }));
+  }
+
+  /// Whether this scale moves the surface that `unsmoothed` has: in more than a tenth of the cells the value changes by
+  /// more than hypot(two standard deviations of the change that noise explains, the slope times a tenth of a voxel), or
+  /// there is none any more.
+  bool moves_surface(const Smoothing_trial& unsmoothed, const Site& site) const {
+    std::size_t compared = 0, moved = 0;
+    for (std::size_t n = 0; n < site.cells().size(); ++n) {
+      if (!std::isfinite(unsmoothed.measured_[n][0])) continue;
+      const double explained =
+          site.deviation() * std::sqrt(probe_.variance_of_difference(unsmoothed.probe_, site.cells()[n]).value);
+      const double change = std::abs(measured_[n][0] - unsmoothed.measured_[n][0]);
+      ++compared;
+      moved += !(change <= std::hypot(2 * explained, 0.1 * site.slopes()[n])); // also if there is no value
+    }
+    return 10 * moved > compared;
+  }
+
+  /// The estimated error of fourth derivatives: their standard deviation by noise, and their bias.
+  double risk(const Site& site, double bias) const {
+    std::vector<double> deviations;
+    for (const auto& cell : site.cells())
+      deviations.push_back(site.deviation() * std::sqrt(probe_.covariance(probe_, cell).derivative));
+    return std::hypot(median_magnitude(std::move(deviations)), bias);
+  }
+
+  /// The estimated bias of fourth derivatives: how far they differ from those of the scale before, beyond what noise
+  /// explains.
+  double bias(const Smoothing_trial& last, const Site& site) const {
+    std::vector<double> differences, expected;
+    for (std::size_t n = 0; n < site.cells().size(); ++n) {
+      expected.push_back(site.deviation() *
+                         std::sqrt(probe_.variance_of_difference(last.probe_, site.cells()[n]).derivative));
+      for (std::size_t a = 1; a < 4; ++a)
+        if (const double d = last.measured_[n][a] - measured_[n][a]; std::isfinite(d)) differences.push_back(d);
+    }
+    const double of_noise = median_magnitude(std::move(expected));
+    const double change = quantile_of_magnitudes(std::move(differences), 0.8) / quantile_80_over_deviation;
+    return std::sqrt(std::max(0.0, change * change - 1.5 * of_noise * of_noise)); // 1.5, as both are uncertain
+  }
+
+private:
+  Spline_probe<Kernel> probe_;
+  std::vector<typename Site::Numbers> measured_; ///< the numbers of the probe in each cell
+};
+
+inline constexpr std::array<double, 8> scales_to_try = {1.5, 2, 2.5, 3, 4, 5, 6, 8};
+
+/// The scale with the least risk at a site; `rule` says how samples become a spline without smoothing. Scales are tried
+/// in increasing order up to the first one that moves the surface or whose window does not fit into the volume.
+template <class Kernel>
+typename Kernel::FT least_risky_scale(const Smoothing_test_site<Kernel>& site, Spline_rule<typename Kernel::FT> rule) {
+  using FT = typename Kernel::FT;
+  using Trial = Smoothing_trial<Kernel>;
+  const std::size_t shortest = *std::min_element(site.size().begin(), site.size().end());
+  const Trial unsmoothed(site, rule);
+  if (unsmoothed.number_of_values() == 0) return 0;
+  Trial last = unsmoothed;
+  double least_risk = unsmoothed.risk(site, 0);
+  FT best = 0;
+  for (const FT scale : scales_to_try) {
+    if (2 * Smoothing_filter<FT>::radius_of(scale) + 1 > shortest) break;
+    rule.smoothing = scale;
+    Trial trial(site, rule);
+    constexpr double moves = std::numeric_limits<double>::infinity();
+    const double risk =
+        site.agreed(trial.moves_surface(unsmoothed, site) ? moves : trial.risk(site, trial.bias(last, site)));
+    if (risk == moves) break;
+    if (risk < least_risk) {
+      least_risk = risk;
+      best = scale;
+    }
+    last = std::move(trial);
+  }
+  return best;
+}
+
+} // namespace equiaffine::internal
+
+namespace equiaffine {
+
+/// The greatest scale that choose_smoothing() may choose.
+inline constexpr double greatest_scale_to_choose = internal::scales_to_try.back();
+
+/// The next smaller scale that choose_smoothing() may choose, at least 0.
+inline double smaller_scale_to_choose(double scale) {
+  const auto& scales = internal::scales_to_try;
+  const auto found = std::lower_bound(scales.begin(), scales.end(), scale);
+  return found == scales.begin() ? 0 : *(found - 1);
+}
+
+/// The scale for smooth_volume with the least estimated error of fourth derivatives, out of 0, 1.5, 2, 2.5, 3, 4, 5, 6
+/// and 8, among those that leave the surface where it is.
+///
+/// The error of noise follows from its deviation. The error that smoothing makes is estimated by how far the
+/// derivatives differ from those at the scale before, beyond their noise, in most of some hundred cells beside the
+/// level set. A scale and all larger ones are left out if in more than a tenth of these cells the value changes by more
+/// than hypot(2 s, g): s is the standard deviation of the change that noise explains (the discrepancy principle:
+/// Morozov, On the solution of functional equations by the method of regularization, 1966), g the slope times a tenth
+/// of a voxel, below which details are interpolated anyway. Fourth derivatives of a scan with details of a few voxels
+/// are wrong at every scale, and the larger scales would smooth the details away.
+///
+/// Scales whose window does not fit into the volume are left out, and 0 is chosen where there is no spline.
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
+typename Kernel::FT choose_smoothing(const Volume_view_3<Kernel>& volume, const Sample_noise& noise, int degree,
+                                     Spline_scheme scheme, std::optional<typename Kernel::FT> isovalue = std::nullopt) {
+  return choose_smoothing<ConcurrencyTag>(Volume_parts_3<Kernel>::of(volume), noise, degree, scheme, isovalue);
+}
+
+/// The same for a volume in parts, of which those samples are known that cells_to_know() names for a part's cells and the
+/// greatest scale; for INTERPOLATION those for QUASI_INTERPOLATION. \throw std::invalid_argument unless they are
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
+typename Kernel::FT choose_smoothing(const Volume_parts_3<Kernel>& volume, const Sample_noise& noise, int degree,
+                                     Spline_scheme scheme, std::optional<typename Kernel::FT> isovalue = std::nullopt) {
+  if (scheme == Spline_scheme::INTERPOLATION) scheme = Spline_scheme::QUASI_INTERPOLATION; // the same but for its reach
+  const auto& size = volume.lattice.size();
+  if (*std::min_element(size.begin(), size.end()) <= std::size_t(degree)) return 0;
+  const Spline_parameters greatest = {.degree = degree, .scheme = scheme, .smoothing = greatest_scale_to_choose};
+  for (const auto& [part, cells] : volume.parts)
+    internal::check_known_cells(part, cells_to_know(cells, size, greatest));
+  const internal::Smoothing_test_site<Kernel> site(
+      volume, internal::nodes_to_measure<ConcurrencyTag>(volume, isovalue, 1, 300), noise.deviation);
+  if (site.cells().empty()) return 0;
+  const int border_degree = internal::border_degree(volume, degree, scheme);
+  return internal::least_risky_scale(site, {degree, scheme, border_degree, 0});
+}
+
+/// The same for a volume of numbers of the kernel. \throw std::invalid_argument unless there are as many values as nodes
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
+typename Kernel::FT choose_smoothing(const Volume_3<Kernel>& volume, const Sample_noise& noise, int degree,
+                                     Spline_scheme scheme, std::optional<typename Kernel::FT> isovalue = std::nullopt) {
+  return choose_smoothing<ConcurrencyTag>(Volume_view_3<Kernel>::of(volume), noise, degree, scheme, isovalue);
+}
+
+} // namespace equiaffine
+
+#endif

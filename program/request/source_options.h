@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_PROGRAM_REQUEST_SOURCE_OPTIONS_H
+#define EQUIAFFINE_PROGRAM_REQUEST_SOURCE_OPTIONS_H
+
+#include "system/kernel.h"
+#include "system/memory_limit.h"
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+#include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/Volume_3.h>
+
+#include <CGAL/Aff_transformation_3.h>
+#include <CGAL/Bbox_3.h>
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace equiaffine {
+
+/// The types of samples in a file without a header.
+inline constexpr std::array<std::string_view, 10> raw_types = {"uint8", "int8",   "uint16", "int16", "uint32",
+                                                               "int32", "uint64", "int64",  "float", "double"};
+
+/// The facts about a file of samples that would be in a header, for a file without one.
+struct Raw_layout {
+  std::array<std::size_t, 3> dims = {};
+  std::array<double, 3> spacing = {1, 1, 1}, origin = {0, 0, 0};
+  std::size_t type = 0; ///< the position in raw_types
+};
+
+/// What is read of a file with volumes, beside those that it says itself.
+struct Volume_selection {
+  std::optional<std::size_t> component = {},
+                             time = {}; ///< the number per node and the volume of a 4D file, counted from 1
+  bool allows_outside = false;          ///< whether a header may name files outside of its folder
+};
+
+enum class Source_kind { FUNCTION, VOLUME, DISTANCE, FIT };
+
+/// The origin of derivatives: the formula or the fit itself, or a spline through samples.
+enum class Derivatives { JETS, SPLINE };
+
+/// How samples become a function.
+struct Spline_options {
+  int degree = 7;
+  Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
+  std::optional<double> smoothing = 0; ///< a scale in voxels; without a value the noise decides
+  std::optional<double> isovalue;      ///< noise is measured beside this level set, or everywhere
+};
+
+/// The parameters of a fit that a user gave; the data decide the others.
+struct Fit_options {
+  std::optional<double> scale, noise; ///< lengths
+  std::optional<int> degree;
+  double feature_angle = 60; ///< in degrees: fits do not reach over edges that bend by more
+};
+
+/// SOURCE of the command line, with what changes the function itself.
+struct Source_options {
+  Source_kind kind = Source_kind::FUNCTION;
+  std::string text; ///< the expression, or the path of the volume, mesh or points
+  std::map<std::string, double> constants;
+  std::optional<CGAL::Bbox_3> box;
+  std::optional<std::array<std::size_t, 3>> resolution;
+  Derivatives derivatives = Derivatives::JETS;
+  Spline_options spline;
+  Fit_options fit;
+  bool estimates_errors = false; ///< whether the errors of affine curvatures are estimated
+  bool is_registered = false;    ///< whether few data are no error, and registration needs an unsmoothed spline, too
+  std::optional<Raw_layout> raw; ///< is set for a volume without a header
+  Volume_selection selection;    ///< what is read of a volume with a header
+  Memory_use memory_use = Memory_use::HALF;
+  std::optional<double> narrow_band; ///< distances are not needed beyond so many voxels
+  std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
+  /// These return data that are in memory already: then `text` is only their name, and no file is read.
+  std::function<Volume_view_3<Kernel>()> volume;
+  std::function<Annotated_mesh_3<Kernel>()> data;
+};
+
+} // namespace equiaffine
+
+#endif

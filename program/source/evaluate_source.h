@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A source at many points, in threads. Formulas and splines use the vector instructions of the processor. Fits do not:
+// their linear algebra would sum in another order for each instruction set.
+#ifndef EQUIAFFINE_PROGRAM_SOURCE_EVALUATE_SOURCE_H
+#define EQUIAFFINE_PROGRAM_SOURCE_EVALUATE_SOURCE_H
+
+#include "source/source_function.h"
+#include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/geometry/Point_status.h>
+#include <equiaffine/geometry/reference_estimators.h>
+#include <equiaffine/marching_cubes/Vertex_position.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace equiaffine {
+
+/// Runs Marching Cubes on a grid of that many nodes, without empty space, or on the lattice of the samples.
+Isosurface_3<Kernel> isosurface_of_source(const Source_function& function, double isovalue,
+                                          const std::array<std::size_t, 3>& nodes, Vertex_position vertices);
+
+/// Attributes at a point are those of the level set through it, whatever the value of f there. `sampled_status` is
+/// empty or has one entry per point.
+Vertex_attributes attributes_of_source(const Source_function& function, Orientation_of_level_set orientation,
+                                       std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
+                                       Estimator estimator, std::span<const Point_status> sampled_status = {});
+
+/// The greatest distance of points from the level set, to first order.
+double max_distance_to_source(const Source_function& function, double isovalue, Orientation_of_level_set orientation,
+                              std::span<const Kernel::Point_3> points, std::span<const Point_status> status);
+
+} // namespace equiaffine
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What engine_entry.cpp has for one instruction set. The names of the entries are those of C, so that the build can
+// tell them from all else in the object files, see CMakeLists.txt.
+#ifndef EQUIAFFINE_SRC_ENGINE_ENGINE_H
+#define EQUIAFFINE_SRC_ENGINE_ENGINE_H
+
+#include <equiaffine/engine/vectorized.h>
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <tuple>
+
+namespace equiaffine::vectorized {
+
+/// The functions for the level sets of one type.
+template <class Function>
+struct Engine {
+  using Level_set = Level_set_traits_3<Function>;
+  using Points = std::span<const Kernel::Point_3>;
+  using Statuses = std::span<const Point_status>;
+
+  /// The nodes are not used for a spline.
+  Isosurface_3<Kernel> (*marching_cubes)(const Level_set&, const std::array<std::size_t, 3>& nodes, Vertex_position);
+  Vertex_attributes (*compute_attributes)(const Level_set&, Points, const Attribute_selection&, Statuses, Estimator);
+  double (*max_distance_to_surface)(const Level_set&, Points, Statuses);
+};
+
+using Engines = std::tuple<Engine<Formula>, Engine<Spline>>;
+
+} // namespace equiaffine::vectorized
+
+extern "C" {
+const equiaffine::vectorized::Engines* equiaffine_engines_baseline();
+const equiaffine::vectorized::Engines* equiaffine_engines_avx2();
+const equiaffine::vectorized::Engines* equiaffine_engines_avx512();
+}
+
+#endif
